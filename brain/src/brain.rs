@@ -24,7 +24,7 @@ use crate::model::random::Random;
 use crate::model::reason::Reason;
 use crate::model::room_settings::RoomPower;
 use crate::model::swept_share::SweptShare;
-use crate::navigation::Mind;
+use crate::navigation::TaskContext;
 use situation::Parts;
 
 /// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
@@ -39,7 +39,7 @@ pub struct Brain {
     beams: BeamMemory,
     carpet: CarpetSense,
     behavior: Behavior,
-    mind: Mind,
+    mind: TaskContext,
     contacts_before: Contacts,
     cliffs_before: Cliffs,
 }
@@ -60,7 +60,7 @@ impl Brain {
             beams: BeamMemory::default(),
             carpet: CarpetSense::default(),
             behavior: Behavior::new(config),
-            mind: Mind {
+            mind: TaskContext {
                 random: Random::new(seed),
                 journal: Vec::new(),
             },

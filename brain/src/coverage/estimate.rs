@@ -2,7 +2,7 @@
 
 use super::margins::{KEEP_OFF_M, SIGMA_MIN_M};
 use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
-use super::wanted::Wanted;
+use super::target_floor::TargetFloor;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::model::config::BrainConfig;
 use crate::model::energy::{EnergyModel, time_to_return_s};
@@ -56,13 +56,13 @@ pub(crate) fn estimate(
     let radius_m = config.body.radius_m + KEEP_OFF_M;
     let budget = &mut StepBudget::unlimited();
     let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
-    let ground = at_once(reachable(&knowledge, &frame, (radius_m, &[]), budget));
-    let mut sum = Sum::at(start);
+    let reachable_cells = at_once(reachable(&knowledge, &frame, (radius_m, &[]), budget));
+    let mut sum = OrderTotal::at(start);
     let whole = order.is_for_whole_home().then_some(None);
     for part in whole.into_iter().chain(order.parts().iter().map(Some)) {
         sum.add(part_of(
             (part, order),
-            (map, &frame, &ground),
+            (map, &frame, &reachable_cells),
             sum.pose,
             &settings,
         ));
@@ -91,7 +91,7 @@ pub(crate) fn estimate(
 
 /// What comes together over the parts of an order.
 #[derive(Clone, Copy, Debug)]
-struct Sum {
+struct OrderTotal {
     pose: Pose2,
     floor_m2: f64,
     time_s: f64,
@@ -99,7 +99,7 @@ struct Sum {
     swept_low_m2: f64,
 }
 
-impl Sum {
+impl OrderTotal {
     fn at(pose: Pose2) -> Self {
         Self {
             pose,
@@ -132,26 +132,26 @@ struct PartEstimate {
 
 fn part_of(
     (part, order): (Option<&HomePart>, &CleaningOrder),
-    (map, frame, ground): (&Map, &LaneFrame, &Raster<bool>),
+    (map, frame, reachable_cells): (&Map, &LaneFrame, &Raster<bool>),
     start: Pose2,
     settings: &PlanSettings,
 ) -> PartEstimate {
-    let wanted = Wanted::of(order, part, map);
-    let course = |cell: Cell| wanted.course(frame.cell_in_map(cell));
+    let target = TargetFloor::of(order, part, map);
+    let pattern = |cell: Cell| target.pattern_at(frame.cell_in_map(cell));
     let from = Departure {
         start: frame.pose(start),
         settings: *settings,
     };
     let plan = at_once(plan_area(
-        ground,
-        (course, |_| false),
+        reachable_cells,
+        (pattern, |_| false),
         from,
         &mut StepBudget::unlimited(),
     ));
     let plan = plan.in_map(frame);
-    let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
+    let end = plan.segments.last().map_or(start, |last| last.at(1.0));
     let passes = map.annotations().passes_over(order, part);
-    let (kept, kept_low) = kept((map, &|cell| wanted.course(cell).is_some()), settings, passes);
+    let (kept, kept_low) = kept((map, &|cell| target.pattern_at(cell).is_some()), settings, passes);
     PartEstimate {
         end,
         time_s: DRIVEN * f64::from(passes) * plan.time_s,
@@ -163,13 +163,13 @@ fn part_of(
 
 /// Share of the wanted floor that stays swept when lanes lie beside where they should, on average over its cells, and the
 /// same with more doubt.
-fn kept((map, wanted): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, passes: u8) -> (f64, f64) {
+fn kept((map, target): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, passes: u8) -> (f64, f64) {
     let knowledge = map.knowledge();
     let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, settings), f64::from(passes));
     let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
     for index in 0..knowledge.values().len() {
         let cell = knowledge.cell(index);
-        if knowledge.values().get(index) == Some(&CellKnowledge::Free) && wanted(cell) {
+        if knowledge.values().get(index) == Some(&CellKnowledge::Free) && target(cell) {
             let sigma_m = believed_m(map.sigma_m(cell));
             cells += 1;
             sum += 1.0 - left(sigma_m);

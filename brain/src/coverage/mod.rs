@@ -1,7 +1,7 @@
 //! Ways to cover a floor. A strategy is a [`Task`]; people choose it by name.
 
-mod astray;
 mod bounce;
+mod escape_bounce;
 mod estimate;
 mod margins;
 mod perimeter;
@@ -11,8 +11,8 @@ mod spiral;
 mod spot;
 mod statistical;
 pub(crate) mod systematic;
+mod target_floor;
 mod wall_bounce;
-mod wanted;
 mod whole_turns;
 
 pub(crate) use bounce::Bounce;

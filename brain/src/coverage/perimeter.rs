@@ -10,12 +10,12 @@
 
 use core::f64::consts::TAU;
 
-use super::astray::Astray;
+use super::escape_bounce::EscapeBounce;
 use super::whole_turns::WholeTurns;
 use crate::model::action::Motion;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::reason::Reason;
-use crate::navigation::{Leg, Mind, Plan, Situation, Turn, WallFollower, WallStep};
+use crate::navigation::{ManoeuvreStep, Situation, TaskContext, TaskStatus, Turn, WallFollower, WallStep};
 
 /// Places of the track are so far apart, metres.
 const TRACK_STEP_M: f64 = 0.1;
@@ -52,10 +52,10 @@ const TROUBLES_MAX: u32 = 6;
 pub(crate) struct Perimeter {
     wall: WallFollower,
     away: Option<Turn>,
-    astray: Option<Astray>,
+    escape_bounce: Option<EscapeBounce>,
     whole_turns: WholeTurns,
-    track: Vec<Footprint>,
-    way_m: f64,
+    track: Vec<LapPoint>,
+    driven_m: f64,
     turned_rad: f64,
     again_m: f64,
     /// Way that shows nothing new, less what shows something.
@@ -68,10 +68,10 @@ pub(crate) struct Perimeter {
 
 /// A place of the track.
 #[derive(Clone, Copy, Debug)]
-struct Footprint {
+struct LapPoint {
     pose: Pose2,
     sigma_m: f64,
-    way_m: f64,
+    driven_m: f64,
     turned_rad: f64,
     stretch: u32,
 }
@@ -93,15 +93,15 @@ impl Perimeter {
         self.wall.interrupted();
         self.whole_turns.interrupted();
         self.away = None;
-        if let Some(astray) = &mut self.astray {
-            astray.interrupted();
+        if let Some(escape_bounce) = &mut self.escape_bounce {
+            escape_bounce.interrupted();
         }
     }
 
     /// Another lap after one that is over, at a wall that is not on the track yet, if there is one.
     pub(crate) fn begin_again(&mut self) {
         self.interrupted();
-        self.astray = None;
+        self.escape_bounce = None;
         self.again_m = 0.0;
         self.stale_m = 0.0;
         self.islands = 0;
@@ -120,41 +120,41 @@ impl Perimeter {
     }
 
     /// Way that was made, metres.
-    pub(crate) fn way_m(&self) -> f64 {
-        self.way_m
+    pub(crate) fn driven_m(&self) -> f64 {
+        self.driven_m
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> LapStep {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> LapStep {
         self.turned_rad += situation.advance.turn_rad;
-        self.way_m += situation.advance.distance_m.max(0.0);
-        if self.way_m > LAP_MAX_M || self.troubles > TROUBLES_MAX || self.islands > ISLANDS_MAX {
+        self.driven_m += situation.advance.distance_m.max(0.0);
+        if self.driven_m > LAP_MAX_M || self.troubles > TROUBLES_MAX || self.islands > ISLANDS_MAX {
             return LapStep::Over(Reason::LongLap);
         }
         if let Some(turn) = &mut self.away {
             match turn.step(situation) {
-                Leg::Going(motion) if situation.is_free() => return LapStep::Going(motion),
+                ManoeuvreStep::Going(motion) if situation.is_free() => return LapStep::Going(motion),
                 _ => self.away = None,
             }
         }
-        if let Some(step) = self.bounce(situation, mind) {
+        if let Some(step) = self.bounce(situation, context) {
             return step;
         }
-        if let Some(motion) = self.turn_for_gyro(situation, mind) {
+        if let Some(motion) = self.turn_for_gyro(situation, context) {
             return LapStep::Going(motion);
         }
         if !self.wall.is_evading() && situation.is_free() {
             match self.passed_before(situation) {
-                Some(Reason::Island) => return LapStep::Going(self.leave_island(situation, mind)),
+                Some(Reason::Island) => return LapStep::Going(self.leave_island(situation, context)),
                 Some(reason) => return LapStep::Over(reason),
                 None => {}
             }
         }
-        match self.wall.step(situation, mind) {
+        match self.wall.step(situation, context) {
             WallStep::Going(motion) => LapStep::Going(motion),
             WallStep::Trouble(reason) => {
                 self.troubles += 1;
-                mind.decide("bounce", reason, f64::from(self.troubles));
-                self.astray = Some(Astray::from(situation.pose.position()));
+                context.decide("bounce", reason, f64::from(self.troubles));
+                self.escape_bounce = Some(EscapeBounce::from(situation.pose.position()));
                 if reason == Reason::BoxedIn {
                     LapStep::Going(Motion::Halt)
                 } else {
@@ -165,28 +165,28 @@ impl Perimeter {
     }
 
     /// Turns on the spot for the gyro's sake. Whole turns lead round nothing and do not count as such.
-    fn turn_for_gyro(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Motion> {
+    fn turn_for_gyro(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<Motion> {
         let is_beside_wall = self.wall.is_along_wall();
-        let motion = self.whole_turns.step(situation, is_beside_wall, mind);
+        let motion = self.whole_turns.step(situation, is_beside_wall, context);
         self.turned_rad -= self.whole_turns.take_made_rad();
         motion
     }
 
     /// Bounces out of a place where following leads nowhere.
-    fn bounce(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<LapStep> {
-        match self.astray.as_mut()?.step(situation, mind) {
-            Some(Plan::Go(motion)) => Some(LapStep::Going(motion)),
-            Some(Plan::Trouble(reason)) => Some(LapStep::Trouble(reason)),
-            Some(Plan::Finished(_)) | None => {
-                self.astray = None;
+    fn bounce(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<LapStep> {
+        match self.escape_bounce.as_mut()?.step(situation, context) {
+            Some(TaskStatus::Go(motion)) => Some(LapStep::Going(motion)),
+            Some(TaskStatus::Trouble(reason)) => Some(LapStep::Trouble(reason)),
+            Some(TaskStatus::Finished(_)) | None => {
+                self.escape_bounce = None;
                 None
             }
         }
     }
 
     /// Turns its back to an island; what is met next is another wall, or another island.
-    fn leave_island(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
-        mind.decide("leave-wall", Reason::Island, situation.pose.heading_rad);
+    fn leave_island(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Motion {
+        context.decide("leave-wall", Reason::Island, situation.pose.heading_rad);
         self.islands += 1;
         self.again_m = 0.0;
         self.wall.interrupted();
@@ -208,14 +208,14 @@ impl Perimeter {
         let step_m = self
             .track
             .last()
-            .map_or(f64::INFINITY, |last| self.way_m - last.way_m);
+            .map_or(f64::INFINITY, |last| self.driven_m - last.driven_m);
         if step_m < TRACK_STEP_M {
             return None;
         }
-        let here = Footprint {
+        let here = LapPoint {
             pose: situation.pose,
             sigma_m: situation.estimate.sigma_m,
-            way_m: self.way_m,
+            driven_m: self.driven_m,
             turned_rad: self.turned_rad,
             stretch: self.stretch,
         };
@@ -258,10 +258,10 @@ impl Perimeter {
     }
 }
 
-impl Footprint {
+impl LapPoint {
     /// Whether the floor here was swept from an earlier place.
     fn shows_nothing_beyond(&self, before: &Self) -> bool {
-        self.way_m - before.way_m > LAP_MIN_M
+        self.driven_m - before.driven_m > LAP_MIN_M
             && self.pose.position().distance_m(before.pose.position()) < SHOWN_M
     }
 
@@ -271,14 +271,14 @@ impl Footprint {
     }
 
     fn repeats(&self, before: &Self) -> bool {
-        let way_m = self.way_m - before.way_m;
+        let driven_m = self.driven_m - before.driven_m;
         let least_m = if self.stretch == before.stretch && self.turns_since(before) < 0.0 {
             ISLAND_MIN_M
         } else {
             LAP_MIN_M
         };
         let same_m = (SAME_M + 0.3 * (self.sigma_m - before.sigma_m)).clamp(SAME_M, SAME_MAX_M);
-        way_m > least_m
+        driven_m > least_m
             && self.pose.position().distance_m(before.pose.position()) < same_m
             && normalize_rad(self.pose.heading_rad - before.pose.heading_rad).abs() < SAME_RAD
     }
@@ -286,18 +286,18 @@ impl Footprint {
 
 #[cfg(test)]
 mod tests {
-    use super::{Footprint, Perimeter, STALE_MAX_M, TRACK_STEP_M};
+    use super::{LapPoint, Perimeter, STALE_MAX_M, TRACK_STEP_M};
     use crate::model::geometry::Pose2;
 
-    fn at(x_m: f64, heading_rad: f64, way_m: f64) -> Footprint {
-        Footprint {
+    fn at(x_m: f64, heading_rad: f64, driven_m: f64) -> LapPoint {
+        LapPoint {
             pose: Pose2 {
                 x_m,
                 y_m: 0.0,
                 heading_rad,
             },
             sigma_m: 0.02,
-            way_m,
+            driven_m,
             turned_rad: 0.0,
             stretch: 0,
         }

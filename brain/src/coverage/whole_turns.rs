@@ -8,7 +8,7 @@ use core::f64::consts::TAU;
 
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-use crate::navigation::{Leg, Mind, Situation, Turn};
+use crate::navigation::{ManoeuvreStep, Situation, TaskContext, Turn};
 
 /// Worth it while the scale is known no better, relative. A gyro is off by some 0.5 %; with a tenth of a percent a first run
 /// is wrong by 7 cm instead of 11 (design page on navigation).
@@ -56,12 +56,12 @@ impl WholeTurns {
         &mut self,
         situation: &Situation<'_>,
         is_beside_wall: bool,
-        mind: &mut Mind,
+        context: &mut TaskContext,
     ) -> Option<Motion> {
         if let Some(turn) = &mut self.turn {
             self.spun_rad += situation.advance.turn_rad;
             match turn.step(situation) {
-                Leg::Going(motion) if situation.is_free() => return Some(motion),
+                ManoeuvreStep::Going(motion) if situation.is_free() => return Some(motion),
                 _ => self.interrupted(),
             }
         }
@@ -69,16 +69,16 @@ impl WholeTurns {
         let turns = self.due(situation)?;
         self.has_begun = true;
         self.turn = Some(Turn::by(turns * TAU));
-        mind.decide("turn", Reason::GyroScale, turns);
+        context.decide("turn", Reason::GyroScale, turns);
         Some(Motion::Halt)
     }
 
     fn count(&mut self, situation: &Situation<'_>, is_beside_wall: bool) {
         let advance = situation.advance;
-        let way_m = advance.distance_m.max(0.0);
+        let driven_m = advance.distance_m.max(0.0);
         self.turned_rad += advance.turn_rad;
         if is_beside_wall && self.turned_rad.abs() < STRAIGHT_RAD {
-            self.wall_m += way_m;
+            self.wall_m += driven_m;
         } else {
             self.wall_m = 0.0;
             self.turned_rad = 0.0;

@@ -5,13 +5,13 @@
 
 use core::f64::consts::PI;
 
-use super::line::Line;
+use super::centreline::CentrelineDrive;
 use super::scan::{Scan, ScanStep};
 use crate::mapping::{Hearing, Lobe};
 use crate::model::action::Motion;
 use crate::model::geometry::normalize_rad;
 use crate::model::reason::Reason;
-use crate::navigation::{Evasion, EvasionStep, Mind, Situation};
+use crate::navigation::{Evasion, EvasionStep, Situation, TaskContext};
 
 /// Speed beside the line.
 const ASIDE_M_PER_S: f64 = 0.18;
@@ -51,7 +51,7 @@ const ASIDE_NEAR_M: f64 = 0.5;
 /// An approach.
 #[derive(Clone, Debug)]
 pub(super) struct Approach {
-    phase: Phase,
+    phase: ApproachPhase,
     /// Angle turned since the start, radians.
     heading_rad: f64,
     tries: u32,
@@ -63,28 +63,28 @@ pub(super) struct Approach {
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum ApproachPhase {
     Scan(Scan),
-    Line(Line),
-    Leg(Leg),
-    Evade(Evasion, After),
+    Centreline(CentrelineDrive),
+    Straight(StraightDrive),
+    Evade(Evasion, AfterEvasion),
 }
 
 /// A straight way in some direction.
 #[derive(Clone, Copy, Debug)]
-struct Leg {
+struct StraightDrive {
     heading_rad: f64,
     left_m: f64,
     /// It ends where the line is met.
-    to_line: bool,
+    to_centreline: bool,
 }
 
 /// What follows an evasion.
 #[derive(Clone, Copy, Debug)]
-enum After {
+enum AfterEvasion {
     Scan,
-    Line(f64),
-    Leg(f64),
+    Centreline(f64),
+    Straight(f64),
 }
 
 /// State of an approach after a step.
@@ -105,16 +105,16 @@ impl Approach {
     pub(super) fn by_beams(others: u32) -> Self {
         Self {
             asides: others as usize,
-            ..Self::beginning(Phase::Scan(Scan::new()))
+            ..Self::beginning(ApproachPhase::Scan(Scan::new()))
         }
     }
 
     /// An approach from a place in front of the dock, which by the map lies `bearing_rad` left of straight ahead.
     pub(super) fn from_map(bearing_rad: f64) -> Self {
-        Self::beginning(Phase::Line(Line::of_map(bearing_rad)))
+        Self::beginning(ApproachPhase::Centreline(CentrelineDrive::of_map(bearing_rad)))
     }
 
-    fn beginning(phase: Phase) -> Self {
+    fn beginning(phase: ApproachPhase) -> Self {
         Self {
             phase,
             heading_rad: 0.0,
@@ -129,36 +129,43 @@ impl Approach {
     pub(super) fn step(
         &mut self,
         hearing: &Hearing,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> ApproachStep {
         self.heading_rad += situation.advance.turn_rad;
         match self.phase {
-            Phase::Evade(evasion, after) => self.evade(evasion, after, situation),
+            ApproachPhase::Evade(evasion, after) => self.evade(evasion, after, situation),
             _ if situation.at_cliff => {
                 let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
-                self.turn_round(Evasion::from_cliff, reason, mind)
+                self.turn_round(Evasion::from_cliff, reason, context)
             }
-            Phase::Scan(scan) => self.scan(scan, hearing, (situation, mind)),
-            Phase::Line(line) => self.line(line, hearing, (situation, mind)),
-            Phase::Leg(leg) => self.leg(leg, hearing, (situation, mind)),
+            ApproachPhase::Scan(scan) => self.scan(scan, hearing, (situation, context)),
+            ApproachPhase::Centreline(line) => self.drive_centreline(line, hearing, (situation, context)),
+            ApproachPhase::Straight(drive) => self.drive_straight(drive, hearing, (situation, context)),
         }
     }
 
-    fn evade(&mut self, mut evasion: Evasion, after: After, situation: &Situation<'_>) -> ApproachStep {
+    fn evade(
+        &mut self,
+        mut evasion: Evasion,
+        after: AfterEvasion,
+        situation: &Situation<'_>,
+    ) -> ApproachStep {
         match evasion.step(situation) {
             EvasionStep::Going(motion) => {
-                self.phase = Phase::Evade(evasion, after);
+                self.phase = ApproachPhase::Evade(evasion, after);
                 ApproachStep::Going(motion)
             }
             EvasionStep::Held(reason) => ApproachStep::Held(reason),
             EvasionStep::Free => {
                 self.phase = match after {
-                    After::Scan => Phase::Scan(Scan::new()),
-                    After::Line(base_rad) => Phase::Line(Line::along(base_rad)),
-                    After::Leg(heading_rad) => Phase::Leg(Leg {
+                    AfterEvasion::Scan => ApproachPhase::Scan(Scan::new()),
+                    AfterEvasion::Centreline(base_rad) => {
+                        ApproachPhase::Centreline(CentrelineDrive::along(base_rad))
+                    }
+                    AfterEvasion::Straight(heading_rad) => ApproachPhase::Straight(StraightDrive {
                         heading_rad,
                         left_m: RETRY_AWAY_M,
-                        to_line: false,
+                        to_centreline: false,
                     }),
                 };
                 ApproachStep::Going(Motion::Halt)
@@ -170,14 +177,14 @@ impl Approach {
         &mut self,
         mut scan: Scan,
         hearing: &Hearing,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> ApproachStep {
         if situation.touching {
-            return self.free_oneself(mind);
+            return self.free_oneself(context);
         }
         match scan.step(hearing, situation.advance.turn_rad) {
             ScanStep::Going(motion) => {
-                self.phase = Phase::Scan(scan);
+                self.phase = ApproachPhase::Scan(scan);
                 ApproachStep::Going(motion)
             }
             ScanStep::Failed => ApproachStep::Silent,
@@ -186,8 +193,8 @@ impl Approach {
                 if self.scans > SCANS_MAX {
                     return ApproachStep::Spent;
                 }
-                mind.decide("dock-scan", Reason::DockBeam, bearing_rad);
-                self.phase = self.after_scan(bearing_rad, hearing, (situation, mind));
+                context.decide("dock-scan", Reason::DockBeam, bearing_rad);
+                self.phase = self.after_scan(bearing_rad, hearing, (situation, context));
                 ApproachStep::Going(Motion::Halt)
             }
         }
@@ -198,29 +205,31 @@ impl Approach {
         &mut self,
         bearing_rad: f64,
         hearing: &Hearing,
-        (situation, mind): (&Situation<'_>, &mut Mind),
-    ) -> Phase {
+        (situation, context): (&Situation<'_>, &mut TaskContext),
+    ) -> ApproachPhase {
         let dock_rad = self.heading_rad + bearing_rad;
         // To a robot that faces the dock the line lies on the right when it hears the left lobe.
-        let to_line = match hearing.lobe() {
-            Lobe::Both => return Phase::Line(Line::along(dock_rad)),
+        let to_centreline = match hearing.lobe() {
+            Lobe::Both => return ApproachPhase::Centreline(CentrelineDrive::along(dock_rad)),
             Lobe::Left => -1.0,
             Lobe::Right => 1.0,
-            Lobe::None => {
-                away_from_wall(bearing_rad, situation).unwrap_or(if mind.random.coin() { 1.0 } else { -1.0 })
-            }
+            Lobe::None => away_from_wall(bearing_rad, situation).unwrap_or(if context.random.coin() {
+                1.0
+            } else {
+                -1.0
+            }),
         };
         let is_near = hearing.is_near();
-        mind.decide("dock-line", Reason::DockBeam, to_line);
+        context.decide("dock-line", Reason::DockBeam, to_centreline);
         let (aside_rad, left_m) = match (is_near, hearing.lobe()) {
             (false, _) => (self.aside_rad(), ASIDE_MAX_M),
             (true, Lobe::None) => (BESIDE_RAD, BESIDE_M),
             (true, _) => (ASIDE_NEAR_RAD, ASIDE_NEAR_M),
         };
-        Phase::Leg(Leg {
-            heading_rad: dock_rad + to_line * aside_rad,
+        ApproachPhase::Straight(StraightDrive {
+            heading_rad: dock_rad + to_centreline * aside_rad,
             left_m,
-            to_line: !is_near,
+            to_centreline: !is_near,
         })
     }
 
@@ -231,42 +240,42 @@ impl Approach {
             .unwrap_or_default()
     }
 
-    fn leg(
+    fn drive_straight(
         &mut self,
-        mut leg: Leg,
+        mut drive: StraightDrive,
         hearing: &Hearing,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> ApproachStep {
         if situation.touching {
             self.asides += 1;
-            return self.free_oneself(mind);
+            return self.free_oneself(context);
         }
-        leg.left_m -= situation.advance.distance_m.max(0.0);
-        if leg.left_m <= 0.0 || (leg.to_line && hearing.lobe() == Lobe::Both) {
-            self.phase = Phase::Scan(Scan::new());
+        drive.left_m -= situation.advance.distance_m.max(0.0);
+        if drive.left_m <= 0.0 || (drive.to_centreline && hearing.lobe() == Lobe::Both) {
+            self.phase = ApproachPhase::Scan(Scan::new());
             return ApproachStep::Going(Motion::Halt);
         }
-        self.phase = Phase::Leg(leg);
-        ApproachStep::Going(self.toward(leg.heading_rad, ASIDE_M_PER_S))
+        self.phase = ApproachPhase::Straight(drive);
+        ApproachStep::Going(self.toward(drive.heading_rad, ASIDE_M_PER_S))
     }
 
-    fn line(
+    fn drive_centreline(
         &mut self,
-        mut line: Line,
+        mut line: CentrelineDrive,
         hearing: &Hearing,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> ApproachStep {
         if situation.touching {
-            return self.miss(line, hearing, (situation, mind));
+            return self.miss(line, hearing, (situation, context));
         }
         line.follow(hearing, situation.advance.distance_m, situation.advance.time_s);
-        self.phase = Phase::Line(line);
+        self.phase = ApproachPhase::Centreline(line);
         if line.is_missed() {
-            return self.leave(line.base_rad(), mind);
+            return self.leave(line.base_rad(), context);
         }
         let error_rad = normalize_rad(line.setpoint_rad() - self.heading_rad);
         if line.is_lost() && error_rad.abs() < TURN_FIRST_RAD {
-            self.phase = Phase::Scan(Scan::new());
+            self.phase = ApproachPhase::Scan(Scan::new());
             return ApproachStep::Going(Motion::Halt);
         }
         ApproachStep::Going(self.toward(line.setpoint_rad(), line.speed_m_per_s()))
@@ -275,43 +284,43 @@ impl Approach {
     /// Hit something before the contacts closed.
     fn miss(
         &mut self,
-        line: Line,
+        line: CentrelineDrive,
         hearing: &Hearing,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> ApproachStep {
         let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
         if !hearing.is_near() {
             // Something stands in the way.
-            return self.turn_round(Evasion::from_contact, reason, mind);
+            return self.turn_round(Evasion::from_contact, reason, context);
         }
         if self.wiggles >= WIGGLES_MAX {
-            return self.leave(line.base_rad(), mind);
+            return self.leave(line.base_rad(), context);
         }
         self.wiggles += 1;
-        mind.decide("dock-wiggle", Reason::DockMissed, f64::from(self.wiggles));
+        context.decide("dock-wiggle", Reason::DockMissed, f64::from(self.wiggles));
         let base_rad = line.base_rad() + self.wiggle_side * WIGGLE_RAD * f64::from(self.wiggles);
         self.wiggle_side = -self.wiggle_side;
         let turn_rad = normalize_rad(base_rad - self.heading_rad);
-        self.phase = Phase::Evade(
+        self.phase = ApproachPhase::Evade(
             Evasion::from_contact(WIGGLE_BACK_M, turn_rad),
-            After::Line(base_rad),
+            AfterEvasion::Centreline(base_rad),
         );
         ApproachStep::Going(Motion::Halt)
     }
 
     /// Leaves the dock in order to try again.
-    fn leave(&mut self, base_rad: f64, mind: &mut Mind) -> ApproachStep {
+    fn leave(&mut self, base_rad: f64, context: &mut TaskContext) -> ApproachStep {
         self.tries += 1;
         self.wiggles = 0;
         if self.tries >= TRIES_MAX {
             return ApproachStep::Spent;
         }
-        mind.decide("dock-retry", Reason::DockMissed, f64::from(self.tries));
-        let away_rad = base_rad + PI + mind.random.between(-0.3, 0.3);
+        context.decide("dock-retry", Reason::DockMissed, f64::from(self.tries));
+        let away_rad = base_rad + PI + context.random.between(-0.3, 0.3);
         let turn_rad = normalize_rad(away_rad - self.heading_rad);
-        self.phase = Phase::Evade(
+        self.phase = ApproachPhase::Evade(
             Evasion::from_contact(RETRY_BACK_M, turn_rad),
-            After::Leg(away_rad),
+            AfterEvasion::Straight(away_rad),
         );
         ApproachStep::Going(Motion::Halt)
     }
@@ -321,35 +330,35 @@ impl Approach {
         &mut self,
         evasion: fn(f64, f64) -> Evasion,
         reason: Reason,
-        mind: &mut Mind,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         self.tries += 1;
         if self.tries >= TRIES_MAX {
             return ApproachStep::Spent;
         }
-        mind.decide("dock-retry", reason, f64::from(self.tries));
+        context.decide("dock-retry", reason, f64::from(self.tries));
         let side = match reason {
             Reason::BumpLeft | Reason::CliffLeft => -1.0,
             Reason::BumpRight | Reason::CliffRight => 1.0,
-            _ if mind.random.coin() => 1.0,
+            _ if context.random.coin() => 1.0,
             _ => -1.0,
         };
-        let turn_rad = side * mind.random.between(1.0, 1.8);
-        self.phase = Phase::Evade(
+        let turn_rad = side * context.random.between(1.0, 1.8);
+        self.phase = ApproachPhase::Evade(
             evasion(RETRY_BACK_M, turn_rad),
-            After::Leg(self.heading_rad + turn_rad),
+            AfterEvasion::Straight(self.heading_rad + turn_rad),
         );
         ApproachStep::Going(Motion::Halt)
     }
 
     /// Touched while looking round or on the way to the line.
-    fn free_oneself(&mut self, mind: &mut Mind) -> ApproachStep {
+    fn free_oneself(&mut self, context: &mut TaskContext) -> ApproachStep {
         self.scans += 1;
         if self.scans > SCANS_MAX {
             return ApproachStep::Spent;
         }
-        let turn_rad = mind.random.between(-0.6, 0.6);
-        self.phase = Phase::Evade(Evasion::from_contact(RETRY_BACK_M, turn_rad), After::Scan);
+        let turn_rad = context.random.between(-0.6, 0.6);
+        self.phase = ApproachPhase::Evade(Evasion::from_contact(RETRY_BACK_M, turn_rad), AfterEvasion::Scan);
         ApproachStep::Going(Motion::Halt)
     }
 

@@ -9,7 +9,7 @@ const ASIDE_DETOUR_M: f64 = 0.5;
 
 /// A place from which the robot did not get onto the dock.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Vain {
+pub(super) struct FailedPlace {
     pub(super) at: Point2,
     /// Places within this are no better, metres.
     pub(super) within_m: f64,
@@ -17,14 +17,15 @@ pub(super) struct Vain {
 }
 
 /// Places where a beam was heard and not looked for in vain since.
-pub(super) fn goals(memory: &BeamMemory, vain: &[Vain]) -> Vec<Goal> {
-    let is_vain = |place: &&BeamPlace| {
-        vain.iter()
-            .any(|vain| vain.time_us >= place.heard_us && vain.at.distance_m(place.at) < vain.within_m)
+pub(super) fn goals(memory: &BeamMemory, failed: &[FailedPlace]) -> Vec<Goal> {
+    let has_failed = |place: &&BeamPlace| {
+        failed.iter().any(|failed| {
+            failed.time_us >= place.heard_us && failed.at.distance_m(place.at) < failed.within_m
+        })
     };
     memory
         .places()
-        .filter(|place| !is_vain(place))
+        .filter(|place| !has_failed(place))
         .map(|place| Goal {
             at: place.at,
             detour_m: if place.on_line { 0.0 } else { ASIDE_DETOUR_M },
@@ -34,7 +35,7 @@ pub(super) fn goals(memory: &BeamMemory, vain: &[Vain]) -> Vec<Goal> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Vain, goals};
+    use super::{FailedPlace, goals};
     use crate::mapping::BeamMemory;
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::observation::Observation;
@@ -67,13 +68,13 @@ mod tests {
         let heard = goals(&memory, &[]);
         assert_eq!(heard.len(), 1, "{heard:?}");
         assert!((heard[0].at.x_m - 1.03).abs() < 0.05, "{heard:?}");
-        let vain = |time_us| Vain {
+        let failed = |time_us| FailedPlace {
             at: Point2 { x_m: 1.2, y_m: 0.1 },
             within_m: 0.5,
             time_us,
         };
-        assert_eq!(goals(&memory, &[vain(1_000_000)]).len(), 1, "heard after it");
-        assert_eq!(goals(&memory, &[vain(9_000_000)]).len(), 0);
+        assert_eq!(goals(&memory, &[failed(1_000_000)]).len(), 1, "heard after it");
+        assert_eq!(goals(&memory, &[failed(9_000_000)]).len(), 0);
         let lifted = Observation {
             wheel_drop: true,
             ..Observation::default()

@@ -12,7 +12,7 @@ use crate::mapping::{Cell, CellKnowledge};
 use crate::model::action::Motion;
 use crate::model::geometry::{Point2, normalize_rad};
 use crate::model::reason::Reason;
-use crate::navigation::{Evasion, Mind, Plan, Situation, Task, encounter};
+use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, encounter};
 
 /// Edge of a block, metres.
 const BLOCK_M: f64 = 0.5;
@@ -50,9 +50,9 @@ pub(super) struct Roam {
     touched: Vec<Point2>,
     evasion: Option<Evasion>,
     bounce: Option<(Bounce, f64)>,
-    run_m: f64,
+    straight_m: f64,
     without_news_m: f64,
-    short_runs: u32,
+    short_straights: u32,
 }
 
 impl Roam {
@@ -78,65 +78,74 @@ impl Roam {
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1)] {
             is_news |= self.seen.insert((x.saturating_add(dx), y.saturating_add(dy)));
         }
-        let way_m = situation.advance.distance_m.max(0.0);
-        self.without_news_m = if is_news { 0.0 } else { self.without_news_m + way_m };
+        let driven_m = situation.advance.distance_m.max(0.0);
+        self.without_news_m = if is_news {
+            0.0
+        } else {
+            self.without_news_m + driven_m
+        };
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if let Some((bounce, left_s)) = &mut self.bounce {
             *left_s -= situation.advance.time_s;
             if *left_s > 0.0 || bounce.is_evading() || !situation.is_free() {
-                return bounce.step(situation, mind);
+                return bounce.step(situation, context);
             }
             self.bounce = None;
         }
         let evades = self.evasion.is_some();
         match Evasion::pursue(&mut self.evasion, situation) {
-            Some(Ok(motion)) => return Plan::Go(motion),
+            Some(Ok(motion)) => return TaskStatus::Go(motion),
             Some(Err(reason)) => {
                 self.interrupted();
-                return Plan::Trouble(reason);
+                return TaskStatus::Trouble(reason);
             }
             None => {}
         }
         if evades {
-            self.run_m = 0.0;
+            self.straight_m = 0.0;
         }
-        self.run_m += situation.advance.distance_m.max(0.0);
+        self.straight_m += situation.advance.distance_m.max(0.0);
         if let Some(reason) = encounter(situation) {
-            return self.turn_from(reason, situation, mind);
+            return self.turn_from(reason, situation, context);
         }
         if self.without_news_m > LOOK_EVERY_M {
             self.without_news_m = 0.0;
-            if let Some(turn_rad) = self.better_way(situation, mind) {
-                mind.decide("dock-search-turn", Reason::DockUnknown, turn_rad);
+            if let Some(turn_rad) = self.better_direction(situation, context) {
+                context.decide("dock-search-turn", Reason::DockUnknown, turn_rad);
                 self.evasion = Some(Evasion::from_contact(0.0, turn_rad));
-                return Plan::Go(Motion::Halt);
+                return TaskStatus::Go(Motion::Halt);
             }
         }
-        Plan::Go(ahead(situation))
+        TaskStatus::Go(ahead(situation))
     }
 
     /// Away from what was met, to where most is new.
-    fn turn_from(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn turn_from(
+        &mut self,
+        reason: Reason,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> TaskStatus {
         self.remember(reason, situation);
-        self.short_runs = if self.run_m < SHORT_M {
-            self.short_runs + 1
+        self.short_straights = if self.straight_m < SHORT_M {
+            self.short_straights + 1
         } else {
             0
         };
-        mind.decide("back-off", reason, self.run_m);
-        if self.short_runs > SHORT_MAX {
-            self.short_runs = 0;
+        context.decide("back-off", reason, self.straight_m);
+        if self.short_straights > SHORT_MAX {
+            self.short_straights = 0;
             self.bounce = Some((Bounce::default(), BOUNCE_S));
-            return Plan::Go(Motion::Halt);
+            return TaskStatus::Go(Motion::Halt);
         }
         let away_rad = match reason {
             Reason::BumpLeft | Reason::CliffLeft => -FRAC_PI_3,
             Reason::BumpRight | Reason::CliffRight => FRAC_PI_3,
             _ => 0.0,
         };
-        let turn_rad = self.best(situation, mind, |turn_rad| {
+        let turn_rad = self.best(situation, context, |turn_rad| {
             let from_met_rad = normalize_rad(turn_rad + away_rad);
             from_met_rad.abs() > 1.1
         });
@@ -146,7 +155,7 @@ impl Roam {
         } else {
             Evasion::from_contact(CONTACT_BACK_M, turn_rad)
         });
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 
     fn remember(&mut self, reason: Reason, situation: &Situation<'_>) {
@@ -163,8 +172,8 @@ impl Roam {
     }
 
     /// A turn to a way that is worth leaving this one for.
-    fn better_way(&self, situation: &Situation<'_>, mind: &mut Mind) -> Option<f64> {
-        let (turn_rad, news) = self.best(situation, mind, |_| true)?;
+    fn better_direction(&self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<f64> {
+        let (turn_rad, news) = self.best(situation, context, |_| true)?;
         let straight = self.news(situation, 0.0);
         (news > straight + BETTER_STEPS).then_some(turn_rad)
     }
@@ -173,7 +182,7 @@ impl Roam {
     fn best(
         &self,
         situation: &Situation<'_>,
-        mind: &mut Mind,
+        context: &mut TaskContext,
         allowed: impl Fn(f64) -> bool,
     ) -> Option<(f64, f64)> {
         (0..DIRECTIONS)
@@ -182,7 +191,7 @@ impl Roam {
             .map(|turn_rad| {
                 (
                     turn_rad,
-                    self.news(situation, turn_rad) + mind.random.between(0.0, 3.0),
+                    self.news(situation, turn_rad) + context.random.between(0.0, 3.0),
                 )
             })
             .max_by(|one, other| one.1.total_cmp(&other.1))
@@ -192,11 +201,11 @@ impl Roam {
     fn news(&self, situation: &Situation<'_>, turn_rad: f64) -> f64 {
         let (sin, cos) = libm::sincos(turn_rad);
         let knowledge = situation.map.knowledge();
-        let (mut way_m, mut news) = (RAY_FROM_M, 0.0);
-        while way_m < RAY_M {
+        let (mut ray_m, mut news) = (RAY_FROM_M, 0.0);
+        while ray_m < RAY_M {
             let at = situation.pose.transform(Point2 {
-                x_m: way_m * cos,
-                y_m: way_m * sin,
+                x_m: ray_m * cos,
+                y_m: ray_m * sin,
             });
             let bars = matches!(
                 knowledge.get(Cell::under(at)),
@@ -211,7 +220,7 @@ impl Roam {
                 break;
             }
             news += if self.seen.contains(&block(at)) { 0.1 } else { 1.0 };
-            way_m += RAY_STEP_M;
+            ray_m += RAY_STEP_M;
         }
         news
     }

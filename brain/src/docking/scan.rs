@@ -22,7 +22,7 @@ pub(super) struct Scan {
     side: f64,
     /// Angle turned since the start, left positive, and the sum of its parts.
     turned_rad: f64,
-    way_rad: f64,
+    total_turn_rad: f64,
     /// Where both receivers began to hear; `None` before.
     from_rad: Option<f64>,
     was_ahead: bool,
@@ -45,7 +45,7 @@ impl Scan {
         Self {
             side: 1.0,
             turned_rad: 0.0,
-            way_rad: 0.0,
+            total_turn_rad: 0.0,
             from_rad: None,
             was_ahead: false,
             is_begun: false,
@@ -59,7 +59,7 @@ impl Scan {
             self.begin(hearing, ahead);
         } else {
             self.turned_rad += turn_rad;
-            self.way_rad += turn_rad.abs();
+            self.total_turn_rad += turn_rad.abs();
         }
         if self.was_ahead && !ahead {
             self.was_ahead = false;
@@ -80,7 +80,7 @@ impl Scan {
             self.was_ahead = true;
             self.from_rad = Some(self.turned_rad);
         }
-        if self.way_rad > GIVE_UP_RAD {
+        if self.total_turn_rad > GIVE_UP_RAD {
             return ScanStep::Failed;
         }
         ScanStep::Going(Motion::Drive {

@@ -12,8 +12,8 @@ use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{
-    Evasion, FollowStep, Follower, Goal, Mind, Obstructions, Piece, Situation, caution, encounter, plan_way,
-    reachable,
+    Evasion, FollowStep, Goal, Obstructions, PathFollower, PathSegment, Situation, TaskContext, caution,
+    encounter, plan_path, reachable,
 };
 
 /// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
@@ -37,9 +37,9 @@ const MORE_BACK_M: f64 = 0.02;
 /// Way back at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
 /// Nearer than this to where the last plan began, the plan was vain, metres.
-const VAIN_M: f64 = 0.15;
+const FAILED_NEAR_M: f64 = 0.15;
 /// Vain plans in a row, and plans in all, until the way counts as blocked.
-const VAIN_MAX: u32 = 6;
+const FAILED_PLANS_MAX: u32 = 6;
 const PLANS_MAX: u32 = 40;
 /// Times that obstructions are forgotten.
 const FORGET_MAX: u32 = 2;
@@ -51,12 +51,12 @@ pub(super) struct Travel {
     keep_off_m: &'static [f64],
     /// Why it leads there.
     reason: Reason,
-    follower: Option<Follower>,
-    planning: Option<Planning>,
+    follower: Option<PathFollower>,
+    path_search: Option<PathSearch>,
     evasion: Option<Evasion>,
     obstructions: Obstructions,
     plans: u32,
-    vain: u32,
+    failed_plans: u32,
     forgotten: u32,
     planned_from: Option<Point2>,
 }
@@ -91,11 +91,11 @@ impl Travel {
             keep_off_m,
             reason,
             follower: None,
-            planning: None,
+            path_search: None,
             evasion: None,
             obstructions: Obstructions::default(),
             plans: 0,
-            vain: 0,
+            failed_plans: 0,
             forgotten: 0,
             planned_from: None,
         }
@@ -109,11 +109,11 @@ impl Travel {
     /// The robot was moved by somebody else.
     pub(super) fn interrupted(&mut self) {
         self.follower = None;
-        self.planning = None;
+        self.path_search = None;
         self.evasion = None;
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
         match Evasion::pursue(&mut self.evasion, situation) {
             Some(Ok(motion)) => return TravelStep::Going(motion),
             Some(Err(reason)) => {
@@ -123,53 +123,53 @@ impl Travel {
             None => {}
         }
         if let Some(reason) = encounter(situation) {
-            return self.evade(reason, situation, mind);
+            return self.evade(reason, situation, context);
         }
         if let Some(follower) = &mut self.follower {
             match follower.step(situation, caution(situation, follower)) {
                 FollowStep::Going(motion) => return TravelStep::Going(motion),
                 FollowStep::Arrived => return TravelStep::Arrived,
                 FollowStep::Off => {
-                    mind.decide("leave-way", Reason::OffTheWay, 0.0);
+                    context.decide("leave-way", Reason::OffTheWay, 0.0);
                     self.follower = None;
                 }
             }
         }
-        self.plan_on(situation, mind)
+        self.plan_on(situation, context)
     }
 
-    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
-        mind.decide("back-off", reason, 0.0);
+    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
+        context.decide("back-off", reason, 0.0);
         self.obstructions.add(reason, situation);
         self.follower = None;
-        self.planning = None;
+        self.path_search = None;
         self.evasion = Some(if situation.at_cliff {
             Evasion::from_cliff(CLIFF_BACK_M, 0.0)
         } else {
-            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain), 0.0)
+            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.failed_plans), 0.0)
         });
         TravelStep::Going(Motion::Halt)
     }
 
     /// Begins a plan, or goes on with the one that is being made, while the robot stands.
-    fn plan_on(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
-        let Some(planning) = &mut self.planning else {
-            return self.begin_plan(situation, mind);
+    fn plan_on(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
+        let Some(path_search) = &mut self.path_search else {
+            return self.begin_plan(situation, context);
         };
-        let Poll::Ready(found) = planning.rest.go_on() else {
+        let Poll::Ready(found) = path_search.rest.go_on() else {
             return TravelStep::Going(Motion::Halt);
         };
-        let is_blocked = planning.is_blocked;
-        self.planning = None;
-        if let Some(pieces) = found {
-            mind.decide("dock-way", self.reason, length_m(&pieces));
-            self.follower = Some(Follower::new(pieces));
+        let is_blocked = path_search.is_blocked;
+        self.path_search = None;
+        if let Some(segments) = found {
+            context.decide("dock-way", self.reason, length_m(&segments));
+            self.follower = Some(PathFollower::new(segments));
             return TravelStep::Going(Motion::Halt);
         }
         if !is_blocked || self.forgotten >= FORGET_MAX {
             return TravelStep::Blocked;
         }
-        mind.decide(
+        context.decide(
             "forget-obstructions",
             Reason::WayBlocked,
             f64::from(self.forgotten),
@@ -179,23 +179,23 @@ impl Travel {
         TravelStep::Going(Motion::Halt)
     }
 
-    fn begin_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+    fn begin_plan(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
         let here = situation.pose.position();
-        let is_vain = self
+        let is_failed = self
             .planned_from
-            .is_some_and(|from| from.distance_m(here) < VAIN_M);
-        self.vain = if is_vain { self.vain + 1 } else { 0 };
+            .is_some_and(|from| from.distance_m(here) < FAILED_NEAR_M);
+        self.failed_plans = if is_failed { self.failed_plans + 1 } else { 0 };
         self.planned_from = Some(here);
         self.plans += 1;
-        if self.vain > VAIN_MAX || self.plans > PLANS_MAX {
+        if self.failed_plans > FAILED_PLANS_MAX || self.plans > PLANS_MAX {
             return TravelStep::Blocked;
         }
-        mind.decide("wait", Reason::Planning, 0.0);
+        context.decide("wait", Reason::Planning, 0.0);
         let blocked = self.obstructions.points(situation.observation.time_us);
         let is_blocked = !blocked.is_empty();
-        let basis = Basis::of(situation, self.goals.clone(), blocked);
-        self.planning = Some(Planning {
-            rest: Gradual::new(basis.first_way(self.keep_off_m)),
+        let inputs = PathInputs::of(situation, self.goals.clone(), blocked);
+        self.path_search = Some(PathSearch {
+            rest: Gradual::new(inputs.first_path(self.keep_off_m)),
             is_blocked,
         });
         TravelStep::Going(Motion::Halt)
@@ -204,15 +204,15 @@ impl Travel {
 
 /// A way that is being looked for.
 #[derive(Debug)]
-struct Planning {
-    rest: Gradual<Option<Vec<Piece>>>,
+struct PathSearch {
+    rest: Gradual<Option<Vec<PathSegment>>>,
     /// Something that the map does not know stands in the way.
     is_blocked: bool,
 }
 
 /// All that a way depends on.
 #[derive(Debug)]
-struct Basis {
+struct PathInputs {
     knowledge: Raster<CellKnowledge>,
     body_m: f64,
     blocked: Vec<Point2>,
@@ -220,7 +220,7 @@ struct Basis {
     goals: Vec<Goal>,
 }
 
-impl Basis {
+impl PathInputs {
     fn of(situation: &Situation<'_>, goals: Vec<Goal>, blocked: Vec<Point2>) -> Self {
         Self {
             knowledge: situation.map.knowledge().clone(),
@@ -232,13 +232,13 @@ impl Basis {
     }
 
     /// The way with the first of these gaps with which there is one.
-    async fn first_way(self, keep_off_m: &'static [f64]) -> Option<Vec<Piece>> {
+    async fn first_path(self, keep_off_m: &'static [f64]) -> Option<Vec<PathSegment>> {
         let budget = &mut StepBudget::limited();
         for gap_m in keep_off_m {
             let around = (self.body_m + gap_m, self.blocked.as_slice());
-            let ground = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, budget).await;
-            if let Some(pieces) = plan_way(&ground, (self.start, &self.goals), budget).await {
-                return Some(pieces);
+            let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, budget).await;
+            if let Some(segments) = plan_path(&reachable_cells, (self.start, &self.goals), budget).await {
+                return Some(segments);
             }
         }
         None
@@ -246,13 +246,13 @@ impl Basis {
 }
 
 /// Looks for the length of the way to the place in front of `dock`, metres; `None` when the map knows none.
-pub(super) fn way_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
-    let basis = Basis::of(situation, goals(dock), Vec::new());
-    Gradual::new(async move { Some(length_m(&basis.first_way(&KEEP_OFF_M[1..2]).await?)) })
+pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
+    let inputs = PathInputs::of(situation, goals(dock), Vec::new());
+    Gradual::new(async move { Some(length_m(&inputs.first_path(&KEEP_OFF_M[1..2]).await?)) })
 }
 
-fn length_m(pieces: &[Piece]) -> f64 {
-    pieces.iter().map(|piece| piece.length_m).sum()
+fn length_m(segments: &[PathSegment]) -> f64 {
+    segments.iter().map(|segment| segment.length_m).sum()
 }
 
 /// Places in front of the dock, those on the line at a good distance first.

@@ -2,7 +2,7 @@
 //! it nearly touches at a side.
 
 use super::path_follower::Caution;
-use super::{Follower, Situation};
+use super::{PathFollower, Situation};
 use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::model::config::ProximityLayout;
 use crate::model::geometry::Point2;
@@ -30,13 +30,13 @@ const NEAR_ASIDE_M: f64 = 0.02;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ahead {
     /// Way straight ahead until it is touched, metres.
-    pub(crate) way_m: f64,
+    pub(crate) clear_m: f64,
     /// Where it is, in the body's frame.
     pub(crate) at: Point2,
 }
 
 /// What is advised on the way of `follower`.
-pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
+pub(crate) fn caution(situation: &Situation<'_>, follower: &PathFollower) -> Caution {
     let layout = &situation.config.sensors.proximity;
     let seen = hits(layout, &situation.observation.proximity);
     if layout.response.near_m.is_some() {
@@ -51,7 +51,7 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution
         sides.note(hit, hit.distance_m(Point2::ORIGIN) - radius_m, radius_m);
     }
     note_known(situation, &mut sides);
-    let ahead_m = ahead(situation).map_or(f64::INFINITY, |ahead| ahead.way_m);
+    let ahead_m = ahead(situation).map_or(f64::INFINITY, |ahead| ahead.clear_m);
     Caution {
         speed_m_per_s: if follower.turns_on_spot() {
             f64::INFINITY
@@ -73,11 +73,11 @@ pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
     let radius_m = situation.config.body.radius_m;
     hits(layout, &situation.observation.proximity)
         .map(|at| Ahead {
-            way_m: way_to(at, radius_m),
+            clear_m: distance_to_contact_m(at, radius_m),
             at,
         })
-        .filter(|ahead| ahead.way_m.is_finite())
-        .min_by(|one, other| one.way_m.total_cmp(&other.way_m))
+        .filter(|ahead| ahead.clear_m.is_finite())
+        .min_by(|one, other| one.clear_m.total_cmp(&other.clear_m))
 }
 
 /// What lacks of the gap at each side, metres.
@@ -140,7 +140,7 @@ fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2
 }
 
 /// Way straight ahead until the rim touches a point; infinite when it passes beside.
-fn way_to(point: Point2, radius_m: f64) -> f64 {
+fn distance_to_contact_m(point: Point2, radius_m: f64) -> f64 {
     if point.x_m <= 0.0 || point.y_m.abs() >= radius_m - GRAZE_M {
         return f64::INFINITY;
     }
@@ -149,16 +149,22 @@ fn way_to(point: Point2, radius_m: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{GAP_M, Sides, way_to};
+    use super::{GAP_M, Sides, distance_to_contact_m};
     use crate::model::geometry::Point2;
 
     const RADIUS_M: f64 = 0.175;
 
     #[test]
     fn the_way_ends_where_the_rim_touches_and_what_passes_beside_does_not_end_it() {
-        assert!((way_to(Point2 { x_m: 0.3, y_m: 0.0 }, RADIUS_M) - 0.125).abs() < 1e-9);
-        assert_eq!(way_to(Point2 { x_m: 0.1, y_m: 0.17 }, RADIUS_M), f64::INFINITY);
-        assert_eq!(way_to(Point2 { x_m: -0.2, y_m: 0.0 }, RADIUS_M), f64::INFINITY);
+        assert!((distance_to_contact_m(Point2 { x_m: 0.3, y_m: 0.0 }, RADIUS_M) - 0.125).abs() < 1e-9);
+        assert_eq!(
+            distance_to_contact_m(Point2 { x_m: 0.1, y_m: 0.17 }, RADIUS_M),
+            f64::INFINITY
+        );
+        assert_eq!(
+            distance_to_contact_m(Point2 { x_m: -0.2, y_m: 0.0 }, RADIUS_M),
+            f64::INFINITY
+        );
     }
 
     #[test]

@@ -34,7 +34,7 @@ impl Axis {
 
 /// Cells with a margin wide enough that no window around a free cell leaves the arrays.
 #[derive(Clone, Debug)]
-pub(crate) struct Ground {
+pub(crate) struct ConfigurationSpace {
     pub(crate) width: usize,
     pub(crate) height: usize,
     /// Cells around the window on each side.
@@ -50,11 +50,11 @@ pub(crate) struct Ground {
     clearance: Vec<u8>,
 }
 
-impl Ground {
+impl ConfigurationSpace {
     pub(crate) async fn new(reachable: &Raster<bool>, reach: usize, budget: &mut StepBudget) -> Self {
         let margin = reach + 2;
         let (width, height) = (reachable.width() + 2 * margin, reachable.height() + 2 * margin);
-        let mut ground = Self {
+        let mut space = Self {
             width,
             height,
             margin,
@@ -70,13 +70,13 @@ impl Ground {
             .enumerate()
         {
             let start = (row + margin) * width + margin;
-            if let Some(target) = ground.free.get_mut(start..start + values.len()) {
+            if let Some(target) = space.free.get_mut(start..start + values.len()) {
                 target.copy_from_slice(values);
             }
         }
         budget.spend(width * height / 4).await;
-        ground.open_floor(budget).await;
-        ground
+        space.open_floor(budget).await;
+        space
     }
 
     /// Cells along an axis.
@@ -150,13 +150,13 @@ impl Ground {
     }
 
     /// Column and row of an index.
-    pub(crate) fn place(&self, index: usize) -> (usize, usize) {
+    pub(crate) fn column_and_row(&self, index: usize) -> (usize, usize) {
         (index % self.width, index / self.width)
     }
 
     /// The cell of the map at an index.
     pub(crate) fn cell(&self, index: usize) -> Cell {
-        let (column, row) = self.place(index);
+        let (column, row) = self.column_and_row(index);
         Cell {
             x: self.origin.x.wrapping_add(column as i32 - self.margin as i32),
             y: self.origin.y.wrapping_add(row as i32 - self.margin as i32),
@@ -270,9 +270,9 @@ impl Ground {
     }
 
     /// Whether the straight way between two points leads over free cells only.
-    pub(crate) fn sees_points(&self, from: Point2, to: Point2) -> bool {
+    pub(crate) fn has_line_of_sight_between(&self, from: Point2, to: Point2) -> bool {
         match (self.index_under(from), self.index_under(to)) {
-            (Some(from), Some(to)) => self.free[from] && self.free[to] && self.sees(from, to),
+            (Some(from), Some(to)) => self.free[from] && self.free[to] && self.has_line_of_sight(from, to),
             _ => false,
         }
     }
@@ -287,14 +287,14 @@ impl Ground {
         let margin = self.margin as i64;
         let column = i64::from(cell.x) - i64::from(self.origin.x) + margin;
         let row = i64::from(cell.y) - i64::from(self.origin.y) + margin;
-        let inside = |place: i64, size: usize| (margin..size as i64 - margin).contains(&place);
+        let inside = |position: i64, size: usize| (margin..size as i64 - margin).contains(&position);
         (inside(column, self.width) && inside(row, self.height))
             .then(|| row as usize * self.width + column as usize)
     }
 
     /// Whether the straight way between two free cells leads over free cells only.
-    pub(crate) fn sees(&self, from: usize, to: usize) -> bool {
-        let ((x0, y0), (x1, y1)) = (self.place(from), self.place(to));
+    pub(crate) fn has_line_of_sight(&self, from: usize, to: usize) -> bool {
+        let ((x0, y0), (x1, y1)) = (self.column_and_row(from), self.column_and_row(to));
         let (dx, dy) = (x1 as f64 - x0 as f64, y1 as f64 - y0 as f64);
         let steps = (2.0 * dx.abs().max(dy.abs())) as usize;
         let (step_x, step_y) = (dx / steps.max(1) as f64, dy / steps.max(1) as f64);

@@ -26,7 +26,7 @@ const CLIFF_RAD: (f64, f64) = (0.8, 1.3);
 
 /// The way along an edge. It ends by its time.
 #[derive(Clone, Debug)]
-pub(crate) struct EdgeTrace {
+pub(crate) struct ContourTrace {
     side: TurnSide,
     glancing_rad: (f64, f64),
     left_s: f64,
@@ -36,7 +36,7 @@ pub(crate) struct EdgeTrace {
     random: Random,
 }
 
-impl EdgeTrace {
+impl ContourTrace {
     /// With the edge on this side, for so long.
     pub(crate) fn new(side: TurnSide, left_s: f64, random: &mut Random) -> Self {
         // A generator of its own: a movement has no mind.

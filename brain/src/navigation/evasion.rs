@@ -1,6 +1,6 @@
 //! Getting away from what was met: back off until it is released, then turn away.
 
-use super::{BackOff, Leg, Situation, Turn};
+use super::{BackOff, ManoeuvreStep, Situation, Turn};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
 
@@ -15,7 +15,7 @@ const TURN_CONTACTS_MAX: u32 = 3;
 
 /// What was met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Met {
+enum Hazard {
     Contact,
     Cliff,
 }
@@ -23,8 +23,8 @@ enum Met {
 /// Back off, then turn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Evasion {
-    phase: Phase,
-    met: Met,
+    phase: EvasionPhase,
+    hazard: Hazard,
     turn_rad: f64,
     /// Way that may still be added to the back-off.
     more_m: f64,
@@ -32,7 +32,7 @@ pub(crate) struct Evasion {
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum EvasionPhase {
     Back(BackOff),
     Turn(Turn),
 }
@@ -52,8 +52,8 @@ impl Evasion {
     /// Away from a contact: `back_m` back, then a turn.
     pub(crate) fn from_contact(back_m: f64, turn_rad: f64) -> Self {
         Self {
-            phase: Phase::Back(BackOff::from_contact(back_m)),
-            met: Met::Contact,
+            phase: EvasionPhase::Back(BackOff::from_contact(back_m)),
+            hazard: Hazard::Contact,
             turn_rad,
             more_m: CONTACT_MOST_M,
             contacts_left: TURN_CONTACTS_MAX,
@@ -63,8 +63,8 @@ impl Evasion {
     /// Away from a cliff: `back_m` back, then a turn.
     pub(crate) fn from_cliff(back_m: f64, turn_rad: f64) -> Self {
         Self {
-            phase: Phase::Back(BackOff::from_cliff(back_m)),
-            met: Met::Cliff,
+            phase: EvasionPhase::Back(BackOff::from_cliff(back_m)),
+            hazard: Hazard::Cliff,
             more_m: (CLIFF_MOST_M - back_m).max(0.0),
             ..Self::from_contact(back_m, turn_rad)
         }
@@ -88,55 +88,55 @@ impl Evasion {
 
     pub(crate) fn step(&mut self, situation: &Situation<'_>) -> EvasionStep {
         match self.phase {
-            Phase::Back(mut back) => {
-                let leg = back.step(situation);
-                self.phase = Phase::Back(back);
-                self.after_back(leg, situation)
+            EvasionPhase::Back(mut back) => {
+                let step = back.step(situation);
+                self.phase = EvasionPhase::Back(back);
+                self.after_back(step, situation)
             }
-            Phase::Turn(mut turn) => {
-                let leg = turn.step(situation);
-                self.phase = Phase::Turn(turn);
-                self.after_turn(leg, situation)
+            EvasionPhase::Turn(mut turn) => {
+                let step = turn.step(situation);
+                self.phase = EvasionPhase::Turn(turn);
+                self.after_turn(step, situation)
             }
         }
     }
 
-    fn after_back(&mut self, leg: Leg, situation: &Situation<'_>) -> EvasionStep {
-        if let Leg::Going(motion) = leg {
+    fn after_back(&mut self, step: ManoeuvreStep, situation: &Situation<'_>) -> EvasionStep {
+        if let ManoeuvreStep::Going(motion) = step {
             return EvasionStep::Going(motion);
         }
-        if situation.at_cliff && self.met == Met::Contact {
+        if situation.at_cliff && self.hazard == Hazard::Contact {
             *self = Self::from_cliff(MORE_M, self.turn_rad);
         }
-        let held = if self.met == Met::Cliff {
+        let held = if self.hazard == Hazard::Cliff {
             situation.at_cliff
         } else {
             situation.touching
         };
         if !held {
-            self.phase = Phase::Turn(Turn::by(self.turn_rad));
+            self.phase = EvasionPhase::Turn(Turn::by(self.turn_rad));
             return EvasionStep::Going(Motion::Halt);
         }
-        if leg == Leg::Late || self.more_m <= 0.0 {
+        if step == ManoeuvreStep::Aborted || self.more_m <= 0.0 {
             return EvasionStep::Held(self.held_reason());
         }
         self.more_m -= MORE_M;
-        let Phase::Back(back) = &mut self.phase else {
+        let EvasionPhase::Back(back) = &mut self.phase else {
             return EvasionStep::Held(self.held_reason());
         };
         back.lengthen(MORE_M);
         match back.step(situation) {
-            Leg::Going(motion) => EvasionStep::Going(motion),
-            Leg::Arrived | Leg::Late => EvasionStep::Going(Motion::Halt),
+            ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
+            ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Going(Motion::Halt),
         }
     }
 
-    fn after_turn(&mut self, leg: Leg, situation: &Situation<'_>) -> EvasionStep {
+    fn after_turn(&mut self, step: ManoeuvreStep, situation: &Situation<'_>) -> EvasionStep {
         if !situation.touching && !situation.at_cliff {
-            return match leg {
-                Leg::Going(motion) => EvasionStep::Going(motion),
+            return match step {
+                ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
                 // A turn that came late is as good: any direction but the old one will do.
-                Leg::Arrived | Leg::Late => EvasionStep::Free,
+                ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Free,
             };
         }
         if self.contacts_left == 0 {
@@ -153,9 +153,9 @@ impl Evasion {
     }
 
     fn held_reason(&self) -> Reason {
-        match self.met {
-            Met::Contact => Reason::ContactHeld,
-            Met::Cliff => Reason::CliffHeld,
+        match self.hazard {
+            Hazard::Contact => Reason::ContactHeld,
+            Hazard::Cliff => Reason::CliffHeld,
         }
     }
 }

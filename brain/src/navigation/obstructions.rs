@@ -26,11 +26,11 @@ const TOUCH_LEVEL: f32 = 0.5;
 /// The contacts of the last minutes.
 #[derive(Debug, Default)]
 pub(crate) struct Obstructions {
-    met: Vec<Met>,
+    kept: Vec<Obstruction>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Met {
+struct Obstruction {
     since_us: u64,
     at: Point2,
     /// Where it may be as well: the bumper does not tell more.
@@ -44,21 +44,24 @@ impl Obstructions {
         let (bearing, spread_rad) = bearing_rad(reason, situation);
         let at = rim(bearing, situation);
         let beside = [-spread_rad, spread_rad].map(|aside_rad| rim(bearing + aside_rad, situation));
-        self.keep(at, beside, situation);
+        self.remember(at, beside, situation);
     }
 
     /// Notes what the sensors show, at a place in the body's frame.
     pub(crate) fn add_seen(&mut self, hit: Point2, situation: &Situation<'_>) {
         let at = rim(libm::atan2(hit.y_m, hit.x_m), situation);
-        self.keep(at, [at; 2], situation);
+        self.remember(at, [at; 2], situation);
     }
 
-    fn keep(&mut self, at: Point2, beside: [Point2; 2], situation: &Situation<'_>) {
-        let is_again = self.met.iter().any(|met| met.at.distance_m(at) < SAME_M);
-        if self.met.len() >= KEPT_MAX {
-            self.met.remove(0);
+    fn remember(&mut self, at: Point2, beside: [Point2; 2], situation: &Situation<'_>) {
+        let is_again = self
+            .kept
+            .iter()
+            .any(|obstruction| obstruction.at.distance_m(at) < SAME_M);
+        if self.kept.len() >= KEPT_MAX {
+            self.kept.remove(0);
         }
-        self.met.push(Met {
+        self.kept.push(Obstruction {
             since_us: situation.observation.time_us,
             at,
             beside,
@@ -68,17 +71,17 @@ impl Obstructions {
 
     /// Forgets all.
     pub(crate) fn clear(&mut self) {
-        self.met.clear();
+        self.kept.clear();
     }
 
     /// Where plans must not lead over.
     pub(crate) fn points(&mut self, now_us: u64) -> Vec<Point2> {
-        self.met
-            .retain(|met| now_us < met.since_us.saturating_add(BELIEVED_US));
-        self.met
+        self.kept
+            .retain(|obstruction| now_us < obstruction.since_us.saturating_add(BELIEVED_US));
+        self.kept
             .iter()
-            .filter(|met| met.is_believed)
-            .flat_map(|met| [met.at, met.beside[0], met.beside[1]])
+            .filter(|obstruction| obstruction.is_believed)
+            .flat_map(|obstruction| [obstruction.at, obstruction.beside[0], obstruction.beside[1]])
             .collect()
     }
 }

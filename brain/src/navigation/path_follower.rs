@@ -2,7 +2,7 @@
 //!
 //! Terms. *Piece*: see [`Piece`]. *Offset*: distance of the robot from the piece it follows, left positive.
 
-use super::{Piece, Situation};
+use super::{PathSegment, Situation};
 use crate::model::action::Motion;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
@@ -42,8 +42,8 @@ const ELSEWHERE_RAD: f64 = 1.2;
 
 /// A way that is being driven.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Follower {
-    pieces: Vec<Piece>,
+pub(crate) struct PathFollower {
+    segments: Vec<PathSegment>,
     current: usize,
     /// Turn on the spot: what is left of it, once it has begun.
     turn_left_rad: Option<f64>,
@@ -100,7 +100,7 @@ impl Caution {
 }
 
 /// Where the robot is on a piece.
-struct Fix {
+struct SegmentPosition {
     /// Way made on the piece.
     along_m: f64,
     offset_m: f64,
@@ -108,65 +108,65 @@ struct Fix {
     heading_rad: f64,
 }
 
-impl Follower {
-    pub(crate) fn new(pieces: Vec<Piece>) -> Self {
+impl PathFollower {
+    pub(crate) fn new(segments: Vec<PathSegment>) -> Self {
         Self {
-            pieces,
+            segments,
             current: 0,
             turn_left_rad: None,
         }
     }
 
     /// Corners of what is left of the way, arcs by their ends and middles.
-    pub(crate) fn way(&self) -> Vec<Point2> {
-        let left = self.pieces.get(self.current..).unwrap_or_default();
+    pub(crate) fn remaining_path(&self) -> Vec<Point2> {
+        let left = self.segments.get(self.current..).unwrap_or_default();
         let mut corners = Vec::with_capacity(left.len() + 1);
-        for piece in left.iter().filter(|piece| !is_turn(piece)) {
+        for segment in left.iter().filter(|segment| !is_turn(segment)) {
             if corners.is_empty() {
-                corners.push(piece.start.position());
+                corners.push(segment.start.position());
             }
-            if piece.turn_rad != 0.0 {
-                corners.push(piece.at(0.5).position());
+            if segment.turn_rad != 0.0 {
+                corners.push(segment.at(0.5).position());
             }
-            corners.push(piece.at(1.0).position());
+            corners.push(segment.at(1.0).position());
         }
         corners
     }
 
     /// The place on the way beside the robot, where it keeps a little off a straight.
     pub(crate) fn beside(&self, situation: &Situation<'_>) -> Option<Point2> {
-        let piece = self
-            .pieces
+        let segment = self
+            .segments
             .get(self.current)
-            .filter(|piece| !is_turn(piece) && piece.turn_rad == 0.0)?;
-        let fix = Fix::on(piece, situation.pose);
-        let off_m = fix.offset_m.abs();
-        let is_beside = (0.0..=piece.length_m).contains(&fix.along_m);
+            .filter(|segment| !is_turn(segment) && segment.turn_rad == 0.0)?;
+        let position = SegmentPosition::on(segment, situation.pose);
+        let off_m = position.offset_m.abs();
+        let is_beside = (0.0..=segment.length_m).contains(&position.along_m);
         (is_beside && (ASIDE_MIN_M..ASIDE_MAX_M).contains(&off_m))
-            .then(|| piece.at(fix.along_m / piece.length_m).position())
+            .then(|| segment.at(position.along_m / segment.length_m).position())
     }
 
     /// Whether a turn on the spot is being made.
     pub(crate) fn turns_on_spot(&self) -> bool {
-        self.pieces.get(self.current).is_some_and(is_turn)
+        self.segments.get(self.current).is_some_and(is_turn)
     }
 
     pub(crate) fn step(&mut self, situation: &Situation<'_>, caution: Caution) -> FollowStep {
-        while let Some(piece) = self.pieces.get(self.current).copied() {
-            if is_turn(&piece) {
-                if let Some(motion) = self.turn(&piece, situation) {
+        while let Some(segment) = self.segments.get(self.current).copied() {
+            if is_turn(&segment) {
+                if let Some(motion) = self.turn(&segment, situation) {
                     return FollowStep::Going(motion);
                 }
             } else {
-                let fix = Fix::on(&piece, situation.pose);
-                let left_m = piece.length_m - fix.along_m;
+                let position = SegmentPosition::on(&segment, situation.pose);
+                let left_m = segment.length_m - position.along_m;
                 let is_at_wall = caution.ahead_m < TURN_BEFORE_M
                     && left_m < SHORT_OF_M
-                    && self.current + 1 < self.pieces.len();
+                    && self.current + 1 < self.segments.len();
                 let speeds = &situation.config.speeds;
-                let speed_m_per_s = piece_speed(&piece, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
+                let speed_m_per_s = segment_speed(&segment, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
                 if !is_at_wall && left_m > 0.5 * LAG_S * speed_m_per_s {
-                    return self.drive(&piece, &fix, (situation, caution));
+                    return self.drive(&segment, &position, (situation, caution));
                 }
             }
             self.current += 1;
@@ -176,14 +176,14 @@ impl Follower {
     }
 
     /// The motion of a turn on the spot; `None` when it is made.
-    fn turn(&mut self, piece: &Piece, situation: &Situation<'_>) -> Option<Motion> {
-        let target_rad = piece.start.heading_rad + piece.turn_rad;
+    fn turn(&mut self, segment: &PathSegment, situation: &Situation<'_>) -> Option<Motion> {
+        let target_rad = segment.start.heading_rad + segment.turn_rad;
         let error_rad = normalize_rad(target_rad - situation.pose.heading_rad);
         // A half turn keeps the side on which it began.
         let left_rad = match self.turn_left_rad {
             Some(before_rad) if error_rad.abs() > 2.0 => error_rad.abs().copysign(before_rad),
             Some(_) => error_rad,
-            None if error_rad.abs() > 2.0 => error_rad.abs().copysign(piece.turn_rad),
+            None if error_rad.abs() > 2.0 => error_rad.abs().copysign(segment.turn_rad),
             None => error_rad,
         };
         self.turn_left_rad = Some(left_rad);
@@ -198,33 +198,38 @@ impl Follower {
         })
     }
 
-    fn drive(&self, piece: &Piece, fix: &Fix, (situation, caution): (&Situation<'_>, Caution)) -> FollowStep {
-        if fix.offset_m.abs() > LOST_M {
+    fn drive(
+        &self,
+        segment: &PathSegment,
+        position: &SegmentPosition,
+        (situation, caution): (&Situation<'_>, Caution),
+    ) -> FollowStep {
+        if position.offset_m.abs() > LOST_M {
             return FollowStep::Off;
         }
         let turn_max = situation.config.speeds.turn_max_rad_per_s;
-        if fix.heading_rad.abs() > ELSEWHERE_RAD {
+        if position.heading_rad.abs() > ELSEWHERE_RAD {
             return FollowStep::Going(Motion::Drive {
                 speed_m_per_s: 0.0,
-                turn_rad_per_s: -turn_max.copysign(fix.heading_rad),
+                turn_rad_per_s: -turn_max.copysign(position.heading_rad),
             });
         }
         let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
-        let left_m = piece.length_m - fix.along_m;
-        let free_m_per_s = piece_speed(piece, cruise_m_per_s, turn_max)
+        let left_m = segment.length_m - position.along_m;
+        let free_m_per_s = segment_speed(segment, cruise_m_per_s, turn_max)
             .min(self.braked(left_m, cruise_m_per_s, turn_max))
             .max(CREEP_M_PER_S);
         let speed_m_per_s = free_m_per_s.min(caution.speed_m_per_s.max(CREEP_M_PER_S));
-        let curvature = self.curvature_ahead(piece, left_m, LAG_S * speed_m_per_s);
-        let offset_m = caution.off_m(fix.offset_m);
-        let steer = -HEADING_GAIN_PER_S * fix.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
+        let curvature = self.curvature_ahead(segment, left_m, LAG_S * speed_m_per_s);
+        let offset_m = caution.off_m(position.offset_m);
+        let steer = -HEADING_GAIN_PER_S * position.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
         let steer = if steer.abs() < STEER_MIN_RAD_PER_S {
             0.0
         } else {
             steer
         };
         // A robot that looks elsewhere first turns.
-        let facing = libm::cos(fix.heading_rad).max(0.2);
+        let facing = libm::cos(position.heading_rad).max(0.2);
         FollowStep::Going(Motion::Drive {
             speed_m_per_s: speed_m_per_s * facing,
             // Caution does not slow the turn: an arc gets tighter before something near, and turns away from it.
@@ -234,45 +239,45 @@ impl Follower {
 
     /// The speed from which it can brake for what comes after this piece.
     fn braked(&self, left_m: f64, cruise_m_per_s: f64, turn_max: f64) -> f64 {
-        let after_m_per_s = match self.pieces.get(self.current + 1) {
-            Some(next) if !is_turn(next) => piece_speed(next, cruise_m_per_s, turn_max),
+        let after_m_per_s = match self.segments.get(self.current + 1) {
+            Some(next) if !is_turn(next) => segment_speed(next, cruise_m_per_s, turn_max),
             _ => 0.0,
         };
         libm::sqrt(after_m_per_s * after_m_per_s + 2.0 * BRAKE_M_PER_S2 * left_m.max(0.0))
     }
 
     /// Curvature of the way a little ahead.
-    fn curvature_ahead(&self, piece: &Piece, left_m: f64, ahead_m: f64) -> f64 {
+    fn curvature_ahead(&self, segment: &PathSegment, left_m: f64, ahead_m: f64) -> f64 {
         let there = if ahead_m < left_m {
-            Some(piece)
+            Some(segment)
         } else {
-            self.pieces.get(self.current + 1).filter(|next| !is_turn(next))
+            self.segments.get(self.current + 1).filter(|next| !is_turn(next))
         };
         there.map_or(0.0, curvature)
     }
 }
 
-fn is_turn(piece: &Piece) -> bool {
-    piece.length_m <= 0.0
+fn is_turn(segment: &PathSegment) -> bool {
+    segment.length_m <= 0.0
 }
 
-fn curvature(piece: &Piece) -> f64 {
-    piece.turn_rad / piece.length_m
+fn curvature(segment: &PathSegment) -> f64 {
+    segment.turn_rad / segment.length_m
 }
 
-fn piece_speed(piece: &Piece, cruise_m_per_s: f64, turn_max: f64) -> f64 {
-    if piece.turn_rad == 0.0 {
+fn segment_speed(segment: &PathSegment, cruise_m_per_s: f64, turn_max: f64) -> f64 {
+    if segment.turn_rad == 0.0 {
         cruise_m_per_s
     } else {
-        cruise_m_per_s.min(ARC_SHARE * turn_max / curvature(piece).abs())
+        cruise_m_per_s.min(ARC_SHARE * turn_max / curvature(segment).abs())
     }
 }
 
-impl Fix {
-    fn on(piece: &Piece, pose: Pose2) -> Self {
-        let local = piece.start.inverse() * pose;
+impl SegmentPosition {
+    fn on(segment: &PathSegment, pose: Pose2) -> Self {
+        let local = segment.start.inverse() * pose;
         // Before its start an arc goes on straight: the circle of a tight one leads elsewhere within centimetres.
-        if piece.turn_rad == 0.0 || local.x_m < 0.0 {
+        if segment.turn_rad == 0.0 || local.x_m < 0.0 {
             return Self {
                 along_m: local.x_m,
                 offset_m: local.y_m,
@@ -280,7 +285,7 @@ impl Fix {
             };
         }
         // Seen from the middle of the arc, with the start below it for a left turn and above it for a right one.
-        let radius_m = piece.length_m / piece.turn_rad;
+        let radius_m = segment.length_m / segment.turn_rad;
         let (x_m, y_m) = (local.x_m, local.y_m - radius_m);
         let side = radius_m.signum();
         let angle_rad = libm::atan2(x_m, -y_m * side);
@@ -294,7 +299,7 @@ impl Fix {
 
 #[cfg(test)]
 mod tests {
-    use super::{Caution, Fix, Piece};
+    use super::{Caution, PathSegment, SegmentPosition};
     use crate::model::geometry::Pose2;
 
     #[test]
@@ -320,25 +325,25 @@ mod tests {
                 y_m: -0.1,
                 heading_rad: 0.7,
             };
-            let piece = Piece {
+            let segment = PathSegment {
                 start,
                 length_m: 0.3,
                 turn_rad,
             };
-            let there = piece.at(0.5);
-            let fix = Fix::on(&piece, there);
-            assert!((fix.along_m - 0.15).abs() < 1e-9 && fix.offset_m.abs() < 1e-9);
-            assert!(fix.heading_rad.abs() < 1e-9);
+            let there = segment.at(0.5);
+            let position = SegmentPosition::on(&segment, there);
+            assert!((position.along_m - 0.15).abs() < 1e-9 && position.offset_m.abs() < 1e-9);
+            assert!(position.heading_rad.abs() < 1e-9);
             let left = there.transform(crate::model::geometry::Point2 { x_m: 0.0, y_m: 0.02 });
-            let fix = Fix::on(
-                &piece,
+            let position = SegmentPosition::on(
+                &segment,
                 Pose2 {
                     x_m: left.x_m,
                     y_m: left.y_m,
                     ..there
                 },
             );
-            assert!((fix.offset_m - 0.02).abs() < 1e-9, "{}", fix.offset_m);
+            assert!((position.offset_m - 0.02).abs() < 1e-9, "{}", position.offset_m);
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::bucket_queue::{LONGEST, Queue};
-use super::configuration_space::Ground;
+use super::bucket_queue::{BucketQueue, LONGEST_STEP_COST};
+use super::configuration_space::ConfigurationSpace;
 use crate::mapping::CELL_M;
 use crate::model::gradual::StepBudget;
 
@@ -11,10 +11,10 @@ use crate::model::gradual::StepBudget;
 const BLOCK: usize = 4;
 /// Cost of a step to a neighbour, and to a diagonal one.
 const STEP: u32 = 10;
-const DIAGONAL: u32 = LONGEST;
+const DIAGONAL: u32 = LONGEST_STEP_COST;
 /// Work of looking at a cell, of finding out where one gets from a block, and of leaving one.
 const LOOK_WORK: usize = 2;
-const DOORS_WORK: usize = 100;
+const LINKS_WORK: usize = 100;
 const LEAVE_WORK: usize = 22;
 /// Blocks that are left between two looks at the budget.
 const LEAVES: usize = 32;
@@ -22,44 +22,44 @@ const LEAVES: usize = 32;
 const NONE: u32 = u32::MAX;
 
 /// Finds ways over blocks of cells.
-pub(crate) struct Router<'ground> {
-    ground: &'ground Ground,
+pub(crate) struct Router<'space> {
+    space: &'space ConfigurationSpace,
     columns: usize,
     /// A free cell for each block, `NONE` if it has none.
     anchors: Vec<u32>,
     /// Bit n: the body gets from the block to the nth of those around it.
-    doors: Vec<u8>,
+    block_links: Vec<u8>,
     /// Bit n: it gets there straight from one anchor to the other.
-    sights: Vec<u8>,
+    straight_links: Vec<u8>,
 }
 
 /// Costs and parents of the blocks around a place.
-pub(crate) struct Spread {
+pub(crate) struct CostField {
     costs: Vec<u32>,
     parents: Vec<u32>,
     touched: Vec<u32>,
 }
 
-impl<'ground> Router<'ground> {
-    pub(crate) async fn new(ground: &'ground Ground, budget: &mut StepBudget) -> Self {
-        let columns = ground.width / BLOCK + 1;
+impl<'space> Router<'space> {
+    pub(crate) async fn new(space: &'space ConfigurationSpace, budget: &mut StepBudget) -> Self {
+        let columns = space.width / BLOCK + 1;
         let mut router = Self {
-            ground,
+            space,
             columns,
-            anchors: vec![NONE; columns * (ground.height / BLOCK + 1)],
-            doors: Vec::new(),
-            sights: Vec::new(),
+            anchors: vec![NONE; columns * (space.height / BLOCK + 1)],
+            block_links: Vec::new(),
+            straight_links: Vec::new(),
         };
         // The free cell nearest to the middle of its block stands for it.
         let mut best = vec![u32::MAX; router.anchors.len()];
-        for index in 0..ground.free.len() {
-            if index.is_multiple_of(ground.width) {
-                budget.spend(LOOK_WORK * ground.width).await;
+        for index in 0..space.free.len() {
+            if index.is_multiple_of(space.width) {
+                budget.spend(LOOK_WORK * space.width).await;
             }
-            if !ground.free[index] {
+            if !space.free[index] {
                 continue;
             }
-            let (column, row) = ground.place(index);
+            let (column, row) = space.column_and_row(index);
             let (x, y) = (2 * (column % BLOCK) as i32, 2 * (row % BLOCK) as i32);
             let middle = BLOCK as i32 - 1;
             let off = ((x - middle) * (x - middle) + (y - middle) * (y - middle)) as u32;
@@ -69,52 +69,52 @@ impl<'ground> Router<'ground> {
                 router.anchors[block] = index as u32;
             }
         }
-        router.doors = Vec::with_capacity(router.anchors.len());
-        router.sights = Vec::with_capacity(router.anchors.len());
+        router.block_links = Vec::with_capacity(router.anchors.len());
+        router.straight_links = Vec::with_capacity(router.anchors.len());
         for block in 0..router.anchors.len() {
-            let (doors, sights) = router.doors_of(block);
-            router.doors.push(doors);
-            router.sights.push(sights);
-            let is_ground = router.anchors[block] != NONE;
-            budget.spend(if is_ground { DOORS_WORK } else { LOOK_WORK }).await;
+            let (links, straight_links) = router.links_of(block);
+            router.block_links.push(links);
+            router.straight_links.push(straight_links);
+            let is_free = router.anchors[block] != NONE;
+            budget.spend(if is_free { LINKS_WORK } else { LOOK_WORK }).await;
         }
         router
     }
 
     /// Where the body gets from a block, and where straight.
-    fn doors_of(&self, block: usize) -> (u8, u8) {
+    fn links_of(&self, block: usize) -> (u8, u8) {
         if self.anchors[block] == NONE {
             return (0, 0);
         }
-        let (mut doors, mut sights) = (0, 0);
+        let (mut links, mut straight_links) = (0, 0);
         for (number, (next, step)) in self.around(block).into_iter().enumerate() {
-            let is_ground = self.anchors.get(next).is_some_and(|anchor| *anchor != NONE);
-            if !is_ground {
+            let is_free = self.anchors.get(next).is_some_and(|anchor| *anchor != NONE);
+            if !is_free {
                 continue;
             }
             let (from, to) = (self.anchors[block] as usize, self.anchors[next] as usize);
-            if self.ground.sees(from, to) {
-                doors |= 1 << number;
-                sights |= 1 << number;
-            } else if step == STEP && self.touch(block, next) {
-                doors |= 1 << number;
+            if self.space.has_line_of_sight(from, to) {
+                links |= 1 << number;
+                straight_links |= 1 << number;
+            } else if step == STEP && self.are_adjacent(block, next) {
+                links |= 1 << number;
             }
         }
-        (doors, sights)
+        (links, straight_links)
     }
 
-    pub(crate) fn ground(&self) -> &Ground {
-        self.ground
+    pub(crate) fn space(&self) -> &ConfigurationSpace {
+        self.space
     }
 
     /// The block of a cell.
     pub(crate) fn block(&self, index: usize) -> usize {
-        let (column, row) = self.ground.place(index);
+        let (column, row) = self.space.column_and_row(index);
         row / BLOCK * self.columns + column / BLOCK
     }
 
-    pub(crate) fn spread(&self) -> Spread {
-        Spread {
+    pub(crate) fn cost_field(&self) -> CostField {
+        CostField {
             costs: vec![u32::MAX; self.anchors.len()],
             parents: vec![NONE; self.anchors.len()],
             touched: Vec::new(),
@@ -125,16 +125,16 @@ impl<'ground> Router<'ground> {
     pub(crate) async fn explore(
         &self,
         from: usize,
-        (spread, budget): (&mut Spread, &mut StepBudget),
+        (cost_field, budget): (&mut CostField, &mut StepBudget),
         mut enough: impl FnMut(usize) -> bool,
     ) {
-        spread.reset();
+        cost_field.reset();
         let start = self.block(from);
-        spread.set(start, 0, NONE);
-        let mut queue = Queue::of(start);
+        cost_field.set(start, 0, NONE);
+        let mut queue = BucketQueue::of(start);
         let mut left = 0;
         while let Some((cost, block)) = queue.pop() {
-            if cost > spread.costs[block] {
+            if cost > cost_field.costs[block] {
                 continue;
             }
             if enough(block) {
@@ -144,20 +144,20 @@ impl<'ground> Router<'ground> {
             if left % LEAVES == 0 {
                 budget.spend(LEAVE_WORK * LEAVES).await;
             }
-            self.leave(block, cost, (spread, &mut queue));
+            self.leave(block, cost, (cost_field, &mut queue));
         }
     }
 
     /// Goes to all blocks that the body gets to from one.
-    fn leave(&self, block: usize, cost: u32, (spread, queue): (&mut Spread, &mut Queue)) {
-        let doors = self.doors[block];
+    fn leave(&self, block: usize, cost: u32, (cost_field, queue): (&mut CostField, &mut BucketQueue)) {
+        let links = self.block_links[block];
         for (number, (next, step)) in self.around(block).into_iter().enumerate() {
-            if doors & 1 << number == 0 {
+            if links & 1 << number == 0 {
                 continue;
             }
             let through = cost + step;
-            if through < spread.costs[next] {
-                spread.set(next, through, block as u32);
+            if through < cost_field.costs[next] {
+                cost_field.set(next, through, block as u32);
                 queue.push(through, next);
             }
         }
@@ -178,12 +178,11 @@ impl<'ground> Router<'ground> {
     }
 
     /// Whether free cells of two blocks lie side by side.
-    fn touch(&self, block: usize, next: usize) -> bool {
+    fn are_adjacent(&self, block: usize, next: usize) -> bool {
         let (low, high) = (block.min(next), block.max(next));
         let (column, row) = (low % self.columns * BLOCK, low / self.columns * BLOCK);
-        let width = self.ground.width;
-        let free =
-            |x: usize, y: usize| x < width && y < self.ground.height && self.ground.free[y * width + x];
+        let width = self.space.width;
+        let free = |x: usize, y: usize| x < width && y < self.space.height && self.space.free[y * width + x];
         if high == low + 1 {
             let x = column + BLOCK;
             (row..row + BLOCK).any(|y| free(x - 1, y) && free(x, y))
@@ -194,12 +193,12 @@ impl<'ground> Router<'ground> {
     }
 
     /// The straightened way from the place that was explored from to `to`; both ends included.
-    pub(crate) fn way(&self, spread: &Spread, from: usize, to: usize) -> Vec<usize> {
+    pub(crate) fn path(&self, cost_field: &CostField, from: usize, to: usize) -> Vec<usize> {
         let mut blocks = vec![self.block(to)];
         while let Some(block) = blocks.last()
-            && spread.parents[*block] != NONE
+            && cost_field.parents[*block] != NONE
         {
-            blocks.push(spread.parents[*block] as usize);
+            blocks.push(cost_field.parents[*block] as usize);
         }
         blocks.reverse();
         self.straightened(&self.joined_up(&blocks, (from, to)))
@@ -213,13 +212,15 @@ impl<'ground> Router<'ground> {
         for (position, pair) in blocks.windows(2).enumerate() {
             let anchor = self.anchors[pair[1]] as usize;
             let is_seen = if position == 0 {
-                self.ground.sees(from, anchor)
+                self.space.has_line_of_sight(from, anchor)
             } else {
                 self.is_seen(pair[0], pair[1])
             };
             self.join(&mut whole, anchor, is_seen);
         }
-        let is_seen = whole.last().is_some_and(|last| self.ground.sees(*last, to));
+        let is_seen = whole
+            .last()
+            .is_some_and(|last| self.space.has_line_of_sight(*last, to));
         self.join(&mut whole, to, is_seen);
         whole
     }
@@ -236,17 +237,17 @@ impl<'ground> Router<'ground> {
     fn is_seen(&self, block: usize, next: usize) -> bool {
         let around = self.around(block);
         let number = around.iter().position(|(beside, _)| *beside == next);
-        number.is_some_and(|number| self.sights[block] & 1 << number != 0)
+        number.is_some_and(|number| self.straight_links[block] & 1 << number != 0)
     }
 
     /// Neighbouring free cells from one cell to another in the blocks around them, without the two; empty if there are none.
     fn cells_between(&self, from: usize, to: usize) -> Vec<usize> {
-        let ((x0, y0), (x1, y1)) = (self.ground.place(from), self.ground.place(to));
+        let ((x0, y0), (x1, y1)) = (self.space.column_and_row(from), self.space.column_and_row(to));
         let (low_x, high_x) = (x0.min(x1).saturating_sub(BLOCK), x0.max(x1) + BLOCK);
         let (low_y, high_y) = (y0.min(y1).saturating_sub(BLOCK), y0.max(y1) + BLOCK);
         let width = high_x - low_x + 1;
         let local = |cell: usize| {
-            let (x, y) = self.ground.place(cell);
+            let (x, y) = self.space.column_and_row(cell);
             let inside = (low_x..=high_x).contains(&x) && (low_y..=high_y).contains(&y);
             inside.then(|| (y - low_y) * width + x - low_x)
         };
@@ -256,8 +257,8 @@ impl<'ground> Router<'ground> {
             if cell == from {
                 break;
             }
-            for next in self.ground.neighbours(cell) {
-                let Some(place) = local(next).filter(|_| self.ground.free[next]) else {
+            for next in self.space.neighbours(cell) {
+                let Some(place) = local(next).filter(|_| self.space.free[next]) else {
                     continue;
                 };
                 if parents[place] == NONE && next != to {
@@ -282,24 +283,24 @@ impl<'ground> Router<'ground> {
     }
 
     fn straightened(&self, chain: &[usize]) -> Vec<usize> {
-        let mut way = Vec::new();
+        let mut path = Vec::new();
         let mut at = 0;
         while let Some(here) = chain.get(at) {
-            way.push(*here);
+            path.push(*here);
             // The farthest one in sight without a gap in between; a next one that is not in sight is taken as it is.
             let mut next = at + 1;
-            while next + 1 < chain.len() && self.ground.sees(*here, chain[next + 1]) {
+            while next + 1 < chain.len() && self.space.has_line_of_sight(*here, chain[next + 1]) {
                 next += 1;
             }
             at = next;
         }
-        way
+        path
     }
 }
 
-impl Spread {
+impl CostField {
     /// Length of the way to a block in metres; `None` when it was not reached.
-    pub(crate) fn way_m(&self, block: usize) -> Option<f64> {
+    pub(crate) fn path_m(&self, block: usize) -> Option<f64> {
         let cost = self.costs.get(block).filter(|cost| **cost != u32::MAX)?;
         Some(f64::from(*cost) / f64::from(STEP) * BLOCK as f64 * CELL_M)
     }

@@ -27,7 +27,7 @@ pub(crate) struct Situation<'step> {
     /// Deviation of the gyro's bias, rad/s; `None` = it has no gyro.
     pub(crate) gyro_bias_sigma_rad_per_s: Option<f64>,
     /// Way for which backing may still be commanded, in metres.
-    pub(crate) way_back_m: f64,
+    pub(crate) reverse_budget_m: f64,
     /// What is heard of the dock, and where it was heard.
     pub(crate) beams: &'step BeamMemory,
     pub(crate) config: &'step BrainConfig,

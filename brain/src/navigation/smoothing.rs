@@ -1,7 +1,7 @@
 //! From corners to a way that a robot drives without stopping: arcs at corners where there is room, turns on the spot
 //! where there is none.
 
-use super::configuration_space::Ground;
+use super::configuration_space::ConfigurationSpace;
 use super::heading::heading_rad;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::gradual::StepBudget;
@@ -23,7 +23,7 @@ const CORNER_WORK: usize = 300;
 
 /// A part of a way: an arc, with no turn a straight line, with no length a turn on the spot.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Piece {
+pub struct PathSegment {
     /// Where it starts, and in which direction.
     pub start: Pose2,
     /// Length in metres.
@@ -32,7 +32,7 @@ pub struct Piece {
     pub turn_rad: f64,
 }
 
-impl Piece {
+impl PathSegment {
     /// The pose after a share of it, 0..=1.
     #[must_use]
     pub fn at(&self, share: f64) -> Pose2 {
@@ -42,13 +42,13 @@ impl Piece {
 
 /// The way along `corners`, of which so many of the first are those of rings, from the heading that the robot has at the
 /// first one.
-pub(crate) async fn pieces(
+pub(crate) async fn segments(
     (corners, of_rings): (&[Point2], usize),
     heading_now_rad: f64,
-    (ground, budget): (&Ground, &mut StepBudget),
-) -> Vec<Piece> {
-    let mut maker = Maker {
-        pieces: Vec::with_capacity(2 * corners.len()),
+    (space, budget): (&ConfigurationSpace, &mut StepBudget),
+) -> Vec<PathSegment> {
+    let mut maker = SegmentBuilder {
+        segments: Vec::with_capacity(2 * corners.len()),
         pose: Pose2 {
             heading_rad: heading_now_rad,
             ..corners.first().map_or(Pose2::IDENTITY, |corner| Pose2 {
@@ -68,7 +68,7 @@ pub(crate) async fn pieces(
         };
         let cut_m = corners
             .get(position + 2)
-            .map_or(0.0, |after| cut_m([from, to, *after], (ground, most_m)));
+            .map_or(0.0, |after| cut_m([from, to, *after], (space, most_m)));
         let ahead_m = maker.pose.position().distance_m(to) - cut_m;
         maker.add(ahead_m.max(0.0), 0.0);
         if let Some(after) = corners.get(position + 2)
@@ -80,15 +80,15 @@ pub(crate) async fn pieces(
         }
         budget.spend(CORNER_WORK).await;
     }
-    maker.pieces
+    maker.segments
 }
 
-struct Maker {
-    pieces: Vec<Piece>,
+struct SegmentBuilder {
+    segments: Vec<PathSegment>,
     pose: Pose2,
 }
 
-impl Maker {
+impl SegmentBuilder {
     fn turn_to(&mut self, heading_rad: f64) {
         let turn_rad = normalize_rad(heading_rad - self.pose.heading_rad);
         if turn_rad.abs() > SLIGHT_RAD {
@@ -101,18 +101,18 @@ impl Maker {
         if length_m <= 0.0 && turn_rad == 0.0 {
             return;
         }
-        let piece = Piece {
+        let segment = PathSegment {
             start: self.pose,
             length_m,
             turn_rad,
         };
-        self.pose = piece.at(1.0);
-        self.pieces.push(piece);
+        self.pose = segment.at(1.0);
+        self.segments.push(segment);
     }
 }
 
 /// How much of the straights before and after a corner an arc may take, up to `most_m`; 0 = turn on the spot.
-fn cut_m([before, corner, after]: [Point2; 3], (ground, most_m): (&Ground, f64)) -> f64 {
+fn cut_m([before, corner, after]: [Point2; 3], (space, most_m): (&ConfigurationSpace, f64)) -> f64 {
     let turn_rad = normalize_rad(heading_rad(corner, after) - heading_rad(before, corner)).abs();
     if !(0.1..SHARP_RAD).contains(&turn_rad) {
         return 0.0;
@@ -124,7 +124,7 @@ fn cut_m([before, corner, after]: [Point2; 3], (ground, most_m): (&Ground, f64))
     while cut_m >= least_m {
         let start = between(corner, before, cut_m / behind_m);
         let end = between(corner, after, cut_m / ahead_m);
-        if ground.sees_points(start, end) {
+        if space.has_line_of_sight_between(start, end) {
             return cut_m;
         }
         cut_m *= 0.5;

@@ -12,12 +12,12 @@ use crate::model::swept_share::SweptShare;
 
 /// What a task may use besides its eyes.
 #[derive(Debug)]
-pub(crate) struct Mind {
+pub(crate) struct TaskContext {
     pub(crate) random: Random,
     pub(crate) journal: Vec<Decision>,
 }
 
-impl Mind {
+impl TaskContext {
     pub(crate) fn decide(&mut self, what: &'static str, reason: Reason, value: f64) {
         self.journal.push(Decision {
             what,
@@ -29,7 +29,7 @@ impl Mind {
 
 /// What a task wants.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Plan {
+pub(crate) enum TaskStatus {
     /// Move so.
     Go(Motion),
     /// It cannot go on by its own means: the recovery ladder's turn.
@@ -42,13 +42,13 @@ pub(crate) enum Plan {
 /// implementation and a new [`crate::StrategyName`].
 pub(crate) trait Task: Debug + Send {
     /// What to do now. A task never asks to drive towards a pressed bumper or a cliff.
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan;
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus;
 
     /// The robot was moved by somebody else (a person, the recovery ladder) or stood still: half-done manoeuvres are void.
     fn interrupted(&mut self);
 
     /// Corners of the way that it means to drive from here on, for people who look; none where it decides as it goes.
-    fn way(&self) -> Vec<Point2> {
+    fn planned_path(&self) -> Vec<Point2> {
         Vec::new()
     }
 

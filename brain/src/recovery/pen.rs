@@ -76,7 +76,7 @@ impl Pen {
     }
 
     /// The robot is penned, and tries to get out.
-    pub(crate) fn climb(&mut self, place: Point2) {
+    pub(crate) fn begin_recovery(&mut self, place: Point2) {
         self.troubled_at.get_or_insert(place);
     }
 
@@ -118,7 +118,7 @@ mod tests {
         }
         pen.follow(at(0.0), 1.0);
         assert!(pen.is_due());
-        pen.climb(at(0.5));
+        pen.begin_recovery(at(0.5));
         pen.try_again();
         assert!(!pen.is_due());
         (0..45).for_each(|_| {

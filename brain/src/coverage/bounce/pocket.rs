@@ -4,9 +4,9 @@ use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
 
 /// A run below this is short.
-const SHORT_RUN_M: f64 = 0.25;
+const SHORT_M: f64 = 0.25;
 /// A run above this leads out of the pocket.
-const FREE_RUN_M: f64 = 0.6;
+const FREE_M: f64 = 0.6;
 /// Short runs until the robot feels its way along the edge.
 const EDGE_AFTER: u32 = 3;
 /// Short runs until it scans round for an opening.
@@ -21,13 +21,13 @@ const SCAN_BACK_M: f64 = 0.08;
 /// What the last runs tell about the place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pocket {
-    short_runs: u32,
+    short_straights: u32,
     side: Option<TurnSide>,
 }
 
 /// How to behave in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum PocketKind {
     /// No pocket.
     Open,
     /// Narrow: small turns away from each contact follow the edge out.
@@ -38,12 +38,12 @@ enum Place {
 
 impl Pocket {
     /// Notes an encounter after a run, and the side that would be turned to in the open.
-    pub(super) fn enter(&mut self, run_m: f64, side: TurnSide) {
-        if run_m > FREE_RUN_M {
+    pub(super) fn enter(&mut self, straight_m: f64, side: TurnSide) {
+        if straight_m > FREE_M {
             *self = Self::default();
-        } else if run_m < SHORT_RUN_M {
-            self.short_runs += 1;
-            if self.place() == Place::Cage {
+        } else if straight_m < SHORT_M {
+            self.short_straights += 1;
+            if self.kind() == PocketKind::Cage {
                 self.side.get_or_insert(side);
             }
         }
@@ -56,7 +56,7 @@ impl Pocket {
 
     /// Way back for the next evasion.
     pub(super) fn back_m(&self) -> f64 {
-        if self.place() == Place::Cage {
+        if self.kind() == PocketKind::Cage {
             SCAN_BACK_M
         } else {
             BACK_M
@@ -65,30 +65,30 @@ impl Pocket {
 
     /// Range of the next turn in radians. Head-on a turn must be larger to come free than after a touch on one side.
     pub(super) fn turn_range_rad(&self, met: Reason) -> (f64, f64) {
-        match (self.place(), met) {
-            (Place::Open, Reason::BumpFront) => (1.3, 3.1),
-            (Place::Open, _) => (0.7, 2.6),
-            (Place::Edge, Reason::BumpFront) => (0.8, 1.8),
-            (Place::Edge, _) => (0.15, 0.6),
-            (Place::Cage, _) => (0.4, 1.4),
+        match (self.kind(), met) {
+            (PocketKind::Open, Reason::BumpFront) => (1.3, 3.1),
+            (PocketKind::Open, _) => (0.7, 2.6),
+            (PocketKind::Edge, Reason::BumpFront) => (0.8, 1.8),
+            (PocketKind::Edge, _) => (0.15, 0.6),
+            (PocketKind::Cage, _) => (0.4, 1.4),
         }
     }
 
     /// Whether it is none.
     pub(super) fn is_open(&self) -> bool {
-        self.place() == Place::Open
+        self.kind() == PocketKind::Open
     }
 
     /// Whether nothing helped.
     pub(super) fn is_closed(&self) -> bool {
-        self.short_runs >= CLOSED_AFTER
+        self.short_straights >= CLOSED_AFTER
     }
 
-    fn place(&self) -> Place {
-        match self.short_runs {
-            0..EDGE_AFTER => Place::Open,
-            EDGE_AFTER..SCAN_AFTER => Place::Edge,
-            _ => Place::Cage,
+    fn kind(&self) -> PocketKind {
+        match self.short_straights {
+            0..EDGE_AFTER => PocketKind::Open,
+            EDGE_AFTER..SCAN_AFTER => PocketKind::Edge,
+            _ => PocketKind::Cage,
         }
     }
 }

@@ -8,11 +8,11 @@ use core::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::bit_grid::BitGrid;
+use super::free_strips::{FreeStrip, FreeStrips};
 use super::settings::PlanSettings;
-use super::stretches::{Stretch, Stretches};
 use crate::mapping::CELL_M;
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::{Axis, Ground};
+use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
 /// Cells that one edge less of border is worth.
 const BORDER_CELLS: i16 = 1;
@@ -38,14 +38,14 @@ pub(super) struct Lane {
 }
 
 /// Chooses lanes and closes the floor that they sweep.
-pub(super) struct Picker<'ground> {
-    ground: &'ground mut Ground,
+pub(super) struct Picker<'space> {
+    space: &'space mut ConfigurationSpace,
     bits: [BitGrid; 2],
-    window: Window,
+    masks: GainMasks,
     /// What sweeping each place of a lane gains, in cells; the places along a line lie side by side.
     gains: [Vec<i16>; 2],
-    stretches: Stretches,
-    queue: BinaryHeap<Candidate>,
+    strips: FreeStrips,
+    queue: BinaryHeap<LaneCandidate>,
     cell_s: f64,
     enter_s: f64,
     disc: Vec<(isize, usize)>,
@@ -53,40 +53,40 @@ pub(super) struct Picker<'ground> {
 
 /// The best lane of one stretch.
 #[derive(Clone, Copy, Debug)]
-struct Candidate {
+struct LaneCandidate {
     /// Gain for each second.
     rate: f64,
-    stretch: usize,
+    strip: usize,
     /// First and last place along the line.
     span: (usize, usize),
     version: u32,
 }
 
-impl<'ground> Picker<'ground> {
+impl<'space> Picker<'space> {
     pub(super) async fn new(
-        ground: &'ground mut Ground,
+        space: &'space mut ConfigurationSpace,
         settings: &PlanSettings,
         budget: &mut StepBudget,
     ) -> Self {
-        let cells = ground.free.len();
+        let cells = space.free.len();
         let mut picker = Self {
             bits: [
-                BitGrid::of_open(ground, Axis::X, budget).await,
-                BitGrid::of_open(ground, Axis::Y, budget).await,
+                BitGrid::of_open(space, Axis::X, budget).await,
+                BitGrid::of_open(space, Axis::Y, budget).await,
             ],
-            window: Window::new(ground.reach),
+            masks: GainMasks::new(space.reach),
             gains: [vec![0; cells], vec![0; cells]],
-            stretches: Stretches::of(ground, budget).await,
+            strips: FreeStrips::of(space, budget).await,
             queue: BinaryHeap::new(),
             cell_s: CELL_M / settings.cruise_m_per_s,
             enter_s: ENTER_RAD / settings.turn_rad_per_s,
-            disc: ground.disc(),
-            ground,
+            disc: space.disc(),
+            space,
         };
-        for number in 0..picker.stretches.all.len() {
-            let stretch = picker.stretches.all[number];
-            picker.weigh(stretch.axis, stretch.line, (stretch.first, stretch.last));
-            budget.spend(WEIGH_WORK * stretch.places()).await;
+        for number in 0..picker.strips.all.len() {
+            let strip = picker.strips.all[number];
+            picker.weigh(strip.axis, strip.line, (strip.first, strip.last));
+            budget.spend(WEIGH_WORK * strip.places()).await;
         }
         picker
     }
@@ -101,38 +101,35 @@ impl<'ground> Picker<'ground> {
     }
 
     async fn round(&mut self, share: f64, budget: &mut StepBudget) -> Vec<Lane> {
-        let full = (2 * self.ground.reach + 1) as f64 / self.cell_s;
+        let full = (2 * self.space.reach + 1) as f64 / self.cell_s;
         let least = share * full;
         self.queue.clear();
-        for number in 0..self.stretches.all.len() {
+        for number in 0..self.strips.all.len() {
             self.offer(number, least);
-            budget
-                .spend(LOOK_WORK * self.stretches.all[number].places())
-                .await;
+            budget.spend(LOOK_WORK * self.strips.all[number].places()).await;
         }
         let mut lanes = Vec::new();
         while let Some(candidate) = self.next(least, budget).await {
-            let stretch = self.stretches.all[candidate.stretch];
-            lanes.push(self.take(&stretch, candidate.span, budget).await);
-            self.refresh(&stretch, candidate.span, (least, &mut *budget))
-                .await;
+            let strip = self.strips.all[candidate.strip];
+            lanes.push(self.take(&strip, candidate.span, budget).await);
+            self.refresh(&strip, candidate.span, (least, &mut *budget)).await;
         }
         lanes
     }
 
     /// The best candidate whose figures are of now.
-    async fn next(&mut self, least: f64, budget: &mut StepBudget) -> Option<Candidate> {
+    async fn next(&mut self, least: f64, budget: &mut StepBudget) -> Option<LaneCandidate> {
         while let Some(old) = self.queue.pop() {
-            let stretch = &mut self.stretches.all[old.stretch];
-            if old.version != stretch.version {
+            let strip = &mut self.strips.all[old.strip];
+            if old.version != strip.version {
                 continue;
             }
-            if !stretch.is_changed {
+            if !strip.is_changed {
                 return Some(old);
             }
-            stretch.is_changed = false;
-            budget.spend(LOOK_WORK * stretch.places()).await;
-            let Some(now) = self.best_of(old.stretch, least) else {
+            strip.is_changed = false;
+            budget.spend(LOOK_WORK * strip.places()).await;
+            let Some(now) = self.best_of(old.strip, least) else {
                 continue;
             };
             if self.queue.peek().is_none_or(|second| second.rate <= now.rate) {
@@ -146,13 +143,13 @@ impl<'ground> Picker<'ground> {
     /// Closes the floor that a lane sweeps.
     async fn take(
         &mut self,
-        stretch: &Stretch,
+        strip: &FreeStrip,
         (first, last): (usize, usize),
         budget: &mut StepBudget,
     ) -> Lane {
-        let index = |along: usize| match stretch.axis {
-            Axis::X => stretch.line * self.ground.width + along,
-            Axis::Y => along * self.ground.width + stretch.line,
+        let index = |along: usize| match strip.axis {
+            Axis::X => strip.line * self.space.width + along,
+            Axis::Y => along * self.space.width + strip.line,
         };
         let (from, to, step) = (index(first), index(last), index(1) - index(0));
         let mut swept = 0;
@@ -168,12 +165,12 @@ impl<'ground> Picker<'ground> {
         let mut closed = 0;
         for position in 0..self.disc.len() {
             let (row, half) = self.disc[position];
-            let centre = self.ground.shifted(index, row);
+            let centre = self.space.shifted(index, row);
             for cell in centre - half..=centre + half {
-                if self.ground.open[cell] {
-                    self.ground.open[cell] = false;
+                if self.space.open[cell] {
+                    self.space.open[cell] = false;
                     closed += 1;
-                    let (column, row) = self.ground.place(cell);
+                    let (column, row) = self.space.column_and_row(cell);
                     self.bits[Axis::X as usize].clear(column, row);
                     self.bits[Axis::Y as usize].clear(row, column);
                 }
@@ -186,11 +183,11 @@ impl<'ground> Picker<'ground> {
     /// beside it and beyond its ends; those that lost are found out when their turn comes.
     async fn refresh(
         &mut self,
-        taken: &Stretch,
+        taken: &FreeStrip,
         (first, last): (usize, usize),
         (least, budget): (f64, &mut StepBudget),
     ) {
-        let reach = self.ground.reach;
+        let reach = self.space.reach;
         let around = 2 * reach + 2;
         let (low, high) = (first.saturating_sub(around), last + around);
         for line in taken.line.saturating_sub(around)..=taken.line + around {
@@ -213,20 +210,20 @@ impl<'ground> Picker<'ground> {
         offer: Option<f64>,
     ) -> usize {
         let mut work = 0;
-        for number in self.stretches.on(axis, line) {
-            let stretch = self.stretches.all[number];
-            if stretch.last < low || stretch.first > high {
+        for number in self.strips.on(axis, line) {
+            let strip = self.strips.all[number];
+            if strip.last < low || strip.first > high {
                 continue;
             }
-            let span = (stretch.first.max(low), stretch.last.min(high));
+            let span = (strip.first.max(low), strip.last.min(high));
             self.weigh(axis, line, span);
             work += WEIGH_WORK * (span.1 + 1 - span.0);
             match offer {
                 Some(least) => {
                     self.offer(number, least);
-                    work += LOOK_WORK * stretch.places();
+                    work += LOOK_WORK * strip.places();
                 }
-                None => self.stretches.all[number].is_changed = true,
+                None => self.strips.all[number].is_changed = true,
             }
         }
         work
@@ -235,34 +232,34 @@ impl<'ground> Picker<'ground> {
     /// Finds what the places of a line gain.
     fn weigh(&mut self, axis: Axis, line: usize, (first, last): (usize, usize)) {
         let bits = &self.bits[axis as usize];
-        let low = line - self.ground.reach - 1;
-        let start = line * self.ground.length(axis);
+        let low = line - self.space.reach - 1;
+        let start = line * self.space.length(axis);
         let mut ahead = bits.window(first, low);
         for along in first..=last {
             let here = ahead;
             ahead = bits.window(along + 1, low);
-            self.gains[axis as usize][start + along] = self.window.gain(here, ahead);
+            self.gains[axis as usize][start + along] = self.masks.gain(here, ahead);
         }
     }
 
     fn offer(&mut self, number: usize, least: f64) {
-        let stretch = &mut self.stretches.all[number];
-        stretch.version += 1;
-        stretch.is_changed = false;
+        let strip = &mut self.strips.all[number];
+        strip.version += 1;
+        strip.is_changed = false;
         if let Some(candidate) = self.best_of(number, least) {
             self.queue.push(candidate);
         }
     }
 
     /// The lane of a stretch with most gain beyond `least` for each second.
-    fn best_of(&self, number: usize, least: f64) -> Option<Candidate> {
-        let stretch = &self.stretches.all[number];
-        let start = stretch.line * self.ground.length(stretch.axis);
+    fn best_of(&self, number: usize, least: f64) -> Option<LaneCandidate> {
+        let strip = &self.strips.all[number];
+        let start = strip.line * self.space.length(strip.axis);
         let cost = least * self.cell_s;
         let (mut most, mut best) = (least * self.enter_s, None);
-        let (mut profit, mut gain, mut first) = (0.0, 0, stretch.first);
-        let gains = &self.gains[stretch.axis as usize][start + stretch.first..=start + stretch.last];
-        for (along, more) in (stretch.first..).zip(gains) {
+        let (mut profit, mut gain, mut first) = (0.0, 0, strip.first);
+        let gains = &self.gains[strip.axis as usize][start + strip.first..=start + strip.last];
+        for (along, more) in (strip.first..).zip(gains) {
             gain += i32::from(*more);
             profit += f64::from(*more) - cost;
             if profit <= 0.0 {
@@ -274,23 +271,23 @@ impl<'ground> Picker<'ground> {
         }
         let (gain, span) = best?;
         let cells = (span.1 - span.0 + 1) as f64;
-        Some(Candidate {
+        Some(LaneCandidate {
             rate: f64::from(gain) / (cells * self.cell_s + self.enter_s),
-            stretch: number,
+            strip: number,
             span,
-            version: stretch.version,
+            version: strip.version,
         })
     }
 }
 
 /// Masks for the cells across a lane; bit 0 lies just beside the swath.
-struct Window {
+struct GainMasks {
     swath: u64,
     pairs: u64,
     sides: u64,
 }
 
-impl Window {
+impl GainMasks {
     fn new(reach: usize) -> Self {
         let swath = ((1_u64 << (2 * reach + 1)) - 1) << 1;
         Self {
@@ -314,25 +311,25 @@ impl Window {
     }
 }
 
-impl PartialEq for Candidate {
+impl PartialEq for LaneCandidate {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Candidate {}
+impl Eq for LaneCandidate {}
 
-impl PartialOrd for Candidate {
+impl PartialOrd for LaneCandidate {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Candidate {
+impl Ord for LaneCandidate {
     fn cmp(&self, other: &Self) -> Ordering {
         self.rate
             .total_cmp(&other.rate)
-            .then_with(|| other.stretch.cmp(&self.stretch))
+            .then_with(|| other.strip.cmp(&self.strip))
             .then_with(|| self.version.cmp(&other.version))
     }
 }

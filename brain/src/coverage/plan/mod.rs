@@ -9,10 +9,10 @@
 
 mod bit_grid;
 mod contour;
-mod course;
+mod free_strips;
 mod lanes;
 mod settings;
-mod stretches;
+mod sweep_pattern;
 mod timing;
 mod tour;
 
@@ -20,16 +20,16 @@ use crate::mapping::{CELL_M, Cell, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{StepBudget, at_once};
 use crate::model::room_settings::Pattern;
-pub use crate::navigation::Piece;
-use crate::navigation::configuration_space::Ground;
+pub use crate::navigation::PathSegment;
+use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::router::Router;
 use crate::navigation::smoothing;
-use contour::{RingFloor, ring_way};
-pub(crate) use course::Course;
+use contour::{RingFloor, ring_path};
 use lanes::Picker;
 pub use settings::PlanSettings;
 pub(crate) use settings::{Departure, reach_cells};
+pub(crate) use sweep_pattern::SweepPattern;
 use tour::Tour;
 
 /// A way to drive.
@@ -38,7 +38,7 @@ pub struct CoveragePlan {
     /// Corners of the way in the map frame.
     pub corners: Vec<Point2>,
     /// The way along them, with arcs where there is room.
-    pub pieces: Vec<Piece>,
+    pub segments: Vec<PathSegment>,
     /// Lanes in it.
     pub lanes: usize,
     /// Floor that the ground offers to the swath, in square metres.
@@ -77,8 +77,8 @@ impl CoveragePlan {
         for corner in &mut self.corners {
             *corner = frame.point_in_map(*corner);
         }
-        for piece in &mut self.pieces {
-            piece.start = frame.in_map() * piece.start;
+        for segment in &mut self.segments {
+            segment.start = frame.in_map() * segment.start;
         }
         self
     }
@@ -108,10 +108,10 @@ pub fn plan_pattern(
         start,
         settings: *settings,
     };
-    let course = |_| Some(Course::from(pattern));
+    let pattern = |_| Some(SweepPattern::from(pattern));
     at_once(plan_area(
         reachable,
-        (course, swept),
+        (pattern, swept),
         from,
         &mut StepBudget::unlimited(),
     ))
@@ -121,35 +121,35 @@ pub fn plan_pattern(
 /// Floor with rings comes first.
 pub(crate) async fn plan_area(
     reachable: &Raster<bool>,
-    (course, swept): (impl Fn(Cell) -> Option<Course>, impl Fn(Cell) -> bool),
+    (pattern, swept): (impl Fn(Cell) -> Option<SweepPattern>, impl Fn(Cell) -> bool),
     departure: Departure,
     budget: &mut StepBudget,
 ) -> CoveragePlan {
     let Departure { start, settings } = &departure;
-    let mut ground = Ground::new(reachable, reach_cells(settings), budget).await;
-    let Some(origin) = ground.origin_near(start.position(), budget).await else {
+    let mut space = ConfigurationSpace::new(reachable, reach_cells(settings), budget).await;
+    let Some(origin) = space.origin_near(start.position(), budget).await else {
         return CoveragePlan::default();
     };
-    ground.keep_connected(origin, budget).await;
-    ground.close(|cell| course(cell).is_none(), budget).await;
-    let floor = ground.open_count();
-    let ring_floor = RingFloor::of(&ground, course, budget).await;
-    ground.close(swept, budget).await;
-    let open = ground.open_count();
+    space.keep_connected(origin, budget).await;
+    space.close(|cell| pattern(cell).is_none(), budget).await;
+    let floor = space.open_count();
+    let ring_floor = RingFloor::of(&space, pattern, budget).await;
+    space.close(swept, budget).await;
+    let open = space.open_count();
     let rings = match &ring_floor {
-        Some(floor) => Some(ring_way(&ground, floor, (&departure, origin), budget).await),
+        Some(floor) => Some(ring_path(&space, floor, (&departure, origin), budget).await),
         None => None,
     };
-    let (mut corners, runs, (from, heading_rad)) = match rings {
-        Some(way) => {
-            ground.open = way.open;
-            (way.corners, way.runs, way.end)
+    let (mut corners, ring_sections, (from, heading_rad)) = match rings {
+        Some(path) => {
+            space.open = path.open;
+            (path.corners, path.sections, path.end)
         }
         None => (Vec::new(), 0, (origin, start.heading_rad)),
     };
-    let mut picker = Picker::new(&mut ground, settings, budget).await;
+    let mut picker = Picker::new(&mut space, settings, budget).await;
     let rounds = picker.rounds(budget).await;
-    let router = Router::new(&ground, budget).await;
+    let router = Router::new(&space, budget).await;
     let start_of_lanes = Pose2 {
         heading_rad,
         ..*start
@@ -160,15 +160,15 @@ pub(crate) async fn plan_area(
     corners.pop();
     let of_rings = corners.len();
     corners.extend(tour.corners(budget).await);
-    let pieces = smoothing::pieces((&corners, of_rings), start.heading_rad, (&ground, budget)).await;
+    let segments = smoothing::segments((&corners, of_rings), start.heading_rad, (&space, budget)).await;
     CoveragePlan {
-        time_s: pieces.iter().map(|piece| settings.time_s(piece)).sum(),
+        time_s: segments.iter().map(|segment| settings.time_s(segment)).sum(),
         corners,
-        pieces,
-        lanes: runs + rounds.iter().map(Vec::len).sum::<usize>(),
+        segments,
+        lanes: ring_sections + rounds.iter().map(Vec::len).sum::<usize>(),
         floor_m2: floor as f64 * CELL_M * CELL_M,
         open_m2: open as f64 * CELL_M * CELL_M,
-        left_m2: ground.open_count() as f64 * CELL_M * CELL_M,
+        left_m2: space.open_count() as f64 * CELL_M * CELL_M,
     }
 }
 
@@ -178,11 +178,11 @@ pub(crate) async fn floor_in_reach(
     departure: &Departure,
     budget: &mut StepBudget,
 ) -> Raster<bool> {
-    let mut ground = Ground::new(reachable, reach_cells(&departure.settings), budget).await;
-    let mut floor = Raster::filled(ground.cell(0), ground.width, ground.height, false);
-    if let Some(origin) = ground.origin_near(departure.start.position(), budget).await {
-        ground.keep_connected(origin, budget).await;
-        floor.values_mut().copy_from_slice(&ground.open);
+    let mut space = ConfigurationSpace::new(reachable, reach_cells(&departure.settings), budget).await;
+    let mut floor = Raster::filled(space.cell(0), space.width, space.height, false);
+    if let Some(origin) = space.origin_near(departure.start.position(), budget).await {
+        space.keep_connected(origin, budget).await;
+        floor.values_mut().copy_from_slice(&space.open);
     }
     floor
 }
@@ -191,7 +191,7 @@ pub(crate) async fn floor_in_reach(
 mod tests {
     use super::CoveragePlan;
     use crate::model::geometry::{Point2, Pose2};
-    use crate::navigation::Piece;
+    use crate::navigation::PathSegment;
     use crate::navigation::lane_frame::LaneFrame;
 
     #[test]
@@ -203,20 +203,23 @@ mod tests {
             y_m: at.y_m,
             heading_rad: 3.0,
         };
-        let piece = Piece {
+        let segment = PathSegment {
             start: frame.pose(pose),
             length_m: 0.5,
             turn_rad: 0.2,
         };
         let plan = CoveragePlan {
             corners: vec![frame.point(at)],
-            pieces: vec![piece],
+            segments: vec![segment],
             ..CoveragePlan::default()
         };
         let there = plan.in_map(&frame);
         assert!(there.corners[0].distance_m(at) < 1e-12);
-        let start = there.pieces[0].start;
+        let start = there.segments[0].start;
         assert!(start.position().distance_m(at) < 1e-12 && (start.heading_rad - 3.0).abs() < 1e-12);
-        assert_eq!((there.pieces[0].length_m, there.pieces[0].turn_rad), (0.5, 0.2));
+        assert_eq!(
+            (there.segments[0].length_m, there.segments[0].turn_rad),
+            (0.5, 0.2)
+        );
     }
 }

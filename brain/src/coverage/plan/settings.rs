@@ -2,7 +2,7 @@
 
 use crate::mapping::CELL_M;
 use crate::model::geometry::Pose2;
-use crate::navigation::Piece;
+use crate::navigation::PathSegment;
 
 /// What a plan depends on besides the ground.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,8 +23,8 @@ pub struct PlanSettings {
 impl PlanSettings {
     /// Time of a piece at cruise speed, or as long as the turn takes.
     #[must_use]
-    pub fn time_s(&self, piece: &Piece) -> f64 {
-        (piece.length_m / self.cruise_m_per_s).max(piece.turn_rad.abs() / self.turn_rad_per_s)
+    pub fn time_s(&self, segment: &PathSegment) -> f64 {
+        (segment.length_m / self.cruise_m_per_s).max(segment.turn_rad.abs() / self.turn_rad_per_s)
     }
 }
 

@@ -1,20 +1,20 @@
 //! What driving and turning on a way take.
 
 use super::settings::PlanSettings;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::heading::{heading_rad, turn_rad};
 
 /// Time of a way over cells that starts in one direction and ends against the direction of leaving its other end.
-pub(super) fn way_s(
-    ground: &Ground,
-    way: &[usize],
+pub(super) fn path_s(
+    space: &ConfigurationSpace,
+    path: &[usize],
     (out_rad, back_rad): (Option<f64>, Option<f64>),
     settings: &PlanSettings,
 ) -> f32 {
     let mut heading = out_rad;
     let (mut length_m, mut turned_rad) = (0.0, 0.0);
-    for pair in way.windows(2).filter(|pair| pair[0] != pair[1]) {
-        let (from, to) = (ground.point(pair[0]), ground.point(pair[1]));
+    for pair in path.windows(2).filter(|pair| pair[0] != pair[1]) {
+        let (from, to) = (space.point(pair[0]), space.point(pair[1]));
         let next = heading_rad(from, to);
         turned_rad += heading.map_or(0.0, |now| turn_rad(now, next));
         heading = Some(next);

@@ -6,12 +6,12 @@
 
 use super::lanes::Lane;
 use super::settings::PlanSettings;
-use super::timing::way_s;
+use super::timing::path_s;
 use crate::mapping::CELL_M;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
-use crate::navigation::router::{Router, Spread};
+use crate::navigation::router::{CostField, Router};
 
 /// Nearest ends to which the way is really looked for; ways to others are guessed.
 const NEAR_ENDS: usize = 20;
@@ -29,7 +29,7 @@ const TAKE_ALONG_SHARE: f64 = 0.2;
 const TAKE_ALONG_PASSES: usize = 4;
 /// Work of a guess, of the search for a way beyond that for its end, and of comparing two orders of lanes.
 const GUESS_WORK: usize = 5;
-const WAY_WORK: usize = 3_000;
+const PATH_WORK: usize = 3_000;
 const COMPARE_WORK: usize = 3;
 
 /// A lane and the end at which it is entered (0 = `from`, 1 = `to`).
@@ -138,7 +138,7 @@ impl<'plan> Tour<'plan> {
 
     /// Time that a lane is worth on the way.
     fn worth_s(&self, lane: usize) -> f64 {
-        let width = (2 * self.router.ground().reach + 1) as f64;
+        let width = (2 * self.router.space().reach + 1) as f64;
         let cells_per_s = width * self.settings.cruise_m_per_s / CELL_M;
         self.lanes[lane].swept as f64 / (TAKE_ALONG_SHARE * cells_per_s)
     }
@@ -149,7 +149,7 @@ impl<'plan> Tour<'plan> {
     }
 
     fn point(&self, cell: usize) -> Point2 {
-        self.router.ground().point(cell)
+        self.router.space().point(cell)
     }
 
     /// Direction in which the robot leaves its lane at this end.
@@ -189,28 +189,31 @@ impl<'plan> Tour<'plan> {
             .map(|(end, cell)| (self.router.block(*cell), end))
             .collect();
         at_block.sort_unstable();
-        let mut spread = self.router.spread();
+        let mut cost_field = self.router.cost_field();
         let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
             let out = (!self.is_point(a)).then(|| self.out_rad(a));
-            for b in self.near(cells[a], &at_block, (&mut spread, &mut *budget)).await {
+            for b in self
+                .near(cells[a], &at_block, (&mut cost_field, &mut *budget))
+                .await
+            {
                 // The way back is as long; it was looked for already if the other end found this one.
                 if b / 2 == a / 2 || is_known[b * ends + a] {
                     continue;
                 }
                 is_known[a * ends + b] = true;
-                let way = self.router.way(&spread, cells[a], cells[b]);
+                let path = self.router.path(&cost_field, cells[a], cells[b]);
                 let back = (!self.is_point(b)).then(|| self.out_rad(b));
-                let seconds = self.way_s(&way, out, back);
+                let seconds = self.path_s(&path, out, back);
                 costs.seconds[a * ends + b] = seconds;
                 costs.seconds[b * ends + a] = seconds;
-                budget.spend(WAY_WORK).await;
+                budget.spend(PATH_WORK).await;
             }
         }
-        for b in self.near(from, &at_block, (&mut spread, &mut *budget)).await {
-            let way = self.router.way(&spread, from, cells[b]);
-            costs.first[b] = self.way_s(&way, Some(direction_rad), Some(self.out_rad(b)));
-            budget.spend(WAY_WORK).await;
+        for b in self.near(from, &at_block, (&mut cost_field, &mut *budget)).await {
+            let path = self.router.path(&cost_field, from, cells[b]);
+            costs.first[b] = self.path_s(&path, Some(direction_rad), Some(self.out_rad(b)));
+            budget.spend(PATH_WORK).await;
         }
         costs
     }
@@ -225,7 +228,7 @@ impl<'plan> Tour<'plan> {
         &self,
         from: usize,
         at_block: &[(usize, usize)],
-        (spread, budget): (&mut Spread, &mut StepBudget),
+        (cost_field, budget): (&mut CostField, &mut StepBudget),
     ) -> Vec<usize> {
         let mut found = Vec::with_capacity(NEAR_ENDS + 8);
         let enough = |block| {
@@ -238,17 +241,17 @@ impl<'plan> Tour<'plan> {
             );
             found.len() >= NEAR_ENDS
         };
-        self.router.explore(from, (spread, budget), enough).await;
+        self.router.explore(from, (cost_field, budget), enough).await;
         found
     }
 
-    fn way_s(&self, way: &[usize], out_rad: Option<f64>, back_rad: Option<f64>) -> f32 {
-        way_s(self.router.ground(), way, (out_rad, back_rad), self.settings)
+    fn path_s(&self, path: &[usize], out_rad: Option<f64>, back_rad: Option<f64>) -> f32 {
+        path_s(self.router.space(), path, (out_rad, back_rad), self.settings)
     }
 
     /// The corners of the whole way.
     pub(super) async fn corners(&self, budget: &mut StepBudget) -> Vec<Point2> {
-        let mut spread = self.router.spread();
+        let mut cost_field = self.router.cost_field();
         let mut corners = vec![self.point(self.start_cell)];
         let mut at = self.start_cell;
         let mut push = |cell: usize| {
@@ -262,14 +265,14 @@ impl<'plan> Tour<'plan> {
             let goal = self.router.block(enter);
             let is_there = |block| block == goal;
             self.router
-                .explore(at, (&mut spread, &mut *budget), is_there)
+                .explore(at, (&mut cost_field, &mut *budget), is_there)
                 .await;
-            for cell in self.router.way(&spread, at, enter) {
+            for cell in self.router.path(&cost_field, at, enter) {
                 push(cell);
             }
             push(leave);
             at = leave;
-            budget.spend(WAY_WORK).await;
+            budget.spend(PATH_WORK).await;
         }
         corners
     }
@@ -426,7 +429,7 @@ mod tests {
     use crate::mapping::{Cell, Raster};
     use crate::model::geometry::Pose2;
     use crate::model::gradual::{StepBudget, at_once};
-    use crate::navigation::configuration_space::Ground;
+    use crate::navigation::configuration_space::ConfigurationSpace;
 
     /// Lanes without length at these places of a line; the start is at 0.
     fn costs(places: &[f32]) -> Costs {
@@ -465,17 +468,17 @@ mod tests {
         let hall = Raster::filled(Cell { x: 0, y: 0 }, 400, 80, true);
         let budget = &mut StepBudget::unlimited();
         at_once(async {
-            let mut ground = Ground::new(&hall, 5, budget).await;
+            let mut space = ConfigurationSpace::new(&hall, 5, budget).await;
             let start = Pose2 {
                 x_m: 0.3,
                 y_m: 0.3,
                 heading_rad: 0.0,
             };
-            let origin = ground.origin_near(start.position(), budget).await.unwrap();
-            ground.keep_connected(origin, budget).await;
-            let router = Router::new(&ground, budget).await;
+            let origin = space.origin_near(start.position(), budget).await.unwrap();
+            space.keep_connected(origin, budget).await;
+            let router = Router::new(&space, budget).await;
             let lane = |column: usize, row: usize, swept: usize| {
-                let from = origin + column + row * ground.width;
+                let from = origin + column + row * space.width;
                 Lane {
                     from,
                     to: from + 20,

@@ -11,7 +11,7 @@ use crate::model::swept_share::SweptShare;
 /// decimetres.
 pub(super) const KNOWN_S: u32 = 1_200;
 /// Before it has swept for this time it tells nothing, seconds: it has been in a part of the home and would take that for all of it.
-const TELLING_S: f64 = KNOWN_S as f64;
+const ESTIMATE_AFTER_S: f64 = KNOWN_S as f64;
 /// Floors of which one is looked for, square metres.
 const FLOOR_M2: (f64, f64) = (1.0, 1_000.0);
 /// Halvings of these: they leave less than a square centimetre.
@@ -27,11 +27,11 @@ const SLOWING: f64 = 0.7;
 
 /// What was counted on the way.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
+pub(super) struct NoveltyCount {
     /// Way that was swept before the count began, metres.
     pub(super) before_m: f64,
     /// Way since then, metres.
-    pub(super) way_m: f64,
+    pub(super) driven_m: f64,
     /// Time that this took, seconds.
     pub(super) time_s: f64,
     /// Places that were looked at on it, and those of them that were new.
@@ -39,19 +39,19 @@ pub(super) struct Tally {
     pub(super) new: u32,
 }
 
-impl Tally {
+impl NoveltyCount {
     /// Floor that there is, square metres; `None` before that can be told.
     fn floor_m2(&self, swath_m: f64) -> Option<f64> {
         if self.seen == 0 {
             return None;
         }
-        let known_m = (f64::from(KNOWN_S) * self.way_m / self.time_s.max(1.0)).min(self.way_m);
+        let known_m = (f64::from(KNOWN_S) * self.driven_m / self.time_s.max(1.0)).min(self.driven_m);
         let share = f64::from(self.new) / f64::from(self.seen);
         let (mut low_m2, mut high_m2) = FLOOR_M2;
         for _ in 0..HALVINGS {
             let middle_m2 = 0.5 * (low_m2 + high_m2);
             // The more floor there is the more is new.
-            if new_share(swath_m / middle_m2, known_m, self.way_m) < share {
+            if new_share(swath_m / middle_m2, known_m, self.driven_m) < share {
                 low_m2 = middle_m2;
             } else {
                 high_m2 = middle_m2;
@@ -62,12 +62,12 @@ impl Tally {
 
     /// How much of it is swept; `None` before that can be told.
     pub(super) fn share(&self, swath_m: f64) -> Option<SweptShare> {
-        if self.time_s < TELLING_S {
+        if self.time_s < ESTIMATE_AFTER_S {
             return None;
         }
         let floor_m2 = self.floor_m2(swath_m)?;
-        let times = (self.before_m + self.way_m) * swath_m / floor_m2;
-        let larger = LARGER * (1.0 + LARGER_EARLY * TELLING_S / self.time_s);
+        let times = (self.before_m + self.driven_m) * swath_m / floor_m2;
+        let larger = LARGER * (1.0 + LARGER_EARLY * ESTIMATE_AFTER_S / self.time_s);
         Some(SweptShare {
             share: swept(times),
             share_low: swept(times / larger),
@@ -77,9 +77,9 @@ impl Tally {
 }
 
 /// Expected share of new places on a way whose last `known_m` are known at any time, where each metre sweeps so much of the floor.
-fn new_share(part_per_m: f64, known_m: f64, way_m: f64) -> f64 {
+fn new_share(part_per_m: f64, known_m: f64, driven_m: f64) -> f64 {
     let in_the_end = libm::exp(-part_per_m * known_m);
-    ((1.0 - in_the_end) / part_per_m + (way_m - known_m) * in_the_end) / way_m
+    ((1.0 - in_the_end) / part_per_m + (driven_m - known_m) * in_the_end) / driven_m
 }
 
 /// Share of a floor that is swept when so many times its area was.
@@ -89,7 +89,7 @@ fn swept(times: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{KNOWN_S, Tally, swept};
+    use super::{KNOWN_S, NoveltyCount, swept};
     use crate::model::random::Random;
 
     const SWATH_M: f64 = 0.25;
@@ -98,31 +98,31 @@ mod tests {
     const STEP_M: f64 = 0.05;
 
     /// A robot that comes by chance to any place of a floor, until it has come so far.
-    fn by_chance(floor_m2: f64, way_m: f64, seed: u64) -> Tally {
+    fn by_chance(floor_m2: f64, driven_m: f64, seed: u64) -> NoveltyCount {
         let mut random = Random::new(seed);
         let places = (floor_m2 / (SWATH_M * STEP_M)) as usize;
         let mut swept_s: Vec<Option<f64>> = vec![None; places];
-        let mut tally = Tally::default();
-        while tally.way_m < way_m {
-            tally.way_m += STEP_M;
-            tally.time_s += STEP_M / SPEED_M_PER_S;
+        let mut count = NoveltyCount::default();
+        while count.driven_m < driven_m {
+            count.driven_m += STEP_M;
+            count.time_s += STEP_M / SPEED_M_PER_S;
             let place = (random.between(0.0, places as f64) as usize).min(places - 1);
-            let is_known = swept_s[place].is_some_and(|at_s| tally.time_s - at_s <= f64::from(KNOWN_S));
-            tally.seen += 1;
-            tally.new += u32::from(!is_known);
-            swept_s[place] = Some(tally.time_s);
+            let is_known = swept_s[place].is_some_and(|at_s| count.time_s - at_s <= f64::from(KNOWN_S));
+            count.seen += 1;
+            count.new += u32::from(!is_known);
+            swept_s[place] = Some(count.time_s);
         }
-        tally
+        count
     }
 
     #[test]
     fn the_floor_is_told_from_how_much_of_it_was_new() {
-        for (floor_m2, way_m) in [(8.0, 60.0), (20.0, 100.0), (60.0, 300.0), (150.0, 1_200.0)] {
+        for (floor_m2, driven_m) in [(8.0, 60.0), (20.0, 100.0), (60.0, 300.0), (150.0, 1_200.0)] {
             for seed in 1..=3 {
-                let told_m2 = by_chance(floor_m2, way_m, seed).floor_m2(SWATH_M).unwrap();
+                let estimated_m2 = by_chance(floor_m2, driven_m, seed).floor_m2(SWATH_M).unwrap();
                 assert!(
-                    (told_m2 / floor_m2 - 1.0).abs() < 0.12,
-                    "{told_m2} m2 instead of {floor_m2} m2"
+                    (estimated_m2 / floor_m2 - 1.0).abs() < 0.12,
+                    "{estimated_m2} m2 instead of {floor_m2} m2"
                 );
             }
         }
@@ -132,10 +132,13 @@ mod tests {
     fn nothing_is_told_at_first_and_all_of_it_never() {
         assert_eq!(by_chance(50.0, 230.0, 1).share(SWATH_M), None);
         let shares: Vec<f64> = [250.0, 400.0, 800.0, 1_600.0]
-            .map(|way_m| by_chance(50.0, way_m, 1).share(SWATH_M).unwrap())
-            .map(|told| {
-                assert!(told.share_low < told.share && told.share < 1.0, "{told:?}");
-                told.share
+            .map(|driven_m| by_chance(50.0, driven_m, 1).share(SWATH_M).unwrap())
+            .map(|estimate| {
+                assert!(
+                    estimate.share_low < estimate.share && estimate.share < 1.0,
+                    "{estimate:?}"
+                );
+                estimate.share
             })
             .to_vec();
         assert!(shares.is_sorted(), "{shares:?}");
@@ -144,11 +147,11 @@ mod tests {
 
     #[test]
     fn what_was_swept_before_a_restart_counts() {
-        let tally = by_chance(100.0, 300.0, 1);
-        let with_before = Tally {
+        let count = by_chance(100.0, 300.0, 1);
+        let with_before = NoveltyCount {
             before_m: 200.0,
-            ..tally
+            ..count
         };
-        assert!(with_before.share(SWATH_M).unwrap().share > tally.share(SWATH_M).unwrap().share + 0.1);
+        assert!(with_before.share(SWATH_M).unwrap().share > count.share(SWATH_M).unwrap().share + 0.1);
     }
 }

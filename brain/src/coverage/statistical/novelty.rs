@@ -1,7 +1,7 @@
 //! How much of the floor that the robot comes over is new.
 
-use super::law::{KNOWN_S, Tally};
-use crate::coverage::recent_coverage::{LATELY_S, is_new};
+use super::law::{KNOWN_S, NoveltyCount};
+use crate::coverage::recent_coverage::{RECENT_S, is_new};
 use crate::model::geometry::Point2;
 use crate::navigation::Situation;
 
@@ -19,7 +19,7 @@ const ACROSS: [f64; 4] = [-0.4, -0.15, 0.15, 0.4];
 pub(super) struct Novelty {
     share: f64,
     since_m: f64,
-    tally: Option<Tally>,
+    count: Option<NoveltyCount>,
 }
 
 impl Default for Novelty {
@@ -27,7 +27,7 @@ impl Default for Novelty {
         Self {
             share: 1.0,
             since_m: 0.0,
-            tally: None,
+            count: None,
         }
     }
 }
@@ -39,21 +39,21 @@ impl Novelty {
     }
 
     /// What was counted in this job.
-    pub(super) fn tally(&self) -> Tally {
-        self.tally.unwrap_or_default()
+    pub(super) fn count(&self) -> NoveltyCount {
+        self.count.unwrap_or_default()
     }
 
     /// The robot has come to another place.
-    pub(super) fn begin_anew(&mut self) {
+    pub(super) fn restart(&mut self) {
         self.share = 1.0;
     }
 
     pub(super) fn follow(&mut self, situation: &Situation<'_>) {
-        let tally = self.tally.get_or_insert_with(|| Tally {
+        let count = self.count.get_or_insert_with(|| NoveltyCount {
             before_m: situation.map.way_m(),
-            ..Tally::default()
+            ..NoveltyCount::default()
         });
-        tally.time_s += situation.advance.time_s;
+        count.time_s += situation.advance.time_s;
         self.since_m += situation.advance.distance_m.max(0.0);
         if self.since_m < STEP_M {
             return;
@@ -65,10 +65,10 @@ impl Novelty {
                 .count()
         };
         let weight = (self.since_m / WINDOW_M).min(1.0);
-        self.share += weight * (new(LATELY_S) as f64 / ACROSS.len() as f64 - self.share);
-        tally.way_m += core::mem::take(&mut self.since_m);
-        tally.seen += ACROSS.len() as u32;
-        tally.new += new(KNOWN_S) as u32;
+        self.share += weight * (new(RECENT_S) as f64 / ACROSS.len() as f64 - self.share);
+        count.driven_m += core::mem::take(&mut self.since_m);
+        count.seen += ACROSS.len() as u32;
+        count.new += new(KNOWN_S) as u32;
     }
 }
 

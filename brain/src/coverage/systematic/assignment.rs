@@ -1,6 +1,6 @@
 //! Which part of an order is being cleaned, and how often it was.
 
-use crate::coverage::wanted::Wanted;
+use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::Map;
 use crate::model::order::{CleaningOrder, HomePart};
 
@@ -35,8 +35,8 @@ impl Assignment {
     }
 
     /// What shall be swept now.
-    pub(super) fn wanted(&self, map: &Map) -> Wanted {
-        Wanted::of(&self.order, self.part(), map)
+    pub(super) fn target_floor(&self, map: &Map) -> TargetFloor {
+        TargetFloor::of(&self.order, self.part(), map)
     }
 
     /// The present part is done once more.

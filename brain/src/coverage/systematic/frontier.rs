@@ -24,16 +24,16 @@ fn beyond_cells(beyond_m: f64) -> u16 {
 
 /// Knowledge in which all enclosed floor is free, and unknown floor up to `beyond_m` from what is known to be free. It has
 /// [`margin_cells`] more on each side.
-pub(super) async fn hopeful(
+pub(super) async fn optimistic(
     knowledge: &Raster<CellKnowledge>,
     beyond_m: f64,
     budget: &mut StepBudget,
 ) -> Raster<CellKnowledge> {
-    let mut hopeful = padded(knowledge, margin_cells(beyond_m));
-    budget.spend(hopeful.values().len() / COPIES_A_WORK).await;
-    advance_frontier(&mut hopeful, beyond_cells(beyond_m), budget).await;
-    fill_enclosed(&mut hopeful, budget).await;
-    hopeful
+    let mut optimistic = padded(knowledge, margin_cells(beyond_m));
+    budget.spend(optimistic.values().len() / COPIES_A_WORK).await;
+    advance_frontier(&mut optimistic, beyond_cells(beyond_m), budget).await;
+    fill_enclosed(&mut optimistic, budget).await;
+    optimistic
 }
 
 /// The same with `cells` more on each side.
@@ -50,9 +50,9 @@ fn padded(knowledge: &Raster<CellKnowledge>, cells: usize) -> Raster<CellKnowled
 }
 
 /// Frees unknown cells up to so many steps from free ones.
-async fn advance_frontier(hopeful: &mut Raster<CellKnowledge>, beyond: u16, budget: &mut StepBudget) {
-    let width = hopeful.width();
-    let cells = hopeful.values_mut();
+async fn advance_frontier(optimistic: &mut Raster<CellKnowledge>, beyond: u16, budget: &mut StepBudget) {
+    let width = optimistic.width();
+    let cells = optimistic.values_mut();
     // Free cells whose neighbours are all known lead nowhere.
     let mut frontier = Vec::new();
     for row in 0..cells.len() / width.max(1) {
@@ -96,9 +96,9 @@ fn beside(index: usize, width: usize) -> [usize; 4] {
 }
 
 /// Frees unknown cells that do not hang together with the border of the window.
-async fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>, budget: &mut StepBudget) {
-    let width = hopeful.width();
-    let cells = hopeful.values_mut();
+async fn fill_enclosed(optimistic: &mut Raster<CellKnowledge>, budget: &mut StepBudget) {
+    let width = optimistic.width();
+    let cells = optimistic.values_mut();
     let mut is_outside = vec![false; cells.len()];
     // The padding hangs together, so one of its corners stands for all of the border.
     let mut waiting = vec![0];
@@ -132,8 +132,12 @@ mod tests {
     use crate::mapping::{Cell, CellKnowledge, Raster};
     use crate::model::gradual::{StepBudget, at_once};
 
-    fn hopeful(knowledge: &Raster<CellKnowledge>, beyond_m: f64) -> Raster<CellKnowledge> {
-        at_once(super::hopeful(knowledge, beyond_m, &mut StepBudget::unlimited()))
+    fn optimistic(knowledge: &Raster<CellKnowledge>, beyond_m: f64) -> Raster<CellKnowledge> {
+        at_once(super::optimistic(
+            knowledge,
+            beyond_m,
+            &mut StepBudget::unlimited(),
+        ))
     }
 
     /// A ring of free cells with walls outside of it, and a gap in the wall.
@@ -155,16 +159,25 @@ mod tests {
 
     #[test]
     fn the_middle_of_a_ring_is_free_and_what_lies_outside_is_not() {
-        let hope = hopeful(&ring(), 0.0);
-        assert_eq!(hope.get(Cell { x: 35, y: 17 }), Some(&CellKnowledge::Free));
-        assert_eq!(hope.get(Cell { x: 26, y: -3 }), Some(&CellKnowledge::Unknown));
-        assert_eq!(hope.get(Cell { x: 5, y: 17 }), Some(&CellKnowledge::Occupied));
+        let optimistic = optimistic(&ring(), 0.0);
+        assert_eq!(optimistic.get(Cell { x: 35, y: 17 }), Some(&CellKnowledge::Free));
+        assert_eq!(
+            optimistic.get(Cell { x: 26, y: -3 }),
+            Some(&CellKnowledge::Unknown)
+        );
+        assert_eq!(
+            optimistic.get(Cell { x: 5, y: 17 }),
+            Some(&CellKnowledge::Occupied)
+        );
     }
 
     #[test]
     fn the_frontier_moves_so_far_and_no_farther() {
-        let hope = hopeful(&ring(), 0.1);
-        assert_eq!(hope.get(Cell { x: 26, y: -6 }), Some(&CellKnowledge::Free));
-        assert_eq!(hope.get(Cell { x: 26, y: -7 }), Some(&CellKnowledge::Unknown));
+        let optimistic = optimistic(&ring(), 0.1);
+        assert_eq!(optimistic.get(Cell { x: 26, y: -6 }), Some(&CellKnowledge::Free));
+        assert_eq!(
+            optimistic.get(Cell { x: 26, y: -7 }),
+            Some(&CellKnowledge::Unknown)
+        );
     }
 }

@@ -20,19 +20,19 @@ pub(super) enum Outline {
     /// Nothing: the walls come first.
     Lap(Box<Perimeter>),
     /// The walls; the rest is found out on the way.
-    Growing(Hope),
+    Growing(OptimisticMargin),
 }
 
 /// How much floor is hoped for beyond what is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hope {
+pub(super) struct OptimisticMargin {
     /// How far, metres.
     pub(super) beyond_m: f64,
     /// How far once nothing else is left, metres.
     at_last_m: f64,
 }
 
-impl Hope {
+impl OptimisticMargin {
     /// After a lap along the walls that closed.
     pub(super) const CLOSED: Self = Self {
         beyond_m: NEAR_M,
@@ -81,13 +81,17 @@ pub(super) fn knows_home(situation: &Situation<'_>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Hope, shuts_in};
+    use super::{OptimisticMargin, shuts_in};
 
     #[test]
     fn only_a_lap_that_may_have_missed_a_way_on_is_followed_by_more_hope() {
-        for (mut hope, grows) in [(Hope::CLOSED, false), (Hope::KNOWN, true), (Hope::OPEN, false)] {
-            assert_eq!(hope.grow(), grows);
-            assert!(!hope.grow(), "once");
+        for (mut margin, grows) in [
+            (OptimisticMargin::CLOSED, false),
+            (OptimisticMargin::KNOWN, true),
+            (OptimisticMargin::OPEN, false),
+        ] {
+            assert_eq!(margin.grow(), grows);
+            assert!(!margin.grow(), "once");
         }
     }
 

@@ -3,7 +3,7 @@
 //! The swept layer of the map paints the bar under the robot, which is what people are shown. A plan made from that would
 //! send the robot back to each end of a lane for the half swath before the wall that the side brushes have reached.
 
-use super::trail::{Place, Trail};
+use super::recent_track::{RecentTrack, TrackPoint};
 use crate::mapping::{Cell, Map, Raster};
 use crate::model::geometry::Point2;
 use crate::navigation::{Disc, Situation};
@@ -16,7 +16,7 @@ const RECALLED_A_STEP: usize = 1_000;
 pub(super) struct Passed {
     /// What was passed before the trail.
     settled: Raster<bool>,
-    trail: Trail,
+    track: RecentTrack,
     disc: Disc,
     /// Places of the job's way that were recalled, of those that are to be.
     recalled: usize,
@@ -26,10 +26,10 @@ pub(super) struct Passed {
 impl Passed {
     /// What the way of this job passes from now on. `reach` cells to either side of the middle count. What it has passed so
     /// far is still to be recalled: the map remembers it, and a job that goes on after a restart has no other memory.
-    pub(super) fn new(map: &Map, window: &Window, reach: usize) -> Self {
+    pub(super) fn new(map: &Map, window: &CellWindow, reach: usize) -> Self {
         Self {
             settled: Raster::filled(window.origin, window.width, window.height, false),
-            trail: Trail::default(),
+            track: RecentTrack::default(),
             disc: Disc::of_radius(reach as f64 + 0.6),
             recalled: 0,
             to_recall: map.snapshot().path.len(),
@@ -57,12 +57,12 @@ impl Passed {
     /// Nothing was passed.
     pub(super) fn forget(&mut self) {
         self.settled.values_mut().fill(false);
-        self.trail.forget();
+        self.track.forget();
     }
 
     /// Takes over another window; what lies outside of it is forgotten.
-    pub(super) fn cover(&mut self, window: &Window) {
-        if *window == Window::of(&self.settled) {
+    pub(super) fn cover(&mut self, window: &CellWindow) {
+        if *window == CellWindow::of(&self.settled) {
             return;
         }
         let mut cells = Raster::filled(window.origin, window.width, window.height, false);
@@ -73,30 +73,30 @@ impl Passed {
     /// The cells as they are known now.
     pub(super) fn cells(&self) -> Raster<bool> {
         let mut cells = self.settled.clone();
-        for place in self.trail.places() {
-            self.disc.paint_place(&mut cells, place);
+        for point in self.track.points() {
+            self.disc.paint_point(&mut cells, point);
         }
         cells
     }
 
     pub(super) fn follow(&mut self, situation: &Situation<'_>) {
         let advance = situation.is_tracked.then_some(situation.advance);
-        for place in self.trail.follow(&situation.estimate, advance) {
-            self.disc.paint_place(&mut self.settled, &place);
+        for point in self.track.follow(&situation.estimate, advance) {
+            self.disc.paint_point(&mut self.settled, &point);
         }
     }
 
     /// Counts what would have been swept from a place beside the way that the robot really takes: a strip that it left out
     /// because it came too near to something is not worth another way.
     pub(super) fn give_up(&mut self, beside: Point2) {
-        self.trail.give_up(beside);
+        self.track.give_up(beside);
     }
 }
 
 impl Disc {
     /// Paints what is swept from a place of the way, and what was given up beside it.
-    fn paint_place(&self, cells: &mut Raster<bool>, place: &Place) {
-        for at in place.swept_from() {
+    fn paint_point(&self, cells: &mut Raster<bool>, point: &TrackPoint) {
+        for at in point.swept_from() {
             self.paint(cells, at);
         }
     }
@@ -111,13 +111,13 @@ impl Disc {
 
 /// A rectangle of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Window {
+pub(super) struct CellWindow {
     origin: Cell,
     width: usize,
     height: usize,
 }
 
-impl Window {
+impl CellWindow {
     /// That of a raster.
     fn of<T>(raster: &Raster<T>) -> Self {
         Self {

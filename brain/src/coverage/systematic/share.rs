@@ -5,7 +5,7 @@
 
 use crate::coverage::estimate::kept_low;
 use crate::coverage::plan::{CoveragePlan, PlanSettings};
-use crate::coverage::wanted::Wanted;
+use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::{CELL_M, Map, Raster};
 use crate::model::swept_share::SweptShare;
 
@@ -24,7 +24,7 @@ impl PassedFloor {
     /// What of the passed cells is wanted.
     pub(super) fn count(
         passed: &Raster<bool>,
-        (wanted, map): (&Wanted, &Map),
+        (target, map): (&TargetFloor, &Map),
         settings: &PlanSettings,
     ) -> Self {
         let (mut cells, mut cells_low) = (0.0, 0.0);
@@ -32,7 +32,7 @@ impl PassedFloor {
         let mut before: (Option<f64>, f64) = (None, kept_low(None, settings));
         for (index, _) in passed.values().iter().enumerate().filter(|(_, is)| **is) {
             let cell = passed.cell(index);
-            if wanted.course(cell).is_none() {
+            if target.pattern_at(cell).is_none() {
                 continue;
             }
             let sigma_m = map.sigma_m(cell);
@@ -107,12 +107,12 @@ impl Shares {
 
     /// Whether this plan, which is made, knows nothing of most of what was passed.
     pub(super) fn is_elsewhere(&self, plan: &CoveragePlan) -> bool {
-        let begun = self.next.filter(|_| self.are_told());
+        let begun = self.next.filter(|_| self.has_plan());
         begun.is_some_and(|tally| plan.passed_m2() < ELSEWHERE_SHARE * tally.counted.m2)
     }
 
     /// Whether a plan has told anything yet.
-    pub(super) fn are_told(&self) -> bool {
+    pub(super) fn has_plan(&self) -> bool {
         self.newest.is_some()
     }
 
@@ -164,18 +164,18 @@ mod tests {
 
     #[test]
     fn what_was_passed_since_the_plan_is_added() {
-        let told = shares()
+        let reported = shares()
             .share(|_| Some(passed(5.5, 4.4)))
             .expect("there is floor");
-        assert!((told.share - 0.5).abs() < 1e-9, "{told:?}");
-        assert!((told.share_low - 0.4).abs() < 1e-9, "{told:?}");
+        assert!((reported.share - 0.5).abs() < 1e-9, "{reported:?}");
+        assert!((reported.share_low - 0.4).abs() < 1e-9, "{reported:?}");
     }
 
     #[test]
     fn without_a_count_the_plan_tells_and_no_share_is_more_than_all() {
-        let told = shares().share(|_| None).expect("there is floor");
-        assert!((told.share - 0.2).abs() < 1e-9, "{told:?}");
-        assert!((told.share_low - 0.16).abs() < 1e-9, "{told:?}");
+        let reported = shares().share(|_| None).expect("there is floor");
+        assert!((reported.share - 0.2).abs() < 1e-9, "{reported:?}");
+        assert!((reported.share_low - 0.16).abs() < 1e-9, "{reported:?}");
         let all = shares()
             .share(|_| Some(passed(40.0, 40.0)))
             .expect("there is floor");
@@ -213,8 +213,8 @@ mod tests {
         let mut shares = shares();
         shares.begin(SETTINGS, passed(3.5, 2.8));
         shares.pass_over();
-        let told = shares.share(|_| Some(passed(5.5, 4.4))).expect("there is floor");
-        assert!((told.share - 0.5).abs() < 1e-9, "{told:?}");
+        let reported = shares.share(|_| Some(passed(5.5, 4.4))).expect("there is floor");
+        assert!((reported.share - 0.5).abs() < 1e-9, "{reported:?}");
         shares.begin(SETTINGS, passed(0.0, 0.0));
         shares.take(&CoveragePlan::default(), 0.0);
         assert_eq!(shares.share(|_| None), None);

@@ -32,14 +32,14 @@ impl Standoff {
 
     /// Something was touched while this was seen ahead.
     pub(super) fn touched(&mut self, ahead: Option<Ahead>) {
-        if ahead.is_some_and(|ahead| ahead.way_m < SAME_M) {
+        if ahead.is_some_and(|ahead| ahead.clear_m < SAME_M) {
             self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
         }
     }
 
     /// Whether the robot stands before this now.
     pub(super) fn is_reached(self, ahead: Ahead) -> bool {
-        ahead.way_m < STOP_M + self.dark_m
+        ahead.clear_m < STOP_M + self.dark_m
     }
 }
 
@@ -50,9 +50,9 @@ mod tests {
     use crate::model::geometry::Point2;
     use crate::navigation::caution::Ahead;
 
-    fn at(way_m: f64) -> Ahead {
+    fn at(clear_m: f64) -> Ahead {
         Ahead {
-            way_m,
+            clear_m,
             at: Point2 { x_m: 0.2, y_m: 0.0 },
         }
     }

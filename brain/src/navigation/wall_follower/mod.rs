@@ -6,15 +6,15 @@
 //!
 //! Each step is bounded: turns and arcs by their angle, the search by its way, contacts by their number on little way.
 
-mod beams;
 mod wall_line;
+mod wall_ranges;
 
 use super::{Evasion, EvasionStep};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-use crate::navigation::{Mind, Situation};
-use beams::Beams;
+use crate::navigation::{Situation, TaskContext};
 use wall_line::WallLine;
+use wall_ranges::WallRanges;
 
 /// Gap that is kept, metres. A dark wall is really nearer, a bright one farther away: half a centimetre more or less.
 const GAP_M: f64 = 0.035;
@@ -76,7 +76,7 @@ const CROWDED_MAX: u32 = 10;
 /// Follows a wall on the right.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WallFollower {
-    phase: Phase,
+    phase: WallFollowPhase,
     line: WallLine,
     evasion: Option<Evasion>,
     dark_m: f64,
@@ -89,9 +89,9 @@ pub(crate) struct WallFollower {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Phase {
+enum WallFollowPhase {
     /// Straight on until there is something.
-    Seek { way_m: f64 },
+    Seek { driven_m: f64 },
     /// Along it.
     Along,
     /// Round its end; `beyond_m` is the radius beyond that of the body.
@@ -102,9 +102,9 @@ enum Phase {
     Pass { left_m: f64 },
 }
 
-impl Default for Phase {
+impl Default for WallFollowPhase {
     fn default() -> Self {
-        Self::Seek { way_m: 0.0 }
+        Self::Seek { driven_m: 0.0 }
     }
 }
 
@@ -120,12 +120,12 @@ pub(crate) enum WallStep {
 impl WallFollower {
     /// Whether it follows something, and is not still looking for it.
     pub(crate) fn is_following(&self) -> bool {
-        !matches!(self.phase, Phase::Seek { .. })
+        !matches!(self.phase, WallFollowPhase::Seek { .. })
     }
 
     /// Whether a wall is beside it that it sees and goes along.
     pub(crate) fn is_along_wall(&self) -> bool {
-        self.phase == Phase::Along && self.evasion.is_none() && self.line.is_seen_within(ENDED_M)
+        self.phase == WallFollowPhase::Along && self.evasion.is_none() && self.line.is_seen_within(ENDED_M)
     }
 
     /// Whether it is getting away from something that it touched.
@@ -137,12 +137,12 @@ impl WallFollower {
     pub(crate) fn interrupted(&mut self) {
         self.evasion = None;
         self.line.give_up();
-        self.phase = Phase::default();
+        self.phase = WallFollowPhase::default();
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> WallStep {
-        let beams = Beams::read(situation);
-        self.line.follow(situation.advance, &beams);
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> WallStep {
+        let ranges = WallRanges::read(situation);
+        self.line.follow(situation.advance, &ranges);
         if let Some(evasion) = &mut self.evasion {
             match evasion.step(situation) {
                 EvasionStep::Going(motion) => return WallStep::Going(motion),
@@ -153,14 +153,16 @@ impl WallFollower {
                 }
             }
         } else if !situation.is_free() {
-            return self.evade(situation, mind);
+            return self.evade(situation, context);
         }
         self.count(situation.advance.distance_m.max(0.0));
-        self.change_phase(situation, &beams, mind);
+        self.change_phase(situation, &ranges, context);
         match self.phase {
-            Phase::Seek { way_m } if way_m > SEEK_MAX_M => self.trouble(Reason::LongRun),
-            Phase::Turn { turned_rad } if turned_rad > TURN_MAX_RAD => self.trouble(Reason::BoxedIn),
-            _ => WallStep::Going(self.motion(situation, &beams)),
+            WallFollowPhase::Seek { driven_m } if driven_m > SEEK_MAX_M => self.trouble(Reason::LongRun),
+            WallFollowPhase::Turn { turned_rad } if turned_rad > TURN_MAX_RAD => {
+                self.trouble(Reason::BoxedIn)
+            }
+            _ => WallStep::Going(self.motion(situation, &ranges)),
         }
     }
 
@@ -169,29 +171,29 @@ impl WallFollower {
         WallStep::Trouble(reason)
     }
 
-    fn count(&mut self, way_m: f64) {
-        self.since_contact_m += way_m;
+    fn count(&mut self, driven_m: f64) {
+        self.since_contact_m += driven_m;
         if self.since_contact_m > CROWDED_M {
             self.contacts = 0;
         }
-        self.since_edge_m += way_m;
+        self.since_edge_m += driven_m;
         if self.since_edge_m > EDGES_M {
             self.edges = 0;
         }
-        self.dark_m = (self.dark_m - DARK_M * way_m / DARK_FORGET_M).max(0.0);
+        self.dark_m = (self.dark_m - DARK_M * driven_m / DARK_FORGET_M).max(0.0);
     }
 
-    fn evade(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> WallStep {
+    fn evade(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> WallStep {
         let observation = situation.observation;
         if situation.at_cliff {
             let reason = Reason::of_cliffs(observation.cliffs).unwrap_or(Reason::CliffFront);
-            mind.decide("back-off", reason, 0.0);
+            context.decide("back-off", reason, 0.0);
             let turn_rad = EDGE_TURN_RAD + EDGES_TURN_RAD * f64::from(self.edges);
             self.edges = (self.edges + 1).min(EDGES_MAX);
             self.since_edge_m = 0.0;
             self.evasion = Some(Evasion::from_cliff(EDGE_BACK_M, turn_rad));
             self.line.give_up();
-            self.phase = Phase::Pass { left_m: EDGE_PASS_M };
+            self.phase = WallFollowPhase::Pass { left_m: EDGE_PASS_M };
             return WallStep::Going(Motion::Halt);
         }
         let reason = Reason::of_contacts(observation.contacts).unwrap_or(Reason::BumpFront);
@@ -204,13 +206,13 @@ impl WallFollower {
             self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
         }
         let turn_rad = self.turn_after(reason);
-        mind.decide("back-off", reason, turn_rad);
+        context.decide("back-off", reason, turn_rad);
         self.evasion = Some(Evasion::from_contact(CONTACT_BACK_M, turn_rad));
         self.since_contact_m = 0.0;
         self.phase = if self.line.is_seen_within(ENDED_M) {
-            Phase::Along
+            WallFollowPhase::Along
         } else {
-            Phase::Around {
+            WallFollowPhase::Around {
                 turned_rad: 0.0,
                 beyond_m: TOUCH_ARC_M,
             }
@@ -230,43 +232,47 @@ impl WallFollower {
         }
     }
 
-    fn change_phase(&mut self, situation: &Situation<'_>, beams: &Beams, mind: &mut Mind) {
+    fn change_phase(&mut self, situation: &Situation<'_>, ranges: &WallRanges, context: &mut TaskContext) {
         let advance = situation.advance;
-        let way_m = advance.distance_m.max(0.0);
+        let driven_m = advance.distance_m.max(0.0);
         let stop_m = STOP_M + self.dark_m;
-        let is_blocked = beams.ahead_m.is_some_and(|ahead_m| ahead_m < stop_m);
+        let is_blocked = ranges.ahead_m.is_some_and(|ahead_m| ahead_m < stop_m);
         let next = match self.phase {
-            Phase::Turn { turned_rad } => {
-                if beams.ahead_m.is_none_or(|ahead_m| ahead_m > CLEAR_M) {
-                    Phase::Along
+            WallFollowPhase::Turn { turned_rad } => {
+                if ranges.ahead_m.is_none_or(|ahead_m| ahead_m > CLEAR_M) {
+                    WallFollowPhase::Along
                 } else {
-                    Phase::Turn {
+                    WallFollowPhase::Turn {
                         turned_rad: turned_rad + advance.turn_rad.max(0.0),
                     }
                 }
             }
             _ if is_blocked => {
-                mind.decide("turn", Reason::WallAhead, 0.0);
+                context.decide("turn", Reason::WallAhead, 0.0);
                 self.line.give_up();
-                Phase::Turn { turned_rad: 0.0 }
+                WallFollowPhase::Turn { turned_rad: 0.0 }
             }
-            Phase::Seek { .. } | Phase::Around { .. } if beams.side_m.is_some() => Phase::Along,
-            Phase::Seek { way_m: before_m } => Phase::Seek {
-                way_m: before_m + way_m,
+            WallFollowPhase::Seek { .. } | WallFollowPhase::Around { .. } if ranges.side_m.is_some() => {
+                WallFollowPhase::Along
+            }
+            WallFollowPhase::Seek { driven_m: before_m } => WallFollowPhase::Seek {
+                driven_m: before_m + driven_m,
             },
-            Phase::Pass { left_m } if left_m > 0.0 => Phase::Pass {
-                left_m: left_m - way_m,
+            WallFollowPhase::Pass { left_m } if left_m > 0.0 => WallFollowPhase::Pass {
+                left_m: left_m - driven_m,
             },
-            Phase::Pass { .. } => around(EDGE_ARC_M),
-            Phase::Along if !self.line.is_seen_within(ENDED_M) => {
+            WallFollowPhase::Pass { .. } => around(EDGE_ARC_M),
+            WallFollowPhase::Along if !self.line.is_seen_within(ENDED_M) => {
                 let gap_m = self.line.gap_m.clamp(GAP_M, 2.0 * GAP_M);
                 self.line.give_up();
-                mind.decide("arc", Reason::WallEnded, gap_m);
+                context.decide("arc", Reason::WallEnded, gap_m);
                 around(gap_m)
             }
-            Phase::Along => Phase::Along,
-            Phase::Around { turned_rad, .. } if turned_rad > ARC_MAX_RAD => Phase::default(),
-            Phase::Around { turned_rad, beyond_m } => Phase::Around {
+            WallFollowPhase::Along => WallFollowPhase::Along,
+            WallFollowPhase::Around { turned_rad, .. } if turned_rad > ARC_MAX_RAD => {
+                WallFollowPhase::default()
+            }
+            WallFollowPhase::Around { turned_rad, beyond_m } => WallFollowPhase::Around {
                 turned_rad: turned_rad + (-advance.turn_rad).max(0.0),
                 beyond_m,
             },
@@ -274,24 +280,26 @@ impl WallFollower {
         self.phase = next;
     }
 
-    fn motion(&self, situation: &Situation<'_>, beams: &Beams) -> Motion {
+    fn motion(&self, situation: &Situation<'_>, ranges: &WallRanges) -> Motion {
         let speeds = situation.config.speeds;
         let curvature = match self.phase {
-            Phase::Turn { .. } => {
+            WallFollowPhase::Turn { .. } => {
                 return Motion::Drive {
                     speed_m_per_s: 0.0,
                     turn_rad_per_s: TURN_SHARE * speeds.turn_max_rad_per_s,
                 };
             }
-            Phase::Seek { .. } | Phase::Pass { .. } => 0.0,
-            Phase::Along => self.along(),
-            Phase::Around { beyond_m, .. } => self.arc(beyond_m, situation.config.body.radius_m, beams),
+            WallFollowPhase::Seek { .. } | WallFollowPhase::Pass { .. } => 0.0,
+            WallFollowPhase::Along => self.along(),
+            WallFollowPhase::Around { beyond_m, .. } => {
+                self.arc(beyond_m, situation.config.body.radius_m, ranges)
+            }
         };
         let turn_max = TURN_SHARE * speeds.turn_max_rad_per_s;
         let speed_m_per_s = speeds
             .cruise_m_per_s
             .min(turn_max / curvature.abs().max(1e-6))
-            .min(self.braked(beams, speeds.cruise_m_per_s))
+            .min(self.braked(ranges, speeds.cruise_m_per_s))
             .max(CREEP_M_PER_S);
         Motion::Drive {
             speed_m_per_s,
@@ -307,8 +315,8 @@ impl WallFollower {
     }
 
     /// Curvature of the arc round an end, straighter where something comes too near.
-    fn arc(&self, beyond_m: f64, radius_m: f64, beams: &Beams) -> f64 {
-        let is_near = beams.diagonal_m.is_some_and(|gap_m| gap_m < GAP_M + self.dark_m);
+    fn arc(&self, beyond_m: f64, radius_m: f64, ranges: &WallRanges) -> f64 {
+        let is_near = ranges.diagonal_m.is_some_and(|gap_m| gap_m < GAP_M + self.dark_m);
         if is_near {
             0.0
         } else {
@@ -317,8 +325,8 @@ impl WallFollower {
     }
 
     /// The speed from which it can stop before what is ahead.
-    fn braked(&self, beams: &Beams, cruise_m_per_s: f64) -> f64 {
-        let Some(ahead_m) = beams.ahead_m else {
+    fn braked(&self, ranges: &WallRanges, cruise_m_per_s: f64) -> f64 {
+        let Some(ahead_m) = ranges.ahead_m else {
             return f64::INFINITY;
         };
         let left_m = ahead_m - STOP_M - self.dark_m - LAG_S * cruise_m_per_s;
@@ -326,8 +334,8 @@ impl WallFollower {
     }
 }
 
-fn around(beyond_m: f64) -> Phase {
-    Phase::Around {
+fn around(beyond_m: f64) -> WallFollowPhase {
+    WallFollowPhase::Around {
         turned_rad: 0.0,
         beyond_m,
     }

@@ -3,7 +3,7 @@
 //! One sensor that looks to the side is enough: how its distance changes on the way tells the angle. A second one that looks
 //! before the side tells the angle at once.
 
-use super::beams::Beams;
+use super::wall_ranges::WallRanges;
 use crate::model::advance::Advance;
 
 /// Share of a difference in distance that is taken over for each metre of way.
@@ -28,8 +28,8 @@ pub(super) struct WallLine {
 
 impl WallLine {
     /// Whether a wall was seen within the last `way_m`.
-    pub(super) fn is_seen_within(&self, way_m: f64) -> bool {
-        self.unseen_m.is_some_and(|unseen_m| unseen_m <= way_m)
+    pub(super) fn is_seen_within(&self, driven_m: f64) -> bool {
+        self.unseen_m.is_some_and(|unseen_m| unseen_m <= driven_m)
     }
 
     /// The wall is not beside the robot any more.
@@ -37,26 +37,26 @@ impl WallLine {
         self.unseen_m = None;
     }
 
-    pub(super) fn follow(&mut self, advance: Advance, beams: &Beams) {
-        let way_m = advance.distance_m;
-        self.gap_m += way_m * libm::sin(self.slope_rad + 0.5 * advance.turn_rad);
+    pub(super) fn follow(&mut self, advance: Advance, ranges: &WallRanges) {
+        let driven_m = advance.distance_m;
+        self.gap_m += driven_m * libm::sin(self.slope_rad + 0.5 * advance.turn_rad);
         self.slope_rad += advance.turn_rad;
-        let Some(side_m) = beams.side_m else {
-            self.unseen_m = self.unseen_m.map(|unseen_m| unseen_m + way_m.abs());
+        let Some(side_m) = ranges.side_m else {
+            self.unseen_m = self.unseen_m.map(|unseen_m| unseen_m + driven_m.abs());
             return;
         };
         let apart_m = side_m - self.gap_m;
         if self.unseen_m.is_none() || apart_m.abs() > OTHER_M {
             self.gap_m = side_m;
-            self.slope_rad = beams.slope_rad.unwrap_or(0.0);
+            self.slope_rad = ranges.slope_rad.unwrap_or(0.0);
         } else {
-            let way_m = way_m.abs();
-            self.gap_m += (GAP_SHARE_PER_M * way_m).min(1.0) * apart_m;
-            match beams.slope_rad {
+            let driven_m = driven_m.abs();
+            self.gap_m += (GAP_SHARE_PER_M * driven_m).min(1.0) * apart_m;
+            match ranges.slope_rad {
                 Some(seen_rad) => {
-                    self.slope_rad += (SLOPE_SHARE_PER_M * way_m).min(1.0) * (seen_rad - self.slope_rad);
+                    self.slope_rad += (SLOPE_SHARE_PER_M * driven_m).min(1.0) * (seen_rad - self.slope_rad);
                 }
-                None => self.slope_rad += SLOPE_PER_M2 * way_m * apart_m * way_m.signum(),
+                None => self.slope_rad += SLOPE_PER_M2 * driven_m * apart_m * driven_m.signum(),
             }
         }
         self.unseen_m = Some(0.0);
@@ -65,7 +65,7 @@ impl WallLine {
 
 #[cfg(test)]
 mod tests {
-    use super::{Beams, WallLine};
+    use super::{WallLine, WallRanges};
     use crate::model::advance::Advance;
 
     #[test]
@@ -80,11 +80,11 @@ mod tests {
                 distance_m: 0.005,
                 ..Advance::default()
             };
-            let beams = Beams {
+            let ranges = WallRanges {
                 side_m: Some(gap_m),
-                ..Beams::default()
+                ..WallRanges::default()
             };
-            line.follow(advance, &beams);
+            line.follow(advance, &ranges);
         }
         assert!((line.slope_rad - slope_rad).abs() < 0.04, "{line:?}");
         assert!((line.gap_m - gap_m).abs() < 0.01, "{line:?}");

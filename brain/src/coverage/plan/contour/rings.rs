@@ -2,7 +2,7 @@
 
 use super::depth::CELL;
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 
 /// Work of looking at a cell, and of a step along a border.
 const LOOK_WORK: usize = 1;
@@ -15,24 +15,24 @@ pub(super) struct Ring {
 }
 
 /// The rings of all levels.
-pub(super) async fn rings(ground: &Ground, depths: &[i32], budget: &mut StepBudget) -> Vec<Ring> {
-    let spacing = CELL * (2 * ground.reach as i32 + 1);
+pub(super) async fn rings(space: &ConfigurationSpace, depths: &[i32], budget: &mut StepBudget) -> Vec<Ring> {
+    let spacing = CELL * (2 * space.reach as i32 + 1);
     // Each border has a cell that lies deep enough above one that does not; as depths of neighbours differ by a cell at
     // most and levels by more, that pair belongs to one level only.
     let mut is_seen = vec![false; depths.len()];
     let mut rings = Vec::new();
-    for index in ground.width..depths.len() {
-        if index.is_multiple_of(ground.width) {
-            budget.spend(LOOK_WORK * ground.width).await;
+    for index in space.width..depths.len() {
+        if index.is_multiple_of(space.width) {
+            budget.spend(LOOK_WORK * space.width).await;
         }
         if depths[index] < CELL || is_seen[index] {
             continue;
         }
         let level = (depths[index] - CELL) / spacing;
         let least = CELL + level * spacing;
-        if depths[index - ground.width] < least {
+        if depths[index - space.width] < least {
             let is_in = |cell: usize| depths[cell] >= least;
-            let cells = border(index, ground.width, is_in, &mut is_seen);
+            let cells = border(index, space.width, is_in, &mut is_seen);
             budget.spend(STEP_WORK * cells.len()).await;
             rings.push(Ring {
                 level: level as usize,

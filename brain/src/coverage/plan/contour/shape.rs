@@ -2,21 +2,21 @@
 
 use crate::mapping::CELL_M;
 use crate::model::geometry::Point2;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 
 /// A corner may be left out where the straight way is no farther off than this: walls are drawn with steps of a cell.
 const OFF_MAX_M: f64 = 1.3 * CELL_M;
 
 /// The cells of a row at which the way turns, both ends included. Straight ways between them lead over free cells only.
-pub(super) fn corners(ground: &Ground, cells: &[usize]) -> Vec<usize> {
+pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize> {
     let Some(last) = cells.len().checked_sub(1) else {
         return Vec::new();
     };
     let mut kept = vec![cells[0]];
     let mut parts = vec![(0, last)];
     while let Some((from, to)) = parts.pop() {
-        let (off_m, place) = farthest(ground, cells, (from, to));
-        let is_straight = off_m <= OFF_MAX_M && ground.sees(cells[from], cells[to]);
+        let (off_m, place) = farthest(space, cells, (from, to));
+        let is_straight = off_m <= OFF_MAX_M && space.has_line_of_sight(cells[from], cells[to]);
         if is_straight || to <= from + 1 {
             kept.push(cells[to]);
         } else {
@@ -28,12 +28,12 @@ pub(super) fn corners(ground: &Ground, cells: &[usize]) -> Vec<usize> {
 
 /// The cell between two others that lies farthest from the straight way between them, and how far. Of equals that nearest to
 /// the middle is taken, so that parts get shorter fast.
-fn farthest(ground: &Ground, cells: &[usize], (from, to): (usize, usize)) -> (f64, usize) {
+fn farthest(space: &ConfigurationSpace, cells: &[usize], (from, to): (usize, usize)) -> (f64, usize) {
     let middle = from.midpoint(to);
-    let ends = (ground.point(cells[from]), ground.point(cells[to]));
+    let ends = (space.point(cells[from]), space.point(cells[to]));
     let mut farthest = (0.0, middle);
     for (place, cell) in cells.iter().enumerate().take(to).skip(from + 1) {
-        let off_m = off_m(ground.point(*cell), ends);
+        let off_m = off_m(space.point(*cell), ends);
         let is_nearer = place.abs_diff(middle) < farthest.1.abs_diff(middle);
         if off_m > farthest.0 || off_m >= farthest.0 && is_nearer {
             farthest = (off_m, place);

@@ -2,12 +2,12 @@
 
 use core::task::Poll;
 
-use super::frontier::hopeful;
-use super::since::without_what_came;
+use super::frontier::optimistic;
+use super::new_obstacles::without_new_obstacles;
 use super::squeeze;
 use crate::coverage::margins::SIGMA_MIN_M;
 use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
-use crate::coverage::wanted::Wanted;
+use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Gradual, StepBudget};
@@ -23,7 +23,7 @@ const SIGMA_MAX_M: f64 = 0.015;
 
 /// All that a plan depends on.
 #[derive(Debug)]
-pub(super) struct Basis {
+pub(super) struct PlanInputs {
     pub(super) knowledge: Raster<CellKnowledge>,
     /// Floor is hoped for so far beyond what is known; `None` = nothing is hoped for.
     pub(super) beyond_m: Option<f64>,
@@ -34,7 +34,7 @@ pub(super) struct Basis {
     /// What was known when the job began: with another radius, too, what came since is looked through.
     pub(super) began: Option<Raster<CellKnowledge>>,
     pub(super) blocked: Vec<Point2>,
-    pub(super) wanted: Wanted,
+    pub(super) target: TargetFloor,
     pub(super) passed: Raster<bool>,
     pub(super) departure: Departure,
     /// The frame of the lanes of earlier plans; `None` = it is to be found.
@@ -43,7 +43,7 @@ pub(super) struct Basis {
 
 /// A plan that was made.
 #[derive(Clone, Debug)]
-pub(super) struct Made {
+pub(super) struct FinishedPlan {
     pub(super) plan: CoveragePlan,
     /// The frame of its lanes.
     pub(super) frame: LaneFrame,
@@ -51,47 +51,53 @@ pub(super) struct Made {
 
 /// How far a plan is.
 #[derive(Debug)]
-pub(super) enum Planning {
+pub(super) enum PlanProgress {
     /// To be begun, for a robot that sets out from here.
     Due(Pose2),
     /// Being made.
-    UnderWay { rest: Gradual<Made>, draft: Draft },
+    Running {
+        rest: Gradual<FinishedPlan>,
+        request: PlanRequest,
+    },
     /// Made.
-    Made { made: Made, draft: Draft },
+    Finished {
+        finished: FinishedPlan,
+        request: PlanRequest,
+    },
 }
 
 /// What is known of a plan before it is made.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Draft {
+pub(super) struct PlanRequest {
     pub(super) start: Pose2,
     /// Something that the map does not know stands in the way.
     pub(super) is_blocked: bool,
 }
 
-impl Draft {
+impl PlanRequest {
     /// Whether a robot at this place can follow the plan.
     pub(super) fn begins_at(&self, place: Point2) -> bool {
         self.start.position().distance_m(place) < OFF_START_M
     }
 }
 
-impl Planning {
-    pub(super) fn begin(basis: Basis) -> Self {
-        Self::UnderWay {
-            draft: Draft {
-                start: basis.departure.start,
-                is_blocked: !basis.blocked.is_empty(),
+impl PlanProgress {
+    pub(super) fn begin(inputs: PlanInputs) -> Self {
+        Self::Running {
+            request: PlanRequest {
+                start: inputs.departure.start,
+                is_blocked: !inputs.blocked.is_empty(),
             },
-            rest: Gradual::new(planned(basis)),
+            rest: Gradual::new(planned(inputs)),
         }
     }
 
     /// Does the next step of a plan that is being made.
     pub(super) fn go_on(self) -> Self {
         match self {
-            Self::UnderWay { mut rest, draft } => match rest.go_on() {
-                Poll::Pending => Self::UnderWay { rest, draft },
-                Poll::Ready(made) => Self::Made { made, draft },
+            Self::Running { mut rest, request } => match rest.go_on() {
+                Poll::Pending => Self::Running { rest, request },
+                Poll::Ready(finished) => Self::Finished { finished, request },
             },
             other => other,
         }
@@ -101,7 +107,7 @@ impl Planning {
     pub(super) fn afresh(self) -> Self {
         match self {
             Self::Due(start) => Self::Due(start),
-            Self::UnderWay { draft, .. } | Self::Made { draft, .. } => Self::Due(draft.start),
+            Self::Running { request, .. } | Self::Finished { request, .. } => Self::Due(request.start),
         }
     }
 }
@@ -117,50 +123,50 @@ pub(super) fn settings(situation: &Situation<'_>) -> PlanSettings {
     }
 }
 
-async fn planned(basis: Basis) -> Made {
+async fn planned(inputs: PlanInputs) -> FinishedPlan {
     let budget = &mut StepBudget::limited();
-    let frame = match basis.frame {
+    let frame = match inputs.frame {
         Some(frame) => frame,
-        None => LaneFrame::of_walls(&basis.knowledge, budget).await,
+        None => LaneFrame::of_walls(&inputs.knowledge, budget).await,
     };
-    let plan = planned_in(&frame, basis, budget).await;
-    Made {
+    let plan = planned_in(&frame, inputs, budget).await;
+    FinishedPlan {
         plan: plan.in_map(&frame),
         frame,
     }
 }
 
 /// The plan in the frame of its lanes.
-async fn planned_in(frame: &LaneFrame, basis: Basis, budget: &mut StepBudget) -> CoveragePlan {
-    let knowledge = match basis.beyond_m {
-        Some(beyond_m) => hopeful(&basis.knowledge, beyond_m, budget).await,
-        None => basis.knowledge,
+async fn planned_in(frame: &LaneFrame, inputs: PlanInputs, budget: &mut StepBudget) -> CoveragePlan {
+    let knowledge = match inputs.beyond_m {
+        Some(beyond_m) => optimistic(&inputs.knowledge, beyond_m, budget).await,
+        None => inputs.knowledge,
     };
     let departure = Departure {
-        start: frame.pose(basis.departure.start),
-        ..basis.departure
+        start: frame.pose(inputs.departure.start),
+        ..inputs.departure
     };
-    let ground = reachable(&knowledge, frame, (basis.radius_m, &basis.blocked), budget).await;
-    let course = |cell| basis.wanted.course(frame.cell_in_map(cell));
+    let reachable_cells = reachable(&knowledge, frame, (inputs.radius_m, &inputs.blocked), budget).await;
+    let pattern = |cell| inputs.target.pattern_at(frame.cell_in_map(cell));
     let is_in = |cells: &Raster<bool>, cell| cells.get(cell).copied().unwrap_or(false);
-    let Some(squeezed_m) = basis.squeezed_m else {
-        let swept = |cell| is_in(&basis.passed, frame.cell_in_map(cell));
-        return plan_area(&ground, (course, swept), departure, budget).await;
+    let Some(squeezed_m) = inputs.squeezed_m else {
+        let swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell));
+        return plan_area(&reachable_cells, (pattern, swept), departure, budget).await;
     };
-    let floor = floor_in_reach(&ground, &departure, budget).await;
+    let floor = floor_in_reach(&reachable_cells, &departure, budget).await;
     let known = squeeze::near(&floor, budget).await;
-    let knowledge = match &basis.began {
-        Some(began) => without_what_came(knowledge, began, budget).await,
+    let knowledge = match &inputs.began {
+        Some(began) => without_new_obstacles(knowledge, began, budget).await,
         None => knowledge,
     };
-    let ground = reachable(&knowledge, frame, (squeezed_m, &basis.blocked), budget).await;
-    let swept = |cell| is_in(&basis.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
-    plan_area(&ground, (course, swept), departure, budget).await
+    let reachable_cells = reachable(&knowledge, frame, (squeezed_m, &inputs.blocked), budget).await;
+    let swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
+    plan_area(&reachable_cells, (pattern, swept), departure, budget).await
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Basis, Planning, reachable};
+    use super::{PlanInputs, PlanProgress, reachable};
     use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_coverage};
     use crate::coverage::systematic::assignment::Assignment;
     use crate::mapping::{Cell, CellKnowledge, Map, Raster};
@@ -184,7 +190,7 @@ mod tests {
     };
 
     /// A hall of 10 x 8 m, empty so that its walls alone keep the body off.
-    fn basis() -> Basis {
+    fn inputs() -> PlanInputs {
         let body = Body {
             radius_m: 0.175,
             track_m: 0.23,
@@ -192,13 +198,13 @@ mod tests {
         };
         let map = Map::new(body, SensorLayout::default());
         let knowledge = Raster::filled(Cell { x: 0, y: 0 }, 400, 320, CellKnowledge::Free);
-        Basis {
+        PlanInputs {
             beyond_m: None,
             radius_m: 0.175,
             squeezed_m: None,
             began: None,
             blocked: Vec::new(),
-            wanted: Assignment::of(CleaningOrder::default()).wanted(&map),
+            target: Assignment::of(CleaningOrder::default()).target_floor(&map),
             passed: Raster::filled(knowledge.origin(), 400, 320, false),
             departure: Departure {
                 start: START,
@@ -209,53 +215,53 @@ mod tests {
         }
     }
 
-    fn made(mut planning: Planning) -> (CoveragePlan, u32) {
+    fn finished(mut plan_progress: PlanProgress) -> (CoveragePlan, u32) {
         let mut steps = 0;
         loop {
-            planning = planning.go_on();
+            plan_progress = plan_progress.go_on();
             steps += 1;
-            if let Planning::Made { made, draft } = planning {
-                assert!(draft.begins_at(Point2 { x_m: 0.52, y_m: 0.5 }));
-                assert!(!draft.begins_at(Point2 { x_m: 0.6, y_m: 0.5 }));
-                return (made.plan, steps);
+            if let PlanProgress::Finished { finished, request } = plan_progress {
+                assert!(request.begins_at(Point2 { x_m: 0.52, y_m: 0.5 }));
+                assert!(!request.begins_at(Point2 { x_m: 0.6, y_m: 0.5 }));
+                return (finished.plan, steps);
             }
         }
     }
 
     #[test]
     fn a_plan_made_step_by_step_is_the_plan_that_is_made_at_once() {
-        let (plan, steps) = made(Planning::begin(basis()));
-        let basis = basis();
-        let ground = at_once(reachable(
-            &basis.knowledge,
+        let (plan, steps) = finished(PlanProgress::begin(inputs()));
+        let inputs = inputs();
+        let reachable_cells = at_once(reachable(
+            &inputs.knowledge,
             &LaneFrame::OF_MAP,
-            (basis.radius_m, &[]),
+            (inputs.radius_m, &[]),
             &mut StepBudget::unlimited(),
         ));
-        assert_eq!(plan, plan_coverage(&ground, |_| false, START, &SETTINGS));
+        assert_eq!(plan, plan_coverage(&reachable_cells, |_| false, START, &SETTINGS));
         assert!((3..100).contains(&steps), "{steps} steps");
     }
 
     /// The hall with a wall across it that has a gap of so many cells, swept up to the wall.
-    fn behind_a_gap(gap: i32) -> Basis {
-        let mut basis = basis();
+    fn behind_a_gap(gap: i32) -> PlanInputs {
+        let mut inputs = inputs();
         for y in (0..320).filter(|y| !(100..100 + gap).contains(y)) {
-            *basis.knowledge.get_mut(Cell { x: 200, y }).unwrap() = CellKnowledge::Occupied;
+            *inputs.knowledge.get_mut(Cell { x: 200, y }).unwrap() = CellKnowledge::Occupied;
         }
         for y in 0..320 {
-            (0..200).for_each(|x| *basis.passed.get_mut(Cell { x, y }).unwrap() = true);
+            (0..200).for_each(|x| *inputs.passed.get_mut(Cell { x, y }).unwrap() = true);
         }
-        basis
+        inputs
     }
 
     #[test]
     fn a_gap_that_shows_too_narrow_is_squeezed_through_for_the_floor_behind_it_only() {
         let lanes = |gap, squeezed_m| {
-            let basis = Basis {
+            let inputs = PlanInputs {
                 squeezed_m,
                 ..behind_a_gap(gap)
             };
-            made(Planning::begin(basis)).0
+            finished(PlanProgress::begin(inputs)).0
         };
         // The body is 14 cells wide; with a gap of a centimetre and whole cells it is planned to take 15.
         assert_eq!(lanes(14, None).lanes, 0);
@@ -268,7 +274,7 @@ mod tests {
         let mut swept = behind_a_gap(14);
         swept.passed.values_mut().fill(true);
         swept.squeezed_m = Some(0.1625);
-        assert_eq!(made(Planning::begin(swept)).0.open_m2, 0.0);
+        assert_eq!(finished(PlanProgress::begin(swept)).0.open_m2, 0.0);
         assert_eq!(lanes(12, Some(0.1625)).lanes, 0, "narrower than the body");
     }
 
@@ -276,15 +282,15 @@ mod tests {
     fn a_door_in_which_somebody_has_come_to_stand_is_tried_once_nothing_else_is_left() {
         let began = behind_a_gap(40).knowledge;
         let lanes = |squeezed_m, began| {
-            let mut basis = Basis {
+            let mut inputs = PlanInputs {
                 squeezed_m,
                 began,
                 ..behind_a_gap(40)
             };
             for y in 112..128 {
-                *basis.knowledge.get_mut(Cell { x: 200, y }).unwrap() = CellKnowledge::Occupied;
+                *inputs.knowledge.get_mut(Cell { x: 200, y }).unwrap() = CellKnowledge::Occupied;
             }
-            made(Planning::begin(basis)).0
+            finished(PlanProgress::begin(inputs)).0
         };
         assert_eq!(lanes(None, Some(began.clone())).lanes, 0);
         assert_eq!(lanes(Some(0.1625), None).lanes, 0);
@@ -297,9 +303,9 @@ mod tests {
 
     #[test]
     fn a_plan_that_is_begun_afresh_is_the_same() {
-        let (plan, _) = made(Planning::begin(basis()));
-        let again = Planning::begin(basis()).go_on().go_on().afresh();
-        assert!(matches!(again, Planning::Due(start) if start == START));
-        assert_eq!(made(Planning::begin(basis())).0, plan);
+        let (plan, _) = finished(PlanProgress::begin(inputs()));
+        let again = PlanProgress::begin(inputs()).go_on().go_on().afresh();
+        assert!(matches!(again, PlanProgress::Due(start) if start == START));
+        assert_eq!(finished(PlanProgress::begin(inputs())).0, plan);
     }
 }

@@ -2,37 +2,41 @@
 
 use super::Bounce;
 use crate::model::geometry::Point2;
-use crate::navigation::{Mind, Plan, Situation, Task};
+use crate::navigation::{Situation, Task, TaskContext, TaskStatus};
 
 /// It is away from the place at this distance, metres.
-const ASTRAY_M: f64 = 0.6;
+const ESCAPE_M: f64 = 0.6;
 /// It bounces for this long at most, seconds.
-const ASTRAY_S: f64 = 20.0;
+const ESCAPE_S: f64 = 20.0;
 
 /// A bounded stretch of bouncing.
 #[derive(Debug)]
-pub(super) struct Astray {
+pub(super) struct EscapeBounce {
     bounce: Bounce,
     from: Point2,
     left_s: f64,
 }
 
-impl Astray {
+impl EscapeBounce {
     /// Away from here.
     pub(super) fn from(place: Point2) -> Self {
         Self {
             bounce: Bounce::default(),
             from: place,
-            left_s: ASTRAY_S,
+            left_s: ESCAPE_S,
         }
     }
 
     /// What to do; `None` when the robot is away from the place, or the time is over.
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+    pub(super) fn step(
+        &mut self,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> Option<TaskStatus> {
         self.left_s -= situation.advance.time_s;
-        let is_away = self.from.distance_m(situation.pose.position()) > ASTRAY_M;
+        let is_away = self.from.distance_m(situation.pose.position()) > ESCAPE_M;
         let is_over = (is_away || self.left_s <= 0.0) && !self.bounce.is_evading() && situation.is_free();
-        (!is_over).then(|| self.bounce.step(situation, mind))
+        (!is_over).then(|| self.bounce.step(situation, context))
     }
 
     /// Half-done movements are void.

@@ -28,7 +28,7 @@ const ELSEWHERE_M: f64 = 0.5;
 
 /// A place of the way.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct TrackPoint {
     /// Where the robot believed to be.
     believed: Point2,
     /// What it would have swept from there is not worth another way.
@@ -38,7 +38,7 @@ pub(super) struct Place {
     error: Point2,
 }
 
-impl Place {
+impl TrackPoint {
     /// Where the robot was, and what was given up beside it: a small error is as likely one of the correction.
     pub(super) fn swept_from(&self) -> impl Iterator<Item = Point2> {
         let shift = trusted(self.error);
@@ -68,24 +68,24 @@ fn plus(point: Point2, by: Point2, share: f64) -> Point2 {
 
 /// The places, the newest last.
 #[derive(Debug, Default)]
-pub(super) struct Trail {
-    places: VecDeque<Place>,
+pub(super) struct RecentTrack {
+    points: VecDeque<TrackPoint>,
     last: Option<Pose2>,
     /// What is not handed back yet.
     due: Point2,
 }
 
-impl Trail {
+impl RecentTrack {
     /// Goes on to where the robot believes to be now. With what was moved since the last call a correction is handed back;
     /// without, places stay as they were believed. Gives what is settled now.
-    pub(super) fn follow(&mut self, estimate: &PoseEstimate, advance: Option<Advance>) -> Vec<Place> {
+    pub(super) fn follow(&mut self, estimate: &PoseEstimate, advance: Option<Advance>) -> Vec<TrackPoint> {
         let at = estimate.pose.position();
         let mut settled = Vec::new();
         if let (Some(last), Some(advance)) = (self.last, advance) {
             let expected = last.after_arc(advance.distance_m, advance.turn_rad).position();
             if estimate.lost || expected.distance_m(at) > ELSEWHERE_M {
                 self.due = Point2::ORIGIN;
-                settled.extend(self.places.drain(..));
+                settled.extend(self.points.drain(..));
             } else {
                 self.due = plus(self.due, plus(at, expected, -1.0), 1.0);
                 self.hand_back();
@@ -93,33 +93,33 @@ impl Trail {
         }
         self.last = Some(estimate.pose);
         if self
-            .places
+            .points
             .back()
             .is_none_or(|last| last.believed.distance_m(at) >= STEP_M)
         {
-            self.places.push_back(Place {
+            self.points.push_back(TrackPoint {
                 believed: at,
                 beside: None,
                 sigma_m: estimate.sigma_m,
                 error: Point2::ORIGIN,
             });
         }
-        while self.places.len() > KEPT_MAX {
-            settled.extend(self.places.pop_front());
+        while self.points.len() > KEPT_MAX {
+            settled.extend(self.points.pop_front());
         }
         settled
     }
 
     /// What would have been swept from a place beside the last one is not worth another way.
     pub(super) fn give_up(&mut self, beside: Point2) {
-        if let Some(last) = self.places.back_mut() {
+        if let Some(last) = self.points.back_mut() {
             last.beside = Some(beside);
         }
     }
 
     /// The places as they are known now.
-    pub(super) fn places(&self) -> impl Iterator<Item = &Place> {
-        self.places.iter()
+    pub(super) fn points(&self) -> impl Iterator<Item = &TrackPoint> {
+        self.points.iter()
     }
 
     /// Forgets all places.
@@ -134,15 +134,15 @@ impl Trail {
         }
         let due = core::mem::replace(&mut self.due, Point2::ORIGIN);
         let (mut share, mut later_m) = (1.0, 0.0);
-        for place in self.places.iter_mut().rev() {
-            if later_m > place.sigma_m {
-                share *= place.sigma_m / later_m;
+        for point in self.points.iter_mut().rev() {
+            if later_m > point.sigma_m {
+                share *= point.sigma_m / later_m;
             }
             if share < SHARE_MIN {
                 return;
             }
-            later_m = place.sigma_m;
-            place.error = plus(place.error, due, share);
+            later_m = point.sigma_m;
+            point.error = plus(point.error, due, share);
             share *= 1.0 - STEP_M / HANDED_BACK_M;
         }
     }
@@ -150,7 +150,7 @@ impl Trail {
 
 #[cfg(test)]
 mod tests {
-    use super::{Place, TRUSTED_MIN_M, Trail};
+    use super::{RecentTrack, TRUSTED_MIN_M, TrackPoint};
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::pose_estimate::PoseEstimate;
@@ -175,29 +175,29 @@ mod tests {
     }
 
     /// Two metres along x, after which the place turns out to be `off_m` to the left. The robot gets less sure on the way.
-    fn corrected(off_m: f64) -> Trail {
-        let mut trail = Trail::default();
+    fn corrected(off_m: f64) -> RecentTrack {
+        let mut track = RecentTrack::default();
         for step in 0..=100 {
             let x_m = 0.02 * f64::from(step);
             assert!(
-                trail
+                track
                     .follow(&believed(x_m, 0.0, 0.01 + 0.02 * x_m), ahead(0.02))
                     .is_empty()
             );
         }
-        trail.follow(&believed(2.0, off_m, 0.01), ahead(0.0));
-        trail
+        track.follow(&believed(2.0, off_m, 0.01), ahead(0.0));
+        track
     }
 
-    fn swept_from(place: &Place) -> Point2 {
-        place.swept_from().next().unwrap()
+    fn swept_from(point: &TrackPoint) -> Point2 {
+        point.swept_from().next().unwrap()
     }
 
     #[test]
     fn a_correction_moves_where_the_robot_was_unsure_and_not_where_it_was_sure() {
-        let trail = corrected(0.1);
-        let places: Vec<Point2> = trail.places().map(swept_from).collect();
-        let (first, middle, last) = (places[0], places[50], places[100]);
+        let track = corrected(0.1);
+        let points: Vec<Point2> = track.points().map(swept_from).collect();
+        let (first, middle, last) = (points[0], points[50], points[100]);
         assert_eq!(first, Point2::ORIGIN);
         assert!((last.y_m - (0.1 - TRUSTED_MIN_M)).abs() < 1e-9, "{last:?}");
         assert!((0.01..0.05).contains(&middle.y_m), "{middle:?}");
@@ -205,11 +205,11 @@ mod tests {
 
     #[test]
     fn what_was_given_up_beside_the_way_moves_with_it() {
-        let mut trail = Trail::default();
-        trail.follow(&believed(0.0, 0.0, 0.05), ahead(0.0));
-        trail.give_up(Point2 { x_m: 0.0, y_m: 0.02 });
-        trail.follow(&believed(0.0, 0.1, 0.01), ahead(0.0));
-        let given_up = trail.places().next().unwrap().swept_from().nth(1).unwrap();
+        let mut track = RecentTrack::default();
+        track.follow(&believed(0.0, 0.0, 0.05), ahead(0.0));
+        track.give_up(Point2 { x_m: 0.0, y_m: 0.02 });
+        track.follow(&believed(0.0, 0.1, 0.01), ahead(0.0));
+        let given_up = track.points().next().unwrap().swept_from().nth(1).unwrap();
         assert!(
             (given_up.y_m - (0.12 - TRUSTED_MIN_M)).abs() < 1e-9,
             "{given_up:?}"
@@ -218,32 +218,32 @@ mod tests {
 
     #[test]
     fn small_corrections_move_nothing() {
-        let trail = corrected(TRUSTED_MIN_M);
+        let track = corrected(TRUSTED_MIN_M);
         assert!(
-            trail
-                .places()
+            track
+                .points()
                 .take(101)
-                .all(|place| swept_from(place).y_m.abs() < 1e-9)
+                .all(|point| swept_from(point).y_m.abs() < 1e-9)
         );
     }
 
     #[test]
     fn a_robot_that_was_carried_away_was_where_it_believed_to_be() {
-        let mut trail = corrected(0.0);
-        let settled = trail.follow(&believed(5.0, 3.0, 0.01), ahead(0.0));
+        let mut track = corrected(0.0);
+        let settled = track.follow(&believed(5.0, 3.0, 0.01), ahead(0.0));
         assert_eq!(settled.len(), 101);
         assert_eq!(
             settled.last().map(swept_from),
             Some(Point2 { x_m: 2.0, y_m: 0.0 })
         );
-        assert_eq!(trail.places().count(), 1);
+        assert_eq!(track.points().count(), 1);
     }
 
     #[test]
     fn without_a_map_to_be_corrected_by_places_stay() {
-        let mut trail = Trail::default();
-        trail.follow(&believed(0.0, 0.0, 0.05), None);
-        trail.follow(&believed(0.0, 0.2, 0.01), None);
-        assert_eq!(trail.places().next().map(swept_from), Some(Point2::ORIGIN));
+        let mut track = RecentTrack::default();
+        track.follow(&believed(0.0, 0.0, 0.05), None);
+        track.follow(&believed(0.0, 0.2, 0.01), None);
+        assert_eq!(track.points().next().map(swept_from), Some(Point2::ORIGIN));
     }
 }

@@ -11,7 +11,7 @@ const CELLS_A_WORK: usize = 4;
 
 /// Knowledge in which what was free floor when the job `began`, and is occupied now, is free again. Edges, and what people do not
 /// allow, stay as they are.
-pub(super) async fn without_what_came(
+pub(super) async fn without_new_obstacles(
     mut knowledge: Raster<CellKnowledge>,
     began: &Raster<CellKnowledge>,
     budget: &mut StepBudget,
@@ -34,7 +34,7 @@ pub(super) async fn without_what_came(
 
 #[cfg(test)]
 mod tests {
-    use super::without_what_came;
+    use super::without_new_obstacles;
     use crate::mapping::{Cell, CellKnowledge, Raster};
     use crate::model::gradual::{StepBudget, at_once};
 
@@ -51,7 +51,7 @@ mod tests {
             Cell { x: -1, y: 0 },
             &[Occupied, Occupied, Free, Cliff, NoGo, Occupied, Occupied],
         );
-        let without = at_once(without_what_came(now, &began, &mut StepBudget::unlimited()));
+        let without = at_once(without_new_obstacles(now, &began, &mut StepBudget::unlimited()));
         assert_eq!(
             without.values(),
             [Occupied, Free, Free, Cliff, NoGo, Occupied, Occupied],

@@ -4,7 +4,7 @@ use crate::model::room_settings::Pattern;
 
 /// How floor is swept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Course {
+pub(crate) enum SweepPattern {
     /// By lanes.
     Lines,
     /// By rings, those along its border first.
@@ -13,7 +13,7 @@ pub(crate) enum Course {
     Outwards,
 }
 
-impl From<Pattern> for Course {
+impl From<Pattern> for SweepPattern {
     fn from(pattern: Pattern) -> Self {
         match pattern {
             Pattern::Lines => Self::Lines,

@@ -28,7 +28,7 @@ const SILENCE_S: f64 = 1.0;
 
 /// The drive along the line.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct CentrelineDrive {
     base_rad: f64,
     /// The base is the map's.
     is_known: bool,
@@ -36,11 +36,11 @@ pub(super) struct Line {
     /// Way to the side that is left to the middle of the line.
     middle_m: f64,
     silent_s: f64,
-    way_m: f64,
+    driven_m: f64,
     near_m: f64,
 }
 
-impl Line {
+impl CentrelineDrive {
     /// In this direction, which beams have told.
     pub(super) fn along(base_rad: f64) -> Self {
         Self {
@@ -49,7 +49,7 @@ impl Line {
             lobe: Lobe::Both,
             middle_m: 0.0,
             silent_s: 0.0,
-            way_m: 0.0,
+            driven_m: 0.0,
             near_m: 0.0,
         }
     }
@@ -69,7 +69,7 @@ impl Line {
 
     /// So far along it that the contacts were missed.
     pub(super) fn is_missed(&self) -> bool {
-        self.near_m > NEAR_MAX_M || self.way_m > LINE_MAX_M
+        self.near_m > NEAR_MAX_M || self.driven_m > LINE_MAX_M
     }
 
     /// Nothing was heard in front for too long.
@@ -84,7 +84,7 @@ impl Line {
         } else {
             self.silent_s + time_s
         };
-        self.way_m += distance_m.max(0.0);
+        self.driven_m += distance_m.max(0.0);
         if hearing.is_near() || self.near_m > 0.0 {
             self.near_m += distance_m.max(1e-6);
         }
@@ -106,7 +106,7 @@ impl Line {
                 self.middle_m -= self.trim_rad() * distance_m.max(0.0);
                 if self.middle_m <= 0.0 {
                     if !self.is_known {
-                        self.base_rad += LEARN_RAD * toward_line(self.lobe);
+                        self.base_rad += LEARN_RAD * toward_centreline(self.lobe);
                     }
                     self.lobe = Lobe::Both;
                 }
@@ -128,7 +128,7 @@ impl Line {
         if self.near_m > STRAIGHT_M {
             self.base_rad
         } else {
-            self.base_rad + self.trim_rad() * toward_line(self.lobe)
+            self.base_rad + self.trim_rad() * toward_centreline(self.lobe)
         }
     }
 
@@ -145,7 +145,7 @@ impl Line {
 }
 
 /// +1 when the line lies on the left of a robot that faces the dock, -1 on the right.
-fn toward_line(lobe: Lobe) -> f64 {
+fn toward_centreline(lobe: Lobe) -> f64 {
     match lobe {
         Lobe::Left => -1.0,
         Lobe::Right => 1.0,

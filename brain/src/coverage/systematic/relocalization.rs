@@ -5,30 +5,30 @@
 
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::reason::Reason;
-use crate::navigation::{Mind, Plan, Situation};
+use crate::navigation::{Situation, TaskContext, TaskStatus};
 
 /// Way along walls after which it goes on with what it believes, metres: once around a large home, so the map may be another's.
 const SEEK_MAX_M: f64 = 120.0;
 
 /// The search for its own place.
 #[derive(Debug, Default)]
-pub(super) struct Seeking {
+pub(super) struct RelocalizationLap {
     lap: Option<Perimeter>,
     has_given_up: bool,
 }
 
 /// What a search means for whoever drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Sought {
+pub(super) enum RelocalizationStep {
     /// The place is known, or was sought in vain: lanes go on.
-    Nothing,
+    Idle,
     /// The search has just ended: what was planned before is void.
     Over,
     /// It is being sought.
-    Still(Plan),
+    Driving(TaskStatus),
 }
 
-impl Seeking {
+impl RelocalizationLap {
     /// The robot was moved by somebody else.
     pub(super) fn interrupted(&mut self) {
         if let Some(lap) = &mut self.lap {
@@ -36,41 +36,45 @@ impl Seeking {
         }
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Sought {
+    pub(super) fn step(
+        &mut self,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> RelocalizationStep {
         if !situation.estimate.lost {
             self.has_given_up = false;
             return match self.lap.take() {
                 Some(lap) if lap.is_evading() || !situation.is_free() => {
                     self.lap = Some(lap);
-                    self.follow(situation, mind)
+                    self.follow(situation, context)
                 }
-                Some(_) => Sought::Over,
-                None => Sought::Nothing,
+                Some(_) => RelocalizationStep::Over,
+                None => RelocalizationStep::Idle,
             };
         }
         if self.has_given_up {
-            return Sought::Nothing;
+            return RelocalizationStep::Idle;
         }
         if self.lap.is_none() {
-            mind.decide("follow-wall", Reason::PlaceUnknown, 0.0);
+            context.decide("follow-wall", Reason::PlaceUnknown, 0.0);
         }
-        self.follow(situation, mind)
+        self.follow(situation, context)
     }
 
-    fn follow(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Sought {
+    fn follow(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> RelocalizationStep {
         let lap = self.lap.get_or_insert_default();
-        if lap.way_m() > SEEK_MAX_M && !lap.is_evading() && situation.is_free() {
+        if lap.driven_m() > SEEK_MAX_M && !lap.is_evading() && situation.is_free() {
             self.lap = None;
             self.has_given_up = true;
-            mind.decide("end-lap", Reason::LongLap, SEEK_MAX_M);
-            return Sought::Over;
+            context.decide("end-lap", Reason::LongLap, SEEK_MAX_M);
+            return RelocalizationStep::Over;
         }
-        Sought::Still(match lap.step(situation, mind) {
-            LapStep::Going(motion) => Plan::Go(motion),
-            LapStep::Trouble(reason) => Plan::Trouble(reason),
+        RelocalizationStep::Driving(match lap.step(situation, context) {
+            LapStep::Going(motion) => TaskStatus::Go(motion),
+            LapStep::Trouble(reason) => TaskStatus::Trouble(reason),
             LapStep::Over(reason) => {
-                mind.decide("leave-wall", reason, lap.way_m());
-                Plan::Go(lap.leave())
+                context.decide("leave-wall", reason, lap.driven_m());
+                TaskStatus::Go(lap.leave())
             }
         })
     }

@@ -7,16 +7,16 @@ use crate::model::reason::Reason;
 /// How far it keeps off its way, metres.
 const OFFSET_M: f64 = 0.015;
 /// For how much way, metres.
-const WAY_M: f64 = 0.5;
+const KEPT_FOR_M: f64 = 0.5;
 
 /// What is left of it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Shyness {
+pub(super) struct ContactOffset {
     offset_m: f64,
     left_m: f64,
 }
 
-impl Shyness {
+impl ContactOffset {
     /// Something was touched.
     pub(super) fn touched(&mut self, reason: Reason) {
         let offset_m = match reason {
@@ -26,7 +26,7 @@ impl Shyness {
         };
         *self = Self {
             offset_m,
-            left_m: WAY_M,
+            left_m: KEPT_FOR_M,
         };
     }
 
@@ -39,7 +39,7 @@ impl Shyness {
 
 #[cfg(test)]
 mod tests {
-    use super::{OFFSET_M, Shyness, WAY_M};
+    use super::{ContactOffset, KEPT_FOR_M, OFFSET_M};
     use crate::model::advance::Advance;
     use crate::model::reason::Reason;
 
@@ -52,15 +52,19 @@ mod tests {
 
     #[test]
     fn it_keeps_away_from_the_side_that_touched_and_forgets_it_on_the_way() {
-        let mut shyness = Shyness::default();
-        assert_eq!(shyness.offset_m(ahead(0.1)), 0.0);
-        shyness.touched(Reason::BumpLeft);
-        assert_eq!(shyness.offset_m(ahead(-0.03)), -OFFSET_M, "backing off is no way");
-        assert_eq!(shyness.offset_m(ahead(0.9 * WAY_M)), -OFFSET_M);
-        assert_eq!(shyness.offset_m(ahead(0.2 * WAY_M)), 0.0);
-        shyness.touched(Reason::BumpRight);
-        assert_eq!(shyness.offset_m(ahead(0.0)), OFFSET_M);
-        shyness.touched(Reason::BumpFront);
-        assert_eq!(shyness.offset_m(ahead(0.0)), 0.0);
+        let mut contact_offset = ContactOffset::default();
+        assert_eq!(contact_offset.offset_m(ahead(0.1)), 0.0);
+        contact_offset.touched(Reason::BumpLeft);
+        assert_eq!(
+            contact_offset.offset_m(ahead(-0.03)),
+            -OFFSET_M,
+            "backing off is no way"
+        );
+        assert_eq!(contact_offset.offset_m(ahead(0.9 * KEPT_FOR_M)), -OFFSET_M);
+        assert_eq!(contact_offset.offset_m(ahead(0.2 * KEPT_FOR_M)), 0.0);
+        contact_offset.touched(Reason::BumpRight);
+        assert_eq!(contact_offset.offset_m(ahead(0.0)), OFFSET_M);
+        contact_offset.touched(Reason::BumpFront);
+        assert_eq!(contact_offset.offset_m(ahead(0.0)), 0.0);
     }
 }

@@ -6,21 +6,21 @@ use super::roam::Roam;
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-use crate::navigation::{Mind, Plan, Situation};
+use crate::navigation::{Situation, TaskContext, TaskStatus};
 
 /// Way of roaming between two laps, metres: across a room and through a door.
 const ROAM_M: f64 = 10.0;
 
 /// The search. What it has seen it keeps over approaches that failed.
 #[derive(Debug, Default)]
-pub(super) struct Search {
+pub(super) struct DockSearch {
     lap: Perimeter,
     roam: Roam,
     /// Way that it still roams; `None` = along walls.
     roam_left_m: Option<f64>,
 }
 
-impl Search {
+impl DockSearch {
     /// Whether it is just getting away from something.
     pub(super) fn is_evading(&self) -> bool {
         if self.roam_left_m.is_some() {
@@ -41,29 +41,29 @@ impl Search {
         self.roam.note(situation);
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let Some(left_m) = self.roam_left_m else {
-            return self.follow_walls(situation, mind);
+            return self.follow_walls(situation, context);
         };
         if left_m <= 0.0 && !situation.is_free() && !self.roam.is_evading() {
-            mind.decide("follow-wall", Reason::DockUnknown, 0.0);
+            context.decide("follow-wall", Reason::DockUnknown, 0.0);
             self.roam_left_m = None;
             self.lap.begin_again();
-            return self.follow_walls(situation, mind);
+            return self.follow_walls(situation, context);
         }
         self.roam_left_m = Some(left_m - situation.advance.distance_m.max(0.0));
-        self.roam.step(situation, mind)
+        self.roam.step(situation, context)
     }
 
-    fn follow_walls(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        match self.lap.step(situation, mind) {
-            LapStep::Going(motion) => Plan::Go(motion),
-            LapStep::Trouble(reason) => Plan::Trouble(reason),
+    fn follow_walls(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        match self.lap.step(situation, context) {
+            LapStep::Going(motion) => TaskStatus::Go(motion),
+            LapStep::Trouble(reason) => TaskStatus::Trouble(reason),
             LapStep::Over(reason) => {
-                mind.decide("leave-wall", reason, self.lap.way_m());
+                context.decide("leave-wall", reason, self.lap.driven_m());
                 self.roam.interrupted();
                 self.roam_left_m = Some(ROAM_M);
-                Plan::Go(Motion::Halt)
+                TaskStatus::Go(Motion::Halt)
             }
         }
     }

@@ -3,22 +3,22 @@
 //! enough ago.
 
 use crate::model::reason::Reason;
-use crate::navigation::Mind;
+use crate::navigation::TaskContext;
 
 /// Two edges within this time are enough, microseconds: a little more than the firmware's five seconds.
 const WINDOW_US: u64 = 5_500_000;
 
 /// Times of the last two edges.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct EdgeWatch {
+pub(crate) struct CliffWatch {
     met_us: [Option<u64>; 2],
     was_at_edge: bool,
     waits: bool,
 }
 
-impl EdgeWatch {
+impl CliffWatch {
     /// Whether another edge now would be one too many, so that a robot that is free must stand still.
-    pub(crate) fn must_wait(&mut self, is_at_edge: bool, now_us: u64, mind: &mut Mind) -> bool {
+    pub(crate) fn must_wait(&mut self, is_at_edge: bool, now_us: u64, context: &mut TaskContext) -> bool {
         if is_at_edge && !self.was_at_edge {
             self.met_us = [self.met_us[1], Some(now_us)];
         }
@@ -26,7 +26,7 @@ impl EdgeWatch {
         let is_one_too_many = self.met_us[0].is_some_and(|met_us| now_us < met_us.saturating_add(WINDOW_US));
         let waits = is_one_too_many && !is_at_edge;
         if waits && !self.waits {
-            mind.decide("wait", Reason::CliffAgain, 0.0);
+            context.decide("wait", Reason::CliffAgain, 0.0);
         }
         self.waits = waits;
         waits
@@ -35,18 +35,18 @@ impl EdgeWatch {
 
 #[cfg(test)]
 mod tests {
-    use super::{EdgeWatch, WINDOW_US};
+    use super::{CliffWatch, WINDOW_US};
     use crate::model::random::Random;
-    use crate::navigation::Mind;
+    use crate::navigation::TaskContext;
 
     #[test]
     fn a_free_robot_stands_still_after_two_edges_until_the_first_is_long_ago() {
-        let mut mind = Mind {
+        let mut context = TaskContext {
             random: Random::new(1),
             journal: Vec::new(),
         };
-        let mut watch = EdgeWatch::default();
-        let mut step = |is_at_edge, now_us| watch.must_wait(is_at_edge, now_us, &mut mind);
+        let mut watch = CliffWatch::default();
+        let mut step = |is_at_edge, now_us| watch.must_wait(is_at_edge, now_us, &mut context);
         assert!(!step(true, 1_000_000), "it must back off");
         assert!(!step(false, 1_500_000), "one edge is none too many");
         assert!(!step(true, 3_000_000), "it must back off again");
@@ -57,6 +57,6 @@ mod tests {
         assert!(!step(true, 7_000_000));
         assert!(step(false, 7_500_000), "the second and the third");
         assert!(!step(false, 3_000_000 + WINDOW_US));
-        assert_eq!(mind.journal.len(), 2, "each wait is told once");
+        assert_eq!(context.journal.len(), 2, "each wait is told once");
     }
 }

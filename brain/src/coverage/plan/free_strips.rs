@@ -1,14 +1,14 @@
 //! Stretches: where a lane can lie at all.
 
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::{Axis, Ground};
+use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
 /// Work of looking at a cell.
 const LOOK_WORK: usize = 1;
 
 /// Free cells one after the other on a line: all lanes lie on one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stretch {
+pub(super) struct FreeStrip {
     pub(super) axis: Axis,
     /// Row of a stretch along x, column of one along y.
     pub(super) line: usize,
@@ -22,7 +22,7 @@ pub(super) struct Stretch {
     pub(super) is_changed: bool,
 }
 
-impl Stretch {
+impl FreeStrip {
     /// Cells of it.
     pub(super) const fn places(&self) -> usize {
         self.last + 1 - self.first
@@ -31,40 +31,40 @@ impl Stretch {
 
 /// All stretches, those of a line side by side.
 #[derive(Clone, Debug)]
-pub(super) struct Stretches {
-    pub(super) all: Vec<Stretch>,
+pub(super) struct FreeStrips {
+    pub(super) all: Vec<FreeStrip>,
     /// For each axis the number of the first stretch of each line, and that after the last one.
     starts: [Vec<usize>; 2],
 }
 
-impl Stretches {
-    pub(super) async fn of(ground: &Ground, budget: &mut StepBudget) -> Self {
-        let mut stretches = Self {
+impl FreeStrips {
+    pub(super) async fn of(space: &ConfigurationSpace, budget: &mut StepBudget) -> Self {
+        let mut strips = Self {
             all: Vec::new(),
             starts: [Vec::new(), Vec::new()],
         };
         for axis in [Axis::X, Axis::Y] {
-            for line in 0..ground.length(axis.other()) {
-                stretches.starts[axis as usize].push(stretches.all.len());
-                stretches.add_line(ground, axis, line);
-                budget.spend(LOOK_WORK * ground.length(axis)).await;
+            for line in 0..space.length(axis.other()) {
+                strips.starts[axis as usize].push(strips.all.len());
+                strips.add_line(space, axis, line);
+                budget.spend(LOOK_WORK * space.length(axis)).await;
             }
-            stretches.starts[axis as usize].push(stretches.all.len());
+            strips.starts[axis as usize].push(strips.all.len());
         }
-        stretches
+        strips
     }
 
-    fn add_line(&mut self, ground: &Ground, axis: Axis, line: usize) {
+    fn add_line(&mut self, space: &ConfigurationSpace, axis: Axis, line: usize) {
         let mut first = None;
-        for along in 0..ground.length(axis) {
+        for along in 0..space.length(axis) {
             let index = match axis {
-                Axis::X => line * ground.width + along,
-                Axis::Y => along * ground.width + line,
+                Axis::X => line * space.width + along,
+                Axis::Y => along * space.width + line,
             };
-            match (ground.free[index], first) {
+            match (space.free[index], first) {
                 (true, None) => first = Some(along),
                 (false, Some(start)) => {
-                    self.all.push(Stretch {
+                    self.all.push(FreeStrip {
                         axis,
                         line,
                         first: start,

@@ -24,13 +24,13 @@ const BLOCKED_SHARE: f64 = 0.2;
 
 /// State of a leg after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Leg {
+pub(crate) enum ManoeuvreStep {
     /// Not there yet.
     Going(Motion),
     /// There.
     Arrived,
     /// Time is over, or the known ground behind the robot.
-    Late,
+    Aborted,
 }
 
 /// Straight back until the way is made.
@@ -82,24 +82,24 @@ impl BackOff {
         self.left_s += 2.0 * length_m / self.speed_m_per_s;
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> Leg {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> ManoeuvreStep {
         let advance = situation.advance;
         self.left_m += advance.distance_m.min(0.0);
         self.left_s -= advance.time_s;
         let speed_m_per_s = self.speed_m_per_s.min(slow_m_per_s(situation));
-        let makes_way = -advance.distance_m > BLOCKED_SHARE * speed_m_per_s * advance.time_s;
-        self.blocked_s = if makes_way {
+        let is_moving = -advance.distance_m > BLOCKED_SHARE * speed_m_per_s * advance.time_s;
+        self.blocked_s = if is_moving {
             0.0
         } else {
             self.blocked_s + advance.time_s
         };
-        let spares = situation.is_free() && situation.way_back_m < self.reserve_m;
-        if self.left_m <= 0.0 || spares {
-            Leg::Arrived
-        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S || situation.way_back_m <= 0.0 {
-            Leg::Late
+        let keeps_reserve = situation.is_free() && situation.reverse_budget_m < self.reserve_m;
+        if self.left_m <= 0.0 || keeps_reserve {
+            ManoeuvreStep::Arrived
+        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S || situation.reverse_budget_m <= 0.0 {
+            ManoeuvreStep::Aborted
         } else {
-            Leg::Going(Motion::Drive {
+            ManoeuvreStep::Going(Motion::Drive {
                 speed_m_per_s: -speed_m_per_s,
                 turn_rad_per_s: 0.0,
             })
@@ -109,7 +109,7 @@ impl BackOff {
 
 /// Fastest that pays: near the end of the known ground a robot creeps, so that little of it goes into stopping.
 fn slow_m_per_s(situation: &Situation<'_>) -> f64 {
-    if situation.way_back_m < RESERVE_M {
+    if situation.reverse_budget_m < RESERVE_M {
         BACK_AT_CLIFF_M_PER_S
     } else {
         BACK_M_PER_S
@@ -132,20 +132,20 @@ impl Turn {
         }
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> Leg {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> ManoeuvreStep {
         let before_rad = self.left_rad;
         self.left_rad -= situation.advance.turn_rad;
         self.left_s -= situation.advance.time_s;
         let passed = before_rad * self.left_rad <= 0.0;
         if passed || self.left_rad.abs() < TURN_DONE_RAD {
-            return Leg::Arrived;
+            return ManoeuvreStep::Arrived;
         }
         if self.left_s <= 0.0 {
-            return Leg::Late;
+            return ManoeuvreStep::Aborted;
         }
         let fastest = situation.config.speeds.turn_max_rad_per_s.max(TURN_MIN_RAD_PER_S);
         let rate = (TURN_GAIN_PER_S * self.left_rad.abs()).clamp(TURN_MIN_RAD_PER_S, fastest);
-        Leg::Going(Motion::Drive {
+        ManoeuvreStep::Going(Motion::Drive {
             speed_m_per_s: 0.0,
             turn_rad_per_s: rate.copysign(self.left_rad),
         })
