@@ -1,15 +1,15 @@
-//! Bouncing out of a place where nothing else works.
+//! Bouncing away from a place where nothing else works.
 
 use super::Bounce;
 use crate::model::geometry::Point2;
 use crate::navigation::{Situation, Task, TaskContext, TaskStatus};
 
-/// It is away from the place at this distance, metres.
+/// At this distance the robot has left the place, metres.
 const ESCAPE_M: f64 = 0.6;
-/// It bounces for this long at most, seconds.
+/// Longest time of bouncing, seconds.
 const ESCAPE_S: f64 = 20.0;
 
-/// A bounded stretch of bouncing.
+/// A bounded time of bouncing.
 #[derive(Debug)]
 pub(super) struct EscapeBounce {
     bounce: Bounce,
@@ -18,7 +18,7 @@ pub(super) struct EscapeBounce {
 }
 
 impl EscapeBounce {
-    /// Away from here.
+    /// Away from this place.
     pub(super) fn from(place: Point2) -> Self {
         Self {
             bounce: Bounce::default(),
@@ -27,7 +27,7 @@ impl EscapeBounce {
         }
     }
 
-    /// What to do; `None` when the robot is away from the place, or the time is over.
+    /// What to do; `None` when the robot has left the place or the time is over.
     pub(super) fn step(
         &mut self,
         situation: &Situation<'_>,
@@ -39,7 +39,7 @@ impl EscapeBounce {
         (!is_over).then(|| self.bounce.step(situation, context))
     }
 
-    /// Half-done movements are void.
+    /// Discards unfinished movements.
     pub(super) fn interrupted(&mut self) {
         self.bounce.interrupted();
     }

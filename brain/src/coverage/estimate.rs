@@ -1,4 +1,4 @@
-//! What a job will take, before it begins.
+//! What a job will take, estimated before it begins.
 
 use super::margins::{KEEP_OFF_M, SIGMA_MIN_M};
 use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
@@ -13,25 +13,27 @@ use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::reachable;
 
-/// Real jobs take this many times as long as their plans: speeding up and braking, contacts, leftovers of an uncertain pose.
+/// Real jobs take this many times as long as their plans, because of acceleration, contacts and leftovers of an uncertain
+/// pose.
 const DRIVEN: f64 = 1.25;
-/// The low bound of the share is that of a robot whose place is so many times as uncertain as it believes.
+/// The low bound of the share assumes a pose this many times as uncertain as estimated.
 const DOUBT: f64 = 2.0;
-/// Deviation of the place where the map does not tell any, metres.
+/// Standard deviation of the position where the map holds none, metres.
 const SIGMA_UNKNOWN_M: f64 = 0.3;
 
-/// An expectation.
+/// The estimate of a job.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JobEstimate {
-    /// Floor that can be swept, each part once, square metres.
+    /// Floor that can be swept, each part counted once, square metres.
     pub floor_m2: f64,
     /// Time, seconds.
     pub time_s: f64,
-    /// Share of the whole charge that the job and the way home take; more than 1 when it must charge in between.
+    /// Share of a full charge that the job and the return to the dock take; above 1 when the robot must recharge in
+    /// between.
     pub charge: f64,
     /// Share of `floor_m2` that is expected to be swept, 0..=1.
     pub share: f64,
-    /// The same if the robot knows its place half as well as it believes.
+    /// The same if the pose is half as accurate as estimated.
     pub share_low: f64,
 }
 
@@ -89,7 +91,7 @@ pub(crate) fn estimate(
     })
 }
 
-/// What comes together over the parts of an order.
+/// The total over the parts of an order.
 #[derive(Clone, Copy, Debug)]
 struct OrderTotal {
     pose: Pose2,
@@ -125,7 +127,7 @@ struct PartEstimate {
     plan: CoveragePlan,
     end: Pose2,
     time_s: f64,
-    /// Share of the planned floor that an uncertain pose leaves swept, and the same with more doubt.
+    /// Share of the planned floor that stays swept under an uncertain pose, and its low bound.
     kept: f64,
     kept_low: f64,
 }
@@ -161,8 +163,7 @@ fn part_of(
     }
 }
 
-/// Share of the wanted floor that stays swept when lanes lie beside where they should, on average over its cells, and the
-/// same with more doubt.
+/// Share of the target floor that stays swept when lanes are displaced, averaged over its cells, and its low bound.
 fn kept((map, target): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, passes: u8) -> (f64, f64) {
     let knowledge = map.knowledge();
     let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, settings), f64::from(passes));
@@ -180,17 +181,18 @@ fn kept((map, target): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, 
     (sum / cells, sum_low / cells)
 }
 
-/// Share of the floor at a place that one pass leaves swept for a robot that knows its place there half as well as it believes.
+/// Share of the floor that one pass sweeps where the position has this deviation, with twice the deviation for the low
+/// bound.
 pub(super) fn kept_low(sigma_m: Option<f64>, settings: &PlanSettings) -> f64 {
     1.0 - gap_share(DOUBT * believed_m(sigma_m), settings)
 }
 
-/// Deviation of the place with which is reckoned.
+/// Standard deviation of the position that the estimate uses.
 fn believed_m(sigma_m: Option<f64>) -> f64 {
     sigma_m.unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M)
 }
 
-/// Expected share of the floor between two lanes that neither of them sweeps, when the place of each is uncertain.
+/// Expected share of the floor between two lanes that neither sweeps, when the position of each is uncertain.
 fn gap_share(sigma_m: f64, settings: &PlanSettings) -> f64 {
     let apart_m = core::f64::consts::SQRT_2 * sigma_m;
     let overlap_m = 2.0 * settings.sigma_m;

@@ -1,4 +1,4 @@
-//! Ways to cover a floor. A strategy is a [`Task`]; people choose it by name.
+//! Coverage strategies. A strategy is a [`Task`]; people choose it by name.
 
 mod bounce;
 mod escape_bounce;
@@ -28,7 +28,7 @@ use crate::model::command::StrategyName;
 use crate::model::order::CleaningOrder;
 use crate::navigation::Task;
 
-/// A fresh strategy of this name. Only `systematic` knows parts of a home; others clean all of it.
+/// A new strategy of this name. Only `systematic` can clean parts of a home; the others clean all of it.
 pub(crate) fn strategy(name: StrategyName, order: &CleaningOrder) -> Box<dyn Task> {
     match name {
         StrategyName::Bounce => Box::new(Bounce::default()),

@@ -1,12 +1,13 @@
-//! One lap along the walls of a home that nobody knows yet: it cleans the edges and shows the outline.
+//! One lap along the walls of an unknown home: it cleans the edges and shows the outline.
 //!
-//! Terms. *Lap*: the way along everything that hangs together with the first wall that is met. *Island*: something that
-//! stands free; the way round it turns right in sum. *Track*: places of the lap, one every few centimetres.
-//! *Stretch*: part of the track on which it never lost what it follows.
+//! Terms. *Lap*: the drive along everything that is connected with the first wall found. *Island*: a free-standing object;
+//! driving round it adds up to a right turn. *Track*: points of the lap, one every few centimetres. *Stretch*: part of the
+//! track on which the robot never lost the wall.
 //!
-//! The lap is closed when the robot goes along the track of its stretch for a while, in the same direction: then it has seen
-//! all of this outline. When the sum of turns since the first time is not a full turn to the left, it was an island, or a
-//! loop among several; it leaves that and looks for another wall. A lap that never closes ends by its length, or on the track of an earlier stretch.
+//! The lap is closed when the robot repeats the track of the current stretch for a while, in the same direction: then it
+//! has seen this whole outline. If the turns since the first pass do not add up to a full left turn, it was an island or
+//! one of several loops. The robot leaves that and looks for another wall. A lap that never closes ends by its length, or
+//! on the track of an earlier stretch.
 
 use core::f64::consts::TAU;
 
@@ -17,34 +18,34 @@ use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::reason::Reason;
 use crate::navigation::{ManoeuvreStep, Situation, TaskContext, TaskStatus, Turn, WallFollower, WallStep};
 
-/// Places of the track are so far apart, metres.
+/// Distance between points of the track, metres.
 const TRACK_STEP_M: f64 = 0.1;
-/// A place nearer than this was passed before, metres; less sure poses have more.
+/// A point nearer than this was passed before, metres; less certain poses get more.
 const SAME_M: f64 = 0.14;
-/// Farthest that a place is taken for one that was passed before, metres.
+/// Upper limit of that distance, metres.
 const SAME_MAX_M: f64 = 0.5;
 /// As `SAME_M`, for the heading, radians.
 const SAME_RAD: f64 = 0.6;
-/// A lap round an island is at least so long, metres: a body's width round nothing.
+/// Shortest lap round an island, metres: the turning circle of the body alone.
 const ISLAND_MIN_M: f64 = 1.0;
-/// A lap along walls is at least so long, metres.
+/// Shortest lap along walls, metres.
 const LAP_MIN_M: f64 = 4.0;
-/// So much way on the own track closes a lap, metres.
+/// This distance on its own track closes a lap, metres.
 const AGAIN_M: f64 = 0.4;
-/// So much way on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
+/// This distance on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
 const AGAIN_ELSEWHERE_M: f64 = 5.0;
-/// A place this near to one that was passed before shows nothing new, whatever it looks at, metres: its floor is swept.
+/// A point this near to an earlier one shows nothing new, whatever the heading, metres: its floor is swept.
 const SHOWN_M: f64 = 0.22;
-/// So much way that shows nothing new, more than three times as much as shows something, ends a lap, metres.
+/// This distance without anything new ends a lap, metres. Distance that shows something new counts three times against it.
 const STALE_MAX_M: f64 = 8.0;
 const FRESH_WORTH: f64 = 3.0;
-/// A lap longer than this is ended, metres: twice that of a large home.
+/// Longest lap, metres: twice that of a large home.
 const LAP_MAX_M: f64 = 400.0;
-/// So many islands in one lap and no walls: enough.
+/// A lap ends after this many islands without a wall.
 const ISLANDS_MAX: u32 = 12;
 /// Turn away from an island, radians.
 const AWAY_RAD: f64 = 1.5;
-/// Troubles in one lap until it is ended.
+/// Failures of the wall follower until the lap ends.
 const TROUBLES_MAX: u32 = 6;
 
 /// The lap.
@@ -58,15 +59,15 @@ pub(crate) struct Perimeter {
     driven_m: f64,
     turned_rad: f64,
     again_m: f64,
-    /// Way that shows nothing new, less what shows something.
+    /// Distance that showed nothing new, less what showed something new.
     stale_m: f64,
-    /// Number of the present stretch: a new one begins wherever it leaves what it followed.
+    /// Number of the current stretch: a new one begins whenever the robot loses the wall.
     stretch: u32,
     islands: u32,
     troubles: u32,
 }
 
-/// A place of the track.
+/// A point of the track.
 #[derive(Clone, Copy, Debug)]
 struct LapPoint {
     pose: Pose2,
@@ -79,16 +80,16 @@ struct LapPoint {
 /// State of the lap after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LapStep {
-    /// On it.
+    /// It goes on.
     Going(Motion),
-    /// It cannot go on by its own means.
+    /// It cannot go on without recovery.
     Trouble(Reason),
     /// It is over.
     Over(Reason),
 }
 
 impl Perimeter {
-    /// Half-done movements are void; the track stays.
+    /// Discards unfinished movements; the track stays.
     pub(crate) fn interrupted(&mut self) {
         self.wall.interrupted();
         self.whole_turns.interrupted();
@@ -98,7 +99,7 @@ impl Perimeter {
         }
     }
 
-    /// Another lap after one that is over, at a wall that is not on the track yet, if there is one.
+    /// Starts another lap after a finished one, at a wall that is not on the track yet if there is one.
     pub(crate) fn begin_again(&mut self) {
         self.interrupted();
         self.escape_bounce = None;
@@ -108,18 +109,18 @@ impl Perimeter {
         self.troubles = 0;
     }
 
-    /// Turns its back to the wall that it follows, for another lap at what is met next.
+    /// Turns away from the wall, for another lap at the next obstacle.
     pub(crate) fn leave(&mut self) -> Motion {
         self.begin_again();
         self.turn_away()
     }
 
-    /// Whether it is getting away from something that it touched.
+    /// Whether it is evading a contact.
     pub(crate) fn is_evading(&self) -> bool {
         self.wall.is_evading()
     }
 
-    /// Way that was made, metres.
+    /// Distance driven, metres.
     pub(crate) fn driven_m(&self) -> f64 {
         self.driven_m
     }
@@ -164,7 +165,7 @@ impl Perimeter {
         }
     }
 
-    /// Turns on the spot for the gyro's sake. Whole turns lead round nothing and do not count as such.
+    /// Turns on the spot to calibrate the gyro. These whole turns do not count as turns of the lap.
     fn turn_for_gyro(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<Motion> {
         let is_beside_wall = self.wall.is_along_wall();
         let motion = self.whole_turns.step(situation, is_beside_wall, context);
@@ -172,7 +173,7 @@ impl Perimeter {
         motion
     }
 
-    /// Bounces out of a place where following leads nowhere.
+    /// Bounces out of a place where the wall follower fails.
     fn bounce(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<LapStep> {
         match self.escape_bounce.as_mut()?.step(situation, context) {
             Some(TaskStatus::Go(motion)) => Some(LapStep::Going(motion)),
@@ -184,7 +185,7 @@ impl Perimeter {
         }
     }
 
-    /// Turns its back to an island; what is met next is another wall, or another island.
+    /// Turns away from an island, towards the next wall or island.
     fn leave_island(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Motion {
         context.decide("leave-wall", Reason::Island, situation.pose.heading_rad);
         self.islands += 1;
@@ -198,7 +199,7 @@ impl Perimeter {
         Motion::Halt
     }
 
-    /// Lengthens the track, and says what it means that the robot goes along it.
+    /// Extends the track. Gives the reason to end the lap or to leave an island, if the robot repeats its track.
     fn passed_before(&mut self, situation: &Situation<'_>) -> Option<Reason> {
         if !self.wall.is_following() {
             self.stretch = self.track.last().map_or(0, |last| last.stretch + 1);
@@ -247,7 +248,7 @@ impl Perimeter {
         })
     }
 
-    /// Counts a place of the track; `true` when there were enough that show nothing new.
+    /// Counts a point of the track; `true` when enough points in a row showed nothing new.
     fn grows_stale(&mut self, is_stale: bool) -> bool {
         self.stale_m = if is_stale {
             self.stale_m + TRACK_STEP_M
@@ -259,13 +260,13 @@ impl Perimeter {
 }
 
 impl LapPoint {
-    /// Whether the floor here was swept from an earlier place.
+    /// Whether this floor was already swept from an earlier point.
     fn shows_nothing_beyond(&self, before: &Self) -> bool {
         self.driven_m - before.driven_m > LAP_MIN_M
             && self.pose.position().distance_m(before.pose.position()) < SHOWN_M
     }
 
-    /// Full turns to the left since an earlier place with the same heading.
+    /// Full turns to the left since an earlier point with the same heading.
     fn turns_since(&self, before: &Self) -> f64 {
         libm::round((self.turned_rad - before.turned_rad) / TAU)
     }

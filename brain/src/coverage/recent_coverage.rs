@@ -1,7 +1,7 @@
-//! What a robot without a heading still knows: where it has been and what it has met lately.
+//! What a robot without a heading sensor still knows: where it was and what it hit recently.
 //!
-//! Odometry of wheels alone is wrong by metres after an hour, and by some decimetres after ten minutes: what was swept and met
-//! since then can still be told from what was not.
+//! Wheel odometry alone is wrong by metres after an hour and by some decimetres after ten minutes. Within that time it can
+//! still tell swept from unswept floor.
 
 use std::collections::VecDeque;
 
@@ -9,19 +9,19 @@ use crate::mapping::{CELL_M, Cell, Map};
 use crate::model::geometry::{Point2, Pose2, TurnSide};
 use crate::navigation::{Situation, TaskContext};
 
-/// What is older than this is not looked for any more, seconds.
+/// Older coverage and contacts are ignored, seconds.
 pub(super) const RECENT_S: u32 = 600;
 /// Contacts that are remembered.
 const CONTACTS_MAX: usize = 256;
-/// A way ends where it comes so near to a place where something was met, metres: what is met is mostly a side of something flat.
+/// A ray ends this close to a contact, metres: a contact is mostly one point of a flat side.
 const NEAR_M: f64 = 0.2;
-/// Turns that are weighed against each other.
+/// Turns that are compared.
 const TURNS: u32 = 12;
-/// The floor is looked at so far ahead, in these steps, metres.
+/// Length and step of the ray ahead, metres.
 const AHEAD_M: f64 = 2.5;
 const STEP_M: f64 = 2.0 * CELL_M;
 
-/// Places where something was met lately.
+/// Recent contacts.
 #[derive(Clone, Debug, Default)]
 pub(in crate::coverage) struct RecentContacts {
     contacts: VecDeque<RecentContact>,
@@ -35,7 +35,7 @@ struct RecentContact {
 }
 
 impl RecentContacts {
-    /// Something is met in front.
+    /// Records a contact in front.
     pub(in crate::coverage) fn note(&mut self, situation: &Situation<'_>) {
         let now_s = situation.map.sweeping_now_s();
         let body_m = situation.config.body.radius_m;
@@ -47,7 +47,8 @@ impl RecentContacts {
         }
     }
 
-    /// Of some turns between these angles, to this side or to both, the one that leads over most floor that was not swept lately.
+    /// Samples some turns between these angles, to this side or to both. Gives the one that leads over most floor that was
+    /// not swept recently.
     pub(in crate::coverage) fn turn_rad(
         &self,
         (low_rad, high_rad): (f64, f64),
@@ -72,13 +73,13 @@ impl RecentContacts {
         best_rad
     }
 
-    /// Way over floor that was not swept lately, straight on from a pose until something that was met, metres.
+    /// Length of floor not swept recently, straight ahead of a pose until a recent contact, metres.
     fn new_m(&self, from: Pose2, body_m: f64, map: &Map) -> f64 {
         let mut new_m = 0.0;
         let mut distance_m = body_m;
         while distance_m < AHEAD_M {
             let at = from.transform(ahead(distance_m));
-            // What has just been met lies beside the robot, which is free of it.
+            // The latest contact is beside the robot, which is already free of it.
             let is_away = distance_m > body_m + NEAR_M;
             if is_away
                 && self
@@ -97,7 +98,7 @@ impl RecentContacts {
     }
 }
 
-/// Whether the floor at a place was not swept within this time.
+/// Whether the floor at a point was not swept within this time.
 pub(super) fn is_new(map: &Map, at: Point2, within_s: u32) -> bool {
     map.sweeping(Cell::under(at))
         .is_none_or(|sweeping| map.sweeping_now_s().saturating_sub(sweeping.last_s) > within_s)
@@ -130,7 +131,7 @@ mod tests {
         }
     }
 
-    /// A lane of two metres along x that was swept at a time, seconds; it is `now_s`.
+    /// A lane of two metres along x, swept at `at_s`; the current time is `now_s`, seconds.
     fn swept_lane(at_s: u64, now_s: u64) -> Map {
         let mut map = Map::new(BODY, SensorLayout::default());
         for step in 0..=100 {

@@ -1,7 +1,7 @@
-//! Cleaning a disc of one metre: a spiral outwards from where the robot stands.
+//! Cleaning a disc of one metre: a spiral outwards from the robot's position.
 //!
-//! Driving with a radius of curvature that grows evenly with the angle turned draws the involute of a circle: its turns
-//! lie evenly apart and its centre stays put, without knowing a pose.
+//! A radius of curvature that grows evenly with the angle turned draws the involute of a circle: its turns are evenly
+//! spaced and its centre stays put, without knowing a pose.
 
 use core::f64::consts::TAU;
 
@@ -13,11 +13,11 @@ use crate::navigation::{Evasion, EvasionStep, Situation, Task, TaskContext, Task
 
 /// Radius of curvature at the start.
 const START_M: f64 = 0.06;
-/// Share of the swath by which neighbouring turns lie apart.
+/// Spacing of neighbouring turns, as a share of the swath.
 const SPACING: f64 = 0.8;
-/// Share of the highest turn rate that the tight inner turns use.
+/// Share of the maximum turn rate that the tight inner turns use.
 const TURN_SHARE: f64 = 0.8;
-/// Things met until the place is called too full.
+/// Encounters until the place counts as obstructed.
 const ENCOUNTERS_MAX: u32 = 8;
 
 /// The task.
@@ -86,7 +86,7 @@ impl Spot {
         })
     }
 
-    /// Away from what was met, and on with the other hand, so that the rest of the disc lies ahead.
+    /// Evades the obstacle and spirals on in the other direction, so that the rest of the disc lies ahead.
     fn evade(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         self.encounters += 1;
         if self.encounters > ENCOUNTERS_MAX {

@@ -1,23 +1,23 @@
-//! The floor that a part of an order asks for, and in which way it is to be swept.
+//! The floor that a part of an order asks for, and its sweep pattern.
 
 use super::plan::SweepPattern;
 use crate::mapping::{Cell, Map, Rooms};
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::model::room_settings::Pattern;
 
-/// The floor that shall be swept, as it was known at one time.
+/// The floor to sweep, as known at one time.
 #[derive(Debug)]
 pub(crate) struct TargetFloor {
     /// `None` = the whole home.
     part: Option<HomePart>,
     usual: SweepPattern,
-    /// Rooms of the home that are swept in rings when all of it is.
+    /// Rooms that are swept in rings when the whole home is cleaned.
     ring_rooms: Vec<u16>,
     rooms: Option<Rooms>,
 }
 
 impl TargetFloor {
-    /// What a part of an order asks for; `None` = the whole home.
+    /// The floor of a part of an order; `None` = the whole home.
     pub(crate) fn of(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Self {
         let words = map.annotations();
         let ring_rooms = match part {
@@ -33,7 +33,7 @@ impl TargetFloor {
         }
     }
 
-    /// How a cell is to be swept, if it belongs to it.
+    /// How a cell is to be swept, if it belongs to the target floor.
     pub(crate) fn pattern_at(&self, cell: Cell) -> Option<SweepPattern> {
         match (&self.part, &self.rooms) {
             (Some(part), Some(rooms)) => rooms.is_in_part(cell, part).then_some(self.usual),
@@ -51,7 +51,7 @@ impl TargetFloor {
     }
 }
 
-/// Dirt lies in the middle of a spot, and it is swept from there.
+/// In a spot the dirt is in the middle, so sweeping starts there.
 fn sweep_pattern(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> SweepPattern {
     match (part, order.pattern()) {
         (Some(HomePart::Spot(_)), None | Some(Pattern::Contour)) => SweepPattern::Outwards,

@@ -1,5 +1,5 @@
-//! `wall-bounce`: what cheap robots without a map do. A spiral while the floor is open, bouncing, and now and then a stretch
-//! along the walls, where bouncing alone sweeps last.
+//! `wall-bounce`: what cheap robots without a map do. A spiral on open floor, bouncing, and now and then a drive along the
+//! walls, which bouncing alone sweeps last.
 
 use super::Bounce;
 use super::spiral::Spiral;
@@ -9,15 +9,15 @@ use crate::navigation::{
     ManoeuvreStep, Situation, Task, TaskContext, TaskStatus, Turn, WallFollower, WallStep,
 };
 
-/// Way of bouncing before the next stretch along a wall, metres.
+/// Distance of bouncing before the next drive along a wall, metres.
 const BOUNCE_M: (f64, f64) = (12.0, 30.0);
-/// Way along a wall, metres.
+/// Length of a drive along a wall, metres.
 const WALL_M: (f64, f64) = (5.0, 12.0);
-/// Turn away from the wall after it, radians.
+/// Turn away from the wall afterwards, radians.
 const AWAY_RAD: (f64, f64) = (0.5, 2.4);
-/// A run this long without an encounter is on open floor, metres.
+/// A longer straight without an encounter is on open floor, metres.
 const OPEN_STRAIGHT_M: f64 = 1.8;
-/// Way between two spirals, metres.
+/// Distance between two spirals, metres.
 const SPIRAL_EVERY_M: f64 = 30.0;
 
 /// The strategy.
@@ -26,19 +26,19 @@ pub(crate) struct WallBounce {
     mode: WallBounceMode,
     bounce: Bounce,
     wall: WallFollower,
-    /// Way since the last spiral, metres.
+    /// Distance since the last spiral, metres.
     since_spiral_m: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum WallBounceMode {
-    /// In widening turns to the left.
+    /// A widening spiral to the left.
     Spiral(Spiral),
-    /// Bouncing for some way.
+    /// Bouncing for a distance.
     Bounce { left_m: f64 },
-    /// Along what stands on the right for some way.
+    /// Along the wall on the right for a distance.
     Wall { left_m: f64 },
-    /// Away from the wall.
+    /// Turning away from the wall.
     Away(Turn),
 }
 

@@ -1,7 +1,8 @@
-//! The way in by the two beams: scan for the dock, drive along the line between the lobes, and try again beside it.
+//! The approach by the two beams: scan for the dock, drive along the centreline between the lobes, and try again beside it.
 //!
-//! Terms. *Line*: where both lobes are heard; it leads straight in. *Base*: direction of the line by the robot's own
-//! count of its turns. *Trim*: what is added to the base while one lobe alone is heard. *Try*: one drive along the line.
+//! Terms. *Centreline*: where both lobes are received; it leads straight onto the dock. *Base*: direction of the centreline
+//! in the robot's own count of its turns. *Trim*: correction of the base while only one lobe is received. *Try*: one drive
+//! along the centreline.
 
 use core::f64::consts::PI;
 
@@ -13,38 +14,38 @@ use crate::model::geometry::normalize_rad;
 use crate::model::reason::Reason;
 use crate::navigation::{Evasion, EvasionStep, Situation, TaskContext};
 
-/// Speed beside the line.
+/// Speed beside the centreline.
 const ASIDE_M_PER_S: f64 = 0.18;
-/// Steering, rad/s for each radian.
+/// Turn rate per radian of heading error.
 const STEER_PER_S: f64 = 2.5;
-/// Greater errors of the heading are turned away on the spot.
+/// Larger heading errors are corrected on the spot.
 const TURN_FIRST_RAD: f64 = 0.3;
 /// Rates of such a turn, rad/s.
 const TURN_RAD_PER_S: (f64, f64) = (0.4, 1.2);
-/// Way back and turn of a wiggle at the contacts: 5 degrees.
+/// Back-off and turn of a wiggle at the contacts: 5 degrees.
 const WIGGLE_BACK_M: f64 = 0.03;
 const WIGGLE_RAD: f64 = 0.087;
 /// Wiggles of one try.
 const WIGGLES_MAX: u32 = 2;
-/// Way back before the robot turns round to leave for another try; no more is known to be floor.
+/// Distance to back off before the robot turns round for another try; only this much floor is known.
 const RETRY_BACK_M: f64 = 0.08;
-/// Way off for another try, metres.
+/// Distance to drive away for another try, metres.
 const RETRY_AWAY_M: f64 = 0.5;
 /// Tries of one approach.
 pub(super) const TRIES_MAX: u32 = 5;
 /// Scans that may fail or lead nowhere in one approach.
 const SCANS_MAX: u32 = 8;
-/// Angles between the dock and the way to the line, seen from beside the line: the shortest way first, then ways that lead
-/// past what stood in it.
+/// Angles between the direction of the dock and the path to the centreline, seen from beside the centreline. The shortest
+/// path comes first, then paths past an obstacle.
 const ASIDE_RAD: [f64; 3] = [0.9, 0.35, 0.6];
-/// The same from so near that the line is too short: away from the dock.
+/// The same from so near that the centreline is too short: away from the dock.
 const ASIDE_NEAR_RAD: f64 = 2.2;
-/// The same from beside the dock, at its wall: to a place in front of it.
+/// The same from beside the dock, at its wall: to a point in front of it.
 const BESIDE_RAD: f64 = 1.4;
 const BESIDE_M: f64 = 0.75;
-/// What is seen on one side only so much more than on the other is the wall of the dock, share of a touch.
+/// Surplus of the proximity level on one side that shows the wall of the dock, as a share of a touch.
 const WALL_LEVEL: f64 = 0.1;
-/// Longest way to the line, and from a place where only the near field is heard, metres.
+/// Longest path to the centreline, and from where only the near field is received, metres.
 const ASIDE_MAX_M: f64 = 1.5;
 const ASIDE_NEAR_M: f64 = 0.5;
 
@@ -58,7 +59,7 @@ pub(super) struct Approach {
     scans: u32,
     wiggles: u32,
     wiggle_side: f64,
-    /// Ways to the line that were tried.
+    /// Paths to the centreline that were tried.
     asides: usize,
 }
 
@@ -70,12 +71,12 @@ enum ApproachPhase {
     Evade(Evasion, AfterEvasion),
 }
 
-/// A straight way in some direction.
+/// A straight drive in one direction.
 #[derive(Clone, Copy, Debug)]
 struct StraightDrive {
     heading_rad: f64,
     left_m: f64,
-    /// It ends where the line is met.
+    /// It ends where it meets the centreline.
     to_centreline: bool,
 }
 
@@ -90,18 +91,18 @@ enum AfterEvasion {
 /// State of an approach after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ApproachStep {
-    /// On the way.
+    /// It goes on.
     Going(Motion),
     /// The beams are lost.
     Silent,
-    /// All tries were made.
+    /// All tries failed.
     Spent,
-    /// Something holds the robot.
+    /// The robot is held.
     Held(Reason),
 }
 
 impl Approach {
-    /// An approach by the beams alone, after so many others.
+    /// An approach by the beams alone, after this many others.
     pub(super) fn by_beams(others: u32) -> Self {
         Self {
             asides: others as usize,
@@ -109,7 +110,7 @@ impl Approach {
         }
     }
 
-    /// An approach from a place in front of the dock, which by the map lies `bearing_rad` left of straight ahead.
+    /// An approach from a point in front of the dock. By the map the dock lies `bearing_rad` left of straight ahead.
     pub(super) fn from_map(bearing_rad: f64) -> Self {
         Self::beginning(ApproachPhase::Centreline(CentrelineDrive::of_map(bearing_rad)))
     }
@@ -200,7 +201,7 @@ impl Approach {
         }
     }
 
-    /// Where to go from a place from which the dock lies `bearing_rad` left of straight ahead.
+    /// Where to drive when the dock lies `bearing_rad` left of straight ahead.
     fn after_scan(
         &mut self,
         bearing_rad: f64,
@@ -208,7 +209,7 @@ impl Approach {
         (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> ApproachPhase {
         let dock_rad = self.heading_rad + bearing_rad;
-        // To a robot that faces the dock the line lies on the right when it hears the left lobe.
+        // A robot that faces the dock and receives the left lobe has the centreline on its right.
         let to_centreline = match hearing.lobe() {
             Lobe::Both => return ApproachPhase::Centreline(CentrelineDrive::along(dock_rad)),
             Lobe::Left => -1.0,
@@ -281,7 +282,7 @@ impl Approach {
         ApproachStep::Going(self.toward(line.setpoint_rad(), line.speed_m_per_s()))
     }
 
-    /// Hit something before the contacts closed.
+    /// Handles a contact before the dock contacts closed.
     fn miss(
         &mut self,
         line: CentrelineDrive,
@@ -290,7 +291,7 @@ impl Approach {
     ) -> ApproachStep {
         let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
         if !hearing.is_near() {
-            // Something stands in the way.
+            // An obstacle is in the path.
             return self.turn_round(Evasion::from_contact, reason, context);
         }
         if self.wiggles >= WIGGLES_MAX {
@@ -308,7 +309,7 @@ impl Approach {
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// Leaves the dock in order to try again.
+    /// Leaves the dock for another try.
     fn leave(&mut self, base_rad: f64, context: &mut TaskContext) -> ApproachStep {
         self.tries += 1;
         self.wiggles = 0;
@@ -325,7 +326,7 @@ impl Approach {
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// Away from something that is not the dock, and a try less.
+    /// Evades an obstacle that is not the dock. This uses up a try.
     fn turn_round(
         &mut self,
         evasion: fn(f64, f64) -> Evasion,
@@ -351,7 +352,7 @@ impl Approach {
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// Touched while looking round or on the way to the line.
+    /// Evades a contact during a scan or on the path to the centreline.
     fn free_oneself(&mut self, context: &mut TaskContext) -> ApproachStep {
         self.scans += 1;
         if self.scans > SCANS_MAX {
@@ -362,7 +363,7 @@ impl Approach {
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// The motion in a direction, after a turn on the spot if that is far from straight ahead.
+    /// The motion towards a heading. Large errors are corrected on the spot first.
     fn toward(&self, target_rad: f64, speed_m_per_s: f64) -> Motion {
         let error_rad = normalize_rad(target_rad - self.heading_rad);
         if error_rad.abs() > TURN_FIRST_RAD {
@@ -381,8 +382,8 @@ impl Approach {
     }
 }
 
-/// The side to which the wall of the dock does not lie, seen by a robot that faces the dock: +1 left, -1 right; `None` when
-/// no wall is seen.
+/// The side away from the wall of the dock, for a robot that faces the dock: +1 left, -1 right; `None` when no wall is
+/// seen.
 fn away_from_wall(bearing_rad: f64, situation: &Situation<'_>) -> Option<f64> {
     let sensors = situation.config.sensors.proximity.sensors();
     let on_left: f64 = sensors

@@ -1,22 +1,22 @@
-//! Places to which a robot goes back because it heard its dock there.
+//! Places to return to because the robot received a dock beam there.
 
 use crate::mapping::{BeamMemory, BeamPlace};
 use crate::model::geometry::Point2;
 use crate::navigation::Goal;
 
-/// What is as good as a place on the line in front of the dock may be so much nearer, metres.
+/// Detour that a place on the centreline is worth, compared with one beside it, metres.
 const ASIDE_DETOUR_M: f64 = 0.5;
 
-/// A place from which the robot did not get onto the dock.
+/// A place from which docking failed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FailedPlace {
     pub(super) at: Point2,
-    /// Places within this are no better, metres.
+    /// Other places within this distance are no better, metres.
     pub(super) within_m: f64,
     pub(super) time_us: u64,
 }
 
-/// Places where a beam was heard and not looked for in vain since.
+/// Places where a beam was received and from which docking has not failed since.
 pub(super) fn goals(memory: &BeamMemory, failed: &[FailedPlace]) -> Vec<Goal> {
     let has_failed = |place: &&BeamPlace| {
         failed.iter().any(|failed| {
@@ -41,7 +41,7 @@ mod tests {
     use crate::model::observation::Observation;
     use crate::model::pose_estimate::PoseEstimate;
 
-    /// Drives along x for so many steps of 5 mm and 20 ms; hears `word` from `heard` on for ten steps.
+    /// Drives along x for this many steps of 5 mm and 20 ms; receives `word` for ten steps from `heard` on.
     fn driven(memory: &mut BeamMemory, steps: u64, heard: u64, word: u8) {
         for step in 0..steps {
             let is_heard = (heard..heard + 10).contains(&step);

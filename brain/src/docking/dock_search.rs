@@ -1,6 +1,6 @@
-//! Looking for the dock where nobody knows where it is. Docks stand at walls, and who goes along the walls of a home comes
-//! through all of its rooms: so it follows the walls until it comes back to where it was, and listens. Where that has brought
-//! nothing it roams, and follows the next wall that it does not know.
+//! Searches the dock when its place is unknown. Docks stand at walls, and following the walls leads through all rooms. So
+//! the robot follows the walls and listens until it is back where it started. If that fails it roams, and then follows the
+//! next unknown wall.
 
 use super::roam::Roam;
 use crate::coverage::{LapStep, Perimeter};
@@ -8,20 +8,20 @@ use crate::model::action::Motion;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
 
-/// Way of roaming between two laps, metres: across a room and through a door.
+/// Distance of roaming between two laps, metres: across a room and through a door.
 const ROAM_M: f64 = 10.0;
 
-/// The search. What it has seen it keeps over approaches that failed.
+/// The search. It keeps what it has seen across failed approaches.
 #[derive(Debug, Default)]
 pub(super) struct DockSearch {
     lap: Perimeter,
     roam: Roam,
-    /// Way that it still roams; `None` = along walls.
+    /// Distance left to roam; `None` = along walls.
     roam_left_m: Option<f64>,
 }
 
 impl DockSearch {
-    /// Whether it is just getting away from something.
+    /// Whether an evasion is in progress.
     pub(super) fn is_evading(&self) -> bool {
         if self.roam_left_m.is_some() {
             self.roam.is_evading()
@@ -30,13 +30,13 @@ impl DockSearch {
         }
     }
 
-    /// The robot was moved by somebody else.
+    /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
         self.lap.interrupted();
         self.roam.interrupted();
     }
 
-    /// Notes where the robot is, whoever drives it.
+    /// Records where the robot is, whoever drives it.
     pub(super) fn note(&mut self, situation: &Situation<'_>) {
         self.roam.note(situation);
     }

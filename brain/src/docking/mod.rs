@@ -1,11 +1,12 @@
-//! Home to the dock: by the map to a place in front of it, or to where its beams were heard, then in by the beams; where
+//! Return to the dock: by the map to a place in front of it or to where its beams were received, then by the beams. Where
 //! neither helps, search.
 //!
-//! Terms. *Lobe*: half of the space before the dock, filled by one of its two side beams; where both are heard is the
-//! line that leads straight in. *Near field*: a weak beam around the dock. A receiver reports the sum of what it hears.
+//! Terms. *Lobe*: half of the space before the dock, filled by one of its two side beams; where both are received is the
+//! *centreline* that leads straight in. *Near field*: a weak beam around the dock. A receiver reports the sum of the beams
+//! it receives.
 //!
-//! The task never ends docked by its own word: that the contacts carry the dock's voltage is the firmware's to say, and the
-//! state machine above ends the job then. Every phase begins with a decision that names why.
+//! The task itself never ends as docked. The firmware reports that the contacts carry the dock's voltage, and the state
+//! machine above then ends the job. Every phase begins with a decision that names its reason.
 
 mod approach;
 mod beam_goals;
@@ -25,15 +26,15 @@ use beam_goals::{FailedPlace, goals};
 use dock_search::DockSearch;
 use travel::{Travel, TravelStep};
 
-/// How long beams are left alone after an approach that failed: elsewhere the next one may be better.
+/// Time for which beams are ignored after a failed approach: the next one may work better from elsewhere.
 const IGNORE_S: f64 = 15.0;
-/// How long a robot that knows the way searches by chance after the way was blocked or led to silence.
+/// Time of searching at random after a known path was blocked or led to a place without beams.
 const SEARCH_S: f64 = 40.0;
-/// Within this of a place where nothing was heard nothing is expected, metres; where the beams were heard and the way in
-/// failed, another place beside it may do.
+/// Within this distance of a place where nothing was received no beam is expected, metres. Where the beams were received
+/// and the approach failed, a place nearby may do.
 const SILENT_M: f64 = 0.5;
 const MISSED_M: f64 = 0.25;
-/// Ways back to where beams were heard, in one task.
+/// Returns to where beams were received, in one task.
 const BACK_TO_BEAMS_MAX: u32 = 12;
 
 /// The task.
@@ -45,24 +46,24 @@ pub(crate) struct Docking {
     back_to_beams: u32,
     approaches: u32,
     elapsed_s: f64,
-    /// Beams are left alone for so long.
+    /// Beams are ignored for this long.
     ignore_s: f64,
-    /// The map is left alone for so long.
+    /// The map is ignored for this long.
     search_s: f64,
 }
 
 #[derive(Debug, Default)]
 enum DockingPhase {
-    /// About to decide.
+    /// No phase is chosen yet.
     #[default]
     Undecided,
     /// By the map, to the dock.
     Travel(Box<Travel>),
-    /// By the map, to where a beam was heard.
+    /// By the map, to where a beam was received.
     Back(Box<Travel>),
     /// By the beams.
     Approach(Approach),
-    /// To where it has not been yet.
+    /// To unvisited floor.
     Search,
 }
 
@@ -105,7 +106,7 @@ impl Task for Docking {
 }
 
 impl Docking {
-    /// Changes the phase where something better has come up.
+    /// Changes the phase when a better one is possible.
     fn reconsider(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         let known = known_dock(situation);
         match &self.phase {
@@ -143,7 +144,7 @@ impl Docking {
         }
     }
 
-    /// Back to where a beam was heard, if there is such a place.
+    /// Drives back to where a beam was received, if there is such a place.
     fn begin_back(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> bool {
         let heard_at = goals(situation.beams, &self.failed_places);
         if heard_at.is_empty() || self.back_to_beams >= BACK_TO_BEAMS_MAX {
@@ -177,7 +178,7 @@ impl Docking {
         match step {
             TravelStep::Going(motion) => return TaskStatus::Go(motion),
             TravelStep::Held(reason) => return TaskStatus::Trouble(reason),
-            // Told by eye, its direction is too rough to drive in by.
+            // A person marked the dock on the map: its direction is too rough to drive in by.
             TravelStep::Arrived if situation.map.dock_place().is_told() => {
                 self.begin_approach(Reason::DockKnown, context);
             }
@@ -245,13 +246,14 @@ impl Docking {
     }
 }
 
-/// Looks for the length of the way to the dock by the map in metres; `None` when it is not known where the dock is.
+/// Starts the computation of the length of the path to the dock by the map, metres; `None` when the dock's place is not
+/// known.
 pub(crate) fn path_home_m(situation: &Situation<'_>) -> Option<Gradual<Option<f64>>> {
     let dock = known_dock(situation).ok()?;
     Some(travel::path_length_m(dock, situation))
 }
 
-/// Pose of a robot on the dock, for one that knows its own place too.
+/// Pose of a docked robot, if the robot is localized and the dock is on the map.
 fn known_dock(situation: &Situation<'_>) -> Result<Pose2, Reason> {
     let estimate = situation.estimate;
     let dock = situation.map.dock().ok_or(Reason::DockUnknown)?;

@@ -1,8 +1,8 @@
-//! Straight ways to where the robot has not been yet.
+//! Straight drives to unvisited floor.
 //!
-//! Terms. *Block*: a square of half a metre. A robot that came through a block has seen its neighbours, too: beams reach
-//! far. *Ray*: a straight way from here that the map does not bar; it is worth as many blocks as it leads through that were
-//! not seen.
+//! Terms. *Block*: a square of half a metre. A robot that crossed a block has also seen its neighbours, since beams reach
+//! far. *Ray*: a straight line from the robot that no obstacle on the map blocks. Its value is the number of unseen blocks
+//! that it crosses.
 
 use core::f64::consts::{FRAC_PI_3, TAU};
 use std::collections::BTreeSet;
@@ -16,34 +16,34 @@ use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, encou
 
 /// Edge of a block, metres.
 const BLOCK_M: f64 = 0.5;
-/// Directions that are looked at, and the steps and the length of a ray, metres.
+/// Number of directions that are compared, and the step and the length of a ray, metres.
 const DIRECTIONS: u32 = 32;
 const RAY_STEP_M: f64 = 0.1;
 const RAY_M: f64 = 5.0;
-/// A ray begins beyond the body, metres.
+/// A ray begins outside of the body, metres.
 const RAY_FROM_M: f64 = 0.3;
-/// A ray that comes so near to something that was touched ends there, metres.
+/// A ray ends this close to a contact, metres.
 const TOUCHED_M: f64 = 0.17;
-/// Touched places kept; the oldest go first.
+/// Contacts kept; the oldest go first.
 const TOUCHED_MAX: usize = 400;
-/// A robot on a way without news looks for a better one after so much of it, metres.
+/// After this distance without unseen blocks the robot looks for a better direction, metres.
 const LOOK_EVERY_M: f64 = 1.0;
-/// A better way is one with so many steps of news more.
+/// A better direction crosses this many more unseen steps.
 const BETTER_STEPS: f64 = 8.0;
-/// Ways back after a contact and at a cliff, metres.
+/// Distances to back off after a contact and at a cliff, metres.
 const CONTACT_BACK_M: f64 = 0.04;
 const CLIFF_BACK_M: f64 = 0.08;
-/// Ways shorter than this in a row, metres, mean a pocket: out of it by bouncing.
+/// Several drives in a row shorter than this, metres, mean a pocket: the robot bounces out of it.
 const SHORT_M: f64 = 0.3;
 const SHORT_MAX: u32 = 4;
-/// It bounces for so long, seconds.
+/// Time of bouncing, seconds.
 const BOUNCE_S: f64 = 15.0;
-/// Speeds: cruise is the configuration's, this one is for something near ahead.
+/// Speed with an obstacle close ahead; the configuration gives the cruise speed.
 const NEAR_M_PER_S: f64 = 0.12;
-/// Proximity level that means something near.
+/// Proximity level that means an obstacle is close.
 const NEAR_LEVEL: f32 = 0.45;
 
-/// The ways, and what was seen on all of them.
+/// The drives, and what was seen on all of them.
 #[derive(Debug, Default)]
 pub(super) struct Roam {
     seen: BTreeSet<(i32, i32)>,
@@ -56,7 +56,7 @@ pub(super) struct Roam {
 }
 
 impl Roam {
-    /// Whether it is just getting away from something.
+    /// Whether an evasion is in progress.
     pub(super) fn is_evading(&self) -> bool {
         self.evasion.is_some()
             || self
@@ -65,13 +65,13 @@ impl Roam {
                 .is_some_and(|(bounce, _)| bounce.is_evading())
     }
 
-    /// The robot was moved by somebody else.
+    /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
         self.evasion = None;
         self.bounce = None;
     }
 
-    /// Notes where the robot is, whoever drives it.
+    /// Records where the robot is, whoever drives it.
     pub(super) fn note(&mut self, situation: &Situation<'_>) {
         let (x, y) = block(situation.pose.position());
         let mut is_news = false;
@@ -121,7 +121,7 @@ impl Roam {
         TaskStatus::Go(ahead(situation))
     }
 
-    /// Away from what was met, to where most is new.
+    /// Evades an obstacle, towards most unseen floor.
     fn turn_from(
         &mut self,
         reason: Reason,
@@ -171,14 +171,14 @@ impl Roam {
         self.touched.push(situation.pose.transform(in_base));
     }
 
-    /// A turn to a way that is worth leaving this one for.
+    /// A turn to a direction that is worth changing to.
     fn better_direction(&self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<f64> {
         let (turn_rad, news) = self.best(situation, context, |_| true)?;
         let straight = self.news(situation, 0.0);
         (news > straight + BETTER_STEPS).then_some(turn_rad)
     }
 
-    /// The turn to the way with most news, among those that are allowed; chance decides between equal ones.
+    /// The turn to the direction with most unseen floor, among the allowed ones; chance decides between equal ones.
     fn best(
         &self,
         situation: &Situation<'_>,
@@ -197,7 +197,7 @@ impl Roam {
             .max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
-    /// Steps of a ray that lead through blocks that were not seen; a free ray without news is worth a little.
+    /// Steps of a ray through unseen blocks; free steps through seen blocks count a little.
     fn news(&self, situation: &Situation<'_>, turn_rad: f64) -> f64 {
         let (sin, cos) = libm::sincos(turn_rad);
         let knowledge = situation.map.knowledge();
@@ -233,7 +233,7 @@ fn block(at: Point2) -> (i32, i32) {
     )
 }
 
-/// Straight ahead, slower when something is near.
+/// Straight ahead, slower when an obstacle is near.
 fn ahead(situation: &Situation<'_>) -> Motion {
     let proximity = &situation.observation.proximity;
     let third = proximity.len() / 3;

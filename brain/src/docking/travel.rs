@@ -1,7 +1,7 @@
-//! The way to a place in front of the dock, or to one where it was heard, by the map.
+//! The path by the map to a place in front of the dock, or to one where a beam was received.
 //!
-//! What stands in the way is remembered for some minutes and gone round; when no way is left the memory is cleared, because
-//! people and chairs move, and the way is tried again. All of it is bounded by counts.
+//! Obstructions are remembered for some minutes and avoided. When no path is left they are forgotten, because people and
+//! chairs move, and the robot tries again. Counts bound everything.
 
 use core::task::Poll;
 
@@ -16,40 +16,40 @@ use crate::navigation::{
     encounter, plan_path, reachable,
 };
 
-/// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
-/// not touch. With the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is
-/// one cell too narrow in the map.
+/// Gaps between the body and known obstacles on planned paths, metres, the widest first, since docking is in no hurry. With
+/// the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is one cell too narrow
+/// on the map.
 const KEEP_OFF_M: [f64; 3] = [0.05, 0.01, -0.015];
-/// The same on the way back to where the robot has been: it fits through there, and what the map says of it was drawn with a
+/// The same on the way back to where the robot has been. It fits through there, and the map of that place was drawn with a
 /// pose that has drifted since.
 const KEEP_OFF_BACK_M: [f64; 5] = [0.05, 0.01, -0.015, -0.05, -0.09];
-/// Distances from the dock at which the beams are taken up, metres: the best one first.
+/// Distances from the dock at which the approach by beams begins, metres: the best one first.
 const FRONT_M: [f64; 6] = [1.1, 1.3, 0.9, 0.75, 0.6, 0.5];
-/// Places beside the line are worse than places on it: detour for each metre.
+/// Detour per metre that a place beside the centreline counts more than one on it.
 const ASIDE_DETOUR: f64 = 6.0;
-/// The same for distances from the dock.
+/// The same per metre of distance from the best place in front of the dock.
 const FRONT_DETOUR: f64 = 1.5;
-/// Places beside the line, metres.
+/// Sideways offsets from the centreline, metres.
 const ASIDE_M: [f64; 5] = [0.0, 0.12, -0.12, 0.25, -0.25];
-/// Way back after a contact, and what is added with each plan that made no way.
+/// Distance to back off after a contact, and what each plan without progress adds.
 const CONTACT_BACK_M: f64 = 0.03;
 const MORE_BACK_M: f64 = 0.02;
-/// Way back at a cliff.
+/// Distance to back off at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Nearer than this to where the last plan began, the plan was vain, metres.
+/// Nearer than this to the start of the last plan, that plan made no progress, metres.
 const FAILED_NEAR_M: f64 = 0.15;
-/// Vain plans in a row, and plans in all, until the way counts as blocked.
+/// Plans without progress in a row, and plans in total, until the path counts as blocked.
 const FAILED_PLANS_MAX: u32 = 6;
 const PLANS_MAX: u32 = 40;
 /// Times that obstructions are forgotten.
 const FORGET_MAX: u32 = 2;
 
-/// The way.
+/// The drive.
 #[derive(Debug)]
 pub(super) struct Travel {
     goals: Vec<Goal>,
     keep_off_m: &'static [f64],
-    /// Why it leads there.
+    /// Why the robot drives there.
     reason: Reason,
     follower: Option<PathFollower>,
     path_search: Option<PathSearch>,
@@ -61,26 +61,26 @@ pub(super) struct Travel {
     planned_from: Option<Point2>,
 }
 
-/// State of the way after a step.
+/// State of the drive after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TravelStep {
-    /// On it.
+    /// It goes on.
     Going(Motion),
-    /// There.
+    /// The robot is there.
     Arrived,
-    /// No way is left.
+    /// No path is left.
     Blocked,
-    /// Something holds the robot.
+    /// The robot is held.
     Held(Reason),
 }
 
 impl Travel {
-    /// To the place in front of `dock`, the pose of a robot on its contacts.
+    /// To the place in front of `dock`, the pose of a docked robot.
     pub(super) fn to_dock(dock: Pose2) -> Self {
         Self::to(goals(dock), &KEEP_OFF_M, Reason::DockKnown)
     }
 
-    /// To one of the places where it was heard.
+    /// To one of the places where a beam was received.
     pub(super) fn to_beam(heard_at: Vec<Goal>) -> Self {
         Self::to(heard_at, &KEEP_OFF_BACK_M, Reason::DockHeard)
     }
@@ -101,12 +101,12 @@ impl Travel {
         }
     }
 
-    /// Whether it is just getting away from something.
+    /// Whether an evasion is in progress.
     pub(super) fn is_evading(&self) -> bool {
         self.evasion.is_some()
     }
 
-    /// The robot was moved by somebody else.
+    /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
         self.follower = None;
         self.path_search = None;
@@ -151,7 +151,7 @@ impl Travel {
         TravelStep::Going(Motion::Halt)
     }
 
-    /// Begins a plan, or goes on with the one that is being made, while the robot stands.
+    /// Begins a path search or continues the one in progress, while the robot stands.
     fn plan_on(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
         let Some(path_search) = &mut self.path_search else {
             return self.begin_plan(situation, context);
@@ -202,15 +202,15 @@ impl Travel {
     }
 }
 
-/// A way that is being looked for.
+/// A path search in progress.
 #[derive(Debug)]
 struct PathSearch {
     rest: Gradual<Option<Vec<PathSegment>>>,
-    /// Something that the map does not know stands in the way.
+    /// Obstructions that are not on the map block the path.
     is_blocked: bool,
 }
 
-/// All that a way depends on.
+/// All inputs of a path search.
 #[derive(Debug)]
 struct PathInputs {
     knowledge: Raster<CellKnowledge>,
@@ -231,7 +231,7 @@ impl PathInputs {
         }
     }
 
-    /// The way with the first of these gaps with which there is one.
+    /// The path with the first of these gaps that allows one.
     async fn first_path(self, keep_off_m: &'static [f64]) -> Option<Vec<PathSegment>> {
         let budget = &mut StepBudget::limited();
         for gap_m in keep_off_m {
@@ -245,7 +245,7 @@ impl PathInputs {
     }
 }
 
-/// Looks for the length of the way to the place in front of `dock`, metres; `None` when the map knows none.
+/// Starts the computation of the length of the path to the place in front of `dock`, metres; `None` when the map has none.
 pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
     let inputs = PathInputs::of(situation, goals(dock), Vec::new());
     Gradual::new(async move { Some(length_m(&inputs.first_path(&KEEP_OFF_M[1..2]).await?)) })
@@ -255,7 +255,7 @@ fn length_m(segments: &[PathSegment]) -> f64 {
     segments.iter().map(|segment| segment.length_m).sum()
 }
 
-/// Places in front of the dock, those on the line at a good distance first.
+/// Places in front of the dock, those on the centreline at a good distance first.
 pub(super) fn goals(dock: Pose2) -> Vec<Goal> {
     let mut goals = Vec::with_capacity(FRONT_M.len() * ASIDE_M.len());
     for (rank, front_m) in FRONT_M.into_iter().enumerate() {

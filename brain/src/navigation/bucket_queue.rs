@@ -1,15 +1,16 @@
-//! Blocks in the order in which a search leaves them: a list for each cost, because steps cost little and costs are whole.
+//! A bucket queue (Dial's algorithm): a list of blocks for each cost, since costs are small whole numbers.
 
 /// Cost of the longest step.
 pub(super) const LONGEST_STEP_COST: u32 = 14;
 
-/// Blocks that wait to be left, those of least cost and lowest number first.
+/// Queued blocks, the lowest cost and then the lowest number first.
 pub(super) struct BucketQueue {
-    /// Blocks of equal costs; those that wait differ by no more than the longest step.
+    /// Blocks of equal cost. The costs in the queue differ by no more than the longest step, so the buckets are used
+    /// cyclically.
     buckets: [Vec<u32>; LONGEST_STEP_COST as usize + 1],
     cost: u32,
     waiting: usize,
-    /// The present ring is in order.
+    /// The current bucket is sorted.
     is_sorted: bool,
 }
 

@@ -1,5 +1,5 @@
-//! What the proximity sensors and the map advise a robot that follows a way: slower towards what is ahead, and away from what
-//! it nearly touches at a side.
+//! Corrections from the proximity sensors and the map for a robot that follows a path: slower towards obstacles ahead, and
+//! away from obstacles at the sides.
 
 use super::path_follower::Caution;
 use super::{PathFollower, Situation};
@@ -7,35 +7,35 @@ use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::model::config::ProximityLayout;
 use crate::model::geometry::Point2;
 
-/// Levels below this are too far away to matter.
+/// Lower levels are too far away to matter.
 const LEVEL_MIN: f64 = 0.2;
-/// What reaches less than this into the way of the body is passed without a touch, metres.
+/// An obstacle that overlaps the robot's corridor by less than this is passed without a touch, metres.
 const GRAZE_M: f64 = 0.008;
-/// Fastest approach, m/s for each metre of free way beyond `STAND_M`.
+/// Approach speed, m/s for each metre of clearance beyond `STAND_M`.
 const APPROACH_PER_S: f64 = 2.5;
 /// As `APPROACH_PER_S`, metres.
 const STAND_M: f64 = 0.01;
 /// A smaller gap at a side is widened, metres.
 const GAP_M: f64 = 0.02;
-/// How far the robot goes aside for each metre of gap that lacks.
+/// Sideways correction per metre of missing gap.
 const ASIDE_GAIN: f64 = 2.0;
-/// What stands nearer than this share of the radius to the way of the middle is ahead and not at a side.
+/// An obstacle closer to the centre line of the corridor than this share of the radius is ahead and not at a side.
 const SIDE_SHARE: f64 = 0.5;
-/// What lies farther back than this is not met any more, metres.
+/// Obstacles farther back than this are ignored, metres.
 const BEHIND_M: f64 = -0.03;
-/// A sensor that only says near keeps the robot this far to the other side of its way, metres.
+/// Offset to the other side for a sensor without distance, metres.
 const NEAR_ASIDE_M: f64 = 0.02;
 
-/// Something ahead, as the sensors show it.
+/// An obstacle ahead, as the sensors see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ahead {
-    /// Way straight ahead until it is touched, metres.
+    /// Straight distance until the robot touches it, metres.
     pub(crate) clear_m: f64,
-    /// Where it is, in the body's frame.
+    /// Its position, in the body frame.
     pub(crate) at: Point2,
 }
 
-/// What is advised on the way of `follower`.
+/// The corrections for the path of `follower`.
 pub(crate) fn caution(situation: &Situation<'_>, follower: &PathFollower) -> Caution {
     let layout = &situation.config.sensors.proximity;
     let seen = hits(layout, &situation.observation.proximity);
@@ -64,7 +64,7 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &PathFollower) -> Cau
     }
 }
 
-/// The nearest of what the sensors see straight ahead; `None` also for sensors that only say near.
+/// The nearest obstacle that the sensors see straight ahead; `None` also for sensors without distance.
 pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
     let layout = &situation.config.sensors.proximity;
     if layout.response.near_m.is_some() {
@@ -80,7 +80,7 @@ pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
         .min_by(|one, other| one.clear_m.total_cmp(&other.clear_m))
 }
 
-/// What lacks of the gap at each side, metres.
+/// Missing gap at each side, metres.
 #[derive(Debug, Default)]
 struct Sides {
     left_lacks_m: f64,
@@ -88,7 +88,7 @@ struct Sides {
 }
 
 impl Sides {
-    /// Notes something at a place in the body's frame with a gap to the rim.
+    /// Records an obstacle at a point in the body frame with its gap to the rim.
     fn note(&mut self, at: Point2, gap_m: f64, radius_m: f64) {
         if at.x_m < BEHIND_M || at.y_m.abs() < SIDE_SHARE * radius_m {
             return;
@@ -102,7 +102,7 @@ impl Sides {
     }
 }
 
-/// Notes what the map shows at the sides: sensors see nothing of what stands between their beams.
+/// Records obstacles of the map at the sides, since the sensors do not see what is between their beams.
 fn note_known(situation: &Situation<'_>, sides: &mut Sides) {
     let knowledge = situation.map.knowledge();
     let body_from_map = situation.pose.inverse();
@@ -127,7 +127,7 @@ fn note_known(situation: &Situation<'_>, sides: &mut Sides) {
     }
 }
 
-/// Where the sensors see something near, in the body's frame.
+/// Points that the sensors see nearby, in the body frame.
 fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2> {
     layout.sensors().iter().zip(levels).filter_map(|(sensor, level)| {
         let level = f64::from(*level);
@@ -139,7 +139,7 @@ fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2
     })
 }
 
-/// Way straight ahead until the rim touches a point; infinite when it passes beside.
+/// Straight distance until the rim touches a point; infinite when it passes beside the point.
 fn distance_to_contact_m(point: Point2, radius_m: f64) -> f64 {
     if point.x_m <= 0.0 || point.y_m.abs() >= radius_m - GRAZE_M {
         return f64::INFINITY;

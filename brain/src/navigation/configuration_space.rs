@@ -1,17 +1,17 @@
-//! The ground: where the body's middle can be, and what of the floor is still open.
+//! The configuration space: where the robot's centre can be, and which floor is still open.
 
 use crate::mapping::{Cell, FloodFill, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
-/// A robot can set out to free cells this far from where it stands.
+/// Distance within which a robot may enter the free cells, metres.
 const SET_OUT_M: f64 = 0.4;
-/// Work of asking whether a cell is done, of a row of a disc, of measuring the way to a cell, and of looking around one.
+/// Work to ask whether a cell is done, of a row of a disc, to measure the distance to a cell, and to visit its neighbours.
 const CLOSE_WORK: usize = 1;
 const FILL_WORK: usize = 6;
 const MEASURE_WORK: usize = 6;
 const VISIT_WORK: usize = 4;
-/// Cells that are visited between two looks at the budget.
+/// Cells that are visited between two checks of the budget.
 const VISITS: usize = 64;
 
 /// Axis of a lane.
@@ -32,21 +32,22 @@ impl Axis {
     }
 }
 
-/// Cells with a margin wide enough that no window around a free cell leaves the arrays.
+/// A grid with a margin wide enough that no disc around a free cell leaves the arrays.
 #[derive(Clone, Debug)]
 pub(crate) struct ConfigurationSpace {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// Cells around the window on each side.
+    /// Margin around the window on each side, cells.
     margin: usize,
     origin: Cell,
-    /// Cells to either side of a lane that it sweeps.
+    /// Cells on either side of a lane that it sweeps.
     pub(crate) reach: usize,
-    /// The middle of the body can be here.
+    /// The robot's centre can be here.
     pub(crate) free: Vec<bool>,
-    /// Floor that can be swept and was not yet.
+    /// Floor that can be swept and is not yet.
     pub(crate) open: Vec<bool>,
-    /// Steps, diagonal ones too, from each cell to the nearest one that is not free; at most 255. Made by `keep_connected`.
+    /// Steps, diagonal ones included, from each cell to the nearest one that is not free; at most 255. `keep_connected`
+    /// computes them.
     clearance: Vec<u8>,
 }
 
@@ -79,7 +80,7 @@ impl ConfigurationSpace {
         space
     }
 
-    /// Cells along an axis.
+    /// Number of cells along an axis.
     pub(crate) const fn length(&self, axis: Axis) -> usize {
         match axis {
             Axis::X => self.width,
@@ -107,7 +108,7 @@ impl ConfigurationSpace {
             if !self.free[index] {
                 continue;
             }
-            // Inner cells are opened by their neighbours on the border too; only they themselves are needed.
+            // The discs of cells on the border cover the neighbours of inner cells, which therefore only open themselves.
             let inner = self
                 .neighbours(index)
                 .iter()
@@ -124,7 +125,7 @@ impl ConfigurationSpace {
         }
     }
 
-    /// Rows of a disc of the reach, and half the cells of each.
+    /// Rows of a disc with the radius of the reach, and half the width of each.
     pub(crate) fn disc(&self) -> Vec<(isize, usize)> {
         let radius = self.reach as f64 + 0.5;
         let reach = self.reach as isize;
@@ -163,13 +164,13 @@ impl ConfigurationSpace {
         }
     }
 
-    /// Middle of the cell at an index.
+    /// Centre of the cell at an index.
     pub(crate) fn point(&self, index: usize) -> Point2 {
         self.cell(index).middle()
     }
 
-    /// The free cell from which a robot at a point sets out: the nearest one of the largest ground if that is within its
-    /// reach, else the nearest of all. A robot that has just met something often stands beside a splinter of free cells.
+    /// The free cell from which a robot at a point sets out: the nearest one of the largest component within reach,
+    /// otherwise the nearest of all. After a contact a robot often stands beside a small isolated group of free cells.
     pub(crate) async fn origin_near(&self, point: Point2, budget: &mut StepBudget) -> Option<usize> {
         let mut fill = FloodFill::over(self.free.len());
         let mut nearest: Option<(f64, usize)> = None;
@@ -192,7 +193,7 @@ impl ConfigurationSpace {
         largest.map(|(_, _, cell)| cell).or(nearest.map(|(_, cell)| cell))
     }
 
-    /// Size of a piece of connected ground, and its cell nearest to a point with the distance.
+    /// Size of a connected component, and the distance and index of its cell nearest to a point.
     async fn component(
         &self,
         seed: usize,
@@ -214,7 +215,7 @@ impl ConfigurationSpace {
         (size, best.0, best.1)
     }
 
-    /// Closes all ground that cannot be reached from a free cell, and the floor that only such ground could sweep.
+    /// Removes all cells that are not reachable from a free cell, and the floor that only they could sweep.
     pub(crate) async fn keep_connected(&mut self, from: usize, budget: &mut StepBudget) {
         let mut fill = FloodFill::over(self.free.len());
         fill.reach(from);
@@ -233,12 +234,12 @@ impl ConfigurationSpace {
         self.measure_clearance(budget).await;
     }
 
-    /// Goes on over free cells.
+    /// Continues a flood fill over free cells.
     fn go_on(&self, fill: &mut FloodFill) -> Option<usize> {
         fill.go_on(|index| self.neighbours(index), |index| self.free[index])
     }
 
-    /// Two sweeps over the cells: from above and the left, then from below and the right.
+    /// Chebyshev distance transform in two scans: from above and the left, then from below and the right.
     async fn measure_clearance(&mut self, budget: &mut StepBudget) {
         let width = self.width;
         self.clearance = self
@@ -269,7 +270,7 @@ impl ConfigurationSpace {
         }
     }
 
-    /// Whether the straight way between two points leads over free cells only.
+    /// Whether the straight line between two points passes over free cells only.
     pub(crate) fn has_line_of_sight_between(&self, from: Point2, to: Point2) -> bool {
         match (self.index_under(from), self.index_under(to)) {
             (Some(from), Some(to)) => self.free[from] && self.free[to] && self.has_line_of_sight(from, to),
@@ -292,7 +293,7 @@ impl ConfigurationSpace {
             .then(|| row as usize * self.width + column as usize)
     }
 
-    /// Whether the straight way between two free cells leads over free cells only.
+    /// Whether the straight line between two free cells passes over free cells only.
     pub(crate) fn has_line_of_sight(&self, from: usize, to: usize) -> bool {
         let ((x0, y0), (x1, y1)) = (self.column_and_row(from), self.column_and_row(to));
         let (dx, dy) = (x1 as f64 - x0 as f64, y1 as f64 - y0 as f64);

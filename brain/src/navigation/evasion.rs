@@ -1,19 +1,19 @@
-//! Getting away from what was met: back off until it is released, then turn away.
+//! Evading a hazard: back off until it is released, then turn away.
 
 use super::{BackOff, ManoeuvreStep, Situation, Turn};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
 
-/// Way back that is added each time the bumper is still pressed or the floor still missing.
+/// Distance that is added each time the bumper is still pressed or the floor still missing.
 const MORE_M: f64 = 0.02;
-/// Most way back at a cliff; the firmware ends reversing after 0.15 m (S8).
+/// Longest back-off at a cliff; the firmware ends reversing after 0.15 m (S8).
 const CLIFF_MOST_M: f64 = 0.14;
-/// Most way back after a contact beyond the length that was asked for.
+/// Longest back-off after a contact beyond the requested distance.
 const CONTACT_MOST_M: f64 = 0.12;
-/// Times a turn may meet something before it is called trouble.
+/// Contacts during the turn until the robot counts as held.
 const TURN_CONTACTS_MAX: u32 = 3;
 
-/// What was met.
+/// What the robot evades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Hazard {
     Contact,
@@ -26,7 +26,7 @@ pub(crate) struct Evasion {
     phase: EvasionPhase,
     hazard: Hazard,
     turn_rad: f64,
-    /// Way that may still be added to the back-off.
+    /// Distance that may still be added to the back-off.
     more_m: f64,
     contacts_left: u32,
 }
@@ -40,11 +40,11 @@ enum EvasionPhase {
 /// State of an evasion after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum EvasionStep {
-    /// Not free yet.
+    /// It goes on.
     Going(Motion),
-    /// Free, and turned away.
+    /// The robot is free and has turned away.
     Free,
-    /// What was met does not let go.
+    /// The contact or the cliff does not release.
     Held(Reason),
 }
 
@@ -70,8 +70,8 @@ impl Evasion {
         }
     }
 
-    /// Goes on with what is under way, and forgets it when it is free: the motion to make, or why the robot is held. `None` =
-    /// nothing is under way any more.
+    /// Continues the evasion in progress, and drops it when the robot is free. Gives the motion to make, or why the robot
+    /// is held. `None` = no evasion is in progress any more.
     pub(crate) fn pursue(
         under_way: &mut Option<Self>,
         situation: &Situation<'_>,
@@ -135,7 +135,7 @@ impl Evasion {
         if !situation.touching && !situation.at_cliff {
             return match step {
                 ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
-                // A turn that came late is as good: any direction but the old one will do.
+                // A turn that ran out of time is as good: any direction but the old one will do.
                 ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Free,
             };
         }

@@ -1,4 +1,4 @@
-//! The way to one place.
+//! The path to one of several goals.
 
 use super::configuration_space::ConfigurationSpace;
 use super::router::Router;
@@ -7,17 +7,17 @@ use crate::mapping::Raster;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::StepBudget;
 
-/// A place that may be gone to, and what it is worth to go to another one.
+/// A goal, and its handicap against other goals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Goal {
-    /// The place.
+    /// Its position.
     pub(crate) at: Point2,
-    /// It is as good as a place without this that lies so much farther, metres.
+    /// Handicap: it is as good as a goal without one that is this much farther, metres.
     pub(crate) detour_m: f64,
 }
 
-/// The way over `reachable` to the goal that is best to reach: the shortest, with what the goals are worth. `None` when none
-/// of them can be reached.
+/// The path over `reachable` to the goal with the lowest sum of path length and handicap. `None` when no goal can be
+/// reached.
 pub(crate) async fn plan_path(
     reachable: &Raster<bool>,
     (start, goals): (Pose2, &[Goal]),

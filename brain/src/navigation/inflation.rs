@@ -1,18 +1,18 @@
-//! What the middle of the body can reach of a home that is known.
+//! Obstacle inflation: where the centre of a round body can be in a known home.
 
 use super::lane_frame::LaneFrame;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
-/// Work of looking at a cell, and of a row of a disc.
+/// Work to read a cell, and of a row of a disc.
 const LOOK_WORK: usize = 3;
 const FILL_WORK: usize = 6;
-/// Less than this is rounding, cells.
+/// Tolerance for rounding, cells.
 const HAIR: f64 = 1e-9;
 
-/// Cells of `frame` that the middle of a body of `radius_m` can take without coming over anything but free floor, nor over one of
-/// the `blocked` points of the map. In the map's own frame the window is that of the knowledge.
+/// Cells of `frame` that the centre of a body of `radius_m` can take while the body covers only free floor and none of the
+/// `blocked` points of the map. In the map's own frame the window is that of the knowledge.
 pub(crate) async fn reachable(
     knowledge: &Raster<CellKnowledge>,
     frame: &LaneFrame,
@@ -21,7 +21,7 @@ pub(crate) async fn reachable(
 ) -> Raster<bool> {
     let inner = Inner::of(knowledge);
     let mut reachable = floor_in(frame, &inner, budget).await;
-    // From the middle of a cell to the border of the next one is half a cell.
+    // From the centre of a cell to the border of the next one is half a cell.
     let radius = radius_m / CELL_M + 0.5;
     for row in 0..knowledge.height() {
         for column in 0..inner.width {
@@ -43,7 +43,7 @@ pub(crate) async fn reachable(
     reachable
 }
 
-/// Free floor of the map that does not lie at the rim of its window, beyond which nothing is known.
+/// Free floor of the map except at the rim of its window, beyond which nothing is known.
 struct Inner {
     origin: Cell,
     width: usize,
@@ -79,7 +79,7 @@ impl Inner {
         }
     }
 
-    /// Whether a cell is none of the inner floor, but lies beside free floor.
+    /// Whether a cell is not inner floor, but adjacent to free floor.
     fn is_edge(&self, index: usize) -> bool {
         let is_free = |beside: usize| self.is_free.get(beside).copied().unwrap_or(false);
         let column = index % self.width;
@@ -154,10 +154,10 @@ async fn floor_in(frame: &LaneFrame, inner: &Inner, budget: &mut StepBudget) -> 
     floor
 }
 
-/// Sets the cells to false whose middles are nearer than so many cells to a place.
+/// Clears the cells whose centres are nearer than `radius` cells to a point.
 fn blank(cells: &mut Raster<bool>, (at, radius): (Point2, f64)) {
     let (width, height) = (cells.width() as i64, cells.height() as i64);
-    // In cells, counted from the middle of the window's first one.
+    // In cells, counted from the centre of the first cell of the window.
     let column = at.x_m / CELL_M - 0.5 - f64::from(cells.origin().x);
     let row = at.y_m / CELL_M - 0.5 - f64::from(cells.origin().y);
     let span = |middle: f64, half: f64, count: i64| {
@@ -180,14 +180,14 @@ fn blank(cells: &mut Raster<bool>, (at, radius): (Point2, f64)) {
     }
 }
 
-/// Rows of a disc and half the cells of each.
+/// Rows of a disc and half the width of each.
 #[derive(Debug)]
 pub(crate) struct Disc {
     rows: Vec<(i64, i64)>,
 }
 
 impl Disc {
-    /// Cells whose middles are nearer than `radius` cells.
+    /// Cells whose centres are nearer than `radius` cells.
     pub(crate) fn of_radius(radius: f64) -> Self {
         let most = libm::ceil(radius) as i64 - 1;
         let rows = (-most..=most)
@@ -200,7 +200,7 @@ impl Disc {
         Self { rows }
     }
 
-    /// Sets the cells around a place (column and row of the raster).
+    /// Sets the cells around a position (column and row of the raster).
     pub(crate) fn fill(&self, raster: &mut Raster<bool>, (column, row): (i64, i64), value: bool) {
         let (width, height) = (raster.width() as i64, raster.height() as i64);
         for (rise, half) in &self.rows {
@@ -241,7 +241,7 @@ mod tests {
             }
         }
         let free = reachable(&knowledge, 0.175, &[]);
-        // The middle of cell 7 is 0.1875 m from the wall, that of cell 6 only 0.1625 m.
+        // The centre of cell 7 is 0.1875 m from the wall, that of cell 6 only 0.1625 m.
         assert_eq!(free.get(Cell { x: 7, y: 40 }), Some(&true));
         assert_eq!(free.get(Cell { x: 6, y: 40 }), Some(&false));
         let met = Point2 { x_m: 1.01, y_m: 1.01 };
@@ -268,7 +268,7 @@ mod tests {
         for index in (0..free.values().len()).filter(|index| free.values()[*index]) {
             let at = frame.point_in_map(free.cell(index).middle());
             let wall_m = at.x_m.min(at.y_m).min(3.0 - at.x_m).min(2.0 - at.y_m);
-            // Between the middles of two cells a wall seen askew is thinner by a fraction of a millimetre.
+            // Between the centres of two cells an oblique wall is thinner by a fraction of a millimetre.
             assert!(wall_m > 0.174, "{at:?}");
             assert!(at.distance_m(met) > 0.175 - CELL_M, "{at:?}");
             count += 1;

@@ -1,4 +1,4 @@
-//! A few legs one after the other, for escapes and for leaving the dock.
+//! Several manoeuvres one after the other, for recovery and for leaving the dock.
 
 use super::manoeuvre::RESERVE_M;
 use super::{BackOff, ContourTrace, ManoeuvreStep, Situation, Turn};
@@ -9,21 +9,21 @@ const SWING_M_PER_S: f64 = -0.1;
 /// Turn rate of a swing.
 const SWING_RAD_PER_S: f64 = 1.2;
 
-/// One leg of a sequence.
+/// One manoeuvre of a sequence.
 #[derive(Clone, Debug)]
 pub(crate) enum Manoeuvre {
     /// Straight back.
     Back(BackOff),
     /// Turn on the spot.
     Turn(Turn),
-    /// Back in an arc for a time: shakes wheels free.
+    /// Back in an arc for a time, to shake the wheels free.
     Swing {
         /// +1 turns left, -1 right.
         sign: f64,
         /// Seconds left.
         left_s: f64,
     },
-    /// Along an edge.
+    /// Along a contour.
     Contour(ContourTrace),
     /// Stand still for a time, unless something touches the robot.
     Wait {
@@ -32,11 +32,11 @@ pub(crate) enum Manoeuvre {
     },
 }
 
-/// Legs that end one after the other. What it takes is bounded by the sum of the legs' times.
+/// Manoeuvres that run one after the other. The sum of their times bounds the sequence.
 #[derive(Clone, Debug)]
 pub(crate) struct ManoeuvreSequence {
     manoeuvres: Vec<Manoeuvre>,
-    /// Index of the leg that runs.
+    /// Index of the current manoeuvre.
     current: usize,
 }
 
@@ -48,7 +48,7 @@ impl ManoeuvreSequence {
         }
     }
 
-    /// The motion to make now; `None` when all legs are done. Touching something ends a turn early and straightens a swing.
+    /// The motion to make now; `None` when all manoeuvres are done. A contact ends a turn early and straightens a swing.
     pub(crate) fn step(&mut self, situation: &Situation<'_>) -> Option<Motion> {
         while let Some(manoeuvre) = self.manoeuvres.get_mut(self.current) {
             let step = match manoeuvre {

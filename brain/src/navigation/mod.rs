@@ -1,7 +1,6 @@
-//! Getting from place to place: where the body can be, the way there, and the movements that take the robot along it.
+//! Navigation: where the body can be, the path to a goal, and the controllers and manoeuvres that follow it.
 //!
-//! What to drive for is the business of the tasks in the layers above. The movements are short and bounded: each ends by its own
-//! measure of way or turn, or by time.
+//! The tasks in the layers above choose the goals. Manoeuvres are short and bounded: each ends by distance, turn or time.
 
 mod bucket_queue;
 pub(crate) mod caution;

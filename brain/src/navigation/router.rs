@@ -1,4 +1,4 @@
-//! Ways between places over free ground: a coarse graph finds them, lines of sight straighten them.
+//! Paths over free cells: Dijkstra on a coarse graph of blocks, then shortcuts along lines of sight.
 
 use std::collections::VecDeque;
 
@@ -12,28 +12,28 @@ const BLOCK: usize = 4;
 /// Cost of a step to a neighbour, and to a diagonal one.
 const STEP: u32 = 10;
 const DIAGONAL: u32 = LONGEST_STEP_COST;
-/// Work of looking at a cell, of finding out where one gets from a block, and of leaving one.
+/// Work to read a cell, to find the links of a block, and to expand one.
 const LOOK_WORK: usize = 2;
 const LINKS_WORK: usize = 100;
 const LEAVE_WORK: usize = 22;
-/// Blocks that are left between two looks at the budget.
+/// Blocks that are expanded between two checks of the budget.
 const LEAVES: usize = 32;
 /// No block.
 const NONE: u32 = u32::MAX;
 
-/// Finds ways over blocks of cells.
+/// Finds paths over blocks of cells.
 pub(crate) struct Router<'space> {
     space: &'space ConfigurationSpace,
     columns: usize,
     /// A free cell for each block, `NONE` if it has none.
     anchors: Vec<u32>,
-    /// Bit n: the body gets from the block to the nth of those around it.
+    /// Bit n: the body can drive from the block to its nth neighbour.
     block_links: Vec<u8>,
-    /// Bit n: it gets there straight from one anchor to the other.
+    /// Bit n: it can drive there in a straight line between the anchors.
     straight_links: Vec<u8>,
 }
 
-/// Costs and parents of the blocks around a place.
+/// Costs and parents of the blocks around a start.
 pub(crate) struct CostField {
     costs: Vec<u32>,
     parents: Vec<u32>,
@@ -50,7 +50,7 @@ impl<'space> Router<'space> {
             block_links: Vec::new(),
             straight_links: Vec::new(),
         };
-        // The free cell nearest to the middle of its block stands for it.
+        // The free cell nearest to the centre of a block is its anchor.
         let mut best = vec![u32::MAX; router.anchors.len()];
         for index in 0..space.free.len() {
             if index.is_multiple_of(space.width) {
@@ -81,7 +81,7 @@ impl<'space> Router<'space> {
         router
     }
 
-    /// Where the body gets from a block, and where straight.
+    /// The links of a block, and which of them are straight.
     fn links_of(&self, block: usize) -> (u8, u8) {
         if self.anchors[block] == NONE {
             return (0, 0);
@@ -121,7 +121,7 @@ impl<'space> Router<'space> {
         }
     }
 
-    /// Spreads from a cell until `enough` says so; it is asked with each block that is reached, nearest first.
+    /// Runs Dijkstra's algorithm from a cell until `enough` returns true for a reached block, nearest first.
     pub(crate) async fn explore(
         &self,
         from: usize,
@@ -148,7 +148,7 @@ impl<'space> Router<'space> {
         }
     }
 
-    /// Goes to all blocks that the body gets to from one.
+    /// Relaxes the links of a block.
     fn leave(&self, block: usize, cost: u32, (cost_field, queue): (&mut CostField, &mut BucketQueue)) {
         let links = self.block_links[block];
         for (number, (next, step)) in self.around(block).into_iter().enumerate() {
@@ -177,7 +177,7 @@ impl<'space> Router<'space> {
         ]
     }
 
-    /// Whether free cells of two blocks lie side by side.
+    /// Whether free cells of two blocks are adjacent.
     fn are_adjacent(&self, block: usize, next: usize) -> bool {
         let (low, high) = (block.min(next), block.max(next));
         let (column, row) = (low % self.columns * BLOCK, low / self.columns * BLOCK);
@@ -192,7 +192,7 @@ impl<'space> Router<'space> {
         }
     }
 
-    /// The straightened way from the place that was explored from to `to`; both ends included.
+    /// The shortened path from the start of the exploration to `to`, both ends included.
     pub(crate) fn path(&self, cost_field: &CostField, from: usize, to: usize) -> Vec<usize> {
         let mut blocks = vec![self.block(to)];
         while let Some(block) = blocks.last()
@@ -204,8 +204,8 @@ impl<'space> Router<'space> {
         self.straightened(&self.joined_up(&blocks, (from, to)))
     }
 
-    /// The anchors of the blocks after the first one, between two cells in the first and the last one, and cells put in
-    /// between two that do not see each other though their blocks touch.
+    /// The anchors of the blocks after the first one, between the two end cells. Where two of them have no line of sight
+    /// though their blocks are adjacent, the cells between them are inserted.
     fn joined_up(&self, blocks: &[usize], (from, to): (usize, usize)) -> Vec<usize> {
         let mut whole = Vec::with_capacity(blocks.len() + 1);
         whole.push(from);
@@ -225,7 +225,7 @@ impl<'space> Router<'space> {
         whole
     }
 
-    /// Lengthens a chain by a cell, and by those between if its end does not see it.
+    /// Appends a cell to a chain, with the cells between where there is no line of sight.
     fn join(&self, chain: &mut Vec<usize>, cell: usize, is_seen: bool) {
         if let Some(last) = chain.last().filter(|_| !is_seen) {
             chain.extend(self.cells_between(*last, cell));
@@ -233,14 +233,14 @@ impl<'space> Router<'space> {
         chain.push(cell);
     }
 
-    /// Whether the anchor of a block sees that of the next one.
+    /// Whether the anchors of two neighbouring blocks have a line of sight.
     fn is_seen(&self, block: usize, next: usize) -> bool {
         let around = self.around(block);
         let number = around.iter().position(|(beside, _)| *beside == next);
         number.is_some_and(|number| self.straight_links[block] & 1 << number != 0)
     }
 
-    /// Neighbouring free cells from one cell to another in the blocks around them, without the two; empty if there are none.
+    /// Adjacent free cells from one cell to another in the blocks around them, without the two; empty if there are none.
     fn cells_between(&self, from: usize, to: usize) -> Vec<usize> {
         let ((x0, y0), (x1, y1)) = (self.space.column_and_row(from), self.space.column_and_row(to));
         let (low_x, high_x) = (x0.min(x1).saturating_sub(BLOCK), x0.max(x1) + BLOCK);
@@ -287,7 +287,7 @@ impl<'space> Router<'space> {
         let mut at = 0;
         while let Some(here) = chain.get(at) {
             path.push(*here);
-            // The farthest one in sight without a gap in between; a next one that is not in sight is taken as it is.
+            // The farthest cell in a line of sight without interruption; the next cell is accepted without one.
             let mut next = at + 1;
             while next + 1 < chain.len() && self.space.has_line_of_sight(*here, chain[next + 1]) {
                 next += 1;
@@ -299,7 +299,7 @@ impl<'space> Router<'space> {
 }
 
 impl CostField {
-    /// Length of the way to a block in metres; `None` when it was not reached.
+    /// Length of the path to a block in metres; `None` when it was not reached.
     pub(crate) fn path_m(&self, block: usize) -> Option<f64> {
         let cost = self.costs.get(block).filter(|cost| **cost != u32::MAX)?;
         Some(f64::from(*cost) / f64::from(STEP) * BLOCK as f64 * CELL_M)

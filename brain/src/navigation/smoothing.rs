@@ -1,30 +1,31 @@
-//! From corners to a way that a robot drives without stopping: arcs at corners where there is room, turns on the spot
-//! where there is none.
+//! Smooths a polyline into a path that the robot drives without stopping: arcs at corners where there is room, turns on the
+//! spot elsewhere.
 
 use super::configuration_space::ConfigurationSpace;
 use super::heading::heading_rad;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::gradual::StepBudget;
 
-/// Longest part of a straight that an arc takes at a corner.
+/// Longest part of a straight that an arc replaces at a corner.
 const CUT_MAX_M: f64 = 0.15;
 /// The same at the corners of rings: the next ring does not sweep what an arc cuts off.
 const RING_CUT_MAX_M: f64 = 0.08;
-/// An arc that takes less than this is no better than a turn on the spot.
+/// An arc that replaces less than this is no better than a turn on the spot.
 const CUT_MIN_M: f64 = 0.02;
-/// A tighter one takes as long as a turn on the spot, and a robot that enters it a little early is beside it at once, metres.
+/// A tighter arc takes as long as a turn on the spot, and a robot that enters it slightly early is off the path at once,
+/// metres.
 const RADIUS_MIN_M: f64 = 0.05;
 /// Sharper corners are turned on the spot.
 const SHARP_RAD: f64 = 2.5;
-/// Turns below this are left to steering.
+/// Smaller turns are left to steering.
 const SLIGHT_RAD: f64 = 0.01;
 /// Work of a corner.
 const CORNER_WORK: usize = 300;
 
-/// A part of a way: an arc, with no turn a straight line, with no length a turn on the spot.
+/// A segment of a path: an arc; without a turn a straight line; without a length a turn on the spot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSegment {
-    /// Where it starts, and in which direction.
+    /// Pose at its start.
     pub start: Pose2,
     /// Length in metres.
     pub length_m: f64,
@@ -40,8 +41,7 @@ impl PathSegment {
     }
 }
 
-/// The way along `corners`, of which so many of the first are those of rings, from the heading that the robot has at the
-/// first one.
+/// The path along `corners`, of which the first `of_rings` belong to rings, from the robot's heading at the first one.
 pub(crate) async fn segments(
     (corners, of_rings): (&[Point2], usize),
     heading_now_rad: f64,
@@ -111,14 +111,14 @@ impl SegmentBuilder {
     }
 }
 
-/// How much of the straights before and after a corner an arc may take, up to `most_m`; 0 = turn on the spot.
+/// How much of the straights before and after a corner an arc may replace, up to `most_m`; 0 = turn on the spot.
 fn cut_m([before, corner, after]: [Point2; 3], (space, most_m): (&ConfigurationSpace, f64)) -> f64 {
     let turn_rad = normalize_rad(heading_rad(corner, after) - heading_rad(before, corner)).abs();
     if !(0.1..SHARP_RAD).contains(&turn_rad) {
         return 0.0;
     }
     let (behind_m, ahead_m) = (before.distance_m(corner), corner.distance_m(after));
-    // Half of each straight, so that the corners at its two ends do not need the same part of it.
+    // Half of each straight, so that the corners at its two ends do not overlap.
     let mut cut_m = most_m.min(0.5 * behind_m).min(0.5 * ahead_m);
     let least_m = CUT_MIN_M.max(RADIUS_MIN_M * libm::tan(0.5 * turn_rad));
     while cut_m >= least_m {

@@ -1,14 +1,14 @@
-//! When edges of the floor were met: the firmware latches at the third one within five seconds (S8), and then only a person
-//! gets the robot going again. Whatever drives it, a robot that has met two stands still until the first of them is long
+//! Watches the times of cliffs. The firmware latches at the third cliff within five seconds (S8), and then only a person
+//! can start the robot again. Whatever drives it, after two cliffs the robot stands still until the first of them is long
 //! enough ago.
 
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
 
-/// Two edges within this time are enough, microseconds: a little more than the firmware's five seconds.
+/// Two cliffs within this time are enough, microseconds: a little more than the firmware's five seconds.
 const WINDOW_US: u64 = 5_500_000;
 
-/// Times of the last two edges.
+/// Times of the last two cliffs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CliffWatch {
     met_us: [Option<u64>; 2],
@@ -17,7 +17,7 @@ pub(crate) struct CliffWatch {
 }
 
 impl CliffWatch {
-    /// Whether another edge now would be one too many, so that a robot that is free must stand still.
+    /// Whether another cliff now would be one too many, so that a free robot must stand still.
     pub(crate) fn must_wait(&mut self, is_at_edge: bool, now_us: u64, context: &mut TaskContext) -> bool {
         if is_at_edge && !self.was_at_edge {
             self.met_us = [self.met_us[1], Some(now_us)];

@@ -1,7 +1,7 @@
-//! Getting free. A *ladder* has *rungs*, each a bounded sequence of movements; after each the task tries again. A robot that
-//! leaves its *pen*, the box of two metres in which it was in trouble, has come free; one that has no rung left waits for a
-//! person. So trouble ends either way: a pen gives a bounded number of rungs ([`RecoverySequence`]), each takes a bounded time, and
-//! between two of them the task has a bounded time to get out ([`Pen`]).
+//! Recovery. A *recovery sequence* tries *behaviors*, each a bounded sequence of manoeuvres; after each the task tries
+//! again. A robot that leaves its *pen*, the box of two metres in which it got stuck, is free; one that has no behavior
+//! left waits for a person. Recovery always ends: a pen gives a bounded number of behaviors ([`RecoverySequence`]), each
+//! takes a bounded time, and between two of them the task has a bounded time to get out ([`Pen`]).
 
 mod cliff_watch;
 mod pen;
@@ -20,12 +20,12 @@ use crate::model::random::Random;
 use crate::model::reason::Reason;
 use crate::navigation::{BackOff, ContourTrace, Manoeuvre, ManoeuvreSequence, Turn};
 
-/// Time along an edge: once round a closet.
+/// Time along a contour: once round a closet.
 const CONTOUR_S: f64 = 75.0;
-/// Time that people get to leave.
+/// Time for people to leave.
 const WAIT_S: f64 = 60.0;
 
-/// How a reason of trouble holds the robot.
+/// How the robot is stuck, by the reason.
 pub(crate) const fn stuck_kind(reason: Reason) -> StuckKind {
     match reason {
         Reason::BoxedIn | Reason::ShutIn => StuckKind::Penned,
@@ -33,7 +33,7 @@ pub(crate) const fn stuck_kind(reason: Reason) -> StuckKind {
     }
 }
 
-/// The movements of a rung.
+/// The manoeuvres of a behavior.
 pub(crate) fn escape(behavior: RecoveryBehavior, random: &mut Random) -> ManoeuvreSequence {
     let sign = if random.coin() { 1.0 } else { -1.0 };
     let mut turn = |low_rad, high_rad| Manoeuvre::Turn(Turn::by(sign * random.between(low_rad, high_rad)));

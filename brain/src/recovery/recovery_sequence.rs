@@ -1,30 +1,30 @@
-//! The ladder as an abstract machine: which rung comes next, and when there is none. It knows no places and no time, so that
-//! all of its ways can be tried.
+//! The recovery sequence as an abstract state machine: which behavior comes next, and when there is none. It knows no
+//! positions and no time, so that tests can try all of its paths.
 //!
-//! Terms. *Held*: the robot cannot move off. *Penned*: it moves, but does not get out. *Pen*: what it has not left since it got
-//! into trouble; whoever leaves it has come free, and begins at the foot of the ladder the next time.
+//! Terms. *Held*: the robot cannot move off. *Penned*: it moves, but does not get out. *Pen*: the area that it has not left
+//! since it got stuck; a robot that leaves it is free and begins with the first behavior the next time.
 //!
-//! Why it ends: [`RecoverySequence::rungs_left`] is a number that falls by one with each rung that is given, that nothing but leaving the
-//! pen raises, and at 0 no rung is given any more.
+//! Termination: [`RecoverySequence::behaviors_left`] falls by one with each behavior, only leaving the pen raises it, and
+//! at 0 there is no further behavior.
 
-/// One try to come free.
+/// One attempt to get free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum RecoveryBehavior {
     /// Back and turn.
     BackOut,
     /// Shake the wheels and turn.
     Wiggle,
-    /// Back as far as the ground is known and turn round.
+    /// Back as far as the reverse budget allows and turn round.
     Reverse,
-    /// Along the edge of what holds the robot, the edge on its left.
+    /// Along the contour of the obstacle, on the robot's left.
     ContourLeft,
-    /// The same with the edge on its right.
+    /// The same with the contour on its right.
     ContourRight,
-    /// Stand still: who stands in the way may leave, and a door may open.
+    /// Stand still: people in the way may leave, and a door may open.
     Wait,
 }
 
-/// How the robot is in trouble.
+/// How the robot is stuck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum StuckKind {
     /// It cannot move off.
@@ -33,15 +33,15 @@ pub(crate) enum StuckKind {
     Penned,
 }
 
-/// Rungs of a robot that is held, for each place.
+/// Behaviors of a held robot, for each position.
 const HELD: [RecoveryBehavior; 3] = [
     RecoveryBehavior::BackOut,
     RecoveryBehavior::Wiggle,
     RecoveryBehavior::Reverse,
 ];
-/// Rungs of a robot that is held, for all places in a pen together.
+/// Behaviors of a held robot, for all positions in a pen together.
 const HELD_MAX: u8 = 15;
-/// Rungs of a robot that is penned.
+/// Behaviors of a penned robot.
 const PENNED: [RecoveryBehavior; 8] = [
     RecoveryBehavior::ContourLeft,
     RecoveryBehavior::ContourRight,
@@ -54,7 +54,7 @@ const PENNED: [RecoveryBehavior; 8] = [
 ];
 
 impl RecoveryBehavior {
-    /// What the decision for it is called.
+    /// The name of its decision.
     pub(crate) const fn decision(self) -> &'static str {
         match self {
             Self::BackOut => "escape-back-out",
@@ -67,19 +67,19 @@ impl RecoveryBehavior {
     }
 }
 
-/// Which rung comes next.
+/// Which behavior comes next.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct RecoverySequence {
-    /// Rungs given at this place to a robot that is held.
+    /// Behaviors used at this position while held.
     held_here: u8,
-    /// Rungs given in this pen to a robot that is held.
+    /// Behaviors used in this pen while held.
     held: u8,
-    /// Rungs given in this pen to a robot that is penned.
+    /// Behaviors used in this pen while penned.
     penned: u8,
 }
 
 impl RecoverySequence {
-    /// Trouble: the rung to try, `None` when all were tried.
+    /// The robot is stuck: the behavior to try, `None` when all were tried.
     pub(crate) fn trouble(&mut self, stuck_kind: StuckKind) -> Option<RecoveryBehavior> {
         match stuck_kind {
             StuckKind::Held if self.held >= HELD_MAX => None,
@@ -97,19 +97,19 @@ impl RecoverySequence {
         }
     }
 
-    /// The robot has come away from the place where it was held.
+    /// The robot has moved away from where it was held.
     pub(crate) fn move_off(&mut self) {
         self.held_here = 0;
     }
 
-    /// The robot has left the pen. Tells how many rungs that took.
+    /// The robot has left the pen. Gives how many behaviors that took.
     pub(crate) fn leave(&mut self) -> u8 {
         let behaviors = self.held + self.penned;
         *self = Self::default();
         behaviors
     }
 
-    /// Rungs that can still be given in this pen, whatever happens.
+    /// Behaviors that are still available in this pen, whatever happens.
     #[cfg(test)]
     const fn behaviors_left(self) -> u8 {
         HELD_MAX - self.held + PENNED.len() as u8 - self.penned
@@ -135,7 +135,7 @@ mod tests {
         Event::MoveOff,
     ];
 
-    /// The ladder after an event, and the rung that was given; `Err` = it gave up.
+    /// The sequence after an event, and the chosen behavior; `Err` = it gave up.
     fn after(
         mut sequence: RecoverySequence,
         event: Event,
@@ -183,15 +183,15 @@ mod tests {
         }
     }
 
-    /// Every sequence of troubles, with any number of moves between them, that is longer than the measure has given up.
+    /// Every sequence of stuck events, with any number of moves between them, that is longer than the measure has given up.
     #[test]
     fn no_sequence_of_events_is_given_more_rungs_than_the_measure_says() {
         let most = usize::from(RecoverySequence::default().behaviors_left());
         assert_eq!(most, usize::from(HELD_MAX) + PENNED.len());
-        // States after so many rungs, over all sequences at once.
+        // States after `given` behaviors, over all sequences at once.
         let mut now = BTreeSet::from([RecoverySequence::default()]);
         for given in 0.. {
-            // Moving off as often as you like.
+            // Any number of moves.
             let moved = now.iter().map(|sequence| {
                 let mut moved = *sequence;
                 moved.move_off();

@@ -142,9 +142,10 @@ fn known(room: &Room, start: Pose2) -> StoredMap {
             start.y_m + (f64::from(cell.y) + 0.5) * CELL_M,
         );
         let in_room = x_m > 0.0 && y_m > 0.0 && x_m < room.size_m.0 && y_m < room.size_m.1;
-        let in_furniture = room.furniture.iter().any(|segment| {
-            x_m > segment.low.0 && x_m < segment.high.0 && y_m > segment.low.1 && y_m < segment.high.1
-        });
+        let in_furniture = room
+            .furniture
+            .iter()
+            .any(|piece| x_m > piece.low.0 && x_m < piece.high.0 && y_m > piece.low.1 && y_m < piece.high.1);
         if in_room && !in_furniture {
             knowledge.values_mut()[index] = CellKnowledge::Free;
         }

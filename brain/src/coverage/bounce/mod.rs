@@ -1,8 +1,8 @@
-//! `bounce`: drive until something is met, back off, turn away by a random angle, drive on.
+//! `bounce`: drive until the robot hits something, back off, turn away by a random angle, drive on.
 //!
-//! Terms. *Run*: the straight way between two encounters. *Pocket*: a place where run after run is short; there the
-//! robot backs off further, turns more and always to the same side, which leads out of corners and from between chair
-//! legs where a fresh coin toss each time would keep it.
+//! Terms. *Straight*: the straight drive between two encounters. *Pocket*: a place where one straight after another is
+//! short. There the robot backs off further, turns more and always to the same side. That leads out of corners and from
+//! between chair legs, where a fresh coin toss each time would keep it in.
 
 mod pocket;
 
@@ -13,16 +13,17 @@ use crate::model::reason::Reason;
 use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus};
 use pocket::Pocket;
 
-/// A run this long without an encounter is no run any more (a home has walls): perhaps the wheels spin.
+/// A longer straight without an encounter is implausible, since a home has walls: perhaps the wheels spin.
 const STRAIGHT_MAX_M: f64 = 14.0;
-/// Way back at a cliff: sensors lead the wheels by little, so it must be clear of the edge before it turns.
+/// Distance to back off at a cliff. The sensors lead the wheels by little, so the robot must clear the edge before it
+/// turns.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Turns away from a cliff in radians: near to straight back, so that the edge is not met again at once (three cliffs in
-/// 5 s latch the firmware, S8).
+/// Turn angles away from a cliff, radians. They are close to a half turn, so that the robot does not meet the edge again at
+/// once: three cliffs in 5 s latch the firmware (S8).
 const CLIFF_TURN_RAD: (f64, f64) = (1.9, 2.8);
-/// Proximity above which contact is near: about 7 cm for the sensors of the SR8730.
+/// Proximity level above which contact is near: about 7 cm for the sensors of the SR8730.
 const NEAR_LEVEL: f32 = 0.45;
-/// Speed with something near ahead: a soft contact.
+/// Speed with an obstacle close ahead, for a soft contact.
 const NEAR_M_PER_S: f64 = 0.12;
 
 /// The strategy.
@@ -31,7 +32,7 @@ pub(crate) struct Bounce {
     evasion: Option<Evasion>,
     straight_m: f64,
     pocket: Pocket,
-    /// What it turns by where it is free to choose; `None` = by chance alone.
+    /// Steers free turns towards floor that was not swept recently; `None` = turns are random.
     recent_contacts: Option<RecentContacts>,
 }
 
@@ -59,7 +60,7 @@ impl Task for Bounce {
 }
 
 impl Bounce {
-    /// Bounces towards floor that was not swept lately.
+    /// Bounces towards floor that was not swept recently.
     pub(super) fn towards_new_floor() -> Self {
         Self {
             recent_contacts: Some(RecentContacts::default()),
@@ -67,12 +68,12 @@ impl Bounce {
         }
     }
 
-    /// Whether it is just getting away from something.
+    /// Whether an evasion is in progress.
     pub(crate) fn is_evading(&self) -> bool {
         self.evasion.is_some()
     }
 
-    /// Way since the last encounter, metres.
+    /// Distance driven since the last encounter, metres.
     pub(crate) fn straight_m(&self) -> f64 {
         self.straight_m
     }
@@ -91,7 +92,7 @@ impl Bounce {
         TaskStatus::Go(Motion::Halt)
     }
 
-    /// Turn away from a contact, radians.
+    /// Turn away from a contact, radians. Positive is to the left.
     fn turn_rad(
         &self,
         reason: Reason,
@@ -142,7 +143,7 @@ impl Bounce {
         })
     }
 
-    /// The side to turn to: away from what was met.
+    /// The side to turn to, away from the obstacle.
     fn side(&self, reason: Reason, context: &mut TaskContext) -> TurnSide {
         match reason {
             Reason::BumpLeft | Reason::CliffLeft => TurnSide::Right,
@@ -153,10 +154,10 @@ impl Bounce {
     }
 }
 
-/// Straight ahead, slower when something is near.
+/// Straight ahead, slower when an obstacle is near.
 fn ahead(situation: &Situation<'_>) -> Motion {
     let proximity = &situation.observation.proximity;
-    // The third in the middle looks ahead; a single sensor looks aside.
+    // The middle third of the sensors faces ahead; a single sensor faces sideways.
     let third = (proximity.len() / 3).max(1);
     let front = proximity
         .get(third..proximity.len().saturating_sub(third))

@@ -1,43 +1,43 @@
-//! Memory of short runs.
+//! Memory of short straights.
 
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
 
-/// A run below this is short.
+/// A straight below this is short.
 const SHORT_M: f64 = 0.25;
-/// A run above this leads out of the pocket.
+/// A straight above this leads out of the pocket.
 const FREE_M: f64 = 0.6;
-/// Short runs until the robot feels its way along the edge.
+/// Short straights until the robot follows the edge by touch.
 const EDGE_AFTER: u32 = 3;
-/// Short runs until it scans round for an opening.
+/// Short straights until it searches all round for an opening.
 const SCAN_AFTER: u32 = 10;
-/// Short runs until the pocket is called closed.
+/// Short straights until the pocket counts as closed.
 const CLOSED_AFTER: u32 = 22;
-/// Way back in the open and along an edge.
+/// Distance to back off in the open and along an edge.
 const BACK_M: f64 = 0.03;
-/// Way back while scanning: between chair legs a turn needs other ground than the one it was tried on.
+/// Distance to back off while searching. Between chair legs the next turn needs a different position.
 const SCAN_BACK_M: f64 = 0.08;
 
-/// What the last runs tell about the place.
+/// What the last straights show about the place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pocket {
     short_straights: u32,
     side: Option<TurnSide>,
 }
 
-/// How to behave in it.
+/// How tight the place is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum PocketKind {
     /// No pocket.
     Open,
     /// Narrow: small turns away from each contact follow the edge out.
     Edge,
-    /// A corner or a cage: steps to one and the same side look for the opening.
+    /// A corner or a cage: steps to the same side search for the opening.
     Cage,
 }
 
 impl Pocket {
-    /// Notes an encounter after a run, and the side that would be turned to in the open.
+    /// Records an encounter after a straight, and the side to which the robot would turn in the open.
     pub(super) fn enter(&mut self, straight_m: f64, side: TurnSide) {
         if straight_m > FREE_M {
             *self = Self::default();
@@ -49,12 +49,12 @@ impl Pocket {
         }
     }
 
-    /// The side to keep to, if the place asks for it.
+    /// The side to keep to, where the place requires one.
     pub(super) fn side(&self) -> Option<TurnSide> {
         self.side
     }
 
-    /// Way back for the next evasion.
+    /// Distance of the next back-off.
     pub(super) fn back_m(&self) -> f64 {
         if self.kind() == PocketKind::Cage {
             SCAN_BACK_M
@@ -63,7 +63,7 @@ impl Pocket {
         }
     }
 
-    /// Range of the next turn in radians. Head-on a turn must be larger to come free than after a touch on one side.
+    /// Range of the next turn, radians. After a head-on contact the turn must be larger than after a touch on one side.
     pub(super) fn turn_range_rad(&self, met: Reason) -> (f64, f64) {
         match (self.kind(), met) {
             (PocketKind::Open, Reason::BumpFront) => (1.3, 3.1),
@@ -74,12 +74,12 @@ impl Pocket {
         }
     }
 
-    /// Whether it is none.
+    /// Whether the robot is in the open.
     pub(super) fn is_open(&self) -> bool {
         self.kind() == PocketKind::Open
     }
 
-    /// Whether nothing helped.
+    /// Whether all attempts have failed.
     pub(super) fn is_closed(&self) -> bool {
         self.short_straights >= CLOSED_AFTER
     }

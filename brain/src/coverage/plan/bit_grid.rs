@@ -1,9 +1,9 @@
-//! The open floor as bits, so that a window across a lane is one word.
+//! The open floor as bits, so that the cells across a lane fit into one word.
 
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
-/// Work of looking at a cell.
+/// Work to read a cell.
 const LOOK_WORK: usize = 1;
 
 /// One bit for each cell; each line of cells across an axis is a row of words.
@@ -14,7 +14,7 @@ pub(super) struct BitGrid {
 }
 
 impl BitGrid {
-    /// The open floor, with the cells across lanes of this axis side by side.
+    /// The open floor, with the cells across lanes of this axis adjacent.
     pub(super) async fn of_open(space: &ConfigurationSpace, axis: Axis, budget: &mut StepBudget) -> Self {
         let (lines, across) = match axis {
             Axis::X => (space.width, space.height),
@@ -38,7 +38,7 @@ impl BitGrid {
         bits
     }
 
-    /// The lowest bits are those of `start`, `start + 1`, ... on a line.
+    /// The bits from `start` on a line; the lowest bit is `start`.
     pub(super) fn window(&self, line: usize, start: usize) -> u64 {
         let word = line * self.words_per_line + start / 64;
         let shift = start % 64;

@@ -1,39 +1,39 @@
-//! Stretches: where a lane can lie at all.
+//! Free strips: where lanes can lie.
 
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
-/// Work of looking at a cell.
+/// Work to read a cell.
 const LOOK_WORK: usize = 1;
 
-/// Free cells one after the other on a line: all lanes lie on one.
+/// Consecutive free cells on a line. Every lane lies within one.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FreeStrip {
     pub(super) axis: Axis,
-    /// Row of a stretch along x, column of one along y.
+    /// Row of a strip along x, column of one along y.
     pub(super) line: usize,
-    /// First place along the line.
+    /// First position along the line.
     pub(super) first: usize,
-    /// Last place along the line.
+    /// Last position along the line.
     pub(super) last: usize,
-    /// Counts how often its best lane was looked for because it gained something.
+    /// Counts the searches for its best lane after its gain grew.
     pub(super) version: u32,
-    /// Its floor changed since its best lane was looked for.
+    /// Its floor changed since the last search for its best lane.
     pub(super) is_changed: bool,
 }
 
 impl FreeStrip {
-    /// Cells of it.
+    /// Its number of cells.
     pub(super) const fn places(&self) -> usize {
         self.last + 1 - self.first
     }
 }
 
-/// All stretches, those of a line side by side.
+/// All strips, grouped by line.
 #[derive(Clone, Debug)]
 pub(super) struct FreeStrips {
     pub(super) all: Vec<FreeStrip>,
-    /// For each axis the number of the first stretch of each line, and that after the last one.
+    /// For each axis the index of the first strip of each line, and one past the last strip.
     starts: [Vec<usize>; 2],
 }
 
@@ -79,7 +79,7 @@ impl FreeStrips {
         }
     }
 
-    /// Numbers of the stretches on a line.
+    /// Indices of the strips on a line.
     pub(super) fn on(&self, axis: Axis, line: usize) -> core::ops::Range<usize> {
         let starts = &self.starts[axis as usize];
         match (starts.get(line), starts.get(line + 1)) {

@@ -1,8 +1,8 @@
 //! Which lanes are worth driving.
 //!
-//! Lanes are taken one after the other, each time the one with the best gain for its time. Gain counts swept cells, and
-//! also how much shorter the border of the open floor becomes: a lane along a wall or along another lane leaves a simpler
-//! rest than one through the middle, and narrow strips that no lane would pay for are not left behind.
+//! A greedy search takes one lane after another, always the one with the best gain for its time. The gain counts swept
+//! cells and how much shorter the border of the open floor becomes. A lane along a wall or along another lane therefore
+//! beats one through the middle, and no narrow strips are left behind that no lane would pay for.
 
 use core::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -14,35 +14,35 @@ use crate::mapping::CELL_M;
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
-/// Cells that one edge less of border is worth.
+/// Cells that one border edge less is worth.
 const BORDER_CELLS: i16 = 1;
-/// Least share of what a lane over wholly open floor gains in the same time, for each round.
+/// Smallest share of the gain of a lane over fully open floor in the same time, for each round.
 const ROUND_SHARES: [f64; 2] = [0.35, 0.07];
-/// What it costs to enter and leave a lane, in radians of turning: added to a lane's time. Besides the turns themselves it
-/// stands for the braking and for the way between lanes.
+/// Cost to enter and leave a lane, in radians of turning, added to the time of a lane. Besides the turns it covers braking
+/// and the path between lanes.
 const ENTER_RAD: f64 = 6.0;
-/// Work of weighing a place, of looking at it for the best lane, and of closing the floor around it.
+/// Work to weigh a position, to read it for the best lane, and to close the floor around it.
 const WEIGH_WORK: usize = 3;
 const LOOK_WORK: usize = 2;
 const CLOSE_WORK: usize = 80;
 
-/// A straight piece of the way.
+/// A straight part of the path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Lane {
     /// Index of the free cell at one end.
     pub(super) from: usize,
     /// Index of the free cell at the other end.
     pub(super) to: usize,
-    /// Cells of open floor that it sweeps when lanes are driven in the order in which they were chosen.
+    /// Cells of open floor that it sweeps when lanes are driven in the order of selection.
     pub(super) swept: usize,
 }
 
-/// Chooses lanes and closes the floor that they sweep.
+/// Selects lanes and closes the floor that they sweep.
 pub(super) struct Picker<'space> {
     space: &'space mut ConfigurationSpace,
     bits: [BitGrid; 2],
     masks: GainMasks,
-    /// What sweeping each place of a lane gains, in cells; the places along a line lie side by side.
+    /// The gain of each position of a lane, in cells; positions along a line are adjacent.
     gains: [Vec<i16>; 2],
     strips: FreeStrips,
     queue: BinaryHeap<LaneCandidate>,
@@ -51,13 +51,13 @@ pub(super) struct Picker<'space> {
     disc: Vec<(isize, usize)>,
 }
 
-/// The best lane of one stretch.
+/// The best lane of one strip.
 #[derive(Clone, Copy, Debug)]
 struct LaneCandidate {
-    /// Gain for each second.
+    /// Gain per second.
     rate: f64,
     strip: usize,
-    /// First and last place along the line.
+    /// First and last position along the line.
     span: (usize, usize),
     version: u32,
 }
@@ -117,7 +117,7 @@ impl<'space> Picker<'space> {
         lanes
     }
 
-    /// The best candidate whose figures are of now.
+    /// The best candidate that is up to date.
     async fn next(&mut self, least: f64, budget: &mut StepBudget) -> Option<LaneCandidate> {
         while let Some(old) = self.queue.pop() {
             let strip = &mut self.strips.all[old.strip];
@@ -160,7 +160,7 @@ impl<'space> Picker<'space> {
         Lane { from, to, swept }
     }
 
-    /// Closes the floor around a place; gives how many cells were open.
+    /// Closes the floor around a cell; gives how many cells were open.
     fn close_disc(&mut self, index: usize) -> usize {
         let mut closed = 0;
         for position in 0..self.disc.len() {
@@ -179,8 +179,8 @@ impl<'space> Picker<'space> {
         closed
     }
 
-    /// Weighs all places anew whose surroundings a lane has changed. Offers the stretches again that gained by it, which lie
-    /// beside it and beyond its ends; those that lost are found out when their turn comes.
+    /// Weighs all positions again whose surroundings a lane has changed. Offers the strips again whose gain grew, which lie
+    /// beside it and beyond its ends. Strips whose gain fell are updated when their turn comes.
     async fn refresh(
         &mut self,
         taken: &FreeStrip,
@@ -202,7 +202,7 @@ impl<'space> Picker<'space> {
         }
     }
 
-    /// Weighs a part of a line anew and offers its stretches again, or notes that they changed. Gives how much work it was.
+    /// Weighs a part of a line again and offers its strips again, or marks them as changed. Gives the work done.
     fn renew(
         &mut self,
         (axis, line): (Axis, usize),
@@ -229,7 +229,7 @@ impl<'space> Picker<'space> {
         work
     }
 
-    /// Finds what the places of a line gain.
+    /// Computes the gains of the positions of a line.
     fn weigh(&mut self, axis: Axis, line: usize, (first, last): (usize, usize)) {
         let bits = &self.bits[axis as usize];
         let low = line - self.space.reach - 1;
@@ -251,7 +251,7 @@ impl<'space> Picker<'space> {
         }
     }
 
-    /// The lane of a stretch with most gain beyond `least` for each second.
+    /// The lane of a strip with the highest gain beyond `least` per second.
     fn best_of(&self, number: usize, least: f64) -> Option<LaneCandidate> {
         let strip = &self.strips.all[number];
         let start = strip.line * self.space.length(strip.axis);
@@ -297,7 +297,7 @@ impl GainMasks {
         }
     }
 
-    /// What sweeping one place of a lane gains in cells.
+    /// The gain of sweeping one position of a lane, in cells.
     fn gain(&self, here: u64, ahead: u64) -> i16 {
         let swept = (here & self.swath).count_ones();
         if swept == 0 {
@@ -306,7 +306,7 @@ impl GainMasks {
         let gone =
             ((here ^ here >> 1) & self.pairs).count_ones() + ((here ^ ahead) & self.swath).count_ones();
         let new = (here & self.sides).count_ones();
-        // At most a few hundred cells: a window has 64.
+        // At most a few hundred cells: a word has 64.
         swept as i16 + BORDER_CELLS * (gone as i16 - new as i16)
     }
 }

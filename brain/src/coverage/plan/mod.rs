@@ -1,11 +1,11 @@
-//! A way over known ground that sweeps most of it soon and with few turns.
+//! A path over known floor that sweeps most of it early and with few turns.
 //!
-//! Terms. *Ground*: cells that the middle of the body can take, and the floor that a swath sweeps from there. *Lane*: a
-//! straight piece along a row or column of cells that is worth driving for what it sweeps. *Link*: the way from the end of
-//! one lane to the start of the next. *Round*: lanes that are driven in one tour; leftovers that cost much for what they
-//! sweep come in later rounds.
+//! Terms. *Configuration space*: cells that the robot's centre can take, and the floor that a swath sweeps from there.
+//! *Lane*: a straight drive along a row or column of cells that is worth it for what it sweeps. *Link*: the path from the
+//! end of one lane to the start of the next. *Round*: lanes that are driven in one tour; leftovers that cost much for what
+//! they sweep come in later rounds.
 //!
-//! All work is bounded by counts of cells and lanes, never by a clock: equal ground gives equal plans on every machine.
+//! All work is bounded by counts of cells and lanes, never by a clock: equal input gives equal plans on every machine.
 
 mod bit_grid;
 mod contour;
@@ -32,33 +32,33 @@ pub(crate) use settings::{Departure, reach_cells};
 pub(crate) use sweep_pattern::SweepPattern;
 use tour::Tour;
 
-/// A way to drive.
+/// A path to drive.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CoveragePlan {
-    /// Corners of the way in the map frame.
+    /// Corners of the path in the map frame.
     pub corners: Vec<Point2>,
-    /// The way along them, with arcs where there is room.
+    /// The path along them, with arcs where there is room.
     pub segments: Vec<PathSegment>,
-    /// Lanes in it.
+    /// Number of lanes.
     pub lanes: usize,
-    /// Floor that the ground offers to the swath, in square metres.
+    /// Floor that the swath can reach, in square metres.
     pub floor_m2: f64,
-    /// What of it is not swept yet, in square metres.
+    /// Part of it that is not swept yet, in square metres.
     pub open_m2: f64,
-    /// What of it will not be swept after the plan either, in square metres.
+    /// Part of it that stays unswept after the plan, in square metres.
     pub left_m2: f64,
     /// Expected time in seconds.
     pub time_s: f64,
 }
 
 impl CoveragePlan {
-    /// Floor that is swept already, in square metres.
+    /// Floor that is already swept, in square metres.
     #[must_use]
     pub fn passed_m2(&self) -> f64 {
         (self.floor_m2 - self.open_m2).max(0.0)
     }
 
-    /// Share of the floor that is swept already, 0..=1.
+    /// Share of the floor that is already swept, 0..=1.
     #[must_use]
     pub fn share_passed(&self) -> f64 {
         if self.floor_m2 > 0.0 {
@@ -68,7 +68,7 @@ impl CoveragePlan {
         }
     }
 
-    /// A plan that was made in `frame`, in the frame of the map.
+    /// Transforms a plan from `frame` to the frame of the map.
     #[must_use]
     pub(crate) fn in_map(mut self, frame: &LaneFrame) -> Self {
         if *frame == LaneFrame::OF_MAP {
@@ -84,7 +84,7 @@ impl CoveragePlan {
     }
 }
 
-/// Plans a way over `reachable` (cells that the middle of the body can take) that sweeps what `swept` has not seen yet,
+/// Plans a path over `reachable` (cells that the robot's centre can take) that sweeps all floor for which `swept` is false,
 /// starting at `start`. Without anything to sweep or any reachable cell the plan has no corners.
 #[must_use]
 pub fn plan_coverage(
@@ -96,7 +96,7 @@ pub fn plan_coverage(
     plan_pattern(reachable, (Pattern::Lines, swept), start, settings)
 }
 
-/// As [`plan_coverage`], with the floor swept by this pattern.
+/// As [`plan_coverage`], with this pattern.
 #[must_use]
 pub fn plan_pattern(
     reachable: &Raster<bool>,
@@ -117,8 +117,8 @@ pub fn plan_pattern(
     ))
 }
 
-/// As [`plan_coverage`], but only floor that has a course is swept and counted; the way may lead over all that is reachable.
-/// Floor with rings comes first.
+/// As [`plan_coverage`], but only floor that has a pattern is swept and counted. The path may lead over all reachable
+/// cells. Floor with rings comes first.
 pub(crate) async fn plan_area(
     reachable: &Raster<bool>,
     (pattern, swept): (impl Fn(Cell) -> Option<SweepPattern>, impl Fn(Cell) -> bool),
@@ -172,7 +172,7 @@ pub(crate) async fn plan_area(
     }
 }
 
-/// All floor that a robot at `departure` can sweep, swept already or not.
+/// All floor that a robot at `departure` can sweep, whether swept already or not.
 pub(crate) async fn floor_in_reach(
     reachable: &Raster<bool>,
     departure: &Departure,

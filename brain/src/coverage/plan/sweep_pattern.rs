@@ -1,4 +1,4 @@
-//! In which way floor is swept.
+//! The pattern in which floor is swept.
 
 use crate::model::room_settings::Pattern;
 
@@ -7,9 +7,9 @@ use crate::model::room_settings::Pattern;
 pub(crate) enum SweepPattern {
     /// By lanes.
     Lines,
-    /// By rings, those along its border first.
+    /// By rings, the outermost first.
     Inwards,
-    /// By rings, those in its middle first.
+    /// By rings, the innermost first.
     Outwards,
 }
 

@@ -1,10 +1,10 @@
-//! What driving and turning on a way take.
+//! Times of driving and turning.
 
 use super::settings::PlanSettings;
 use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::heading::{heading_rad, turn_rad};
 
-/// Time of a way over cells that starts in one direction and ends against the direction of leaving its other end.
+/// Time of a path over cells that starts with one heading and ends opposite to the direction of leaving its other end.
 pub(super) fn path_s(
     space: &ConfigurationSpace,
     path: &[usize],

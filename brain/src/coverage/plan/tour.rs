@@ -1,8 +1,8 @@
-//! In which order lanes are driven, and from which end.
+//! The order and direction of lanes: a travelling-salesman tour.
 //!
-//! Terms. *End*: one end of a lane; end `2 * lane` is its `from`, `2 * lane + 1` its `to`. *Visit*: a lane with the end it
-//! is entered at. Costs are seconds, turning included; the way back costs the same, so a part of a tour can be turned
-//! round without changing what lies inside.
+//! Terms. *End*: one end of a lane; end `2 * lane` is its `from`, `2 * lane + 1` its `to`. *Visit*: a lane with the end at
+//! which it is entered. Costs are seconds, turning included. They are symmetric, so reversing a part of a tour does not
+//! change the cost inside it.
 
 use super::lanes::Lane;
 use super::settings::PlanSettings;
@@ -13,21 +13,21 @@ use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
 use crate::navigation::router::{CostField, Router};
 
-/// Nearest ends to which the way is really looked for; ways to others are guessed.
+/// Number of nearest ends to which a path is searched; the costs of others are guessed.
 const NEAR_ENDS: usize = 20;
-/// How much longer than straight a guessed way is.
+/// Ratio of a guessed path to the straight distance.
 const GUESS: f64 = 1.6;
-/// Turning on a guessed way.
+/// Turning on a guessed path, radians.
 const GUESS_RAD: f64 = 4.0;
 /// Most rounds of improvement.
 const PASSES_MAX: usize = 30;
-/// Lanes moved together.
+/// Most lanes that are moved together.
 const MOVED_MAX: usize = 3;
-/// Lanes of a later round are taken along where they sweep at least this share of what a lane over wholly open floor sweeps in
-/// the time that they cost, and so often others are tried after that.
+/// Lanes of a later round are driven early where they sweep at least this share of what a lane over fully open floor sweeps
+/// in the same time. This many passes look for more of them.
 const TAKE_ALONG_SHARE: f64 = 0.2;
 const TAKE_ALONG_PASSES: usize = 4;
-/// Work of a guess, of the search for a way beyond that for its end, and of comparing two orders of lanes.
+/// Work of a guess, of a path search beyond that for its goal, and of comparing two orders of lanes.
 const GUESS_WORK: usize = 5;
 const PATH_WORK: usize = 3_000;
 const COMPARE_WORK: usize = 3;
@@ -42,7 +42,7 @@ pub(super) struct Tour<'plan> {
     start: Pose2,
     start_cell: usize,
     lanes: Vec<Lane>,
-    /// The end at which each lane is entered, in the order of driving.
+    /// The end at which each lane is entered, in driving order.
     visits: Vec<End>,
 }
 
@@ -71,8 +71,8 @@ impl<'plan> Tour<'plan> {
         }
     }
 
-    /// Drives the lanes of one round after those of the other. Lanes of a later round that lie beside the way are driven with
-    /// an earlier one: coming back for them would cost more.
+    /// Appends the lanes of one round after another. Lanes of a later round that lie beside the path are driven with an
+    /// earlier one, since returning for them would cost more.
     pub(super) async fn drive(&mut self, rounds: &[Vec<Lane>], budget: &mut StepBudget) {
         self.lanes = rounds.concat();
         if self.lanes.is_empty() {
@@ -101,7 +101,7 @@ impl<'plan> Tour<'plan> {
         }
     }
 
-    /// Takes lanes along that lie beside the way and are worth the way round by them. `true` when any was.
+    /// Inserts lanes that lie beside the path and are worth the detour. `true` when any was inserted.
     async fn take_along(
         &mut self,
         (is_left, fixed): (&mut [bool], usize),
@@ -130,13 +130,13 @@ impl<'plan> Tour<'plan> {
         any
     }
 
-    /// Time that driving a lane takes.
+    /// Driving time of a lane.
     fn lane_s(&self, lane: usize) -> f64 {
         let Lane { from, to, .. } = self.lanes[lane];
         self.point(from).distance_m(self.point(to)) / self.settings.cruise_m_per_s
     }
 
-    /// Time that a lane is worth on the way.
+    /// Time that a lane is worth.
     fn worth_s(&self, lane: usize) -> f64 {
         let width = (2 * self.router.space().reach + 1) as f64;
         let cells_per_s = width * self.settings.cruise_m_per_s / CELL_M;
@@ -152,7 +152,7 @@ impl<'plan> Tour<'plan> {
         self.router.space().point(cell)
     }
 
-    /// Direction in which the robot leaves its lane at this end.
+    /// Heading in which the robot leaves its lane at this end.
     fn out_rad(&self, end: End) -> f64 {
         let lane = self.lanes[end / 2];
         if lane.from == lane.to {
@@ -197,7 +197,7 @@ impl<'plan> Tour<'plan> {
                 .near(cells[a], &at_block, (&mut cost_field, &mut *budget))
                 .await
             {
-                // The way back is as long; it was looked for already if the other end found this one.
+                // Costs are symmetric: the other end may have found this one already.
                 if b / 2 == a / 2 || is_known[b * ends + a] {
                     continue;
                 }
@@ -223,7 +223,7 @@ impl<'plan> Tour<'plan> {
         (drive_s + GUESS_RAD / self.settings.turn_rad_per_s) as f32
     }
 
-    /// The ends nearest to a cell; `spread` then knows the ways.
+    /// The ends nearest to a cell; `cost_field` then holds the paths.
     async fn near(
         &self,
         from: usize,
@@ -249,7 +249,7 @@ impl<'plan> Tour<'plan> {
         path_s(self.router.space(), path, (out_rad, back_rad), self.settings)
     }
 
-    /// The corners of the whole way.
+    /// The corners of the whole path.
     pub(super) async fn corners(&self, budget: &mut StepBudget) -> Vec<Point2> {
         let mut cost_field = self.router.cost_field();
         let mut corners = vec![self.point(self.start_cell)];
@@ -279,18 +279,18 @@ impl<'plan> Tour<'plan> {
 }
 
 impl Costs {
-    /// From leaving at one end to entering at another; `None` is the start.
+    /// From the exit of one lane to the entry of another; `None` is the start.
     fn between(&self, leave: Option<End>, enter: Option<End>) -> f32 {
         match (leave, enter) {
             (Some(leave), Some(enter)) => self.seconds[leave * self.ends + enter],
             (None, Some(enter)) => self.first[enter],
-            // The end of a tour is free.
+            // The tour may end anywhere.
             (_, None) => 0.0,
         }
     }
 }
 
-/// Appends the lanes of a round, each time the one that is nearest.
+/// Appends the lanes of a round by nearest neighbour.
 async fn nearest_first(
     order: &mut Vec<End>,
     (is_left, round): (&mut [bool], core::ops::Range<usize>),
@@ -314,7 +314,7 @@ async fn nearest_first(
     }
 }
 
-/// Where in the tour, after so many visits, a lane costs least, and from which end.
+/// Where in the tour, after the first `fixed` visits, a lane costs least, and from which end.
 fn cheapest_place(order: &[End], (lane, fixed): (usize, usize), costs: &Costs) -> Option<(f32, usize, End)> {
     let mut best: Option<(f32, usize, End)> = None;
     for position in fixed..=order.len() {
@@ -330,7 +330,7 @@ fn cheapest_place(order: &[End], (lane, fixed): (usize, usize), costs: &Costs) -
     best
 }
 
-/// Improves the tour after so many visits.
+/// Improves the tour after the first `fixed` visits.
 async fn improve(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) {
     for _ in 0..PASSES_MAX {
         let turned = turn_parts(order, fixed, (costs, &mut *budget)).await;
@@ -349,7 +349,7 @@ fn leave_before(order: &[End], position: usize) -> Option<End> {
         .map(|end| end ^ 1)
 }
 
-/// Turns parts of the tour round where that saves time (2-opt).
+/// Reverses parts of the tour where that saves time (2-opt).
 async fn turn_parts(order: &mut [End], fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
     let mut any = false;
     for first in fixed..order.len() {
@@ -372,7 +372,7 @@ async fn turn_parts(order: &mut [End], fixed: usize, (costs, budget): (&Costs, &
     any
 }
 
-/// Moves few lanes elsewhere, either way round, where that saves time (Or-opt).
+/// Moves a few lanes elsewhere, in either direction, where that saves time (Or-opt).
 async fn move_parts(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
     let mut any = false;
     for count in 1..=MOVED_MAX {
@@ -431,7 +431,7 @@ mod tests {
     use crate::model::gradual::{StepBudget, at_once};
     use crate::navigation::configuration_space::ConfigurationSpace;
 
-    /// Lanes without length at these places of a line; the start is at 0.
+    /// Lanes of zero length at these positions on a line; the start is at 0.
     fn costs(places: &[f32]) -> Costs {
         let ends = 2 * places.len();
         let at = |end: End| places[end / 2];
@@ -455,8 +455,8 @@ mod tests {
         assert_eq!(place(3), Some((6.0, 3)));
     }
 
-    /// In which order lanes are driven in a hall of 10 x 2 m: two of the first round at its ends, and one of the second round
-    /// beside the way between them, which sweeps this many cells.
+    /// Driving order in a hall of 10 x 2 m: two lanes of the first round at its ends, and one of the second round beside
+    /// the path between them, which sweeps this many cells.
     fn driven(swept: usize) -> Vec<usize> {
         let settings = PlanSettings {
             swath_m: 0.3,

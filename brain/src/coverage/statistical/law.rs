@@ -1,46 +1,48 @@
 //! How much floor there is, and how much of it is swept, by statistics.
 //!
-//! A robot that comes over floor at random finds what it has swept lately the more often the less floor there is: of a floor `A` a
-//! share `exp(-d w / A)` is still new after a way `d` with a swath `w`, if places are independent of each other. Turned round, how
-//! much of the floor was new tells `A`, from ways so short that wheels alone still tell where they led. How much of a floor is swept
-//! after a long way over it is known from simulated homes.
+//! A robot that crosses floor at random meets recently swept floor the more often the less floor there is: of a floor `A` a
+//! share `exp(-d w / A)` is still new after a distance `d` with a swath `w`, if points are independent of each other.
+//! Conversely, the share that was new gives `A`, over distances so short that wheel odometry is still accurate. The swept
+//! share after a long distance comes from simulated homes.
 
 use crate::model::swept_share::SweptShare;
 
-/// What was swept longer ago than this counts as new, seconds: by then the place of a robot with nothing but wheels is wrong by some
+/// Floor that was swept longer ago counts as new, seconds: by then the position from wheel odometry alone is wrong by some
 /// decimetres.
 pub(super) const KNOWN_S: u32 = 1_200;
-/// Before it has swept for this time it tells nothing, seconds: it has been in a part of the home and would take that for all of it.
+/// No estimate before this time of sweeping, seconds: the robot has seen a part of the home only and would take that for
+/// all of it.
 const ESTIMATE_AFTER_S: f64 = KNOWN_S as f64;
-/// Floors of which one is looked for, square metres.
+/// Range of the search for the floor area, square metres.
 const FLOOR_M2: (f64, f64) = (1.0, 1_000.0);
-/// Halvings of these: they leave less than a square centimetre.
+/// Steps of the bisection: they leave less than a square centimetre.
 const HALVINGS: u32 = 24;
-/// The low bound is that of a floor so many times as large, and larger by so much more of that as [`KNOWN_S`] is of the time that was swept.
-/// In four simulated homes there was up to 2.5 times the floor that was told after 20 minutes, 1.4 times after 45, 1.1 times after 120.
+/// The low bound assumes a floor this many times as large, and larger still by this factor of [`KNOWN_S`] over the time
+/// swept. In four simulated homes the real floor was up to 2.5 times the estimate after 20 minutes, 1.4 times after 45, 1.1
+/// times after 120.
 const LARGER: f64 = 1.4;
 const LARGER_EARLY: f64 = 1.5;
-/// Share that is still not swept after the floor's area was swept `n` times: `exp(-PACE n^SLOWING)`, slower than places that are
-/// independent of each other, since rooms are left seldom and furniture hides floor. From simulated homes.
+/// Share that is still unswept after the floor's area was swept `n` times: `exp(-PACE n^SLOWING)`. That is slower than for
+/// independent points, since robots rarely leave a room and furniture hides floor. From simulated homes.
 const PACE: f64 = 0.69;
 const SLOWING: f64 = 0.7;
 
-/// What was counted on the way.
+/// What was counted on the drive.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct NoveltyCount {
-    /// Way that was swept before the count began, metres.
+    /// Distance swept before the count began, metres.
     pub(super) before_m: f64,
-    /// Way since then, metres.
+    /// Distance since then, metres.
     pub(super) driven_m: f64,
-    /// Time that this took, seconds.
+    /// Time of that distance, seconds.
     pub(super) time_s: f64,
-    /// Places that were looked at on it, and those of them that were new.
+    /// Points that were sampled, and those of them that were new.
     pub(super) seen: u32,
     pub(super) new: u32,
 }
 
 impl NoveltyCount {
-    /// Floor that there is, square metres; `None` before that can be told.
+    /// Floor area, square metres; `None` before it can be estimated.
     fn floor_m2(&self, swath_m: f64) -> Option<f64> {
         if self.seen == 0 {
             return None;
@@ -50,7 +52,7 @@ impl NoveltyCount {
         let (mut low_m2, mut high_m2) = FLOOR_M2;
         for _ in 0..HALVINGS {
             let middle_m2 = 0.5 * (low_m2 + high_m2);
-            // The more floor there is the more is new.
+            // More floor means a larger new share.
             if new_share(swath_m / middle_m2, known_m, self.driven_m) < share {
                 low_m2 = middle_m2;
             } else {
@@ -60,7 +62,7 @@ impl NoveltyCount {
         Some(0.5 * (low_m2 + high_m2))
     }
 
-    /// How much of it is swept; `None` before that can be told.
+    /// Share that is swept; `None` before it can be estimated.
     pub(super) fn share(&self, swath_m: f64) -> Option<SweptShare> {
         if self.time_s < ESTIMATE_AFTER_S {
             return None;
@@ -76,13 +78,14 @@ impl NoveltyCount {
     }
 }
 
-/// Expected share of new places on a way whose last `known_m` are known at any time, where each metre sweeps so much of the floor.
+/// Expected share of new points on a drive whose last `known_m` are remembered at any time, where each metre sweeps
+/// `part_per_m` of the floor.
 fn new_share(part_per_m: f64, known_m: f64, driven_m: f64) -> f64 {
     let in_the_end = libm::exp(-part_per_m * known_m);
     ((1.0 - in_the_end) / part_per_m + (driven_m - known_m) * in_the_end) / driven_m
 }
 
-/// Share of a floor that is swept when so many times its area was.
+/// Share of a floor that is swept after this many times its area was.
 fn swept(times: f64) -> f64 {
     1.0 - libm::exp(-PACE * libm::pow(times, SLOWING))
 }
@@ -94,10 +97,10 @@ mod tests {
 
     const SWATH_M: f64 = 0.25;
     const SPEED_M_PER_S: f64 = 0.2;
-    /// A place is as large as what a robot sweeps on 5 cm.
+    /// A point is as large as what a robot sweeps in 5 cm.
     const STEP_M: f64 = 0.05;
 
-    /// A robot that comes by chance to any place of a floor, until it has come so far.
+    /// A robot that reaches random points of a floor, for this distance.
     fn by_chance(floor_m2: f64, driven_m: f64, seed: u64) -> NoveltyCount {
         let mut random = Random::new(seed);
         let places = (floor_m2 / (SWATH_M * STEP_M)) as usize;

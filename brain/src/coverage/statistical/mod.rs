@@ -1,8 +1,9 @@
-//! `statistical`: what a robot does that nothing but its wheels tells its heading.
+//! `statistical`: the strategy of a robot whose heading comes from its wheels alone.
 //!
-//! It has no map, but for some minutes its wheels tell well enough where it was. So it bounces towards floor that was not swept lately,
-//! with a spiral where the floor is open, until hardly anything that it comes over is new; then it follows the walls until what lies
-//! beside them is, which is mostly another room. How much is swept in all is told by statistics ([`law`]), and so is when to end.
+//! It has no map, but for some minutes wheel odometry is good enough to tell swept floor from unswept. So it bounces
+//! towards floor that was not swept recently, with a spiral in the open, until hardly any floor is new. Then it follows the
+//! walls until the floor beside them is new, which is mostly another room. Statistics estimate the swept share ([`law`])
+//! and decide when to end.
 
 mod law;
 mod novelty;
@@ -20,24 +21,24 @@ use crate::navigation::{
 };
 use novelty::Novelty;
 
-/// A place is left when no more than this share of what the robot comes over is new.
+/// The robot leaves a place when no more than this share of its floor is new.
 const LEAVE_SHARE: f64 = 0.35;
-/// A spiral is worth it where more than this is.
+/// A spiral is worth it where more than this share is new.
 const SPIRAL_SHARE: f64 = 0.7;
-/// Shortest and longest way along the walls to another place, metres.
+/// Shortest and longest drive along the walls to another place, metres.
 const WALL_M: (f64, f64) = (3.0, 20.0);
-/// The floor beside the wall is looked at so far to the left of the robot's middle, metres.
+/// Points beside the wall that are sampled: distances to the left of the robot's centre, metres.
 const BESIDE_M: [f64; 4] = [0.45, 0.7, 0.95, 1.2];
-/// So many of these places must be new, over so much way in a row, metres.
+/// This many of these points must be new, over this distance without interruption, metres.
 const NEW_MIN: usize = 3;
 const NEW_M: f64 = 1.5;
-/// Turn away from the wall after it, radians.
+/// Turn away from the wall afterwards, radians.
 const AWAY_RAD: (f64, f64) = (0.7, 2.0);
-/// A run this long without an encounter is on open floor, metres.
+/// A longer straight without an encounter is on open floor, metres.
 const OPEN_STRAIGHT_M: f64 = 1.8;
-/// Way between two spirals, metres.
+/// Distance between two spirals, metres.
 const SPIRAL_EVERY_M: f64 = 25.0;
-/// The job is done when at least this share is swept, by the low bound.
+/// The job is done when the low bound of the swept share reaches this.
 const ENOUGH_SHARE: f64 = 0.9;
 
 /// The strategy.
@@ -54,21 +55,21 @@ pub(crate) struct Statistical {
 
 #[derive(Clone, Copy, Debug)]
 enum StatisticalMode {
-    /// In widening turns.
+    /// A widening spiral.
     Spiral(Spiral),
-    /// Towards what is new.
+    /// Bouncing towards new floor.
     Bounce,
-    /// Along what stands on the right.
+    /// Along the wall on the right.
     Wall(WallDrive),
-    /// Away from it.
+    /// Turning away from the wall.
     Away(Turn),
 }
 
-/// Way along the walls, metres.
+/// A drive along the walls, metres.
 #[derive(Clone, Copy, Debug, Default)]
 struct WallDrive {
     driven_m: f64,
-    /// The last of it, with new floor beside it.
+    /// The last part of it, with new floor beside it.
     new_m: f64,
 }
 
@@ -142,7 +143,7 @@ impl Task for Statistical {
 }
 
 impl Statistical {
-    /// Says once how it cleans.
+    /// Records once how it cleans.
     fn begin(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         self.swath_m = situation.config.body.swath_m;
         if !core::mem::replace(&mut self.has_begun, true) && !situation.knows_heading {
@@ -206,7 +207,7 @@ impl Statistical {
     }
 }
 
-/// Whether the floor beside a robot that follows a wall was hardly swept lately.
+/// Whether most of the floor beside the robot was not swept recently.
 fn is_new_beside(situation: &Situation<'_>) -> bool {
     let is_new_at = |y_m: &&f64| {
         let at = situation.pose.transform(Point2 { x_m: 0.0, y_m: **y_m });

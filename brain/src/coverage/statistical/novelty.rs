@@ -1,17 +1,17 @@
-//! How much of the floor that the robot comes over is new.
+//! The share of new floor on the robot's drive.
 
 use super::law::{KNOWN_S, NoveltyCount};
 use crate::coverage::recent_coverage::{RECENT_S, is_new};
 use crate::model::geometry::Point2;
 use crate::navigation::Situation;
 
-/// Way over which the share is averaged, metres.
+/// Distance over which the share is averaged, metres.
 const WINDOW_M: f64 = 10.0;
-/// It is looked at each time the robot has come so far, metres.
+/// Distance between samples, metres.
 const STEP_M: f64 = 0.05;
-/// The floor is looked at so far before the brush, which has just been over what is nearer, metres.
+/// Distance of the samples ahead of the robot's centre, metres: the brush has just swept what is nearer.
 const AHEAD_M: f64 = 0.15;
-/// Places across the swath, in shares of its width.
+/// Sample points across the swath, as shares of its width.
 const ACROSS: [f64; 4] = [-0.4, -0.15, 0.15, 0.4];
 
 /// A running average, and the count of the whole job.
@@ -33,12 +33,12 @@ impl Default for Novelty {
 }
 
 impl Novelty {
-    /// Share of the last metres that was not swept lately, 0..=1; 1 at the beginning of a place.
+    /// Share of the last metres that was not swept recently, 0..=1; 1 at the start in a new place.
     pub(super) fn share(&self) -> f64 {
         self.share
     }
 
-    /// What was counted in this job.
+    /// The counts of this job.
     pub(super) fn count(&self) -> NoveltyCount {
         self.count.unwrap_or_default()
     }
@@ -72,7 +72,7 @@ impl Novelty {
     }
 }
 
-/// Whether the floor ahead of a place across the swath is new.
+/// Whether the floor ahead of a point across the swath is new.
 fn is_new_at(across: f64, within_s: u32, situation: &Situation<'_>) -> bool {
     let at = situation.pose.transform(Point2 {
         x_m: AHEAD_M,

@@ -1,15 +1,15 @@
-//! After a touch on one side the robot keeps a little to the other: it has been wrong about its place there, and would touch
-//! the same thing again on the same way.
+//! After a touch on one side the robot keeps a little to the other side: its pose was wrong there, and it would touch the
+//! same thing again on the same path.
 
 use crate::model::advance::Advance;
 use crate::model::reason::Reason;
 
-/// How far it keeps off its way, metres.
+/// Offset from the path, metres.
 const OFFSET_M: f64 = 0.015;
-/// For how much way, metres.
+/// Distance for which the offset holds, metres.
 const KEPT_FOR_M: f64 = 0.5;
 
-/// What is left of it.
+/// The current offset.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactOffset {
     offset_m: f64,
@@ -17,7 +17,7 @@ pub(super) struct ContactOffset {
 }
 
 impl ContactOffset {
-    /// Something was touched.
+    /// Records a touch.
     pub(super) fn touched(&mut self, reason: Reason) {
         let offset_m = match reason {
             Reason::BumpLeft => -OFFSET_M,
@@ -30,7 +30,7 @@ impl ContactOffset {
         };
     }
 
-    /// What to keep to the left of the way (negative: to the right), metres.
+    /// Offset to the left of the path (negative: to the right), metres.
     pub(super) fn offset_m(&mut self, advance: Advance) -> f64 {
         self.left_m -= advance.distance_m.max(0.0);
         if self.left_m > 0.0 { self.offset_m } else { 0.0 }

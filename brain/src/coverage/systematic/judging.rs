@@ -1,4 +1,4 @@
-//! What becomes of a plan once it is made: it is followed, or nothing is left, or something must have been cut off.
+//! What to do with a finished plan: follow it, end the job, or treat the floor as cut off.
 
 use super::{Outline, Systematic, shuts_in, squeeze};
 use crate::coverage::escape_bounce::EscapeBounce;
@@ -7,26 +7,26 @@ use crate::model::action::Motion;
 use crate::model::reason::Reason;
 use crate::navigation::{PathFollower, Situation, Task, TaskContext, TaskStatus};
 
-/// A plan that swept less than this brought nothing, square metres.
+/// A plan that swept less than this had no effect, square metres.
 const NOTHING_M2: f64 = 0.02;
-/// Plans in a row that brought nothing until the robot bounces out of the place.
+/// Plans in a row without effect until the robot bounces out of the place.
 const FAILED_PLANS_MAX: u32 = 4;
-/// Times that obstructions are forgotten in order to try again before `FRESH_WON_M2` were won by it.
+/// Times that obstructions are forgotten for another attempt before `FRESH_WON_M2` were swept.
 const FRESH_STARTS_MAX: u32 = 2;
-/// Times that it bounces out of a place before `FRESH_WON_M2` were won by it.
+/// Times that the robot bounces out of a place before `FRESH_WON_M2` were swept.
 const ESCAPES_MAX: u32 = 6;
 /// The same while a part of the home is cut off: giving up would leave all of that.
 const ESCAPES_CUT_OFF_MAX: u32 = 18;
-/// Floor that makes a fresh start worth it, square metres.
+/// Newly swept floor that justifies a fresh start, square metres.
 const FRESH_WON_M2: f64 = 0.5;
-/// Less than this share of the floor that was once in reach: something is cut off. A map that is drawn while the robot's
-/// place is known to centimetres only loses a little floor along all walls.
+/// Below this share of the floor that was reachable at any time, something is cut off. A map drawn with a pose error of
+/// centimetres loses only a little floor along the walls.
 const WHOLE_SHARE: f64 = 0.85;
-/// Unswept floor that is worth waiting for who stands before it, as a share of the floor that was once in reach.
+/// Unswept floor that is worth waiting for people to leave, as a share of the floor that was reachable at any time.
 const REST_SHARE: f64 = 0.05;
 
 impl Systematic {
-    /// Follows a plan if it is worth it; gives what to do instead if it is not.
+    /// Follows a plan if it is worth it; otherwise gives what to do instead.
     pub(super) fn judge(
         &mut self,
         plan: CoveragePlan,
@@ -75,7 +75,7 @@ impl Systematic {
         None
     }
 
-    /// Nothing is left to plan: the end, unless something may have been cut off.
+    /// No floor is left to plan: ends the job, unless something may be cut off.
     fn end(
         &mut self,
         plan: &CoveragePlan,
@@ -109,7 +109,7 @@ impl Systematic {
         TaskStatus::Finished(reason)
     }
 
-    /// Follows a plan for what lies behind a gap if that is worth it; what to do instead if it is not.
+    /// Follows a plan through a gap if it is worth it; otherwise gives what to do instead.
     fn judge_squeeze(
         &mut self,
         plan: CoveragePlan,
@@ -124,18 +124,18 @@ impl Systematic {
         }
         self.squeeze.give_up();
         if matches!(self.outline, Some(Outline::Known)) && plan.open_m2 < REST_SHARE * self.floor_m2 {
-            // What is cut off now was swept before.
+            // The part that is cut off now was swept before.
             self.is_cut_off = false;
         }
         Some(self.end(ended, false, (situation, context)))
     }
 
-    /// Counts the share that is swept by this plan, unless it is one of a robot that is cut off: that knows nothing of what was
-    /// passed elsewhere. While the home is being found out, floor turns out to be furniture, so that the newest plan knows best
-    /// how much there is; in a home that is known, what has got out of reach is floor still.
+    /// Updates the swept share from this plan, unless the robot is cut off: such a plan does not know the floor swept
+    /// elsewhere. While the robot explores a home, floor turns out to be furniture, so the newest plan has the best figure
+    /// for the floor. In a known home, floor that is unreachable now still counts.
     fn take_share(&mut self, plan: &CoveragePlan, situation: &Situation<'_>) {
         let known_m2 = match &self.outline {
-            // What is hoped for far beyond what is known is no floor yet.
+            // Floor assumed far beyond the known part does not count yet.
             Some(Outline::Growing(margin)) if margin.is_far() => plan.floor_m2.min(situation.map.free_m2()),
             _ => plan.floor_m2,
         };
@@ -150,8 +150,8 @@ impl Systematic {
         self.shares.take(plan, floor_m2);
     }
 
-    /// Hopes for floor farther beyond what is known, once, after a lap that ended for want of anything new: it may have missed a
-    /// way on.
+    /// Widens the optimistic margin once, after a lap that ended because it showed nothing new: it may have missed a
+    /// passage.
     fn widens_margin(&mut self) -> bool {
         match &mut self.outline {
             Some(Outline::Growing(margin)) => margin.grow(),
@@ -159,17 +159,17 @@ impl Systematic {
         }
     }
 
-    /// Whether all of a home is to be cleaned whose map is drawn meanwhile.
+    /// Whether the whole home is being cleaned while its map is drawn.
     fn is_first_run(&self) -> bool {
         matches!(self.outline, Some(Outline::Growing(_))) && self.assignment.is_whole_home()
     }
 
-    /// Whether a robot that has gone along all walls can hardly get anywhere on the map that it has drawn: it came there.
+    /// Whether a robot that has followed all walls can reach hardly any floor of its own map, which must then be wrong.
     fn is_shut_in(&self, plan: &CoveragePlan, situation: &Situation<'_>) -> bool {
         self.is_first_run() && shuts_in(plan.floor_m2, situation.map.free_m2())
     }
 
-    /// Forgets what stood in the way: perhaps it is gone, or never was there.
+    /// Forgets obstructions: they may be gone, or may never have existed.
     fn start_afresh(&mut self) -> TaskStatus {
         self.interrupted();
         self.fresh_starts += 1;
@@ -177,7 +177,7 @@ impl Systematic {
         TaskStatus::Go(Motion::Halt)
     }
 
-    /// No plan works here: bounces out of the place. That ends after a few times, too.
+    /// No plan works here: bounces out of the place, a bounded number of times.
     fn bounce_out(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         self.interrupted();
         self.failed_plans = 0;
@@ -191,7 +191,7 @@ impl Systematic {
             return TaskStatus::Finished(Reason::RestOutOfReach);
         }
         context.decide("bounce", Reason::BoxedIn, f64::from(self.escapes));
-        // What was touched in a narrow place blocks the way out of it on the map sooner than in truth.
+        // In a narrow place obstructions block the path out on the map more than in reality.
         self.obstructions.clear();
         if self.is_cut_off {
             self.squeeze.allow_one(REST_SHARE * self.floor_m2);

@@ -1,12 +1,15 @@
-//! `systematic`: lanes over the whole home, few turns, then what was left over.
+//! `systematic`: lanes over the whole home, with few turns, then the leftovers.
 //!
-//! In a home that it does not know it first drives a lap along the walls, which shows the outline, and then plans over what
-//! lies within as if it were floor, until something is met there.
+//! In an unknown home it first drives a lap along the walls, which shows the outline. Then it plans over everything inside
+//! as if it were floor, until it finds obstacles there.
 //!
-//! It plans, follows the plan, and plans again from what it has passed: when something stood in the way, when the way was
-//! lost, and when the plan is at its end. Plans are made step by step, while the robot backs off or stands. Where plan after plan brings nothing it bounces out of the place. It is done when
-//! nothing is left that is worth the way, or when even that leads nowhere. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
-//! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
+//! It plans, follows the plan, and plans again from what it has swept: when something blocked the path, when it left the
+//! path, and at the end of the plan. Planning runs in steps while the robot backs off or stands. Where several plans in a
+//! row have no effect it bounces out of the place. It is done when no floor is left that is worth driving to, or when even
+//! bouncing fails.
+//!
+//! Terms are those of [`super::plan`]. *Obstruction*: a contact that is not on the map. It is remembered for a while only,
+//! because things move and the pose may have been wrong.
 
 mod assignment;
 mod contact_offset;
@@ -48,15 +51,15 @@ use share::{PassedFloor, Shares};
 use squeeze::Squeeze;
 use standoff::Standoff;
 
-/// Way back after a contact: far enough to turn.
+/// Distance to back off after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
-/// Way back from what is seen ahead.
+/// Distance to back off from an obstacle seen ahead.
 const SEEN_BACK_M: f64 = 0.02;
-/// Way back that is added for each plan in a row that brought nothing.
+/// Additional back-off for each plan in a row without effect.
 const MORE_BACK_M: f64 = 0.02;
-/// Way back at a cliff.
+/// Distance to back off at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Turn away from an edge that nobody knew, radians.
+/// Turn away from an unknown cliff, radians.
 const AWAY_RAD: f64 = 1.2;
 
 /// The strategy.
@@ -65,14 +68,14 @@ pub(crate) struct Systematic {
     assignment: Assignment,
     outline: Option<Outline>,
     plan_progress: Option<PlanProgress>,
-    /// It stands until the plan is made.
+    /// The robot stands until the plan is finished.
     waits: bool,
     follower: Option<PathFollower>,
     evasion: Option<Evasion>,
     passed: Option<Passed>,
-    /// Generation of the map in which it plans.
+    /// Generation of the map on which it plans.
     generation: u32,
-    /// The frame in which lanes are planned, once it is found in this drawing of the map.
+    /// The frame of the lanes, once found for this generation of the map.
     frame: Option<LaneFrame>,
     obstructions: Obstructions,
     failed_plans: u32,
@@ -80,21 +83,21 @@ pub(crate) struct Systematic {
     escape_bounce: Option<EscapeBounce>,
     relocalization: RelocalizationLap,
     escapes: u32,
-    /// Floor that was passed when obstructions were forgotten last.
+    /// Floor that was swept when obstructions were last forgotten.
     passed_at_start_m2: f64,
     /// Floor that was still open when the last plan was made.
     open_before_m2: f64,
-    /// Most floor that could be reached at any time, with what was hoped for: by it is judged whether something is cut off.
+    /// Most floor that was reachable at any time, assumed floor included: the reference for what is cut off.
     floor_m2: f64,
-    /// Much less than that can be reached now.
+    /// Much less than `floor_m2` is reachable now.
     is_cut_off: bool,
-    /// Less than that can be reached now, by so much that somebody may stand in a door.
+    /// Less than `floor_m2` is reachable now, by so much that somebody may stand in a door.
     misses_a_part: bool,
-    /// It keeps off what it has just touched.
+    /// Keeps away from what it has just touched.
     contact_offset: ContactOffset,
     standoff: Standoff,
     squeeze: Squeeze,
-    /// What was known when it began, in a home that was known then.
+    /// The map at the start of the job, in a known home.
     began: Option<Raster<CellKnowledge>>,
     shares: Shares,
 }
@@ -163,7 +166,7 @@ impl Task for Systematic {
 }
 
 impl Systematic {
-    /// Cleans what is ordered.
+    /// Cleans this order.
     pub(super) fn with(order: CleaningOrder) -> Self {
         Self {
             assignment: Assignment::of(order),
@@ -171,7 +174,7 @@ impl Systematic {
         }
     }
 
-    /// Turns to what comes after the present part; `false` when nothing does.
+    /// Goes on to the next part; `false` when there is none.
     fn turns_to_next(&mut self, is_missed: bool, (map, context): (&Map, &mut TaskContext)) -> bool {
         self.assignment.is_missed |= is_missed;
         match self.assignment.advance(map) {
@@ -190,7 +193,7 @@ impl Systematic {
         true
     }
 
-    /// Looks for its own place, once it knows no more where it is in a map that it has.
+    /// Relocalizes when the robot is lost on its map.
     fn relocalize(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
         if !situation.is_tracked || self.evasion.is_some() {
             return None;
@@ -231,7 +234,7 @@ impl Systematic {
         None
     }
 
-    /// Forgets what it remembers in places of a map that was drawn again with other poses.
+    /// Discards everything in coordinates of a map that was drawn again with corrected poses.
     fn heed_redrawing(&mut self, situation: &Situation<'_>) {
         let generation = situation.map.snapshot().generation;
         if generation != self.generation {
@@ -243,7 +246,7 @@ impl Systematic {
         }
     }
 
-    /// Backs off from what was met, and remembers it.
+    /// Backs off from an obstacle, and remembers it.
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         context.decide("back-off", reason, 0.0);
         self.obstructions.add(reason, situation);
@@ -251,7 +254,7 @@ impl Systematic {
         self.follower = None;
         if situation.at_cliff {
             self.evasion = Some(Evasion::from_cliff(CLIFF_BACK_M, self.away_rad(reason)));
-            // Beside an edge a plan begins where the robot really stands.
+            // At a cliff the plan must begin at the robot's actual position.
             self.plan_progress = None;
         } else {
             self.standoff.touched(ahead(situation));
@@ -260,8 +263,8 @@ impl Systematic {
         TaskStatus::Go(Motion::Halt)
     }
 
-    /// Goes on, unless it would run into what it sees in a home of which it draws the map. In a home that is known the ways end where
-    /// walls are, and a touch in passing costs less than a new plan: with it 95 % took 0.05 T0 longer in the AWS house.
+    /// Goes on, but stops before obstacles ahead while it draws the map. In a known home the paths end at walls, and a
+    /// touch in passing costs less than a new plan: stopping there made 95 % take 0.05 T0 longer in the AWS house.
     fn go(&mut self, motion: Motion, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let explores = matches!(self.outline, Some(Outline::Growing(_)));
         let drives = situation.advance.distance_m > 0.0
@@ -277,7 +280,7 @@ impl Systematic {
         }
     }
 
-    /// Leaves a way on which something is seen, before it is touched.
+    /// Leaves a path on which an obstacle is visible, before touching it.
     fn stand_off(&mut self, seen: Ahead, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         context.decide("leave-way", Reason::WallAhead, seen.clear_m);
         self.obstructions.add_seen(seen.at, situation);
@@ -286,15 +289,16 @@ impl Systematic {
         TaskStatus::Go(Motion::Halt)
     }
 
-    /// Backs off on the way it came, farther the more plans were vain; the next one is made meanwhile, for where the robot will stand.
+    /// Backs off along its path, farther after plans without effect. The next plan is made meanwhile, from where the robot
+    /// will stand.
     fn back_off(&mut self, least_m: f64, situation: &Situation<'_>) {
         let back_m = least_m + MORE_BACK_M * f64::from(self.failed_plans);
         self.evasion = Some(Evasion::from_contact(back_m, 0.0));
         self.plan_progress = Some(PlanProgress::Due(situation.pose.after_arc(-back_m, 0.0)));
     }
 
-    /// Turn after an edge: where edges are not known yet the robot looks away from one before it drives on, because way
-    /// forward is what lets it back off again.
+    /// Turn after a cliff. Where cliffs are not known yet the robot turns away before it drives on, because forward travel
+    /// restores the distance that it may reverse.
     fn away_rad(&self, reason: Reason) -> f64 {
         match (&self.outline, reason) {
             (Some(Outline::Known), _) => 0.0,
@@ -329,7 +333,7 @@ impl Systematic {
         TaskStatus::Go(Motion::Halt)
     }
 
-    /// Goes on with the plan that is being made, if one is.
+    /// Continues the plan in progress, if there is one.
     fn plan_on(&mut self, situation: &Situation<'_>) {
         self.plan_progress = match self.plan_progress.take() {
             Some(PlanProgress::Due(start)) => Some(self.begin_plan(start, situation)),
@@ -338,8 +342,8 @@ impl Systematic {
         };
     }
 
-    /// Begins a plan for what is left, for a robot that sets out from `start`, once it is recalled what was passed and the map
-    /// shows what was met.
+    /// Begins a plan for the remaining floor, for a robot that sets out from `start`, once the swept floor is recalled and
+    /// the map shows the latest contacts.
     fn begin_plan(&mut self, start: Pose2, situation: &Situation<'_>) -> PlanProgress {
         let settings = settings(situation);
         let knowledge = situation.map.knowledge();
@@ -380,7 +384,7 @@ impl Systematic {
         })
     }
 
-    /// Takes up the plan that was made for what is left; gives what to do instead if there is none to follow.
+    /// Takes the finished plan for the remaining floor; gives what to do instead if there is none to follow.
     fn take_plan(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
         let here = situation.pose;
         match self.plan_progress.take() {

@@ -1,16 +1,17 @@
-//! What came to stand in the way since the job began: a person in a door, a bag, a chair that was moved.
+//! Obstacles that appeared since the job began: a person in a door, a bag, a chair that was moved.
 //!
-//! A home that is known was whole when the job began. Where a robot has nothing left to plan, it looks once more at what would be
-//! in reach if that were gone again, and tries the way there: who stood in a door has mostly left by then.
+//! In a known home everything was reachable when the job began. Where the robot has nothing left to plan, it checks once
+//! more what would be reachable without these obstacles, and drives there: people who stood in a door have mostly left by
+//! then.
 
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::gradual::StepBudget;
 
-/// Cells that are looked at for a unit of work.
+/// Cells read for a unit of work.
 const CELLS_A_WORK: usize = 4;
 
-/// Knowledge in which what was free floor when the job `began`, and is occupied now, is free again. Edges, and what people do not
-/// allow, stay as they are.
+/// A copy of the map in which cells that were free when the job `began` and are occupied now are free again. Cliffs and
+/// no-go zones stay.
 pub(super) async fn without_new_obstacles(
     mut knowledge: Raster<CellKnowledge>,
     began: &Raster<CellKnowledge>,

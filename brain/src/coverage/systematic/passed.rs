@@ -1,31 +1,31 @@
-//! Which floor the swath has passed in this job, as the planner sees it: a disc around the middle.
+//! The floor that the swath has passed in this job, as the planner counts it: a disc around the robot's centre.
 //!
-//! The swept layer of the map paints the bar under the robot, which is what people are shown. A plan made from that would
-//! send the robot back to each end of a lane for the half swath before the wall that the side brushes have reached.
+//! The coverage grid of the map holds the bar under the robot, which is what people see. A plan based on that would send
+//! the robot back to each end of a lane, for the half swath before the wall that the side brushes have reached.
 
 use super::recent_track::{RecentTrack, TrackPoint};
 use crate::mapping::{Cell, Map, Raster};
 use crate::model::geometry::Point2;
 use crate::navigation::{Disc, Situation};
 
-/// Places of the way that are recalled in one step.
+/// Points of the path that are recalled in one step.
 const RECALLED_A_STEP: usize = 1_000;
 
 /// Passed cells.
 #[derive(Debug)]
 pub(super) struct Passed {
-    /// What was passed before the trail.
+    /// Cells passed before the recent track.
     settled: Raster<bool>,
     track: RecentTrack,
     disc: Disc,
-    /// Places of the job's way that were recalled, of those that are to be.
+    /// Points of the job's path that were recalled, and their total.
     recalled: usize,
     to_recall: usize,
 }
 
 impl Passed {
-    /// What the way of this job passes from now on. `reach` cells to either side of the middle count. What it has passed so
-    /// far is still to be recalled: the map remembers it, and a job that goes on after a restart has no other memory.
+    /// Records what this job passes from now on, with `reach` cells on either side of the centre. What it has passed so far
+    /// is recalled from the map: a job that continues after a restart has no other memory.
     pub(super) fn new(map: &Map, window: &CellWindow, reach: usize) -> Self {
         Self {
             settled: Raster::filled(window.origin, window.width, window.height, false),
@@ -36,7 +36,7 @@ impl Passed {
         }
     }
 
-    /// Recalls some more of what the way of this job had passed where it cleaned. `true` when all of it is there.
+    /// Recalls some more of what this job has passed and swept. `true` when all of it is recalled.
     pub(super) fn recall(&mut self, map: &Map) -> bool {
         let path = map.snapshot().path;
         let end = self.to_recall.min(path.len());
@@ -54,13 +54,13 @@ impl Passed {
         some == end
     }
 
-    /// Nothing was passed.
+    /// Forgets all passed cells.
     pub(super) fn forget(&mut self) {
         self.settled.values_mut().fill(false);
         self.track.forget();
     }
 
-    /// Takes over another window; what lies outside of it is forgotten.
+    /// Changes to another window; cells outside of it are forgotten.
     pub(super) fn cover(&mut self, window: &CellWindow) {
         if *window == CellWindow::of(&self.settled) {
             return;
@@ -86,15 +86,15 @@ impl Passed {
         }
     }
 
-    /// Counts what would have been swept from a place beside the way that the robot really takes: a strip that it left out
-    /// because it came too near to something is not worth another way.
+    /// Counts floor as swept that the robot would have swept from a point beside its actual path. A strip that it left out
+    /// because it kept away from an obstacle is not worth another drive.
     pub(super) fn give_up(&mut self, beside: Point2) {
         self.track.give_up(beside);
     }
 }
 
 impl Disc {
-    /// Paints what is swept from a place of the way, and what was given up beside it.
+    /// Paints what is swept from a track point, and what was given up beside it.
     fn paint_point(&self, cells: &mut Raster<bool>, point: &TrackPoint) {
         for at in point.swept_from() {
             self.paint(cells, at);
@@ -118,7 +118,7 @@ pub(super) struct CellWindow {
 }
 
 impl CellWindow {
-    /// That of a raster.
+    /// The window of a raster.
     fn of<T>(raster: &Raster<T>) -> Self {
         Self {
             origin: raster.origin(),
@@ -127,7 +127,7 @@ impl CellWindow {
         }
     }
 
-    /// That of a raster with `margin` cells more on each side.
+    /// The window of a raster with `margin` cells more on each side.
     pub(super) fn around<T>(raster: &Raster<T>, margin: usize) -> Self {
         let shift = i32::try_from(margin).unwrap_or(0);
         Self {

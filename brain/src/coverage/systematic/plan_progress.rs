@@ -1,4 +1,4 @@
-//! A plan that is made while the robot goes on: step by step, from what was known when it was begun.
+//! A plan that is made step by step while the robot moves, from the map as it was at the start of planning.
 
 use core::task::Poll;
 
@@ -14,24 +14,25 @@ use crate::model::gradual::{Gradual, StepBudget};
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{Situation, reachable};
 
-/// A plan is not followed from farther away than this from where it begins, metres: back-offs get longer than expected.
+/// A plan is discarded farther than this from its start, metres: back-offs get longer than expected.
 const OFF_START_M: f64 = 0.06;
 
-/// More overlap does not pay: errors of lanes side by side are much alike, and leftovers are cheaper. With the whole deviation three
-/// known homes were swept to 0.98 instead of 0.97, in 2.7 to 3.1 times the time (`measurements/systematic-known.md`).
+/// More overlap does not pay: errors of neighbouring lanes are correlated, and leftovers are cheaper. With the full
+/// deviation three known homes were swept to 0.98 instead of 0.97, in 2.7 to 3.1 times the time
+/// (`measurements/systematic-known.md`).
 const SIGMA_MAX_M: f64 = 0.015;
 
-/// All that a plan depends on.
+/// All inputs of a plan.
 #[derive(Debug)]
 pub(super) struct PlanInputs {
     pub(super) knowledge: Raster<CellKnowledge>,
-    /// Floor is hoped for so far beyond what is known; `None` = nothing is hoped for.
+    /// Width of the optimistic margin; `None` = only known floor counts.
     pub(super) beyond_m: Option<f64>,
-    /// The gap to what is known included.
+    /// Radius of the body plus the gap to known obstacles.
     pub(super) radius_m: f64,
-    /// Only floor is wanted that comes into reach with this radius instead.
+    /// Only floor counts that becomes reachable with this radius instead.
     pub(super) squeezed_m: Option<f64>,
-    /// What was known when the job began: with another radius, too, what came since is looked through.
+    /// The map when the job began. With the reduced radius, obstacles that appeared since are ignored.
     pub(super) began: Option<Raster<CellKnowledge>>,
     pub(super) blocked: Vec<Point2>,
     pub(super) target: TargetFloor,
@@ -41,7 +42,7 @@ pub(super) struct PlanInputs {
     pub(super) frame: Option<LaneFrame>,
 }
 
-/// A plan that was made.
+/// A finished plan.
 #[derive(Clone, Debug)]
 pub(super) struct FinishedPlan {
     pub(super) plan: CoveragePlan,
@@ -49,33 +50,33 @@ pub(super) struct FinishedPlan {
     pub(super) frame: LaneFrame,
 }
 
-/// How far a plan is.
+/// Progress of a plan.
 #[derive(Debug)]
 pub(super) enum PlanProgress {
     /// To be begun, for a robot that sets out from here.
     Due(Pose2),
-    /// Being made.
+    /// In progress.
     Running {
         rest: Gradual<FinishedPlan>,
         request: PlanRequest,
     },
-    /// Made.
+    /// Finished.
     Finished {
         finished: FinishedPlan,
         request: PlanRequest,
     },
 }
 
-/// What is known of a plan before it is made.
+/// What is known of a plan before it is finished.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlanRequest {
     pub(super) start: Pose2,
-    /// Something that the map does not know stands in the way.
+    /// Obstructions that are not on the map were avoided.
     pub(super) is_blocked: bool,
 }
 
 impl PlanRequest {
-    /// Whether a robot at this place can follow the plan.
+    /// Whether a robot at this position can follow the plan.
     pub(super) fn begins_at(&self, place: Point2) -> bool {
         self.start.position().distance_m(place) < OFF_START_M
     }
@@ -92,7 +93,7 @@ impl PlanProgress {
         }
     }
 
-    /// Does the next step of a plan that is being made.
+    /// Does the next step of a plan in progress.
     pub(super) fn go_on(self) -> Self {
         match self {
             Self::Running { mut rest, request } => match rest.go_on() {
@@ -103,7 +104,7 @@ impl PlanProgress {
         }
     }
 
-    /// The same once more, because what it rests on has changed.
+    /// Restarts a plan because its inputs have changed.
     pub(super) fn afresh(self) -> Self {
         match self {
             Self::Due(start) => Self::Due(start),
@@ -112,7 +113,7 @@ impl PlanProgress {
     }
 }
 
-/// What plans depend on besides the ground, now.
+/// The current parameters of plans.
 pub(super) fn settings(situation: &Situation<'_>) -> PlanSettings {
     PlanSettings {
         swath_m: situation.config.body.swath_m,
@@ -189,7 +190,7 @@ mod tests {
         takes_along: true,
     };
 
-    /// A hall of 10 x 8 m, empty so that its walls alone keep the body off.
+    /// An empty hall of 10 x 8 m, in which only the walls limit the body.
     fn inputs() -> PlanInputs {
         let body = Body {
             radius_m: 0.175,
@@ -242,7 +243,7 @@ mod tests {
         assert!((3..100).contains(&steps), "{steps} steps");
     }
 
-    /// The hall with a wall across it that has a gap of so many cells, swept up to the wall.
+    /// The hall with a wall across it that has a gap of this many cells, swept up to the wall.
     fn behind_a_gap(gap: i32) -> PlanInputs {
         let mut inputs = inputs();
         for y in (0..320).filter(|y| !(100..100 + gap).contains(y)) {
@@ -263,14 +264,14 @@ mod tests {
             };
             finished(PlanProgress::begin(inputs)).0
         };
-        // The body is 14 cells wide; with a gap of a centimetre and whole cells it is planned to take 15.
+        // The body is 14 cells wide; with a gap of a centimetre and whole cells the plan reserves 15.
         assert_eq!(lanes(14, None).lanes, 0);
         let through = lanes(14, Some(0.1625));
         assert!(
             through.lanes > 0 && (35.0..40.0).contains(&through.open_m2),
             "{through:?}"
         );
-        // Nothing of what was in reach before is wanted, the edges at its walls included.
+        // Floor that was reachable before does not count, edges at walls included.
         let mut swept = behind_a_gap(14);
         swept.passed.values_mut().fill(true);
         swept.squeezed_m = Some(0.1625);

@@ -1,8 +1,8 @@
-//! The last stretch of the way, whose places may still turn out to have been others.
+//! The recent track, whose points may still be corrected.
 //!
-//! In the middle of a large room no wall is in sight, and the place that the robot believes in goes astray by centimetres
-//! until it sees one again. What is corrected then was wrong for a while before, the less the surer the robot was: so the
-//! correction is handed back along the way, and the strip that a lane left out beside the one before it shows.
+//! In the middle of a large room no wall is in sight, and the pose estimate drifts by centimetres until the robot sees one
+//! again. The error that is corrected then built up before, while the pose became less certain. So the correction is
+//! distributed back along the track, which shows strips that a lane left out beside the one before it.
 
 use std::collections::VecDeque;
 
@@ -10,36 +10,36 @@ use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Way between two places that are kept, metres.
+/// Distance between two track points, metres.
 const STEP_M: f64 = 0.0125;
-/// Places kept; the oldest are settled.
+/// Points kept; the oldest are settled.
 const KEPT_MAX: usize = 1_600;
-/// Corrections are handed back when they come to this, metres.
+/// Corrections are distributed once they add up to this, metres.
 const NOTICED_M: f64 = 0.003;
-/// The share of a correction that is not worth handing on.
+/// A smaller share of a correction is dropped.
 const SHARE_MIN: f64 = 0.05;
-/// Way on which a correction is handed back, metres, however unsure the place was: wheels that count a little wrong are
-/// corrected all the time, and were not wrong before.
+/// Distance over which a correction fades, metres, however uncertain the pose: errors of the wheel calibration are
+/// corrected all the time and do not reach far back.
 const HANDED_BACK_M: f64 = 15.0;
-/// Less of an error is not taken for one, metres: lanes overlap by so much.
+/// Smaller errors are ignored, metres: lanes overlap by this much.
 const TRUSTED_MIN_M: f64 = 0.02;
-/// Farther than this the robot has not erred but was elsewhere meanwhile, metres.
+/// A larger jump is no pose error: the robot was carried, metres.
 const ELSEWHERE_M: f64 = 0.5;
 
-/// A place of the way.
+/// A point of the track.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackPoint {
-    /// Where the robot believed to be.
+    /// The estimated position at that time.
     believed: Point2,
-    /// What it would have swept from there is not worth another way.
+    /// A point beside it whose floor is not worth another drive.
     beside: Option<Point2>,
     sigma_m: f64,
-    /// How far from there it was, as far as is known now.
+    /// The error of the estimate, as far as known now.
     error: Point2,
 }
 
 impl TrackPoint {
-    /// Where the robot was, and what was given up beside it: a small error is as likely one of the correction.
+    /// The corrected position, and the one given up beside it. A small error is as likely an error of the correction.
     pub(super) fn swept_from(&self) -> impl Iterator<Item = Point2> {
         let shift = trusted(self.error);
         [Some(self.believed), self.beside]
@@ -49,7 +49,7 @@ impl TrackPoint {
     }
 }
 
-/// What of an error is taken for one.
+/// The part of an error that exceeds the tolerance.
 fn trusted(error: Point2) -> Point2 {
     let error_m = error.distance_m(Point2::ORIGIN);
     plus(
@@ -66,18 +66,18 @@ fn plus(point: Point2, by: Point2, share: f64) -> Point2 {
     }
 }
 
-/// The places, the newest last.
+/// The points, the newest last.
 #[derive(Debug, Default)]
 pub(super) struct RecentTrack {
     points: VecDeque<TrackPoint>,
     last: Option<Pose2>,
-    /// What is not handed back yet.
+    /// The correction that is not distributed yet.
     due: Point2,
 }
 
 impl RecentTrack {
-    /// Goes on to where the robot believes to be now. With what was moved since the last call a correction is handed back;
-    /// without, places stay as they were believed. Gives what is settled now.
+    /// Extends the track to the current pose estimate. With `advance` the difference between the expected and the estimated
+    /// pose is distributed; without, points stay as estimated. Gives the points that are settled now.
     pub(super) fn follow(&mut self, estimate: &PoseEstimate, advance: Option<Advance>) -> Vec<TrackPoint> {
         let at = estimate.pose.position();
         let mut settled = Vec::new();
@@ -110,24 +110,24 @@ impl RecentTrack {
         settled
     }
 
-    /// What would have been swept from a place beside the last one is not worth another way.
+    /// Gives up the floor that would be swept from a point beside the last one.
     pub(super) fn give_up(&mut self, beside: Point2) {
         if let Some(last) = self.points.back_mut() {
             last.beside = Some(beside);
         }
     }
 
-    /// The places as they are known now.
+    /// The points as they are known now.
     pub(super) fn points(&self) -> impl Iterator<Item = &TrackPoint> {
         self.points.iter()
     }
 
-    /// Forgets all places.
+    /// Forgets all points.
     pub(super) fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// Hands what is due back along the way: each place was wrong by as much of it as it was unsure.
+    /// Distributes the pending correction back along the track, in proportion to the uncertainty of each point.
     fn hand_back(&mut self) {
         if self.due.distance_m(Point2::ORIGIN) < NOTICED_M {
             return;
@@ -174,7 +174,8 @@ mod tests {
         })
     }
 
-    /// Two metres along x, after which the place turns out to be `off_m` to the left. The robot gets less sure on the way.
+    /// Two metres along x, after which the position turns out to be `off_m` to the left. The pose gets less certain on the
+    /// drive.
     fn corrected(off_m: f64) -> RecentTrack {
         let mut track = RecentTrack::default();
         for step in 0..=100 {

@@ -1,35 +1,36 @@
-//! A robot that does not know where it is follows walls until it does.
+//! A lost robot follows walls until it is localized again.
 //!
-//! Lanes on a pose that is not believed lead nowhere, and what they sweep is written down in the wrong place. Walls tell the filter
-//! most, and who goes along them comes through all rooms.
+//! Lanes on a wrong pose lead nowhere, and what they sweep is recorded in the wrong place. Walls give the particle filter
+//! most information, and following them leads through all rooms.
 
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
 
-/// Way along walls after which it goes on with what it believes, metres: once around a large home, so the map may be another's.
+/// Longest drive along walls before the robot goes on with its pose estimate, metres: once around a large home, so the map
+/// may be of another one.
 const SEEK_MAX_M: f64 = 120.0;
 
-/// The search for its own place.
+/// The drive along walls.
 #[derive(Debug, Default)]
 pub(super) struct RelocalizationLap {
     lap: Option<Perimeter>,
     has_given_up: bool,
 }
 
-/// What a search means for whoever drives.
+/// What to do after a step of relocalization.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum RelocalizationStep {
-    /// The place is known, or was sought in vain: lanes go on.
+    /// The pose is known, or relocalization failed: lanes go on.
     Idle,
-    /// The search has just ended: what was planned before is void.
+    /// Relocalization has just ended: earlier plans are void.
     Over,
-    /// It is being sought.
+    /// Relocalization is in progress.
     Driving(TaskStatus),
 }
 
 impl RelocalizationLap {
-    /// The robot was moved by somebody else.
+    /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
         if let Some(lap) = &mut self.lap {
             lap.interrupted();

@@ -1,7 +1,7 @@
 //! How much of its floor a job has swept so far, also between two plans.
 //!
-//! The newest plan tells how much floor there is and how much of it was passed; what was passed since is added. A strip that was
-//! passed counts less in the low bound, the less sure the robot's place was there.
+//! The newest plan gives the floor area and the swept part; what was swept since is added. In the low bound a strip counts
+//! less, the less certain the pose was there.
 
 use crate::coverage::estimate::kept_low;
 use crate::coverage::plan::{CoveragePlan, PlanSettings};
@@ -9,11 +9,11 @@ use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::{CELL_M, Map, Raster};
 use crate::model::swept_share::SweptShare;
 
-/// A plan that finds less than this share of what is counted is one of a robot that stands elsewhere: cut off from the rest, or
-/// outside of the walls by its map.
+/// A plan that finds less than this share of the counted floor belongs to a robot that is cut off from the rest, or outside
+/// of the walls on its map.
 const ELSEWHERE_SHARE: f64 = 0.5;
 
-/// Floor that was passed, square metres, and what stays of it with more doubt.
+/// Floor that was passed, square metres, and its low bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct PassedFloor {
     m2: f64,
@@ -21,14 +21,14 @@ pub(super) struct PassedFloor {
 }
 
 impl PassedFloor {
-    /// What of the passed cells is wanted.
+    /// Counts the passed cells that belong to the target floor.
     pub(super) fn count(
         passed: &Raster<bool>,
         (target, map): (&TargetFloor, &Map),
         settings: &PlanSettings,
     ) -> Self {
         let (mut cells, mut cells_low) = (0.0, 0.0);
-        // Neighbours are mostly as sure, and the share takes long to find.
+        // Neighbours mostly have the same deviation, and the share is expensive to compute.
         let mut before: (Option<f64>, f64) = (None, kept_low(None, settings));
         for (index, _) in passed.values().iter().enumerate().filter(|(_, is)| **is) {
             let cell = passed.cell(index);
@@ -48,24 +48,24 @@ impl PassedFloor {
         }
     }
 
-    /// Share of what was passed that stays with more doubt.
+    /// Ratio of the low bound to the passed floor.
     fn kept_low(self) -> f64 {
         if self.m2 > 0.0 { self.low_m2 / self.m2 } else { 1.0 }
     }
 }
 
-/// What a plan knows of it.
+/// The figures of a plan.
 #[derive(Clone, Copy, Debug)]
 struct Tally {
     settings: PlanSettings,
-    /// What was counted when it was begun.
+    /// Floor counted when the plan was begun.
     counted: PassedFloor,
-    /// What it found passed, and how much floor there is, square metres; 0 while it is being made.
+    /// Swept and total floor according to the plan, square metres; 0 until it is finished.
     passed_m2: f64,
     floor_m2: f64,
 }
 
-/// What the plan that is being made and the newest one know of it.
+/// The figures of the plan in progress and of the newest one.
 #[derive(Debug, Default)]
 pub(super) struct Shares {
     next: Option<Tally>,
@@ -75,7 +75,7 @@ pub(super) struct Shares {
 }
 
 impl Shares {
-    /// A plan is begun when so much is counted.
+    /// A plan is begun with this much counted.
     pub(super) fn begin(&mut self, settings: PlanSettings, counted: PassedFloor) {
         self.next = Some(Tally {
             settings,
@@ -85,13 +85,13 @@ impl Shares {
         });
     }
 
-    /// So much floor is known now; gives the most that ever was.
+    /// Records how much floor is known now; gives the maximum so far.
     pub(super) fn know_floor(&mut self, known_m2: f64) -> f64 {
         self.most_m2 = self.most_m2.max(known_m2);
         self.most_m2
     }
 
-    /// That plan is made, and there is so much floor.
+    /// The plan is finished, with this much floor.
     pub(super) fn take(&mut self, plan: &CoveragePlan, floor_m2: f64) {
         self.newest = self.next.take().map(|tally| Tally {
             passed_m2: plan.passed_m2(),
@@ -100,23 +100,24 @@ impl Shares {
         });
     }
 
-    /// That plan tells nothing: the one before it stays the newest.
+    /// The plan gives no figures: the one before it stays the newest.
     pub(super) fn pass_over(&mut self) {
         self.next = None;
     }
 
-    /// Whether this plan, which is made, knows nothing of most of what was passed.
+    /// Whether this finished plan does not know most of what was passed.
     pub(super) fn is_elsewhere(&self, plan: &CoveragePlan) -> bool {
         let begun = self.next.filter(|_| self.has_plan());
         begun.is_some_and(|tally| plan.passed_m2() < ELSEWHERE_SHARE * tally.counted.m2)
     }
 
-    /// Whether a plan has told anything yet.
+    /// Whether any plan has given figures yet.
     pub(super) fn has_plan(&self) -> bool {
         self.newest.is_some()
     }
 
-    /// The share with what is counted now; where that gives nothing, since the map was drawn again, what the plan knew has to do.
+    /// The share with what is counted now. Where nothing can be counted because the map was drawn again, the figures of the
+    /// plan are used alone.
     pub(super) fn share(&self, count: impl Fn(&PlanSettings) -> Option<PassedFloor>) -> Option<SweptShare> {
         let tally = self.newest.filter(|tally| tally.floor_m2 > 0.0)?;
         let floor_m2 = tally.floor_m2;

@@ -1,18 +1,18 @@
-//! The wall on the right as a line, carried along by what the robot moved and corrected by what it sees.
+//! The wall on the right as a line, predicted from odometry and corrected by the sensors.
 //!
-//! One sensor that looks to the side is enough: how its distance changes on the way tells the angle. A second one that looks
-//! before the side tells the angle at once.
+//! One side sensor is enough: the change of its distance while driving gives the angle. A second sensor that faces between
+//! ahead and the side gives the angle at once.
 
 use super::wall_ranges::WallRanges;
 use crate::model::advance::Advance;
 
-/// Share of a difference in distance that is taken over for each metre of way.
+/// Gain of the distance correction per metre driven.
 const GAP_SHARE_PER_M: f64 = 25.0;
-/// Angle that a difference in distance speaks for, radians a metre of difference and metre of way.
+/// Gain of the angle correction from a distance error, radians per metre of error and metre driven.
 const SLOPE_PER_M2: f64 = 200.0;
-/// Share of a difference in angle that is taken over for each metre of way.
+/// Gain of the angle correction per metre driven.
 const SLOPE_SHARE_PER_M: f64 = 12.0;
-/// What differs more is another thing, metres.
+/// A larger difference is another object, metres.
 const OTHER_M: f64 = 0.05;
 
 /// The wall.
@@ -20,19 +20,19 @@ const OTHER_M: f64 = 0.05;
 pub(super) struct WallLine {
     /// Gap between the rim and the wall, metres.
     pub(super) gap_m: f64,
-    /// Heading beyond that of the wall, radians; positive looks away from it.
+    /// Heading relative to the wall, radians; positive faces away from it.
     pub(super) slope_rad: f64,
-    /// Way since something was seen on the right; `None` = nothing was seen since the line was given up.
+    /// Distance since the wall was last seen on the right; `None` = it was not seen since the line was given up.
     unseen_m: Option<f64>,
 }
 
 impl WallLine {
-    /// Whether a wall was seen within the last `way_m`.
+    /// Whether a wall was seen within the last `driven_m`.
     pub(super) fn is_seen_within(&self, driven_m: f64) -> bool {
         self.unseen_m.is_some_and(|unseen_m| unseen_m <= driven_m)
     }
 
-    /// The wall is not beside the robot any more.
+    /// The wall is no longer beside the robot.
     pub(super) fn give_up(&mut self) {
         self.unseen_m = None;
     }

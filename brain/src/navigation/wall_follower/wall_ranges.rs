@@ -1,31 +1,31 @@
-//! What the proximity sensors show of a wall on the right and of the way ahead.
+//! What the proximity sensors show of a wall on the right and of obstacles ahead.
 
 use core::f64::consts::FRAC_PI_2;
 
 use crate::model::geometry::Point2;
 use crate::navigation::Situation;
 
-/// Levels below this are noise.
+/// Lower levels are noise.
 const LEVEL_MIN: f64 = 0.045;
-/// A sensor looks to the side when its direction is nearer to the right than this, radians.
+/// A sensor faces sideways when its direction is nearer to the right than this, radians.
 const SIDE_RAD: f64 = 0.4;
-/// A sensor between this and the side looks at the wall before the robot comes along it, radians from the right.
+/// A sensor between this and the side sees the wall before the robot passes it, radians from the right.
 const DIAGONAL_RAD: f64 = 0.8;
-/// Between the two hits a wall turns less than this; else they hit two things.
+/// Largest angle of a wall between the two hits; otherwise they are two objects.
 const SLOPE_MAX_RAD: f64 = 0.6;
-/// What reaches less than this into the corridor is passed without a touch, metres.
+/// An obstacle that overlaps the robot's corridor by less than this is passed without a touch, metres.
 const GRAZE_M: f64 = 0.008;
 
-/// Distances that one look gives.
+/// The distances of one reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct WallRanges {
-    /// Gap between the rim and what stands on the right, metres.
+    /// Gap between the rim and the obstacle on the right, metres.
     pub(super) side_m: Option<f64>,
-    /// Gap between the rim and what stands before the right side, metres.
+    /// Gap between the rim and the obstacle diagonally ahead on the right, metres.
     pub(super) diagonal_m: Option<f64>,
-    /// Heading beyond that of the wall, radians; positive looks away from a wall on the right.
+    /// Heading relative to the wall, radians; positive faces away from a wall on the right.
     pub(super) slope_rad: Option<f64>,
-    /// Way straight ahead until something is touched, metres.
+    /// Straight distance until a contact, metres.
     pub(super) ahead_m: Option<f64>,
 }
 
@@ -65,7 +65,7 @@ impl WallRanges {
     }
 }
 
-/// Way straight ahead until the rim touches a point; `None` when it passes beside.
+/// Straight distance until the rim touches a point; `None` when it passes beside the point.
 fn distance_to_contact_m(point: Point2, radius_m: f64) -> Option<f64> {
     let half_m = radius_m - GRAZE_M;
     (point.x_m > 0.0 && point.y_m.abs() < half_m)

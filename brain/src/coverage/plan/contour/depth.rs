@@ -1,17 +1,17 @@
-//! How deep within the floor that is ringed each cell lies.
+//! Depth of each cell within the floor that is swept in rings (chamfer distance transform).
 
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// Depths are whole fifths of a cell: with steps of 5, 7 and 11 they are right to 2 %.
+/// Depths are whole fifths of a cell: with steps of 5, 7 and 11 they are accurate to 2 %.
 pub(super) const CELL: i32 = 5;
 const DIAGONAL: i32 = 7;
 const KNIGHT: i32 = 11;
-/// Work of a cell in one sweep.
+/// Work of a cell in one scan.
 const VISIT_WORK: usize = 8;
 
-/// The depth of each cell. Cells beside what the body cannot take are one cell deep; where floor of another kind begins the
-/// first ring keeps off by what a lane sweeps to its side.
+/// The depth of each cell. Cells beside the border of the free space are one cell deep. Where floor with another pattern
+/// begins, the first ring keeps away by half a lane.
 pub(super) async fn depths(space: &ConfigurationSpace, ringed: &[bool], budget: &mut StepBudget) -> Vec<i32> {
     let beyond = -CELL * space.reach as i32;
     let mut depths: Vec<i32> = space
@@ -35,7 +35,7 @@ pub(super) async fn depths(space: &ConfigurationSpace, ringed: &[bool], budget: 
         (2 * width + 1, KNIGHT),
         (2 * width - 1, KNIGHT),
     ];
-    // The margin around the ground is wider than the longest step.
+    // The margin around the free space is wider than the longest step.
     let border = 2 * width + 2;
     let inner = border..depths.len().saturating_sub(border);
     for index in inner.clone() {

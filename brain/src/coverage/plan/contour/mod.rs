@@ -1,11 +1,11 @@
-//! Rings along the border of the ground, from the wall inwards or from the middle outwards.
+//! Rings along the border of the free space, from the wall inwards or from the middle outwards.
 //!
-//! Terms. *Depth*: how far a cell lies from the border of the ground that is ringed. *Ring*: a closed row of cells of one
-//! depth; those of the next *level* lie a lane's spacing deeper. Furniture is a border, too, so that rings lie around it.
-//! *Run*: a part of a ring that is worth driving, or all of it. Where the sides of a ring come so near to each other that one
-//! of them sweeps the floor of both, only one is driven.
+//! Terms. *Depth*: distance of a cell from the border of the ringed floor. *Ring*: a closed chain of cells of one depth;
+//! those of the next *level* lie one lane spacing deeper. Furniture has a border, too, so rings lie around it. *Section*: a
+//! part of a ring that is worth driving, or the whole ring. Where the sides of a ring come so close that one sweeps the
+//! floor of both, only one is driven.
 //!
-//! Rings leave floor open where they turn and in the middle between the last of them: that is for lanes.
+//! Rings leave floor open where they turn and in the middle of the innermost one. Lanes sweep that.
 
 mod depth;
 mod order;
@@ -24,23 +24,23 @@ use crate::navigation::router::Router;
 use order::{RingPath, RingTour};
 use ring_sections::{RingSection, Sweeper};
 
-/// A job that has swept less than this share of the floor to be ringed begins at the wall, or in the middle; a later plan
-/// goes on where the robot is.
+/// A job that has swept less than this share of the ringed floor begins at the wall or in the middle; a later plan
+/// continues where the robot is.
 const BEGUN_SHARE: f64 = 0.05;
-/// Work of asking how a cell is to be swept.
+/// Work to find the pattern of a cell.
 const ASK_WORK: usize = 1;
 
 /// The floor that is swept in rings.
 pub(super) struct RingFloor {
-    /// By the indices of the ground.
+    /// By the indices of the configuration space.
     cells: Vec<bool>,
     is_outwards: bool,
-    /// How much of it there was before any of it was swept.
+    /// Cells of it before any of it was swept.
     floor: usize,
 }
 
 impl RingFloor {
-    /// The part of the ground that is to be swept in rings, before what is swept already is closed; `None` if there is none.
+    /// The floor that is swept in rings, before already swept floor is closed; `None` if there is none.
     pub(super) async fn of(
         space: &ConfigurationSpace,
         pattern: impl Fn(Cell) -> Option<SweepPattern>,
@@ -76,7 +76,7 @@ impl RingFloor {
     }
 }
 
-/// The way along all rings that are worth it, from the cell `origin`.
+/// The path along all rings that are worth driving, from the cell `origin`.
 pub(super) async fn ring_path(
     space: &ConfigurationSpace,
     floor: &RingFloor,

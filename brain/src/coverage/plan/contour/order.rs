@@ -1,4 +1,4 @@
-//! In which order runs are driven: each time that which takes least to get to, turning included.
+//! The order of ring sections: always the one that costs least to reach, turning included.
 
 use std::collections::BTreeSet;
 
@@ -11,32 +11,32 @@ use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
 use crate::navigation::router::{CostField, Router};
 
-/// Nearest places to enter a run that are compared.
+/// Number of nearest entries that are compared.
 const NEAR_ENTRIES: usize = 16;
-/// Cells along a run over which its direction at a place is taken.
+/// Cells along a section over which its direction is measured.
 const AHEAD: usize = 8;
-/// Work of the search for a way beyond that for its end, and of looking at a cell of a run.
+/// Work to search a path beyond that for its goal, and to read a cell of a section.
 const PATH_WORK: usize = 3_000;
 const LOOK_WORK: usize = 2;
 
-/// A way along rings.
+/// A path along rings.
 pub(in crate::coverage::plan) struct RingPath {
     pub(in crate::coverage::plan) corners: Vec<Point2>,
     pub(in crate::coverage::plan) sections: usize,
     /// The cell where it ends, and the heading there.
     pub(in crate::coverage::plan) end: (usize, f64),
-    /// What is open after it.
+    /// The floor that is open after it.
     pub(in crate::coverage::plan) open: Vec<bool>,
 }
 
-/// A way along runs in the making.
+/// A path along ring sections under construction.
 pub(super) struct RingTour<'plan> {
     router: &'plan Router<'plan>,
     departure: &'plan Departure,
     sweeper: Sweeper,
-    /// What may still be worth driving.
+    /// Sections that may still be worth driving.
     sections: Vec<RingSection>,
-    /// Block, run and place of each entry.
+    /// Block, section and cell of each entry.
     entries: BTreeSet<(usize, usize, usize)>,
     at: usize,
     heading_rad: f64,
@@ -44,7 +44,7 @@ pub(super) struct RingTour<'plan> {
     driven: usize,
 }
 
-/// Where a run is entered, and whether it is driven against the order of its cells.
+/// Where a section is entered, and whether it is driven against the order of its cells.
 #[derive(Clone, Copy)]
 struct SectionEntry {
     section: usize,
@@ -73,7 +73,7 @@ impl<'plan> RingTour<'plan> {
         tour
     }
 
-    /// Drives one of the outermost runs, or of the innermost ones.
+    /// Drives one of the outermost or one of the innermost sections.
     pub(super) async fn begin(&mut self, is_innermost: bool, budget: &mut StepBudget) {
         let levels = self.sections.iter().map(|section| section.level);
         let Some(level) = (if is_innermost { levels.max() } else { levels.min() }) else {
@@ -86,7 +86,7 @@ impl<'plan> RingTour<'plan> {
         }
     }
 
-    /// Drives all that is worth it.
+    /// Drives all sections that are worth it.
     pub(super) async fn go_through(&mut self, budget: &mut StepBudget) {
         let mut cost_field = self.router.cost_field();
         while let Some(entry) = self.nearest(&mut cost_field, |_| true, budget).await {
@@ -103,7 +103,7 @@ impl<'plan> RingTour<'plan> {
         }
     }
 
-    /// A closed run can be entered in each block that it leads through, another one at its ends.
+    /// A closed section can be entered in each block that it passes, an open one only at its ends.
     fn add(&mut self, section: RingSection) {
         let number = self.sections.len();
         let mut before = None;
@@ -118,7 +118,7 @@ impl<'plan> RingTour<'plan> {
         self.sections.push(section);
     }
 
-    /// Takes a run out.
+    /// Removes a section.
     fn remove(&mut self, number: usize) -> RingSection {
         self.entries.retain(|(_, section, _)| *section != number);
         let section = &mut self.sections[number];
@@ -129,7 +129,7 @@ impl<'plan> RingTour<'plan> {
         }
     }
 
-    /// The entry that takes least to get to, of the nearest ones; `spread` then knows the way.
+    /// The entry that costs least to reach, of the nearest ones; `cost_field` then holds the path.
     async fn nearest(
         &self,
         cost_field: &mut CostField,
@@ -168,7 +168,7 @@ impl<'plan> RingTour<'plan> {
         best.map(|(_, entry)| entry)
     }
 
-    /// A run that is open at its ends leads away from the one where it is entered.
+    /// An open section can only be driven away from the end at which it is entered.
     fn directions(&self, section: usize, place: usize) -> impl Iterator<Item = SectionEntry> + use<> {
         let RingSection { cells, is_closed, .. } = &self.sections[section];
         let forwards = *is_closed || place == 0;
@@ -203,8 +203,8 @@ impl<'plan> RingTour<'plan> {
         )
     }
 
-    /// Drives along a run from an entry, as far as that is worth it. If less of it is worth it than was when it was found,
-    /// its parts take its place instead.
+    /// Drives along a section from an entry, as far as that is worth it. If less of it is worth driving now than when it
+    /// was found, its remaining parts replace it.
     async fn enter(&mut self, entry: SectionEntry, cost_field: &CostField, budget: &mut StepBudget) {
         let section = self.remove(entry.section);
         budget
@@ -247,7 +247,7 @@ impl<'plan> RingTour<'plan> {
         }
     }
 
-    /// Goes to the first cell of a row, and along it.
+    /// Drives to the first cell of a chain, and along it.
     fn follow(&mut self, cells: &[usize], cost_field: &CostField) {
         let Some(first) = cells.first() else { return };
         let space = self.router.space();

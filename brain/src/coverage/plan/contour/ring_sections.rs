@@ -4,9 +4,10 @@ use super::rings::Ring;
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// Least share of what a ring sweeps over wholly open floor that makes it worth driving: as that of a lane of the first round.
+/// Smallest share of what a ring sweeps over fully open floor that makes it worth driving: as for a lane of the first
+/// round.
 const WORTH_PERCENT: usize = 35;
-/// Work of looking at the floor around a cell.
+/// Work to count the open floor around a cell.
 const COUNT_WORK: usize = 40;
 
 /// A part of a ring.
@@ -14,18 +15,18 @@ const COUNT_WORK: usize = 40;
 pub(super) struct RingSection {
     pub(super) level: usize,
     pub(super) cells: Vec<usize>,
-    /// It can be entered anywhere: its last cell lies beside its first.
+    /// It can be entered anywhere: its last cell is adjacent to its first.
     pub(super) is_closed: bool,
 }
 
-/// Weighs cells by the floor that is open around them, and closes it.
+/// Counts the open floor around cells, and closes it.
 pub(super) struct Sweeper {
     pub(super) open: Vec<bool>,
     disc: Vec<(isize, usize)>,
     width: usize,
     /// Cells across a swath.
     swath: usize,
-    /// Open cells around a cell from which on a run begins there.
+    /// Open cells around a cell that make a section begin there.
     begin: usize,
 }
 
@@ -42,7 +43,7 @@ impl Sweeper {
         }
     }
 
-    /// The parts of a ring that are worth it.
+    /// The parts of a ring that are worth driving.
     pub(super) async fn sections(&self, ring: Ring, budget: &mut StepBudget) -> Vec<RingSection> {
         let whole = RingSection {
             level: ring.level,
@@ -52,8 +53,8 @@ impl Sweeper {
         self.parts(whole, budget).await
     }
 
-    /// The parts of a run that are still worth it: that run itself, shorter ones or none. Gaps of less than a swath are
-    /// driven through; what is shorter than two is left to lanes.
+    /// The parts of a section that are still worth driving: the whole section, shorter ones or none. Gaps of less than a
+    /// swath are driven through. Parts shorter than two swaths are left to lanes.
     pub(super) async fn parts(&self, section: RingSection, budget: &mut StepBudget) -> Vec<RingSection> {
         let count = section.cells.len();
         budget.spend(COUNT_WORK * count).await;
@@ -69,7 +70,7 @@ impl Sweeper {
         else {
             return Vec::new();
         };
-        // From one cell that is worth it; a closed run comes back to it.
+        // Starts at a cell that is worth driving; a closed section returns to it.
         let mut spans: Vec<(usize, usize)> = Vec::new();
         for place in (first..first + count).filter(|place| is_worth[place % count]) {
             if place >= count && !section.is_closed {
@@ -97,7 +98,7 @@ impl Sweeper {
             .collect()
     }
 
-    /// Joins the last part with the first one where the gap between them is small: one turn later is the same place.
+    /// Joins the last part with the first one where the gap between them is small: indices wrap round a closed section.
     fn close_up(&self, spans: &mut Vec<(usize, usize)>, (first, count): (usize, usize)) {
         let Some((_, last)) = spans
             .last()
@@ -117,8 +118,8 @@ impl Sweeper {
         }
     }
 
-    /// Drives along a run and closes what that sweeps. Gives how many of its cells are driven: it ends where more than a
-    /// swath's length would bring next to nothing.
+    /// Drives along a section and closes the floor that it sweeps. Gives how many of its cells are driven. It ends where
+    /// more than a swath's length would sweep next to nothing.
     pub(super) async fn sweep(&mut self, section: &RingSection, budget: &mut StepBudget) -> usize {
         let (mut driven, mut unproductive) = (0, 0_usize);
         for (place, cell) in section.cells.iter().enumerate() {

@@ -1,13 +1,13 @@
-//! From rows of cells to corners.
+//! Simplifies chains of cells to corners (Ramer-Douglas-Peucker).
 
 use crate::mapping::CELL_M;
 use crate::model::geometry::Point2;
 use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// A corner may be left out where the straight way is no farther off than this: walls are drawn with steps of a cell.
+/// A corner may be left out where the straight line deviates by no more than this: walls are drawn in steps of a cell.
 const OFF_MAX_M: f64 = 1.3 * CELL_M;
 
-/// The cells of a row at which the way turns, both ends included. Straight ways between them lead over free cells only.
+/// The corner cells of a chain, both ends included. The straight lines between them pass over free cells only.
 pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize> {
     let Some(last) = cells.len().checked_sub(1) else {
         return Vec::new();
@@ -26,8 +26,8 @@ pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize>
     kept
 }
 
-/// The cell between two others that lies farthest from the straight way between them, and how far. Of equals that nearest to
-/// the middle is taken, so that parts get shorter fast.
+/// The cell that lies farthest from the straight line between two others, and its distance. Among equals the one nearest to
+/// the middle wins, which halves the chain fastest.
 fn farthest(space: &ConfigurationSpace, cells: &[usize], (from, to): (usize, usize)) -> (f64, usize) {
     let middle = from.midpoint(to);
     let ends = (space.point(cells[from]), space.point(cells[to]));
@@ -42,7 +42,7 @@ fn farthest(space: &ConfigurationSpace, cells: &[usize], (from, to): (usize, usi
     farthest
 }
 
-/// Distance of a point from the straight way between two others.
+/// Distance of a point from the straight line between two others.
 fn off_m(point: Point2, (from, to): (Point2, Point2)) -> f64 {
     let (along_x, along_y) = (to.x_m - from.x_m, to.y_m - from.y_m);
     let square = along_x * along_x + along_y * along_y;

@@ -101,7 +101,7 @@ fn planned(pattern: SweepPattern, start: Point2) -> CoveragePlan {
     ))
 }
 
-/// Distance of a place from the wall of the empty room.
+/// Distance of a point from the wall of the empty room.
 fn off_wall_m(place: Point2) -> f64 {
     let (x, y) = (place.x_m / CELL_M + 5.0, place.y_m / CELL_M - 3.0);
     CELL_M * x.min(120.0 - x).min(y).min(100.0 - y)
@@ -114,7 +114,7 @@ fn inwards_begins_at_the_wall_and_outwards_in_the_middle() {
     for start in [middle, wall] {
         let inwards = planned(SweepPattern::Inwards, start);
         let outwards = planned(SweepPattern::Outwards, start);
-        // The way after the link to the first ring, and that before the lanes in the end.
+        // This corner comes after the link to the first ring and before the lanes at the end.
         let early = |plan: &CoveragePlan| off_wall_m(plan.corners[4]);
         assert!(early(&inwards) < 0.3, "{:?}", inwards.corners);
         assert!(early(&outwards) > 0.7, "{:?}", outwards.corners);
