@@ -1,6 +1,6 @@
 //! What a job will take, estimated before it begins.
 
-use super::margins::{KEEP_OFF_M, SIGMA_MIN_M};
+use super::margins::{CLEARANCE_M, SIGMA_MIN_M};
 use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
 use super::target_floor::TargetFloor;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
@@ -15,9 +15,9 @@ use crate::navigation::reachable;
 
 /// Real jobs take this many times as long as their plans, because of acceleration, contacts and leftovers of an uncertain
 /// pose.
-const DRIVEN: f64 = 1.25;
+const PLAN_TO_JOB_TIME: f64 = 1.25;
 /// The low bound of the share assumes a pose this many times as uncertain as estimated.
-const DOUBT: f64 = 2.0;
+const LOW_BOUND_FACTOR: f64 = 2.0;
 /// Standard deviation of the position where the map holds none, metres.
 const SIGMA_UNKNOWN_M: f64 = 0.3;
 
@@ -55,7 +55,7 @@ pub(crate) fn estimate(
         takes_along: true,
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
-    let radius_m = config.body.radius_m + KEEP_OFF_M;
+    let radius_m = config.body.radius_m + CLEARANCE_M;
     let budget = &mut StepBudget::unlimited();
     let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
     let reachable_cells = at_once(reachable(&knowledge, &frame, (radius_m, &[]), budget));
@@ -156,7 +156,7 @@ fn part_of(
     let (kept, kept_low) = kept((map, &|cell| target.pattern_at(cell).is_some()), settings, passes);
     PartEstimate {
         end,
-        time_s: DRIVEN * f64::from(passes) * plan.time_s,
+        time_s: PLAN_TO_JOB_TIME * f64::from(passes) * plan.time_s,
         kept,
         kept_low,
         plan,
@@ -171,10 +171,10 @@ fn kept((map, target): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, 
     for index in 0..knowledge.values().len() {
         let cell = knowledge.cell(index);
         if knowledge.values().get(index) == Some(&CellKnowledge::Free) && target(cell) {
-            let sigma_m = believed_m(map.sigma_m(cell));
+            let sigma_m = sigma_or_default_m(map.sigma_m(cell));
             cells += 1;
             sum += 1.0 - left(sigma_m);
-            sum_low += 1.0 - left(DOUBT * sigma_m);
+            sum_low += 1.0 - left(LOW_BOUND_FACTOR * sigma_m);
         }
     }
     let cells = f64::from(cells.max(1));
@@ -184,11 +184,11 @@ fn kept((map, target): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, 
 /// Share of the floor that one pass sweeps where the position has this deviation, with twice the deviation for the low
 /// bound.
 pub(super) fn kept_low(sigma_m: Option<f64>, settings: &PlanSettings) -> f64 {
-    1.0 - gap_share(DOUBT * believed_m(sigma_m), settings)
+    1.0 - gap_share(LOW_BOUND_FACTOR * sigma_or_default_m(sigma_m), settings)
 }
 
 /// Standard deviation of the position that the estimate uses.
-fn believed_m(sigma_m: Option<f64>) -> f64 {
+fn sigma_or_default_m(sigma_m: Option<f64>) -> f64 {
     sigma_m.unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M)
 }
 
@@ -208,7 +208,7 @@ mod tests {
     use super::{PlanSettings, gap_share};
 
     #[test]
-    fn the_less_sure_a_place_the_wider_the_gaps() {
+    fn less_certain_positions_leave_wider_gaps() {
         let settings = PlanSettings {
             swath_m: 0.25,
             sigma_m: 0.01,

@@ -35,7 +35,7 @@ const AGAIN_M: f64 = 0.4;
 /// This distance on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
 const AGAIN_ELSEWHERE_M: f64 = 5.0;
 /// A point this near to an earlier one shows nothing new, whatever the heading, metres: its floor is swept.
-const SHOWN_M: f64 = 0.22;
+const SEEN_M: f64 = 0.22;
 /// This distance without anything new ends a lap, metres. Distance that shows something new counts three times against it.
 const STALE_MAX_M: f64 = 8.0;
 const FRESH_WORTH: f64 = 3.0;
@@ -228,7 +228,7 @@ impl Perimeter {
             .copied();
         let is_stale = self.track.iter().any(|before| here.shows_nothing_beyond(before));
         self.track.push(here);
-        if self.grows_stale(is_stale) {
+        if self.is_stale_after(is_stale) {
             return Some(Reason::KnownWall);
         }
         let Some(before) = before else {
@@ -249,7 +249,7 @@ impl Perimeter {
     }
 
     /// Counts a point of the track; `true` when enough points in a row showed nothing new.
-    fn grows_stale(&mut self, is_stale: bool) -> bool {
+    fn is_stale_after(&mut self, is_stale: bool) -> bool {
         self.stale_m = if is_stale {
             self.stale_m + TRACK_STEP_M
         } else {
@@ -263,7 +263,7 @@ impl LapPoint {
     /// Whether this floor was already swept from an earlier point.
     fn shows_nothing_beyond(&self, before: &Self) -> bool {
         self.driven_m - before.driven_m > LAP_MIN_M
-            && self.pose.position().distance_m(before.pose.position()) < SHOWN_M
+            && self.pose.position().distance_m(before.pose.position()) < SEEN_M
     }
 
     /// Full turns to the left since an earlier point with the same heading.
@@ -305,7 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn floor_that_was_swept_the_other_way_round_shows_nothing_new_and_is_no_closed_lap() {
+    fn floor_swept_in_the_opposite_direction_is_not_new_and_closes_no_lap() {
         let (before, back) = (at(0.0, 0.0, 0.0), at(0.1, 3.1, 9.0));
         assert!(back.shows_nothing_beyond(&before) && !back.repeats(&before));
         assert!(!at(0.3, 0.0, 9.0).shows_nothing_beyond(&before));
@@ -313,12 +313,12 @@ mod tests {
     }
 
     #[test]
-    fn a_lap_ends_when_it_shows_nothing_new_for_long_and_not_while_it_shows_something_now_and_then() {
+    fn a_lap_ends_after_a_long_distance_without_anything_new() {
         let mut lap = Perimeter::default();
         let steps = (STALE_MAX_M / TRACK_STEP_M) as u32;
-        assert!((0..steps - 1).all(|_| !lap.grows_stale(true)));
-        assert!((0..3).any(|_| lap.grows_stale(true)));
+        assert!((0..steps - 1).all(|_| !lap.is_stale_after(true)));
+        assert!((0..3).any(|_| lap.is_stale_after(true)));
         let mut lap = Perimeter::default();
-        assert!((0..20 * steps).all(|step| !lap.grows_stale(step % 3 != 0)));
+        assert!((0..20 * steps).all(|step| !lap.is_stale_after(step % 3 != 0)));
     }
 }

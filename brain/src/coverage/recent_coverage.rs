@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_swept_longer_ago_is_new_again() {
+    fn floor_swept_long_ago_is_new_again() {
         let at = Point2 { x_m: 1.0, y_m: 0.0 };
         assert!(!is_new(
             &swept_lane(100, 100 + u64::from(RECENT_S) - 8),
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_over_swept_floor_and_one_into_what_was_met_are_worth_less() {
+    fn rays_over_swept_floor_or_into_contacts_are_worth_less() {
         let map = swept_lane(0, 60);
         let recent_contacts = RecentContacts::default();
         let across = Pose2 {

@@ -137,7 +137,7 @@ impl Approach {
             ApproachPhase::Evade(evasion, after) => self.evade(evasion, after, situation),
             _ if situation.at_cliff => {
                 let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
-                self.turn_round(Evasion::from_cliff, reason, context)
+                self.retry_elsewhere(Evasion::from_cliff, reason, context)
             }
             ApproachPhase::Scan(scan) => self.scan(scan, hearing, (situation, context)),
             ApproachPhase::Centreline(line) => self.drive_centreline(line, hearing, (situation, context)),
@@ -181,7 +181,7 @@ impl Approach {
         (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> ApproachStep {
         if situation.touching {
-            return self.free_oneself(context);
+            return self.evade_contact(context);
         }
         match scan.step(hearing, situation.advance.turn_rad) {
             ScanStep::Going(motion) => {
@@ -249,7 +249,7 @@ impl Approach {
     ) -> ApproachStep {
         if situation.touching {
             self.asides += 1;
-            return self.free_oneself(context);
+            return self.evade_contact(context);
         }
         drive.left_m -= situation.advance.distance_m.max(0.0);
         if drive.left_m <= 0.0 || (drive.to_centreline && hearing.lobe() == Lobe::Both) {
@@ -292,7 +292,7 @@ impl Approach {
         let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
         if !hearing.is_near() {
             // An obstacle is in the path.
-            return self.turn_round(Evasion::from_contact, reason, context);
+            return self.retry_elsewhere(Evasion::from_contact, reason, context);
         }
         if self.wiggles >= WIGGLES_MAX {
             return self.leave(line.base_rad(), context);
@@ -327,7 +327,7 @@ impl Approach {
     }
 
     /// Evades an obstacle that is not the dock. This uses up a try.
-    fn turn_round(
+    fn retry_elsewhere(
         &mut self,
         evasion: fn(f64, f64) -> Evasion,
         reason: Reason,
@@ -353,7 +353,7 @@ impl Approach {
     }
 
     /// Evades a contact during a scan or on the path to the centreline.
-    fn free_oneself(&mut self, context: &mut TaskContext) -> ApproachStep {
+    fn evade_contact(&mut self, context: &mut TaskContext) -> ApproachStep {
         self.scans += 1;
         if self.scans > SCANS_MAX {
             return ApproachStep::Spent;

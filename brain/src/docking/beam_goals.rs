@@ -62,7 +62,7 @@ mod tests {
     }
 
     #[test]
-    fn a_beam_is_remembered_until_it_was_looked_for_in_vain_or_the_robot_is_carried() {
+    fn a_beam_is_remembered_until_docking_failed_there_or_the_robot_is_carried() {
         let mut memory = BeamMemory::default();
         driven(&mut memory, 600, 200, 3);
         let heard = goals(&memory, &[]);

@@ -27,7 +27,7 @@ const TOUCHED_M: f64 = 0.17;
 /// Contacts kept; the oldest go first.
 const TOUCHED_MAX: usize = 400;
 /// After this distance without unseen blocks the robot looks for a better direction, metres.
-const LOOK_EVERY_M: f64 = 1.0;
+const COMPARE_EVERY_M: f64 = 1.0;
 /// A better direction crosses this many more unseen steps.
 const BETTER_STEPS: f64 = 8.0;
 /// Distances to back off after a contact and at a cliff, metres.
@@ -110,7 +110,7 @@ impl Roam {
         if let Some(reason) = encounter(situation) {
             return self.turn_from(reason, situation, context);
         }
-        if self.without_news_m > LOOK_EVERY_M {
+        if self.without_news_m > COMPARE_EVERY_M {
             self.without_news_m = 0.0;
             if let Some(turn_rad) = self.better_direction(situation, context) {
                 context.decide("dock-search-turn", Reason::DockUnknown, turn_rad);
@@ -146,8 +146,8 @@ impl Roam {
             _ => 0.0,
         };
         let turn_rad = self.best(situation, context, |turn_rad| {
-            let from_met_rad = normalize_rad(turn_rad + away_rad);
-            from_met_rad.abs() > 1.1
+            let from_obstacle_rad = normalize_rad(turn_rad + away_rad);
+            from_obstacle_rad.abs() > 1.1
         });
         let turn_rad = turn_rad.map_or(core::f64::consts::PI, |(turn_rad, _)| turn_rad);
         self.evasion = Some(if situation.at_cliff {

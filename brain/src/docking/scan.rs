@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn silence_is_given_up() {
+    fn a_scan_without_beams_fails() {
         assert_eq!(scanned(0.0, 0), None);
     }
 }

@@ -19,10 +19,10 @@ use crate::navigation::{
 /// Gaps between the body and known obstacles on planned paths, metres, the widest first, since docking is in no hurry. With
 /// the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is one cell too narrow
 /// on the map.
-const KEEP_OFF_M: [f64; 3] = [0.05, 0.01, -0.015];
+const CLEARANCE_M: [f64; 3] = [0.05, 0.01, -0.015];
 /// The same on the way back to where the robot has been. It fits through there, and the map of that place was drawn with a
 /// pose that has drifted since.
-const KEEP_OFF_BACK_M: [f64; 5] = [0.05, 0.01, -0.015, -0.05, -0.09];
+const CLEARANCE_BACK_M: [f64; 5] = [0.05, 0.01, -0.015, -0.05, -0.09];
 /// Distances from the dock at which the approach by beams begins, metres: the best one first.
 const FRONT_M: [f64; 6] = [1.1, 1.3, 0.9, 0.75, 0.6, 0.5];
 /// Detour per metre that a place beside the centreline counts more than one on it.
@@ -48,7 +48,7 @@ const FORGET_MAX: u32 = 2;
 #[derive(Debug)]
 pub(super) struct Travel {
     goals: Vec<Goal>,
-    keep_off_m: &'static [f64],
+    clearances_m: &'static [f64],
     /// Why the robot drives there.
     reason: Reason,
     follower: Option<PathFollower>,
@@ -77,18 +77,18 @@ pub(super) enum TravelStep {
 impl Travel {
     /// To the place in front of `dock`, the pose of a docked robot.
     pub(super) fn to_dock(dock: Pose2) -> Self {
-        Self::to(goals(dock), &KEEP_OFF_M, Reason::DockKnown)
+        Self::to(goals(dock), &CLEARANCE_M, Reason::DockKnown)
     }
 
     /// To one of the places where a beam was received.
     pub(super) fn to_beam(heard_at: Vec<Goal>) -> Self {
-        Self::to(heard_at, &KEEP_OFF_BACK_M, Reason::DockHeard)
+        Self::to(heard_at, &CLEARANCE_BACK_M, Reason::DockHeard)
     }
 
-    fn to(goals: Vec<Goal>, keep_off_m: &'static [f64], reason: Reason) -> Self {
+    fn to(goals: Vec<Goal>, clearances_m: &'static [f64], reason: Reason) -> Self {
         Self {
             goals,
-            keep_off_m,
+            clearances_m,
             reason,
             follower: None,
             path_search: None,
@@ -195,7 +195,7 @@ impl Travel {
         let is_blocked = !blocked.is_empty();
         let inputs = PathInputs::of(situation, self.goals.clone(), blocked);
         self.path_search = Some(PathSearch {
-            rest: Gradual::new(inputs.first_path(self.keep_off_m)),
+            rest: Gradual::new(inputs.first_path(self.clearances_m)),
             is_blocked,
         });
         TravelStep::Going(Motion::Halt)
@@ -232,9 +232,9 @@ impl PathInputs {
     }
 
     /// The path with the first of these gaps that allows one.
-    async fn first_path(self, keep_off_m: &'static [f64]) -> Option<Vec<PathSegment>> {
+    async fn first_path(self, clearances_m: &'static [f64]) -> Option<Vec<PathSegment>> {
         let budget = &mut StepBudget::limited();
-        for gap_m in keep_off_m {
+        for gap_m in clearances_m {
             let around = (self.body_m + gap_m, self.blocked.as_slice());
             let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, budget).await;
             if let Some(segments) = plan_path(&reachable_cells, (self.start, &self.goals), budget).await {
@@ -248,7 +248,7 @@ impl PathInputs {
 /// Starts the computation of the length of the path to the place in front of `dock`, metres; `None` when the map has none.
 pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
     let inputs = PathInputs::of(situation, goals(dock), Vec::new());
-    Gradual::new(async move { Some(length_m(&inputs.first_path(&KEEP_OFF_M[1..2]).await?)) })
+    Gradual::new(async move { Some(length_m(&inputs.first_path(&CLEARANCE_M[1..2]).await?)) })
 }
 
 fn length_m(segments: &[PathSegment]) -> f64 {

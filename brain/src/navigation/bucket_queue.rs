@@ -56,7 +56,7 @@ mod tests {
     use super::{BucketQueue, LONGEST_STEP_COST};
 
     #[test]
-    fn what_costs_least_comes_first_and_of_equals_the_lowest_number() {
+    fn the_lowest_cost_comes_first_and_then_the_lowest_number() {
         let mut queue = BucketQueue::of(7);
         assert_eq!(queue.pop(), Some((0, 7)));
         for (cost, block) in [(LONGEST_STEP_COST, 3), (10, 9), (10, 2)] {

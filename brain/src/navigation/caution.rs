@@ -11,10 +11,10 @@ use crate::model::geometry::Point2;
 const LEVEL_MIN: f64 = 0.2;
 /// An obstacle that overlaps the robot's corridor by less than this is passed without a touch, metres.
 const GRAZE_M: f64 = 0.008;
-/// Approach speed, m/s for each metre of clearance beyond `STAND_M`.
+/// Approach speed, m/s for each metre of clearance beyond `STOP_DISTANCE_M`.
 const APPROACH_PER_S: f64 = 2.5;
 /// As `APPROACH_PER_S`, metres.
-const STAND_M: f64 = 0.01;
+const STOP_DISTANCE_M: f64 = 0.01;
 /// A smaller gap at a side is widened, metres.
 const GAP_M: f64 = 0.02;
 /// Sideways correction per metre of missing gap.
@@ -50,15 +50,15 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &PathFollower) -> Cau
     for hit in seen {
         sides.note(hit, hit.distance_m(Point2::ORIGIN) - radius_m, radius_m);
     }
-    note_known(situation, &mut sides);
+    note_map(situation, &mut sides);
     let ahead_m = ahead(situation).map_or(f64::INFINITY, |ahead| ahead.clear_m);
     Caution {
         speed_m_per_s: if follower.turns_on_spot() {
             f64::INFINITY
         } else {
-            APPROACH_PER_S * (ahead_m - STAND_M).max(0.0)
+            APPROACH_PER_S * (ahead_m - STOP_DISTANCE_M).max(0.0)
         },
-        aside_m: ASIDE_GAIN * (sides.right_lacks_m - sides.left_lacks_m),
+        aside_m: ASIDE_GAIN * (sides.right_missing_m - sides.left_missing_m),
         ahead_m,
         ..Caution::default()
     }
@@ -83,8 +83,8 @@ pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
 /// Missing gap at each side, metres.
 #[derive(Debug, Default)]
 struct Sides {
-    left_lacks_m: f64,
-    right_lacks_m: f64,
+    left_missing_m: f64,
+    right_missing_m: f64,
 }
 
 impl Sides {
@@ -93,17 +93,17 @@ impl Sides {
         if at.x_m < BEHIND_M || at.y_m.abs() < SIDE_SHARE * radius_m {
             return;
         }
-        let lacks_m = if at.y_m > 0.0 {
-            &mut self.left_lacks_m
+        let missing_m = if at.y_m > 0.0 {
+            &mut self.left_missing_m
         } else {
-            &mut self.right_lacks_m
+            &mut self.right_missing_m
         };
-        *lacks_m = lacks_m.max(GAP_M - gap_m.max(0.0));
+        *missing_m = missing_m.max(GAP_M - gap_m.max(0.0));
     }
 }
 
 /// Records obstacles of the map at the sides, since the sensors do not see what is between their beams.
-fn note_known(situation: &Situation<'_>, sides: &mut Sides) {
+fn note_map(situation: &Situation<'_>, sides: &mut Sides) {
     let knowledge = situation.map.knowledge();
     let body_from_map = situation.pose.inverse();
     let radius_m = situation.config.body.radius_m;
@@ -155,7 +155,7 @@ mod tests {
     const RADIUS_M: f64 = 0.175;
 
     #[test]
-    fn the_way_ends_where_the_rim_touches_and_what_passes_beside_does_not_end_it() {
+    fn only_obstacles_within_the_corridor_limit_the_clearance() {
         assert!((distance_to_contact_m(Point2 { x_m: 0.3, y_m: 0.0 }, RADIUS_M) - 0.125).abs() < 1e-9);
         assert_eq!(
             distance_to_contact_m(Point2 { x_m: 0.1, y_m: 0.17 }, RADIUS_M),
@@ -168,16 +168,16 @@ mod tests {
     }
 
     #[test]
-    fn what_stands_at_a_side_lacks_gap_there_and_what_is_ahead_or_behind_at_none() {
-        let lacks = |x_m: f64, y_m: f64, gap_m: f64| {
+    fn only_obstacles_at_a_side_reduce_the_gap_there() {
+        let missing = |x_m: f64, y_m: f64, gap_m: f64| {
             let mut sides = Sides::default();
             sides.note(Point2 { x_m, y_m }, gap_m, RADIUS_M);
-            (sides.left_lacks_m, sides.right_lacks_m)
+            (sides.left_missing_m, sides.right_missing_m)
         };
-        assert_eq!(lacks(0.05, 0.18, 0.0), (GAP_M, 0.0));
-        assert_eq!(lacks(0.05, -0.18, -0.01), (0.0, GAP_M), "no more than touching");
-        assert_eq!(lacks(0.05, 0.21, 2.0 * GAP_M), (0.0, 0.0));
-        assert_eq!(lacks(0.18, 0.02, 0.0), (0.0, 0.0));
-        assert_eq!(lacks(-0.1, 0.15, 0.0), (0.0, 0.0));
+        assert_eq!(missing(0.05, 0.18, 0.0), (GAP_M, 0.0));
+        assert_eq!(missing(0.05, -0.18, -0.01), (0.0, GAP_M), "no more than touching");
+        assert_eq!(missing(0.05, 0.21, 2.0 * GAP_M), (0.0, 0.0));
+        assert_eq!(missing(0.18, 0.02, 0.0), (0.0, 0.0));
+        assert_eq!(missing(-0.1, 0.15, 0.0), (0.0, 0.0));
     }
 }

@@ -18,7 +18,7 @@ const BACK_M: f64 = 0.025;
 const CLIFF_BACK_M: f64 = 0.08;
 /// Turns away from a contact on the side of the contour, radians: large, for long steps, or fine, into gaps that are hardly
 /// wider than the body.
-const QUICK_RAD: (f64, f64) = (0.3, 0.9);
+const COARSE_RAD: (f64, f64) = (0.3, 0.9);
 const FINE_RAD: (f64, f64) = (0.2, 0.5);
 /// The same for a contact ahead, and at a cliff.
 const AHEAD_RAD: (f64, f64) = (0.6, 1.2);
@@ -28,7 +28,7 @@ const CLIFF_RAD: (f64, f64) = (0.8, 1.3);
 #[derive(Clone, Debug)]
 pub(crate) struct ContourTrace {
     side: TurnSide,
-    glancing_rad: (f64, f64),
+    side_turn_rad: (f64, f64),
     left_s: f64,
     evasion: Option<Evasion>,
     /// Turned towards the contour since the last contact; `None` = the contour is not found yet.
@@ -43,7 +43,7 @@ impl ContourTrace {
         let is_fine = random.coin();
         Self {
             side,
-            glancing_rad: if is_fine { FINE_RAD } else { QUICK_RAD },
+            side_turn_rad: if is_fine { FINE_RAD } else { COARSE_RAD },
             left_s,
             evasion: None,
             turned_rad: None,
@@ -76,7 +76,7 @@ impl ContourTrace {
         };
         let (low_rad, high_rad) = match (situation.at_cliff, on_edge) {
             (true, _) => CLIFF_RAD,
-            (false, true) => self.glancing_rad,
+            (false, true) => self.side_turn_rad,
             (false, false) => AHEAD_RAD,
         };
         let turn_rad = -self.side.sign() * self.random.between(low_rad, high_rad);

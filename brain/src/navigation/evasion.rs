@@ -5,7 +5,7 @@ use crate::model::action::Motion;
 use crate::model::reason::Reason;
 
 /// Distance that is added each time the bumper is still pressed or the floor still missing.
-const MORE_M: f64 = 0.02;
+const EXTRA_M: f64 = 0.02;
 /// Longest back-off at a cliff; the firmware ends reversing after 0.15 m (S8).
 const CLIFF_MOST_M: f64 = 0.14;
 /// Longest back-off after a contact beyond the requested distance.
@@ -27,7 +27,7 @@ pub(crate) struct Evasion {
     hazard: Hazard,
     turn_rad: f64,
     /// Distance that may still be added to the back-off.
-    more_m: f64,
+    extra_m: f64,
     contacts_left: u32,
 }
 
@@ -55,7 +55,7 @@ impl Evasion {
             phase: EvasionPhase::Back(BackOff::from_contact(back_m)),
             hazard: Hazard::Contact,
             turn_rad,
-            more_m: CONTACT_MOST_M,
+            extra_m: CONTACT_MOST_M,
             contacts_left: TURN_CONTACTS_MAX,
         }
     }
@@ -65,7 +65,7 @@ impl Evasion {
         Self {
             phase: EvasionPhase::Back(BackOff::from_cliff(back_m)),
             hazard: Hazard::Cliff,
-            more_m: (CLIFF_MOST_M - back_m).max(0.0),
+            extra_m: (CLIFF_MOST_M - back_m).max(0.0),
             ..Self::from_contact(back_m, turn_rad)
         }
     }
@@ -73,14 +73,14 @@ impl Evasion {
     /// Continues the evasion in progress, and drops it when the robot is free. Gives the motion to make, or why the robot
     /// is held. `None` = no evasion is in progress any more.
     pub(crate) fn pursue(
-        under_way: &mut Option<Self>,
+        in_progress: &mut Option<Self>,
         situation: &Situation<'_>,
     ) -> Option<Result<Motion, Reason>> {
-        match under_way.as_mut()?.step(situation) {
+        match in_progress.as_mut()?.step(situation) {
             EvasionStep::Going(motion) => Some(Ok(motion)),
             EvasionStep::Held(reason) => Some(Err(reason)),
             EvasionStep::Free => {
-                *under_way = None;
+                *in_progress = None;
                 None
             }
         }
@@ -106,7 +106,7 @@ impl Evasion {
             return EvasionStep::Going(motion);
         }
         if situation.at_cliff && self.hazard == Hazard::Contact {
-            *self = Self::from_cliff(MORE_M, self.turn_rad);
+            *self = Self::from_cliff(EXTRA_M, self.turn_rad);
         }
         let held = if self.hazard == Hazard::Cliff {
             situation.at_cliff
@@ -117,14 +117,14 @@ impl Evasion {
             self.phase = EvasionPhase::Turn(Turn::by(self.turn_rad));
             return EvasionStep::Going(Motion::Halt);
         }
-        if step == ManoeuvreStep::Aborted || self.more_m <= 0.0 {
+        if step == ManoeuvreStep::Aborted || self.extra_m <= 0.0 {
             return EvasionStep::Held(self.held_reason());
         }
-        self.more_m -= MORE_M;
+        self.extra_m -= EXTRA_M;
         let EvasionPhase::Back(back) = &mut self.phase else {
             return EvasionStep::Held(self.held_reason());
         };
-        back.lengthen(MORE_M);
+        back.lengthen(EXTRA_M);
         match back.step(situation) {
             ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
             ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Going(Motion::Halt),
@@ -144,9 +144,9 @@ impl Evasion {
         }
         let contacts_left = self.contacts_left - 1;
         *self = if situation.at_cliff {
-            Self::from_cliff(MORE_M, self.turn_rad)
+            Self::from_cliff(EXTRA_M, self.turn_rad)
         } else {
-            Self::from_contact(MORE_M, self.turn_rad)
+            Self::from_contact(EXTRA_M, self.turn_rad)
         };
         self.contacts_left = contacts_left;
         EvasionStep::Going(Motion::Halt)

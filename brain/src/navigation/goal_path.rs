@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn the_way_leads_through_the_door_and_ends_at_the_goal() {
+    fn the_path_leads_through_the_door_and_ends_at_the_goal() {
         let there = end(&[goal(3.5, 0.3, 0.0)]).unwrap();
         assert!(
             there.distance_m(Point2 { x_m: 3.5, y_m: 0.3 }) < 0.05,
@@ -105,7 +105,7 @@ mod tests {
     }
 
     #[test]
-    fn the_goal_that_is_worth_most_is_chosen_and_walls_are_none() {
+    fn the_cheapest_goal_is_chosen_and_goals_inside_walls_are_ignored() {
         let near = end(&[goal(3.5, 0.3, 0.0), goal(1.0, 0.3, 1.0)]).unwrap();
         assert!(near.x_m < 1.1, "{near:?}");
         let far = end(&[goal(3.5, 0.3, 0.0), goal(1.0, 0.3, 9.0)]).unwrap();

@@ -6,10 +6,10 @@ use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
 /// Work to read a cell, and of a row of a disc.
-const LOOK_WORK: usize = 3;
+const READ_WORK: usize = 3;
 const FILL_WORK: usize = 6;
 /// Tolerance for rounding, cells.
-const HAIR: f64 = 1e-9;
+const ROUNDING: f64 = 1e-9;
 
 /// Cells of `frame` that the centre of a body of `radius_m` can take while the body covers only free floor and none of the
 /// `blocked` points of the map. In the map's own frame the window is that of the knowledge.
@@ -34,7 +34,7 @@ pub(crate) async fn reachable(
                 budget.spend(FILL_WORK * 2 * radius as usize).await;
             }
         }
-        budget.spend(LOOK_WORK * inner.width).await;
+        budget.spend(READ_WORK * inner.width).await;
     }
     for point in blocked {
         let cell = Cell::under(frame.point(*point));
@@ -149,7 +149,7 @@ async fn floor_in(frame: &LaneFrame, inner: &Inner, budget: &mut StepBudget) -> 
         for index in row * floor.width()..(row + 1) * floor.width() {
             floor.values_mut()[index] = inner.contains(frame.cell_in_map(floor.cell(index)));
         }
-        budget.spend(LOOK_WORK * floor.width()).await;
+        budget.spend(READ_WORK * floor.width()).await;
     }
     floor
 }
@@ -161,8 +161,8 @@ fn blank(cells: &mut Raster<bool>, (at, radius): (Point2, f64)) {
     let column = at.x_m / CELL_M - 0.5 - f64::from(cells.origin().x);
     let row = at.y_m / CELL_M - 0.5 - f64::from(cells.origin().y);
     let span = |middle: f64, half: f64, count: i64| {
-        let first = libm::floor(middle - half + HAIR) as i64 + 1;
-        let last = libm::ceil(middle + half - HAIR) as i64 - 1;
+        let first = libm::floor(middle - half + ROUNDING) as i64 + 1;
+        let last = libm::ceil(middle + half - ROUNDING) as i64 - 1;
         (first.max(0), last.min(count - 1))
     };
     let (low, high) = span(row, radius, height);
@@ -233,7 +233,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_keeps_the_radius_from_walls_and_from_what_was_met() {
+    fn the_centre_keeps_the_radius_from_walls_and_contacts() {
         let mut knowledge = Raster::filled(Cell { x: -1, y: -1 }, 82, 82, CellKnowledge::Occupied);
         for x in 0..80 {
             for y in 0..80 {
@@ -251,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn in_a_turned_frame_the_middle_keeps_the_same_radius_from_the_same_walls() {
+    fn in_a_rotated_frame_the_centre_keeps_the_same_radius_from_the_same_walls() {
         let mut knowledge = Raster::filled(Cell { x: -1, y: -1 }, 122, 82, CellKnowledge::Occupied);
         for x in 0..120 {
             (0..80).for_each(|y| *knowledge.get_mut(Cell { x, y }).unwrap() = CellKnowledge::Free);

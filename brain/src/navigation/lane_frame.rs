@@ -90,7 +90,7 @@ mod tests {
     use crate::model::geometry::{Point2, Pose2};
 
     #[test]
-    fn there_and_back_is_where_it_was() {
+    fn transforming_forth_and_back_is_the_identity() {
         let frame = LaneFrame::along(0.6);
         let at = Point2 { x_m: 1.3, y_m: -4.2 };
         assert!(frame.point_in_map(frame.point(at)).distance_m(at) < 1e-12);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_that_hardly_stands_askew_leaves_cells_as_they_are() {
+    fn a_slightly_rotated_wall_keeps_the_cells_of_the_map() {
         let frame = LaneFrame::along(0.01);
         assert_eq!(frame, LaneFrame::OF_MAP);
         let cell = Cell { x: -7, y: 3 };

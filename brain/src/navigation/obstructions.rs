@@ -9,7 +9,7 @@ use crate::model::geometry::Point2;
 use crate::model::reason::Reason;
 
 /// An obstruction is believed for this long.
-const BELIEVED_US: u64 = 240_000_000;
+const KEPT_US: u64 = 240_000_000;
 /// Contacts kept; the oldest go first.
 const KEPT_MAX: usize = 64;
 /// Two contacts nearer than this are with the same object.
@@ -36,7 +36,7 @@ struct Obstruction {
     at: Point2,
     /// Other possible positions, within the resolution of the bumper.
     beside: [Point2; 2],
-    is_believed: bool,
+    is_confirmed: bool,
 }
 
 impl Obstructions {
@@ -66,7 +66,7 @@ impl Obstructions {
             since_us: situation.observation.time_us,
             at,
             beside,
-            is_believed: is_again || !is_known(at, situation),
+            is_confirmed: is_again || !is_known(at, situation),
         });
     }
 
@@ -78,10 +78,10 @@ impl Obstructions {
     /// Points that plans must avoid.
     pub(crate) fn points(&mut self, now_us: u64) -> Vec<Point2> {
         self.kept
-            .retain(|obstruction| now_us < obstruction.since_us.saturating_add(BELIEVED_US));
+            .retain(|obstruction| now_us < obstruction.since_us.saturating_add(KEPT_US));
         self.kept
             .iter()
-            .filter(|obstruction| obstruction.is_believed)
+            .filter(|obstruction| obstruction.is_confirmed)
             .flat_map(|obstruction| [obstruction.at, obstruction.beside[0], obstruction.beside[1]])
             .collect()
     }

@@ -30,15 +30,15 @@ const TURN_DONE_RAD: f64 = 0.06;
 const ARC_SHARE: f64 = 0.9;
 /// With less clearance ahead than this, and less than that left of a segment, the robot goes on with the next one, metres.
 /// At the end of a path its sensors are more accurate than its pose.
-const TURN_BEFORE_M: f64 = 0.02;
-const SHORT_OF_M: f64 = 0.08;
+const NEXT_SEGMENT_M: f64 = 0.02;
+const NEAR_END_M: f64 = 0.08;
 /// Range of offsets from a straight at which the robot is keeping away from an obstacle, metres.
 const ASIDE_MIN_M: f64 = 0.005;
 const ASIDE_MAX_M: f64 = 0.03;
 /// Farther from the path than this the robot has left it.
 const LOST_M: f64 = 0.25;
 /// With a larger heading error the robot turns on the spot before it drives on.
-const ELSEWHERE_RAD: f64 = 1.2;
+const TURN_FIRST_RAD: f64 = 1.2;
 
 /// A path that is being driven.
 #[derive(Clone, Debug, Default)]
@@ -161,8 +161,8 @@ impl PathFollower {
             } else {
                 let position = SegmentPosition::on(&segment, situation.pose);
                 let left_m = segment.length_m - position.along_m;
-                let is_at_wall = caution.ahead_m < TURN_BEFORE_M
-                    && left_m < SHORT_OF_M
+                let is_at_wall = caution.ahead_m < NEXT_SEGMENT_M
+                    && left_m < NEAR_END_M
                     && self.current + 1 < self.segments.len();
                 let speeds = &situation.config.speeds;
                 let speed_m_per_s = segment_speed(&segment, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
@@ -209,7 +209,7 @@ impl PathFollower {
             return FollowStep::Off;
         }
         let turn_max = situation.config.speeds.turn_max_rad_per_s;
-        if position.heading_rad.abs() > ELSEWHERE_RAD {
+        if position.heading_rad.abs() > TURN_FIRST_RAD {
             return FollowStep::Going(Motion::Drive {
                 speed_m_per_s: 0.0,
                 turn_rad_per_s: -turn_max.copysign(position.heading_rad),
@@ -304,7 +304,7 @@ mod tests {
     use crate::model::geometry::Pose2;
 
     #[test]
-    fn going_aside_counts_from_where_the_robot_is_and_the_way_may_ask_for_more() {
+    fn a_sideways_correction_is_relative_to_the_robot_unless_the_path_needs_more() {
         let aside = |aside_m: f64| Caution {
             aside_m,
             ..Caution::default()

@@ -13,7 +13,7 @@ const BLOCK: usize = 4;
 const STEP: u32 = 10;
 const DIAGONAL: u32 = LONGEST_STEP_COST;
 /// Work to read a cell, to find the links of a block, and to expand one.
-const LOOK_WORK: usize = 2;
+const READ_WORK: usize = 2;
 const LINKS_WORK: usize = 100;
 const LEAVE_WORK: usize = 22;
 /// Blocks that are expanded between two checks of the budget.
@@ -54,7 +54,7 @@ impl<'space> Router<'space> {
         let mut best = vec![u32::MAX; router.anchors.len()];
         for index in 0..space.free.len() {
             if index.is_multiple_of(space.width) {
-                budget.spend(LOOK_WORK * space.width).await;
+                budget.spend(READ_WORK * space.width).await;
             }
             if !space.free[index] {
                 continue;
@@ -76,7 +76,7 @@ impl<'space> Router<'space> {
             router.block_links.push(links);
             router.straight_links.push(straight_links);
             let is_free = router.anchors[block] != NONE;
-            budget.spend(if is_free { LINKS_WORK } else { LOOK_WORK }).await;
+            budget.spend(if is_free { LINKS_WORK } else { READ_WORK }).await;
         }
         router
     }
@@ -201,12 +201,12 @@ impl<'space> Router<'space> {
             blocks.push(cost_field.parents[*block] as usize);
         }
         blocks.reverse();
-        self.straightened(&self.joined_up(&blocks, (from, to)))
+        self.straightened(&self.joined(&blocks, (from, to)))
     }
 
     /// The anchors of the blocks after the first one, between the two end cells. Where two of them have no line of sight
     /// though their blocks are adjacent, the cells between them are inserted.
-    fn joined_up(&self, blocks: &[usize], (from, to): (usize, usize)) -> Vec<usize> {
+    fn joined(&self, blocks: &[usize], (from, to): (usize, usize)) -> Vec<usize> {
         let mut whole = Vec::with_capacity(blocks.len() + 1);
         whole.push(from);
         for (position, pair) in blocks.windows(2).enumerate() {

@@ -11,20 +11,21 @@ const WINDOW_US: u64 = 5_500_000;
 /// Times of the last two cliffs.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CliffWatch {
-    met_us: [Option<u64>; 2],
-    was_at_edge: bool,
+    cliffs_us: [Option<u64>; 2],
+    was_at_cliff: bool,
     waits: bool,
 }
 
 impl CliffWatch {
     /// Whether another cliff now would be one too many, so that a free robot must stand still.
-    pub(crate) fn must_wait(&mut self, is_at_edge: bool, now_us: u64, context: &mut TaskContext) -> bool {
-        if is_at_edge && !self.was_at_edge {
-            self.met_us = [self.met_us[1], Some(now_us)];
+    pub(crate) fn must_wait(&mut self, is_at_cliff: bool, now_us: u64, context: &mut TaskContext) -> bool {
+        if is_at_cliff && !self.was_at_cliff {
+            self.cliffs_us = [self.cliffs_us[1], Some(now_us)];
         }
-        self.was_at_edge = is_at_edge;
-        let is_one_too_many = self.met_us[0].is_some_and(|met_us| now_us < met_us.saturating_add(WINDOW_US));
-        let waits = is_one_too_many && !is_at_edge;
+        self.was_at_cliff = is_at_cliff;
+        let is_one_too_many =
+            self.cliffs_us[0].is_some_and(|cliffs_us| now_us < cliffs_us.saturating_add(WINDOW_US));
+        let waits = is_one_too_many && !is_at_cliff;
         if waits && !self.waits {
             context.decide("wait", Reason::CliffAgain, 0.0);
         }
@@ -40,13 +41,13 @@ mod tests {
     use crate::navigation::TaskContext;
 
     #[test]
-    fn a_free_robot_stands_still_after_two_edges_until_the_first_is_long_ago() {
+    fn a_free_robot_stands_still_after_two_cliffs_until_the_first_is_long_ago() {
         let mut context = TaskContext {
             random: Random::new(1),
             journal: Vec::new(),
         };
         let mut watch = CliffWatch::default();
-        let mut step = |is_at_edge, now_us| watch.must_wait(is_at_edge, now_us, &mut context);
+        let mut step = |is_at_cliff, now_us| watch.must_wait(is_at_cliff, now_us, &mut context);
         assert!(!step(true, 1_000_000), "it must back off");
         assert!(!step(false, 1_500_000), "one edge is none too many");
         assert!(!step(true, 3_000_000), "it must back off again");

@@ -34,7 +34,7 @@ pub(crate) struct Pen {
     /// Time at which the robot next counts as penned; `None` = the default.
     due_s: Option<f64>,
     held_at: Option<Point2>,
-    troubled_at: Option<Point2>,
+    stuck_at: Option<Point2>,
 }
 
 impl Pen {
@@ -50,12 +50,12 @@ impl Pen {
             y_m: high.y_m.max(place.y_m),
         };
         if low.distance_m(high) > LEFT_M {
-            let troubled_at = self.troubled_at;
+            let stuck_at = self.stuck_at;
             *self = Self {
                 corners: Some((place, place)),
                 ..Self::default()
             };
-            return Whereabouts::Left(troubled_at);
+            return Whereabouts::Left(stuck_at);
         }
         self.corners = Some((low, high));
         self.time_s += time_s;
@@ -72,12 +72,12 @@ impl Pen {
     /// The robot is held here.
     pub(crate) fn hold(&mut self, place: Point2) {
         self.held_at.get_or_insert(place);
-        self.troubled_at.get_or_insert(place);
+        self.stuck_at.get_or_insert(place);
     }
 
     /// The robot is penned here, and recovery begins.
     pub(crate) fn begin_recovery(&mut self, place: Point2) {
-        self.troubled_at.get_or_insert(place);
+        self.stuck_at.get_or_insert(place);
     }
 
     /// A behavior is over: the task gets some time before the robot counts as penned again.
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_goes_to_and_fro_is_penned_and_whoever_goes_away_has_left() {
+    fn a_robot_that_moves_to_and_fro_is_penned_and_one_that_moves_away_has_left() {
         let mut pen = Pen::default();
         for second in 0..239 {
             assert_eq!(
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn moving_off_is_told_once() {
+    fn moving_off_is_reported_once() {
         let mut pen = Pen::default();
         pen.follow(at(0.0), 1.0);
         pen.hold(at(0.0));

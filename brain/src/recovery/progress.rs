@@ -24,7 +24,7 @@ pub(crate) struct ProgressWatch {
 
 impl ProgressWatch {
     /// Updates with the movement that followed `commanded`; true when the robot is stuck.
-    pub(crate) fn stands_still(&mut self, commanded: Motion, advance: Advance) -> bool {
+    pub(crate) fn is_stuck(&mut self, commanded: Motion, advance: Advance) -> bool {
         let demanding = matches!(commanded, Motion::Drive { speed_m_per_s, turn_rad_per_s }
             if speed_m_per_s.abs() >= SPEED_MIN_M_PER_S || turn_rad_per_s.abs() >= TURN_MIN_RAD_PER_S);
         if !demanding {
@@ -54,7 +54,7 @@ mod tests {
 
     fn steps_until_trouble(commanded: Motion, advance: Advance) -> Option<u32> {
         let mut watch = ProgressWatch::default();
-        (1..=1000).find(|_| watch.stands_still(commanded, advance))
+        (1..=1000).find(|_| watch.is_stuck(commanded, advance))
     }
 
     #[test]

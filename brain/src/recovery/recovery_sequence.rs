@@ -185,7 +185,7 @@ mod tests {
 
     /// Every sequence of stuck events, with any number of moves between them, that is longer than the measure has given up.
     #[test]
-    fn no_sequence_of_events_is_given_more_rungs_than_the_measure_says() {
+    fn no_sequence_of_events_gets_more_behaviors_than_the_measure_allows() {
         let most = usize::from(RecoverySequence::default().behaviors_left());
         assert_eq!(most, usize::from(HELD_MAX) + PENNED.len());
         // States after `given` behaviors, over all sequences at once.
@@ -216,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn leaving_the_pen_begins_anew_from_every_state() {
+    fn leaving_the_pen_resets_every_state() {
         for mut sequence in reachable() {
             let behaviors = sequence.behaviors_left() + sequence.leave();
             assert_eq!(behaviors, RecoverySequence::default().behaviors_left());
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_is_held_at_one_place_gets_three_tries() {
+    fn a_robot_that_is_held_at_one_place_gets_three_attempts() {
         let mut sequence = RecoverySequence::default();
         let behaviors = [(); 4].map(|()| sequence.trouble(StuckKind::Held));
         let expected = [

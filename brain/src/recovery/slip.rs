@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_gyro_nothing_is_claimed() {
+    fn without_a_gyro_no_slip_is_reported() {
         let advance = Advance {
             time_s: 1.0,
             wheel_turn_rad: 1.0,

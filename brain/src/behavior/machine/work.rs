@@ -149,7 +149,7 @@ impl Behavior {
         if traction == Traction::Lost {
             return TaskStatus::Finished(Reason::Slip);
         }
-        let stands_still = job.progress.stands_still(commanded, situation.advance);
+        let stands_still = job.progress.is_stuck(commanded, situation.advance);
         let first_report = self.facts.not_moving && commanded != Motion::Rest;
         if stands_still || first_report {
             job.progress = recovery::ProgressWatch::default();

@@ -100,7 +100,7 @@ mod tests {
     use crate::model::reason::Reason;
 
     #[test]
-    fn short_runs_lead_along_the_edge_then_round_to_one_side() {
+    fn short_straights_lead_along_the_edge_then_round_to_one_side() {
         let mut pocket = Pocket::default();
         let open = (pocket.back_m(), pocket.turn_range_rad(Reason::BumpLeft));
         for _ in 0..5 {
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pocket_closes_after_a_bounded_number_of_runs() {
+    fn a_pocket_closes_after_a_bounded_number_of_straights() {
         let mut pocket = Pocket::default();
         let runs = (1..100).find(|_| {
             pocket.enter(0.0, TurnSide::Left);

@@ -4,7 +4,7 @@ use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
 /// Work to read a cell.
-const LOOK_WORK: usize = 1;
+const READ_WORK: usize = 1;
 
 /// One bit for each cell; each line of cells across an axis is a row of words.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl BitGrid {
                     Axis::Y => bits.words[row * words_per_line + column / 64] |= 1 << (column % 64),
                 }
             }
-            budget.spend(LOOK_WORK * space.width).await;
+            budget.spend(READ_WORK * space.width).await;
         }
         bits
     }

@@ -4,7 +4,7 @@ use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
 /// Work to read a cell.
-const LOOK_WORK: usize = 1;
+const READ_WORK: usize = 1;
 
 /// Consecutive free cells on a line. Every lane lies within one.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +47,7 @@ impl FreeStrips {
             for line in 0..space.length(axis.other()) {
                 strips.starts[axis as usize].push(strips.all.len());
                 strips.add_line(space, axis, line);
-                budget.spend(LOOK_WORK * space.length(axis)).await;
+                budget.spend(READ_WORK * space.length(axis)).await;
             }
             strips.starts[axis as usize].push(strips.all.len());
         }

@@ -23,7 +23,7 @@ const ROUND_SHARES: [f64; 2] = [0.35, 0.07];
 const ENTER_RAD: f64 = 6.0;
 /// Work to weigh a position, to read it for the best lane, and to close the floor around it.
 const WEIGH_WORK: usize = 3;
-const LOOK_WORK: usize = 2;
+const READ_WORK: usize = 2;
 const CLOSE_WORK: usize = 80;
 
 /// A straight part of the path.
@@ -106,7 +106,7 @@ impl<'space> Picker<'space> {
         self.queue.clear();
         for number in 0..self.strips.all.len() {
             self.offer(number, least);
-            budget.spend(LOOK_WORK * self.strips.all[number].places()).await;
+            budget.spend(READ_WORK * self.strips.all[number].places()).await;
         }
         let mut lanes = Vec::new();
         while let Some(candidate) = self.next(least, budget).await {
@@ -128,7 +128,7 @@ impl<'space> Picker<'space> {
                 return Some(old);
             }
             strip.is_changed = false;
-            budget.spend(LOOK_WORK * strip.places()).await;
+            budget.spend(READ_WORK * strip.places()).await;
             let Some(now) = self.best_of(old.strip, least) else {
                 continue;
             };
@@ -221,7 +221,7 @@ impl<'space> Picker<'space> {
             match offer {
                 Some(least) => {
                     self.offer(number, least);
-                    work += LOOK_WORK * strip.places();
+                    work += READ_WORK * strip.places();
                 }
                 None => self.strips.all[number].is_changed = true,
             }

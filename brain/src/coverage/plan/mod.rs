@@ -195,7 +195,7 @@ mod tests {
     use crate::navigation::lane_frame::LaneFrame;
 
     #[test]
-    fn a_plan_is_turned_into_the_frame_of_the_map() {
+    fn a_plan_is_transformed_into_the_frame_of_the_map() {
         let frame = LaneFrame::along(0.6);
         let at = Point2 { x_m: 1.3, y_m: -4.2 };
         let pose = Pose2 {

@@ -445,7 +445,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_costs_least_between_those_beside_it_and_nothing_is_put_among_visits_that_are_fixed() {
+    fn a_lane_is_cheapest_between_its_neighbours_and_fixed_visits_stay_together() {
         let costs = costs(&[1.0, 5.0, 9.0, 3.0]);
         let order = [0, 2, 4];
         let place =
@@ -496,7 +496,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_beside_the_way_is_taken_along_if_it_is_worth_it() {
+    fn a_lane_beside_the_path_is_driven_early_if_it_is_worth_it() {
         assert_eq!(driven(600), [0, 2, 1]);
         assert_eq!(driven(20), [0, 1, 2]);
     }

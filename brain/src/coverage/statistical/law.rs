@@ -9,15 +9,15 @@ use crate::model::swept_share::SweptShare;
 
 /// Floor that was swept longer ago counts as new, seconds: by then the position from wheel odometry alone is wrong by some
 /// decimetres.
-pub(super) const KNOWN_S: u32 = 1_200;
+pub(super) const MEMORY_S: u32 = 1_200;
 /// No estimate before this time of sweeping, seconds: the robot has seen a part of the home only and would take that for
 /// all of it.
-const ESTIMATE_AFTER_S: f64 = KNOWN_S as f64;
+const ESTIMATE_AFTER_S: f64 = MEMORY_S as f64;
 /// Range of the search for the floor area, square metres.
 const FLOOR_M2: (f64, f64) = (1.0, 1_000.0);
 /// Steps of the bisection: they leave less than a square centimetre.
 const HALVINGS: u32 = 24;
-/// The low bound assumes a floor this many times as large, and larger still by this factor of [`KNOWN_S`] over the time
+/// The low bound assumes a floor this many times as large, and larger still by this factor of [`MEMORY_S`] over the time
 /// swept. In four simulated homes the real floor was up to 2.5 times the estimate after 20 minutes, 1.4 times after 45, 1.1
 /// times after 120.
 const LARGER: f64 = 1.4;
@@ -47,7 +47,7 @@ impl NoveltyCount {
         if self.seen == 0 {
             return None;
         }
-        let known_m = (f64::from(KNOWN_S) * self.driven_m / self.time_s.max(1.0)).min(self.driven_m);
+        let known_m = (f64::from(MEMORY_S) * self.driven_m / self.time_s.max(1.0)).min(self.driven_m);
         let share = f64::from(self.new) / f64::from(self.seen);
         let (mut low_m2, mut high_m2) = FLOOR_M2;
         for _ in 0..HALVINGS {
@@ -92,7 +92,7 @@ fn swept(times: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{KNOWN_S, NoveltyCount, swept};
+    use super::{MEMORY_S, NoveltyCount, swept};
     use crate::model::random::Random;
 
     const SWATH_M: f64 = 0.25;
@@ -110,7 +110,7 @@ mod tests {
             count.driven_m += STEP_M;
             count.time_s += STEP_M / SPEED_M_PER_S;
             let place = (random.between(0.0, places as f64) as usize).min(places - 1);
-            let is_known = swept_s[place].is_some_and(|at_s| count.time_s - at_s <= f64::from(KNOWN_S));
+            let is_known = swept_s[place].is_some_and(|at_s| count.time_s - at_s <= f64::from(MEMORY_S));
             count.seen += 1;
             count.new += u32::from(!is_known);
             swept_s[place] = Some(count.time_s);
@@ -119,7 +119,7 @@ mod tests {
     }
 
     #[test]
-    fn the_floor_is_told_from_how_much_of_it_was_new() {
+    fn the_floor_area_follows_from_the_share_of_new_floor() {
         for (floor_m2, driven_m) in [(8.0, 60.0), (20.0, 100.0), (60.0, 300.0), (150.0, 1_200.0)] {
             for seed in 1..=3 {
                 let estimated_m2 = by_chance(floor_m2, driven_m, seed).floor_m2(SWATH_M).unwrap();
@@ -132,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_told_at_first_and_all_of_it_never() {
+    fn there_is_no_early_estimate_and_the_share_never_reaches_one() {
         assert_eq!(by_chance(50.0, 230.0, 1).share(SWATH_M), None);
         let shares: Vec<f64> = [250.0, 400.0, 800.0, 1_600.0]
             .map(|driven_m| by_chance(50.0, driven_m, 1).share(SWATH_M).unwrap())
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_swept_before_a_restart_counts() {
+    fn floor_swept_before_a_restart_counts() {
         let count = by_chance(100.0, 300.0, 1);
         let with_before = NoveltyCount {
             before_m: 200.0,

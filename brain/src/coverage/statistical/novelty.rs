@@ -1,6 +1,6 @@
 //! The share of new floor on the robot's drive.
 
-use super::law::{KNOWN_S, NoveltyCount};
+use super::law::{MEMORY_S, NoveltyCount};
 use crate::coverage::recent_coverage::{RECENT_S, is_new};
 use crate::model::geometry::Point2;
 use crate::navigation::Situation;
@@ -68,7 +68,7 @@ impl Novelty {
         self.share += weight * (new(RECENT_S) as f64 / ACROSS.len() as f64 - self.share);
         count.driven_m += core::mem::take(&mut self.since_m);
         count.seen += ACROSS.len() as u32;
-        count.new += new(KNOWN_S) as u32;
+        count.new += new(MEMORY_S) as u32;
     }
 }
 

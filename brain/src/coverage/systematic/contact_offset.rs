@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn it_keeps_away_from_the_side_that_touched_and_forgets_it_on_the_way() {
+    fn it_keeps_away_from_the_touched_side_for_a_distance() {
         let mut contact_offset = ContactOffset::default();
         assert_eq!(contact_offset.offset_m(ahead(0.1)), 0.0);
         contact_offset.touched(Reason::BumpLeft);

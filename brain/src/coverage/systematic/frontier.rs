@@ -9,7 +9,7 @@ use crate::model::gradual::StepBudget;
 
 /// Work to copy a cell, to find unknown neighbours, and to free or visit a cell.
 const COPIES_A_WORK: usize = 8;
-const LOOK_WORK: usize = 1;
+const READ_WORK: usize = 1;
 const VISIT_WORK: usize = 3;
 /// Cells that are visited between two checks of the budget.
 const VISITS: usize = 256;
@@ -59,7 +59,7 @@ async fn advance_frontier(optimistic: &mut Raster<CellKnowledge>, beyond: u16, b
     for row in 0..cells.len() / width.max(1) {
         let free = (row * width..(row + 1) * width).filter(|index| cells[*index] == CellKnowledge::Free);
         frontier.extend(free.filter(|index| is_beside_unknown(cells, *index, width)));
-        budget.spend(LOOK_WORK * width).await;
+        budget.spend(READ_WORK * width).await;
     }
     for _ in 0..beyond {
         let mut next = Vec::with_capacity(frontier.len());

@@ -52,7 +52,7 @@ impl Systematic {
         if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
             (self.fresh_starts, self.escapes) = (0, 0);
             self.passed_at_start_m2 = plan.passed_m2();
-            self.squeeze.start_anew();
+            self.squeeze.reset_attempts();
         }
         if plan.floor_m2 <= 0.0 {
             if self.turns_to_next(true, (situation.map, context)) {
@@ -84,7 +84,7 @@ impl Systematic {
     ) -> TaskStatus {
         self.is_cut_off = self.is_cut_off || self.is_shut_in(plan, situation);
         if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
-            return self.start_afresh();
+            return self.start_fresh();
         }
         if self.widens_margin() {
             return TaskStatus::Go(Motion::Halt);
@@ -116,7 +116,7 @@ impl Systematic {
         ended: &CoveragePlan,
         (situation, context): (&Situation<'_>, &mut TaskContext),
     ) -> Option<TaskStatus> {
-        self.squeeze.saw(plan.open_m2);
+        self.squeeze.record(plan.open_m2);
         if plan.lanes > 0 && plan.open_m2 > squeeze::WORTH_M2 {
             context.decide("squeeze", Reason::BoxedIn, plan.open_m2);
             self.follower = Some(PathFollower::new(plan.segments));
@@ -170,7 +170,7 @@ impl Systematic {
     }
 
     /// Forgets obstructions: they may be gone, or may never have existed.
-    fn start_afresh(&mut self) -> TaskStatus {
+    fn start_fresh(&mut self) -> TaskStatus {
         self.interrupted();
         self.fresh_starts += 1;
         self.obstructions.clear();

@@ -26,7 +26,7 @@ mod squeeze;
 mod standoff;
 
 use super::escape_bounce::EscapeBounce;
-use super::margins::KEEP_OFF_M;
+use super::margins::CLEARANCE_M;
 use super::perimeter::LapStep;
 use super::plan::{Departure, reach_cells};
 use crate::mapping::{CellKnowledge, Map, Raster};
@@ -104,7 +104,7 @@ pub(crate) struct Systematic {
 
 impl Task for Systematic {
     fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
-        self.heed_redrawing(situation);
+        self.discard_outdated(situation);
         if let Some(passed) = &mut self.passed
             && !situation.estimate.lost
         {
@@ -235,14 +235,14 @@ impl Systematic {
     }
 
     /// Discards everything in coordinates of a map that was drawn again with corrected poses.
-    fn heed_redrawing(&mut self, situation: &Situation<'_>) {
+    fn discard_outdated(&mut self, situation: &Situation<'_>) {
         let generation = situation.map.snapshot().generation;
         if generation != self.generation {
             self.generation = generation;
             self.passed = None;
             self.frame = None;
             self.obstructions.clear();
-            self.plan_progress = self.plan_progress.take().map(PlanProgress::afresh);
+            self.plan_progress = self.plan_progress.take().map(PlanProgress::restarted);
         }
     }
 
@@ -373,7 +373,7 @@ impl Systematic {
         PlanProgress::begin(PlanInputs {
             knowledge: knowledge.clone(),
             beyond_m,
-            radius_m: situation.config.body.radius_m + KEEP_OFF_M,
+            radius_m: situation.config.body.radius_m + CLEARANCE_M,
             squeezed_m,
             began: squeezed_m.filter(|_| self.misses_a_part).and(self.began.clone()),
             blocked: self.obstructions.points(situation.observation.time_us),

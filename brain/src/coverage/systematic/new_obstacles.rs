@@ -40,7 +40,7 @@ mod tests {
     use crate::model::gradual::{StepBudget, at_once};
 
     #[test]
-    fn what_came_is_gone_again_and_walls_edges_and_what_is_forbidden_stay() {
+    fn new_obstacles_are_removed_and_walls_cliffs_and_no_go_zones_stay() {
         use CellKnowledge::{Cliff, Free, NoGo, Occupied, Unknown};
         let raster = |origin, kinds: &[CellKnowledge]| {
             let mut raster = Raster::filled(origin, kinds.len(), 1, Unknown);

@@ -84,7 +84,7 @@ mod tests {
     use super::{OptimisticMargin, shuts_in};
 
     #[test]
-    fn only_a_lap_that_may_have_missed_a_way_on_is_followed_by_more_hope() {
+    fn only_a_lap_that_may_have_missed_a_passage_widens_the_margin() {
         for (mut margin, grows) in [
             (OptimisticMargin::CLOSED, false),
             (OptimisticMargin::KNOWN, true),
@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn a_map_shuts_in_whoever_reaches_a_corner_of_it_and_nobody_who_reaches_most_of_it() {
+    fn a_map_encloses_a_robot_that_reaches_only_a_corner_of_it() {
         assert!(shuts_in(0.8, 9.0));
         assert!(
             !shuts_in(7.0, 9.0),

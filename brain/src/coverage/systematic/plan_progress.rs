@@ -105,7 +105,7 @@ impl PlanProgress {
     }
 
     /// Restarts a plan because its inputs have changed.
-    pub(super) fn afresh(self) -> Self {
+    pub(super) fn restarted(self) -> Self {
         match self {
             Self::Due(start) => Self::Due(start),
             Self::Running { request, .. } | Self::Finished { request, .. } => Self::Due(request.start),
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_made_step_by_step_is_the_plan_that_is_made_at_once() {
+    fn a_plan_made_in_steps_equals_the_plan_made_at_once() {
         let (plan, steps) = finished(PlanProgress::begin(inputs()));
         let inputs = inputs();
         let reachable_cells = at_once(reachable(
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_that_shows_too_narrow_is_squeezed_through_for_the_floor_behind_it_only() {
+    fn a_gap_that_is_too_narrow_on_the_map_is_tried_for_the_floor_behind_it_only() {
         let lanes = |gap, squeezed_m| {
             let inputs = PlanInputs {
                 squeezed_m,
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn a_door_in_which_somebody_has_come_to_stand_is_tried_once_nothing_else_is_left() {
+    fn a_door_that_a_person_blocked_is_tried_once_nothing_else_is_left() {
         let began = behind_a_gap(40).knowledge;
         let lanes = |squeezed_m, began| {
             let mut inputs = PlanInputs {
@@ -303,9 +303,9 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_that_is_begun_afresh_is_the_same() {
+    fn a_restarted_plan_is_the_same() {
         let (plan, _) = finished(PlanProgress::begin(inputs()));
-        let again = PlanProgress::begin(inputs()).go_on().go_on().afresh();
+        let again = PlanProgress::begin(inputs()).go_on().go_on().restarted();
         assert!(matches!(again, PlanProgress::Due(start) if start == START));
         assert_eq!(finished(PlanProgress::begin(inputs())).0, plan);
     }

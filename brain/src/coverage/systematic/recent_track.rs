@@ -15,14 +15,14 @@ const STEP_M: f64 = 0.0125;
 /// Points kept; the oldest are settled.
 const KEPT_MAX: usize = 1_600;
 /// Corrections are distributed once they add up to this, metres.
-const NOTICED_M: f64 = 0.003;
+const DISTRIBUTED_FROM_M: f64 = 0.003;
 /// A smaller share of a correction is dropped.
 const SHARE_MIN: f64 = 0.05;
 /// Distance over which a correction fades, metres, however uncertain the pose: errors of the wheel calibration are
 /// corrected all the time and do not reach far back.
-const HANDED_BACK_M: f64 = 15.0;
+const FADE_M: f64 = 15.0;
 /// Smaller errors are ignored, metres: lanes overlap by this much.
-const TRUSTED_MIN_M: f64 = 0.02;
+const TOLERANCE_M: f64 = 0.02;
 /// A larger jump is no pose error: the robot was carried, metres.
 const ELSEWHERE_M: f64 = 0.5;
 
@@ -30,7 +30,7 @@ const ELSEWHERE_M: f64 = 0.5;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackPoint {
     /// The estimated position at that time.
-    believed: Point2,
+    estimated: Point2,
     /// A point beside it whose floor is not worth another drive.
     beside: Option<Point2>,
     sigma_m: f64,
@@ -41,8 +41,8 @@ pub(super) struct TrackPoint {
 impl TrackPoint {
     /// The corrected position, and the one given up beside it. A small error is as likely an error of the correction.
     pub(super) fn swept_from(&self) -> impl Iterator<Item = Point2> {
-        let shift = trusted(self.error);
-        [Some(self.believed), self.beside]
+        let shift = beyond_tolerance(self.error);
+        [Some(self.estimated), self.beside]
             .into_iter()
             .flatten()
             .map(move |point| plus(point, shift, 1.0))
@@ -50,12 +50,12 @@ impl TrackPoint {
 }
 
 /// The part of an error that exceeds the tolerance.
-fn trusted(error: Point2) -> Point2 {
+fn beyond_tolerance(error: Point2) -> Point2 {
     let error_m = error.distance_m(Point2::ORIGIN);
     plus(
         Point2::ORIGIN,
         error,
-        1.0 - TRUSTED_MIN_M / error_m.max(TRUSTED_MIN_M),
+        1.0 - TOLERANCE_M / error_m.max(TOLERANCE_M),
     )
 }
 
@@ -88,17 +88,17 @@ impl RecentTrack {
                 settled.extend(self.points.drain(..));
             } else {
                 self.due = plus(self.due, plus(at, expected, -1.0), 1.0);
-                self.hand_back();
+                self.distribute_correction();
             }
         }
         self.last = Some(estimate.pose);
         if self
             .points
             .back()
-            .is_none_or(|last| last.believed.distance_m(at) >= STEP_M)
+            .is_none_or(|last| last.estimated.distance_m(at) >= STEP_M)
         {
             self.points.push_back(TrackPoint {
-                believed: at,
+                estimated: at,
                 beside: None,
                 sigma_m: estimate.sigma_m,
                 error: Point2::ORIGIN,
@@ -128,8 +128,8 @@ impl RecentTrack {
     }
 
     /// Distributes the pending correction back along the track, in proportion to the uncertainty of each point.
-    fn hand_back(&mut self) {
-        if self.due.distance_m(Point2::ORIGIN) < NOTICED_M {
+    fn distribute_correction(&mut self) {
+        if self.due.distance_m(Point2::ORIGIN) < DISTRIBUTED_FROM_M {
             return;
         }
         let due = core::mem::replace(&mut self.due, Point2::ORIGIN);
@@ -143,19 +143,19 @@ impl RecentTrack {
             }
             later_m = point.sigma_m;
             point.error = plus(point.error, due, share);
-            share *= 1.0 - STEP_M / HANDED_BACK_M;
+            share *= 1.0 - STEP_M / FADE_M;
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{RecentTrack, TRUSTED_MIN_M, TrackPoint};
+    use super::{RecentTrack, TOLERANCE_M, TrackPoint};
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::pose_estimate::PoseEstimate;
 
-    fn believed(x_m: f64, y_m: f64, sigma_m: f64) -> PoseEstimate {
+    fn estimated(x_m: f64, y_m: f64, sigma_m: f64) -> PoseEstimate {
         PoseEstimate {
             pose: Pose2 {
                 x_m,
@@ -182,11 +182,11 @@ mod tests {
             let x_m = 0.02 * f64::from(step);
             assert!(
                 track
-                    .follow(&believed(x_m, 0.0, 0.01 + 0.02 * x_m), ahead(0.02))
+                    .follow(&estimated(x_m, 0.0, 0.01 + 0.02 * x_m), ahead(0.02))
                     .is_empty()
             );
         }
-        track.follow(&believed(2.0, off_m, 0.01), ahead(0.0));
+        track.follow(&estimated(2.0, off_m, 0.01), ahead(0.0));
         track
     }
 
@@ -195,31 +195,28 @@ mod tests {
     }
 
     #[test]
-    fn a_correction_moves_where_the_robot_was_unsure_and_not_where_it_was_sure() {
+    fn a_correction_moves_uncertain_points_and_keeps_certain_ones() {
         let track = corrected(0.1);
         let points: Vec<Point2> = track.points().map(swept_from).collect();
         let (first, middle, last) = (points[0], points[50], points[100]);
         assert_eq!(first, Point2::ORIGIN);
-        assert!((last.y_m - (0.1 - TRUSTED_MIN_M)).abs() < 1e-9, "{last:?}");
+        assert!((last.y_m - (0.1 - TOLERANCE_M)).abs() < 1e-9, "{last:?}");
         assert!((0.01..0.05).contains(&middle.y_m), "{middle:?}");
     }
 
     #[test]
-    fn what_was_given_up_beside_the_way_moves_with_it() {
+    fn floor_given_up_beside_the_track_moves_with_it() {
         let mut track = RecentTrack::default();
-        track.follow(&believed(0.0, 0.0, 0.05), ahead(0.0));
+        track.follow(&estimated(0.0, 0.0, 0.05), ahead(0.0));
         track.give_up(Point2 { x_m: 0.0, y_m: 0.02 });
-        track.follow(&believed(0.0, 0.1, 0.01), ahead(0.0));
+        track.follow(&estimated(0.0, 0.1, 0.01), ahead(0.0));
         let given_up = track.points().next().unwrap().swept_from().nth(1).unwrap();
-        assert!(
-            (given_up.y_m - (0.12 - TRUSTED_MIN_M)).abs() < 1e-9,
-            "{given_up:?}"
-        );
+        assert!((given_up.y_m - (0.12 - TOLERANCE_M)).abs() < 1e-9, "{given_up:?}");
     }
 
     #[test]
     fn small_corrections_move_nothing() {
-        let track = corrected(TRUSTED_MIN_M);
+        let track = corrected(TOLERANCE_M);
         assert!(
             track
                 .points()
@@ -229,9 +226,9 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_was_carried_away_was_where_it_believed_to_be() {
+    fn carrying_the_robot_does_not_move_its_track() {
         let mut track = corrected(0.0);
-        let settled = track.follow(&believed(5.0, 3.0, 0.01), ahead(0.0));
+        let settled = track.follow(&estimated(5.0, 3.0, 0.01), ahead(0.0));
         assert_eq!(settled.len(), 101);
         assert_eq!(
             settled.last().map(swept_from),
@@ -241,10 +238,10 @@ mod tests {
     }
 
     #[test]
-    fn without_a_map_to_be_corrected_by_places_stay() {
+    fn without_a_map_for_corrections_points_stay() {
         let mut track = RecentTrack::default();
-        track.follow(&believed(0.0, 0.0, 0.05), None);
-        track.follow(&believed(0.0, 0.2, 0.01), None);
+        track.follow(&estimated(0.0, 0.0, 0.05), None);
+        track.follow(&estimated(0.0, 0.2, 0.01), None);
         assert_eq!(track.points().next().map(swept_from), Some(Point2::ORIGIN));
     }
 }

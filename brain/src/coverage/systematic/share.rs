@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_passed_since_the_plan_is_added() {
+    fn floor_passed_since_the_plan_is_added() {
         let reported = shares()
             .share(|_| Some(passed(5.5, 4.4)))
             .expect("there is floor");
@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_count_the_plan_tells_and_no_share_is_more_than_all() {
+    fn without_a_count_the_plan_gives_the_share_and_no_share_exceeds_one() {
         let reported = shares().share(|_| None).expect("there is floor");
         assert!((reported.share - 0.2).abs() < 1e-9, "{reported:?}");
         assert!((reported.share_low - 0.16).abs() < 1e-9, "{reported:?}");
@@ -184,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_that_finds_nothing_passed_is_of_a_robot_elsewhere_once_something_was_passed() {
+    fn a_plan_that_misses_the_passed_floor_belongs_to_a_robot_elsewhere() {
         let beside = CoveragePlan {
             floor_m2: 20.0,
             open_m2: 20.0,
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_of_a_robot_that_is_cut_off_changes_nothing_and_no_floor_has_no_share() {
+    fn the_plan_of_a_robot_that_is_cut_off_changes_nothing_and_no_floor_has_no_share() {
         let mut shares = shares();
         shares.begin(SETTINGS, passed(3.5, 2.8));
         shares.pass_over();

@@ -54,7 +54,7 @@ impl Squeeze {
     }
 
     /// Records how much floor a check found, square metres.
-    pub(super) fn saw(&mut self, floor_m2: f64) {
+    pub(super) fn record(&mut self, floor_m2: f64) {
         self.seen_m2 = Some(floor_m2);
     }
 
@@ -66,13 +66,13 @@ impl Squeeze {
         }
     }
 
-    /// No more checks until [`Self::start_anew`].
+    /// No more checks until [`Self::reset_attempts`].
     pub(super) fn give_up(&mut self) {
         self.tries = TRIES_MAX;
     }
 
     /// There is new floor, and there may be new gaps.
-    pub(super) fn start_anew(&mut self) {
+    pub(super) fn reset_attempts(&mut self) {
         self.tries = 0;
     }
 }
@@ -110,7 +110,7 @@ mod tests {
     use crate::model::gradual::{StepBudget, at_once};
 
     #[test]
-    fn looks_end_after_some_tries_until_floor_is_won() {
+    fn checks_end_after_some_attempts_until_floor_is_gained() {
         let body = Body {
             radius_m: 0.175,
             track_m: 0.23,
@@ -129,11 +129,11 @@ mod tests {
             assert_eq!(squeeze.end(), None, "a look is over once");
         }
         assert!(!squeeze.begin(&CoveragePlan::default()));
-        squeeze.start_anew();
+        squeeze.reset_attempts();
         assert!(squeeze.begin(&CoveragePlan::default()));
         squeeze.give_up();
         assert!(!squeeze.begin(&CoveragePlan::default()));
-        squeeze.saw(2.0);
+        squeeze.record(2.0);
         squeeze.allow_one(2.5);
         assert!(!squeeze.begin(&CoveragePlan::default()));
         squeeze.allow_one(1.5);
@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_at_the_edge_of_the_window_are_near_what_is_inside() {
+    fn cells_near_a_cell_at_the_window_edge_are_inside_the_window() {
         let mut cells = Raster::filled(Cell { x: -5, y: 2 }, 10, 10, false);
         *cells.get_mut(Cell { x: -5, y: 2 }).unwrap() = true;
         let near = at_once(near(&cells, &mut StepBudget::unlimited()));

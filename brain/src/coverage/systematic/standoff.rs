@@ -59,7 +59,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_touched_too_early_is_stopped_for_earlier_and_forgotten_on_the_way() {
+    fn an_early_touch_makes_it_stop_earlier_for_a_distance() {
         let mut standoff = Standoff::default();
         assert!(standoff.is_reached(at(0.019)) && !standoff.is_reached(at(0.025)));
         standoff.touched(Some(at(0.028)));
@@ -72,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn a_touch_of_what_no_sensor_shows_changes_nothing_and_many_touches_do_not_stop_it_far_away() {
+    fn unseen_touches_change_nothing_and_the_additional_distance_is_limited() {
         let mut standoff = Standoff::default();
         standoff.touched(None);
         standoff.touched(Some(at(0.2)));

@@ -69,7 +69,7 @@ mod tests {
     use crate::model::advance::Advance;
 
     #[test]
-    fn one_sensor_tells_the_angle_by_the_way() {
+    fn one_sensor_gives_the_angle_from_the_change_of_its_distance() {
         let mut line = WallLine::default();
         let slope_rad: f64 = 0.2;
         let mut gap_m = 0.04;

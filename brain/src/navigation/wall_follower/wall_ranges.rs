@@ -78,7 +78,7 @@ mod tests {
     use crate::model::geometry::Point2;
 
     #[test]
-    fn the_way_ends_where_the_rim_touches() {
+    fn the_clearance_ends_where_the_rim_touches() {
         let ahead = Point2 { x_m: 0.3, y_m: 0.0 };
         assert!((distance_to_contact_m(ahead, 0.175).unwrap() - 0.125).abs() < 1e-9);
         let beside = Point2 { x_m: 0.1, y_m: -0.2 };

@@ -17,7 +17,7 @@ const NEAR_ENTRIES: usize = 16;
 const AHEAD: usize = 8;
 /// Work to search a path beyond that for its goal, and to read a cell of a section.
 const PATH_WORK: usize = 3_000;
-const LOOK_WORK: usize = 2;
+const READ_WORK: usize = 2;
 
 /// A path along rings.
 pub(in crate::coverage::plan) struct RingPath {
@@ -208,7 +208,7 @@ impl<'plan> RingTour<'plan> {
     async fn enter(&mut self, entry: SectionEntry, cost_field: &CostField, budget: &mut StepBudget) {
         let section = self.remove(entry.section);
         budget
-            .spend(LOOK_WORK * (section.cells.len() + self.entries.len()))
+            .spend(READ_WORK * (section.cells.len() + self.entries.len()))
             .await;
         let count = section.cells.len();
         let was_closed = section.is_closed;

@@ -5,7 +5,7 @@ use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::ConfigurationSpace;
 
 /// Work to read a cell, and of a step along a border.
-const LOOK_WORK: usize = 1;
+const READ_WORK: usize = 1;
 const STEP_WORK: usize = 4;
 
 /// Cells of one level, each adjacent to the one before; the last one is adjacent to the first.
@@ -23,7 +23,7 @@ pub(super) async fn rings(space: &ConfigurationSpace, depths: &[i32], budget: &m
     let mut rings = Vec::new();
     for index in space.width..depths.len() {
         if index.is_multiple_of(space.width) {
-            budget.spend(LOOK_WORK * space.width).await;
+            budget.spend(READ_WORK * space.width).await;
         }
         if depths[index] < CELL || is_seen[index] {
             continue;
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_border_leads_round_its_cells_with_them_on_the_left() {
+    fn a_border_keeps_its_cells_on_the_left() {
         assert_eq!(of(&["....", ".##.", ".##.", "...."]), [5, 6, 10, 9]);
         assert_eq!(of(&["...", ".#.", "..."]), [4]);
         // There and back.

@@ -39,7 +39,7 @@ fn found(room: &Raster<bool>) -> (ConfigurationSpace, Vec<Ring>) {
 }
 
 #[test]
-fn rings_of_two_levels_lie_a_lane_apart() {
+fn rings_of_two_levels_are_a_lane_apart() {
     let (space, rings) = found(&room(true));
     let spacing_m = (2 * reach_cells(&SETTINGS) + 1) as f64 * CELL_M;
     let mut pairs = 0;
