@@ -75,6 +75,7 @@ fn a_robot_leaves_a_dock_whose_current_does_not_end() {
 }
 
 #[test]
+#[ignore = "campaign: many charges drawn at random; cargo xtask test --all"]
 fn a_sample_of_charges_over_packs_weather_and_trouble() {
     let mut tally = Tally::default();
     for seed in 0..36 {
@@ -104,6 +105,7 @@ fn a_thermistor_that_freezes_before_the_pack_warms_up_is_found_in_time() {
 }
 
 #[test]
+#[ignore = "campaign: many charges drawn at random; cargo xtask test --all"]
 fn no_stop_alone_lets_a_cell_reach_55_degrees_or_a_charge_go_on_for_ever() {
     let stops = [
         ChargeEnd::Slope,

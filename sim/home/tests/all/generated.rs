@@ -10,6 +10,7 @@ fn sr8730() -> RobotModel {
 /// Figures of benches are of these homes: a change of the generator changes the hash, and then all figures must be taken
 /// again.
 #[test]
+#[ignore = "campaign: fifty homes; cargo xtask test --all"]
 fn every_published_home_has_a_dock_and_hangs_together() {
     let model = sr8730();
     let mut digest = Digest::default();

@@ -1,45 +1,20 @@
 //! How rooms are cleaned: what people say of it, and how hard brushes and suction run where the robot is.
 
-use brain::{BehaviorState, Command, Pattern, Reason, RoomPower};
+use brain::{BehaviorState, Brain, Pattern, Reason, RoomPower};
 use rvac_api::{CleaningPattern, CleaningPower, RoomSettings};
 use rvac_units::Throttle;
 
-use super::Core;
-use super::orders::Asker;
-use super::refusal::Refusal;
+use crate::api_forms;
 use crate::device::CleanerPower;
-use crate::{Outputs, api_forms};
+use crate::refusal::Refusal;
 
-impl Core {
-    pub(super) fn set_room(
-        &mut self,
-        now_us: u64,
-        (asker, (room, settings)): (Asker, (u16, Option<RoomSettings>)),
-        outputs: &mut Outputs,
-    ) -> Result<(), Refusal> {
-        let settings = settings.map(to_brain).transpose()?;
-        let brain = self.known_home()?.brain();
-        let command = Command::SetRoom { room, settings };
-        brain.admit(&command).map_err(|reason| match reason {
-            Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
-            _ => Refusal::from(reason),
-        })?;
-        self.edit(now_us, (asker, command, "says how a room is cleaned"), outputs);
-        Ok(())
+/// A person who drives says how hard brushes and suction run; in a job the job does or the room in which the robot is, and
+/// where neither says anything they run as hard as they can.
+pub(crate) fn cleaner_power(brain: &Brain, of_driver: CleanerPower) -> CleanerPower {
+    if brain.status().state == BehaviorState::Manual {
+        return of_driver;
     }
-
-    /// A person who drives says how hard brushes and suction run; in a job the job does or the room in which the robot is,
-    /// and where neither says anything they run as hard as they can.
-    pub(super) fn cleaner_power(&self) -> CleanerPower {
-        let Some(mind) = &self.mind else {
-            return CleanerPower::FULL;
-        };
-        let brain = mind.brain();
-        if brain.status().state == BehaviorState::Manual {
-            return self.driver_power;
-        }
-        in_room(brain.power_here())
-    }
+    in_room(brain.power_here())
 }
 
 fn in_room(power: RoomPower) -> CleanerPower {
@@ -51,7 +26,7 @@ fn in_room(power: RoomPower) -> CleanerPower {
     }
 }
 
-fn to_brain(settings: RoomSettings) -> Result<brain::RoomSettings, Refusal> {
+pub(crate) fn to_brain(settings: RoomSettings) -> Result<brain::RoomSettings, Refusal> {
     let power = to_power(&settings.power)?;
     let known = brain::RoomSettings::new(settings.passes, power).map_err(|reason| {
         let text = format!(
@@ -64,7 +39,7 @@ fn to_brain(settings: RoomSettings) -> Result<brain::RoomSettings, Refusal> {
 }
 
 /// Shares as whole percent.
-pub(super) fn to_power(power: &CleaningPower) -> Result<RoomPower, Refusal> {
+pub(crate) fn to_power(power: &CleaningPower) -> Result<RoomPower, Refusal> {
     let CleaningPower {
         suction,
         main_brush,

@@ -1,45 +1,60 @@
 //! Zones and spots that clients keep under names, and jobs that name them.
 
 use brain::{Brain, Command, KeptPlace, PlaceShape, Point2, Reason};
-use rvac_api::{JobOrder, JobPart, RequestBody};
+use rvac_api::{JobOrder, JobPart};
 
-use super::Core;
-use super::orders::{Asker, to_name, to_zone};
-use super::refusal::Refusal;
-use crate::{Outputs, api_forms};
+use super::{Edit, known_home};
+use crate::api_forms;
+use crate::desk::words::{to_name, to_zone};
+use crate::mind::Mind;
+use crate::refusal::Refusal;
 
-impl Core {
-    /// Changes which places are kept; nothing else comes here.
-    pub(super) fn change_places(
-        &mut self,
-        now_us: u64,
-        (asker, body): (Asker, RequestBody),
-        outputs: &mut Outputs,
-    ) -> Result<(), Refusal> {
-        let (command, what) = match body {
-            RequestBody::KeepPlace { name, shape, number } => {
-                let place = KeptPlace::new(to_name(&name)?, &to_shape(&shape)?)?;
+/// What clients say of places.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PlaceRequest {
+    /// Keeps one, under a number that it had before if one is given.
+    Keep {
+        name: String,
+        shape: rvac_api::PlaceShape,
+        number: Option<u16>,
+    },
+    /// Names it otherwise.
+    Name { number: u16, name: String },
+    /// It is elsewhere.
+    Reshape {
+        number: u16,
+        shape: rvac_api::PlaceShape,
+    },
+    /// Keeps it no longer.
+    Forget { number: u16 },
+}
+
+impl PlaceRequest {
+    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+        let (command, deed) = match self {
+            Self::Keep { name, shape, number } => {
+                let place = KeptPlace::new(to_name(name)?, &to_shape(shape)?)?;
+                let number = *number;
                 (Command::KeepPlace { place, number }, "keeps a place")
             }
-            RequestBody::NamePlace { number, name } => {
-                let name = to_name(&name)?;
+            Self::Name { number, name } => {
+                let (number, name) = (*number, to_name(name)?);
                 (Command::NamePlace { number, name }, "names a place")
             }
-            RequestBody::ReshapePlace { number, shape } => {
-                let shape = to_shape(&shape)?;
+            Self::Reshape { number, shape } => {
+                let (number, shape) = (*number, to_shape(shape)?);
                 (Command::ReshapePlace { number, shape }, "moves a place")
             }
-            RequestBody::ForgetPlace { number } => {
+            Self::Forget { number } => {
+                let number = *number;
                 (Command::ForgetPlace { number }, "keeps a place no longer")
             }
-            _ => return Ok(()),
         };
-        let brain = self.known_home()?.brain();
+        let brain = known_home(mind)?.brain();
         brain
             .admit(&command)
             .map_err(|reason| of_place(reason, &command, brain))?;
-        self.edit(now_us, (asker, command, what), outputs);
-        Ok(())
+        Ok(Edit { command, deed })
     }
 }
 
@@ -96,7 +111,7 @@ pub(crate) fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refus
 }
 
 /// The order with the zones and spots that its places are now.
-pub(super) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, Refusal> {
+pub(crate) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, Refusal> {
     let words = brain.map().annotations();
     let part = |part: &JobPart| match part {
         JobPart::Place(number) => match words.place(*number) {
@@ -116,7 +131,7 @@ pub(super) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, R
 }
 
 /// The order as one that is looked at before anybody knows its places: each counts as a part.
-pub(super) fn with_any_places(order: &JobOrder) -> JobOrder {
+pub(crate) fn with_any_places(order: &JobOrder) -> JobOrder {
     let part = |part: &JobPart| match part {
         JobPart::Place(_) => JobPart::Spot([0.0, 0.0]),
         other => other.clone(),

@@ -4,14 +4,17 @@
 use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Reason};
 use rvac_api::{Explanation, explain};
 
+/// Why a request is refused, by name.
+pub(crate) type Refused = &'static str;
+
 /// A refusal for which nobody has words.
 const NOT_NOW: &str = "The robot cannot do this in its present state; the reason has the name of the cause.";
 
 /// A refusal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refusal {
-    pub(super) reason: &'static str,
-    pub(super) text: String,
+    pub(crate) reason: &'static str,
+    pub(crate) text: String,
 }
 
 impl From<&'static str> for Refusal {
@@ -30,7 +33,7 @@ impl From<Reason> for Refusal {
 }
 
 impl Refusal {
-    pub(super) fn because(reason: Reason, text: String) -> Self {
+    pub(crate) fn because(reason: Reason, text: String) -> Self {
         Self {
             reason: reason.name(),
             text,
@@ -38,7 +41,7 @@ impl Refusal {
     }
 
     /// No room of this identity; the sentence names those that there are.
-    pub(super) fn no_such_room(room: u16, brain: &Brain) -> Self {
+    pub(crate) fn no_such_room(room: u16, brain: &Brain) -> Self {
         let names = brain.map().annotations();
         let rooms = brain.map().rooms().rooms().iter();
         let known: Vec<String> = rooms
@@ -59,7 +62,7 @@ impl Refusal {
     }
 
     /// A part of an order lies where the map knows no floor.
-    pub(super) fn no_floor_there(what: &str, brain: &Brain) -> Self {
+    pub(crate) fn no_floor_there(what: &str, brain: &Brain) -> Self {
         let known = brain.map().knowledge();
         let free = (0..known.values().len())
             .filter(|index| known.values().get(*index) == Some(&CellKnowledge::Free))
@@ -89,7 +92,7 @@ impl Refusal {
     }
 
     /// What is wrong with an order that the brain refuses.
-    pub(super) fn of_order(reason: Reason, order: &CleaningOrder, brain: &Brain) -> Self {
+    pub(crate) fn of_order(reason: Reason, order: &CleaningOrder, brain: &Brain) -> Self {
         let rooms = brain.map().rooms().rooms();
         let is_missing = |part: &brain::HomePart| match part {
             brain::HomePart::Room(id) if rooms.iter().all(|room| room.id != *id) => Some(*id),
@@ -104,7 +107,7 @@ impl Refusal {
 }
 
 /// The sentences of a named reason: what, and what to do.
-pub(super) fn text(reason: &str) -> String {
+pub(crate) fn text(reason: &str) -> String {
     explain(reason).map_or_else(|| NOT_NOW.to_owned(), Explanation::text)
 }
 

@@ -5,13 +5,32 @@ use std::collections::VecDeque;
 use brain::Observation;
 use rvac_api::Felt;
 
+use crate::edges::{Edges, Sign};
+
 /// Length of a sample, and how many are kept: ten seconds.
 const SAMPLE_US: u64 = 200_000;
 const SAMPLES: usize = 50;
 
+/// What the robot perceives in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Perceived<'a> {
+    pub(crate) observation: &'a Observation,
+    pub(crate) edges: &'a Edges,
+    /// What its motors draw, as far as it measures that.
+    pub(crate) currents_a: Option<[f32; 3]>,
+}
+
+impl Perceived<'_> {
+    /// The names of what is felt now.
+    fn signs(&self) -> impl Iterator<Item = &'static str> {
+        let inhibits = self.observation.inhibits.names();
+        self.edges.present().map(Sign::name).chain(inhibits)
+    }
+}
+
 /// The newest samples.
 #[derive(Debug, Default)]
-pub(crate) struct Evidence {
+pub(crate) struct Sensations {
     samples: VecDeque<Sample>,
     open: Option<Open>,
 }
@@ -69,12 +88,12 @@ impl Standing {
     }
 }
 
-impl Evidence {
-    /// Takes in a step: what the brain saw, and currents as far as the robot measures them.
-    pub(crate) fn take(&mut self, observation: &Observation, currents_a: Option<[f32; 3]>, track_m: f64) {
-        let now = Standing::of(observation);
+impl Sensations {
+    /// Takes in a step.
+    pub(crate) fn take(&mut self, perceived: &Perceived<'_>, track_m: f64) {
+        let now = Standing::of(perceived.observation);
         let open = self.open.get_or_insert_with(|| Open::from(now));
-        open.take(observation, currents_a);
+        open.take(perceived);
         if now.time_us >= open.since.time_us + SAMPLE_US {
             let (since, felt) = (open.since, open.told(open.since, track_m));
             self.open = Some(Open::from(now));
@@ -122,16 +141,17 @@ impl Open {
         !self.signs.is_empty()
     }
 
-    fn take(&mut self, observation: &Observation, currents_a: Option<[f32; 3]>) {
+    fn take(&mut self, perceived: &Perceived<'_>) {
+        let observation = perceived.observation;
         self.newest = Standing::of(observation);
-        for sign in signs(observation) {
+        for sign in perceived.signs() {
             if !self.signs.contains(&sign) {
                 self.signs.push(sign);
             }
         }
         let echoes = observation.proximity.iter().copied();
         self.echo = self.echo.into_iter().chain(echoes).reduce(f32::max);
-        self.currents_a = match (self.currents_a, currents_a) {
+        self.currents_a = match (self.currents_a, perceived.currents_a) {
             (Some(before), Some(now)) => Some([0, 1, 2].map(|motor| larger(before[motor], now[motor]))),
             (before, now) => now.or(before),
         };
@@ -165,35 +185,28 @@ fn rounded(value: f64) -> f64 {
     }
 }
 
-fn signs(observation: &Observation) -> impl Iterator<Item = &'static str> + '_ {
-    let (contacts, cliffs) = (observation.contacts, observation.cliffs);
-    let named = [
-        (contacts.left, "bumper-left"),
-        (contacts.right, "bumper-right"),
-        (cliffs.left, "cliff-left"),
-        (cliffs.middle, "cliff-front"),
-        (cliffs.right, "cliff-right"),
-        (observation.wheel_drop, "wheel-drop"),
-        (observation.docked, "docked"),
-        (!observation.link_up, "link-lost"),
-    ];
-    let spoke = named
-        .into_iter()
-        .filter_map(|(speaks, name)| speaks.then_some(name));
-    spoke.chain(observation.inhibits.names())
-}
-
 #[cfg(test)]
 mod tests {
     use brain::Observation;
     use brain::observation::Contacts;
 
-    use super::Evidence;
+    use super::{Edges, Perceived, Sensations};
 
     const TRACK_M: f64 = 0.25;
 
+    fn take(evidence: &mut Sensations, observation: &Observation, currents_a: Option<[f32; 3]>) {
+        let mut edges = Edges::default();
+        edges.take(observation.time_us, observation);
+        let perceived = Perceived {
+            observation,
+            edges: &edges,
+            currents_a,
+        };
+        evidence.take(&perceived, TRACK_M);
+    }
+
     /// Drives straight ahead with 0.2 m/s and 50 reports a second.
-    fn drive(evidence: &mut Evidence, steps: std::ops::Range<u64>, change: impl Fn(&mut Observation)) {
+    fn drive(evidence: &mut Sensations, steps: std::ops::Range<u64>, change: impl Fn(&mut Observation)) {
         for step in steps {
             let way_m = 0.004 * step as f64;
             let mut observation = Observation {
@@ -204,13 +217,13 @@ mod tests {
                 ..Observation::default()
             };
             change(&mut observation);
-            evidence.take(&observation, Some([0.1, -0.3, 0.0]), TRACK_M);
+            take(evidence, &observation, Some([0.1, -0.3, 0.0]));
         }
     }
 
     #[test]
     fn ten_seconds_are_kept_with_speeds_and_no_more() {
-        let mut evidence = Evidence::default();
+        let mut evidence = Sensations::default();
         drive(&mut evidence, 0..2_001, |_| {});
         let felt = evidence.before(40_000_000, TRACK_M);
         assert_eq!(felt.len(), 50);
@@ -224,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_contact_of_one_report_is_not_lost_and_what_just_came_is_told_at_once() {
-        let mut evidence = Evidence::default();
+        let mut evidence = Sensations::default();
         let touch = |observation: &mut Observation| {
             let touches = matches!(observation.time_us, 2_020_000 | 4_040_000);
             observation.contacts = Contacts {
@@ -250,7 +263,7 @@ mod tests {
 
     #[test]
     fn what_is_older_than_ten_seconds_does_not_explain_anything() {
-        let mut evidence = Evidence::default();
+        let mut evidence = Sensations::default();
         drive(&mut evidence, 0..101, |_| {});
         assert!(evidence.before(60_000_000, TRACK_M).is_empty());
     }
@@ -258,7 +271,7 @@ mod tests {
     #[test]
     fn a_turn_is_told_by_the_gyro_or_else_by_the_wheels() {
         let turned = |gyro: bool| {
-            let mut evidence = Evidence::default();
+            let mut evidence = Sensations::default();
             for step in 0..30_u64 {
                 let turn_rad = 0.02 * step as f64;
                 let observation = Observation {
@@ -268,7 +281,7 @@ mod tests {
                     gyro_heading_rad: gyro.then_some(0.5 * turn_rad),
                     ..Observation::default()
                 };
-                evidence.take(&observation, None, TRACK_M);
+                take(&mut evidence, &observation, None);
             }
             evidence.before(400_000, TRACK_M)[1].w
         };

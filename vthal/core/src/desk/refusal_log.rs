@@ -1,11 +1,8 @@
 //! What clients were refused, for the log: a client that asks again and again, as one that drives does, fills it with nothing.
 
-use rvac_api::{Failure, LogLevel, Update};
+use rvac_api::Failure;
 
-use super::Core;
-use crate::journal::Part;
-use crate::outputs::{Delivery, Recipients};
-use crate::{ClientId, Outputs};
+use crate::ClientId;
 
 /// A refusal is told again after so long, and this many different ones within that time.
 const SILENT_US: u64 = 5_000_000;
@@ -19,7 +16,7 @@ pub(super) struct RefusalLog {
 
 impl RefusalLog {
     /// Whether it goes into the log.
-    fn is_news(&mut self, now_us: u64, client: ClientId, failure: &Failure) -> bool {
+    pub(super) fn is_news(&mut self, now_us: u64, client: ClientId, failure: &Failure) -> bool {
         self.told
             .retain(|(at_us, ..)| now_us.saturating_sub(*at_us) < SILENT_US);
         let is_same = |(_, other, told): &(u64, ClientId, Failure)| {
@@ -30,35 +27,6 @@ impl RefusalLog {
             self.told.push((now_us, client, failure.clone()));
         }
         is_news
-    }
-}
-
-impl Core {
-    /// The shell refuses what only it can do.
-    pub(super) fn refuse(client: ClientId, failure: Failure, outputs: &mut Outputs) {
-        outputs.deliveries.push(Delivery {
-            to: Recipients::One(client),
-            update: Update::Failed(failure),
-        });
-    }
-
-    /// Logs the refusals among the deliveries from `first` on, in the words that the client reads.
-    pub(super) fn log_refusals(&mut self, now_us: u64, first: usize, outputs: &mut Outputs) {
-        let mut lines = Vec::new();
-        for delivery in outputs.deliveries.iter().skip(first) {
-            if let (Recipients::One(client), Update::Failed(failure)) = (delivery.to, &delivery.update)
-                && self.refusal_log.is_news(now_us, client, failure)
-            {
-                let Failure { reason, text, .. } = failure;
-                lines.push(format!(
-                    "{} is refused ({reason}): {text}",
-                    self.clients.name(client)
-                ));
-            }
-        }
-        for text in lines {
-            self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
-        }
     }
 }
 

@@ -7,23 +7,21 @@ use std::collections::VecDeque;
 
 use rvac_api::Schedules;
 
+use super::audience::Asker;
+use crate::ScheduleOrder;
 use crate::schedule::{
     Book, CLOCK_IS_SET_FROM_S, Edit, EditError, Entry, Keeping, Outcome, StoredBook, Verdict, Zone, verdict,
     view,
 };
-use crate::{ClientId, ScheduleOrder};
 
 /// Changes of people that may wait for the disk.
 const WAITING_MAX: usize = 16;
 /// After the disk has refused a decision it is tried again so much later.
 const RETRY_S: i64 = 60;
 
-/// Who asks, and the number of the request.
-pub(crate) type Asker = (ClientId, Option<u32>);
-
 /// The schedules on their way between clock, people and disk.
 #[derive(Debug)]
-pub(crate) struct Scheduler {
+pub(super) struct Scheduler {
     book: Book,
     system_zone: Zone,
     /// The present, seconds since 1970, once somebody has told it.
@@ -52,7 +50,7 @@ enum Then {
 
 /// What is to be done now.
 #[derive(Debug, PartialEq)]
-pub(crate) enum Task {
+pub(super) enum Task {
     /// The disk shall keep this.
     Keep(ScheduleOrder),
     /// A change is kept.
@@ -68,7 +66,7 @@ pub(crate) enum Task {
 }
 
 impl Scheduler {
-    pub(crate) fn new(book: Book, system_zone: Zone, distrusts_marks: bool) -> Self {
+    pub(super) fn new(book: Book, system_zone: Zone, distrusts_marks: bool) -> Self {
         Self {
             book,
             system_zone,
@@ -81,22 +79,22 @@ impl Scheduler {
         }
     }
 
-    pub(crate) fn book(&self) -> &Book {
+    pub(super) fn book(&self) -> &Book {
         &self.book
     }
 
     /// All that clients are told.
-    pub(crate) fn view(&self, keeping: &impl Keeping) -> Schedules {
+    pub(super) fn view(&self, keeping: &impl Keeping) -> Schedules {
         view(&self.book, (self.zone(), self.now_s), keeping)
     }
 
     /// What the clock shows, if it was ever set.
-    pub(crate) fn set_clock_s(&self) -> Option<i64> {
+    pub(super) fn set_clock_s(&self) -> Option<i64> {
         self.now_s.filter(|now_s| *now_s >= CLOCK_IS_SET_FROM_S)
     }
 
     /// The clock shows this. Whatever it showed before: it may have been set.
-    pub(crate) fn set_clock(&mut self, now_s: i64) {
+    pub(super) fn set_clock(&mut self, now_s: i64) {
         self.now_s = Some(now_s);
         self.book.meet(now_s);
         self.retry_s = self.retry_s.min(now_s + RETRY_S);
@@ -108,7 +106,7 @@ impl Scheduler {
 
     /// Takes a change that a person wants; `false` when too many wait.
     #[must_use]
-    pub(crate) fn take(&mut self, asker: Asker, edit: Edit) -> bool {
+    pub(super) fn take(&mut self, asker: Asker, edit: Edit) -> bool {
         let has_room = self.waiting.len() < WAITING_MAX;
         if has_room {
             self.waiting.push_back((asker, edit));
@@ -117,7 +115,7 @@ impl Scheduler {
     }
 
     /// The next change that waits, if the disk is free.
-    pub(crate) fn next_change(&mut self) -> Option<Task> {
+    pub(super) fn next_change(&mut self) -> Option<Task> {
         if self.writing.is_some() {
             return None;
         }
@@ -131,7 +129,7 @@ impl Scheduler {
 
     /// What is decided of the run that was due first, if the disk is free. `ready` says why the robot could not start an
     /// entry's job at this moment.
-    pub(crate) fn due(&self, ready: impl Fn(&Entry) -> Result<(), &'static str>) -> Option<Verdict> {
+    pub(super) fn due(&self, ready: impl Fn(&Entry) -> Result<(), &'static str>) -> Option<Verdict> {
         if self.writing.is_some() {
             return None;
         }
@@ -142,14 +140,14 @@ impl Scheduler {
     }
 
     /// Takes a decision to the disk.
-    pub(crate) fn decide(&mut self, verdict: Verdict) -> Task {
+    pub(super) fn decide(&mut self, verdict: Verdict) -> Task {
         let mut book = self.book.clone();
         book.note(verdict.clone(), (self.zone(), self.now_s.unwrap_or(0)));
         self.keep(book, Then::Decided(verdict))
     }
 
     /// The disk has what it was given under this number, or says why it has not.
-    pub(crate) fn kept(&mut self, number: u64, result: Result<(), String>) -> Option<Task> {
+    pub(super) fn kept(&mut self, number: u64, result: Result<(), String>) -> Option<Task> {
         let writing = self.writing.take_if(|writing| writing.number == number)?;
         match (result, writing.then) {
             (Ok(()), then) => {
@@ -171,7 +169,7 @@ impl Scheduler {
     }
 
     /// What became of a run after it was marked.
-    pub(crate) fn follow_up(&mut self, verdict: &Verdict, outcome: Outcome) -> Task {
+    pub(super) fn follow_up(&mut self, verdict: &Verdict, outcome: Outcome) -> Task {
         let verdict = Verdict {
             outcome,
             ..verdict.clone()

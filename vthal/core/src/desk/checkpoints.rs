@@ -2,9 +2,10 @@
 
 use brain::{BehaviorState, CheckpointWork};
 
-use super::Core;
+use rvac_api::RunRecord;
+
+use crate::Checkpoint;
 use crate::mind::Mind;
-use crate::{Checkpoint, Checkpoints, Outputs};
 
 /// Pause between two checkpoints of a small map.
 const CHECKPOINT_US: u64 = 1_000_000;
@@ -13,7 +14,7 @@ const CHECKPOINT_US_PER_ENTRY: u64 = 100;
 
 /// When the next one is due, and the one that is being made.
 #[derive(Debug, Default)]
-pub(super) struct CheckpointClock {
+pub(crate) struct CheckpointClock {
     next_us: u64,
     had_job: bool,
     on_its_way: Option<CheckpointOnItsWay>,
@@ -37,33 +38,31 @@ impl CheckpointOnItsWay {
     }
 }
 
-impl Core {
-    /// Makes a checkpoint when one is due, and goes on with one that is being made.
-    pub(super) fn follow_checkpoint(&mut self, now_us: u64, outputs: &mut Outputs) {
-        let Some(mind) = &self.mind else { return };
-        let off = self.config.checkpoints == Checkpoints::Off;
-        if off || self.ended {
-            return;
+impl CheckpointClock {
+    /// Makes a checkpoint when one is due, and goes on with one that is being made. `run` is the record of the run that goes on.
+    pub(crate) fn follow(
+        &mut self,
+        now_us: u64,
+        mind: &Mind,
+        run: impl FnOnce() -> Option<RunRecord>,
+    ) -> Option<Checkpoint> {
+        if let Some(work) = &mut self.on_its_way {
+            let checkpoint = work.go_on()?;
+            self.on_its_way = None;
+            return Some(checkpoint);
         }
-        if let Some(work) = &mut self.checkpoints.on_its_way {
-            if let Some(checkpoint) = work.go_on() {
-                self.checkpoints.on_its_way = None;
-                outputs.checkpoint = Some(checkpoint);
-            }
-            return;
-        }
-        if now_us < self.checkpoints.next_us {
-            return;
+        if now_us < self.next_us {
+            return None;
         }
         let has_job = works(mind);
-        if has_job || self.checkpoints.had_job {
-            self.checkpoints.had_job = has_job;
-            self.checkpoints.on_its_way = Some(CheckpointOnItsWay {
+        if has_job || self.had_job {
+            self.had_job = has_job;
+            self.on_its_way = Some(CheckpointOnItsWay {
                 rest: Checkpoint {
                     device: mind.device().to_owned(),
                     floor: mind.floor(),
                     brain: brain::Checkpoint::default(),
-                    run: self.runs.so_far(now_us).map(Box::new),
+                    run: run().map(Box::new),
                 },
                 brain: mind.brain().begin_checkpoint(),
             });
@@ -71,12 +70,13 @@ impl Core {
         let map = mind.brain().map().snapshot();
         let home_cells = mind.brain().map().knowledge().values().len();
         let entries = (map.swept.len() / 8 + map.path.len() + map.marks.len() + home_cells / 8) as u64;
-        self.checkpoints.next_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
+        self.next_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
+        None
     }
 }
 
 /// Whether a job runs or waits.
-pub(super) fn works(mind: &Mind) -> bool {
+pub(crate) fn works(mind: &Mind) -> bool {
     let status = mind.brain().status();
     let active = matches!(
         status.state,
@@ -86,7 +86,7 @@ pub(super) fn works(mind: &Mind) -> bool {
 }
 
 /// Pose and map without a job: an orderly end is not an interruption.
-pub(super) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
+pub(crate) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
     let brain = brain::Checkpoint {
         job: None,
         ..mind.brain().checkpoint()

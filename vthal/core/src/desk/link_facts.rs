@@ -14,15 +14,15 @@ struct ByteRate {
 
 /// What is known of the link.
 #[derive(Debug, Default)]
-pub(super) struct LinkFacts {
+pub(crate) struct LinkFacts {
     opened: u32,
     is_open: bool,
     reset_cause: Option<&'static str>,
     resets: u32,
-    pub(super) report: Option<Report>,
+    pub(crate) report: Option<Report>,
     report_us: Option<u64>,
-    pub(super) slow: Option<SlowFacts>,
-    pub(super) wheel_speeds: WheelSpeeds,
+    pub(crate) slow: Option<SlowFacts>,
+    pub(crate) wheel_speeds: WheelSpeeds,
     bytes_in: ByteRate,
     bytes_out: ByteRate,
     rate_since_us: u64,
@@ -30,40 +30,40 @@ pub(super) struct LinkFacts {
 }
 
 impl LinkFacts {
-    pub(super) fn opened(&mut self, now_us: u64) {
+    pub(crate) fn opened(&mut self, now_us: u64) {
         self.opened += 1;
         self.is_open = true;
         self.report_us = None;
         self.rate_since_us = now_us;
     }
 
-    pub(super) fn closed(&mut self) {
+    pub(crate) fn closed(&mut self) {
         self.is_open = false;
         self.report_us = None;
         self.wheel_speeds = WheelSpeeds::default();
     }
 
     /// Times the device was lost and found again.
-    pub(super) fn reconnects(&self) -> u32 {
+    pub(crate) fn reconnects(&self) -> u32 {
         self.opened.saturating_sub(1)
     }
 
-    pub(super) fn resets(&self) -> u32 {
+    pub(crate) fn resets(&self) -> u32 {
         self.resets
     }
 
     /// Why the robot last started, if it tells.
-    pub(super) fn reset_cause(&self) -> Option<&'static str> {
+    pub(crate) fn reset_cause(&self) -> Option<&'static str> {
         self.reset_cause
     }
 
-    pub(super) fn greeted(&mut self, greeting: &Greeting) {
+    pub(crate) fn greeted(&mut self, greeting: &Greeting) {
         self.report = None;
         self.reset_cause = greeting.reset_cause;
         self.resets += u32::from(greeting.was_reset);
     }
 
-    pub(super) fn take_report(&mut self, now_us: u64, report: Report) {
+    pub(crate) fn take_report(&mut self, now_us: u64, report: Report) {
         if let Some(speeds) = report.travel.speeds {
             self.wheel_speeds = speeds;
         }
@@ -72,26 +72,26 @@ impl LinkFacts {
     }
 
     /// Age of the newest telemetry in ms; `None` if there is none since the device was opened.
-    pub(super) fn age_ms(&self, now_us: u64) -> Option<u32> {
+    pub(crate) fn age_ms(&self, now_us: u64) -> Option<u32> {
         let age_us = now_us.saturating_sub(self.report_us?);
         Some(u32::try_from(age_us / 1000).unwrap_or(u32::MAX))
     }
 
     /// Whether the newest telemetry is no older than `fresh_us`.
-    pub(super) fn is_fresh(&self, now_us: u64, fresh_us: u64) -> bool {
+    pub(crate) fn is_fresh(&self, now_us: u64, fresh_us: u64) -> bool {
         self.report_us
             .is_some_and(|report_us| now_us.saturating_sub(report_us) <= fresh_us)
     }
 
-    pub(super) fn count_in(&mut self, bytes: usize) {
+    pub(crate) fn count_in(&mut self, bytes: usize) {
         self.bytes_in.counted += bytes as u64;
     }
 
-    pub(super) fn count_out(&mut self, bytes: usize) {
+    pub(crate) fn count_out(&mut self, bytes: usize) {
         self.bytes_out.counted += bytes as u64;
     }
 
-    pub(super) fn pass_time(&mut self, now_us: u64) {
+    pub(crate) fn pass_time(&mut self, now_us: u64) {
         let window_us = now_us.saturating_sub(self.rate_since_us);
         if window_us >= RATE_WINDOW_US {
             for rate in [&mut self.bytes_in, &mut self.bytes_out] {
@@ -103,12 +103,12 @@ impl LinkFacts {
     }
 
     /// Bytes per second from and to the robot.
-    pub(super) fn bytes_per_s(&self) -> (f64, f64) {
+    pub(crate) fn bytes_per_s(&self) -> (f64, f64) {
         (self.bytes_in.per_s, self.bytes_out.per_s)
     }
 
     /// Whether this differs from the error before; repetitions are not worth a line each.
-    pub(super) fn is_new_error(&mut self, error: CommandError) -> bool {
+    pub(crate) fn is_new_error(&mut self, error: CommandError) -> bool {
         self.last_error.replace(error) != Some(error)
     }
 }
