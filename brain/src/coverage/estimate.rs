@@ -11,7 +11,7 @@ use crate::model::gradual::{StepBudget, at_once};
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
-use crate::navigation::reachable;
+use crate::navigation::{Inflation, reachable};
 
 /// Real jobs take this many times as long as their plans, because of acceleration, contacts and leftovers of an uncertain
 /// pose.
@@ -56,9 +56,13 @@ pub(crate) fn estimate(
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
     let radius_m = config.body.radius_m + CLEARANCE_M;
+    let inflation = Inflation {
+        radius_m,
+        blocked: &[],
+    };
     let budget = &mut StepBudget::unlimited();
     let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
-    let reachable_cells = at_once(reachable(&knowledge, &frame, (radius_m, &[]), budget));
+    let reachable_cells = at_once(reachable(&knowledge, &frame, inflation, budget));
     let mut sum = OrderTotal::at(start);
     let whole = order.is_for_whole_home().then_some(None);
     for part in whole.into_iter().chain(order.parts().iter().map(Some)) {

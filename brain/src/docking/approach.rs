@@ -8,7 +8,7 @@ use core::f64::consts::PI;
 
 use super::centreline::CentrelineDrive;
 use super::scan::{Scan, ScanStep};
-use crate::mapping::{Hearing, Lobe};
+use crate::mapping::Lobe;
 use crate::model::action::Motion;
 use crate::model::geometry::normalize_rad;
 use crate::model::reason::Reason;
@@ -127,11 +127,7 @@ impl Approach {
         }
     }
 
-    pub(super) fn step(
-        &mut self,
-        hearing: &Hearing,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
-    ) -> ApproachStep {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> ApproachStep {
         self.heading_rad += situation.advance.turn_rad;
         match self.phase {
             ApproachPhase::Evade(evasion, after) => self.evade(evasion, after, situation),
@@ -139,9 +135,9 @@ impl Approach {
                 let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
                 self.retry_elsewhere(Evasion::from_cliff, reason, context)
             }
-            ApproachPhase::Scan(scan) => self.scan(scan, hearing, (situation, context)),
-            ApproachPhase::Centreline(line) => self.drive_centreline(line, hearing, (situation, context)),
-            ApproachPhase::Straight(drive) => self.drive_straight(drive, hearing, (situation, context)),
+            ApproachPhase::Scan(scan) => self.scan(scan, situation, context),
+            ApproachPhase::Centreline(line) => self.drive_centreline(line, situation, context),
+            ApproachPhase::Straight(drive) => self.drive_straight(drive, situation, context),
         }
     }
 
@@ -174,16 +170,11 @@ impl Approach {
         }
     }
 
-    fn scan(
-        &mut self,
-        mut scan: Scan,
-        hearing: &Hearing,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
-    ) -> ApproachStep {
+    fn scan(&mut self, mut scan: Scan, situation: &Situation<'_>, context: &mut TaskContext) -> ApproachStep {
         if situation.touching {
             return self.evade_contact(context);
         }
-        match scan.step(hearing, situation.advance.turn_rad) {
+        match scan.step(situation.beams.hearing(), situation.advance.turn_rad) {
             ScanStep::Going(motion) => {
                 self.phase = ApproachPhase::Scan(scan);
                 ApproachStep::Going(motion)
@@ -195,7 +186,7 @@ impl Approach {
                     return ApproachStep::Spent;
                 }
                 context.decide("dock-scan", Reason::DockBeam, bearing_rad);
-                self.phase = self.after_scan(bearing_rad, hearing, (situation, context));
+                self.phase = self.after_scan(bearing_rad, situation, context);
                 ApproachStep::Going(Motion::Halt)
             }
         }
@@ -205,12 +196,12 @@ impl Approach {
     fn after_scan(
         &mut self,
         bearing_rad: f64,
-        hearing: &Hearing,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> ApproachPhase {
         let dock_rad = self.heading_rad + bearing_rad;
         // A robot that faces the dock and receives the left lobe has the centreline on its right.
-        let to_centreline = match hearing.lobe() {
+        let to_centreline = match situation.beams.hearing().lobe() {
             Lobe::Both => return ApproachPhase::Centreline(CentrelineDrive::along(dock_rad)),
             Lobe::Left => -1.0,
             Lobe::Right => 1.0,
@@ -220,9 +211,9 @@ impl Approach {
                 -1.0
             }),
         };
-        let is_near = hearing.is_near();
+        let is_near = situation.beams.hearing().is_near();
         context.decide("dock-line", Reason::DockBeam, to_centreline);
-        let (aside_rad, left_m) = match (is_near, hearing.lobe()) {
+        let (aside_rad, left_m) = match (is_near, situation.beams.hearing().lobe()) {
             (false, _) => (self.aside_rad(), ASIDE_MAX_M),
             (true, Lobe::None) => (BESIDE_RAD, BESIDE_M),
             (true, _) => (ASIDE_NEAR_RAD, ASIDE_NEAR_M),
@@ -244,15 +235,15 @@ impl Approach {
     fn drive_straight(
         &mut self,
         mut drive: StraightDrive,
-        hearing: &Hearing,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         if situation.touching {
             self.asides += 1;
             return self.evade_contact(context);
         }
         drive.left_m -= situation.advance.distance_m.max(0.0);
-        if drive.left_m <= 0.0 || (drive.to_centreline && hearing.lobe() == Lobe::Both) {
+        if drive.left_m <= 0.0 || (drive.to_centreline && situation.beams.hearing().lobe() == Lobe::Both) {
             self.phase = ApproachPhase::Scan(Scan::new());
             return ApproachStep::Going(Motion::Halt);
         }
@@ -263,13 +254,17 @@ impl Approach {
     fn drive_centreline(
         &mut self,
         mut line: CentrelineDrive,
-        hearing: &Hearing,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         if situation.touching {
-            return self.miss(line, hearing, (situation, context));
+            return self.miss(line, situation, context);
         }
-        line.follow(hearing, situation.advance.distance_m, situation.advance.time_s);
+        line.follow(
+            situation.beams.hearing(),
+            situation.advance.distance_m,
+            situation.advance.time_s,
+        );
         self.phase = ApproachPhase::Centreline(line);
         if line.is_missed() {
             return self.leave(line.base_rad(), context);
@@ -286,11 +281,11 @@ impl Approach {
     fn miss(
         &mut self,
         line: CentrelineDrive,
-        hearing: &Hearing,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
-        if !hearing.is_near() {
+        if !situation.beams.hearing().is_near() {
             // An obstacle is in the path.
             return self.retry_elsewhere(Evasion::from_contact, reason, context);
         }

@@ -88,7 +88,7 @@ impl Task for Docking {
                 self.after_back(step, context)
             }
             DockingPhase::Approach(approach) => {
-                let step = approach.step(situation.beams.hearing(), (situation, &mut *context));
+                let step = approach.step(situation, context);
                 self.after_approach(step, situation, context)
             }
             DockingPhase::Search => self.search.step(situation, context),

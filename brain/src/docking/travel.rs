@@ -12,8 +12,8 @@ use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{
-    Evasion, FollowStep, Goal, Obstructions, PathFollower, PathSegment, Situation, TaskContext, caution,
-    encounter, plan_path, reachable,
+    Evasion, FollowStep, Goal, Inflation, Obstructions, PathFollower, PathSegment, Situation, TaskContext,
+    caution, encounter, plan_path, reachable,
 };
 
 /// Gaps between the body and known obstacles on planned paths, metres, the widest first, since docking is in no hurry. With
@@ -235,9 +235,12 @@ impl PathInputs {
     async fn first_path(self, clearances_m: &'static [f64]) -> Option<Vec<PathSegment>> {
         let budget = &mut StepBudget::limited();
         for gap_m in clearances_m {
-            let around = (self.body_m + gap_m, self.blocked.as_slice());
-            let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, budget).await;
-            if let Some(segments) = plan_path(&reachable_cells, (self.start, &self.goals), budget).await {
+            let inflation = Inflation {
+                radius_m: self.body_m + gap_m,
+                blocked: &self.blocked,
+            };
+            let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, inflation, budget).await;
+            if let Some(segments) = plan_path(&reachable_cells, self.start, &self.goals, budget).await {
                 return Some(segments);
             }
         }

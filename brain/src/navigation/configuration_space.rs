@@ -51,6 +51,16 @@ pub(crate) struct ConfigurationSpace {
     clearance: Vec<u8>,
 }
 
+/// A connected component of the free cells, seen from a point.
+struct Component {
+    /// Number of cells.
+    size: usize,
+    /// Distance from the point to its nearest cell, metres.
+    distance_m: f64,
+    /// Index of that cell.
+    nearest: usize,
+}
+
 impl ConfigurationSpace {
     pub(crate) async fn new(reachable: &Raster<bool>, reach: usize, budget: &mut StepBudget) -> Self {
         let margin = reach + 2;
@@ -173,8 +183,8 @@ impl ConfigurationSpace {
     /// otherwise the nearest of all. After a contact a robot often stands beside a small isolated group of free cells.
     pub(crate) async fn origin_near(&self, point: Point2, budget: &mut StepBudget) -> Option<usize> {
         let mut fill = FloodFill::over(self.free.len());
-        let mut nearest: Option<(f64, usize)> = None;
-        let mut largest: Option<(usize, f64, usize)> = None;
+        let mut closest: Option<(f64, usize)> = None;
+        let mut largest: Option<(usize, usize)> = None;
         for seed in 0..self.free.len() {
             if seed.is_multiple_of(self.width) {
                 budget.spend(self.width).await;
@@ -182,37 +192,41 @@ impl ConfigurationSpace {
             if fill.has_reached(seed) || !self.free[seed] {
                 continue;
             }
-            let (size, distance_m, cell) = self.component(seed, &mut fill, (point, &mut *budget)).await;
-            if nearest.is_none_or(|(least_m, _)| distance_m < least_m) {
-                nearest = Some((distance_m, cell));
+            fill.reach(seed);
+            let Component {
+                size,
+                distance_m,
+                nearest,
+            } = self.component(&mut fill, point, budget).await;
+            if closest.is_none_or(|(least_m, _)| distance_m < least_m) {
+                closest = Some((distance_m, nearest));
             }
-            if distance_m < SET_OUT_M && largest.is_none_or(|(most, _, _)| size > most) {
-                largest = Some((size, distance_m, cell));
+            if distance_m < SET_OUT_M && largest.is_none_or(|(most, _)| size > most) {
+                largest = Some((size, nearest));
             }
         }
-        largest.map(|(_, _, cell)| cell).or(nearest.map(|(_, cell)| cell))
+        largest.map(|(_, cell)| cell).or(closest.map(|(_, cell)| cell))
     }
 
-    /// Size of a connected component, and the distance and index of its cell nearest to a point.
-    async fn component(
-        &self,
-        seed: usize,
-        fill: &mut FloodFill,
-        (point, budget): (Point2, &mut StepBudget),
-    ) -> (usize, f64, usize) {
-        fill.reach(seed);
-        let (mut size, mut best) = (0, (f64::INFINITY, seed));
+    /// Measures the component that a flood fill has just entered.
+    async fn component(&self, fill: &mut FloodFill, point: Point2, budget: &mut StepBudget) -> Component {
+        let mut component = Component {
+            size: 0,
+            distance_m: f64::INFINITY,
+            nearest: 0,
+        };
         while let Some(index) = self.go_on(fill) {
-            size += 1;
-            if size % VISITS == 0 {
+            component.size += 1;
+            if component.size % VISITS == 0 {
                 budget.spend(MEASURE_WORK * VISITS).await;
             }
             let distance_m = self.point(index).distance_m(point);
-            if distance_m < best.0 {
-                best = (distance_m, index);
+            if component.size == 1 || distance_m < component.distance_m {
+                component.distance_m = distance_m;
+                component.nearest = index;
             }
         }
-        (size, best.0, best.1)
+        component
     }
 
     /// Removes all cells that are not reachable from a free cell, and the floor that only they could sweep.

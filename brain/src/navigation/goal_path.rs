@@ -1,8 +1,9 @@
 //! The path to one of several goals.
 
+use super::PathSegment;
 use super::configuration_space::ConfigurationSpace;
 use super::router::Router;
-use super::{PathSegment, smoothing};
+use super::smoothing::{self, Polyline};
 use crate::mapping::Raster;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::StepBudget;
@@ -20,7 +21,8 @@ pub(crate) struct Goal {
 /// reached.
 pub(crate) async fn plan_path(
     reachable: &Raster<bool>,
-    (start, goals): (Pose2, &[Goal]),
+    start: Pose2,
+    goals: &[Goal],
     budget: &mut StepBudget,
 ) -> Option<Vec<PathSegment>> {
     let mut space = ConfigurationSpace::new(reachable, 1, budget).await;
@@ -43,7 +45,12 @@ pub(crate) async fn plan_path(
         .into_iter()
         .map(|cell| space.point(cell))
         .collect();
-    Some(smoothing::segments((&corners, 0), start.heading_rad, (&space, budget)).await)
+    let polyline = Polyline {
+        corners: &corners,
+        ring_corners: 0,
+        heading_rad: start.heading_rad,
+    };
+    Some(smoothing::segments(polyline, &space, budget).await)
 }
 
 #[cfg(test)]
@@ -80,7 +87,8 @@ mod tests {
     fn path(goals: &[Goal]) -> Option<Vec<PathSegment>> {
         at_once(super::plan_path(
             &rooms(),
-            (start(), goals),
+            start(),
+            goals,
             &mut StepBudget::unlimited(),
         ))
     }

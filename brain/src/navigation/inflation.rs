@@ -11,34 +11,44 @@ const FILL_WORK: usize = 6;
 /// Tolerance for rounding, cells.
 const ROUNDING: f64 = 1e-9;
 
-/// Cells of `frame` that the centre of a body of `radius_m` can take while the body covers only free floor and none of the
+/// The body around its centre, and what it must not cover besides the obstacles of the map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inflation<'a> {
+    /// Radius of the body, or of the body with a gap, metres.
+    pub(crate) radius_m: f64,
+    /// Points in the frame of the map.
+    pub(crate) blocked: &'a [Point2],
+}
+
+/// Cells of `frame` that the centre of a body can take while it covers only free floor and none of the
 /// `blocked` points of the map. In the map's own frame the window is that of the knowledge.
 pub(crate) async fn reachable(
     knowledge: &Raster<CellKnowledge>,
     frame: &LaneFrame,
-    (radius_m, blocked): (f64, &[Point2]),
+    inflation: Inflation<'_>,
     budget: &mut StepBudget,
 ) -> Raster<bool> {
     let inner = Inner::of(knowledge);
     let mut reachable = floor_in(frame, &inner, budget).await;
     // From the centre of a cell to the border of the next one is half a cell.
-    let radius = radius_m / CELL_M + 0.5;
+    let radius = inflation.radius_m / CELL_M + 0.5;
     for row in 0..knowledge.height() {
         for column in 0..inner.width {
             let index = row * inner.width + column;
             if inner.is_edge(index) {
-                blank(
+                clear_disc(
                     &mut reachable,
-                    (frame.point(knowledge.cell(index).middle()), radius),
+                    frame.point(knowledge.cell(index).middle()),
+                    radius,
                 );
                 budget.spend(FILL_WORK * 2 * radius as usize).await;
             }
         }
         budget.spend(READ_WORK * inner.width).await;
     }
-    for point in blocked {
+    for point in inflation.blocked {
         let cell = Cell::under(frame.point(*point));
-        blank(&mut reachable, (cell.middle(), radius_m / CELL_M));
+        clear_disc(&mut reachable, cell.middle(), inflation.radius_m / CELL_M);
     }
     reachable
 }
@@ -155,7 +165,7 @@ async fn floor_in(frame: &LaneFrame, inner: &Inner, budget: &mut StepBudget) -> 
 }
 
 /// Clears the cells whose centres are nearer than `radius` cells to a point.
-fn blank(cells: &mut Raster<bool>, (at, radius): (Point2, f64)) {
+fn clear_disc(cells: &mut Raster<bool>, at: Point2, radius: f64) {
     let (width, height) = (cells.width() as i64, cells.height() as i64);
     // In cells, counted from the centre of the first cell of the window.
     let column = at.x_m / CELL_M - 0.5 - f64::from(cells.origin().x);
@@ -201,7 +211,7 @@ impl Disc {
     }
 
     /// Sets the cells around a position (column and row of the raster).
-    pub(crate) fn fill(&self, raster: &mut Raster<bool>, (column, row): (i64, i64), value: bool) {
+    pub(crate) fn set(&self, raster: &mut Raster<bool>, column: i64, row: i64) {
         let (width, height) = (raster.width() as i64, raster.height() as i64);
         for (rise, half) in &self.rows {
             let y = row + rise;
@@ -209,7 +219,7 @@ impl Disc {
             if (0..height).contains(&y) && first <= last {
                 let (first, last) = ((y * width + first) as usize, (y * width + last) as usize);
                 if let Some(cells) = raster.values_mut().get_mut(first..=last) {
-                    cells.fill(value);
+                    cells.fill(true);
                 }
             }
         }
@@ -221,13 +231,14 @@ mod tests {
     use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
     use crate::model::geometry::Point2;
     use crate::model::gradual::{StepBudget, at_once};
+    use crate::navigation::Inflation;
     use crate::navigation::lane_frame::LaneFrame;
 
     fn reachable(knowledge: &Raster<CellKnowledge>, radius_m: f64, blocked: &[Point2]) -> Raster<bool> {
         at_once(super::reachable(
             knowledge,
             &LaneFrame::OF_MAP,
-            (radius_m, blocked),
+            Inflation { radius_m, blocked },
             &mut StepBudget::unlimited(),
         ))
     }
@@ -261,7 +272,10 @@ mod tests {
         let free = at_once(super::reachable(
             &knowledge,
             &frame,
-            (0.175, &[met]),
+            Inflation {
+                radius_m: 0.175,
+                blocked: &[met],
+            },
             &mut StepBudget::unlimited(),
         ));
         let mut count = 0;

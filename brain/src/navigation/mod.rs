@@ -25,7 +25,7 @@ pub(crate) use caution::caution;
 pub(crate) use contour_trace::ContourTrace;
 pub(crate) use evasion::{Evasion, EvasionStep};
 pub(crate) use goal_path::{Goal, plan_path};
-pub(crate) use inflation::{Disc, reachable};
+pub(crate) use inflation::{Disc, Inflation, reachable};
 pub(crate) use manoeuvre::{BACK_AT_CLIFF_M_PER_S, BackOff, ManoeuvreStep, Turn};
 pub(crate) use manoeuvre_sequence::{Manoeuvre, ManoeuvreSequence};
 pub(crate) use obstructions::{Obstructions, encounter};

@@ -102,6 +102,7 @@ impl Caution {
 
 /// The position of the robot relative to a segment.
 struct SegmentPosition {
+    segment: PathSegment,
     /// Distance along the segment.
     along_m: f64,
     offset_m: f64,
@@ -167,7 +168,7 @@ impl PathFollower {
                 let speeds = &situation.config.speeds;
                 let speed_m_per_s = segment_speed(&segment, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
                 if !is_at_wall && left_m > 0.5 * LAG_S * speed_m_per_s {
-                    return self.drive(&segment, &position, (situation, caution));
+                    return self.drive(&position, situation, caution);
                 }
             }
             self.current += 1;
@@ -199,12 +200,8 @@ impl PathFollower {
         })
     }
 
-    fn drive(
-        &self,
-        segment: &PathSegment,
-        position: &SegmentPosition,
-        (situation, caution): (&Situation<'_>, Caution),
-    ) -> FollowStep {
+    fn drive(&self, position: &SegmentPosition, situation: &Situation<'_>, caution: Caution) -> FollowStep {
+        let segment = &position.segment;
         if position.offset_m.abs() > LOST_M {
             return FollowStep::Off;
         }
@@ -280,6 +277,7 @@ impl SegmentPosition {
         // Before its start an arc continues as a straight: the circle of a tight arc deviates within centimetres.
         if segment.turn_rad == 0.0 || local.x_m < 0.0 {
             return Self {
+                segment: *segment,
                 along_m: local.x_m,
                 offset_m: local.y_m,
                 heading_rad: local.heading_rad,
@@ -291,6 +289,7 @@ impl SegmentPosition {
         let side = radius_m.signum();
         let angle_rad = libm::atan2(x_m, -y_m * side);
         Self {
+            segment: *segment,
             along_m: angle_rad * radius_m.abs(),
             offset_m: side * (radius_m.abs() - libm::sqrt(x_m * x_m + y_m * y_m)),
             heading_rad: normalize_rad(local.heading_rad - angle_rad * side),

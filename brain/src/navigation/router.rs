@@ -15,9 +15,9 @@ const DIAGONAL: u32 = LONGEST_STEP_COST;
 /// Work to read a cell, to find the links of a block, and to expand one.
 const READ_WORK: usize = 2;
 const LINKS_WORK: usize = 100;
-const LEAVE_WORK: usize = 22;
+const EXPAND_WORK: usize = 22;
 /// Blocks that are expanded between two checks of the budget.
-const LEAVES: usize = 32;
+const EXPANSIONS: usize = 32;
 /// No block.
 const NONE: u32 = u32::MAX;
 
@@ -141,15 +141,16 @@ impl<'space> Router<'space> {
                 return;
             }
             left += 1;
-            if left % LEAVES == 0 {
-                budget.spend(LEAVE_WORK * LEAVES).await;
+            if left % EXPANSIONS == 0 {
+                budget.spend(EXPAND_WORK * EXPANSIONS).await;
             }
-            self.leave(block, cost, (cost_field, &mut queue));
+            self.expand(block, cost_field, &mut queue);
         }
     }
 
     /// Relaxes the links of a block.
-    fn leave(&self, block: usize, cost: u32, (cost_field, queue): (&mut CostField, &mut BucketQueue)) {
+    fn expand(&self, block: usize, cost_field: &mut CostField, queue: &mut BucketQueue) {
+        let cost = cost_field.costs[block];
         let links = self.block_links[block];
         for (number, (next, step)) in self.around(block).into_iter().enumerate() {
             if links & 1 << number == 0 {
@@ -201,12 +202,12 @@ impl<'space> Router<'space> {
             blocks.push(cost_field.parents[*block] as usize);
         }
         blocks.reverse();
-        self.straightened(&self.joined(&blocks, (from, to)))
+        self.straightened(&self.joined(&blocks, from, to))
     }
 
     /// The anchors of the blocks after the first one, between the two end cells. Where two of them have no line of sight
     /// though their blocks are adjacent, the cells between them are inserted.
-    fn joined(&self, blocks: &[usize], (from, to): (usize, usize)) -> Vec<usize> {
+    fn joined(&self, blocks: &[usize], from: usize, to: usize) -> Vec<usize> {
         let mut whole = Vec::with_capacity(blocks.len() + 1);
         whole.push(from);
         for (position, pair) in blocks.windows(2).enumerate() {

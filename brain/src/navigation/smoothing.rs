@@ -41,16 +41,27 @@ impl PathSegment {
     }
 }
 
-/// The path along `corners`, of which the first `of_rings` belong to rings, from the robot's heading at the first one.
+/// A path without arcs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Polyline<'a> {
+    pub(crate) corners: &'a [Point2],
+    /// The first corners that belong to rings.
+    pub(crate) ring_corners: usize,
+    /// Heading of the robot at the first corner, radians.
+    pub(crate) heading_rad: f64,
+}
+
+/// The smoothed path along a polyline.
 pub(crate) async fn segments(
-    (corners, of_rings): (&[Point2], usize),
-    heading_now_rad: f64,
-    (space, budget): (&ConfigurationSpace, &mut StepBudget),
+    polyline: Polyline<'_>,
+    space: &ConfigurationSpace,
+    budget: &mut StepBudget,
 ) -> Vec<PathSegment> {
-    let mut maker = SegmentBuilder {
+    let corners = polyline.corners;
+    let mut builder = SegmentBuilder {
         segments: Vec::with_capacity(2 * corners.len()),
         pose: Pose2 {
-            heading_rad: heading_now_rad,
+            heading_rad: polyline.heading_rad,
             ..corners.first().map_or(Pose2::IDENTITY, |corner| Pose2 {
                 x_m: corner.x_m,
                 y_m: corner.y_m,
@@ -60,27 +71,27 @@ pub(crate) async fn segments(
     };
     for (position, pair) in corners.windows(2).enumerate() {
         let (from, to) = (pair[0], pair[1]);
-        maker.turn_to(heading_rad(from, to));
-        let most_m = if position < of_rings {
+        builder.turn_to(heading_rad(from, to));
+        let most_m = if position < polyline.ring_corners {
             RING_CUT_MAX_M
         } else {
             CUT_MAX_M
         };
         let cut_m = corners
             .get(position + 2)
-            .map_or(0.0, |after| cut_m([from, to, *after], (space, most_m)));
-        let ahead_m = maker.pose.position().distance_m(to) - cut_m;
-        maker.add(ahead_m.max(0.0), 0.0);
+            .map_or(0.0, |after| cut_m([from, to, *after], space, most_m));
+        let ahead_m = builder.pose.position().distance_m(to) - cut_m;
+        builder.add(ahead_m.max(0.0), 0.0);
         if let Some(after) = corners.get(position + 2)
             && cut_m > 0.0
         {
-            let turn_rad = normalize_rad(heading_rad(to, *after) - maker.pose.heading_rad);
+            let turn_rad = normalize_rad(heading_rad(to, *after) - builder.pose.heading_rad);
             let radius_m = cut_m / libm::tan(0.5 * turn_rad.abs());
-            maker.add(radius_m * turn_rad.abs(), turn_rad);
+            builder.add(radius_m * turn_rad.abs(), turn_rad);
         }
         budget.spend(CORNER_WORK).await;
     }
-    maker.segments
+    builder.segments
 }
 
 struct SegmentBuilder {
@@ -112,7 +123,7 @@ impl SegmentBuilder {
 }
 
 /// How much of the straights before and after a corner an arc may replace, up to `most_m`; 0 = turn on the spot.
-fn cut_m([before, corner, after]: [Point2; 3], (space, most_m): (&ConfigurationSpace, f64)) -> f64 {
+fn cut_m([before, corner, after]: [Point2; 3], space: &ConfigurationSpace, most_m: f64) -> f64 {
     let turn_rad = normalize_rad(heading_rad(corner, after) - heading_rad(before, corner)).abs();
     if !(0.1..SHARP_RAD).contains(&turn_rad) {
         return 0.0;

@@ -24,7 +24,7 @@ pub use crate::navigation::PathSegment;
 use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::router::Router;
-use crate::navigation::smoothing;
+use crate::navigation::smoothing::{self, Polyline};
 use contour::{RingFloor, ring_path};
 use lanes::Picker;
 pub use settings::PlanSettings;
@@ -158,9 +158,14 @@ pub(crate) async fn plan_area(
     tour.drive(&rounds, budget).await;
     // The lanes begin where the rings end.
     corners.pop();
-    let of_rings = corners.len();
+    let ring_corners = corners.len();
     corners.extend(tour.corners(budget).await);
-    let segments = smoothing::segments((&corners, of_rings), start.heading_rad, (&space, budget)).await;
+    let polyline = Polyline {
+        corners: &corners,
+        ring_corners,
+        heading_rad: start.heading_rad,
+    };
+    let segments = smoothing::segments(polyline, &space, budget).await;
     CoveragePlan {
         time_s: segments.iter().map(|segment| settings.time_s(segment)).sum(),
         corners,

@@ -105,7 +105,7 @@ impl Disc {
         let cell = Cell::under(at);
         let column = i64::from(cell.x) - i64::from(cells.origin().x);
         let row = i64::from(cell.y) - i64::from(cells.origin().y);
-        self.fill(cells, (column, row), true);
+        self.set(cells, column, row);
     }
 }
 

@@ -12,7 +12,7 @@ use crate::mapping::{CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Gradual, StepBudget};
 use crate::navigation::lane_frame::LaneFrame;
-use crate::navigation::{Situation, reachable};
+use crate::navigation::{Inflation, Situation, reachable};
 
 /// A plan is discarded farther than this from its start, metres: back-offs get longer than expected.
 const OFF_START_M: f64 = 0.06;
@@ -147,7 +147,11 @@ async fn planned_in(frame: &LaneFrame, inputs: PlanInputs, budget: &mut StepBudg
         start: frame.pose(inputs.departure.start),
         ..inputs.departure
     };
-    let reachable_cells = reachable(&knowledge, frame, (inputs.radius_m, &inputs.blocked), budget).await;
+    let inflation = |radius_m| Inflation {
+        radius_m,
+        blocked: &inputs.blocked,
+    };
+    let reachable_cells = reachable(&knowledge, frame, inflation(inputs.radius_m), budget).await;
     let pattern = |cell| inputs.target.pattern_at(frame.cell_in_map(cell));
     let is_in = |cells: &Raster<bool>, cell| cells.get(cell).copied().unwrap_or(false);
     let Some(squeezed_m) = inputs.squeezed_m else {
@@ -160,14 +164,14 @@ async fn planned_in(frame: &LaneFrame, inputs: PlanInputs, budget: &mut StepBudg
         Some(began) => without_new_obstacles(knowledge, began, budget).await,
         None => knowledge,
     };
-    let reachable_cells = reachable(&knowledge, frame, (squeezed_m, &inputs.blocked), budget).await;
+    let reachable_cells = reachable(&knowledge, frame, inflation(squeezed_m), budget).await;
     let swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
     plan_area(&reachable_cells, (pattern, swept), departure, budget).await
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{PlanInputs, PlanProgress, reachable};
+    use super::{Inflation, PlanInputs, PlanProgress, reachable};
     use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_coverage};
     use crate::coverage::systematic::assignment::Assignment;
     use crate::mapping::{Cell, CellKnowledge, Map, Raster};
@@ -236,7 +240,10 @@ mod tests {
         let reachable_cells = at_once(reachable(
             &inputs.knowledge,
             &LaneFrame::OF_MAP,
-            (inputs.radius_m, &[]),
+            Inflation {
+                radius_m: inputs.radius_m,
+                blocked: &[],
+            },
             &mut StepBudget::unlimited(),
         ));
         assert_eq!(plan, plan_coverage(&reachable_cells, |_| false, START, &SETTINGS));
