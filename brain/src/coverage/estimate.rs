@@ -1,7 +1,7 @@
 //! What a job will take, estimated before it begins.
 
 use super::margins::{CLEARANCE_M, SIGMA_MIN_M};
-use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
+use super::plan::{Area, CoveragePlan, Departure, PlanSettings, plan_area};
 use super::target_floor::TargetFloor;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::model::config::BrainConfig;
@@ -63,15 +63,17 @@ pub(crate) fn estimate(
     let budget = &mut StepBudget::unlimited();
     let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
     let reachable_cells = at_once(reachable(&knowledge, &frame, inflation, budget));
+    let estimator = PartEstimator {
+        order,
+        map,
+        frame,
+        reachable_cells,
+        settings,
+    };
     let mut sum = OrderTotal::at(start);
     let whole = order.is_for_whole_home().then_some(None);
     for part in whole.into_iter().chain(order.parts().iter().map(Some)) {
-        sum.add(part_of(
-            (part, order),
-            (map, &frame, &reachable_cells),
-            sum.pose,
-            &settings,
-        ));
+        sum.add(estimator.part(part, sum.pose));
     }
     if sum.floor_m2 <= 0.0 {
         return Err(if map.free_m2() > 0.0 {
@@ -136,53 +138,64 @@ struct PartEstimate {
     kept_low: f64,
 }
 
-fn part_of(
-    (part, order): (Option<&HomePart>, &CleaningOrder),
-    (map, frame, reachable_cells): (&Map, &LaneFrame, &Raster<bool>),
-    start: Pose2,
-    settings: &PlanSettings,
-) -> PartEstimate {
-    let target = TargetFloor::of(order, part, map);
-    let pattern = |cell: Cell| target.pattern_at(frame.cell_in_map(cell));
-    let from = Departure {
-        start: frame.pose(start),
-        settings: *settings,
-    };
-    let plan = at_once(plan_area(
-        reachable_cells,
-        (pattern, |_| false),
-        from,
-        &mut StepBudget::unlimited(),
-    ));
-    let plan = plan.in_map(frame);
-    let end = plan.segments.last().map_or(start, |last| last.at(1.0));
-    let passes = map.annotations().passes_over(order, part);
-    let (kept, kept_low) = kept((map, &|cell| target.pattern_at(cell).is_some()), settings, passes);
-    PartEstimate {
-        end,
-        time_s: PLAN_TO_JOB_TIME * f64::from(passes) * plan.time_s,
-        kept,
-        kept_low,
-        plan,
-    }
+/// What the estimates of all parts of an order have in common.
+struct PartEstimator<'a> {
+    order: &'a CleaningOrder,
+    map: &'a Map,
+    frame: LaneFrame,
+    reachable_cells: Raster<bool>,
+    settings: PlanSettings,
 }
 
-/// Share of the target floor that stays swept when lanes are displaced, averaged over its cells, and its low bound.
-fn kept((map, target): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, passes: u8) -> (f64, f64) {
-    let knowledge = map.knowledge();
-    let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, settings), f64::from(passes));
-    let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
-    for index in 0..knowledge.values().len() {
-        let cell = knowledge.cell(index);
-        if knowledge.values().get(index) == Some(&CellKnowledge::Free) && target(cell) {
-            let sigma_m = sigma_or_default_m(map.sigma_m(cell));
-            cells += 1;
-            sum += 1.0 - left(sigma_m);
-            sum_low += 1.0 - left(LOW_BOUND_FACTOR * sigma_m);
+impl PartEstimator<'_> {
+    fn part(&self, part: Option<&HomePart>, start: Pose2) -> PartEstimate {
+        let target = TargetFloor::of(self.order, part, self.map);
+        let area = Area {
+            pattern: |cell: Cell| target.pattern_at(self.frame.cell_in_map(cell)),
+            is_swept: |_| false,
+        };
+        let from = Departure {
+            start: self.frame.pose(start),
+            settings: self.settings,
+        };
+        let plan = at_once(plan_area(
+            &self.reachable_cells,
+            area,
+            from,
+            &mut StepBudget::unlimited(),
+        ));
+        let plan = plan.in_map(&self.frame);
+        let end = plan.segments.last().map_or(start, |last| last.at(1.0));
+        let passes = self.map.annotations().passes_over(self.order, part);
+        let (kept, kept_low) = self.kept(&target, passes);
+        PartEstimate {
+            end,
+            time_s: PLAN_TO_JOB_TIME * f64::from(passes) * plan.time_s,
+            kept,
+            kept_low,
+            plan,
         }
     }
-    let cells = f64::from(cells.max(1));
-    (sum / cells, sum_low / cells)
+
+    /// Share of the target floor that stays swept when lanes are displaced, averaged over its cells, and its low bound.
+    fn kept(&self, target: &TargetFloor, passes: u8) -> (f64, f64) {
+        let knowledge = self.map.knowledge();
+        let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, &self.settings), f64::from(passes));
+        let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
+        for index in 0..knowledge.values().len() {
+            let cell = knowledge.cell(index);
+            if knowledge.values().get(index) == Some(&CellKnowledge::Free)
+                && target.pattern_at(cell).is_some()
+            {
+                let sigma_m = sigma_or_default_m(self.map.sigma_m(cell));
+                cells += 1;
+                sum += 1.0 - left(sigma_m);
+                sum_low += 1.0 - left(LOW_BOUND_FACTOR * sigma_m);
+            }
+        }
+        let cells = f64::from(cells.max(1));
+        (sum / cells, sum_low / cells)
+    }
 }
 
 /// Share of the floor that one pass sweeps where the position has this deviation, with twice the deviation for the low

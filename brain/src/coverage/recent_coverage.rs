@@ -21,6 +21,15 @@ const TURNS: u32 = 12;
 const AHEAD_M: f64 = 2.5;
 const STEP_M: f64 = 2.0 * CELL_M;
 
+/// The turns that are allowed after a contact.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::coverage) struct TurnRange {
+    pub(in crate::coverage) low_rad: f64,
+    pub(in crate::coverage) high_rad: f64,
+    /// `None` = to both sides.
+    pub(in crate::coverage) side: Option<TurnSide>,
+}
+
 /// Recent contacts.
 #[derive(Clone, Debug, Default)]
 pub(in crate::coverage) struct RecentContacts {
@@ -47,14 +56,19 @@ impl RecentContacts {
         }
     }
 
-    /// Samples some turns between these angles, to this side or to both. Gives the one that leads over most floor that was
+    /// Samples some turns of a range. Gives the one that leads over most floor that was
     /// not swept recently.
     pub(in crate::coverage) fn turn_rad(
         &self,
-        (low_rad, high_rad): (f64, f64),
-        side: Option<TurnSide>,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
+        range: TurnRange,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> f64 {
+        let TurnRange {
+            low_rad,
+            high_rad,
+            side,
+        } = range;
         let body_m = situation.config.body.radius_m;
         let mut best_rad = low_rad;
         let mut most_m = f64::NEG_INFINITY;

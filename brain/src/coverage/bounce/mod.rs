@@ -6,7 +6,7 @@
 
 mod pocket;
 
-use super::recent_coverage::RecentContacts;
+use super::recent_coverage::{RecentContacts, TurnRange};
 use crate::model::action::Motion;
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
@@ -59,6 +59,13 @@ impl Task for Bounce {
     }
 }
 
+/// A contact, and the side to which the robot would turn in the open.
+#[derive(Clone, Copy)]
+struct Encounter {
+    reason: Reason,
+    side: TurnSide,
+}
+
 impl Bounce {
     /// Bounces towards floor that was not swept recently.
     pub(super) fn towards_new_floor() -> Self {
@@ -93,19 +100,23 @@ impl Bounce {
     }
 
     /// Turn away from a contact, radians. Positive is to the left.
-    fn turn_rad(
-        &self,
-        reason: Reason,
-        side: TurnSide,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
-    ) -> f64 {
-        let range_rad = self.pocket.turn_range_rad(reason);
+    fn turn_rad(&self, encounter: Encounter, situation: &Situation<'_>, context: &mut TaskContext) -> f64 {
+        let Encounter { reason, side } = encounter;
+        let (low_rad, high_rad) = self.pocket.turn_range_rad(reason);
         match &self.recent_contacts {
             Some(recent_contacts) if self.pocket.is_open() => {
                 let side = (reason != Reason::BumpFront).then_some(side);
-                recent_contacts.turn_rad(range_rad, side, (situation, context))
+                recent_contacts.turn_rad(
+                    TurnRange {
+                        low_rad,
+                        high_rad,
+                        side,
+                    },
+                    situation,
+                    context,
+                )
             }
-            _ => self.pocket.side().unwrap_or(side).sign() * context.random.between(range_rad.0, range_rad.1),
+            _ => self.pocket.side().unwrap_or(side).sign() * context.random.between(low_rad, high_rad),
         }
     }
 
@@ -130,7 +141,7 @@ impl Bounce {
             let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
             let side = self.side(reason, context);
             self.pocket.enter(self.straight_m, side);
-            let turn_rad = self.turn_rad(reason, side, (situation, context));
+            let turn_rad = self.turn_rad(Encounter { reason, side }, situation, context);
             return Some((reason, Evasion::from_contact(self.pocket.back_m(), turn_rad)));
         }
         (self.straight_m > STRAIGHT_MAX_M).then(|| {

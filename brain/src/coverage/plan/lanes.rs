@@ -51,14 +51,29 @@ pub(super) struct Picker<'space> {
     disc: Vec<(isize, usize)>,
 }
 
+/// Positions along a line.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    first: usize,
+    last: usize,
+}
+
+/// A part of a line.
+#[derive(Clone, Copy, Debug)]
+struct LinePart {
+    axis: Axis,
+    /// Row along x, column along y.
+    line: usize,
+    span: Span,
+}
+
 /// The best lane of one strip.
 #[derive(Clone, Copy, Debug)]
 struct LaneCandidate {
     /// Gain per second.
     rate: f64,
     strip: usize,
-    /// First and last position along the line.
-    span: (usize, usize),
+    span: Span,
     version: u32,
 }
 
@@ -85,7 +100,14 @@ impl<'space> Picker<'space> {
         };
         for number in 0..picker.strips.all.len() {
             let strip = picker.strips.all[number];
-            picker.weigh(strip.axis, strip.line, (strip.first, strip.last));
+            picker.weigh(LinePart {
+                axis: strip.axis,
+                line: strip.line,
+                span: Span {
+                    first: strip.first,
+                    last: strip.last,
+                },
+            });
             budget.spend(WEIGH_WORK * strip.places()).await;
         }
         picker
@@ -112,7 +134,16 @@ impl<'space> Picker<'space> {
         while let Some(candidate) = self.next(least, budget).await {
             let strip = self.strips.all[candidate.strip];
             lanes.push(self.take(&strip, candidate.span, budget).await);
-            self.refresh(&strip, candidate.span, (least, &mut *budget)).await;
+            self.refresh(
+                LinePart {
+                    axis: strip.axis,
+                    line: strip.line,
+                    span: candidate.span,
+                },
+                least,
+                budget,
+            )
+            .await;
         }
         lanes
     }
@@ -141,17 +172,12 @@ impl<'space> Picker<'space> {
     }
 
     /// Closes the floor that a lane sweeps.
-    async fn take(
-        &mut self,
-        strip: &FreeStrip,
-        (first, last): (usize, usize),
-        budget: &mut StepBudget,
-    ) -> Lane {
+    async fn take(&mut self, strip: &FreeStrip, span: Span, budget: &mut StepBudget) -> Lane {
         let index = |along: usize| match strip.axis {
             Axis::X => strip.line * self.space.width + along,
             Axis::Y => along * self.space.width + strip.line,
         };
-        let (from, to, step) = (index(first), index(last), index(1) - index(0));
+        let (from, to, step) = (index(span.first), index(span.last), index(1) - index(0));
         let mut swept = 0;
         for index in (from..=to).step_by(step) {
             swept += self.close_disc(index);
@@ -181,43 +207,53 @@ impl<'space> Picker<'space> {
 
     /// Weighs all positions again whose surroundings a lane has changed. Offers the strips again whose gain grew, which lie
     /// beside it and beyond its ends. Strips whose gain fell are updated when their turn comes.
-    async fn refresh(
-        &mut self,
-        taken: &FreeStrip,
-        (first, last): (usize, usize),
-        (least, budget): (f64, &mut StepBudget),
-    ) {
-        let reach = self.space.reach;
-        let around = 2 * reach + 2;
-        let (low, high) = (first.saturating_sub(around), last + around);
-        for line in taken.line.saturating_sub(around)..=taken.line + around {
-            let work = self.renew((taken.axis, line), (low, high), Some(least));
+    async fn refresh(&mut self, taken: LinePart, least: f64, budget: &mut StepBudget) {
+        let Span { first, last } = taken.span;
+        let around = 2 * self.space.reach + 2;
+        let beside = taken.line.saturating_sub(around)..=taken.line + around;
+        let along = Span {
+            first: first.saturating_sub(around),
+            last: last + around,
+        };
+        for line in beside.clone() {
+            let part = LinePart {
+                axis: taken.axis,
+                line,
+                span: along,
+            };
+            let work = self.renew(part, Some(least));
             budget.spend(work).await;
         }
-        let span = (taken.line.saturating_sub(around), taken.line + around);
-        for line in low..=high {
+        let span = Span {
+            first: *beside.start(),
+            last: *beside.end(),
+        };
+        for line in along.first..=along.last {
             let is_beyond = line < first || line > last;
-            let work = self.renew((taken.axis.other(), line), span, is_beyond.then_some(least));
+            let part = LinePart {
+                axis: taken.axis.other(),
+                line,
+                span,
+            };
+            let work = self.renew(part, is_beyond.then_some(least));
             budget.spend(work).await;
         }
     }
 
     /// Weighs a part of a line again and offers its strips again, or marks them as changed. Gives the work done.
-    fn renew(
-        &mut self,
-        (axis, line): (Axis, usize),
-        (low, high): (usize, usize),
-        offer: Option<f64>,
-    ) -> usize {
+    fn renew(&mut self, part: LinePart, offer: Option<f64>) -> usize {
         let mut work = 0;
-        for number in self.strips.on(axis, line) {
+        for number in self.strips.on(part.axis, part.line) {
             let strip = self.strips.all[number];
-            if strip.last < low || strip.first > high {
+            if strip.last < part.span.first || strip.first > part.span.last {
                 continue;
             }
-            let span = (strip.first.max(low), strip.last.min(high));
-            self.weigh(axis, line, span);
-            work += WEIGH_WORK * (span.1 + 1 - span.0);
+            let span = Span {
+                first: strip.first.max(part.span.first),
+                last: strip.last.min(part.span.last),
+            };
+            self.weigh(LinePart { span, ..part });
+            work += WEIGH_WORK * (span.last + 1 - span.first);
             match offer {
                 Some(least) => {
                     self.offer(number, least);
@@ -230,12 +266,13 @@ impl<'space> Picker<'space> {
     }
 
     /// Computes the gains of the positions of a line.
-    fn weigh(&mut self, axis: Axis, line: usize, (first, last): (usize, usize)) {
+    fn weigh(&mut self, part: LinePart) {
+        let LinePart { axis, line, span } = part;
         let bits = &self.bits[axis as usize];
         let low = line - self.space.reach - 1;
         let start = line * self.space.length(axis);
-        let mut ahead = bits.window(first, low);
-        for along in first..=last {
+        let mut ahead = bits.window(span.first, low);
+        for along in span.first..=span.last {
             let here = ahead;
             ahead = bits.window(along + 1, low);
             self.gains[axis as usize][start + along] = self.masks.gain(here, ahead);
@@ -266,11 +303,11 @@ impl<'space> Picker<'space> {
                 (profit, gain, first) = (0.0, 0, along + 1);
             } else if profit > most {
                 most = profit;
-                best = Some((gain, (first, along)));
+                best = Some((gain, Span { first, last: along }));
             }
         }
         let (gain, span) = best?;
-        let cells = (span.1 - span.0 + 1) as f64;
+        let cells = (span.last - span.first + 1) as f64;
         Some(LaneCandidate {
             rate: f64::from(gain) / (cells * self.cell_s + self.enter_s),
             strip: number,

@@ -25,7 +25,7 @@ use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::router::Router;
 use crate::navigation::smoothing::{self, Polyline};
-use contour::{RingFloor, ring_path};
+use contour::{RingFloor, RingStart, ring_path};
 use lanes::Picker;
 pub use settings::PlanSettings;
 pub(crate) use settings::{Departure, reach_cells};
@@ -108,20 +108,26 @@ pub fn plan_pattern(
         start,
         settings: *settings,
     };
-    let pattern = |_| Some(SweepPattern::from(pattern));
-    at_once(plan_area(
-        reachable,
-        (pattern, swept),
-        from,
-        &mut StepBudget::unlimited(),
-    ))
+    let area = Area {
+        pattern: |_| Some(SweepPattern::from(pattern)),
+        is_swept: swept,
+    };
+    at_once(plan_area(reachable, area, from, &mut StepBudget::unlimited()))
+}
+
+/// The floor to sweep.
+pub(crate) struct Area<Pattern, IsSwept> {
+    /// The pattern of each cell; `None` = the cell is not to be swept.
+    pub(crate) pattern: Pattern,
+    /// Whether a cell is already swept.
+    pub(crate) is_swept: IsSwept,
 }
 
 /// As [`plan_coverage`], but only floor that has a pattern is swept and counted. The path may lead over all reachable
 /// cells. Floor with rings comes first.
 pub(crate) async fn plan_area(
     reachable: &Raster<bool>,
-    (pattern, swept): (impl Fn(Cell) -> Option<SweepPattern>, impl Fn(Cell) -> bool),
+    area: Area<impl Fn(Cell) -> Option<SweepPattern>, impl Fn(Cell) -> bool>,
     departure: Departure,
     budget: &mut StepBudget,
 ) -> CoveragePlan {
@@ -131,13 +137,17 @@ pub(crate) async fn plan_area(
         return CoveragePlan::default();
     };
     space.keep_connected(origin, budget).await;
-    space.close(|cell| pattern(cell).is_none(), budget).await;
+    space.close(|cell| (area.pattern)(cell).is_none(), budget).await;
     let floor = space.open_count();
-    let ring_floor = RingFloor::of(&space, pattern, budget).await;
-    space.close(swept, budget).await;
+    let ring_floor = RingFloor::of(&space, area.pattern, budget).await;
+    space.close(area.is_swept, budget).await;
     let open = space.open_count();
+    let ring_start = RingStart {
+        departure: &departure,
+        cell: origin,
+    };
     let rings = match &ring_floor {
-        Some(floor) => Some(ring_path(&space, floor, (&departure, origin), budget).await),
+        Some(floor) => Some(ring_path(&space, floor, ring_start, budget).await),
         None => None,
     };
     let (mut corners, ring_sections, (from, heading_rad)) = match rings {

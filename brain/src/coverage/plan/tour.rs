@@ -6,7 +6,7 @@
 
 use super::lanes::Lane;
 use super::settings::PlanSettings;
-use super::timing::path_s;
+use super::timing::{EndHeadings, path_s};
 use crate::mapping::CELL_M;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::StepBudget;
@@ -80,44 +80,38 @@ impl<'plan> Tour<'plan> {
         }
         let costs = self.costs(budget).await;
         let mut is_left = vec![true; self.lanes.len()];
+        let mut order = Order {
+            visits: core::mem::take(&mut self.visits),
+            fixed: 0,
+            costs: &costs,
+        };
         let mut round = 0..0;
         for lanes in rounds {
             round = round.end..round.end + lanes.len();
-            let fixed = self.visits.len();
-            nearest_first(
-                &mut self.visits,
-                (&mut is_left, round.clone()),
-                (&costs, &mut *budget),
-            )
-            .await;
-            improve(&mut self.visits, fixed, (&costs, &mut *budget)).await;
-            if self.settings.takes_along
-                && self
-                    .take_along((&mut is_left, fixed), (&costs, &mut *budget))
-                    .await
-            {
-                improve(&mut self.visits, fixed, (&costs, &mut *budget)).await;
+            order.fixed = order.visits.len();
+            order.append_nearest(&mut is_left, round.clone(), budget).await;
+            order.improve(budget).await;
+            if self.settings.takes_along && self.take_along(&mut order, &mut is_left, budget).await {
+                order.improve(budget).await;
             }
         }
+        self.visits = order.visits;
     }
 
     /// Inserts lanes that lie beside the path and are worth the detour. `true` when any was inserted.
-    async fn take_along(
-        &mut self,
-        (is_left, fixed): (&mut [bool], usize),
-        (costs, budget): (&Costs, &mut StepBudget),
-    ) -> bool {
+    async fn take_along(&self, order: &mut Order<'_>, is_left: &mut [bool], budget: &mut StepBudget) -> bool {
         let mut any = false;
         for _ in 0..TAKE_ALONG_PASSES {
             let mut more = false;
             for (lane, is_left) in is_left.iter_mut().enumerate().filter(|(_, is_left)| **is_left) {
-                budget.spend(COMPARE_WORK * (self.visits.len() - fixed)).await;
-                let Some((cost_s, position, enter)) = cheapest_place(&self.visits, (lane, fixed), costs)
-                else {
+                budget
+                    .spend(COMPARE_WORK * (order.visits.len() - order.fixed))
+                    .await;
+                let Some(insertion) = order.cheapest_insertion(lane) else {
                     continue;
                 };
-                if f64::from(cost_s) + self.lane_s(lane) < self.worth_s(lane) {
-                    self.visits.insert(position, enter);
+                if f64::from(insertion.cost_s) + self.lane_s(lane) < self.worth_s(lane) {
+                    order.visits.insert(insertion.position, insertion.enter);
                     *is_left = false;
                     more = true;
                 }
@@ -192,7 +186,7 @@ impl<'plan> Tour<'plan> {
         let mut cost_field = self.router.cost_field();
         let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
-            let out = (!self.is_point(a)).then(|| self.out_rad(a));
+            let start_rad = (!self.is_point(a)).then(|| self.out_rad(a));
             for b in self
                 .near(cells[a], &at_block, (&mut cost_field, &mut *budget))
                 .await
@@ -203,8 +197,8 @@ impl<'plan> Tour<'plan> {
                 }
                 is_known[a * ends + b] = true;
                 let path = self.router.path(&cost_field, cells[a], cells[b]);
-                let back = (!self.is_point(b)).then(|| self.out_rad(b));
-                let seconds = self.path_s(&path, out, back);
+                let leave_rad = (!self.is_point(b)).then(|| self.out_rad(b));
+                let seconds = self.path_s(&path, EndHeadings { start_rad, leave_rad });
                 costs.seconds[a * ends + b] = seconds;
                 costs.seconds[b * ends + a] = seconds;
                 budget.spend(PATH_WORK).await;
@@ -212,7 +206,11 @@ impl<'plan> Tour<'plan> {
         }
         for b in self.near(from, &at_block, (&mut cost_field, &mut *budget)).await {
             let path = self.router.path(&cost_field, from, cells[b]);
-            costs.first[b] = self.path_s(&path, Some(direction_rad), Some(self.out_rad(b)));
+            let ends = EndHeadings {
+                start_rad: Some(direction_rad),
+                leave_rad: Some(self.out_rad(b)),
+            };
+            costs.first[b] = self.path_s(&path, ends);
             budget.spend(PATH_WORK).await;
         }
         costs
@@ -245,8 +243,8 @@ impl<'plan> Tour<'plan> {
         found
     }
 
-    fn path_s(&self, path: &[usize], out_rad: Option<f64>, back_rad: Option<f64>) -> f32 {
-        path_s(self.router.space(), path, (out_rad, back_rad), self.settings)
+    fn path_s(&self, path: &[usize], ends: EndHeadings) -> f32 {
+        path_s(self.router.space(), path, ends, self.settings)
     }
 
     /// The corners of the whole path.
@@ -290,142 +288,180 @@ impl Costs {
     }
 }
 
-/// Appends the lanes of a round by nearest neighbour.
-async fn nearest_first(
-    order: &mut Vec<End>,
-    (is_left, round): (&mut [bool], core::ops::Range<usize>),
-    (costs, budget): (&Costs, &mut StepBudget),
-) {
-    let mut leave = order.last().map(|end| end ^ 1);
-    let ends = 2 * round.start..2 * round.end;
-    for _ in round {
-        let mut best: Option<(f32, End)> = None;
-        for enter in ends.clone().filter(|end| is_left[end / 2]) {
-            let cost = costs.between(leave, Some(enter));
-            if best.is_none_or(|(least, _)| cost < least) {
-                best = Some((cost, enter));
-            }
-        }
-        let Some((_, enter)) = best else { break };
-        is_left[enter / 2] = false;
-        order.push(enter);
-        leave = Some(enter ^ 1);
-        budget.spend(COMPARE_WORK * ends.len()).await;
-    }
+/// The lanes in driving order.
+struct Order<'costs> {
+    /// The end at which each lane is entered.
+    visits: Vec<End>,
+    /// The first visits, which stay as they are.
+    fixed: usize,
+    costs: &'costs Costs,
 }
 
-/// Where in the tour, after the first `fixed` visits, a lane costs least, and from which end.
-fn cheapest_place(order: &[End], (lane, fixed): (usize, usize), costs: &Costs) -> Option<(f32, usize, End)> {
-    let mut best: Option<(f32, usize, End)> = None;
-    for position in fixed..=order.len() {
-        let (left, right) = (leave_before(order, position), order.get(position).copied());
-        let open = costs.between(left, right);
-        for enter in [2 * lane, 2 * lane + 1] {
-            let cost = costs.between(left, Some(enter)) + costs.between(Some(enter ^ 1), right) - open;
-            if best.is_none_or(|(least, _, _)| cost < least) {
-                best = Some((cost, position, enter));
-            }
-        }
-    }
-    best
+/// Where a lane can be inserted into an order.
+struct Insertion {
+    /// Additional time on links, seconds.
+    cost_s: f32,
+    position: usize,
+    enter: End,
 }
 
-/// Improves the tour after the first `fixed` visits.
-async fn improve(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) {
-    for _ in 0..PASSES_MAX {
-        let turned = turn_parts(order, fixed, (costs, &mut *budget)).await;
-        let moved = move_parts(order, fixed, (costs, &mut *budget)).await;
-        if !turned && !moved {
-            return;
-        }
-    }
-}
-
-/// The end at which the tour leaves the lane before a position.
-fn leave_before(order: &[End], position: usize) -> Option<End> {
-    position
-        .checked_sub(1)
-        .and_then(|before| order.get(before))
-        .map(|end| end ^ 1)
-}
-
-/// Reverses parts of the tour where that saves time (2-opt).
-async fn turn_parts(order: &mut [End], fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
-    let mut any = false;
-    for first in fixed..order.len() {
-        for last in first..order.len() {
-            let before = leave_before(order, first);
-            let after = order.get(last + 1).copied();
-            let now = costs.between(before, Some(order[first])) + costs.between(Some(order[last] ^ 1), after);
-            let then =
-                costs.between(before, Some(order[last] ^ 1)) + costs.between(Some(order[first]), after);
-            if then < now - 1e-3 {
-                order[first..=last].reverse();
-                for end in &mut order[first..=last] {
-                    *end ^= 1;
+impl Order<'_> {
+    /// Appends the lanes of a round by nearest neighbour.
+    async fn append_nearest(
+        &mut self,
+        is_left: &mut [bool],
+        round: core::ops::Range<usize>,
+        budget: &mut StepBudget,
+    ) {
+        let mut leave = self.visits.last().map(|end| end ^ 1);
+        let ends = 2 * round.start..2 * round.end;
+        for _ in round {
+            let mut best: Option<(f32, End)> = None;
+            for enter in ends.clone().filter(|end| is_left[end / 2]) {
+                let cost = self.costs.between(leave, Some(enter));
+                if best.is_none_or(|(least, _)| cost < least) {
+                    best = Some((cost, enter));
                 }
-                any = true;
+            }
+            let Some((_, enter)) = best else { break };
+            is_left[enter / 2] = false;
+            self.visits.push(enter);
+            leave = Some(enter ^ 1);
+            budget.spend(COMPARE_WORK * ends.len()).await;
+        }
+    }
+
+    /// Where a lane costs least, and from which end.
+    fn cheapest_insertion(&self, lane: usize) -> Option<Insertion> {
+        let mut best: Option<Insertion> = None;
+        for position in self.fixed..=self.visits.len() {
+            let (left, right) = (self.leave_before(position), self.visits.get(position).copied());
+            let open = self.costs.between(left, right);
+            for enter in [2 * lane, 2 * lane + 1] {
+                let cost_s =
+                    self.costs.between(left, Some(enter)) + self.costs.between(Some(enter ^ 1), right) - open;
+                if best.as_ref().is_none_or(|best| cost_s < best.cost_s) {
+                    best = Some(Insertion {
+                        cost_s,
+                        position,
+                        enter,
+                    });
+                }
             }
         }
-        budget.spend(COMPARE_WORK * (order.len() - first)).await;
+        best
     }
-    any
-}
 
-/// Moves a few lanes elsewhere, in either direction, where that saves time (Or-opt).
-async fn move_parts(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
-    let mut any = false;
-    for count in 1..=MOVED_MAX {
-        let mut first = fixed;
-        while first + count <= order.len() {
-            any |= move_part(order, (fixed, first, count), costs);
-            first += 1;
-            budget.spend(COMPARE_WORK * (order.len() - fixed)).await;
-        }
-    }
-    any
-}
-
-fn move_part(order: &mut Vec<End>, (fixed, first, count): (usize, usize, usize), costs: &Costs) -> bool {
-    let (enter, leave) = (order[first], order[first + count - 1] ^ 1);
-    let before = leave_before(order, first);
-    let after = order.get(first + count).copied();
-    let saved =
-        costs.between(before, Some(enter)) + costs.between(Some(leave), after) - costs.between(before, after);
-    let mut best: Option<(f32, usize, bool)> = None;
-    for position in (fixed..=order.len()).filter(|position| *position < first || *position > first + count) {
-        let (left, right) = (leave_before(order, position), order.get(position).copied());
-        let open = costs.between(left, right);
-        let ahead = costs.between(left, Some(enter)) + costs.between(Some(leave), right) - open;
-        let round = costs.between(left, Some(leave)) + costs.between(Some(enter), right) - open;
-        for (cost, turned) in [(ahead, false), (round, true)] {
-            if cost < saved - 1e-3 && best.is_none_or(|(least, _, _)| cost < least) {
-                best = Some((cost, position, turned));
+    async fn improve(&mut self, budget: &mut StepBudget) {
+        for _ in 0..PASSES_MAX {
+            let turned = self.reverse_parts(budget).await;
+            let moved = self.move_parts(budget).await;
+            if !turned && !moved {
+                return;
             }
         }
     }
-    let Some((_, position, turned)) = best else {
-        return false;
-    };
-    let mut part: Vec<End> = order.drain(first..first + count).collect();
-    if turned {
-        part.reverse();
-        for end in &mut part {
-            *end ^= 1;
-        }
-    }
-    let target = if position > first {
-        position - count
-    } else {
+
+    /// The end at which the tour leaves the lane before a position.
+    fn leave_before(&self, position: usize) -> Option<End> {
         position
-    };
-    order.splice(target..target, part);
-    true
+            .checked_sub(1)
+            .and_then(|before| self.visits.get(before))
+            .map(|end| end ^ 1)
+    }
+
+    /// Reverses parts of the tour where that saves time (2-opt).
+    async fn reverse_parts(&mut self, budget: &mut StepBudget) -> bool {
+        let costs = self.costs;
+        let mut any = false;
+        for first in self.fixed..self.visits.len() {
+            for last in first..self.visits.len() {
+                let before = self.leave_before(first);
+                let after = self.visits.get(last + 1).copied();
+                let order = &mut self.visits;
+                let now =
+                    costs.between(before, Some(order[first])) + costs.between(Some(order[last] ^ 1), after);
+                let then =
+                    costs.between(before, Some(order[last] ^ 1)) + costs.between(Some(order[first]), after);
+                if then < now - 1e-3 {
+                    order[first..=last].reverse();
+                    for end in &mut order[first..=last] {
+                        *end ^= 1;
+                    }
+                    any = true;
+                }
+            }
+            budget.spend(COMPARE_WORK * (self.visits.len() - first)).await;
+        }
+        any
+    }
+
+    /// Moves a few lanes elsewhere, in either direction, where that saves time (Or-opt).
+    async fn move_parts(&mut self, budget: &mut StepBudget) -> bool {
+        let mut any = false;
+        for count in 1..=MOVED_MAX {
+            let mut first = self.fixed;
+            while first + count <= self.visits.len() {
+                any |= self.move_part(first, count);
+                first += 1;
+                budget
+                    .spend(COMPARE_WORK * (self.visits.len() - self.fixed))
+                    .await;
+            }
+        }
+        any
+    }
+
+    fn move_part(&mut self, first: usize, count: usize) -> bool {
+        let Some((position, turned)) = self.best_move(first, count) else {
+            return false;
+        };
+        let mut part: Vec<End> = self.visits.drain(first..first + count).collect();
+        if turned {
+            part.reverse();
+            for end in &mut part {
+                *end ^= 1;
+            }
+        }
+        let target = if position > first {
+            position - count
+        } else {
+            position
+        };
+        self.visits.splice(target..target, part);
+        true
+    }
+
+    /// The position to which moving some lanes saves most time, and whether they are reversed there.
+    fn best_move(&self, first: usize, count: usize) -> Option<(usize, bool)> {
+        let costs = self.costs;
+        let order = &self.visits;
+        let (enter, leave) = (order[first], order[first + count - 1] ^ 1);
+        let before = self.leave_before(first);
+        let after = order.get(first + count).copied();
+        let saved = costs.between(before, Some(enter)) + costs.between(Some(leave), after)
+            - costs.between(before, after);
+        let mut best: Option<(f32, usize, bool)> = None;
+        for position in
+            (self.fixed..=order.len()).filter(|position| *position < first || *position > first + count)
+        {
+            let (left, right) = (self.leave_before(position), order.get(position).copied());
+            let open = costs.between(left, right);
+            let ahead = costs.between(left, Some(enter)) + costs.between(Some(leave), right) - open;
+            let round = costs.between(left, Some(leave)) + costs.between(Some(enter), right) - open;
+            for (cost, turned) in [(ahead, false), (round, true)] {
+                if cost < saved - 1e-3 && best.is_none_or(|(least, _, _)| cost < least) {
+                    best = Some((cost, position, turned));
+                }
+            }
+        }
+        best.map(|(_, position, turned)| (position, turned))
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Costs, End, Lane, PlanSettings, Router, Tour, cheapest_place};
+    use super::{Costs, End, Lane, Order, PlanSettings, Router, Tour};
     use crate::mapping::{Cell, Raster};
     use crate::model::geometry::Pose2;
     use crate::model::gradual::{StepBudget, at_once};
@@ -447,9 +483,16 @@ mod tests {
     #[test]
     fn a_lane_is_cheapest_between_its_neighbours_and_fixed_visits_stay_together() {
         let costs = costs(&[1.0, 5.0, 9.0, 3.0]);
-        let order = [0, 2, 4];
-        let place =
-            |fixed| cheapest_place(&order, (3, fixed), &costs).map(|(cost, position, _)| (cost, position));
+        let place = |fixed| {
+            let order = Order {
+                visits: vec![0, 2, 4],
+                fixed,
+                costs: &costs,
+            };
+            order
+                .cheapest_insertion(3)
+                .map(|insertion| (insertion.cost_s, insertion.position))
+        };
         assert_eq!(place(0), Some((0.0, 1)));
         assert_eq!(place(2), Some((4.0, 2)));
         assert_eq!(place(3), Some((6.0, 3)));

@@ -25,27 +25,43 @@ const WHOLE_SHARE: f64 = 0.85;
 /// Unswept floor that is worth waiting for people to leave, as a share of the floor that was reachable at any time.
 const REST_SHARE: f64 = 0.05;
 
+/// A plan, and how it was made.
+pub(super) struct MadePlan {
+    pub(super) plan: CoveragePlan,
+    /// Obstructions that are not on the map were avoided.
+    pub(super) is_blocked: bool,
+}
+
 impl Systematic {
     /// Follows a plan if it is worth it; otherwise gives what to do instead.
     pub(super) fn judge(
         &mut self,
-        plan: CoveragePlan,
-        is_blocked: bool,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
+        made: MadePlan,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> Option<TaskStatus> {
+        let plan = &made.plan;
         context.decide("plan", Reason::UnsweptFloor, plan.time_s);
         if let Some(ended) = self.squeeze.end() {
-            return self.judge_squeeze(plan, &ended, (situation, context));
+            return if self.follows_squeeze(made.plan, context) {
+                None
+            } else {
+                let ended = MadePlan {
+                    plan: ended,
+                    is_blocked: false,
+                };
+                Some(self.end(&ended, situation, context))
+            };
         }
         let has_failed = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
         self.failed_plans = if has_failed { self.failed_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
-        let is_elsewhere = self.shares.is_elsewhere(&plan);
+        let is_elsewhere = self.shares.is_elsewhere(plan);
         if is_elsewhere {
             self.shares.pass_over();
         } else {
             self.floor_m2 = self.floor_m2.max(plan.floor_m2);
-            self.take_share(&plan, situation);
+            self.take_share(plan, situation);
         }
         self.is_cut_off = is_elsewhere || plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
         self.misses_a_part = plan.floor_m2 < (1.0 - REST_SHARE) * self.floor_m2;
@@ -55,7 +71,7 @@ impl Systematic {
             self.squeeze.reset_attempts();
         }
         if plan.floor_m2 <= 0.0 {
-            if self.turns_to_next(true, (situation.map, context)) {
+            if self.turns_to_next(true, situation.map, context) {
                 return Some(TaskStatus::Go(Motion::Halt));
             }
             let is_whole_home = self.assignment.is_whole_home();
@@ -66,24 +82,20 @@ impl Systematic {
             }));
         }
         if plan.lanes == 0 {
-            return Some(self.end(&plan, is_blocked, (situation, context)));
+            return Some(self.end(&made, situation, context));
         }
         if self.failed_plans > FAILED_PLANS_MAX {
             return Some(self.bounce_out(situation, context));
         }
-        self.follower = Some(PathFollower::new(plan.segments));
+        self.follower = Some(PathFollower::new(made.plan.segments));
         None
     }
 
     /// No floor is left to plan: ends the job, unless something may be cut off.
-    fn end(
-        &mut self,
-        plan: &CoveragePlan,
-        is_blocked: bool,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
-    ) -> TaskStatus {
+    fn end(&mut self, made: &MadePlan, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        let plan = &made.plan;
         self.is_cut_off = self.is_cut_off || self.is_shut_in(plan, situation);
-        if is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
+        if made.is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
             return self.start_fresh();
         }
         if self.widens_margin() {
@@ -97,7 +109,7 @@ impl Systematic {
         }
         let share = self.swept_share(situation.map).map_or(0.0, |swept| swept.share);
         let is_missed = self.is_cut_off && share < WHOLE_SHARE;
-        if self.turns_to_next(is_missed, (situation.map, context)) {
+        if self.turns_to_next(is_missed, situation.map, context) {
             return TaskStatus::Go(Motion::Halt);
         }
         let reason = if self.assignment.is_missed {
@@ -109,25 +121,20 @@ impl Systematic {
         TaskStatus::Finished(reason)
     }
 
-    /// Follows a plan through a gap if it is worth it; otherwise gives what to do instead.
-    fn judge_squeeze(
-        &mut self,
-        plan: CoveragePlan,
-        ended: &CoveragePlan,
-        (situation, context): (&Situation<'_>, &mut TaskContext),
-    ) -> Option<TaskStatus> {
+    /// Follows a plan through a gap if it is worth it; `false` when the robot gives up the gap.
+    fn follows_squeeze(&mut self, plan: CoveragePlan, context: &mut TaskContext) -> bool {
         self.squeeze.record(plan.open_m2);
         if plan.lanes > 0 && plan.open_m2 > squeeze::WORTH_M2 {
             context.decide("squeeze", Reason::BoxedIn, plan.open_m2);
             self.follower = Some(PathFollower::new(plan.segments));
-            return None;
+            return true;
         }
         self.squeeze.give_up();
         if matches!(self.outline, Some(Outline::Known)) && plan.open_m2 < REST_SHARE * self.floor_m2 {
             // The part that is cut off now was swept before.
             self.is_cut_off = false;
         }
-        Some(self.end(ended, false, (situation, context)))
+        false
     }
 
     /// Updates the swept share from this plan, unless the robot is cut off: such a plan does not know the floor swept

@@ -43,6 +43,7 @@ use crate::navigation::{
 use assignment::{Assignment, Next};
 use contact_offset::ContactOffset;
 use frontier::margin_cells;
+use judging::MadePlan;
 use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
 use passed::{CellWindow, Passed};
 use plan_progress::{PlanInputs, PlanProgress, settings};
@@ -160,7 +161,7 @@ impl Task for Systematic {
         let target = self.assignment.target_floor(map);
         self.shares.share(|settings| {
             let passed = self.passed.as_ref()?.cells();
-            Some(PassedFloor::count(&passed, (&target, map), settings))
+            Some(PassedFloor::count(&passed, &target, map, settings))
         })
     }
 }
@@ -175,7 +176,7 @@ impl Systematic {
     }
 
     /// Goes on to the next part; `false` when there is none.
-    fn turns_to_next(&mut self, is_missed: bool, (map, context): (&Map, &mut TaskContext)) -> bool {
+    fn turns_to_next(&mut self, is_missed: bool, map: &Map, context: &mut TaskContext) -> bool {
         self.assignment.is_missed |= is_missed;
         match self.assignment.advance(map) {
             Next::End => return false,
@@ -368,7 +369,7 @@ impl Systematic {
         }
         passed.cover(&window);
         let (passed, target) = (passed.cells(), self.assignment.target_floor(situation.map));
-        let counted = PassedFloor::count(&passed, (&target, situation.map), &settings);
+        let counted = PassedFloor::count(&passed, &target, situation.map, &settings);
         self.shares.begin(settings, counted);
         PlanProgress::begin(PlanInputs {
             knowledge: knowledge.clone(),
@@ -391,7 +392,11 @@ impl Systematic {
             Some(PlanProgress::Finished { finished, request }) if request.begins_at(here.position()) => {
                 self.waits = false;
                 self.frame = Some(finished.frame);
-                return self.judge(finished.plan, request.is_blocked, (situation, context));
+                let made = MadePlan {
+                    plan: finished.plan,
+                    is_blocked: request.is_blocked,
+                };
+                return self.judge(made, situation, context);
             }
             Some(PlanProgress::Finished { .. }) | None => self.plan_progress = Some(PlanProgress::Due(here)),
             unfinished => self.plan_progress = unfinished,

@@ -6,7 +6,7 @@ use super::frontier::optimistic;
 use super::new_obstacles::without_new_obstacles;
 use super::squeeze;
 use crate::coverage::margins::SIGMA_MIN_M;
-use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
+use crate::coverage::plan::{Area, CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
 use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2};
@@ -155,8 +155,8 @@ async fn planned_in(frame: &LaneFrame, inputs: PlanInputs, budget: &mut StepBudg
     let pattern = |cell| inputs.target.pattern_at(frame.cell_in_map(cell));
     let is_in = |cells: &Raster<bool>, cell| cells.get(cell).copied().unwrap_or(false);
     let Some(squeezed_m) = inputs.squeezed_m else {
-        let swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell));
-        return plan_area(&reachable_cells, (pattern, swept), departure, budget).await;
+        let is_swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell));
+        return plan_area(&reachable_cells, Area { pattern, is_swept }, departure, budget).await;
     };
     let floor = floor_in_reach(&reachable_cells, &departure, budget).await;
     let known = squeeze::near(&floor, budget).await;
@@ -165,8 +165,8 @@ async fn planned_in(frame: &LaneFrame, inputs: PlanInputs, budget: &mut StepBudg
         None => knowledge,
     };
     let reachable_cells = reachable(&knowledge, frame, inflation(squeezed_m), budget).await;
-    let swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
-    plan_area(&reachable_cells, (pattern, swept), departure, budget).await
+    let is_swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
+    plan_area(&reachable_cells, Area { pattern, is_swept }, departure, budget).await
 }
 
 #[cfg(test)]

@@ -24,7 +24,8 @@ impl PassedFloor {
     /// Counts the passed cells that belong to the target floor.
     pub(super) fn count(
         passed: &Raster<bool>,
-        (target, map): (&TargetFloor, &Map),
+        target: &TargetFloor,
+        map: &Map,
         settings: &PlanSettings,
     ) -> Self {
         let (mut cells, mut cells_low) = (0.0, 0.0);

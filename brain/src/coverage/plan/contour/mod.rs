@@ -15,12 +15,12 @@ mod shape;
 #[cfg(test)]
 mod tests;
 
-use super::settings::Departure;
 use super::sweep_pattern::SweepPattern;
 use crate::mapping::Cell;
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::router::Router;
+pub(super) use order::RingStart;
 use order::{RingPath, RingTour};
 use ring_sections::{RingSection, Sweeper};
 
@@ -76,11 +76,11 @@ impl RingFloor {
     }
 }
 
-/// The path along all rings that are worth driving, from the cell `origin`.
+/// The path along all rings that are worth driving, from `start`.
 pub(super) async fn ring_path(
     space: &ConfigurationSpace,
     floor: &RingFloor,
-    (departure, origin): (&Departure, usize),
+    start: RingStart<'_>,
     budget: &mut StepBudget,
 ) -> RingPath {
     let depths = depth::depths(space, &floor.cells, budget).await;
@@ -92,7 +92,8 @@ pub(super) async fn ring_path(
     }
     let is_fresh = floor.is_fresh(&space.open);
     let router = Router::new(space, budget).await;
-    let mut tour = RingTour::new(&router, (sweeper, sections), (departure, origin));
+    let mut tour = RingTour::new(&router, sweeper, start);
+    sections.into_iter().for_each(|section| tour.add(section));
     if is_fresh {
         tour.begin(floor.is_outwards, budget).await;
     }

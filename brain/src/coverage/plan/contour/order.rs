@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::ring_sections::{RingSection, Sweeper};
 use super::shape::corners;
 use crate::coverage::plan::Departure;
-use crate::coverage::plan::timing::path_s;
+use crate::coverage::plan::timing::{EndHeadings, path_s};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
@@ -44,6 +44,14 @@ pub(super) struct RingTour<'plan> {
     driven: usize,
 }
 
+/// Where a path along rings starts.
+#[derive(Clone, Copy)]
+pub(in crate::coverage::plan) struct RingStart<'plan> {
+    pub(in crate::coverage::plan) departure: &'plan Departure,
+    /// The free cell from which the robot sets out.
+    pub(in crate::coverage::plan) cell: usize,
+}
+
 /// Where a section is entered, and whether it is driven against the order of its cells.
 #[derive(Clone, Copy)]
 struct SectionEntry {
@@ -53,24 +61,18 @@ struct SectionEntry {
 }
 
 impl<'plan> RingTour<'plan> {
-    pub(super) fn new(
-        router: &'plan Router<'plan>,
-        (sweeper, sections): (Sweeper, Vec<RingSection>),
-        (departure, origin): (&'plan Departure, usize),
-    ) -> Self {
-        let mut tour = Self {
+    pub(super) fn new(router: &'plan Router<'plan>, sweeper: Sweeper, start: RingStart<'plan>) -> Self {
+        Self {
             router,
-            departure,
+            departure: start.departure,
             sweeper,
             sections: Vec::new(),
             entries: BTreeSet::new(),
-            at: origin,
-            heading_rad: departure.start.heading_rad,
-            corners: vec![router.space().point(origin)],
+            at: start.cell,
+            heading_rad: start.departure.start.heading_rad,
+            corners: vec![router.space().point(start.cell)],
             driven: 0,
-        };
-        sections.into_iter().for_each(|section| tour.add(section));
-        tour
+        }
     }
 
     /// Drives one of the outermost or one of the innermost sections.
@@ -104,7 +106,7 @@ impl<'plan> RingTour<'plan> {
     }
 
     /// A closed section can be entered in each block that it passes, an open one only at its ends.
-    fn add(&mut self, section: RingSection) {
+    pub(super) fn add(&mut self, section: RingSection) {
         let number = self.sections.len();
         let mut before = None;
         for (place, cell) in section.cells.iter().enumerate() {
@@ -198,7 +200,10 @@ impl<'plan> RingTour<'plan> {
         path_s(
             space,
             path,
-            (Some(self.heading_rad), against_rad),
+            EndHeadings {
+                start_rad: Some(self.heading_rad),
+                leave_rad: against_rad,
+            },
             &self.departure.settings,
         )
     }

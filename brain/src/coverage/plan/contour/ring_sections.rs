@@ -82,7 +82,7 @@ impl Sweeper {
             }
         }
         if section.is_closed {
-            self.close_up(&mut spans, (first, count));
+            self.close_up(&mut spans, first, count);
         }
         if section.is_closed && spans == [(first, first + count)] {
             return vec![section];
@@ -99,7 +99,7 @@ impl Sweeper {
     }
 
     /// Joins the last part with the first one where the gap between them is small: indices wrap round a closed section.
-    fn close_up(&self, spans: &mut Vec<(usize, usize)>, (first, count): (usize, usize)) {
+    fn close_up(&self, spans: &mut Vec<(usize, usize)>, first: usize, count: usize) {
         let Some((_, last)) = spans
             .last()
             .copied()

@@ -15,7 +15,7 @@ pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize>
     let mut kept = vec![cells[0]];
     let mut parts = vec![(0, last)];
     while let Some((from, to)) = parts.pop() {
-        let (off_m, place) = farthest(space, cells, (from, to));
+        let (off_m, place) = farthest(space, cells, from, to);
         let is_straight = off_m <= OFF_MAX_M && space.has_line_of_sight(cells[from], cells[to]);
         if is_straight || to <= from + 1 {
             kept.push(cells[to]);
@@ -28,12 +28,12 @@ pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize>
 
 /// The cell that lies farthest from the straight line between two others, and its distance. Among equals the one nearest to
 /// the middle wins, which halves the chain fastest.
-fn farthest(space: &ConfigurationSpace, cells: &[usize], (from, to): (usize, usize)) -> (f64, usize) {
+fn farthest(space: &ConfigurationSpace, cells: &[usize], from: usize, to: usize) -> (f64, usize) {
     let middle = from.midpoint(to);
-    let ends = (space.point(cells[from]), space.point(cells[to]));
+    let (start, end) = (space.point(cells[from]), space.point(cells[to]));
     let mut farthest = (0.0, middle);
     for (place, cell) in cells.iter().enumerate().take(to).skip(from + 1) {
-        let off_m = off_m(space.point(*cell), ends);
+        let off_m = off_m(space.point(*cell), start, end);
         let is_nearer = place.abs_diff(middle) < farthest.1.abs_diff(middle);
         if off_m > farthest.0 || off_m >= farthest.0 && is_nearer {
             farthest = (off_m, place);
@@ -43,7 +43,7 @@ fn farthest(space: &ConfigurationSpace, cells: &[usize], (from, to): (usize, usi
 }
 
 /// Distance of a point from the straight line between two others.
-fn off_m(point: Point2, (from, to): (Point2, Point2)) -> f64 {
+fn off_m(point: Point2, from: Point2, to: Point2) -> f64 {
     let (along_x, along_y) = (to.x_m - from.x_m, to.y_m - from.y_m);
     let square = along_x * along_x + along_y * along_y;
     if square <= 0.0 {

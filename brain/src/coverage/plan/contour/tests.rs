@@ -2,7 +2,9 @@
 
 use super::depth::depths;
 use super::rings::{Ring, rings};
-use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, SweepPattern, plan_area, reach_cells};
+use crate::coverage::plan::{
+    Area, CoveragePlan, Departure, PlanSettings, SweepPattern, plan_area, reach_cells,
+};
 use crate::mapping::{CELL_M, Cell, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{StepBudget, at_once};
@@ -92,7 +94,10 @@ fn planned(pattern: SweepPattern, start: Point2) -> CoveragePlan {
         },
         settings: SETTINGS,
     };
-    let whole = (|_: Cell| Some(pattern), |_: Cell| false);
+    let whole = Area {
+        pattern: |_: Cell| Some(pattern),
+        is_swept: |_: Cell| false,
+    };
     at_once(plan_area(
         &room(false),
         whole,
@@ -130,7 +135,10 @@ fn a_plan_made_in_steps_is_the_same() {
         settings: SETTINGS,
     };
     let in_steps = |budget: &mut StepBudget| {
-        let whole = (|_: Cell| Some(SweepPattern::Inwards), |_: Cell| false);
+        let whole = Area {
+            pattern: |_: Cell| Some(SweepPattern::Inwards),
+            is_swept: |_: Cell| false,
+        };
         at_once(plan_area(&room(true), whole, departure, budget))
     };
     assert_eq!(
