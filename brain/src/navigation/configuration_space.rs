@@ -217,7 +217,7 @@ impl ConfigurationSpace {
         };
         while let Some(index) = self.go_on(fill) {
             component.size += 1;
-            if component.size % VISITS == 0 {
+            if component.size.is_multiple_of(VISITS) {
                 budget.spend(MEASURE_WORK * VISITS).await;
             }
             let distance_m = self.point(index).distance_m(point);
