@@ -73,7 +73,7 @@ mod tests {
             within_m: 0.5,
             time_us,
         };
-        assert_eq!(goals(&memory, &[failed(1_000_000)]).len(), 1, "heard after it");
+        assert_eq!(goals(&memory, &[failed(1_000_000)]).len(), 1, "received after it");
         assert_eq!(goals(&memory, &[failed(9_000_000)]).len(), 0);
         let lifted = Observation {
             wheel_drop: true,

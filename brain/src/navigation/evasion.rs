@@ -15,7 +15,7 @@ const TURN_CONTACTS_MAX: u32 = 3;
 
 /// What the robot evades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Hazard {
+enum EvasionCause {
     Contact,
     Cliff,
 }
@@ -24,7 +24,7 @@ enum Hazard {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Evasion {
     phase: EvasionPhase,
-    hazard: Hazard,
+    cause: EvasionCause,
     turn_rad: f64,
     /// Distance that may still be added to the back-off.
     extra_m: f64,
@@ -53,7 +53,7 @@ impl Evasion {
     pub(crate) fn from_contact(back_m: f64, turn_rad: f64) -> Self {
         Self {
             phase: EvasionPhase::Back(BackOff::from_contact(back_m)),
-            hazard: Hazard::Contact,
+            cause: EvasionCause::Contact,
             turn_rad,
             extra_m: CONTACT_MOST_M,
             contacts_left: TURN_CONTACTS_MAX,
@@ -64,7 +64,7 @@ impl Evasion {
     pub(crate) fn from_cliff(back_m: f64, turn_rad: f64) -> Self {
         Self {
             phase: EvasionPhase::Back(BackOff::from_cliff(back_m)),
-            hazard: Hazard::Cliff,
+            cause: EvasionCause::Cliff,
             extra_m: (CLIFF_MOST_M - back_m).max(0.0),
             ..Self::from_contact(back_m, turn_rad)
         }
@@ -105,10 +105,10 @@ impl Evasion {
         if let ManoeuvreStep::Going(motion) = step {
             return EvasionStep::Going(motion);
         }
-        if situation.at_cliff && self.hazard == Hazard::Contact {
+        if situation.at_cliff && self.cause == EvasionCause::Contact {
             *self = Self::from_cliff(EXTRA_M, self.turn_rad);
         }
-        let held = if self.hazard == Hazard::Cliff {
+        let held = if self.cause == EvasionCause::Cliff {
             situation.at_cliff
         } else {
             situation.touching
@@ -153,9 +153,9 @@ impl Evasion {
     }
 
     fn held_reason(&self) -> Reason {
-        match self.hazard {
-            Hazard::Contact => Reason::ContactHeld,
-            Hazard::Cliff => Reason::CliffHeld,
+        match self.cause {
+            EvasionCause::Contact => Reason::ContactHeld,
+            EvasionCause::Cliff => Reason::CliffHeld,
         }
     }
 }

@@ -255,8 +255,8 @@ mod tests {
         // The centre of cell 7 is 0.1875 m from the wall, that of cell 6 only 0.1625 m.
         assert_eq!(free.get(Cell { x: 7, y: 40 }), Some(&true));
         assert_eq!(free.get(Cell { x: 6, y: 40 }), Some(&false));
-        let met = Point2 { x_m: 1.01, y_m: 1.01 };
-        let free = reachable(&knowledge, 0.175, &[met]);
+        let contact = Point2 { x_m: 1.01, y_m: 1.01 };
+        let free = reachable(&knowledge, 0.175, &[contact]);
         assert_eq!(free.get(Cell { x: 40, y: 40 }), Some(&false));
         assert_eq!(free.get(Cell { x: 40, y: 32 }), Some(&true));
     }
@@ -268,13 +268,13 @@ mod tests {
             (0..80).for_each(|y| *knowledge.get_mut(Cell { x, y }).unwrap() = CellKnowledge::Free);
         }
         let frame = LaneFrame::along(0.5);
-        let met = Point2 { x_m: 1.01, y_m: 1.01 };
+        let contact = Point2 { x_m: 1.01, y_m: 1.01 };
         let free = at_once(super::reachable(
             &knowledge,
             &frame,
             Inflation {
                 radius_m: 0.175,
-                blocked: &[met],
+                blocked: &[contact],
             },
             &mut StepBudget::unlimited(),
         ));
@@ -284,7 +284,7 @@ mod tests {
             let wall_m = at.x_m.min(at.y_m).min(3.0 - at.x_m).min(2.0 - at.y_m);
             // Between the centres of two cells an oblique wall is thinner by a fraction of a millimetre.
             assert!(wall_m > 0.174, "{at:?}");
-            assert!(at.distance_m(met) > 0.175 - CELL_M, "{at:?}");
+            assert!(at.distance_m(contact) > 0.175 - CELL_M, "{at:?}");
             count += 1;
         }
         let expected_m2 = 2.65 * 1.65 - core::f64::consts::PI * 0.175 * 0.175;

@@ -8,7 +8,7 @@ use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::model::geometry::Point2;
 use crate::model::reason::Reason;
 
-/// An obstruction is believed for this long.
+/// An obstruction is remembered for this long.
 const KEPT_US: u64 = 240_000_000;
 /// Contacts kept; the oldest go first.
 const KEPT_MAX: usize = 64;

@@ -58,6 +58,6 @@ mod tests {
         assert!(!step(true, 7_000_000));
         assert!(step(false, 7_500_000), "the second and the third");
         assert!(!step(false, 3_000_000 + WINDOW_US));
-        assert_eq!(context.journal.len(), 2, "each wait is told once");
+        assert_eq!(context.journal.len(), 2, "each wait is recorded once");
     }
 }

@@ -3,7 +3,7 @@
 use crate::model::geometry::Point2;
 
 /// The robot has left a box whose diagonal exceeds this. It is longer than a closet and shorter than any room in which
-/// somebody would let a robot clean.
+/// people would let a robot clean.
 const LEFT_M: f64 = 2.3;
 /// A held robot has moved off at this distance.
 const MOVED_OFF_M: f64 = 0.3;

@@ -207,7 +207,7 @@ mod tests {
                 .flatten()
                 .map(|(sequence, _)| sequence)
                 .collect();
-            assert!(given <= most, "{given} rungs were given");
+            assert!(given <= most, "{given} behaviors were given");
             if now.is_empty() {
                 assert_eq!(given, most, "the longest sequence uses all of the measure");
                 break;

@@ -64,8 +64,8 @@ impl Pocket {
     }
 
     /// Range of the next turn, radians. After a head-on contact the turn must be larger than after a touch on one side.
-    pub(super) fn turn_range_rad(&self, met: Reason) -> (f64, f64) {
-        match (self.kind(), met) {
+    pub(super) fn turn_range_rad(&self, reason: Reason) -> (f64, f64) {
+        match (self.kind(), reason) {
             (PocketKind::Open, Reason::BumpFront) => (1.3, 3.1),
             (PocketKind::Open, _) => (0.7, 2.6),
             (PocketKind::Edge, Reason::BumpFront) => (0.8, 1.8),

@@ -1,6 +1,6 @@
 //! The order and direction of lanes: a travelling-salesman tour.
 //!
-//! Terms. *End*: one end of a lane; end `2 * lane` is its `from`, `2 * lane + 1` its `to`. *Visit*: a lane with the end at
+//! Terms. *End*: one end of a lane; end `2 * lane` is its `from`, `2 * lane + 1` its `to`. A *visit* is a lane with the end at
 //! which it is entered. Costs are seconds, turning included. They are symmetric, so reversing a part of a tour does not
 //! change the cost inside it.
 

@@ -58,7 +58,7 @@ mod tests {
         assert_eq!(
             contact_offset.offset_m(ahead(-0.03)),
             -OFFSET_M,
-            "backing off is no way"
+            "backing off does not count"
         );
         assert_eq!(contact_offset.offset_m(ahead(0.9 * KEPT_FOR_M)), -OFFSET_M);
         assert_eq!(contact_offset.offset_m(ahead(0.2 * KEPT_FOR_M)), 0.0);

@@ -14,10 +14,10 @@
 mod assignment;
 mod contact_offset;
 mod frontier;
-mod judging;
 mod new_obstacles;
 mod outline;
 mod passed;
+mod plan_evaluation;
 mod plan_progress;
 mod recent_track;
 mod relocalization;
@@ -43,9 +43,9 @@ use crate::navigation::{
 use assignment::{Assignment, Next};
 use contact_offset::ContactOffset;
 use frontier::margin_cells;
-use judging::MadePlan;
 use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
 use passed::{CellWindow, Passed};
+use plan_evaluation::MadePlan;
 use plan_progress::{PlanInputs, PlanProgress, settings};
 use relocalization::{RelocalizationLap, RelocalizationStep};
 use share::{PassedFloor, Shares};
@@ -322,7 +322,7 @@ impl Systematic {
         caution.offset_m += self.contact_offset.offset_m(situation.advance);
         let step = follower.step(situation, caution);
         if let (Some(passed), Some(beside)) = (&mut self.passed, follower.beside(situation)) {
-            passed.give_up(beside);
+            passed.skip_beside(beside);
         }
         match step {
             FollowStep::Going(motion) => return self.go(motion, situation, context),
@@ -396,7 +396,7 @@ impl Systematic {
                     plan: finished.plan,
                     is_blocked: request.is_blocked,
                 };
-                return self.judge(made, situation, context);
+                return self.evaluate(made, situation, context);
             }
             Some(PlanProgress::Finished { .. }) | None => self.plan_progress = Some(PlanProgress::Due(here)),
             unfinished => self.plan_progress = unfinished,

@@ -88,8 +88,8 @@ impl Passed {
 
     /// Counts floor as swept that the robot would have swept from a point beside its actual path. A strip that it left out
     /// because it kept away from an obstacle is not worth another drive.
-    pub(super) fn give_up(&mut self, beside: Point2) {
-        self.track.give_up(beside);
+    pub(super) fn skip_beside(&mut self, beside: Point2) {
+        self.track.skip_beside(beside);
     }
 }
 

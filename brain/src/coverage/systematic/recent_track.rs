@@ -111,7 +111,7 @@ impl RecentTrack {
     }
 
     /// Gives up the floor that would be swept from a point beside the last one.
-    pub(super) fn give_up(&mut self, beside: Point2) {
+    pub(super) fn skip_beside(&mut self, beside: Point2) {
         if let Some(last) = self.points.back_mut() {
             last.beside = Some(beside);
         }
@@ -208,7 +208,7 @@ mod tests {
     fn floor_given_up_beside_the_track_moves_with_it() {
         let mut track = RecentTrack::default();
         track.follow(&estimated(0.0, 0.0, 0.05), ahead(0.0));
-        track.give_up(Point2 { x_m: 0.0, y_m: 0.02 });
+        track.skip_beside(Point2 { x_m: 0.0, y_m: 0.02 });
         track.follow(&estimated(0.0, 0.1, 0.01), ahead(0.0));
         let given_up = track.points().next().unwrap().swept_from().nth(1).unwrap();
         assert!((given_up.y_m - (0.12 - TOLERANCE_M)).abs() < 1e-9, "{given_up:?}");

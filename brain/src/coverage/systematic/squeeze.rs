@@ -67,7 +67,7 @@ impl Squeeze {
     }
 
     /// No more checks until [`Self::reset_attempts`].
-    pub(super) fn give_up(&mut self) {
+    pub(super) fn end_checks(&mut self) {
         self.tries = TRIES_MAX;
     }
 
@@ -126,12 +126,12 @@ mod tests {
                     .is_some_and(|radius_m| radius_m < body.radius_m)
             );
             assert_eq!(squeeze.end(), Some(CoveragePlan::default()));
-            assert_eq!(squeeze.end(), None, "a look is over once");
+            assert_eq!(squeeze.end(), None, "a check ends once");
         }
         assert!(!squeeze.begin(&CoveragePlan::default()));
         squeeze.reset_attempts();
         assert!(squeeze.begin(&CoveragePlan::default()));
-        squeeze.give_up();
+        squeeze.end_checks();
         assert!(!squeeze.begin(&CoveragePlan::default()));
         squeeze.record(2.0);
         squeeze.allow_one(2.5);

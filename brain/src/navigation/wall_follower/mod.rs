@@ -137,7 +137,7 @@ impl WallFollower {
     /// Discards unfinished movements.
     pub(crate) fn interrupted(&mut self) {
         self.evasion = None;
-        self.line.give_up();
+        self.line.lose();
         self.phase = WallFollowPhase::default();
     }
 
@@ -193,7 +193,7 @@ impl WallFollower {
             self.edges = (self.edges + 1).min(EDGES_MAX);
             self.since_edge_m = 0.0;
             self.evasion = Some(Evasion::from_cliff(EDGE_BACK_M, turn_rad));
-            self.line.give_up();
+            self.line.lose();
             self.phase = WallFollowPhase::Pass { left_m: EDGE_PASS_M };
             return WallStep::Going(Motion::Halt);
         }
@@ -250,7 +250,7 @@ impl WallFollower {
             }
             _ if is_blocked => {
                 context.decide("turn", Reason::WallAhead, 0.0);
-                self.line.give_up();
+                self.line.lose();
                 WallFollowPhase::Turn { turned_rad: 0.0 }
             }
             WallFollowPhase::Seek { .. } | WallFollowPhase::Around { .. } if ranges.side_m.is_some() => {
@@ -265,7 +265,7 @@ impl WallFollower {
             WallFollowPhase::Pass { .. } => around(EDGE_ARC_M),
             WallFollowPhase::Along if !self.line.is_seen_within(ENDED_M) => {
                 let gap_m = self.line.gap_m.clamp(GAP_M, 2.0 * GAP_M);
-                self.line.give_up();
+                self.line.lose();
                 context.decide("arc", Reason::WallEnded, gap_m);
                 around(gap_m)
             }

@@ -33,7 +33,7 @@ impl WallLine {
     }
 
     /// The wall is no longer beside the robot.
-    pub(super) fn give_up(&mut self) {
+    pub(super) fn lose(&mut self) {
         self.unseen_m = None;
     }
 

@@ -34,7 +34,7 @@ pub(super) struct MadePlan {
 
 impl Systematic {
     /// Follows a plan if it is worth it; otherwise gives what to do instead.
-    pub(super) fn judge(
+    pub(super) fn evaluate(
         &mut self,
         made: MadePlan,
         situation: &Situation<'_>,
@@ -129,7 +129,7 @@ impl Systematic {
             self.follower = Some(PathFollower::new(plan.segments));
             return true;
         }
-        self.squeeze.give_up();
+        self.squeeze.end_checks();
         if matches!(self.outline, Some(Outline::Known)) && plan.open_m2 < REST_SHARE * self.floor_m2 {
             // The part that is cut off now was swept before.
             self.is_cut_off = false;
