@@ -429,6 +429,7 @@ mod tests {
             .fold(String::new(), |all, line| all + line + "\n");
         let config = parse(&written_out).expect("valid");
         let mut defaults = parse("").expect("valid");
+        defaults.baud = Some(230_400);
         defaults.seed = Some(1);
         defaults.description = Some("/usr/share/librervac/robots/samsung-sr8730/robot.toml".into());
         assert_eq!(defaults.strategy, None, "what suits the robot");

@@ -28,7 +28,7 @@ fn a_first_run_that_swept_nearly_all_says_so() {
         let report = after_first_run(seed).report();
         let told = report
             .figures
-            .and_then(|figures| figures.share_told)
+            .and_then(|figures| figures.reported_share)
             .expect("a robot that plans tells its share");
         assert!(report.covered > 0.9, "{} with seed {seed}", report.covered);
         assert!(

@@ -1,32 +1,32 @@
-//! Edges in order and once.
+//! Delivers events in order and once.
 
 use rvac_units::Tick;
 
-use crate::session::EDGES_WAITING;
+use crate::session::EVENTS_WAITING;
 
-/// A gap that the robot's repeats have not filled after this long will stay one.
+/// A gap that repeats have not filled after this long is permanent.
 const GAP_MS: u32 = 2_000;
 
-/// What an edge is to the host.
+/// How the host treats an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Arrival {
     /// Deliver it.
     Next,
     /// It was delivered before, or it came too early and will be repeated.
     Hold,
-    /// This many are lost; the edge itself will be repeated.
+    /// This many are lost; the event itself will be repeated.
     Lost(u16),
 }
 
-/// Which edge is expected.
+/// Which event is expected.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct EdgeOrder {
+pub(super) struct EventOrder {
     expected: u16,
     gap_since: Option<Tick>,
     unconfirmed: bool,
 }
 
-impl EdgeOrder {
+impl EventOrder {
     pub(super) fn take(&mut self, number: u16, now: Tick) -> Arrival {
         let ahead = number.wrapping_sub(self.expected);
         if ahead == 0 {
@@ -40,8 +40,8 @@ impl EdgeOrder {
             return Arrival::Hold;
         }
         let since = *self.gap_since.get_or_insert(now);
-        // The robot's queue never spans more numbers, so what lies further back has left it.
-        let beyond_queue = (ahead + 1).saturating_sub(EDGES_WAITING as u16);
+        // The robot's queue never spans more numbers, so older events are no longer in it.
+        let beyond_queue = (ahead + 1).saturating_sub(EVENTS_WAITING as u16);
         let lost = if now.since(since) >= GAP_MS {
             ahead
         } else {
@@ -66,11 +66,11 @@ impl EdgeOrder {
 mod tests {
     use rvac_units::Tick;
 
-    use super::{Arrival, EdgeOrder};
+    use super::{Arrival, EventOrder};
 
     #[test]
     fn once_and_in_order() {
-        let mut order = EdgeOrder::default();
+        let mut order = EventOrder::default();
         assert_eq!(order.take(0, Tick(0)), Arrival::Next);
         assert_eq!(order.take(2, Tick(1)), Arrival::Hold);
         assert_eq!(order.take_confirmation(), Some(0));
@@ -82,8 +82,8 @@ mod tests {
     }
 
     #[test]
-    fn a_gap_that_stays_is_told_and_passed() {
-        let mut order = EdgeOrder::default();
+    fn a_gap_that_stays_is_reported_and_skipped() {
+        let mut order = EventOrder::default();
         assert_eq!(order.take(4, Tick(0)), Arrival::Hold);
         assert_eq!(order.take(4, Tick(1_999)), Arrival::Hold);
         assert_eq!(order.take(4, Tick(2_000)), Arrival::Lost(4));
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_in_the_queue_any_more_is_lost_at_once() {
-        let mut order = EdgeOrder::default();
+        let mut order = EventOrder::default();
         assert_eq!(order.take(15, Tick(0)), Arrival::Hold);
         assert_eq!(order.take(19, Tick(1)), Arrival::Lost(4));
         assert_eq!(order.take(4, Tick(2)), Arrival::Next);

@@ -1,49 +1,49 @@
-//! Edges on their way to the host: numbered, repeated until confirmed.
+//! Events on their way to the host: numbered, repeated until confirmed.
 
 use heapless::Deque;
 use rvac_units::Tick;
 
 use super::Mode;
-use crate::message::{Edge, EdgeKind, Sequence};
-use crate::session::EDGES_WAITING;
+use crate::message::{Event, NumberedEvent, Sequence};
+use crate::session::EVENTS_WAITING;
 
 /// Pause between repeats.
 pub(super) const REPEAT_MS: u32 = 100;
-/// Edges that are repeated at a time, so that repeats leave room on the line.
+/// Events that are repeated at a time, so that repeats leave room on the line.
 const REPEATED: usize = 4;
 
 #[derive(Clone, Copy, Debug)]
 struct Waiting {
-    edge: Edge,
+    event: NumberedEvent,
     sent: Option<Tick>,
 }
 
 /// The queue.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Edges {
-    waiting: Deque<Waiting, EDGES_WAITING>,
+pub(super) struct EventQueue {
+    waiting: Deque<Waiting, EVENTS_WAITING>,
     next_number: u16,
 }
 
-impl Edges {
-    pub(super) fn queue(&mut self, kind: EdgeKind, tick: Tick) {
+impl EventQueue {
+    pub(super) fn queue(&mut self, kind: Event, tick: Tick) {
         if self.waiting.is_full() {
             self.waiting.pop_front();
         }
-        let edge = Edge {
+        let event = NumberedEvent {
             number: self.next_number,
             tick,
             kind,
         };
         self.next_number = self.next_number.wrapping_add(1);
         // There is room: the oldest has just left.
-        self.waiting.push_back(Waiting { edge, sent: None }).ok();
+        self.waiting.push_back(Waiting { event, sent: None }).ok();
     }
 
-    /// The edge that is to be sent now. In hand mode each is sent once and forgotten: nobody confirms.
-    pub(super) fn take_due(&mut self, mode: Mode, now: Tick) -> Option<Edge> {
+    /// The event to send now. In hand mode each event is sent once and dropped, because nobody confirms it.
+    pub(super) fn take_due(&mut self, mode: Mode, now: Tick) -> Option<NumberedEvent> {
         if mode == Mode::Hand {
-            return self.waiting.pop_front().map(|waiting| waiting.edge);
+            return self.waiting.pop_front().map(|waiting| waiting.event);
         }
         let due = self
             .waiting
@@ -55,21 +55,21 @@ impl Edges {
             });
         due.map(|(_, waiting)| {
             waiting.sent = Some(now);
-            waiting.edge
+            waiting.event
         })
     }
 
-    /// Drops all edges up to and including `number`.
+    /// Drops all events up to and including `number`.
     pub(super) fn confirm(&mut self, number: u16) {
         while let Some(waiting) = self.waiting.front() {
-            if Sequence(waiting.edge.number).is_newer_than(Sequence(number)) {
+            if Sequence(waiting.event.number).is_newer_than(Sequence(number)) {
                 break;
             }
             self.waiting.pop_front();
         }
     }
 
-    /// A new session: numbers begin with 0, what was before is in the first `state`.
+    /// A new session: numbers start at 0, and the first `state` shows the present levels.
     pub(super) fn restart(&mut self) {
         *self = Self::default();
     }

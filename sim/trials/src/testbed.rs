@@ -1,11 +1,13 @@
-//! A robot with its real firmware, and a host that speaks the protocol and nothing else.
+//! A robot with its real firmware, and a host that only implements the protocol.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use monitor::Bridges;
-use pic32::board::{Blueprint, BlueprintError, CYCLES_PER_MS, EmulatedRobot, EmulatedSettings, Record};
+use pic32::board::{
+    Blueprint, BlueprintError, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings,
+};
 use pic32::image::{Image, ImageError};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -40,9 +42,9 @@ const START: Pose = Pose {
     heading_rad: 0.0,
 };
 
-/// Why there is no stage.
+/// Why a testbed cannot be built.
 #[derive(Debug, thiserror::Error)]
-pub enum StageError {
+pub enum TestbedError {
     /// The firmware cannot be read.
     #[error("cannot read the firmware {}: {error}; `cargo xtask firmware sr8730` makes it", .path.display())]
     Unreadable {
@@ -52,7 +54,7 @@ pub enum StageError {
         #[source]
         error: std::io::Error,
     },
-    /// It is no firmware for this chip.
+    /// The file is no firmware for this chip.
     #[error("{}: {error}", .path.display())]
     Image {
         /// The file.
@@ -73,33 +75,33 @@ pub enum StageError {
     /// The robot does not answer.
     #[error("the robot does not answer within {CONNECT_MS} ms of power-on")]
     Mute,
-    /// The robot does not do what a trial needs first.
+    /// The robot does not reach the trial's operating state.
     #[error("the robot does not get into the scene: {0}")]
-    Scene(&'static str),
+    OperatingState(&'static str),
 }
 
-/// What all stages are made of, read once.
+/// Everything that all testbeds share, read once.
 #[derive(Debug)]
-pub struct Workshop {
+pub struct Fixture {
     image: Image,
     blueprint: Blueprint,
     home: Arc<Home>,
     model: RobotModel,
 }
 
-impl Workshop {
+impl Fixture {
     /// Reads the firmware.
     ///
     /// # Errors
-    /// See [`StageError`].
-    pub fn open(firmware: &Path) -> Result<Self, StageError> {
+    /// See [`TestbedError`].
+    pub fn open(firmware: &Path) -> Result<Self, TestbedError> {
         let path = || firmware.to_owned();
         let bytes =
-            std::fs::read(firmware).map_err(|error| StageError::Unreadable { path: path(), error })?;
-        let image = Image::from_elf(&bytes).map_err(|error| StageError::Image { path: path(), error })?;
+            std::fs::read(firmware).map_err(|error| TestbedError::Unreadable { path: path(), error })?;
+        let image = Image::from_elf(&bytes).map_err(|error| TestbedError::Image { path: path(), error })?;
         let model = RobotModel::by_name("sr8730")?;
         Ok(Self {
-            blueprint: Blueprint::sr8730(image.clone(), &Record::Complete)?,
+            blueprint: Blueprint::sr8730(image.clone(), &CalibrationChoice::Complete)?,
             home: Arc::new(Home::from_floorplan("room", ROOM, &model)?),
             image,
             model,
@@ -112,10 +114,10 @@ impl Workshop {
         &self.image
     }
 
-    /// A robot that was just switched on. Its core begins `late_cycles` (below a millisecond) after its surroundings' first
-    /// millisecond, so that the two run at different phases.
+    /// A robot that was just switched on. Its core begins `late_cycles` (below a millisecond) after its surroundings'
+    /// first millisecond, so that the two run at different phases.
     #[must_use]
-    pub fn stage(&self, seed: u64, bridges: Bridges, late_cycles: u64) -> Stage {
+    pub fn testbed(&self, seed: u64, bridges: Bridges, late_cycles: u64) -> Testbed {
         let world = World::new(
             Arc::clone(&self.home),
             &self.model,
@@ -133,7 +135,7 @@ impl Workshop {
             .machine_mut()
             .cpu_mut()
             .stall_until(late_cycles % CYCLES_PER_MS);
-        Stage {
+        Testbed {
             robot,
             session: HostSession::new(BinaryKinds::NONE, Tick(0)),
             from_robot: Vec::new(),
@@ -148,9 +150,9 @@ impl Workshop {
     }
 }
 
-/// A robot and its host. Clones go on from the same moment.
+/// A robot and its host. Clones continue from the same moment.
 #[derive(Clone, Debug)]
-pub struct Stage {
+pub struct Testbed {
     robot: EmulatedRobot,
     session: HostSession,
     from_robot: Vec<u8>,
@@ -163,19 +165,19 @@ pub struct Stage {
     speaks: bool,
 }
 
-impl Stage {
+impl Testbed {
     /// Waits for the handshake.
     ///
     /// # Errors
-    /// [`StageError::Mute`].
-    pub fn connect(&mut self) -> Result<(), StageError> {
+    /// [`TestbedError::Mute`].
+    pub fn connect(&mut self) -> Result<(), TestbedError> {
         for _ in 0..CONNECT_MS {
             self.tick();
             if self.described && self.state.is_some() {
                 return Ok(());
             }
         }
-        Err(StageError::Mute)
+        Err(TestbedError::Mute)
     }
 
     /// One millisecond of everything.
@@ -216,7 +218,7 @@ impl Stage {
         }
     }
 
-    /// Renews what the host wants to go on.
+    /// Renews the host's motion.
     fn renew(&mut self, now: Tick) {
         if !self.robot.now_ms().is_multiple_of(RENEW_MS) {
             return;
@@ -279,12 +281,12 @@ impl Stage {
         });
     }
 
-    /// The host wants this motion from now on; `None` = it renews nothing any more.
+    /// Sets the host's motion from now on; `None` = it stops renewing.
     pub fn drive(&mut self, drive: Option<(Speed, AngularSpeed)>) {
         self.drive = drive;
     }
 
-    /// The host wants brushes and suction at this duty from now on.
+    /// Sets the host's duty of brushes and suction from now on.
     pub fn clean(&mut self, duty: Throttle) {
         self.cleaners = duty;
     }

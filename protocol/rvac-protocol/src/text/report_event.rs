@@ -1,28 +1,28 @@
-//! Edges: things that happened.
+//! Events as text.
 
 use rvac_units::Tick;
 
 use super::fields::{Fields, UnknownKeys};
 use super::write::ObjectWriter;
 use crate::buffer::{EncodeError, PacketBuffer};
-use crate::message::{Bumpers, Cliffs, Edge, EdgeKind, Inhibits, Motor, MoveEnd, Refusal, WheelDrops};
+use crate::message::{Bumpers, Cliffs, Event, Inhibits, Motor, MoveEnd, NumberedEvent, Refusal, WheelDrops};
 use crate::span;
 
 /// Direction of a bump for tools of 2016, in degrees: left positive.
 const BUMP_ANGLE_DEG: i64 = 45;
-/// What follows the names of inhibits: number and tick.
+/// Length of the members after the names of inhibits: number and tick.
 const TAIL_BYTES: usize = 24;
 
-const fn word(kind: &EdgeKind) -> &'static str {
+const fn word(kind: &Event) -> &'static str {
     match kind {
-        EdgeKind::Bump(_) => "bump",
-        EdgeKind::Cliff(_) => "cliff",
-        EdgeKind::Lift(_) => "lift",
-        EdgeKind::Button { .. } => "button",
-        EdgeKind::Docked(_) => "docked",
-        EdgeKind::MoveFinished(_) => "move-finished",
-        EdgeKind::Inhibits(_) => "inhibits",
-        EdgeKind::Stall(_) => "stall",
+        Event::Bump(_) => "bump",
+        Event::Cliff(_) => "cliff",
+        Event::Lift(_) => "lift",
+        Event::Button { .. } => "button",
+        Event::Docked(_) => "docked",
+        Event::MoveFinished(_) => "move-finished",
+        Event::Inhibits(_) => "inhibits",
+        Event::Stall(_) => "stall",
     }
 }
 
@@ -35,82 +35,83 @@ const fn end_name(end: MoveEnd) -> &'static str {
     }
 }
 
-pub(super) fn write(edge: &Edge, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+pub(super) fn write(event: &NumberedEvent, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
     let mut object = ObjectWriter::new(buffer);
-    object.name("e", word(&edge.kind));
-    write_members(&edge.kind, &mut object);
+    object.name("e", word(&event.kind));
+    write_members(&event.kind, &mut object);
     object
-        .number("n", edge.number, span::WORD)
-        .number("t", edge.tick.0, span::TOTAL)
+        .number("n", event.number, span::WORD)
+        .number("t", event.tick.0, span::TOTAL)
         .finish()
 }
 
-fn write_members(kind: &EdgeKind, object: &mut ObjectWriter<'_>) {
+fn write_members(kind: &Event, object: &mut ObjectWriter<'_>) {
     match kind {
-        EdgeKind::Bump(bumpers) => {
+        Event::Bump(bumpers) => {
             let angle = BUMP_ANGLE_DEG * (i64::from(bumpers.left) - i64::from(bumpers.right));
             object
                 .number("angle", angle, span::COUNT)
                 .flag("left", bumpers.left)
                 .flag("right", bumpers.right)
         }
-        EdgeKind::Cliff(cliffs) => object
+        Event::Cliff(cliffs) => object
             .flag("left", cliffs.left)
             .flag("middle", cliffs.middle)
             .flag("right", cliffs.right),
-        EdgeKind::Lift(drops) => object.flag("left", drops.left).flag("right", drops.right),
-        EdgeKind::Button { button, pressed } => object
+        Event::Lift(drops) => object.flag("left", drops.left).flag("right", drops.right),
+        Event::Button { button, pressed } => object
             .number("button", *button, span::BYTE)
             .flag("pressed", *pressed),
-        EdgeKind::Docked(docked) => object.flag("on", *docked),
-        EdgeKind::MoveFinished(end) => object.name("end", end_name(*end)),
-        EdgeKind::Inhibits(inhibits) => object
+        Event::Docked(docked) => object.flag("on", *docked),
+        Event::MoveFinished(end) => object.name("end", end_name(*end)),
+        Event::Inhibits(inhibits) => object
             .number("bits", inhibits.bits(), span::TOTAL)
             .names_that_fit(
                 "names",
                 inhibits.iter().map(crate::message::Inhibit::name),
                 TAIL_BYTES,
             ),
-        EdgeKind::Stall(motor) => object.name("motor", motor.name()),
+        Event::Stall(motor) => object.name("motor", motor.name()),
     };
 }
 
-/// Reads an edge whose `e` is `word`.
-pub(super) fn read(text: &[u8], word: &[u8]) -> Result<Edge, Refusal> {
+/// Reads an event whose `e` is `word`.
+pub(super) fn read(text: &[u8], word: &[u8]) -> Result<NumberedEvent, Refusal> {
     let fields = Fields::read(text, ["e", "n", "t"], UnknownKeys::Ignore)?;
-    Ok(Edge {
+    Ok(NumberedEvent {
         number: fields.word(1, span::WORD)?,
         tick: Tick(fields.total(2)?),
         kind: read_kind(text, word)?,
     })
 }
 
-fn read_kind(text: &[u8], word: &[u8]) -> Result<EdgeKind, Refusal> {
+fn read_kind(text: &[u8], word: &[u8]) -> Result<Event, Refusal> {
     match word {
         b"bump" => {
-            read_flags(text, ["left", "right"]).map(|[left, right]| EdgeKind::Bump(Bumpers { left, right }))
+            read_flags(text, ["left", "right"]).map(|[left, right]| Event::Bump(Bumpers { left, right }))
         }
         b"cliff" => read_flags(text, ["left", "middle", "right"])
-            .map(|[left, middle, right]| EdgeKind::Cliff(Cliffs { left, middle, right })),
-        b"lift" => read_flags(text, ["left", "right"])
-            .map(|[left, right]| EdgeKind::Lift(WheelDrops { left, right })),
+            .map(|[left, middle, right]| Event::Cliff(Cliffs { left, middle, right })),
+        b"lift" => {
+            read_flags(text, ["left", "right"]).map(|[left, right]| Event::Lift(WheelDrops { left, right }))
+        }
         b"button" => {
             let fields = Fields::read(text, ["button", "pressed"], UnknownKeys::Ignore)?;
-            Ok(EdgeKind::Button {
+            Ok(Event::Button {
                 button: fields.byte(0)?,
                 pressed: fields.flag(1)?,
             })
         }
-        b"docked" => read_flags(text, ["on"]).map(|[docked]| EdgeKind::Docked(docked)),
-        b"move-finished" => read_end(text).map(EdgeKind::MoveFinished),
+        b"docked" => read_flags(text, ["on"]).map(|[docked]| Event::Docked(docked)),
+        b"move-finished" => read_end(text).map(Event::MoveFinished),
         b"inhibits" => {
             let fields = Fields::read(text, ["bits"], UnknownKeys::Ignore)?;
-            Ok(EdgeKind::Inhibits(Inhibits::from_bits(fields.total(0)?)))
+            Ok(Event::Inhibits(Inhibits::from_bits(fields.total(0)?)))
         }
         b"stall" => {
             let fields = Fields::read(text, ["motor"], UnknownKeys::Ignore)?;
             Motor::from_name(fields.text(0)?)
-                .map(EdgeKind::Stall)
+                .map(Event::Stall)
                 .ok_or(Refusal::Unknown)
         }
         _ => Err(Refusal::Unknown),

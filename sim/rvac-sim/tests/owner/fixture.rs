@@ -23,14 +23,14 @@ pub(crate) fn programs() -> Option<(PathBuf, PathBuf)> {
 }
 
 /// The simulated robot and the person beside it.
-pub(crate) struct Workshop {
+pub(crate) struct OwnerFixture {
     simulator: Child,
     hands: BufReader<UnixStream>,
     folder: PathBuf,
     program: PathBuf,
 }
 
-impl Workshop {
+impl OwnerFixture {
     /// Opens it; `None` where firmware and program were not named.
     pub(crate) fn open(name: &str, extra: &[&str]) -> Option<Self> {
         let (firmware, program) = programs()?;
@@ -80,9 +80,9 @@ impl Workshop {
         self.say(request);
         loop {
             let answer = self.hear();
-            let is_told_anyway =
+            let is_asked_anyway =
                 ["simulated-plan", "simulated-truth"].contains(&answer["e"].as_str().unwrap());
-            if !is_told_anyway {
+            if !is_asked_anyway {
                 assert_ne!(answer["e"], "failed", "{request}: {answer}");
                 return answer;
             }
@@ -134,7 +134,7 @@ impl Workshop {
     }
 }
 
-impl Drop for Workshop {
+impl Drop for OwnerFixture {
     fn drop(&mut self) {
         self.simulator.kill().ok();
         self.simulator.wait().ok();

@@ -1,6 +1,6 @@
-//! A shorted transistor of the charger: current flows whatever the firmware does, and only leaving the dock cuts it (S18).
-//! The host is told at once. If it does nothing the robot warns with three beeps, waits two seconds and backs off by
-//! itself, a hand's breadth, at most three times.
+//! Reaction to a shorted transistor of the charger (S18). The current cannot be switched off; only leaving the dock ends
+//! it. The robot reports the fault at once. If the host does nothing the robot warns with three beeps, waits 2 s and backs
+//! off by itself, up to 0.2 m, at most three times.
 
 use rvac_protocol::message::{
     Beep, Command, Drive, LogLevel, Motor, MotorCommand, MoveEnd, Refusal, Sequence,
@@ -9,7 +9,7 @@ use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Throttle, Tick};
 
 use crate::board::Parts;
 use crate::cord::Cord;
-use crate::timing::{Held, Periodic, Until};
+use crate::timing::{Deadline, HoldTimer, Periodic};
 
 const TRIES_MAX: u8 = 3;
 const WARNING_MS: u32 = 2_000;
@@ -18,73 +18,75 @@ const TRY_MS: u32 = 2_000;
 const SPEED: Speed = Speed(-100_000);
 /// Without encoders the speed is not known: a duty that moves any robot, not fast.
 const BLIND_DUTY: i32 = -450_000;
-/// The wish is renewed at this pace and lives a little longer.
+/// The motion is renewed at this period, and its lease is a little longer.
 const RENEW_MS: u32 = 100;
 const LEASE_MS: u16 = 150;
-/// The contacts must have been open for so long: some centimetres away from them.
+/// The contacts must have been open for this long: the robot is then some centimetres away.
 const OPEN_MS: u32 = 400;
 
-/// Where it stands.
+/// Stage of the escape.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Stage {
+enum EscapeStage {
     #[default]
     Resting,
     Warning,
     Backing,
 }
 
-/// The way off a dock that does not let go.
+/// Backing off a dock whose current cannot be switched off.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Leaving {
-    stage: Stage,
-    until: Until,
+pub(crate) struct DockEscape {
+    stage: EscapeStage,
+    deadline: Deadline,
     renew: Periodic,
-    open: Held,
+    open: HoldTimer,
     tries: u8,
 }
 
-impl Leaving {
+impl DockEscape {
     pub(crate) fn starting_at(now: Tick) -> Self {
         Self {
-            stage: Stage::Resting,
-            until: Until::NEVER,
+            stage: EscapeStage::Resting,
+            deadline: Deadline::NONE,
             renew: Periodic::starting_at(now),
-            open: Held::default(),
+            open: HoldTimer::default(),
             tries: 0,
         }
     }
 
-    /// Whether the robot backs off now.
+    /// Whether the robot is backing off.
     pub(crate) fn is_backing(&self) -> bool {
-        self.stage == Stage::Backing
+        self.stage == EscapeStage::Backing
     }
 }
 
 impl<P: Parts> Cord<P> {
     /// Backs off the dock if current flows that nothing else can stop.
-    pub(crate) fn leave_shorted_dock(&mut self, now: Tick) {
-        // A host that has armed the robot on the dock leads it off itself.
-        let led = self.reflexes.host.is_armed() && !self.leaving.is_backing();
+    pub(crate) fn escape_shorted_dock(&mut self, now: Tick) {
+        // A host that has armed the robot on the dock drives it off itself.
+        let led = self.reflexes.host.is_armed() && !self.dock_escape.is_backing();
         let held = self.is_charger_shorted() && self.reflexes.dock.is_docked() && !led;
-        let over = self.leaving.until.has_come(now);
-        match self.leaving.stage {
-            Stage::Resting if !held => self.leaving.tries = 0,
-            Stage::Resting if self.leaving.tries < TRIES_MAX && !self.leaving.until.is_running() => {
+        let over = self.dock_escape.deadline.has_come(now);
+        match self.dock_escape.stage {
+            EscapeStage::Resting if !held => self.dock_escape.tries = 0,
+            EscapeStage::Resting
+                if self.dock_escape.tries < TRIES_MAX && !self.dock_escape.deadline.is_running() =>
+            {
                 self.warn(now);
             }
-            Stage::Resting => {}
-            Stage::Warning if over && held => self.begin_to_leave(now),
-            Stage::Warning if over => self.leaving.stage = Stage::Resting,
-            Stage::Warning => {}
-            Stage::Backing => self.back_off(over, now),
+            EscapeStage::Resting => {}
+            EscapeStage::Warning if over && held => self.begin_backing(now),
+            EscapeStage::Warning if over => self.dock_escape.stage = EscapeStage::Resting,
+            EscapeStage::Warning => {}
+            EscapeStage::Backing => self.back_off(over, now),
         }
     }
 
-    /// Off the contacts, or when the try has failed, nothing goes on by itself.
+    /// Ends when the contacts are open or the time is over; the robot is then disarmed.
     fn back_off(&mut self, over: bool, now: Tick) {
         let open = !self.senses.docked;
-        let away = self.leaving.open.for_at_least(open, now, OPEN_MS);
-        if !over && !away && self.leaving.renew.is_due(now, RENEW_MS) {
+        let away = self.dock_escape.open.for_at_least(open, now, OPEN_MS);
+        if !over && !away && self.dock_escape.renew.is_due(now, RENEW_MS) {
             let answer = self.push_back(now);
             if let Err(refusal) = answer {
                 self.journal
@@ -92,8 +94,8 @@ impl<P: Parts> Cord<P> {
             }
         }
         if over || away {
-            self.leaving.stage = Stage::Resting;
-            self.leaving.until = Until::at(now.after(TRY_MS));
+            self.dock_escape.stage = EscapeStage::Resting;
+            self.dock_escape.deadline = Deadline::at(now.after(TRY_MS));
             self.reflexes.host.disarm();
             self.reflexes.dock.stay();
             self.stop_all(MoveEnd::Inhibited);
@@ -101,9 +103,9 @@ impl<P: Parts> Cord<P> {
     }
 
     fn warn(&mut self, now: Tick) {
-        self.leaving.stage = Stage::Warning;
-        self.leaving.until = Until::at(now.after(WARNING_MS));
-        self.leaving.tries = self.leaving.tries.saturating_add(1);
+        self.dock_escape.stage = EscapeStage::Warning;
+        self.dock_escape.deadline = Deadline::at(now.after(WARNING_MS));
+        self.dock_escape.tries = self.dock_escape.tries.saturating_add(1);
         self.journal.note(
             LogLevel::Error,
             "charger does not switch off:",
@@ -118,12 +120,12 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Uses the ways of a command, so that the gate and every reflex hold.
-    fn begin_to_leave(&mut self, now: Tick) {
-        self.leaving.stage = Stage::Backing;
-        self.leaving.until = Until::at(now.after(TRY_MS));
-        self.leaving.renew = Periodic::starting_at(now);
-        self.leaving.open.restart();
+    /// Goes through the same code as a command of the host, so that the permit and every reflex apply.
+    fn begin_backing(&mut self, now: Tick) {
+        self.dock_escape.stage = EscapeStage::Backing;
+        self.dock_escape.deadline = Deadline::at(now.after(TRY_MS));
+        self.dock_escape.renew = Periodic::starting_at(now);
+        self.dock_escape.open.restart();
         let undock = Command::Arm {
             sequence: Sequence(0),
             undock: true,

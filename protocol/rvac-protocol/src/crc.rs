@@ -1,7 +1,7 @@
-//! The seal: CRC-32C over direction, session number, packet and its length.
+//! The CRC of a packet: CRC-32C over direction, session number, packet and its length.
 //!
-//! Vocabulary. The *digest* is the running sum while bytes come by; the *seal* is its final value. Two things are summed
-//! that do not travel: a byte for the direction, so an echo of our own output never passes for the peer's, and the session
+//! The *digest* is the running sum while bytes come by; the *CRC* is its final value. Two things are summed that do not
+//! travel: a byte for the direction, so an echo of our own output never passes for the peer's, and the session
 //! number, so a packet of an older session does not pass either. The length at the end catches splices whose halves
 //! happen to agree in the register.
 
@@ -41,7 +41,7 @@ const fn tables() -> [[u32; 256]; STRIDE] {
     tables
 }
 
-/// Who speaks.
+/// Direction of a packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Direction {
     /// Commands.
@@ -100,29 +100,29 @@ impl Digest {
         for byte in rest {
             self.register = step(self.register, *byte);
         }
-        // A packet has at most 256 bytes; what is longer is refused before it is sealed.
+        // A packet has at most 256 bytes: a longer one is refused before its CRC is computed.
         self.length = self.length.wrapping_add(bytes.len() as u16);
     }
 
-    /// The seal of what was taken.
+    /// The CRC of what was taken.
     #[must_use]
     #[inline]
-    pub fn seal(self) -> u32 {
+    pub fn crc(self) -> u32 {
         let [low, high] = self.length.to_le_bytes();
         !step(step(self.register, low), high)
     }
 }
 
-/// The seal of a whole packet: its JSON text, or kind and unstuffed body of its binary form.
+/// The CRC of a whole packet: its JSON text, or kind and unstuffed body of its binary form.
 #[must_use]
-pub fn seal(direction: Direction, session: u16, packet: &[u8]) -> u32 {
+pub fn packet_crc(direction: Direction, session: u16, packet: &[u8]) -> u32 {
     let mut digest = Digest::start(direction, session);
     digest.extend(packet);
-    digest.seal()
+    digest.crc()
 }
 
-/// CRC-32C of bytes that are no packet (an image in flash, a record), piece by piece: starts with `u32::MAX`, goes on with
-/// what the last piece gave, and its complement is the check value.
+/// CRC-32C of bytes that are no packet (an image in flash, a record), piece by piece: starts with `u32::MAX` and
+/// continues with the result of the last piece. The complement of the result is the CRC.
 #[must_use]
 pub fn crc32c(register: u32, bytes: &[u8]) -> u32 {
     bytes
@@ -152,10 +152,10 @@ fn table(row: usize, byte: u8) -> u32 {
     TABLES.get(row).map_or(0, |row| row[usize::from(byte)])
 }
 
-/// Spells a seal as eight upper-case hexadecimal digits.
+/// Spells a CRC as eight upper-case hexadecimal digits.
 #[must_use]
-pub fn to_hex(seal: u32) -> [u8; 8] {
-    core::array::from_fn(|index| match (seal >> (28 - 4 * index)) as u8 & 0xF {
+pub fn to_hex(crc: u32) -> [u8; 8] {
+    core::array::from_fn(|index| match (crc >> (28 - 4 * index)) as u8 & 0xF {
         digit @ 0..=9 => b'0' + digit,
         digit => b'A' + digit - 10,
     })
@@ -165,21 +165,21 @@ pub fn to_hex(seal: u32) -> [u8; 8] {
 #[must_use]
 #[inline]
 pub fn from_hex(digits: [u8; 8]) -> Option<u32> {
-    let mut seal = 0;
+    let mut crc = 0;
     for digit in digits {
         let value = match digit {
             b'0'..=b'9' => digit - b'0',
             b'A'..=b'F' => digit - b'A' + 10,
             _ => return None,
         };
-        seal = seal << 4 | u32::from(value);
+        crc = crc << 4 | u32::from(value);
     }
-    Some(seal)
+    Some(crc)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Digest, Direction, STRIDE, from_hex, seal, step, step_stride, to_hex};
+    use super::{Digest, Direction, STRIDE, from_hex, packet_crc, step, step_stride, to_hex};
 
     #[test]
     fn check_value_of_the_catalogue() {
@@ -198,8 +198,8 @@ mod tests {
                 one_by_one.push(*byte);
             }
             assert_eq!(
-                one_by_one.seal(),
-                seal(Direction::HostToRobot, 0x1234, &bytes[..length])
+                one_by_one.crc(),
+                packet_crc(Direction::HostToRobot, 0x1234, &bytes[..length])
             );
         }
     }
@@ -220,14 +220,14 @@ mod tests {
     }
 
     #[test]
-    fn direction_session_and_length_change_the_seal() {
+    fn direction_session_and_length_change_the_crc() {
         let packet = br#"{"c":"info"}"#;
-        let here = seal(Direction::HostToRobot, 7, packet);
-        assert_ne!(here, seal(Direction::RobotToHost, 7, packet));
-        assert_ne!(here, seal(Direction::HostToRobot, 8, packet));
+        let here = packet_crc(Direction::HostToRobot, 7, packet);
+        assert_ne!(here, packet_crc(Direction::RobotToHost, 7, packet));
+        assert_ne!(here, packet_crc(Direction::HostToRobot, 8, packet));
         assert_ne!(
-            seal(Direction::HostToRobot, 0, b""),
-            seal(Direction::HostToRobot, 0, b"\0")
+            packet_crc(Direction::HostToRobot, 0, b""),
+            packet_crc(Direction::HostToRobot, 0, b"\0")
         );
     }
 
