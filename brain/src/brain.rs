@@ -26,7 +26,7 @@ use crate::model::random::Random;
 use crate::model::reason::Reason;
 use crate::model::room_settings::RoomPower;
 use crate::model::swept_share::SweptShare;
-use crate::navigation::Mind;
+use crate::navigation::TaskContext;
 use situation::Parts;
 
 /// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
@@ -41,7 +41,7 @@ pub struct Brain {
     beams: BeamMemory,
     carpet: CarpetDetector,
     behavior: Behavior,
-    mind: Mind,
+    mind: TaskContext,
     contacts_before: Contacts,
     cliffs_before: Cliffs,
 }
@@ -62,7 +62,7 @@ impl Brain {
             beams: BeamMemory::default(),
             carpet: CarpetDetector::default(),
             behavior: Behavior::new(config),
-            mind: Mind {
+            mind: TaskContext {
                 random: Random::new(seed),
                 journal: Vec::new(),
             },

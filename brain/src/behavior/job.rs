@@ -10,8 +10,8 @@ use crate::model::geometry::TurnSide;
 use crate::model::no_go::NoGo;
 use crate::model::order::CleaningOrder;
 use crate::model::random::Random;
-use crate::navigation::{BackOff, Part, Sequence, Task, Turn};
-use crate::recovery::{EdgeWatch, Ladder, Pen, ProgressWatch, SlipWatch};
+use crate::navigation::{BackOff, Manoeuvre, ManoeuvreSequence, Task, Turn};
+use crate::recovery::{CliffWatch, Pen, ProgressWatch, RecoverySequence, SlipWatch};
 
 /// Way back from the dock before turning away. No more, because contacts may close without a dock: the ground behind is
 /// unknown then.
@@ -25,12 +25,12 @@ pub(super) struct Job {
     pub(super) order: CleaningOrder,
     pub(super) task: Box<dyn Task>,
     pub(super) figures: JobFigures,
-    pub(super) ladder: Ladder,
+    pub(super) ladder: RecoverySequence,
     /// Whether it gets anywhere.
     pub(super) pen: Pen,
     pub(super) progress: ProgressWatch,
     pub(super) slip: SlipWatch,
-    pub(super) edges: EdgeWatch,
+    pub(super) edges: CliffWatch,
     /// Movements that come before the task: an escape, or leaving the dock.
     pub(super) detour: Option<Detour>,
     /// When to stand still next for the gyro's sake.
@@ -45,7 +45,7 @@ pub(super) struct Job {
 /// Movements that come before the task.
 #[derive(Debug)]
 pub(super) struct Detour {
-    pub(super) sequence: Sequence,
+    pub(super) sequence: ManoeuvreSequence,
     pub(super) purpose: Purpose,
 }
 
@@ -76,11 +76,11 @@ impl Job {
             order,
             task,
             figures,
-            ladder: Ladder::default(),
+            ladder: RecoverySequence::default(),
             pen: Pen::default(),
             progress: ProgressWatch::default(),
             slip: SlipWatch::default(),
-            edges: EdgeWatch::default(),
+            edges: CliffWatch::default(),
             detour: None,
             gyro_rest: GyroRest::default(),
             brushes: false,
@@ -106,7 +106,7 @@ impl Job {
 
     /// A person wants it to go on: what was tried to come free counts no more.
     pub(super) fn encourage(&mut self) {
-        self.ladder = Ladder::default();
+        self.ladder = RecoverySequence::default();
         self.pen = Pen::default();
     }
 
@@ -125,11 +125,11 @@ impl Job {
         };
         let turn_rad = side.sign() * random.between(2.2, 3.1);
         let parts = vec![
-            Part::Back(BackOff::from_dock(DEPART_M)),
-            Part::Turn(Turn::by(turn_rad)),
+            Manoeuvre::Back(BackOff::from_dock(DEPART_M)),
+            Manoeuvre::Turn(Turn::by(turn_rad)),
         ];
         self.detour = Some(Detour {
-            sequence: Sequence::new(parts),
+            sequence: ManoeuvreSequence::new(parts),
             purpose: Purpose::Departure,
         });
     }

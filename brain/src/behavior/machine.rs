@@ -19,7 +19,7 @@ use crate::model::energy::EnergyLearner;
 use crate::model::geometry::Point2;
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
-use crate::navigation::{BACK_AT_CLIFF_M_PER_S, Mind, Situation};
+use crate::navigation::{BACK_AT_CLIFF_M_PER_S, Situation, TaskContext};
 use manual::ManualDrive;
 
 /// After a motion mode ends, standing still is commanded this long; then the leases are left to run out.
@@ -193,7 +193,7 @@ impl Behavior {
         &mut self,
         situation: &Situation<'_>,
         commands: &[Command],
-        mind: &mut Mind,
+        mind: &mut TaskContext,
     ) -> Intent {
         self.facts = Facts::read(situation.observation, self.config.battery_low);
         self.facts.knows_heading = situation.knows_heading;
@@ -219,7 +219,7 @@ impl Behavior {
         }
     }
 
-    fn act(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+    fn act(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) -> Motion {
         match self.mode {
             Mode::Disconnected { .. } => Motion::Rest,
             Mode::Idle
@@ -245,7 +245,7 @@ impl Behavior {
     }
 
     /// Changes the mode. Every change of mode goes through here, so that none is without a decision and a reason.
-    pub(super) fn enter(&mut self, mode: Mode, reason: Reason, mind: &mut Mind) {
+    pub(super) fn enter(&mut self, mode: Mode, reason: Reason, mind: &mut TaskContext) {
         let moved = self.state().moves();
         self.mode = mode;
         self.reason = reason;
@@ -263,7 +263,7 @@ impl Behavior {
     }
 
     /// Ends the job and keeps its figures.
-    pub(super) fn end_job(&mut self, reason: Reason, mind: &mut Mind) {
+    pub(super) fn end_job(&mut self, reason: Reason, mind: &mut TaskContext) {
         if let Some(job) = self.job.take() {
             self.figures = job.figures;
         }
@@ -280,7 +280,7 @@ impl Behavior {
     }
 
     /// Where an interruption leads: the job waits, or there is none.
-    pub(super) fn hold(&mut self, reason: Reason, mind: &mut Mind) {
+    pub(super) fn hold(&mut self, reason: Reason, mind: &mut TaskContext) {
         let mode = if self.job.is_some() {
             Mode::Paused
         } else {
@@ -343,6 +343,6 @@ impl Behavior {
 
     /// A person who drives looks behind the robot; the brain cannot.
     fn may_back(&self, situation: &Situation<'_>) -> bool {
-        matches!(self.mode, Mode::Manual(_)) || situation.way_back_m > 0.0
+        matches!(self.mode, Mode::Manual(_)) || situation.reverse_budget_m > 0.0
     }
 }

@@ -1,8 +1,8 @@
-//! What a job will take, before it begins.
+//! What a job will take, estimated before it begins.
 
-use super::margins::{KEEP_OFF_M, SIGMA_MIN_M};
-use super::plan::{CoveragePlan, Departure, PlanSettings, plan_area};
-use super::wanted::Wanted;
+use super::margins::{CLEARANCE_M, SIGMA_MIN_M};
+use super::plan::{Area, CoveragePlan, Departure, PlanSettings, plan_area};
+use super::target_floor::TargetFloor;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::model::config::BrainConfig;
 use crate::model::energy::{EnergyModel, time_to_return_s};
@@ -11,27 +11,29 @@ use crate::model::gradual::{StepBudget, at_once};
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
-use crate::navigation::reachable;
+use crate::navigation::{Inflation, reachable};
 
-/// Real jobs take this many times as long as their plans: speeding up and braking, contacts, leftovers of an uncertain pose.
-const DRIVEN: f64 = 1.25;
-/// The low bound of the share is that of a robot whose place is so many times as uncertain as it believes.
-const DOUBT: f64 = 2.0;
-/// Deviation of the place where the map does not tell any, metres.
+/// Real jobs take this many times as long as their plans, because of acceleration, contacts and leftovers of an uncertain
+/// pose.
+const PLAN_TO_JOB_TIME: f64 = 1.25;
+/// The low bound of the share assumes a pose this many times as uncertain as estimated.
+const LOW_BOUND_FACTOR: f64 = 2.0;
+/// Standard deviation of the position where the map holds none, metres.
 const SIGMA_UNKNOWN_M: f64 = 0.3;
 
-/// An expectation.
+/// The estimate of a job.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JobEstimate {
-    /// Floor that can be swept, each part once, square metres.
+    /// Floor that can be swept, each part counted once, square metres.
     pub floor_m2: f64,
     /// Time, seconds.
     pub time_s: f64,
-    /// Share of the whole charge that the job and the way home take; more than 1 when it must charge in between.
+    /// Share of a full charge that the job and the return to the dock take; above 1 when the robot must recharge in
+    /// between.
     pub charge: f64,
     /// Share of `floor_m2` that is expected to be swept, 0..=1.
     pub share: f64,
-    /// The same if the robot knows its place half as well as it believes.
+    /// The same if the pose is half as accurate as estimated.
     pub share_low: f64,
 }
 
@@ -53,19 +55,25 @@ pub(crate) fn estimate(
         takes_along: true,
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
-    let radius_m = config.body.radius_m + KEEP_OFF_M;
+    let radius_m = config.body.radius_m + CLEARANCE_M;
+    let inflation = Inflation {
+        radius_m,
+        blocked: &[],
+    };
     let budget = &mut StepBudget::unlimited();
     let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
-    let ground = at_once(reachable(&knowledge, &frame, (radius_m, &[]), budget));
-    let mut sum = Sum::at(start);
+    let reachable_cells = at_once(reachable(&knowledge, &frame, inflation, budget));
+    let estimator = PartEstimator {
+        order,
+        map,
+        frame,
+        reachable_cells,
+        settings,
+    };
+    let mut sum = OrderTotal::at(start);
     let whole = order.is_for_whole_home().then_some(None);
     for part in whole.into_iter().chain(order.parts().iter().map(Some)) {
-        sum.add(part_of(
-            (part, order),
-            (map, &frame, &ground),
-            sum.pose,
-            &settings,
-        ));
+        sum.add(estimator.part(part, sum.pose));
     }
     if sum.floor_m2 <= 0.0 {
         return Err(if map.free_m2() > 0.0 {
@@ -89,9 +97,9 @@ pub(crate) fn estimate(
     })
 }
 
-/// What comes together over the parts of an order.
+/// The total over the parts of an order.
 #[derive(Clone, Copy, Debug)]
-struct Sum {
+struct OrderTotal {
     pose: Pose2,
     floor_m2: f64,
     time_s: f64,
@@ -99,7 +107,7 @@ struct Sum {
     swept_low_m2: f64,
 }
 
-impl Sum {
+impl OrderTotal {
     fn at(pose: Pose2) -> Self {
         Self {
             pose,
@@ -125,72 +133,83 @@ struct PartEstimate {
     plan: CoveragePlan,
     end: Pose2,
     time_s: f64,
-    /// Share of the planned floor that an uncertain pose leaves swept, and the same with more doubt.
+    /// Share of the planned floor that stays swept under an uncertain pose, and its low bound.
     kept: f64,
     kept_low: f64,
 }
 
-fn part_of(
-    (part, order): (Option<&HomePart>, &CleaningOrder),
-    (map, frame, ground): (&Map, &LaneFrame, &Raster<bool>),
-    start: Pose2,
-    settings: &PlanSettings,
-) -> PartEstimate {
-    let wanted = Wanted::of(order, part, map);
-    let course = |cell: Cell| wanted.course(frame.cell_in_map(cell));
-    let from = Departure {
-        start: frame.pose(start),
-        settings: *settings,
-    };
-    let plan = at_once(plan_area(
-        ground,
-        (course, |_| false),
-        from,
-        &mut StepBudget::unlimited(),
-    ));
-    let plan = plan.in_map(frame);
-    let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
-    let passes = map.annotations().passes_over(order, part);
-    let (kept, kept_low) = kept((map, &|cell| wanted.course(cell).is_some()), settings, passes);
-    PartEstimate {
-        end,
-        time_s: DRIVEN * f64::from(passes) * plan.time_s,
-        kept,
-        kept_low,
-        plan,
-    }
+/// What the estimates of all parts of an order have in common.
+struct PartEstimator<'a> {
+    order: &'a CleaningOrder,
+    map: &'a Map,
+    frame: LaneFrame,
+    reachable_cells: Raster<bool>,
+    settings: PlanSettings,
 }
 
-/// Share of the wanted floor that stays swept when lanes lie beside where they should, on average over its cells, and the
-/// same with more doubt.
-fn kept((map, wanted): (&Map, &impl Fn(Cell) -> bool), settings: &PlanSettings, passes: u8) -> (f64, f64) {
-    let knowledge = map.knowledge();
-    let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, settings), f64::from(passes));
-    let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
-    for index in 0..knowledge.values().len() {
-        let cell = knowledge.cell(index);
-        if knowledge.values().get(index) == Some(&CellKnowledge::Free) && wanted(cell) {
-            let sigma_m = believed_m(map.sigma_m(cell));
-            cells += 1;
-            sum += 1.0 - left(sigma_m);
-            sum_low += 1.0 - left(DOUBT * sigma_m);
+impl PartEstimator<'_> {
+    fn part(&self, part: Option<&HomePart>, start: Pose2) -> PartEstimate {
+        let target = TargetFloor::of(self.order, part, self.map);
+        let area = Area {
+            pattern: |cell: Cell| target.pattern_at(self.frame.cell_in_map(cell)),
+            is_swept: |_| false,
+        };
+        let from = Departure {
+            start: self.frame.pose(start),
+            settings: self.settings,
+        };
+        let plan = at_once(plan_area(
+            &self.reachable_cells,
+            area,
+            from,
+            &mut StepBudget::unlimited(),
+        ));
+        let plan = plan.in_map(&self.frame);
+        let end = plan.segments.last().map_or(start, |last| last.at(1.0));
+        let passes = self.map.annotations().passes_over(self.order, part);
+        let (kept, kept_low) = self.kept(&target, passes);
+        PartEstimate {
+            end,
+            time_s: PLAN_TO_JOB_TIME * f64::from(passes) * plan.time_s,
+            kept,
+            kept_low,
+            plan,
         }
     }
-    let cells = f64::from(cells.max(1));
-    (sum / cells, sum_low / cells)
+
+    /// Share of the target floor that stays swept when lanes are displaced, averaged over its cells, and its low bound.
+    fn kept(&self, target: &TargetFloor, passes: u8) -> (f64, f64) {
+        let knowledge = self.map.knowledge();
+        let left = |sigma_m: f64| libm::pow(gap_share(sigma_m, &self.settings), f64::from(passes));
+        let (mut cells, mut sum, mut sum_low) = (0_u32, 0.0, 0.0);
+        for index in 0..knowledge.values().len() {
+            let cell = knowledge.cell(index);
+            if knowledge.values().get(index) == Some(&CellKnowledge::Free)
+                && target.pattern_at(cell).is_some()
+            {
+                let sigma_m = sigma_or_default_m(self.map.sigma_m(cell));
+                cells += 1;
+                sum += 1.0 - left(sigma_m);
+                sum_low += 1.0 - left(LOW_BOUND_FACTOR * sigma_m);
+            }
+        }
+        let cells = f64::from(cells.max(1));
+        (sum / cells, sum_low / cells)
+    }
 }
 
-/// Share of the floor at a place that one pass leaves swept for a robot that knows its place there half as well as it believes.
+/// Share of the floor that one pass sweeps where the position has this deviation, with twice the deviation for the low
+/// bound.
 pub(super) fn kept_low(sigma_m: Option<f64>, settings: &PlanSettings) -> f64 {
-    1.0 - gap_share(DOUBT * believed_m(sigma_m), settings)
+    1.0 - gap_share(LOW_BOUND_FACTOR * sigma_or_default_m(sigma_m), settings)
 }
 
-/// Deviation of the place with which is reckoned.
-fn believed_m(sigma_m: Option<f64>) -> f64 {
+/// Standard deviation of the position that the estimate uses.
+fn sigma_or_default_m(sigma_m: Option<f64>) -> f64 {
     sigma_m.unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M)
 }
 
-/// Expected share of the floor between two lanes that neither of them sweeps, when the place of each is uncertain.
+/// Expected share of the floor between two lanes that neither sweeps, when the position of each is uncertain.
 fn gap_share(sigma_m: f64, settings: &PlanSettings) -> f64 {
     let apart_m = core::f64::consts::SQRT_2 * sigma_m;
     let overlap_m = 2.0 * settings.sigma_m;
@@ -206,7 +225,7 @@ mod tests {
     use super::{PlanSettings, gap_share};
 
     #[test]
-    fn the_less_sure_a_place_the_wider_the_gaps() {
+    fn less_certain_positions_leave_wider_gaps() {
         let settings = PlanSettings {
             swath_m: 0.25,
             sigma_m: 0.01,

@@ -1,6 +1,6 @@
-//! Margins of planned ways.
+//! Margins of planned paths.
 
-/// Gap between body and known obstacles on planned ways, metres; the size of cells adds a little.
-pub(crate) const KEEP_OFF_M: f64 = 0.01;
-/// Lanes overlap by twice this at least, whatever the estimate says of itself.
+/// Gap between the body and known obstacles on planned paths, metres; the cell size adds a little.
+pub(crate) const CLEARANCE_M: f64 = 0.01;
+/// Lanes overlap by at least twice this, metres, whatever deviation the pose estimate reports.
 pub(crate) const SIGMA_MIN_M: f64 = 0.01;

@@ -1,7 +1,7 @@
-//! Ways to cover a floor. A strategy is a [`Task`]; people choose it by name.
+//! Coverage strategies. A strategy is a [`Task`]; people choose it by name.
 
-mod astray;
 mod bounce;
+mod escape_bounce;
 mod estimate;
 mod margins;
 mod perimeter;
@@ -11,8 +11,8 @@ mod spiral;
 mod spot;
 mod statistical;
 pub(crate) mod systematic;
+mod target_floor;
 mod wall_bounce;
-mod wanted;
 mod whole_turns;
 
 pub(crate) use bounce::Bounce;
@@ -28,7 +28,7 @@ use crate::model::command::StrategyName;
 use crate::model::order::CleaningOrder;
 use crate::navigation::Task;
 
-/// A fresh strategy of this name. Only `systematic` knows parts of a home; others clean all of it.
+/// A new strategy of this name. Only `systematic` can clean parts of a home; the others clean all of it.
 pub(crate) fn strategy(name: StrategyName, order: &CleaningOrder) -> Box<dyn Task> {
     match name {
         StrategyName::Bounce => Box::new(Bounce::default()),

@@ -1,50 +1,51 @@
-//! One lap along the walls of a home that nobody knows yet: it cleans the edges and shows the outline.
+//! One lap along the walls of an unknown home: it cleans the edges and shows the outline.
 //!
-//! Terms. *Lap*: the way along everything that hangs together with the first wall that is met. *Island*: something that
-//! stands free; the way round it turns right in sum. *Track*: places of the lap, one every few centimetres.
-//! *Stretch*: part of the track on which it never lost what it follows.
+//! Terms. *Lap*: the drive along everything that is connected with the first wall found. *Island*: a free-standing object;
+//! driving round it adds up to a right turn. *Track*: points of the lap, one every few centimetres. *Stretch*: part of the
+//! track on which the robot never lost the wall.
 //!
-//! The lap is closed when the robot goes along the track of its stretch for a while, in the same direction: then it has seen
-//! all of this outline. When the sum of turns since the first time is not a full turn to the left, it was an island, or a
-//! loop among several; it leaves that and looks for another wall. A lap that never closes ends by its length, or on the track of an earlier stretch.
+//! The lap is closed when the robot repeats the track of the current stretch for a while, in the same direction: then it
+//! has seen this whole outline. If the turns since the first pass do not add up to a full left turn, it was an island or
+//! one of several loops. The robot leaves that and looks for another wall. A lap that never closes ends by its length, or
+//! on the track of an earlier stretch.
 
 use core::f64::consts::TAU;
 
-use super::astray::Astray;
+use super::escape_bounce::EscapeBounce;
 use super::whole_turns::WholeTurns;
 use crate::model::action::Motion;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::reason::Reason;
-use crate::navigation::{Leg, Mind, Plan, Situation, Turn, WallFollower, WallStep};
+use crate::navigation::{ManoeuvreStep, Situation, TaskContext, TaskStatus, Turn, WallFollower, WallStep};
 
-/// Places of the track are so far apart, metres.
+/// Distance between points of the track, metres.
 const TRACK_STEP_M: f64 = 0.1;
-/// A place nearer than this was passed before, metres; less sure poses have more.
+/// A point nearer than this was passed before, metres; less certain poses get more.
 const SAME_M: f64 = 0.14;
-/// Farthest that a place is taken for one that was passed before, metres.
+/// Upper limit of that distance, metres.
 const SAME_MAX_M: f64 = 0.5;
 /// As `SAME_M`, for the heading, radians.
 const SAME_RAD: f64 = 0.6;
-/// A lap round an island is at least so long, metres: a body's width round nothing.
+/// Shortest lap round an island, metres: the turning circle of the body alone.
 const ISLAND_MIN_M: f64 = 1.0;
-/// A lap along walls is at least so long, metres.
+/// Shortest lap along walls, metres.
 const LAP_MIN_M: f64 = 4.0;
-/// So much way on the own track closes a lap, metres.
+/// This distance on its own track closes a lap, metres.
 const AGAIN_M: f64 = 0.4;
-/// So much way on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
+/// This distance on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
 const AGAIN_ELSEWHERE_M: f64 = 5.0;
-/// A place this near to one that was passed before shows nothing new, whatever it looks at, metres: its floor is swept.
-const SHOWN_M: f64 = 0.22;
-/// So much way that shows nothing new, more than three times as much as shows something, ends a lap, metres.
+/// A point this near to an earlier one shows nothing new, whatever the heading, metres: its floor is swept.
+const SEEN_M: f64 = 0.22;
+/// This distance without anything new ends a lap, metres. Distance that shows something new counts three times against it.
 const STALE_MAX_M: f64 = 8.0;
 const FRESH_WORTH: f64 = 3.0;
-/// A lap longer than this is ended, metres: twice that of a large home.
+/// Longest lap, metres: twice that of a large home.
 const LAP_MAX_M: f64 = 400.0;
-/// So many islands in one lap and no walls: enough.
+/// A lap ends after this many islands without a wall.
 const ISLANDS_MAX: u32 = 12;
 /// Turn away from an island, radians.
 const AWAY_RAD: f64 = 1.5;
-/// Troubles in one lap until it is ended.
+/// Failures of the wall follower until the lap ends.
 const TROUBLES_MAX: u32 = 6;
 
 /// The lap.
@@ -52,26 +53,26 @@ const TROUBLES_MAX: u32 = 6;
 pub(crate) struct Perimeter {
     wall: WallFollower,
     away: Option<Turn>,
-    astray: Option<Astray>,
+    escape_bounce: Option<EscapeBounce>,
     whole_turns: WholeTurns,
-    track: Vec<Footprint>,
-    way_m: f64,
+    track: Vec<LapPoint>,
+    driven_m: f64,
     turned_rad: f64,
     again_m: f64,
-    /// Way that shows nothing new, less what shows something.
+    /// Distance that showed nothing new, less what showed something new.
     stale_m: f64,
-    /// Number of the present stretch: a new one begins wherever it leaves what it followed.
+    /// Number of the current stretch: a new one begins whenever the robot loses the wall.
     stretch: u32,
     islands: u32,
     troubles: u32,
 }
 
-/// A place of the track.
+/// A point of the track.
 #[derive(Clone, Copy, Debug)]
-struct Footprint {
+struct LapPoint {
     pose: Pose2,
     sigma_m: f64,
-    way_m: f64,
+    driven_m: f64,
     turned_rad: f64,
     stretch: u32,
 }
@@ -79,82 +80,82 @@ struct Footprint {
 /// State of the lap after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LapStep {
-    /// On it.
+    /// It goes on.
     Going(Motion),
-    /// It cannot go on by its own means.
+    /// It cannot go on without recovery.
     Trouble(Reason),
     /// It is over.
     Over(Reason),
 }
 
 impl Perimeter {
-    /// Half-done movements are void; the track stays.
+    /// Discards unfinished movements; the track stays.
     pub(crate) fn interrupted(&mut self) {
         self.wall.interrupted();
         self.whole_turns.interrupted();
         self.away = None;
-        if let Some(astray) = &mut self.astray {
-            astray.interrupted();
+        if let Some(escape_bounce) = &mut self.escape_bounce {
+            escape_bounce.interrupted();
         }
     }
 
-    /// Another lap after one that is over, at a wall that is not on the track yet, if there is one.
+    /// Starts another lap after a finished one, at a wall that is not on the track yet if there is one.
     pub(crate) fn begin_again(&mut self) {
         self.interrupted();
-        self.astray = None;
+        self.escape_bounce = None;
         self.again_m = 0.0;
         self.stale_m = 0.0;
         self.islands = 0;
         self.troubles = 0;
     }
 
-    /// Turns its back to the wall that it follows, for another lap at what is met next.
+    /// Turns away from the wall, for another lap at the next obstacle.
     pub(crate) fn leave(&mut self) -> Motion {
         self.begin_again();
         self.turn_away()
     }
 
-    /// Whether it is getting away from something that it touched.
+    /// Whether it is evading a contact.
     pub(crate) fn is_evading(&self) -> bool {
         self.wall.is_evading()
     }
 
-    /// Way that was made, metres.
-    pub(crate) fn way_m(&self) -> f64 {
-        self.way_m
+    /// Distance driven, metres.
+    pub(crate) fn driven_m(&self) -> f64 {
+        self.driven_m
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> LapStep {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> LapStep {
         self.turned_rad += situation.advance.turn_rad;
-        self.way_m += situation.advance.distance_m.max(0.0);
-        if self.way_m > LAP_MAX_M || self.troubles > TROUBLES_MAX || self.islands > ISLANDS_MAX {
+        self.driven_m += situation.advance.distance_m.max(0.0);
+        if self.driven_m > LAP_MAX_M || self.troubles > TROUBLES_MAX || self.islands > ISLANDS_MAX {
             return LapStep::Over(Reason::LongLap);
         }
         if let Some(turn) = &mut self.away {
             match turn.step(situation) {
-                Leg::Going(motion) if situation.is_free() => return LapStep::Going(motion),
+                ManoeuvreStep::Going(motion) if situation.is_free() => return LapStep::Going(motion),
                 _ => self.away = None,
             }
         }
-        if let Some(step) = self.bounce(situation, mind) {
+        if let Some(step) = self.bounce(situation, context) {
             return step;
         }
-        if let Some(motion) = self.turn_for_gyro(situation, mind) {
+        if let Some(motion) = self.turn_for_gyro(situation, context) {
             return LapStep::Going(motion);
         }
         if !self.wall.is_evading() && situation.is_free() {
             match self.passed_before(situation) {
-                Some(Reason::Island) => return LapStep::Going(self.leave_island(situation, mind)),
+                Some(Reason::Island) => return LapStep::Going(self.leave_island(situation, context)),
                 Some(reason) => return LapStep::Over(reason),
                 None => {}
             }
         }
-        match self.wall.step(situation, mind) {
+        match self.wall.step(situation, context) {
             WallStep::Going(motion) => LapStep::Going(motion),
             WallStep::Trouble(reason) => {
                 self.troubles += 1;
-                mind.decide("bounce", reason, f64::from(self.troubles));
-                self.astray = Some(Astray::from(situation.pose.position()));
+                context.decide("bounce", reason, f64::from(self.troubles));
+                self.escape_bounce = Some(EscapeBounce::from(situation.pose.position()));
                 if reason == Reason::BoxedIn {
                     LapStep::Going(Motion::Halt)
                 } else {
@@ -164,29 +165,29 @@ impl Perimeter {
         }
     }
 
-    /// Turns on the spot for the gyro's sake. Whole turns lead round nothing and do not count as such.
-    fn turn_for_gyro(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Motion> {
+    /// Turns on the spot to calibrate the gyro. These whole turns do not count as turns of the lap.
+    fn turn_for_gyro(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<Motion> {
         let is_beside_wall = self.wall.is_along_wall();
-        let motion = self.whole_turns.step(situation, is_beside_wall, mind);
+        let motion = self.whole_turns.step(situation, is_beside_wall, context);
         self.turned_rad -= self.whole_turns.take_made_rad();
         motion
     }
 
-    /// Bounces out of a place where following leads nowhere.
-    fn bounce(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<LapStep> {
-        match self.astray.as_mut()?.step(situation, mind) {
-            Some(Plan::Go(motion)) => Some(LapStep::Going(motion)),
-            Some(Plan::Trouble(reason)) => Some(LapStep::Trouble(reason)),
-            Some(Plan::Finished(_)) | None => {
-                self.astray = None;
+    /// Bounces out of a place where the wall follower fails.
+    fn bounce(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<LapStep> {
+        match self.escape_bounce.as_mut()?.step(situation, context) {
+            Some(TaskStatus::Go(motion)) => Some(LapStep::Going(motion)),
+            Some(TaskStatus::Trouble(reason)) => Some(LapStep::Trouble(reason)),
+            Some(TaskStatus::Finished(_)) | None => {
+                self.escape_bounce = None;
                 None
             }
         }
     }
 
-    /// Turns its back to an island; what is met next is another wall, or another island.
-    fn leave_island(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
-        mind.decide("leave-wall", Reason::Island, situation.pose.heading_rad);
+    /// Turns away from an island, towards the next wall or island.
+    fn leave_island(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Motion {
+        context.decide("leave-wall", Reason::Island, situation.pose.heading_rad);
         self.islands += 1;
         self.again_m = 0.0;
         self.wall.interrupted();
@@ -198,7 +199,7 @@ impl Perimeter {
         Motion::Halt
     }
 
-    /// Lengthens the track, and says what it means that the robot goes along it.
+    /// Extends the track. Gives the reason to end the lap or to leave an island, if the robot repeats its track.
     fn passed_before(&mut self, situation: &Situation<'_>) -> Option<Reason> {
         if !self.wall.is_following() {
             self.stretch = self.track.last().map_or(0, |last| last.stretch + 1);
@@ -208,14 +209,14 @@ impl Perimeter {
         let step_m = self
             .track
             .last()
-            .map_or(f64::INFINITY, |last| self.way_m - last.way_m);
+            .map_or(f64::INFINITY, |last| self.driven_m - last.driven_m);
         if step_m < TRACK_STEP_M {
             return None;
         }
-        let here = Footprint {
+        let here = LapPoint {
             pose: situation.pose,
             sigma_m: situation.estimate.sigma_m,
-            way_m: self.way_m,
+            driven_m: self.driven_m,
             turned_rad: self.turned_rad,
             stretch: self.stretch,
         };
@@ -227,7 +228,7 @@ impl Perimeter {
             .copied();
         let is_stale = self.track.iter().any(|before| here.shows_nothing_beyond(before));
         self.track.push(here);
-        if self.grows_stale(is_stale) {
+        if self.is_stale_after(is_stale) {
             return Some(Reason::KnownWall);
         }
         let Some(before) = before else {
@@ -247,8 +248,8 @@ impl Perimeter {
         })
     }
 
-    /// Counts a place of the track; `true` when there were enough that show nothing new.
-    fn grows_stale(&mut self, is_stale: bool) -> bool {
+    /// Counts a point of the track; `true` when enough points in a row showed nothing new.
+    fn is_stale_after(&mut self, is_stale: bool) -> bool {
         self.stale_m = if is_stale {
             self.stale_m + TRACK_STEP_M
         } else {
@@ -258,27 +259,27 @@ impl Perimeter {
     }
 }
 
-impl Footprint {
-    /// Whether the floor here was swept from an earlier place.
+impl LapPoint {
+    /// Whether this floor was already swept from an earlier point.
     fn shows_nothing_beyond(&self, before: &Self) -> bool {
-        self.way_m - before.way_m > LAP_MIN_M
-            && self.pose.position().distance_m(before.pose.position()) < SHOWN_M
+        self.driven_m - before.driven_m > LAP_MIN_M
+            && self.pose.position().distance_m(before.pose.position()) < SEEN_M
     }
 
-    /// Full turns to the left since an earlier place with the same heading.
+    /// Full turns to the left since an earlier point with the same heading.
     fn turns_since(&self, before: &Self) -> f64 {
         libm::round((self.turned_rad - before.turned_rad) / TAU)
     }
 
     fn repeats(&self, before: &Self) -> bool {
-        let way_m = self.way_m - before.way_m;
+        let driven_m = self.driven_m - before.driven_m;
         let least_m = if self.stretch == before.stretch && self.turns_since(before) < 0.0 {
             ISLAND_MIN_M
         } else {
             LAP_MIN_M
         };
         let same_m = (SAME_M + 0.3 * (self.sigma_m - before.sigma_m)).clamp(SAME_M, SAME_MAX_M);
-        way_m > least_m
+        driven_m > least_m
             && self.pose.position().distance_m(before.pose.position()) < same_m
             && normalize_rad(self.pose.heading_rad - before.pose.heading_rad).abs() < SAME_RAD
     }
@@ -286,25 +287,25 @@ impl Footprint {
 
 #[cfg(test)]
 mod tests {
-    use super::{Footprint, Perimeter, STALE_MAX_M, TRACK_STEP_M};
+    use super::{LapPoint, Perimeter, STALE_MAX_M, TRACK_STEP_M};
     use crate::model::geometry::Pose2;
 
-    fn at(x_m: f64, heading_rad: f64, way_m: f64) -> Footprint {
-        Footprint {
+    fn at(x_m: f64, heading_rad: f64, driven_m: f64) -> LapPoint {
+        LapPoint {
             pose: Pose2 {
                 x_m,
                 y_m: 0.0,
                 heading_rad,
             },
             sigma_m: 0.02,
-            way_m,
+            driven_m,
             turned_rad: 0.0,
             stretch: 0,
         }
     }
 
     #[test]
-    fn floor_that_was_swept_the_other_way_round_shows_nothing_new_and_is_no_closed_lap() {
+    fn floor_swept_in_the_opposite_direction_is_not_new_and_closes_no_lap() {
         let (before, back) = (at(0.0, 0.0, 0.0), at(0.1, 3.1, 9.0));
         assert!(back.shows_nothing_beyond(&before) && !back.repeats(&before));
         assert!(!at(0.3, 0.0, 9.0).shows_nothing_beyond(&before));
@@ -312,12 +313,12 @@ mod tests {
     }
 
     #[test]
-    fn a_lap_ends_when_it_shows_nothing_new_for_long_and_not_while_it_shows_something_now_and_then() {
+    fn a_lap_ends_after_a_long_distance_without_anything_new() {
         let mut lap = Perimeter::default();
         let steps = (STALE_MAX_M / TRACK_STEP_M) as u32;
-        assert!((0..steps - 1).all(|_| !lap.grows_stale(true)));
-        assert!((0..3).any(|_| lap.grows_stale(true)));
+        assert!((0..steps - 1).all(|_| !lap.is_stale_after(true)));
+        assert!((0..3).any(|_| lap.is_stale_after(true)));
         let mut lap = Perimeter::default();
-        assert!((0..20 * steps).all(|step| !lap.grows_stale(step % 3 != 0)));
+        assert!((0..20 * steps).all(|step| !lap.is_stale_after(step % 3 != 0)));
     }
 }

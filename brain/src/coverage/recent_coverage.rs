@@ -1,69 +1,84 @@
-//! What a robot without a heading still knows: where it has been and what it has met lately.
+//! What a robot without a heading sensor still knows: where it was and what it hit recently.
 //!
-//! Odometry of wheels alone is wrong by metres after an hour, and by some decimetres after ten minutes: what was swept and met
-//! since then can still be told from what was not.
+//! Wheel odometry alone is wrong by metres after an hour and by some decimetres after ten minutes. Within that time it can
+//! still tell swept from unswept floor.
 
 use std::collections::VecDeque;
 
 use crate::mapping::{CELL_M, Cell, Map};
 use crate::model::geometry::{Point2, Pose2, TurnSide};
-use crate::navigation::{Mind, Situation};
+use crate::navigation::{Situation, TaskContext};
 
-/// What is older than this is not looked for any more, seconds.
-pub(super) const LATELY_S: u32 = 600;
+/// Older coverage and contacts are ignored, seconds.
+pub(super) const RECENT_S: u32 = 600;
 /// Contacts that are remembered.
-const MET_MAX: usize = 256;
-/// A way ends where it comes so near to a place where something was met, metres: what is met is mostly a side of something flat.
+const CONTACTS_MAX: usize = 256;
+/// A ray ends this close to a contact, metres: a contact is mostly one point of a flat side.
 const NEAR_M: f64 = 0.2;
-/// Turns that are weighed against each other.
+/// Turns that are compared.
 const TURNS: u32 = 12;
-/// The floor is looked at so far ahead, in these steps, metres.
+/// Length and step of the ray ahead, metres.
 const AHEAD_M: f64 = 2.5;
 const STEP_M: f64 = 2.0 * CELL_M;
 
-/// Places where something was met lately.
+/// The turns that are allowed after a contact.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::coverage) struct TurnRange {
+    pub(in crate::coverage) low_rad: f64,
+    pub(in crate::coverage) high_rad: f64,
+    /// `None` = to both sides.
+    pub(in crate::coverage) side: Option<TurnSide>,
+}
+
+/// Recent contacts.
 #[derive(Clone, Debug, Default)]
-pub(in crate::coverage) struct Lately {
-    met: VecDeque<Met>,
+pub(in crate::coverage) struct RecentContacts {
+    contacts: VecDeque<RecentContact>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Met {
+struct RecentContact {
     at: Point2,
     /// As in [`crate::mapping::Sweeping::last_s`].
     time_s: u32,
 }
 
-impl Lately {
-    /// Something is met in front.
+impl RecentContacts {
+    /// Records a contact in front.
     pub(in crate::coverage) fn note(&mut self, situation: &Situation<'_>) {
         let now_s = situation.map.coverage_now_s();
         let body_m = situation.config.body.radius_m;
         let at = situation.pose.transform(ahead(body_m));
-        self.met.push_back(Met { at, time_s: now_s });
-        let is_old = |met: &Met| now_s.saturating_sub(met.time_s) > LATELY_S;
-        while self.met.len() > MET_MAX || self.met.front().is_some_and(is_old) {
-            self.met.pop_front();
+        self.contacts.push_back(RecentContact { at, time_s: now_s });
+        let is_old = |contact: &RecentContact| now_s.saturating_sub(contact.time_s) > RECENT_S;
+        while self.contacts.len() > CONTACTS_MAX || self.contacts.front().is_some_and(is_old) {
+            self.contacts.pop_front();
         }
     }
 
-    /// Of some turns between these angles, to this side or to both, the one that leads over most floor that was not swept lately.
+    /// Samples some turns of a range. Gives the one that leads over most floor that was
+    /// not swept recently.
     pub(in crate::coverage) fn turn_rad(
         &self,
-        (low_rad, high_rad): (f64, f64),
-        side: Option<TurnSide>,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        range: TurnRange,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> f64 {
+        let TurnRange {
+            low_rad,
+            high_rad,
+            side,
+        } = range;
         let body_m = situation.config.body.radius_m;
         let mut best_rad = low_rad;
         let mut most_m = f64::NEG_INFINITY;
         for _ in 0..TURNS {
-            let side = side.unwrap_or(if mind.random.coin() {
+            let side = side.unwrap_or(if context.random.coin() {
                 TurnSide::Left
             } else {
                 TurnSide::Right
             });
-            let turn_rad = side.sign() * mind.random.between(low_rad, high_rad);
+            let turn_rad = side.sign() * context.random.between(low_rad, high_rad);
             let new_m = self.new_m(situation.pose.after_arc(0.0, turn_rad), body_m, situation.map);
             if new_m > most_m {
                 (best_rad, most_m) = (turn_rad, new_m);
@@ -72,39 +87,47 @@ impl Lately {
         best_rad
     }
 
-    /// Way over floor that was not swept lately, straight on from a pose until something that was met, metres.
+    /// Length of floor not swept recently, straight ahead of a pose until a recent contact, metres.
     fn new_m(&self, from: Pose2, body_m: f64, map: &Map) -> f64 {
         let mut new_m = 0.0;
-        let mut way_m = body_m;
-        while way_m < AHEAD_M {
-            let at = from.transform(ahead(way_m));
-            // What has just been met lies beside the robot, which is free of it.
-            let is_away = way_m > body_m + NEAR_M;
-            if is_away && self.met.iter().any(|met| met.at.distance_m(at) < NEAR_M) {
+        let mut distance_m = body_m;
+        while distance_m < AHEAD_M {
+            let at = from.transform(ahead(distance_m));
+            // The latest contact is beside the robot, which is already free of it.
+            let is_away = distance_m > body_m + NEAR_M;
+            if is_away
+                && self
+                    .contacts
+                    .iter()
+                    .any(|contact| contact.at.distance_m(at) < NEAR_M)
+            {
                 break;
             }
-            if is_new(map, at, LATELY_S) {
+            if is_new(map, at, RECENT_S) {
                 new_m += STEP_M;
             }
-            way_m += STEP_M;
+            distance_m += STEP_M;
         }
         new_m
     }
 }
 
-/// Whether the floor at a place was not swept within this time.
+/// Whether the floor at a point was not swept within this time.
 pub(super) fn is_new(map: &Map, at: Point2, within_s: u32) -> bool {
     map.cell_passes(Cell::under(at))
         .is_none_or(|sweeping| map.coverage_now_s().saturating_sub(sweeping.last_s) > within_s)
 }
 
-fn ahead(way_m: f64) -> Point2 {
-    Point2 { x_m: way_m, y_m: 0.0 }
+fn ahead(distance_m: f64) -> Point2 {
+    Point2 {
+        x_m: distance_m,
+        y_m: 0.0,
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LATELY_S, Lately, Met, is_new};
+    use super::{RECENT_S, RecentContact, RecentContacts, is_new};
     use crate::mapping::{Brushes, Map};
     use crate::model::config::{Body, SensorLayout};
     use crate::model::geometry::{Point2, Pose2};
@@ -122,7 +145,7 @@ mod tests {
         }
     }
 
-    /// A lane of two metres along x that was swept at a time, seconds; it is `now_s`.
+    /// A lane of two metres along x, swept at `at_s`; the current time is `now_s`, seconds.
     fn swept_lane(at_s: u64, now_s: u64) -> Map {
         let mut map = Map::new(BODY, SensorLayout::default());
         for step in 0..=100 {
@@ -142,36 +165,42 @@ mod tests {
     }
 
     #[test]
-    fn what_was_swept_longer_ago_is_new_again() {
+    fn floor_swept_long_ago_is_new_again() {
         let at = Point2 { x_m: 1.0, y_m: 0.0 };
         assert!(!is_new(
-            &swept_lane(100, 100 + u64::from(LATELY_S) - 8),
+            &swept_lane(100, 100 + u64::from(RECENT_S) - 8),
             at,
-            LATELY_S
+            RECENT_S
         ));
         assert!(is_new(
-            &swept_lane(100, 100 + u64::from(LATELY_S) + 8),
+            &swept_lane(100, 100 + u64::from(RECENT_S) + 8),
             at,
-            LATELY_S
+            RECENT_S
         ));
     }
 
     #[test]
-    fn a_way_over_swept_floor_and_one_into_what_was_met_are_worth_less() {
+    fn rays_over_swept_floor_or_into_contacts_are_worth_less() {
         let map = swept_lane(0, 60);
-        let lately = Lately::default();
+        let recent_contacts = RecentContacts::default();
         let across = Pose2 {
             x_m: 1.0,
             y_m: 0.0,
             heading_rad: core::f64::consts::FRAC_PI_2,
         };
-        let worth = |lately: &Lately, from| lately.new_m(from, BODY.radius_m, &map);
-        assert!(worth(&lately, across) > worth(&lately, along_x(0.0)) + 1.0);
-        let met = Met {
+        let worth = |recent_contacts: &RecentContacts, from| recent_contacts.new_m(from, BODY.radius_m, &map);
+        assert!(worth(&recent_contacts, across) > worth(&recent_contacts, along_x(0.0)) + 1.0);
+        let contact = RecentContact {
             at: Point2 { x_m: 1.0, y_m: 0.9 },
             time_s: 60,
         };
-        let lately = Lately { met: [met].into() };
-        assert!(worth(&lately, across) < 0.7, "{}", worth(&lately, across));
+        let recent_contacts = RecentContacts {
+            contacts: [contact].into(),
+        };
+        assert!(
+            worth(&recent_contacts, across) < 0.7,
+            "{}",
+            worth(&recent_contacts, across)
+        );
     }
 }

@@ -7,19 +7,19 @@ use crate::navigation::Situation;
 
 /// Radius of curvature at the start of a spiral and at its end, metres.
 const RADIUS_M: (f64, f64) = (0.08, 1.0);
-/// Share of the swath by which the turns of a spiral lie apart.
+/// Spacing of the turns of a spiral, as a share of the swath.
 const SPACING: f64 = 0.9;
-/// Share of the highest turn rate that a spiral uses.
+/// Share of the maximum turn rate that a spiral uses.
 const TURN_SHARE: f64 = 0.8;
 
-/// A spiral that is being driven.
+/// A spiral in progress.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Spiral {
     turned_rad: f64,
 }
 
 impl Spiral {
-    /// The next motion; `None` when something is met or the spiral is wide enough.
+    /// The next motion; `None` when an obstacle stops it or the spiral is wide enough.
     pub(super) fn step(&mut self, situation: &Situation<'_>) -> Option<Motion> {
         self.turned_rad += situation.advance.turn_rad.max(0.0);
         let config = situation.config;

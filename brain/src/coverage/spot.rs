@@ -1,7 +1,7 @@
-//! Cleaning a disc of one metre: a spiral outwards from where the robot stands.
+//! Cleaning a disc of one metre: a spiral outwards from the robot's position.
 //!
-//! Driving with a radius of curvature that grows evenly with the angle turned draws the involute of a circle: its turns
-//! lie evenly apart and its centre stays put, without knowing a pose.
+//! A radius of curvature that grows evenly with the angle turned draws the involute of a circle: its turns are evenly
+//! spaced and its centre stays put, without knowing a pose.
 
 use core::f64::consts::TAU;
 
@@ -9,15 +9,15 @@ use crate::model::action::Motion;
 use crate::model::geometry::TurnSide;
 use crate::model::order::SPOT_RADIUS_M;
 use crate::model::reason::Reason;
-use crate::navigation::{Evasion, EvasionStep, Mind, Plan, Situation, Task};
+use crate::navigation::{Evasion, EvasionStep, Situation, Task, TaskContext, TaskStatus};
 
 /// Radius of curvature at the start.
 const START_M: f64 = 0.06;
-/// Share of the swath by which neighbouring turns lie apart.
+/// Spacing of neighbouring turns, as a share of the swath.
 const SPACING: f64 = 0.8;
-/// Share of the highest turn rate that the tight inner turns use.
+/// Share of the maximum turn rate that the tight inner turns use.
 const TURN_SHARE: f64 = 0.8;
-/// Things met until the place is called too full.
+/// Encounters until the place counts as obstructed.
 const ENCOUNTERS_MAX: u32 = 8;
 
 /// The task.
@@ -42,20 +42,20 @@ impl Default for Spot {
 }
 
 impl Task for Spot {
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if let Some(evasion) = &mut self.evasion {
             match evasion.step(situation) {
-                EvasionStep::Going(motion) => return Plan::Go(motion),
+                EvasionStep::Going(motion) => return TaskStatus::Go(motion),
                 EvasionStep::Free => self.evasion = None,
                 EvasionStep::Held(reason) => {
                     self.evasion = None;
-                    return Plan::Trouble(reason);
+                    return TaskStatus::Trouble(reason);
                 }
             }
         } else {
             self.turned_rad += (self.side.sign() * situation.advance.turn_rad).max(0.0);
         }
-        self.spiral(situation, mind)
+        self.spiral(situation, context)
     }
 
     fn interrupted(&mut self) {
@@ -64,9 +64,9 @@ impl Task for Spot {
 }
 
 impl Spot {
-    fn spiral(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn spiral(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if situation.touching || situation.at_cliff {
-            return self.evade(situation, mind);
+            return self.evade(situation, context);
         }
         let config = situation.config;
         let widening_m_per_rad = SPACING * config.body.swath_m / TAU;
@@ -74,23 +74,23 @@ impl Spot {
         let radius_m = (START_M + widening_m_per_rad * self.turned_rad).min(outermost_m);
         // One more turn at the outermost radius closes the disc.
         if self.turned_rad > (outermost_m - START_M) / widening_m_per_rad + TAU {
-            return Plan::Finished(Reason::Finished);
+            return TaskStatus::Finished(Reason::Finished);
         }
         let speeds = config.speeds;
         let speed_m_per_s = speeds
             .cruise_m_per_s
             .min(TURN_SHARE * speeds.turn_max_rad_per_s * radius_m);
-        Plan::Go(Motion::Drive {
+        TaskStatus::Go(Motion::Drive {
             speed_m_per_s,
             turn_rad_per_s: self.side.sign() * speed_m_per_s / radius_m,
         })
     }
 
-    /// Away from what was met, and on with the other hand, so that the rest of the disc lies ahead.
-    fn evade(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    /// Evades the obstacle and spirals on in the other direction, so that the rest of the disc lies ahead.
+    fn evade(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         self.encounters += 1;
         if self.encounters > ENCOUNTERS_MAX {
-            return Plan::Finished(Reason::Obstructed);
+            return TaskStatus::Finished(Reason::Obstructed);
         }
         let observation = situation.observation;
         let contact = Reason::of_cliffs(observation.cliffs).or(Reason::of_contacts(observation.contacts));
@@ -101,13 +101,13 @@ impl Spot {
             _ => self.side.opposite(),
         };
         self.side = turn_to;
-        mind.decide("back-off", reason, self.turned_rad);
-        let turn_rad = turn_to.sign() * mind.random.between(1.2, 2.2);
+        context.decide("back-off", reason, self.turned_rad);
+        let turn_rad = turn_to.sign() * context.random.between(1.2, 2.2);
         self.evasion = Some(if situation.at_cliff {
             Evasion::from_cliff(0.08, turn_rad)
         } else {
             Evasion::from_contact(0.04, turn_rad)
         });
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 }

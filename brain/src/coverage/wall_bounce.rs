@@ -1,49 +1,51 @@
-//! `wall-bounce`: what cheap robots without a map do. A spiral while the floor is open, bouncing, and now and then a stretch
-//! along the walls, where bouncing alone sweeps last.
+//! `wall-bounce`: what cheap robots without a map do. A spiral on open floor, bouncing, and now and then a drive along the
+//! walls, which bouncing alone sweeps last.
 
 use super::Bounce;
 use super::spiral::Spiral;
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-use crate::navigation::{Leg, Mind, Plan, Situation, Task, Turn, WallFollower, WallStep};
+use crate::navigation::{
+    ManoeuvreStep, Situation, Task, TaskContext, TaskStatus, Turn, WallFollower, WallStep,
+};
 
-/// Way of bouncing before the next stretch along a wall, metres.
+/// Distance of bouncing before the next drive along a wall, metres.
 const BOUNCE_M: (f64, f64) = (12.0, 30.0);
-/// Way along a wall, metres.
+/// Length of a drive along a wall, metres.
 const WALL_M: (f64, f64) = (5.0, 12.0);
-/// Turn away from the wall after it, radians.
+/// Turn away from the wall afterwards, radians.
 const AWAY_RAD: (f64, f64) = (0.5, 2.4);
-/// A run this long without an encounter is on open floor, metres.
-const OPEN_RUN_M: f64 = 1.8;
-/// Way between two spirals, metres.
+/// A longer straight without an encounter is on open floor, metres.
+const OPEN_STRAIGHT_M: f64 = 1.8;
+/// Distance between two spirals, metres.
 const SPIRAL_EVERY_M: f64 = 30.0;
 
 /// The strategy.
 #[derive(Clone, Debug)]
 pub(crate) struct WallBounce {
-    manner: Manner,
+    mode: WallBounceMode,
     bounce: Bounce,
     wall: WallFollower,
-    /// Way since the last spiral, metres.
+    /// Distance since the last spiral, metres.
     since_spiral_m: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Manner {
-    /// In widening turns to the left.
+enum WallBounceMode {
+    /// A widening spiral to the left.
     Spiral(Spiral),
-    /// Bouncing for some way.
+    /// Bouncing for a distance.
     Bounce { left_m: f64 },
-    /// Along what stands on the right for some way.
+    /// Along the wall on the right for a distance.
     Wall { left_m: f64 },
-    /// Away from the wall.
+    /// Turning away from the wall.
     Away(Turn),
 }
 
 impl Default for WallBounce {
     fn default() -> Self {
         Self {
-            manner: Manner::Spiral(Spiral::default()),
+            mode: WallBounceMode::Spiral(Spiral::default()),
             bounce: Bounce::default(),
             wall: WallFollower::default(),
             since_spiral_m: 0.0,
@@ -52,31 +54,31 @@ impl Default for WallBounce {
 }
 
 impl Task for WallBounce {
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        let way_m = situation.advance.distance_m.max(0.0);
-        self.since_spiral_m += way_m;
-        match &mut self.manner {
-            Manner::Spiral(spiral) => {
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        let driven_m = situation.advance.distance_m.max(0.0);
+        self.since_spiral_m += driven_m;
+        match &mut self.mode {
+            WallBounceMode::Spiral(spiral) => {
                 let spiral = *spiral;
-                self.spiral(spiral, situation, mind)
+                self.spiral(spiral, situation, context)
             }
-            Manner::Bounce { left_m } => {
-                *left_m -= way_m;
+            WallBounceMode::Bounce { left_m } => {
+                *left_m -= driven_m;
                 let left_m = *left_m;
-                self.bounce(left_m, situation, mind)
+                self.bounce(left_m, situation, context)
             }
-            Manner::Wall { left_m } => {
+            WallBounceMode::Wall { left_m } => {
                 if self.wall.is_following() {
-                    *left_m -= way_m;
+                    *left_m -= driven_m;
                 }
                 let left_m = *left_m;
-                self.follow_wall(left_m, situation, mind)
+                self.follow_wall(left_m, situation, context)
             }
-            Manner::Away(turn) => match turn.step(situation) {
-                Leg::Going(motion) if situation.is_free() => Plan::Go(motion),
+            WallBounceMode::Away(turn) => match turn.step(situation) {
+                ManoeuvreStep::Going(motion) if situation.is_free() => TaskStatus::Go(motion),
                 _ => {
-                    self.begin_bounce(mind);
-                    self.bounce.step(situation, mind)
+                    self.begin_bounce(context);
+                    self.bounce.step(situation, context)
                 }
             },
         }
@@ -85,63 +87,73 @@ impl Task for WallBounce {
     fn interrupted(&mut self) {
         self.bounce.interrupted();
         self.wall.interrupted();
-        if let Manner::Spiral(_) | Manner::Away(_) = self.manner {
-            self.manner = Manner::Bounce { left_m: BOUNCE_M.0 };
+        if let WallBounceMode::Spiral(_) | WallBounceMode::Away(_) = self.mode {
+            self.mode = WallBounceMode::Bounce { left_m: BOUNCE_M.0 };
         }
     }
 }
 
 impl WallBounce {
-    fn begin_bounce(&mut self, mind: &mut Mind) {
+    fn begin_bounce(&mut self, context: &mut TaskContext) {
         self.bounce.interrupted();
-        let left_m = mind.random.between(BOUNCE_M.0, BOUNCE_M.1);
-        self.manner = Manner::Bounce { left_m };
+        let left_m = context.random.between(BOUNCE_M.0, BOUNCE_M.1);
+        self.mode = WallBounceMode::Bounce { left_m };
     }
 
-    fn spiral(&mut self, mut spiral: Spiral, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn spiral(
+        &mut self,
+        mut spiral: Spiral,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> TaskStatus {
         self.since_spiral_m = 0.0;
         match spiral.step(situation) {
             Some(motion) => {
-                self.manner = Manner::Spiral(spiral);
-                Plan::Go(motion)
+                self.mode = WallBounceMode::Spiral(spiral);
+                TaskStatus::Go(motion)
             }
             None => {
-                self.begin_bounce(mind);
-                self.bounce.step(situation, mind)
+                self.begin_bounce(context);
+                self.bounce.step(situation, context)
             }
         }
     }
 
-    fn bounce(&mut self, left_m: f64, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn bounce(&mut self, left_m: f64, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if !self.bounce.is_evading() {
             if left_m <= 0.0 && !situation.is_free() {
-                mind.decide("follow-wall", Reason::Alternation, 0.0);
+                context.decide("follow-wall", Reason::Alternation, 0.0);
                 self.wall = WallFollower::default();
-                let left_m = mind.random.between(WALL_M.0, WALL_M.1);
-                self.manner = Manner::Wall { left_m };
-                return self.follow_wall(left_m, situation, mind);
+                let left_m = context.random.between(WALL_M.0, WALL_M.1);
+                self.mode = WallBounceMode::Wall { left_m };
+                return self.follow_wall(left_m, situation, context);
             }
-            if self.bounce.run_m() > OPEN_RUN_M && self.since_spiral_m > SPIRAL_EVERY_M {
-                mind.decide("spiral", Reason::OpenFloor, self.bounce.run_m());
-                self.manner = Manner::Spiral(Spiral::default());
-                return self.spiral(Spiral::default(), situation, mind);
+            if self.bounce.straight_m() > OPEN_STRAIGHT_M && self.since_spiral_m > SPIRAL_EVERY_M {
+                context.decide("spiral", Reason::OpenFloor, self.bounce.straight_m());
+                self.mode = WallBounceMode::Spiral(Spiral::default());
+                return self.spiral(Spiral::default(), situation, context);
             }
         }
-        self.bounce.step(situation, mind)
+        self.bounce.step(situation, context)
     }
 
-    fn follow_wall(&mut self, left_m: f64, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn follow_wall(
+        &mut self,
+        left_m: f64,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> TaskStatus {
         if left_m <= 0.0 && situation.is_free() && !self.wall.is_evading() {
-            let turn_rad = mind.random.between(AWAY_RAD.0, AWAY_RAD.1);
-            mind.decide("leave-wall", Reason::Alternation, turn_rad);
-            self.manner = Manner::Away(Turn::by(turn_rad));
-            return Plan::Go(Motion::Halt);
+            let turn_rad = context.random.between(AWAY_RAD.0, AWAY_RAD.1);
+            context.decide("leave-wall", Reason::Alternation, turn_rad);
+            self.mode = WallBounceMode::Away(Turn::by(turn_rad));
+            return TaskStatus::Go(Motion::Halt);
         }
-        match self.wall.step(situation, mind) {
-            WallStep::Going(motion) => Plan::Go(motion),
+        match self.wall.step(situation, context) {
+            WallStep::Going(motion) => TaskStatus::Go(motion),
             WallStep::Trouble(reason) => {
-                self.begin_bounce(mind);
-                Plan::Trouble(reason)
+                self.begin_bounce(context);
+                TaskStatus::Trouble(reason)
             }
         }
     }

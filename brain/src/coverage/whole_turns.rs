@@ -1,43 +1,43 @@
-//! Full turns on the spot beside a straight wall, by which the scale of the gyro shows.
+//! Full turns on the spot beside a straight wall, which measure the scale of the gyro.
 //!
-//! A wall that is beside the robot before and after has not turned: what the gyro counted beyond whole turns is its error. The
-//! survey of the home fits the wall before and the wall after like any other two pieces of one wall; this only sees to it that
-//! the turns happen where a wall was long enough beside the robot for its direction to be known.
+//! A wall that is beside the robot before and after has not turned: what the gyro counted beyond whole turns is its error.
+//! Line SLAM fits the wall before and the wall after like any other two observations of one wall. This module only makes
+//! the turns happen where a wall was beside the robot long enough for its direction to be known.
 
 use core::f64::consts::TAU;
 
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-use crate::navigation::{Leg, Mind, Situation, Turn};
+use crate::navigation::{ManoeuvreStep, Situation, TaskContext, Turn};
 
-/// Worth it while the scale is known no better, relative. A gyro is off by some 0.5 %; with a tenth of a percent a first run
-/// is wrong by 7 cm instead of 11 (design page on navigation).
+/// Turns are worth it while the relative deviation of the scale is above this. A gyro is off by some 0.5 %; with a tenth of
+/// a percent a first run is wrong by 7 cm instead of 11 (design page on navigation).
 const WORTH_SIGMA: f64 = 3.0e-3;
-/// Most turns at a time: the direction of a piece of wall is known to one degree, so three of them tell the scale to 0.1 %.
+/// Most turns at a time: the direction of a wall segment is known to one degree, so three turns give the scale to 0.1 %.
 const TURNS_MAX: f64 = 3.0;
-/// They may be counted wrong by so much that the wall after is still taken for the wall before, radians: 6 degrees at one deviation.
+/// Largest error of the count with which the wall after still matches the wall before, radians: 6 degrees at one deviation.
 const MISCOUNTED_RAD: f64 = 0.105;
-/// Way along a wall that shows its direction, metres: as long as what the survey takes for one piece.
+/// Distance along a wall that gives its direction, metres: the length of one segment in line SLAM.
 const WALL_M: f64 = 0.75;
-/// A wall is straight as long as the robot that follows it turns no more than this, radians.
+/// A wall is straight while the robot that follows it turns no more than this, radians.
 const STRAIGHT_RAD: f64 = 0.12;
 
 /// The turns of one lap.
 #[derive(Debug, Default)]
 pub(super) struct WholeTurns {
     turn: Option<Turn>,
-    /// How far it has come, and whole turns that are over, radians.
+    /// Angle of the current turn, and of whole turns that are over, radians.
     spun_rad: f64,
     made_rad: f64,
-    /// Way along what is beside it, and by how much the robot turned meanwhile.
+    /// Distance along the wall, and how much the robot turned meanwhile.
     wall_m: f64,
     turned_rad: f64,
-    /// Once in a lap: a robot that turned and learnt nothing by it has something else wrong, and the lap goes on telling the scale.
+    /// Once in a lap: if the turns did not help, something else is wrong, and the lap itself still measures the scale.
     has_begun: bool,
 }
 
 impl WholeTurns {
-    /// Half-done turns are void.
+    /// Discards unfinished turns.
     pub(super) fn interrupted(&mut self) {
         if self.turn.take().is_some() {
             self.made_rad += TAU * libm::round(self.spun_rad / TAU);
@@ -46,22 +46,23 @@ impl WholeTurns {
         self.wall_m = 0.0;
     }
 
-    /// Whole turns that have been made since this was asked last, radians.
+    /// Whole turns made since the last call, radians.
     pub(super) fn take_made_rad(&mut self) -> f64 {
         core::mem::take(&mut self.made_rad)
     }
 
-    /// What to do for the gyro's sake, if anything. `is_beside_wall`: a wall has been beside the robot since the last step.
+    /// What to do to calibrate the gyro, if anything. `is_beside_wall`: a wall has been beside the robot since the last
+    /// step.
     pub(super) fn step(
         &mut self,
         situation: &Situation<'_>,
         is_beside_wall: bool,
-        mind: &mut Mind,
+        context: &mut TaskContext,
     ) -> Option<Motion> {
         if let Some(turn) = &mut self.turn {
             self.spun_rad += situation.advance.turn_rad;
             match turn.step(situation) {
-                Leg::Going(motion) if situation.is_free() => return Some(motion),
+                ManoeuvreStep::Going(motion) if situation.is_free() => return Some(motion),
                 _ => self.interrupted(),
             }
         }
@@ -69,23 +70,23 @@ impl WholeTurns {
         let turns = self.due(situation)?;
         self.has_begun = true;
         self.turn = Some(Turn::by(turns * TAU));
-        mind.decide("turn", Reason::GyroScale, turns);
+        context.decide("turn", Reason::GyroScale, turns);
         Some(Motion::Halt)
     }
 
     fn count(&mut self, situation: &Situation<'_>, is_beside_wall: bool) {
         let advance = situation.advance;
-        let way_m = advance.distance_m.max(0.0);
+        let driven_m = advance.distance_m.max(0.0);
         self.turned_rad += advance.turn_rad;
         if is_beside_wall && self.turned_rad.abs() < STRAIGHT_RAD {
-            self.wall_m += way_m;
+            self.wall_m += driven_m;
         } else {
             self.wall_m = 0.0;
             self.turned_rad = 0.0;
         }
     }
 
-    /// Turns that are due.
+    /// Number of turns that are due.
     fn due(&self, situation: &Situation<'_>) -> Option<f64> {
         let sigma = situation.gyro_scale_sigma.filter(|sigma| *sigma > WORTH_SIGMA)?;
         let is_due = !self.has_begun && self.wall_m > WALL_M && situation.is_free();

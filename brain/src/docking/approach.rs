@@ -1,120 +1,121 @@
-//! The way in by the two beams: scan for the dock, drive along the line between the lobes, and try again beside it.
+//! The approach by the two beams: scan for the dock, drive along the centreline between the lobes, and try again beside it.
 //!
-//! Terms. *Line*: where both lobes are heard; it leads straight in. *Base*: direction of the line by the robot's own
-//! count of its turns. *Trim*: what is added to the base while one lobe alone is heard. *Try*: one drive along the line.
+//! Terms. *Centreline*: where both lobes are received; it leads straight onto the dock. *Base*: direction of the centreline
+//! in the robot's own count of its turns. *Trim*: correction of the base while only one lobe is received. *Try*: one drive
+//! along the centreline.
 
 use core::f64::consts::PI;
 
-use super::line::Line;
+use super::centreline::CentrelineDrive;
 use super::scan::{Scan, ScanStep};
-use crate::mapping::{DockBeamFilter, Lobe};
+use crate::mapping::Lobe;
 use crate::model::action::Motion;
 use crate::model::geometry::normalize_rad;
 use crate::model::reason::Reason;
-use crate::navigation::{Evasion, EvasionStep, Mind, Situation};
+use crate::navigation::{Evasion, EvasionStep, Situation, TaskContext};
 
-/// Speed beside the line.
+/// Speed beside the centreline.
 const ASIDE_M_PER_S: f64 = 0.18;
-/// Steering, rad/s for each radian.
+/// Turn rate per radian of heading error.
 const STEER_PER_S: f64 = 2.5;
-/// Greater errors of the heading are turned away on the spot.
+/// Larger heading errors are corrected on the spot.
 const TURN_FIRST_RAD: f64 = 0.3;
 /// Rates of such a turn, rad/s.
 const TURN_RAD_PER_S: (f64, f64) = (0.4, 1.2);
-/// Way back and turn of a wiggle at the contacts: 5 degrees.
+/// Back-off and turn of a wiggle at the contacts: 5 degrees.
 const WIGGLE_BACK_M: f64 = 0.03;
 const WIGGLE_RAD: f64 = 0.087;
 /// Wiggles of one try.
 const WIGGLES_MAX: u32 = 2;
-/// Way back before the robot turns round to leave for another try; no more is known to be floor.
+/// Distance to back off before the robot turns round for another try; only this much floor is known.
 const RETRY_BACK_M: f64 = 0.08;
-/// Way off for another try, metres.
+/// Distance to drive away for another try, metres.
 const RETRY_AWAY_M: f64 = 0.5;
 /// Tries of one approach.
 pub(super) const TRIES_MAX: u32 = 5;
 /// Scans that may fail or lead nowhere in one approach.
 const SCANS_MAX: u32 = 8;
-/// Angles between the dock and the way to the line, seen from beside the line: the shortest way first, then ways that lead
-/// past what stood in it.
+/// Angles between the direction of the dock and the path to the centreline, seen from beside the centreline. The shortest
+/// path comes first, then paths past an obstacle.
 const ASIDE_RAD: [f64; 3] = [0.9, 0.35, 0.6];
-/// The same from so near that the line is too short: away from the dock.
+/// The same from so near that the centreline is too short: away from the dock.
 const ASIDE_NEAR_RAD: f64 = 2.2;
-/// The same from beside the dock, at its wall: to a place in front of it.
+/// The same from beside the dock, at its wall: to a point in front of it.
 const BESIDE_RAD: f64 = 1.4;
 const BESIDE_M: f64 = 0.75;
-/// What is seen on one side only so much more than on the other is the wall of the dock, share of a touch.
+/// Surplus of the proximity level on one side that shows the wall of the dock, as a share of a touch.
 const WALL_LEVEL: f64 = 0.1;
-/// Longest way to the line, and from a place where only the near field is heard, metres.
+/// Longest path to the centreline, and from where only the near field is received, metres.
 const ASIDE_MAX_M: f64 = 1.5;
 const ASIDE_NEAR_M: f64 = 0.5;
 
 /// An approach.
 #[derive(Clone, Debug)]
 pub(super) struct Approach {
-    phase: Phase,
+    phase: ApproachPhase,
     /// Angle turned since the start, radians.
     heading_rad: f64,
     tries: u32,
     scans: u32,
     wiggles: u32,
     wiggle_side: f64,
-    /// Ways to the line that were tried.
+    /// Paths to the centreline that were tried.
     asides: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum ApproachPhase {
     Scan(Scan),
-    Line(Line),
-    Leg(Leg),
-    Evade(Evasion, After),
+    Centreline(CentrelineDrive),
+    Straight(StraightDrive),
+    Evade(Evasion, AfterEvasion),
 }
 
-/// A straight way in some direction.
+/// A straight drive in one direction.
 #[derive(Clone, Copy, Debug)]
-struct Leg {
+struct StraightDrive {
     heading_rad: f64,
     left_m: f64,
-    /// It ends where the line is met.
-    to_line: bool,
+    /// It ends where it meets the centreline.
+    to_centreline: bool,
 }
 
 /// What follows an evasion.
 #[derive(Clone, Copy, Debug)]
-enum After {
+enum AfterEvasion {
     Scan,
-    Line(f64),
-    Leg(f64),
+    Centreline(f64),
+    Straight(f64),
 }
 
 /// State of an approach after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ApproachStep {
-    /// On the way.
+    /// It goes on.
     Going(Motion),
     /// The beams are lost.
     Silent,
-    /// All tries were made.
+    /// All tries failed.
     Spent,
-    /// Something holds the robot.
+    /// The robot is held.
     Held(Reason),
 }
 
 impl Approach {
-    /// An approach by the beams alone, after so many others.
+    /// An approach by the beams alone, after this many others.
     pub(super) fn by_beams(others: u32) -> Self {
         Self {
             asides: others as usize,
-            ..Self::beginning(Phase::Scan(Scan::new()))
+            ..Self::beginning(ApproachPhase::Scan(Scan::new()))
         }
     }
 
-    /// An approach from a place in front of the dock, which by the map lies `bearing_rad` left of straight ahead.
+    /// An approach from a point in front of the dock. By the map the dock lies `bearing_rad` left of straight ahead.
     pub(super) fn from_map(bearing_rad: f64) -> Self {
-        Self::beginning(Phase::Line(Line::of_map(bearing_rad)))
+        Self::beginning(ApproachPhase::Centreline(CentrelineDrive::of_map(bearing_rad)))
     }
 
-    fn beginning(phase: Phase) -> Self {
+    fn beginning(phase: ApproachPhase) -> Self {
         Self {
             phase,
             heading_rad: 0.0,
@@ -126,39 +127,42 @@ impl Approach {
         }
     }
 
-    pub(super) fn step(
-        &mut self,
-        hearing: &DockBeamFilter,
-        (situation, mind): (&Situation<'_>, &mut Mind),
-    ) -> ApproachStep {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> ApproachStep {
         self.heading_rad += situation.advance.turn_rad;
         match self.phase {
-            Phase::Evade(evasion, after) => self.evade(evasion, after, situation),
+            ApproachPhase::Evade(evasion, after) => self.evade(evasion, after, situation),
             _ if situation.at_cliff => {
                 let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
-                self.turn_round(Evasion::from_cliff, reason, mind)
+                self.retry_elsewhere(Evasion::from_cliff, reason, context)
             }
-            Phase::Scan(scan) => self.scan(scan, hearing, (situation, mind)),
-            Phase::Line(line) => self.line(line, hearing, (situation, mind)),
-            Phase::Leg(leg) => self.leg(leg, hearing, (situation, mind)),
+            ApproachPhase::Scan(scan) => self.scan(scan, situation, context),
+            ApproachPhase::Centreline(line) => self.drive_centreline(line, situation, context),
+            ApproachPhase::Straight(drive) => self.drive_straight(drive, situation, context),
         }
     }
 
-    fn evade(&mut self, mut evasion: Evasion, after: After, situation: &Situation<'_>) -> ApproachStep {
+    fn evade(
+        &mut self,
+        mut evasion: Evasion,
+        after: AfterEvasion,
+        situation: &Situation<'_>,
+    ) -> ApproachStep {
         match evasion.step(situation) {
             EvasionStep::Going(motion) => {
-                self.phase = Phase::Evade(evasion, after);
+                self.phase = ApproachPhase::Evade(evasion, after);
                 ApproachStep::Going(motion)
             }
             EvasionStep::Held(reason) => ApproachStep::Held(reason),
             EvasionStep::Free => {
                 self.phase = match after {
-                    After::Scan => Phase::Scan(Scan::new()),
-                    After::Line(base_rad) => Phase::Line(Line::along(base_rad)),
-                    After::Leg(heading_rad) => Phase::Leg(Leg {
+                    AfterEvasion::Scan => ApproachPhase::Scan(Scan::new()),
+                    AfterEvasion::Centreline(base_rad) => {
+                        ApproachPhase::Centreline(CentrelineDrive::along(base_rad))
+                    }
+                    AfterEvasion::Straight(heading_rad) => ApproachPhase::Straight(StraightDrive {
                         heading_rad,
                         left_m: RETRY_AWAY_M,
-                        to_line: false,
+                        to_centreline: false,
                     }),
                 };
                 ApproachStep::Going(Motion::Halt)
@@ -166,18 +170,13 @@ impl Approach {
         }
     }
 
-    fn scan(
-        &mut self,
-        mut scan: Scan,
-        hearing: &DockBeamFilter,
-        (situation, mind): (&Situation<'_>, &mut Mind),
-    ) -> ApproachStep {
+    fn scan(&mut self, mut scan: Scan, situation: &Situation<'_>, context: &mut TaskContext) -> ApproachStep {
         if situation.touching {
-            return self.free_oneself(mind);
+            return self.evade_contact(context);
         }
-        match scan.step(hearing, situation.advance.turn_rad) {
+        match scan.step(situation.beams.current(), situation.advance.turn_rad) {
             ScanStep::Going(motion) => {
-                self.phase = Phase::Scan(scan);
+                self.phase = ApproachPhase::Scan(scan);
                 ApproachStep::Going(motion)
             }
             ScanStep::Failed => ApproachStep::Silent,
@@ -186,41 +185,43 @@ impl Approach {
                 if self.scans > SCANS_MAX {
                     return ApproachStep::Spent;
                 }
-                mind.decide("dock-scan", Reason::DockBeam, bearing_rad);
-                self.phase = self.after_scan(bearing_rad, hearing, (situation, mind));
+                context.decide("dock-scan", Reason::DockBeam, bearing_rad);
+                self.phase = self.after_scan(bearing_rad, situation, context);
                 ApproachStep::Going(Motion::Halt)
             }
         }
     }
 
-    /// Where to go from a place from which the dock lies `bearing_rad` left of straight ahead.
+    /// Where to drive when the dock lies `bearing_rad` left of straight ahead.
     fn after_scan(
         &mut self,
         bearing_rad: f64,
-        hearing: &DockBeamFilter,
-        (situation, mind): (&Situation<'_>, &mut Mind),
-    ) -> Phase {
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> ApproachPhase {
         let dock_rad = self.heading_rad + bearing_rad;
-        // To a robot that faces the dock the line lies on the right when it hears the left lobe.
-        let to_line = match hearing.lobe() {
-            Lobe::Both => return Phase::Line(Line::along(dock_rad)),
+        // A robot that faces the dock and receives the left lobe has the centreline on its right.
+        let to_centreline = match situation.beams.current().lobe() {
+            Lobe::Both => return ApproachPhase::Centreline(CentrelineDrive::along(dock_rad)),
             Lobe::Left => -1.0,
             Lobe::Right => 1.0,
-            Lobe::None => {
-                away_from_wall(bearing_rad, situation).unwrap_or(if mind.random.coin() { 1.0 } else { -1.0 })
-            }
+            Lobe::None => away_from_wall(bearing_rad, situation).unwrap_or(if context.random.coin() {
+                1.0
+            } else {
+                -1.0
+            }),
         };
-        let is_near = hearing.is_near();
-        mind.decide("dock-line", Reason::DockBeam, to_line);
-        let (aside_rad, left_m) = match (is_near, hearing.lobe()) {
+        let is_near = situation.beams.current().is_near();
+        context.decide("dock-line", Reason::DockBeam, to_centreline);
+        let (aside_rad, left_m) = match (is_near, situation.beams.current().lobe()) {
             (false, _) => (self.aside_rad(), ASIDE_MAX_M),
             (true, Lobe::None) => (BESIDE_RAD, BESIDE_M),
             (true, _) => (ASIDE_NEAR_RAD, ASIDE_NEAR_M),
         };
-        Phase::Leg(Leg {
-            heading_rad: dock_rad + to_line * aside_rad,
+        ApproachPhase::Straight(StraightDrive {
+            heading_rad: dock_rad + to_centreline * aside_rad,
             left_m,
-            to_line: !is_near,
+            to_centreline: !is_near,
         })
     }
 
@@ -231,129 +232,133 @@ impl Approach {
             .unwrap_or_default()
     }
 
-    fn leg(
+    fn drive_straight(
         &mut self,
-        mut leg: Leg,
-        hearing: &DockBeamFilter,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        mut drive: StraightDrive,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         if situation.touching {
             self.asides += 1;
-            return self.free_oneself(mind);
+            return self.evade_contact(context);
         }
-        leg.left_m -= situation.advance.distance_m.max(0.0);
-        if leg.left_m <= 0.0 || (leg.to_line && hearing.lobe() == Lobe::Both) {
-            self.phase = Phase::Scan(Scan::new());
+        drive.left_m -= situation.advance.distance_m.max(0.0);
+        if drive.left_m <= 0.0 || (drive.to_centreline && situation.beams.current().lobe() == Lobe::Both) {
+            self.phase = ApproachPhase::Scan(Scan::new());
             return ApproachStep::Going(Motion::Halt);
         }
-        self.phase = Phase::Leg(leg);
-        ApproachStep::Going(self.toward(leg.heading_rad, ASIDE_M_PER_S))
+        self.phase = ApproachPhase::Straight(drive);
+        ApproachStep::Going(self.toward(drive.heading_rad, ASIDE_M_PER_S))
     }
 
-    fn line(
+    fn drive_centreline(
         &mut self,
-        mut line: Line,
-        hearing: &DockBeamFilter,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        mut line: CentrelineDrive,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         if situation.touching {
-            return self.miss(line, hearing, (situation, mind));
+            return self.miss(line, situation, context);
         }
-        line.follow(hearing, situation.advance.distance_m, situation.advance.time_s);
-        self.phase = Phase::Line(line);
+        line.follow(
+            situation.beams.current(),
+            situation.advance.distance_m,
+            situation.advance.time_s,
+        );
+        self.phase = ApproachPhase::Centreline(line);
         if line.is_missed() {
-            return self.leave(line.base_rad(), mind);
+            return self.leave(line.base_rad(), context);
         }
         let error_rad = normalize_rad(line.setpoint_rad() - self.heading_rad);
         if line.is_lost() && error_rad.abs() < TURN_FIRST_RAD {
-            self.phase = Phase::Scan(Scan::new());
+            self.phase = ApproachPhase::Scan(Scan::new());
             return ApproachStep::Going(Motion::Halt);
         }
         ApproachStep::Going(self.toward(line.setpoint_rad(), line.speed_m_per_s()))
     }
 
-    /// Hit something before the contacts closed.
+    /// Handles a contact before the dock contacts closed.
     fn miss(
         &mut self,
-        line: Line,
-        hearing: &DockBeamFilter,
-        (situation, mind): (&Situation<'_>, &mut Mind),
+        line: CentrelineDrive,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
-        if !hearing.is_near() {
-            // Something stands in the way.
-            return self.turn_round(Evasion::from_contact, reason, mind);
+        if !situation.beams.current().is_near() {
+            // An obstacle is in the path.
+            return self.retry_elsewhere(Evasion::from_contact, reason, context);
         }
         if self.wiggles >= WIGGLES_MAX {
-            return self.leave(line.base_rad(), mind);
+            return self.leave(line.base_rad(), context);
         }
         self.wiggles += 1;
-        mind.decide("dock-wiggle", Reason::DockMissed, f64::from(self.wiggles));
+        context.decide("dock-wiggle", Reason::DockMissed, f64::from(self.wiggles));
         let base_rad = line.base_rad() + self.wiggle_side * WIGGLE_RAD * f64::from(self.wiggles);
         self.wiggle_side = -self.wiggle_side;
         let turn_rad = normalize_rad(base_rad - self.heading_rad);
-        self.phase = Phase::Evade(
+        self.phase = ApproachPhase::Evade(
             Evasion::from_contact(WIGGLE_BACK_M, turn_rad),
-            After::Line(base_rad),
+            AfterEvasion::Centreline(base_rad),
         );
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// Leaves the dock in order to try again.
-    fn leave(&mut self, base_rad: f64, mind: &mut Mind) -> ApproachStep {
+    /// Leaves the dock for another try.
+    fn leave(&mut self, base_rad: f64, context: &mut TaskContext) -> ApproachStep {
         self.tries += 1;
         self.wiggles = 0;
         if self.tries >= TRIES_MAX {
             return ApproachStep::Spent;
         }
-        mind.decide("dock-retry", Reason::DockMissed, f64::from(self.tries));
-        let away_rad = base_rad + PI + mind.random.between(-0.3, 0.3);
+        context.decide("dock-retry", Reason::DockMissed, f64::from(self.tries));
+        let away_rad = base_rad + PI + context.random.between(-0.3, 0.3);
         let turn_rad = normalize_rad(away_rad - self.heading_rad);
-        self.phase = Phase::Evade(
+        self.phase = ApproachPhase::Evade(
             Evasion::from_contact(RETRY_BACK_M, turn_rad),
-            After::Leg(away_rad),
+            AfterEvasion::Straight(away_rad),
         );
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// Away from something that is not the dock, and a try less.
-    fn turn_round(
+    /// Evades an obstacle that is not the dock. This uses up a try.
+    fn retry_elsewhere(
         &mut self,
         evasion: fn(f64, f64) -> Evasion,
         reason: Reason,
-        mind: &mut Mind,
+        context: &mut TaskContext,
     ) -> ApproachStep {
         self.tries += 1;
         if self.tries >= TRIES_MAX {
             return ApproachStep::Spent;
         }
-        mind.decide("dock-retry", reason, f64::from(self.tries));
+        context.decide("dock-retry", reason, f64::from(self.tries));
         let side = match reason {
             Reason::BumpLeft | Reason::CliffLeft => -1.0,
             Reason::BumpRight | Reason::CliffRight => 1.0,
-            _ if mind.random.coin() => 1.0,
+            _ if context.random.coin() => 1.0,
             _ => -1.0,
         };
-        let turn_rad = side * mind.random.between(1.0, 1.8);
-        self.phase = Phase::Evade(
+        let turn_rad = side * context.random.between(1.0, 1.8);
+        self.phase = ApproachPhase::Evade(
             evasion(RETRY_BACK_M, turn_rad),
-            After::Leg(self.heading_rad + turn_rad),
+            AfterEvasion::Straight(self.heading_rad + turn_rad),
         );
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// Touched while looking round or on the way to the line.
-    fn free_oneself(&mut self, mind: &mut Mind) -> ApproachStep {
+    /// Evades a contact during a scan or on the path to the centreline.
+    fn evade_contact(&mut self, context: &mut TaskContext) -> ApproachStep {
         self.scans += 1;
         if self.scans > SCANS_MAX {
             return ApproachStep::Spent;
         }
-        let turn_rad = mind.random.between(-0.6, 0.6);
-        self.phase = Phase::Evade(Evasion::from_contact(RETRY_BACK_M, turn_rad), After::Scan);
+        let turn_rad = context.random.between(-0.6, 0.6);
+        self.phase = ApproachPhase::Evade(Evasion::from_contact(RETRY_BACK_M, turn_rad), AfterEvasion::Scan);
         ApproachStep::Going(Motion::Halt)
     }
 
-    /// The motion in a direction, after a turn on the spot if that is far from straight ahead.
+    /// The motion towards a heading. Large errors are corrected on the spot first.
     fn toward(&self, target_rad: f64, speed_m_per_s: f64) -> Motion {
         let error_rad = normalize_rad(target_rad - self.heading_rad);
         if error_rad.abs() > TURN_FIRST_RAD {
@@ -372,8 +377,8 @@ impl Approach {
     }
 }
 
-/// The side to which the wall of the dock does not lie, seen by a robot that faces the dock: +1 left, -1 right; `None` when
-/// no wall is seen.
+/// The side away from the wall of the dock, for a robot that faces the dock: +1 left, -1 right; `None` when no wall is
+/// seen.
 fn away_from_wall(bearing_rad: f64, situation: &Situation<'_>) -> Option<f64> {
     let sensors = situation.config.sensors.proximity.sensors();
     let on_left: f64 = sensors

@@ -1,30 +1,31 @@
-//! Places to which a robot goes back because it heard its dock there.
+//! Places to return to because the robot received a dock beam there.
 
 use crate::mapping::{BeamMemory, BeamPlace};
 use crate::model::geometry::Point2;
 use crate::navigation::Goal;
 
-/// What is as good as a place on the line in front of the dock may be so much nearer, metres.
+/// Detour that a place on the centreline is worth, compared with one beside it, metres.
 const ASIDE_DETOUR_M: f64 = 0.5;
 
-/// A place from which the robot did not get onto the dock.
+/// A place from which docking failed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Vain {
+pub(super) struct FailedPlace {
     pub(super) at: Point2,
-    /// Places within this are no better, metres.
+    /// Other places within this distance are no better, metres.
     pub(super) within_m: f64,
     pub(super) time_us: u64,
 }
 
-/// Places where a beam was heard and not looked for in vain since.
-pub(super) fn goals(memory: &BeamMemory, vain: &[Vain]) -> Vec<Goal> {
-    let is_vain = |place: &&BeamPlace| {
-        vain.iter()
-            .any(|vain| vain.time_us >= place.received_us && vain.at.distance_m(place.at) < vain.within_m)
+/// Places where a beam was received and from which docking has not failed since.
+pub(super) fn goals(memory: &BeamMemory, failed: &[FailedPlace]) -> Vec<Goal> {
+    let has_failed = |place: &&BeamPlace| {
+        failed.iter().any(|failed| {
+            failed.time_us >= place.received_us && failed.at.distance_m(place.at) < failed.within_m
+        })
     };
     memory
         .places()
-        .filter(|place| !is_vain(place))
+        .filter(|place| !has_failed(place))
         .map(|place| Goal {
             at: place.at,
             detour_m: if place.on_line { 0.0 } else { ASIDE_DETOUR_M },
@@ -34,13 +35,13 @@ pub(super) fn goals(memory: &BeamMemory, vain: &[Vain]) -> Vec<Goal> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Vain, goals};
+    use super::{FailedPlace, goals};
     use crate::mapping::BeamMemory;
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::observation::Observation;
     use crate::model::pose_estimate::PoseEstimate;
 
-    /// Drives along x for so many steps of 5 mm and 20 ms; hears `word` from `heard` on for ten steps.
+    /// Drives along x for this many steps of 5 mm and 20 ms; receives `word` for ten steps from `heard` on.
     fn driven(memory: &mut BeamMemory, steps: u64, heard: u64, word: u8) {
         for step in 0..steps {
             let is_heard = (heard..heard + 10).contains(&step);
@@ -61,19 +62,19 @@ mod tests {
     }
 
     #[test]
-    fn a_beam_is_remembered_until_it_was_looked_for_in_vain_or_the_robot_is_carried() {
+    fn a_beam_is_remembered_until_docking_failed_there_or_the_robot_is_carried() {
         let mut memory = BeamMemory::default();
         driven(&mut memory, 600, 200, 3);
         let heard = goals(&memory, &[]);
         assert_eq!(heard.len(), 1, "{heard:?}");
         assert!((heard[0].at.x_m - 1.03).abs() < 0.05, "{heard:?}");
-        let vain = |time_us| Vain {
+        let failed = |time_us| FailedPlace {
             at: Point2 { x_m: 1.2, y_m: 0.1 },
             within_m: 0.5,
             time_us,
         };
-        assert_eq!(goals(&memory, &[vain(1_000_000)]).len(), 1, "heard after it");
-        assert_eq!(goals(&memory, &[vain(9_000_000)]).len(), 0);
+        assert_eq!(goals(&memory, &[failed(1_000_000)]).len(), 1, "received after it");
+        assert_eq!(goals(&memory, &[failed(9_000_000)]).len(), 0);
         let lifted = Observation {
             wheel_drop: true,
             ..Observation::default()

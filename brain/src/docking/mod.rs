@@ -1,219 +1,232 @@
-//! Home to the dock: by the map to a place in front of it, or to where its beams were heard, then in by the beams; where
+//! Return to the dock: by the map to a place in front of it or to where its beams were received, then by the beams. Where
 //! neither helps, search.
 //!
-//! Terms. *Lobe*: half of the space before the dock, filled by one of its two side beams; where both are heard is the
-//! line that leads straight in. *Near field*: a weak beam around the dock. A receiver reports the sum of what it hears.
+//! Terms. *Lobe*: half of the space before the dock, filled by one of its two side beams; where both are received is the
+//! *centreline* that leads straight in. *Near field*: a weak beam around the dock. A receiver reports the sum of the beams
+//! it receives.
 //!
-//! The task never ends docked by its own word: that the contacts carry the dock's voltage is the firmware's to say, and the
-//! state machine above ends the job then. Every phase begins with a decision that names why.
+//! The task itself never ends as docked. The firmware reports that the contacts carry the dock's voltage, and the state
+//! machine above then ends the job. Every phase begins with a decision that names its reason.
 
 mod approach;
 mod beam_goals;
-mod line;
+mod centreline;
+mod dock_search;
 mod roam;
 mod scan;
-mod search;
 mod travel;
 
 use crate::model::action::Motion;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
-use crate::navigation::{Mind, Plan, Situation, Task};
+use crate::navigation::{Situation, Task, TaskContext, TaskStatus};
 use approach::{Approach, ApproachStep};
-use beam_goals::{Vain, goals};
-use search::Search;
+use beam_goals::{FailedPlace, goals};
+use dock_search::DockSearch;
 use travel::{Travel, TravelStep};
 
-/// How long beams are left alone after an approach that failed: elsewhere the next one may be better.
+/// Time for which beams are ignored after a failed approach: the next one may work better from elsewhere.
 const IGNORE_S: f64 = 15.0;
-/// How long a robot that knows the way searches by chance after the way was blocked or led to silence.
+/// Time of searching at random after a known path was blocked or led to a place without beams.
 const SEARCH_S: f64 = 40.0;
-/// Within this of a place where nothing was heard nothing is expected, metres; where the beams were heard and the way in
-/// failed, another place beside it may do.
+/// Within this distance of a place where nothing was received no beam is expected, metres. Where the beams were received
+/// and the approach failed, a place nearby may do.
 const SILENT_M: f64 = 0.5;
 const MISSED_M: f64 = 0.25;
-/// Ways back to where beams were heard, in one task.
+/// Returns to where beams were received, in one task.
 const BACK_TO_BEAMS_MAX: u32 = 12;
 
 /// The task.
 #[derive(Debug, Default)]
 pub(crate) struct Docking {
-    phase: Phase,
-    search: Search,
-    vain: Vec<Vain>,
+    phase: DockingPhase,
+    search: DockSearch,
+    failed_places: Vec<FailedPlace>,
     back_to_beams: u32,
     approaches: u32,
     elapsed_s: f64,
-    /// Beams are left alone for so long.
+    /// Beams are ignored for this long.
     ignore_s: f64,
-    /// The map is left alone for so long.
+    /// The map is ignored for this long.
     search_s: f64,
 }
 
 #[derive(Debug, Default)]
-enum Phase {
-    /// About to decide.
+enum DockingPhase {
+    /// No phase is chosen yet.
     #[default]
     Undecided,
     /// By the map, to the dock.
     Travel(Box<Travel>),
-    /// By the map, to where a beam was heard.
+    /// By the map, to where a beam was received.
     Back(Box<Travel>),
     /// By the beams.
     Approach(Approach),
-    /// To where it has not been yet.
+    /// To unvisited floor.
     Search,
 }
 
 impl Task for Docking {
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let time_s = situation.advance.time_s;
         self.elapsed_s += time_s;
         self.ignore_s = (self.ignore_s - time_s).max(0.0);
         self.search_s = (self.search_s - time_s).max(0.0);
         self.search.note(situation);
         if self.elapsed_s > situation.config.dock_budget_s {
-            return Plan::Finished(Reason::DockNotFound);
+            return TaskStatus::Finished(Reason::DockNotFound);
         }
-        self.reconsider(situation, mind);
+        self.reconsider(situation, context);
         match &mut self.phase {
-            Phase::Travel(travel) => {
-                let step = travel.step(situation, mind);
-                self.after_travel(step, situation, mind)
+            DockingPhase::Travel(travel) => {
+                let step = travel.step(situation, context);
+                self.after_travel(step, situation, context)
             }
-            Phase::Back(travel) => {
-                let step = travel.step(situation, mind);
-                self.after_back(step, mind)
+            DockingPhase::Back(travel) => {
+                let step = travel.step(situation, context);
+                self.after_back(step, context)
             }
-            Phase::Approach(approach) => {
-                let step = approach.step(situation.beams.current(), (situation, &mut *mind));
-                self.after_approach(step, situation, mind)
+            DockingPhase::Approach(approach) => {
+                let step = approach.step(situation, context);
+                self.after_approach(step, situation, context)
             }
-            Phase::Search => self.search.step(situation, mind),
-            Phase::Undecided => Plan::Go(Motion::Halt),
+            DockingPhase::Search => self.search.step(situation, context),
+            DockingPhase::Undecided => TaskStatus::Go(Motion::Halt),
         }
     }
 
     fn interrupted(&mut self) {
         match &mut self.phase {
-            Phase::Travel(travel) | Phase::Back(travel) => travel.interrupted(),
-            Phase::Search => self.search.interrupted(),
-            Phase::Approach(_) | Phase::Undecided => self.phase = Phase::Undecided,
+            DockingPhase::Travel(travel) | DockingPhase::Back(travel) => travel.interrupted(),
+            DockingPhase::Search => self.search.interrupted(),
+            DockingPhase::Approach(_) | DockingPhase::Undecided => self.phase = DockingPhase::Undecided,
         }
     }
 }
 
 impl Docking {
-    /// Changes the phase where something better has come up.
-    fn reconsider(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    /// Changes the phase when a better one is possible.
+    fn reconsider(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         let known = known_dock(situation);
         match &self.phase {
-            Phase::Approach(_) => {}
-            Phase::Travel(_) => {
+            DockingPhase::Approach(_) => {}
+            DockingPhase::Travel(_) => {
                 if let Err(reason) = known {
-                    self.begin_search(reason, mind);
+                    self.begin_search(reason, context);
                 }
             }
-            Phase::Search if self.search.is_evading() || !situation.is_free() => {}
-            Phase::Back(travel) if travel.is_evading() || !situation.is_free() => {}
-            Phase::Back(_) | Phase::Search | Phase::Undecided => self.choose(known, situation, mind),
+            DockingPhase::Search if self.search.is_evading() || !situation.is_free() => {}
+            DockingPhase::Back(travel) if travel.is_evading() || !situation.is_free() => {}
+            DockingPhase::Back(_) | DockingPhase::Search | DockingPhase::Undecided => {
+                self.choose(known, situation, context)
+            }
         }
     }
 
-    fn choose(&mut self, known: Result<Pose2, Reason>, situation: &Situation<'_>, mind: &mut Mind) {
+    fn choose(&mut self, known: Result<Pose2, Reason>, situation: &Situation<'_>, context: &mut TaskContext) {
         let may_travel = self.search_s <= 0.0;
         match known {
             Ok(dock) if may_travel => {
-                mind.decide("dock-travel", Reason::DockKnown, 0.0);
-                self.phase = Phase::Travel(Box::new(Travel::to_dock(dock)));
+                context.decide("dock-travel", Reason::DockKnown, 0.0);
+                self.phase = DockingPhase::Travel(Box::new(Travel::to_dock(dock)));
             }
             _ if situation.beams.current().is_any() && self.ignore_s <= 0.0 => {
-                self.begin_approach(Reason::DockBeam, mind);
+                self.begin_approach(Reason::DockBeam, context);
             }
-            _ if matches!(self.phase, Phase::Back(_)) => {}
-            Err(_) if may_travel && self.begin_back(situation, mind) => {}
+            _ if matches!(self.phase, DockingPhase::Back(_)) => {}
+            Err(_) if may_travel && self.begin_back(situation, context) => {}
             _ => {
-                if !matches!(self.phase, Phase::Search) {
-                    self.begin_search(known.err().unwrap_or(Reason::NoBeam), mind);
+                if !matches!(self.phase, DockingPhase::Search) {
+                    self.begin_search(known.err().unwrap_or(Reason::NoBeam), context);
                 }
             }
         }
     }
 
-    /// Back to where a beam was heard, if there is such a place.
-    fn begin_back(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> bool {
-        let heard_at = goals(situation.beams, &self.vain);
+    /// Drives back to where a beam was received, if there is such a place.
+    fn begin_back(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> bool {
+        let heard_at = goals(situation.beams, &self.failed_places);
         if heard_at.is_empty() || self.back_to_beams >= BACK_TO_BEAMS_MAX {
             return false;
         }
         self.back_to_beams += 1;
-        mind.decide("dock-travel", Reason::DockHeard, heard_at.len() as f64);
+        context.decide("dock-travel", Reason::DockHeard, heard_at.len() as f64);
         self.search.interrupted();
-        self.phase = Phase::Back(Box::new(Travel::to_beam(heard_at)));
+        self.phase = DockingPhase::Back(Box::new(Travel::to_beam(heard_at)));
         true
     }
 
-    fn begin_approach(&mut self, reason: Reason, mind: &mut Mind) {
-        mind.decide("approach", reason, f64::from(self.approaches));
-        self.phase = Phase::Approach(Approach::by_beams(self.approaches));
+    fn begin_approach(&mut self, reason: Reason, context: &mut TaskContext) {
+        context.decide("approach", reason, f64::from(self.approaches));
+        self.phase = DockingPhase::Approach(Approach::by_beams(self.approaches));
         self.approaches += 1;
     }
 
-    fn begin_search(&mut self, reason: Reason, mind: &mut Mind) {
-        mind.decide("dock-search", reason, 0.0);
+    fn begin_search(&mut self, reason: Reason, context: &mut TaskContext) {
+        context.decide("dock-search", reason, 0.0);
         self.search.interrupted();
-        self.phase = Phase::Search;
+        self.phase = DockingPhase::Search;
     }
 
-    fn after_travel(&mut self, step: TravelStep, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn after_travel(
+        &mut self,
+        step: TravelStep,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> TaskStatus {
         match step {
-            TravelStep::Going(motion) => return Plan::Go(motion),
-            TravelStep::Held(reason) => return Plan::Trouble(reason),
-            // Told by eye, its direction is too rough to drive in by.
+            TravelStep::Going(motion) => return TaskStatus::Go(motion),
+            TravelStep::Held(reason) => return TaskStatus::Trouble(reason),
+            // A person marked the dock on the map: its direction is too rough to drive in by.
             TravelStep::Arrived if situation.map.dock_location().is_reported() => {
-                self.begin_approach(Reason::DockKnown, mind);
+                self.begin_approach(Reason::DockKnown, context);
             }
             TravelStep::Arrived => {
                 let dock_rad = situation.map.dock().map_or(0.0, |dock| dock.heading_rad);
                 let bearing_rad = normalize_rad(dock_rad - situation.pose.heading_rad);
-                mind.decide("approach", Reason::DockKnown, bearing_rad);
-                self.phase = Phase::Approach(Approach::from_map(bearing_rad));
+                context.decide("approach", Reason::DockKnown, bearing_rad);
+                self.phase = DockingPhase::Approach(Approach::from_map(bearing_rad));
             }
             TravelStep::Blocked => {
                 self.search_s = SEARCH_S;
-                self.begin_search(Reason::WayBlocked, mind);
+                self.begin_search(Reason::WayBlocked, context);
             }
         }
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 
-    fn after_back(&mut self, step: TravelStep, mind: &mut Mind) -> Plan {
+    fn after_back(&mut self, step: TravelStep, context: &mut TaskContext) -> TaskStatus {
         match step {
-            TravelStep::Going(motion) => return Plan::Go(motion),
-            TravelStep::Held(reason) => return Plan::Trouble(reason),
+            TravelStep::Going(motion) => return TaskStatus::Go(motion),
+            TravelStep::Held(reason) => return TaskStatus::Trouble(reason),
             TravelStep::Arrived => {
-                self.begin_approach(Reason::DockHeard, mind);
+                self.begin_approach(Reason::DockHeard, context);
             }
             TravelStep::Blocked => {
                 self.search_s = SEARCH_S;
-                self.begin_search(Reason::WayBlocked, mind);
+                self.begin_search(Reason::WayBlocked, context);
             }
         }
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 
-    fn after_approach(&mut self, step: ApproachStep, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn after_approach(
+        &mut self,
+        step: ApproachStep,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> TaskStatus {
         let reason = match step {
-            ApproachStep::Going(motion) => return Plan::Go(motion),
+            ApproachStep::Going(motion) => return TaskStatus::Go(motion),
             ApproachStep::Held(reason) => {
-                self.phase = Phase::Undecided;
-                return Plan::Trouble(reason);
+                self.phase = DockingPhase::Undecided;
+                return TaskStatus::Trouble(reason);
             }
             ApproachStep::Silent => Reason::NoBeam,
             ApproachStep::Spent => Reason::DockMissed,
         };
-        self.vain.push(Vain {
+        self.failed_places.push(FailedPlace {
             at: situation.pose.position(),
             within_m: if reason == Reason::NoBeam {
                 SILENT_M
@@ -228,18 +241,19 @@ impl Docking {
             (Reason::NoBeam, Err(_)) => 0.0,
             _ => IGNORE_S,
         };
-        self.begin_search(reason, mind);
-        Plan::Go(Motion::Halt)
+        self.begin_search(reason, context);
+        TaskStatus::Go(Motion::Halt)
     }
 }
 
-/// Looks for the length of the way to the dock by the map in metres; `None` when it is not known where the dock is.
-pub(crate) fn way_home_m(situation: &Situation<'_>) -> Option<Gradual<Option<f64>>> {
+/// Starts the computation of the length of the path to the dock by the map, metres; `None` when the dock's place is not
+/// known.
+pub(crate) fn path_home_m(situation: &Situation<'_>) -> Option<Gradual<Option<f64>>> {
     let dock = known_dock(situation).ok()?;
-    Some(travel::way_m(dock, situation))
+    Some(travel::path_length_m(dock, situation))
 }
 
-/// Pose of a robot on the dock, for one that knows its own place too.
+/// Pose of a docked robot, if the robot is localized and the dock is on the map.
 fn known_dock(situation: &Situation<'_>) -> Result<Pose2, Reason> {
     let estimate = situation.estimate;
     let dock = situation.map.dock().ok_or(Reason::DockUnknown)?;

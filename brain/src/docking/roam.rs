@@ -1,8 +1,8 @@
-//! Straight ways to where the robot has not been yet.
+//! Straight drives to unvisited floor.
 //!
-//! Terms. *Block*: a square of half a metre. A robot that came through a block has seen its neighbours, too: beams reach
-//! far. *Ray*: a straight way from here that the map does not bar; it is worth as many blocks as it leads through that were
-//! not seen.
+//! Terms. *Block*: a square of half a metre. A robot that crossed a block has also seen its neighbours, since beams reach
+//! far. *Ray*: a straight line from the robot that no obstacle on the map blocks. Its value is the number of unseen blocks
+//! that it crosses.
 
 use core::f64::consts::{FRAC_PI_3, TAU};
 use std::collections::BTreeSet;
@@ -12,51 +12,51 @@ use crate::mapping::{Cell, CellKnowledge};
 use crate::model::action::Motion;
 use crate::model::geometry::{Point2, normalize_rad};
 use crate::model::reason::Reason;
-use crate::navigation::{Evasion, Mind, Plan, Situation, Task, encounter};
+use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, encounter};
 
 /// Edge of a block, metres.
 const BLOCK_M: f64 = 0.5;
-/// Directions that are looked at, and the steps and the length of a ray, metres.
+/// Number of directions that are compared, and the step and the length of a ray, metres.
 const DIRECTIONS: u32 = 32;
 const RAY_STEP_M: f64 = 0.1;
 const RAY_M: f64 = 5.0;
-/// A ray begins beyond the body, metres.
+/// A ray begins outside of the body, metres.
 const RAY_FROM_M: f64 = 0.3;
-/// A ray that comes so near to something that was touched ends there, metres.
+/// A ray ends this close to a contact, metres.
 const TOUCHED_M: f64 = 0.17;
-/// Touched places kept; the oldest go first.
+/// Contacts kept; the oldest go first.
 const TOUCHED_MAX: usize = 400;
-/// A robot on a way without news looks for a better one after so much of it, metres.
-const LOOK_EVERY_M: f64 = 1.0;
-/// A better way is one with so many steps of news more.
+/// After this distance without unseen blocks the robot looks for a better direction, metres.
+const COMPARE_EVERY_M: f64 = 1.0;
+/// A better direction crosses this many more unseen steps.
 const BETTER_STEPS: f64 = 8.0;
-/// Ways back after a contact and at a cliff, metres.
+/// Distances to back off after a contact and at a cliff, metres.
 const CONTACT_BACK_M: f64 = 0.04;
 const CLIFF_BACK_M: f64 = 0.08;
-/// Ways shorter than this in a row, metres, mean a pocket: out of it by bouncing.
+/// Several drives in a row shorter than this, metres, mean a pocket: the robot bounces out of it.
 const SHORT_M: f64 = 0.3;
 const SHORT_MAX: u32 = 4;
-/// It bounces for so long, seconds.
+/// Time of bouncing, seconds.
 const BOUNCE_S: f64 = 15.0;
-/// Speeds: cruise is the configuration's, this one is for something near ahead.
+/// Speed with an obstacle close ahead; the configuration gives the cruise speed.
 const NEAR_M_PER_S: f64 = 0.12;
-/// Proximity level that means something near.
+/// Proximity level that means an obstacle is close.
 const NEAR_LEVEL: f32 = 0.45;
 
-/// The ways, and what was seen on all of them.
+/// The drives, and what was seen on all of them.
 #[derive(Debug, Default)]
 pub(super) struct Roam {
     seen: BTreeSet<(i32, i32)>,
     touched: Vec<Point2>,
     evasion: Option<Evasion>,
     bounce: Option<(Bounce, f64)>,
-    run_m: f64,
+    straight_m: f64,
     without_news_m: f64,
-    short_runs: u32,
+    short_straights: u32,
 }
 
 impl Roam {
-    /// Whether it is just getting away from something.
+    /// Whether an evasion is in progress.
     pub(super) fn is_evading(&self) -> bool {
         self.evasion.is_some()
             || self
@@ -65,80 +65,89 @@ impl Roam {
                 .is_some_and(|(bounce, _)| bounce.is_evading())
     }
 
-    /// The robot was moved by somebody else.
+    /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
         self.evasion = None;
         self.bounce = None;
     }
 
-    /// Notes where the robot is, whoever drives it.
+    /// Records where the robot is, whoever drives it.
     pub(super) fn note(&mut self, situation: &Situation<'_>) {
         let (x, y) = block(situation.pose.position());
         let mut is_news = false;
         for (dx, dy) in [(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1)] {
             is_news |= self.seen.insert((x.saturating_add(dx), y.saturating_add(dy)));
         }
-        let way_m = situation.advance.distance_m.max(0.0);
-        self.without_news_m = if is_news { 0.0 } else { self.without_news_m + way_m };
+        let driven_m = situation.advance.distance_m.max(0.0);
+        self.without_news_m = if is_news {
+            0.0
+        } else {
+            self.without_news_m + driven_m
+        };
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if let Some((bounce, left_s)) = &mut self.bounce {
             *left_s -= situation.advance.time_s;
             if *left_s > 0.0 || bounce.is_evading() || !situation.is_free() {
-                return bounce.step(situation, mind);
+                return bounce.step(situation, context);
             }
             self.bounce = None;
         }
         let evades = self.evasion.is_some();
         match Evasion::pursue(&mut self.evasion, situation) {
-            Some(Ok(motion)) => return Plan::Go(motion),
+            Some(Ok(motion)) => return TaskStatus::Go(motion),
             Some(Err(reason)) => {
                 self.interrupted();
-                return Plan::Trouble(reason);
+                return TaskStatus::Trouble(reason);
             }
             None => {}
         }
         if evades {
-            self.run_m = 0.0;
+            self.straight_m = 0.0;
         }
-        self.run_m += situation.advance.distance_m.max(0.0);
+        self.straight_m += situation.advance.distance_m.max(0.0);
         if let Some(reason) = encounter(situation) {
-            return self.turn_from(reason, situation, mind);
+            return self.turn_from(reason, situation, context);
         }
-        if self.without_news_m > LOOK_EVERY_M {
+        if self.without_news_m > COMPARE_EVERY_M {
             self.without_news_m = 0.0;
-            if let Some(turn_rad) = self.better_way(situation, mind) {
-                mind.decide("dock-search-turn", Reason::DockUnknown, turn_rad);
+            if let Some(turn_rad) = self.better_direction(situation, context) {
+                context.decide("dock-search-turn", Reason::DockUnknown, turn_rad);
                 self.evasion = Some(Evasion::from_contact(0.0, turn_rad));
-                return Plan::Go(Motion::Halt);
+                return TaskStatus::Go(Motion::Halt);
             }
         }
-        Plan::Go(ahead(situation))
+        TaskStatus::Go(ahead(situation))
     }
 
-    /// Away from what was met, to where most is new.
-    fn turn_from(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    /// Evades an obstacle, towards most unseen floor.
+    fn turn_from(
+        &mut self,
+        reason: Reason,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> TaskStatus {
         self.remember(reason, situation);
-        self.short_runs = if self.run_m < SHORT_M {
-            self.short_runs + 1
+        self.short_straights = if self.straight_m < SHORT_M {
+            self.short_straights + 1
         } else {
             0
         };
-        mind.decide("back-off", reason, self.run_m);
-        if self.short_runs > SHORT_MAX {
-            self.short_runs = 0;
+        context.decide("back-off", reason, self.straight_m);
+        if self.short_straights > SHORT_MAX {
+            self.short_straights = 0;
             self.bounce = Some((Bounce::default(), BOUNCE_S));
-            return Plan::Go(Motion::Halt);
+            return TaskStatus::Go(Motion::Halt);
         }
         let away_rad = match reason {
             Reason::BumpLeft | Reason::CliffLeft => -FRAC_PI_3,
             Reason::BumpRight | Reason::CliffRight => FRAC_PI_3,
             _ => 0.0,
         };
-        let turn_rad = self.best(situation, mind, |turn_rad| {
-            let from_met_rad = normalize_rad(turn_rad + away_rad);
-            from_met_rad.abs() > 1.1
+        let turn_rad = self.best(situation, context, |turn_rad| {
+            let from_obstacle_rad = normalize_rad(turn_rad + away_rad);
+            from_obstacle_rad.abs() > 1.1
         });
         let turn_rad = turn_rad.map_or(core::f64::consts::PI, |(turn_rad, _)| turn_rad);
         self.evasion = Some(if situation.at_cliff {
@@ -146,7 +155,7 @@ impl Roam {
         } else {
             Evasion::from_contact(CONTACT_BACK_M, turn_rad)
         });
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 
     fn remember(&mut self, reason: Reason, situation: &Situation<'_>) {
@@ -162,18 +171,18 @@ impl Roam {
         self.touched.push(situation.pose.transform(in_base));
     }
 
-    /// A turn to a way that is worth leaving this one for.
-    fn better_way(&self, situation: &Situation<'_>, mind: &mut Mind) -> Option<f64> {
-        let (turn_rad, news) = self.best(situation, mind, |_| true)?;
+    /// A turn to a direction that is worth changing to.
+    fn better_direction(&self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<f64> {
+        let (turn_rad, news) = self.best(situation, context, |_| true)?;
         let straight = self.news(situation, 0.0);
         (news > straight + BETTER_STEPS).then_some(turn_rad)
     }
 
-    /// The turn to the way with most news, among those that are allowed; chance decides between equal ones.
+    /// The turn to the direction with most unseen floor, among the allowed ones; chance decides between equal ones.
     fn best(
         &self,
         situation: &Situation<'_>,
-        mind: &mut Mind,
+        context: &mut TaskContext,
         allowed: impl Fn(f64) -> bool,
     ) -> Option<(f64, f64)> {
         (0..DIRECTIONS)
@@ -182,21 +191,21 @@ impl Roam {
             .map(|turn_rad| {
                 (
                     turn_rad,
-                    self.news(situation, turn_rad) + mind.random.between(0.0, 3.0),
+                    self.news(situation, turn_rad) + context.random.between(0.0, 3.0),
                 )
             })
             .max_by(|one, other| one.1.total_cmp(&other.1))
     }
 
-    /// Steps of a ray that lead through blocks that were not seen; a free ray without news is worth a little.
+    /// Steps of a ray through unseen blocks; free steps through seen blocks count a little.
     fn news(&self, situation: &Situation<'_>, turn_rad: f64) -> f64 {
         let (sin, cos) = libm::sincos(turn_rad);
         let knowledge = situation.map.knowledge();
-        let (mut way_m, mut news) = (RAY_FROM_M, 0.0);
-        while way_m < RAY_M {
+        let (mut ray_m, mut news) = (RAY_FROM_M, 0.0);
+        while ray_m < RAY_M {
             let at = situation.pose.transform(Point2 {
-                x_m: way_m * cos,
-                y_m: way_m * sin,
+                x_m: ray_m * cos,
+                y_m: ray_m * sin,
             });
             let bars = matches!(
                 knowledge.get(Cell::under(at)),
@@ -211,7 +220,7 @@ impl Roam {
                 break;
             }
             news += if self.seen.contains(&block(at)) { 0.1 } else { 1.0 };
-            way_m += RAY_STEP_M;
+            ray_m += RAY_STEP_M;
         }
         news
     }
@@ -224,7 +233,7 @@ fn block(at: Point2) -> (i32, i32) {
     )
 }
 
-/// Straight ahead, slower when something is near.
+/// Straight ahead, slower when an obstacle is near.
 fn ahead(situation: &Situation<'_>) -> Motion {
     let proximity = &situation.observation.proximity;
     let third = proximity.len() / 3;

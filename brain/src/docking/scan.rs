@@ -1,29 +1,29 @@
-//! Turning on the spot to find out in which direction the dock lies.
+//! Turning on the spot to find the direction of the dock.
 //!
-//! The two front receivers look to the left and to the right of straight ahead. As the robot turns there is an angle from
-//! which on both hear the dock, and one from which on they do not any more; the dock is in the middle of the two.
+//! The two front receivers face to the left and to the right of straight ahead. As the robot turns, both begin to receive
+//! the dock at one angle and cease at another. The dock is in the middle of the two.
 
 use core::f64::consts::TAU;
 
 use crate::mapping::DockBeamFilter;
 use crate::model::action::Motion;
 
-/// Rate of the turn, rad/s: less than the fastest, so that an edge is not smeared over many degrees.
+/// Turn rate, rad/s. It is below the maximum, so that an edge is not blurred over many degrees.
 const SCAN_RAD_PER_S: f64 = 0.8;
-/// A scan that turned so far without the two edges has failed.
+/// A scan that turned this far without finding both edges has failed.
 const GIVE_UP_RAD: f64 = 1.6 * TAU;
-/// Both receivers hear over an angle of some 70 degrees; much less or more is not one dock, radians.
+/// Both receivers receive the dock over some 70 degrees; a much smaller or larger angle is not one dock, radians.
 const WIDTH_RAD: core::ops::Range<f64> = 0.35..2.8;
 
-/// A turn of the head.
+/// A scan in progress.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scan {
     /// +1 turns left, -1 right.
     side: f64,
-    /// Angle turned since the start, left positive, and the sum of its parts.
+    /// Angle turned since the start, left positive, and the sum of absolute turns.
     turned_rad: f64,
-    way_rad: f64,
-    /// Where both receivers began to hear; `None` before.
+    total_turn_rad: f64,
+    /// Angle at which both receivers began to receive; `None` before.
     from_rad: Option<f64>,
     was_ahead: bool,
     is_begun: bool,
@@ -32,11 +32,11 @@ pub(super) struct Scan {
 /// State of a scan after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ScanStep {
-    /// It turns on.
+    /// It goes on.
     Going(Motion),
     /// The dock lies in this direction, left of straight ahead, radians.
     Found(f64),
-    /// Nothing that looks like a dock.
+    /// Nothing that resembles a dock.
     Failed,
 }
 
@@ -45,7 +45,7 @@ impl Scan {
         Self {
             side: 1.0,
             turned_rad: 0.0,
-            way_rad: 0.0,
+            total_turn_rad: 0.0,
             from_rad: None,
             was_ahead: false,
             is_begun: false,
@@ -59,13 +59,13 @@ impl Scan {
             self.begin(hearing, ahead);
         } else {
             self.turned_rad += turn_rad;
-            self.way_rad += turn_rad.abs();
+            self.total_turn_rad += turn_rad.abs();
         }
         if self.was_ahead && !ahead {
             self.was_ahead = false;
             match self.from_rad {
                 None => {
-                    // It began in the middle: this was one edge, the other one lies on the other side.
+                    // The scan began in the middle: this was one edge, the other one is on the other side.
                     self.side = -self.side;
                 }
                 Some(from_rad) => {
@@ -80,7 +80,7 @@ impl Scan {
             self.was_ahead = true;
             self.from_rad = Some(self.turned_rad);
         }
-        if self.way_rad > GIVE_UP_RAD {
+        if self.total_turn_rad > GIVE_UP_RAD {
             return ScanStep::Failed;
         }
         ScanStep::Going(Motion::Drive {
@@ -104,7 +104,7 @@ mod tests {
     use crate::mapping::DockBeamFilter;
     use crate::model::action::Motion;
 
-    /// Turns where a dock lies at `dock_rad`, and gives the direction that is found then.
+    /// Turns with a dock at `dock_rad`; gives the direction that the scan finds.
     fn scanned(dock_rad: f64, symbols: u8) -> Option<f64> {
         let (mut scan, mut hearing, mut heading_rad) = (Scan::new(), DockBeamFilter::default(), 0.0_f64);
         let mut turn_rad = 0.0;
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn silence_is_given_up() {
+    fn a_scan_without_beams_fails() {
         assert_eq!(scanned(0.0, 0), None);
     }
 }

@@ -1,7 +1,7 @@
-//! The way to a place in front of the dock, or to one where it was heard, by the map.
+//! The path by the map to a place in front of the dock, or to one where a beam was received.
 //!
-//! What stands in the way is remembered for some minutes and gone round; when no way is left the memory is cleared, because
-//! people and chairs move, and the way is tried again. All of it is bounded by counts.
+//! Obstructions are remembered for some minutes and avoided. When no path is left they are forgotten, because people and
+//! chairs move, and the robot tries again. Counts bound everything.
 
 use core::task::Poll;
 
@@ -12,108 +12,108 @@ use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{
-    Evasion, FollowStep, Follower, Goal, Mind, Obstructions, Piece, Situation, caution, encounter, plan_way,
-    reachable,
+    Evasion, FollowStep, Goal, Inflation, Obstructions, PathFollower, PathSegment, Situation, TaskContext,
+    caution, encounter, plan_path, reachable,
 };
 
-/// Gaps between body and known obstacles on planned ways, metres, the roomy one first: who is in no hurry to be near need
-/// not touch. With the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is
-/// one cell too narrow in the map.
-const KEEP_OFF_M: [f64; 3] = [0.05, 0.01, -0.015];
-/// The same on the way back to where the robot has been: it fits through there, and what the map says of it was drawn with a
+/// Gaps between the body and known obstacles on planned paths, metres, the widest first, since docking is in no hurry. With
+/// the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is one cell too narrow
+/// on the map.
+const CLEARANCE_M: [f64; 3] = [0.05, 0.01, -0.015];
+/// The same on the way back to where the robot has been. It fits through there, and the map of that place was drawn with a
 /// pose that has drifted since.
-const KEEP_OFF_BACK_M: [f64; 5] = [0.05, 0.01, -0.015, -0.05, -0.09];
-/// Distances from the dock at which the beams are taken up, metres: the best one first.
+const CLEARANCE_BACK_M: [f64; 5] = [0.05, 0.01, -0.015, -0.05, -0.09];
+/// Distances from the dock at which the approach by beams begins, metres: the best one first.
 const FRONT_M: [f64; 6] = [1.1, 1.3, 0.9, 0.75, 0.6, 0.5];
-/// Places beside the line are worse than places on it: detour for each metre.
+/// Detour per metre that a place beside the centreline counts more than one on it.
 const ASIDE_DETOUR: f64 = 6.0;
-/// The same for distances from the dock.
+/// The same per metre of distance from the best place in front of the dock.
 const FRONT_DETOUR: f64 = 1.5;
-/// Places beside the line, metres.
+/// Sideways offsets from the centreline, metres.
 const ASIDE_M: [f64; 5] = [0.0, 0.12, -0.12, 0.25, -0.25];
-/// Way back after a contact, and what is added with each plan that made no way.
+/// Distance to back off after a contact, and what each plan without progress adds.
 const CONTACT_BACK_M: f64 = 0.03;
 const MORE_BACK_M: f64 = 0.02;
-/// Way back at a cliff.
+/// Distance to back off at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Nearer than this to where the last plan began, the plan was vain, metres.
-const VAIN_M: f64 = 0.15;
-/// Vain plans in a row, and plans in all, until the way counts as blocked.
-const VAIN_MAX: u32 = 6;
+/// Nearer than this to the start of the last plan, that plan made no progress, metres.
+const FAILED_NEAR_M: f64 = 0.15;
+/// Plans without progress in a row, and plans in total, until the path counts as blocked.
+const FAILED_PLANS_MAX: u32 = 6;
 const PLANS_MAX: u32 = 40;
 /// Times that obstructions are forgotten.
 const FORGET_MAX: u32 = 2;
 
-/// The way.
+/// The drive.
 #[derive(Debug)]
 pub(super) struct Travel {
     goals: Vec<Goal>,
-    keep_off_m: &'static [f64],
-    /// Why it leads there.
+    clearances_m: &'static [f64],
+    /// Why the robot drives there.
     reason: Reason,
-    follower: Option<Follower>,
-    planning: Option<Planning>,
+    follower: Option<PathFollower>,
+    path_search: Option<PathSearch>,
     evasion: Option<Evasion>,
     obstructions: Obstructions,
     plans: u32,
-    vain: u32,
+    failed_plans: u32,
     forgotten: u32,
     planned_from: Option<Point2>,
 }
 
-/// State of the way after a step.
+/// State of the drive after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum TravelStep {
-    /// On it.
+    /// It goes on.
     Going(Motion),
-    /// There.
+    /// The robot is there.
     Arrived,
-    /// No way is left.
+    /// No path is left.
     Blocked,
-    /// Something holds the robot.
+    /// The robot is held.
     Held(Reason),
 }
 
 impl Travel {
-    /// To the place in front of `dock`, the pose of a robot on its contacts.
+    /// To the place in front of `dock`, the pose of a docked robot.
     pub(super) fn to_dock(dock: Pose2) -> Self {
-        Self::to(goals(dock), &KEEP_OFF_M, Reason::DockKnown)
+        Self::to(goals(dock), &CLEARANCE_M, Reason::DockKnown)
     }
 
-    /// To one of the places where it was heard.
+    /// To one of the places where a beam was received.
     pub(super) fn to_beam(heard_at: Vec<Goal>) -> Self {
-        Self::to(heard_at, &KEEP_OFF_BACK_M, Reason::DockHeard)
+        Self::to(heard_at, &CLEARANCE_BACK_M, Reason::DockHeard)
     }
 
-    fn to(goals: Vec<Goal>, keep_off_m: &'static [f64], reason: Reason) -> Self {
+    fn to(goals: Vec<Goal>, clearances_m: &'static [f64], reason: Reason) -> Self {
         Self {
             goals,
-            keep_off_m,
+            clearances_m,
             reason,
             follower: None,
-            planning: None,
+            path_search: None,
             evasion: None,
             obstructions: Obstructions::default(),
             plans: 0,
-            vain: 0,
+            failed_plans: 0,
             forgotten: 0,
             planned_from: None,
         }
     }
 
-    /// Whether it is just getting away from something.
+    /// Whether an evasion is in progress.
     pub(super) fn is_evading(&self) -> bool {
         self.evasion.is_some()
     }
 
-    /// The robot was moved by somebody else.
+    /// Somebody else moved the robot.
     pub(super) fn interrupted(&mut self) {
         self.follower = None;
-        self.planning = None;
+        self.path_search = None;
         self.evasion = None;
     }
 
-    pub(super) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+    pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
         match Evasion::pursue(&mut self.evasion, situation) {
             Some(Ok(motion)) => return TravelStep::Going(motion),
             Some(Err(reason)) => {
@@ -123,53 +123,53 @@ impl Travel {
             None => {}
         }
         if let Some(reason) = encounter(situation) {
-            return self.evade(reason, situation, mind);
+            return self.evade(reason, situation, context);
         }
         if let Some(follower) = &mut self.follower {
             match follower.step(situation, caution(situation, follower)) {
                 FollowStep::Going(motion) => return TravelStep::Going(motion),
                 FollowStep::Arrived => return TravelStep::Arrived,
                 FollowStep::Off => {
-                    mind.decide("leave-way", Reason::OffTheWay, 0.0);
+                    context.decide("leave-way", Reason::OffTheWay, 0.0);
                     self.follower = None;
                 }
             }
         }
-        self.plan_on(situation, mind)
+        self.plan_on(situation, context)
     }
 
-    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
-        mind.decide("back-off", reason, 0.0);
+    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
+        context.decide("back-off", reason, 0.0);
         self.obstructions.add(reason, situation);
         self.follower = None;
-        self.planning = None;
+        self.path_search = None;
         self.evasion = Some(if situation.at_cliff {
             Evasion::from_cliff(CLIFF_BACK_M, 0.0)
         } else {
-            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.vain), 0.0)
+            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.failed_plans), 0.0)
         });
         TravelStep::Going(Motion::Halt)
     }
 
-    /// Begins a plan, or goes on with the one that is being made, while the robot stands.
-    fn plan_on(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
-        let Some(planning) = &mut self.planning else {
-            return self.begin_plan(situation, mind);
+    /// Begins a path search or continues the one in progress, while the robot stands.
+    fn plan_on(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
+        let Some(path_search) = &mut self.path_search else {
+            return self.begin_plan(situation, context);
         };
-        let Poll::Ready(found) = planning.rest.go_on() else {
+        let Poll::Ready(found) = path_search.rest.go_on() else {
             return TravelStep::Going(Motion::Halt);
         };
-        let is_blocked = planning.is_blocked;
-        self.planning = None;
-        if let Some(pieces) = found {
-            mind.decide("dock-way", self.reason, length_m(&pieces));
-            self.follower = Some(Follower::new(pieces));
+        let is_blocked = path_search.is_blocked;
+        self.path_search = None;
+        if let Some(segments) = found {
+            context.decide("dock-way", self.reason, length_m(&segments));
+            self.follower = Some(PathFollower::new(segments));
             return TravelStep::Going(Motion::Halt);
         }
         if !is_blocked || self.forgotten >= FORGET_MAX {
             return TravelStep::Blocked;
         }
-        mind.decide(
+        context.decide(
             "forget-obstructions",
             Reason::WayBlocked,
             f64::from(self.forgotten),
@@ -179,40 +179,40 @@ impl Travel {
         TravelStep::Going(Motion::Halt)
     }
 
-    fn begin_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> TravelStep {
+    fn begin_plan(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
         let here = situation.pose.position();
-        let is_vain = self
+        let is_failed = self
             .planned_from
-            .is_some_and(|from| from.distance_m(here) < VAIN_M);
-        self.vain = if is_vain { self.vain + 1 } else { 0 };
+            .is_some_and(|from| from.distance_m(here) < FAILED_NEAR_M);
+        self.failed_plans = if is_failed { self.failed_plans + 1 } else { 0 };
         self.planned_from = Some(here);
         self.plans += 1;
-        if self.vain > VAIN_MAX || self.plans > PLANS_MAX {
+        if self.failed_plans > FAILED_PLANS_MAX || self.plans > PLANS_MAX {
             return TravelStep::Blocked;
         }
-        mind.decide("wait", Reason::Planning, 0.0);
+        context.decide("wait", Reason::Planning, 0.0);
         let blocked = self.obstructions.points(situation.observation.time_us);
         let is_blocked = !blocked.is_empty();
-        let basis = Basis::of(situation, self.goals.clone(), blocked);
-        self.planning = Some(Planning {
-            rest: Gradual::new(basis.first_way(self.keep_off_m)),
+        let inputs = PathInputs::of(situation, self.goals.clone(), blocked);
+        self.path_search = Some(PathSearch {
+            rest: Gradual::new(inputs.first_path(self.clearances_m)),
             is_blocked,
         });
         TravelStep::Going(Motion::Halt)
     }
 }
 
-/// A way that is being looked for.
+/// A path search in progress.
 #[derive(Debug)]
-struct Planning {
-    rest: Gradual<Option<Vec<Piece>>>,
-    /// Something that the map does not know stands in the way.
+struct PathSearch {
+    rest: Gradual<Option<Vec<PathSegment>>>,
+    /// Obstructions that are not on the map block the path.
     is_blocked: bool,
 }
 
-/// All that a way depends on.
+/// All inputs of a path search.
 #[derive(Debug)]
-struct Basis {
+struct PathInputs {
     knowledge: Raster<CellKnowledge>,
     body_m: f64,
     blocked: Vec<Point2>,
@@ -220,7 +220,7 @@ struct Basis {
     goals: Vec<Goal>,
 }
 
-impl Basis {
+impl PathInputs {
     fn of(situation: &Situation<'_>, goals: Vec<Goal>, blocked: Vec<Point2>) -> Self {
         Self {
             knowledge: situation.map.knowledge().clone(),
@@ -231,31 +231,34 @@ impl Basis {
         }
     }
 
-    /// The way with the first of these gaps with which there is one.
-    async fn first_way(self, keep_off_m: &'static [f64]) -> Option<Vec<Piece>> {
+    /// The path with the first of these gaps that allows one.
+    async fn first_path(self, clearances_m: &'static [f64]) -> Option<Vec<PathSegment>> {
         let budget = &mut StepBudget::limited();
-        for gap_m in keep_off_m {
-            let around = (self.body_m + gap_m, self.blocked.as_slice());
-            let ground = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, budget).await;
-            if let Some(pieces) = plan_way(&ground, (self.start, &self.goals), budget).await {
-                return Some(pieces);
+        for gap_m in clearances_m {
+            let inflation = Inflation {
+                radius_m: self.body_m + gap_m,
+                blocked: &self.blocked,
+            };
+            let reachable_cells = reachable(&self.knowledge, &LaneFrame::OF_MAP, inflation, budget).await;
+            if let Some(segments) = plan_path(&reachable_cells, self.start, &self.goals, budget).await {
+                return Some(segments);
             }
         }
         None
     }
 }
 
-/// Looks for the length of the way to the place in front of `dock`, metres; `None` when the map knows none.
-pub(super) fn way_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
-    let basis = Basis::of(situation, goals(dock), Vec::new());
-    Gradual::new(async move { Some(length_m(&basis.first_way(&KEEP_OFF_M[1..2]).await?)) })
+/// Starts the computation of the length of the path to the place in front of `dock`, metres; `None` when the map has none.
+pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
+    let inputs = PathInputs::of(situation, goals(dock), Vec::new());
+    Gradual::new(async move { Some(length_m(&inputs.first_path(&CLEARANCE_M[1..2]).await?)) })
 }
 
-fn length_m(pieces: &[Piece]) -> f64 {
-    pieces.iter().map(|piece| piece.length_m).sum()
+fn length_m(segments: &[PathSegment]) -> f64 {
+    segments.iter().map(|segment| segment.length_m).sum()
 }
 
-/// Places in front of the dock, those on the line at a good distance first.
+/// Places in front of the dock, those on the centreline at a good distance first.
 pub(super) fn goals(dock: Pose2) -> Vec<Goal> {
     let mut goals = Vec::with_capacity(FRONT_M.len() * ASIDE_M.len());
     for (rank, front_m) in FRONT_M.into_iter().enumerate() {

@@ -1,7 +1,7 @@
-//! Distance to the nearest occupied cell, exact on the grid up to [`COORDINATE_MAX_M`] and updated incrementally.
+//! Distance to the nearest occupied cell, exact on the grid up to [`FAR_M`] and updated incrementally.
 //!
 //! Two passes after Felzenszwalb and Huttenlocher (2012): along columns, then the lower envelope of parabolas along rows.
-//! Distances saturate at [`COORDINATE_MAX_M`], so a changed cell affects only its surroundings.
+//! Distances saturate at [`FAR_M`], so a changed cell affects only its surroundings.
 
 use super::occupancy_grid::CellBox;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
@@ -11,8 +11,8 @@ use crate::model::gradual::{StepBudget, at_once};
 /// Largest exact distance, cells.
 pub(super) const FAR_CELLS: i32 = 32;
 /// Distances saturate at this value, metres.
-pub const COORDINATE_MAX_M: f64 = FAR_CELLS as f64 * CELL_M;
-const FAR_MM: i16 = (COORDINATE_MAX_M * 1000.0) as i16;
+pub const FAR_M: f64 = FAR_CELLS as f64 * CELL_M;
+const FAR_MM: i16 = (FAR_M * 1000.0) as i16;
 /// Work per cell: along its column, and along its row.
 const COLUMN_WORK: usize = 3;
 const ENVELOPE_WORK: usize = 8;
@@ -20,7 +20,7 @@ const ENVELOPE_WORK: usize = 8;
 const HALF_MM: f64 = 500.0 * CELL_M;
 
 /// Signed distance to the border of the nearest occupied cell: positive outside of obstacles, negative inside. Outside of the
-/// mapped window it is [`COORDINATE_MAX_M`].
+/// mapped window it is [`FAR_M`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DistanceField {
     millimetres: Raster<i16>,
@@ -68,7 +68,7 @@ impl DistanceField {
         )
     }
 
-    /// Distance at the centre of a cell in metres, -[`COORDINATE_MAX_M`]..=[`COORDINATE_MAX_M`].
+    /// Distance at the centre of a cell in metres, -[`FAR_M`]..=[`FAR_M`].
     #[must_use]
     pub fn cell_m(&self, cell: Cell) -> f64 {
         f64::from(self.millimetres.get(cell).copied().unwrap_or(FAR_MM)) * 1e-3

@@ -44,7 +44,7 @@ pub(crate) use carpet::CarpetDetector;
 pub use carpet::SurfaceKind;
 pub use cell::{CELL_M, Cell};
 pub use coverage_grid::{CellPasses, SweptRun};
-pub use distance::{COORDINATE_MAX_M, DistanceField};
+pub use distance::{DistanceField, FAR_M};
 pub(crate) use dock_beam_filter::{DockBeamFilter, Lobe};
 pub use dock_location::{DockLocation, MeasuredDock};
 pub use doors::Door;

@@ -1,22 +1,23 @@
-//! Blocks in the order in which a search leaves them: a list for each cost, because steps cost little and costs are whole.
+//! A bucket queue (Dial's algorithm): a list of blocks for each cost, since costs are small whole numbers.
 
 /// Cost of the longest step.
-pub(super) const LONGEST: u32 = 14;
+pub(super) const LONGEST_STEP_COST: u32 = 14;
 
-/// Blocks that wait to be left, those of least cost and lowest number first.
-pub(super) struct Queue {
-    /// Blocks of equal costs; those that wait differ by no more than the longest step.
-    rings: [Vec<u32>; LONGEST as usize + 1],
+/// Queued blocks, the lowest cost and then the lowest number first.
+pub(super) struct BucketQueue {
+    /// Blocks of equal cost. The costs in the queue differ by no more than the longest step, so the buckets are used
+    /// cyclically.
+    buckets: [Vec<u32>; LONGEST_STEP_COST as usize + 1],
     cost: u32,
     waiting: usize,
-    /// The present ring is in order.
+    /// The current bucket is sorted.
     is_sorted: bool,
 }
 
-impl Queue {
+impl BucketQueue {
     pub(super) fn of(start: usize) -> Self {
         let mut queue = Self {
-            rings: Default::default(),
+            buckets: Default::default(),
             cost: 0,
             waiting: 0,
             is_sorted: false,
@@ -26,7 +27,7 @@ impl Queue {
     }
 
     pub(super) fn push(&mut self, cost: u32, block: usize) {
-        self.rings[(cost % (LONGEST + 1)) as usize].push(block as u32);
+        self.buckets[(cost % (LONGEST_STEP_COST + 1)) as usize].push(block as u32);
         self.waiting += 1;
     }
 
@@ -35,12 +36,12 @@ impl Queue {
             return None;
         }
         loop {
-            let ring = &mut self.rings[(self.cost % (LONGEST + 1)) as usize];
+            let bucket = &mut self.buckets[(self.cost % (LONGEST_STEP_COST + 1)) as usize];
             if !self.is_sorted {
-                ring.sort_unstable_by(|one, other| other.cmp(one));
+                bucket.sort_unstable_by(|one, other| other.cmp(one));
                 self.is_sorted = true;
             }
-            if let Some(block) = ring.pop() {
+            if let Some(block) = bucket.pop() {
                 self.waiting -= 1;
                 return Some((self.cost, block as usize));
             }
@@ -52,20 +53,20 @@ impl Queue {
 
 #[cfg(test)]
 mod tests {
-    use super::{LONGEST, Queue};
+    use super::{BucketQueue, LONGEST_STEP_COST};
 
     #[test]
-    fn what_costs_least_comes_first_and_of_equals_the_lowest_number() {
-        let mut queue = Queue::of(7);
+    fn the_lowest_cost_comes_first_and_then_the_lowest_number() {
+        let mut queue = BucketQueue::of(7);
         assert_eq!(queue.pop(), Some((0, 7)));
-        for (cost, block) in [(LONGEST, 3), (10, 9), (10, 2)] {
+        for (cost, block) in [(LONGEST_STEP_COST, 3), (10, 9), (10, 2)] {
             queue.push(cost, block);
         }
         assert_eq!(queue.pop(), Some((10, 2)));
-        queue.push(10 + LONGEST, 1);
+        queue.push(10 + LONGEST_STEP_COST, 1);
         assert_eq!(queue.pop(), Some((10, 9)));
-        assert_eq!(queue.pop(), Some((LONGEST, 3)));
-        assert_eq!(queue.pop(), Some((10 + LONGEST, 1)));
+        assert_eq!(queue.pop(), Some((LONGEST_STEP_COST, 3)));
+        assert_eq!(queue.pop(), Some((10 + LONGEST_STEP_COST, 1)));
         assert_eq!(queue.pop(), None);
     }
 }

@@ -1,42 +1,42 @@
-//! What the proximity sensors and the map advise a robot that follows a way: slower towards what is ahead, and away from what
-//! it nearly touches at a side.
+//! Corrections from the proximity sensors and the map for a robot that follows a path: slower towards obstacles ahead, and
+//! away from obstacles at the sides.
 
 use super::path_follower::Caution;
-use super::{Follower, Situation};
+use super::{PathFollower, Situation};
 use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::model::config::ProximityLayout;
 use crate::model::geometry::Point2;
 
-/// Levels below this are too far away to matter.
+/// Lower levels are too far away to matter.
 const LEVEL_MIN: f64 = 0.2;
-/// What reaches less than this into the way of the body is passed without a touch, metres.
+/// An obstacle that overlaps the robot's corridor by less than this is passed without a touch, metres.
 const GRAZE_M: f64 = 0.008;
-/// Fastest approach, m/s for each metre of free way beyond `STAND_M`.
+/// Approach speed, m/s for each metre of clearance beyond `STOP_DISTANCE_M`.
 const APPROACH_PER_S: f64 = 2.5;
 /// As `APPROACH_PER_S`, metres.
-const STAND_M: f64 = 0.01;
+const STOP_DISTANCE_M: f64 = 0.01;
 /// A smaller gap at a side is widened, metres.
 const GAP_M: f64 = 0.02;
-/// How far the robot goes aside for each metre of gap that lacks.
+/// Sideways correction per metre of missing gap.
 const ASIDE_GAIN: f64 = 2.0;
-/// What stands nearer than this share of the radius to the way of the middle is ahead and not at a side.
+/// An obstacle closer to the centre line of the corridor than this share of the radius is ahead and not at a side.
 const SIDE_SHARE: f64 = 0.5;
-/// What lies farther back than this is not met any more, metres.
+/// Obstacles farther back than this are ignored, metres.
 const BEHIND_M: f64 = -0.03;
-/// A sensor that only says near keeps the robot this far to the other side of its way, metres.
+/// Offset to the other side for a sensor without distance, metres.
 const NEAR_ASIDE_M: f64 = 0.02;
 
-/// Something ahead, as the sensors show it.
+/// An obstacle ahead, as the sensors see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ahead {
-    /// Way straight ahead until it is touched, metres.
-    pub(crate) way_m: f64,
-    /// Where it is, in the body's frame.
+    /// Straight distance until the robot touches it, metres.
+    pub(crate) clear_m: f64,
+    /// Its position, in the body frame.
     pub(crate) at: Point2,
 }
 
-/// What is advised on the way of `follower`.
-pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution {
+/// The corrections for the path of `follower`.
+pub(crate) fn caution(situation: &Situation<'_>, follower: &PathFollower) -> Caution {
     let layout = &situation.config.sensors.proximity;
     let seen = hits(layout, &situation.observation.proximity);
     if layout.response.near_m.is_some() {
@@ -50,21 +50,21 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &Follower) -> Caution
     for hit in seen {
         sides.note(hit, hit.distance_m(Point2::ORIGIN) - radius_m, radius_m);
     }
-    note_known(situation, &mut sides);
-    let ahead_m = ahead(situation).map_or(f64::INFINITY, |ahead| ahead.way_m);
+    note_map(situation, &mut sides);
+    let ahead_m = ahead(situation).map_or(f64::INFINITY, |ahead| ahead.clear_m);
     Caution {
         speed_m_per_s: if follower.turns_on_spot() {
             f64::INFINITY
         } else {
-            APPROACH_PER_S * (ahead_m - STAND_M).max(0.0)
+            APPROACH_PER_S * (ahead_m - STOP_DISTANCE_M).max(0.0)
         },
-        aside_m: ASIDE_GAIN * (sides.right_lacks_m - sides.left_lacks_m),
+        aside_m: ASIDE_GAIN * (sides.right_missing_m - sides.left_missing_m),
         ahead_m,
         ..Caution::default()
     }
 }
 
-/// The nearest of what the sensors see straight ahead; `None` also for sensors that only say near.
+/// The nearest obstacle that the sensors see straight ahead; `None` also for sensors without distance.
 pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
     let layout = &situation.config.sensors.proximity;
     if layout.response.near_m.is_some() {
@@ -73,37 +73,37 @@ pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
     let radius_m = situation.config.body.radius_m;
     hits(layout, &situation.observation.proximity)
         .map(|at| Ahead {
-            way_m: way_to(at, radius_m),
+            clear_m: distance_to_contact_m(at, radius_m),
             at,
         })
-        .filter(|ahead| ahead.way_m.is_finite())
-        .min_by(|one, other| one.way_m.total_cmp(&other.way_m))
+        .filter(|ahead| ahead.clear_m.is_finite())
+        .min_by(|one, other| one.clear_m.total_cmp(&other.clear_m))
 }
 
-/// What lacks of the gap at each side, metres.
+/// Missing gap at each side, metres.
 #[derive(Debug, Default)]
 struct Sides {
-    left_lacks_m: f64,
-    right_lacks_m: f64,
+    left_missing_m: f64,
+    right_missing_m: f64,
 }
 
 impl Sides {
-    /// Notes something at a place in the body's frame with a gap to the rim.
+    /// Records an obstacle at a point in the body frame with its gap to the rim.
     fn note(&mut self, at: Point2, gap_m: f64, radius_m: f64) {
         if at.x_m < BEHIND_M || at.y_m.abs() < SIDE_SHARE * radius_m {
             return;
         }
-        let lacks_m = if at.y_m > 0.0 {
-            &mut self.left_lacks_m
+        let missing_m = if at.y_m > 0.0 {
+            &mut self.left_missing_m
         } else {
-            &mut self.right_lacks_m
+            &mut self.right_missing_m
         };
-        *lacks_m = lacks_m.max(GAP_M - gap_m.max(0.0));
+        *missing_m = missing_m.max(GAP_M - gap_m.max(0.0));
     }
 }
 
-/// Notes what the map shows at the sides: sensors see nothing of what stands between their beams.
-fn note_known(situation: &Situation<'_>, sides: &mut Sides) {
+/// Records obstacles of the map at the sides, since the sensors do not see what is between their beams.
+fn note_map(situation: &Situation<'_>, sides: &mut Sides) {
     let knowledge = situation.map.knowledge();
     let body_from_map = situation.pose.inverse();
     let radius_m = situation.config.body.radius_m;
@@ -127,7 +127,7 @@ fn note_known(situation: &Situation<'_>, sides: &mut Sides) {
     }
 }
 
-/// Where the sensors see something near, in the body's frame.
+/// Points that the sensors see nearby, in the body frame.
 fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2> {
     layout.sensors().iter().zip(levels).filter_map(|(sensor, level)| {
         let level = f64::from(*level);
@@ -139,8 +139,8 @@ fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2
     })
 }
 
-/// Way straight ahead until the rim touches a point; infinite when it passes beside.
-fn way_to(point: Point2, radius_m: f64) -> f64 {
+/// Straight distance until the rim touches a point; infinite when it passes beside the point.
+fn distance_to_contact_m(point: Point2, radius_m: f64) -> f64 {
     if point.x_m <= 0.0 || point.y_m.abs() >= radius_m - GRAZE_M {
         return f64::INFINITY;
     }
@@ -149,29 +149,35 @@ fn way_to(point: Point2, radius_m: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{GAP_M, Sides, way_to};
+    use super::{GAP_M, Sides, distance_to_contact_m};
     use crate::model::geometry::Point2;
 
     const RADIUS_M: f64 = 0.175;
 
     #[test]
-    fn the_way_ends_where_the_rim_touches_and_what_passes_beside_does_not_end_it() {
-        assert!((way_to(Point2 { x_m: 0.3, y_m: 0.0 }, RADIUS_M) - 0.125).abs() < 1e-9);
-        assert_eq!(way_to(Point2 { x_m: 0.1, y_m: 0.17 }, RADIUS_M), f64::INFINITY);
-        assert_eq!(way_to(Point2 { x_m: -0.2, y_m: 0.0 }, RADIUS_M), f64::INFINITY);
+    fn only_obstacles_within_the_corridor_limit_the_clearance() {
+        assert!((distance_to_contact_m(Point2 { x_m: 0.3, y_m: 0.0 }, RADIUS_M) - 0.125).abs() < 1e-9);
+        assert_eq!(
+            distance_to_contact_m(Point2 { x_m: 0.1, y_m: 0.17 }, RADIUS_M),
+            f64::INFINITY
+        );
+        assert_eq!(
+            distance_to_contact_m(Point2 { x_m: -0.2, y_m: 0.0 }, RADIUS_M),
+            f64::INFINITY
+        );
     }
 
     #[test]
-    fn what_stands_at_a_side_lacks_gap_there_and_what_is_ahead_or_behind_at_none() {
-        let lacks = |x_m: f64, y_m: f64, gap_m: f64| {
+    fn only_obstacles_at_a_side_reduce_the_gap_there() {
+        let missing = |x_m: f64, y_m: f64, gap_m: f64| {
             let mut sides = Sides::default();
             sides.note(Point2 { x_m, y_m }, gap_m, RADIUS_M);
-            (sides.left_lacks_m, sides.right_lacks_m)
+            (sides.left_missing_m, sides.right_missing_m)
         };
-        assert_eq!(lacks(0.05, 0.18, 0.0), (GAP_M, 0.0));
-        assert_eq!(lacks(0.05, -0.18, -0.01), (0.0, GAP_M), "no more than touching");
-        assert_eq!(lacks(0.05, 0.21, 2.0 * GAP_M), (0.0, 0.0));
-        assert_eq!(lacks(0.18, 0.02, 0.0), (0.0, 0.0));
-        assert_eq!(lacks(-0.1, 0.15, 0.0), (0.0, 0.0));
+        assert_eq!(missing(0.05, 0.18, 0.0), (GAP_M, 0.0));
+        assert_eq!(missing(0.05, -0.18, -0.01), (0.0, GAP_M), "no more than touching");
+        assert_eq!(missing(0.05, 0.21, 2.0 * GAP_M), (0.0, 0.0));
+        assert_eq!(missing(0.18, 0.02, 0.0), (0.0, 0.0));
+        assert_eq!(missing(-0.1, 0.15, 0.0), (0.0, 0.0));
     }
 }

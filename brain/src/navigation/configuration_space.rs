@@ -1,17 +1,17 @@
-//! The ground: where the body's middle can be, and what of the floor is still open.
+//! The configuration space: where the robot's centre can be, and which floor is still open.
 
 use crate::mapping::{Cell, FloodFill, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
-/// A robot can set out to free cells this far from where it stands.
+/// Distance within which a robot may enter the free cells, metres.
 const SET_OUT_M: f64 = 0.4;
-/// Work of asking whether a cell is done, of a row of a disc, of measuring the way to a cell, and of looking around one.
+/// Work to ask whether a cell is done, of a row of a disc, to measure the distance to a cell, and to visit its neighbours.
 const CLOSE_WORK: usize = 1;
 const FILL_WORK: usize = 6;
 const MEASURE_WORK: usize = 6;
 const VISIT_WORK: usize = 4;
-/// Cells that are visited between two looks at the budget.
+/// Cells that are visited between two checks of the budget.
 const VISITS: usize = 64;
 
 /// Axis of a lane.
@@ -32,29 +32,40 @@ impl Axis {
     }
 }
 
-/// Cells with a margin wide enough that no window around a free cell leaves the arrays.
+/// A grid with a margin wide enough that no disc around a free cell leaves the arrays.
 #[derive(Clone, Debug)]
-pub(crate) struct Ground {
+pub(crate) struct ConfigurationSpace {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// Cells around the window on each side.
+    /// Margin around the window on each side, cells.
     margin: usize,
     origin: Cell,
-    /// Cells to either side of a lane that it sweeps.
+    /// Cells on either side of a lane that it sweeps.
     pub(crate) reach: usize,
-    /// The middle of the body can be here.
+    /// The robot's centre can be here.
     pub(crate) free: Vec<bool>,
-    /// Floor that can be swept and was not yet.
+    /// Floor that can be swept and is not yet.
     pub(crate) open: Vec<bool>,
-    /// Steps, diagonal ones too, from each cell to the nearest one that is not free; at most 255. Made by `keep_connected`.
+    /// Steps, diagonal ones included, from each cell to the nearest one that is not free; at most 255. `keep_connected`
+    /// computes them.
     clearance: Vec<u8>,
 }
 
-impl Ground {
+/// A connected component of the free cells, seen from a point.
+struct Component {
+    /// Number of cells.
+    size: usize,
+    /// Distance from the point to its nearest cell, metres.
+    distance_m: f64,
+    /// Index of that cell.
+    nearest: usize,
+}
+
+impl ConfigurationSpace {
     pub(crate) async fn new(reachable: &Raster<bool>, reach: usize, budget: &mut StepBudget) -> Self {
         let margin = reach + 2;
         let (width, height) = (reachable.width() + 2 * margin, reachable.height() + 2 * margin);
-        let mut ground = Self {
+        let mut space = Self {
             width,
             height,
             margin,
@@ -70,16 +81,16 @@ impl Ground {
             .enumerate()
         {
             let start = (row + margin) * width + margin;
-            if let Some(target) = ground.free.get_mut(start..start + values.len()) {
+            if let Some(target) = space.free.get_mut(start..start + values.len()) {
                 target.copy_from_slice(values);
             }
         }
         budget.spend(width * height / 4).await;
-        ground.open_floor(budget).await;
-        ground
+        space.open_floor(budget).await;
+        space
     }
 
-    /// Cells along an axis.
+    /// Number of cells along an axis.
     pub(crate) const fn length(&self, axis: Axis) -> usize {
         match axis {
             Axis::X => self.width,
@@ -107,7 +118,7 @@ impl Ground {
             if !self.free[index] {
                 continue;
             }
-            // Inner cells are opened by their neighbours on the border too; only they themselves are needed.
+            // The discs of cells on the border cover the neighbours of inner cells, which therefore only open themselves.
             let inner = self
                 .neighbours(index)
                 .iter()
@@ -124,7 +135,7 @@ impl Ground {
         }
     }
 
-    /// Rows of a disc of the reach, and half the cells of each.
+    /// Rows of a disc with the radius of the reach, and half the width of each.
     pub(crate) fn disc(&self) -> Vec<(isize, usize)> {
         let radius = self.reach as f64 + 0.5;
         let reach = self.reach as isize;
@@ -150,30 +161,30 @@ impl Ground {
     }
 
     /// Column and row of an index.
-    pub(crate) fn place(&self, index: usize) -> (usize, usize) {
+    pub(crate) fn column_and_row(&self, index: usize) -> (usize, usize) {
         (index % self.width, index / self.width)
     }
 
     /// The cell of the map at an index.
     pub(crate) fn cell(&self, index: usize) -> Cell {
-        let (column, row) = self.place(index);
+        let (column, row) = self.column_and_row(index);
         Cell {
             x: self.origin.x.wrapping_add(column as i32 - self.margin as i32),
             y: self.origin.y.wrapping_add(row as i32 - self.margin as i32),
         }
     }
 
-    /// Middle of the cell at an index.
+    /// Centre of the cell at an index.
     pub(crate) fn point(&self, index: usize) -> Point2 {
         self.cell(index).middle()
     }
 
-    /// The free cell from which a robot at a point sets out: the nearest one of the largest ground if that is within its
-    /// reach, else the nearest of all. A robot that has just met something often stands beside a splinter of free cells.
+    /// The free cell from which a robot at a point sets out: the nearest one of the largest component within reach,
+    /// otherwise the nearest of all. After a contact a robot often stands beside a small isolated group of free cells.
     pub(crate) async fn origin_near(&self, point: Point2, budget: &mut StepBudget) -> Option<usize> {
         let mut fill = FloodFill::over(self.free.len());
-        let mut nearest: Option<(f64, usize)> = None;
-        let mut largest: Option<(usize, f64, usize)> = None;
+        let mut closest: Option<(f64, usize)> = None;
+        let mut largest: Option<(usize, usize)> = None;
         for seed in 0..self.free.len() {
             if seed.is_multiple_of(self.width) {
                 budget.spend(self.width).await;
@@ -181,40 +192,44 @@ impl Ground {
             if fill.has_reached(seed) || !self.free[seed] {
                 continue;
             }
-            let (size, distance_m, cell) = self.component(seed, &mut fill, (point, &mut *budget)).await;
-            if nearest.is_none_or(|(least_m, _)| distance_m < least_m) {
-                nearest = Some((distance_m, cell));
+            fill.reach(seed);
+            let Component {
+                size,
+                distance_m,
+                nearest,
+            } = self.component(&mut fill, point, budget).await;
+            if closest.is_none_or(|(least_m, _)| distance_m < least_m) {
+                closest = Some((distance_m, nearest));
             }
-            if distance_m < SET_OUT_M && largest.is_none_or(|(most, _, _)| size > most) {
-                largest = Some((size, distance_m, cell));
+            if distance_m < SET_OUT_M && largest.is_none_or(|(most, _)| size > most) {
+                largest = Some((size, nearest));
             }
         }
-        largest.map(|(_, _, cell)| cell).or(nearest.map(|(_, cell)| cell))
+        largest.map(|(_, cell)| cell).or(closest.map(|(_, cell)| cell))
     }
 
-    /// Size of a piece of connected ground, and its cell nearest to a point with the distance.
-    async fn component(
-        &self,
-        seed: usize,
-        fill: &mut FloodFill,
-        (point, budget): (Point2, &mut StepBudget),
-    ) -> (usize, f64, usize) {
-        fill.reach(seed);
-        let (mut size, mut best) = (0, (f64::INFINITY, seed));
+    /// Measures the component that a flood fill has just entered.
+    async fn component(&self, fill: &mut FloodFill, point: Point2, budget: &mut StepBudget) -> Component {
+        let mut component = Component {
+            size: 0,
+            distance_m: f64::INFINITY,
+            nearest: 0,
+        };
         while let Some(index) = self.go_on(fill) {
-            size += 1;
-            if size % VISITS == 0 {
+            component.size += 1;
+            if component.size.is_multiple_of(VISITS) {
                 budget.spend(MEASURE_WORK * VISITS).await;
             }
             let distance_m = self.point(index).distance_m(point);
-            if distance_m < best.0 {
-                best = (distance_m, index);
+            if component.size == 1 || distance_m < component.distance_m {
+                component.distance_m = distance_m;
+                component.nearest = index;
             }
         }
-        (size, best.0, best.1)
+        component
     }
 
-    /// Closes all ground that cannot be reached from a free cell, and the floor that only such ground could sweep.
+    /// Removes all cells that are not reachable from a free cell, and the floor that only they could sweep.
     pub(crate) async fn keep_connected(&mut self, from: usize, budget: &mut StepBudget) {
         let mut fill = FloodFill::over(self.free.len());
         fill.reach(from);
@@ -233,12 +248,12 @@ impl Ground {
         self.measure_clearance(budget).await;
     }
 
-    /// Goes on over free cells.
+    /// Continues a flood fill over free cells.
     fn go_on(&self, fill: &mut FloodFill) -> Option<usize> {
         fill.go_on(|index| self.neighbours(index), |index| self.free[index])
     }
 
-    /// Two sweeps over the cells: from above and the left, then from below and the right.
+    /// Chebyshev distance transform in two scans: from above and the left, then from below and the right.
     async fn measure_clearance(&mut self, budget: &mut StepBudget) {
         let width = self.width;
         self.clearance = self
@@ -269,10 +284,10 @@ impl Ground {
         }
     }
 
-    /// Whether the straight way between two points leads over free cells only.
-    pub(crate) fn sees_points(&self, from: Point2, to: Point2) -> bool {
+    /// Whether the straight line between two points passes over free cells only.
+    pub(crate) fn has_line_of_sight_between(&self, from: Point2, to: Point2) -> bool {
         match (self.index_under(from), self.index_under(to)) {
-            (Some(from), Some(to)) => self.free[from] && self.free[to] && self.sees(from, to),
+            (Some(from), Some(to)) => self.free[from] && self.free[to] && self.has_line_of_sight(from, to),
             _ => false,
         }
     }
@@ -287,14 +302,14 @@ impl Ground {
         let margin = self.margin as i64;
         let column = i64::from(cell.x) - i64::from(self.origin.x) + margin;
         let row = i64::from(cell.y) - i64::from(self.origin.y) + margin;
-        let inside = |place: i64, size: usize| (margin..size as i64 - margin).contains(&place);
+        let inside = |position: i64, size: usize| (margin..size as i64 - margin).contains(&position);
         (inside(column, self.width) && inside(row, self.height))
             .then(|| row as usize * self.width + column as usize)
     }
 
-    /// Whether the straight way between two free cells leads over free cells only.
-    pub(crate) fn sees(&self, from: usize, to: usize) -> bool {
-        let ((x0, y0), (x1, y1)) = (self.place(from), self.place(to));
+    /// Whether the straight line between two free cells passes over free cells only.
+    pub(crate) fn has_line_of_sight(&self, from: usize, to: usize) -> bool {
+        let ((x0, y0), (x1, y1)) = (self.column_and_row(from), self.column_and_row(to));
         let (dx, dy) = (x1 as f64 - x0 as f64, y1 as f64 - y0 as f64);
         let steps = (2.0 * dx.abs().max(dy.abs())) as usize;
         let (step_x, step_y) = (dx / steps.max(1) as f64, dy / steps.max(1) as f64);

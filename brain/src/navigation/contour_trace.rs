@@ -1,49 +1,49 @@
-//! Along the edge of what holds the robot, by touch alone: against it in an arc, back a little, turn a little, on. A way out
-//! that is hardly wider than the body is found so, since the robot comes to every place of the edge.
+//! Follows the contour of an enclosing obstacle by touch alone: an arc against it, back a little, turn a little, and on.
+//! The robot reaches every part of the contour, so it finds an exit that is hardly wider than the body.
 
 use super::{Evasion, Situation};
 use crate::model::action::Motion;
 use crate::model::geometry::TurnSide;
 use crate::model::random::Random;
 
-/// Speed along the edge: contacts are soft.
+/// Speed along the contour, for soft contacts.
 const SPEED_M_PER_S: f64 = 0.2;
-/// Radius of the arcs toward the edge.
+/// Radius of the arcs towards the contour.
 const ARC_M: f64 = 0.3;
-/// An arc of so much without a contact has lost the edge.
+/// After this turn without a contact the contour is lost.
 const LOST_RAD: f64 = 5.5;
-/// Way back after a touch.
+/// Distance to back off after a touch.
 const BACK_M: f64 = 0.025;
-/// Way back at a cliff.
+/// Distance to back off at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Turns away from what was touched on the side of the edge, radians: quick, with long hops, or fine, into gaps that are hardly
+/// Turns away from a contact on the side of the contour, radians: large, for long steps, or fine, into gaps that are hardly
 /// wider than the body.
-const QUICK_RAD: (f64, f64) = (0.3, 0.9);
+const COARSE_RAD: (f64, f64) = (0.3, 0.9);
 const FINE_RAD: (f64, f64) = (0.2, 0.5);
-/// The same for what was touched ahead, and at a cliff.
+/// The same for a contact ahead, and at a cliff.
 const AHEAD_RAD: (f64, f64) = (0.6, 1.2);
 const CLIFF_RAD: (f64, f64) = (0.8, 1.3);
 
-/// The way along an edge. It ends by its time.
+/// The drive along a contour. It ends by time.
 #[derive(Clone, Debug)]
-pub(crate) struct EdgeTrace {
+pub(crate) struct ContourTrace {
     side: TurnSide,
-    glancing_rad: (f64, f64),
+    side_turn_rad: (f64, f64),
     left_s: f64,
     evasion: Option<Evasion>,
-    /// Turned toward the edge since the last contact; `None` = the edge is still looked for.
+    /// Turned towards the contour since the last contact; `None` = the contour is not found yet.
     turned_rad: Option<f64>,
     random: Random,
 }
 
-impl EdgeTrace {
-    /// With the edge on this side, for so long.
+impl ContourTrace {
+    /// With the contour on this side, for this time.
     pub(crate) fn new(side: TurnSide, left_s: f64, random: &mut Random) -> Self {
-        // A generator of its own: a movement has no mind.
+        // A manoeuvre is stepped without a task context, so it has its own generator.
         let is_fine = random.coin();
         Self {
             side,
-            glancing_rad: if is_fine { FINE_RAD } else { QUICK_RAD },
+            side_turn_rad: if is_fine { FINE_RAD } else { COARSE_RAD },
             left_s,
             evasion: None,
             turned_rad: None,
@@ -76,7 +76,7 @@ impl EdgeTrace {
         };
         let (low_rad, high_rad) = match (situation.at_cliff, on_edge) {
             (true, _) => CLIFF_RAD,
-            (false, true) => self.glancing_rad,
+            (false, true) => self.side_turn_rad,
             (false, false) => AHEAD_RAD,
         };
         let turn_rad = -self.side.sign() * self.random.between(low_rad, high_rad);
@@ -89,7 +89,7 @@ impl EdgeTrace {
 
     fn drive(&mut self, situation: &Situation<'_>) -> Motion {
         let speed_m_per_s = SPEED_M_PER_S.min(situation.config.speeds.cruise_m_per_s);
-        // Where no edge is: straight on.
+        // Straight on until the contour is found.
         let Some(turned_rad) = &mut self.turned_rad else {
             return Motion::Drive {
                 speed_m_per_s,

@@ -1,21 +1,21 @@
-//! Getting away from what was met: back off until it is released, then turn away.
+//! Evading a hazard: back off until it is released, then turn away.
 
-use super::{BackOff, Leg, Situation, Turn};
+use super::{BackOff, ManoeuvreStep, Situation, Turn};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
 
-/// Way back that is added each time the bumper is still pressed or the floor still missing.
-const MORE_M: f64 = 0.02;
-/// Most way back at a cliff; the firmware ends reversing after 0.15 m (S8).
+/// Distance that is added each time the bumper is still pressed or the floor still missing.
+const EXTRA_M: f64 = 0.02;
+/// Longest back-off at a cliff; the firmware ends reversing after 0.15 m (S8).
 const CLIFF_MOST_M: f64 = 0.14;
-/// Most way back after a contact beyond the length that was asked for.
+/// Longest back-off after a contact beyond the requested distance.
 const CONTACT_MOST_M: f64 = 0.12;
-/// Times a turn may meet something before it is called trouble.
+/// Contacts during the turn until the robot counts as held.
 const TURN_CONTACTS_MAX: u32 = 3;
 
-/// What was met.
+/// What the robot evades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Met {
+enum EvasionCause {
     Contact,
     Cliff,
 }
@@ -23,16 +23,16 @@ enum Met {
 /// Back off, then turn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Evasion {
-    phase: Phase,
-    met: Met,
+    phase: EvasionPhase,
+    cause: EvasionCause,
     turn_rad: f64,
-    /// Way that may still be added to the back-off.
-    more_m: f64,
+    /// Distance that may still be added to the back-off.
+    extra_m: f64,
     contacts_left: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum EvasionPhase {
     Back(BackOff),
     Turn(Turn),
 }
@@ -40,11 +40,11 @@ enum Phase {
 /// State of an evasion after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum EvasionStep {
-    /// Not free yet.
+    /// It goes on.
     Going(Motion),
-    /// Free, and turned away.
+    /// The robot is free and has turned away.
     Free,
-    /// What was met does not let go.
+    /// The contact or the cliff does not release.
     Held(Reason),
 }
 
@@ -52,10 +52,10 @@ impl Evasion {
     /// Away from a contact: `back_m` back, then a turn.
     pub(crate) fn from_contact(back_m: f64, turn_rad: f64) -> Self {
         Self {
-            phase: Phase::Back(BackOff::from_contact(back_m)),
-            met: Met::Contact,
+            phase: EvasionPhase::Back(BackOff::from_contact(back_m)),
+            cause: EvasionCause::Contact,
             turn_rad,
-            more_m: CONTACT_MOST_M,
+            extra_m: CONTACT_MOST_M,
             contacts_left: TURN_CONTACTS_MAX,
         }
     }
@@ -63,24 +63,24 @@ impl Evasion {
     /// Away from a cliff: `back_m` back, then a turn.
     pub(crate) fn from_cliff(back_m: f64, turn_rad: f64) -> Self {
         Self {
-            phase: Phase::Back(BackOff::from_cliff(back_m)),
-            met: Met::Cliff,
-            more_m: (CLIFF_MOST_M - back_m).max(0.0),
+            phase: EvasionPhase::Back(BackOff::from_cliff(back_m)),
+            cause: EvasionCause::Cliff,
+            extra_m: (CLIFF_MOST_M - back_m).max(0.0),
             ..Self::from_contact(back_m, turn_rad)
         }
     }
 
-    /// Goes on with what is under way, and forgets it when it is free: the motion to make, or why the robot is held. `None` =
-    /// nothing is under way any more.
+    /// Continues the evasion in progress, and drops it when the robot is free. Gives the motion to make, or why the robot
+    /// is held. `None` = no evasion is in progress any more.
     pub(crate) fn pursue(
-        under_way: &mut Option<Self>,
+        in_progress: &mut Option<Self>,
         situation: &Situation<'_>,
     ) -> Option<Result<Motion, Reason>> {
-        match under_way.as_mut()?.step(situation) {
+        match in_progress.as_mut()?.step(situation) {
             EvasionStep::Going(motion) => Some(Ok(motion)),
             EvasionStep::Held(reason) => Some(Err(reason)),
             EvasionStep::Free => {
-                *under_way = None;
+                *in_progress = None;
                 None
             }
         }
@@ -88,55 +88,55 @@ impl Evasion {
 
     pub(crate) fn step(&mut self, situation: &Situation<'_>) -> EvasionStep {
         match self.phase {
-            Phase::Back(mut back) => {
-                let leg = back.step(situation);
-                self.phase = Phase::Back(back);
-                self.after_back(leg, situation)
+            EvasionPhase::Back(mut back) => {
+                let step = back.step(situation);
+                self.phase = EvasionPhase::Back(back);
+                self.after_back(step, situation)
             }
-            Phase::Turn(mut turn) => {
-                let leg = turn.step(situation);
-                self.phase = Phase::Turn(turn);
-                self.after_turn(leg, situation)
+            EvasionPhase::Turn(mut turn) => {
+                let step = turn.step(situation);
+                self.phase = EvasionPhase::Turn(turn);
+                self.after_turn(step, situation)
             }
         }
     }
 
-    fn after_back(&mut self, leg: Leg, situation: &Situation<'_>) -> EvasionStep {
-        if let Leg::Going(motion) = leg {
+    fn after_back(&mut self, step: ManoeuvreStep, situation: &Situation<'_>) -> EvasionStep {
+        if let ManoeuvreStep::Going(motion) = step {
             return EvasionStep::Going(motion);
         }
-        if situation.at_cliff && self.met == Met::Contact {
-            *self = Self::from_cliff(MORE_M, self.turn_rad);
+        if situation.at_cliff && self.cause == EvasionCause::Contact {
+            *self = Self::from_cliff(EXTRA_M, self.turn_rad);
         }
-        let held = if self.met == Met::Cliff {
+        let held = if self.cause == EvasionCause::Cliff {
             situation.at_cliff
         } else {
             situation.touching
         };
         if !held {
-            self.phase = Phase::Turn(Turn::by(self.turn_rad));
+            self.phase = EvasionPhase::Turn(Turn::by(self.turn_rad));
             return EvasionStep::Going(Motion::Halt);
         }
-        if leg == Leg::Late || self.more_m <= 0.0 {
+        if step == ManoeuvreStep::Aborted || self.extra_m <= 0.0 {
             return EvasionStep::Held(self.held_reason());
         }
-        self.more_m -= MORE_M;
-        let Phase::Back(back) = &mut self.phase else {
+        self.extra_m -= EXTRA_M;
+        let EvasionPhase::Back(back) = &mut self.phase else {
             return EvasionStep::Held(self.held_reason());
         };
-        back.lengthen(MORE_M);
+        back.lengthen(EXTRA_M);
         match back.step(situation) {
-            Leg::Going(motion) => EvasionStep::Going(motion),
-            Leg::Arrived | Leg::Late => EvasionStep::Going(Motion::Halt),
+            ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
+            ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Going(Motion::Halt),
         }
     }
 
-    fn after_turn(&mut self, leg: Leg, situation: &Situation<'_>) -> EvasionStep {
+    fn after_turn(&mut self, step: ManoeuvreStep, situation: &Situation<'_>) -> EvasionStep {
         if !situation.touching && !situation.at_cliff {
-            return match leg {
-                Leg::Going(motion) => EvasionStep::Going(motion),
-                // A turn that came late is as good: any direction but the old one will do.
-                Leg::Arrived | Leg::Late => EvasionStep::Free,
+            return match step {
+                ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
+                // A turn that ran out of time is as good: any direction but the old one will do.
+                ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Free,
             };
         }
         if self.contacts_left == 0 {
@@ -144,18 +144,18 @@ impl Evasion {
         }
         let contacts_left = self.contacts_left - 1;
         *self = if situation.at_cliff {
-            Self::from_cliff(MORE_M, self.turn_rad)
+            Self::from_cliff(EXTRA_M, self.turn_rad)
         } else {
-            Self::from_contact(MORE_M, self.turn_rad)
+            Self::from_contact(EXTRA_M, self.turn_rad)
         };
         self.contacts_left = contacts_left;
         EvasionStep::Going(Motion::Halt)
     }
 
     fn held_reason(&self) -> Reason {
-        match self.met {
-            Met::Contact => Reason::ContactHeld,
-            Met::Cliff => Reason::CliffHeld,
+        match self.cause {
+            EvasionCause::Contact => Reason::ContactHeld,
+            EvasionCause::Cliff => Reason::CliffHeld,
         }
     }
 }

@@ -1,49 +1,59 @@
-//! What the middle of the body can reach of a home that is known.
+//! Obstacle inflation: where the centre of a round body can be in a known home.
 
 use super::lane_frame::LaneFrame;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
-/// Work of looking at a cell, and of a row of a disc.
-const LOOK_WORK: usize = 3;
+/// Work to read a cell, and of a row of a disc.
+const READ_WORK: usize = 3;
 const FILL_WORK: usize = 6;
-/// Less than this is rounding, cells.
-const HAIR: f64 = 1e-9;
+/// Tolerance for rounding, cells.
+const ROUNDING: f64 = 1e-9;
 
-/// Cells of `frame` that the middle of a body of `radius_m` can take without coming over anything but free floor, nor over one of
-/// the `blocked` points of the map. In the map's own frame the window is that of the knowledge.
+/// The body around its centre, and what it must not cover besides the obstacles of the map.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inflation<'a> {
+    /// Radius of the body, or of the body with a gap, metres.
+    pub(crate) radius_m: f64,
+    /// Points in the frame of the map.
+    pub(crate) blocked: &'a [Point2],
+}
+
+/// Cells of `frame` that the centre of a body can take while it covers only free floor and none of the
+/// `blocked` points of the map. In the map's own frame the window is that of the knowledge.
 pub(crate) async fn reachable(
     knowledge: &Raster<CellKnowledge>,
     frame: &LaneFrame,
-    (radius_m, blocked): (f64, &[Point2]),
+    inflation: Inflation<'_>,
     budget: &mut StepBudget,
 ) -> Raster<bool> {
     let inner = Inner::of(knowledge);
     let mut reachable = floor_in(frame, &inner, budget).await;
-    // From the middle of a cell to the border of the next one is half a cell.
-    let radius = radius_m / CELL_M + 0.5;
+    // From the centre of a cell to the border of the next one is half a cell.
+    let radius = inflation.radius_m / CELL_M + 0.5;
     for row in 0..knowledge.height() {
         for column in 0..inner.width {
             let index = row * inner.width + column;
             if inner.is_edge(index) {
-                blank(
+                clear_disc(
                     &mut reachable,
-                    (frame.point(knowledge.cell(index).middle()), radius),
+                    frame.point(knowledge.cell(index).middle()),
+                    radius,
                 );
                 budget.spend(FILL_WORK * 2 * radius as usize).await;
             }
         }
-        budget.spend(LOOK_WORK * inner.width).await;
+        budget.spend(READ_WORK * inner.width).await;
     }
-    for point in blocked {
+    for point in inflation.blocked {
         let cell = Cell::under(frame.point(*point));
-        blank(&mut reachable, (cell.middle(), radius_m / CELL_M));
+        clear_disc(&mut reachable, cell.middle(), inflation.radius_m / CELL_M);
     }
     reachable
 }
 
-/// Free floor of the map that does not lie at the rim of its window, beyond which nothing is known.
+/// Free floor of the map except at the rim of its window, beyond which nothing is known.
 struct Inner {
     origin: Cell,
     width: usize,
@@ -79,7 +89,7 @@ impl Inner {
         }
     }
 
-    /// Whether a cell is none of the inner floor, but lies beside free floor.
+    /// Whether a cell is not inner floor, but adjacent to free floor.
     fn is_edge(&self, index: usize) -> bool {
         let is_free = |beside: usize| self.is_free.get(beside).copied().unwrap_or(false);
         let column = index % self.width;
@@ -149,20 +159,20 @@ async fn floor_in(frame: &LaneFrame, inner: &Inner, budget: &mut StepBudget) -> 
         for index in row * floor.width()..(row + 1) * floor.width() {
             floor.values_mut()[index] = inner.contains(frame.cell_in_map(floor.cell(index)));
         }
-        budget.spend(LOOK_WORK * floor.width()).await;
+        budget.spend(READ_WORK * floor.width()).await;
     }
     floor
 }
 
-/// Sets the cells to false whose middles are nearer than so many cells to a place.
-fn blank(cells: &mut Raster<bool>, (at, radius): (Point2, f64)) {
+/// Clears the cells whose centres are nearer than `radius` cells to a point.
+fn clear_disc(cells: &mut Raster<bool>, at: Point2, radius: f64) {
     let (width, height) = (cells.width() as i64, cells.height() as i64);
-    // In cells, counted from the middle of the window's first one.
+    // In cells, counted from the centre of the first cell of the window.
     let column = at.x_m / CELL_M - 0.5 - f64::from(cells.origin().x);
     let row = at.y_m / CELL_M - 0.5 - f64::from(cells.origin().y);
     let span = |middle: f64, half: f64, count: i64| {
-        let first = libm::floor(middle - half + HAIR) as i64 + 1;
-        let last = libm::ceil(middle + half - HAIR) as i64 - 1;
+        let first = libm::floor(middle - half + ROUNDING) as i64 + 1;
+        let last = libm::ceil(middle + half - ROUNDING) as i64 - 1;
         (first.max(0), last.min(count - 1))
     };
     let (low, high) = span(row, radius, height);
@@ -180,14 +190,14 @@ fn blank(cells: &mut Raster<bool>, (at, radius): (Point2, f64)) {
     }
 }
 
-/// Rows of a disc and half the cells of each.
+/// Rows of a disc and half the width of each.
 #[derive(Debug)]
 pub(crate) struct Disc {
     rows: Vec<(i64, i64)>,
 }
 
 impl Disc {
-    /// Cells whose middles are nearer than `radius` cells.
+    /// Cells whose centres are nearer than `radius` cells.
     pub(crate) fn of_radius(radius: f64) -> Self {
         let most = libm::ceil(radius) as i64 - 1;
         let rows = (-most..=most)
@@ -200,8 +210,8 @@ impl Disc {
         Self { rows }
     }
 
-    /// Sets the cells around a place (column and row of the raster).
-    pub(crate) fn fill(&self, raster: &mut Raster<bool>, (column, row): (i64, i64), value: bool) {
+    /// Sets the cells around a position (column and row of the raster).
+    pub(crate) fn set(&self, raster: &mut Raster<bool>, column: i64, row: i64) {
         let (width, height) = (raster.width() as i64, raster.height() as i64);
         for (rise, half) in &self.rows {
             let y = row + rise;
@@ -209,7 +219,7 @@ impl Disc {
             if (0..height).contains(&y) && first <= last {
                 let (first, last) = ((y * width + first) as usize, (y * width + last) as usize);
                 if let Some(cells) = raster.values_mut().get_mut(first..=last) {
-                    cells.fill(value);
+                    cells.fill(true);
                 }
             }
         }
@@ -221,19 +231,20 @@ mod tests {
     use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
     use crate::model::geometry::Point2;
     use crate::model::gradual::{StepBudget, at_once};
+    use crate::navigation::Inflation;
     use crate::navigation::lane_frame::LaneFrame;
 
     fn reachable(knowledge: &Raster<CellKnowledge>, radius_m: f64, blocked: &[Point2]) -> Raster<bool> {
         at_once(super::reachable(
             knowledge,
             &LaneFrame::OF_MAP,
-            (radius_m, blocked),
+            Inflation { radius_m, blocked },
             &mut StepBudget::unlimited(),
         ))
     }
 
     #[test]
-    fn the_middle_keeps_the_radius_from_walls_and_from_what_was_met() {
+    fn the_centre_keeps_the_radius_from_walls_and_contacts() {
         let mut knowledge = Raster::filled(Cell { x: -1, y: -1 }, 82, 82, CellKnowledge::Occupied);
         for x in 0..80 {
             for y in 0..80 {
@@ -241,36 +252,39 @@ mod tests {
             }
         }
         let free = reachable(&knowledge, 0.175, &[]);
-        // The middle of cell 7 is 0.1875 m from the wall, that of cell 6 only 0.1625 m.
+        // The centre of cell 7 is 0.1875 m from the wall, that of cell 6 only 0.1625 m.
         assert_eq!(free.get(Cell { x: 7, y: 40 }), Some(&true));
         assert_eq!(free.get(Cell { x: 6, y: 40 }), Some(&false));
-        let met = Point2 { x_m: 1.01, y_m: 1.01 };
-        let free = reachable(&knowledge, 0.175, &[met]);
+        let contact = Point2 { x_m: 1.01, y_m: 1.01 };
+        let free = reachable(&knowledge, 0.175, &[contact]);
         assert_eq!(free.get(Cell { x: 40, y: 40 }), Some(&false));
         assert_eq!(free.get(Cell { x: 40, y: 32 }), Some(&true));
     }
 
     #[test]
-    fn in_a_turned_frame_the_middle_keeps_the_same_radius_from_the_same_walls() {
+    fn in_a_rotated_frame_the_centre_keeps_the_same_radius_from_the_same_walls() {
         let mut knowledge = Raster::filled(Cell { x: -1, y: -1 }, 122, 82, CellKnowledge::Occupied);
         for x in 0..120 {
             (0..80).for_each(|y| *knowledge.get_mut(Cell { x, y }).unwrap() = CellKnowledge::Free);
         }
         let frame = LaneFrame::along(0.5);
-        let met = Point2 { x_m: 1.01, y_m: 1.01 };
+        let contact = Point2 { x_m: 1.01, y_m: 1.01 };
         let free = at_once(super::reachable(
             &knowledge,
             &frame,
-            (0.175, &[met]),
+            Inflation {
+                radius_m: 0.175,
+                blocked: &[contact],
+            },
             &mut StepBudget::unlimited(),
         ));
         let mut count = 0;
         for index in (0..free.values().len()).filter(|index| free.values()[*index]) {
             let at = frame.point_in_map(free.cell(index).middle());
             let wall_m = at.x_m.min(at.y_m).min(3.0 - at.x_m).min(2.0 - at.y_m);
-            // Between the middles of two cells a wall seen askew is thinner by a fraction of a millimetre.
+            // Between the centres of two cells an oblique wall is thinner by a fraction of a millimetre.
             assert!(wall_m > 0.174, "{at:?}");
-            assert!(at.distance_m(met) > 0.175 - CELL_M, "{at:?}");
+            assert!(at.distance_m(contact) > 0.175 - CELL_M, "{at:?}");
             count += 1;
         }
         let expected_m2 = 2.65 * 1.65 - core::f64::consts::PI * 0.175 * 0.175;

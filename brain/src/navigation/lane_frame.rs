@@ -1,13 +1,13 @@
-//! The frame in which lanes are planned: turned so that most walls of the home run along its axes.
+//! The frame of the lanes: rotated so that most walls of the home are parallel to its axes.
 //!
-//! The map's own frame is that of the place where the robot began, which may look anywhere. Lanes that run askew of the walls end
-//! at a slant at each of them, and in a corridor they are short and many.
+//! The map's own frame has the robot's first heading, which may be any. Lanes that are oblique to the walls end at a slant
+//! at each of them, and in a corridor they are short and many.
 
 use crate::mapping::{Cell, CellKnowledge, Raster, wall_direction_rad};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::StepBudget;
 
-/// Walls that stand this little askew are planned for as if they did not, radians: the cells of the map are those of the plan then.
+/// Smaller angles of the walls are ignored, radians: then the cells of the plan are those of the map.
 const STRAIGHT_RAD: f64 = 0.012;
 
 /// A frame that shares its origin with that of the map.
@@ -20,7 +20,7 @@ pub(crate) struct LaneFrame {
 }
 
 impl LaneFrame {
-    /// The map's own.
+    /// The map's own frame.
     pub(crate) const OF_MAP: Self = Self {
         direction_rad: 0.0,
         sin: 0.0,
@@ -40,7 +40,7 @@ impl LaneFrame {
         }
     }
 
-    /// Along the walls of what is known; the map's own when those show no direction.
+    /// Parallel to the walls of the map; the map's own frame when those show no direction.
     pub(crate) async fn of_walls(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Self {
         Self::along(wall_direction_rad(knowledge, budget).await.unwrap_or(0.0))
     }
@@ -61,7 +61,7 @@ impl LaneFrame {
         }
     }
 
-    /// The cell of the map in which the middle of a cell of this frame lies.
+    /// The cell of the map that contains the centre of a cell of this frame.
     pub(crate) fn cell_in_map(&self, cell: Cell) -> Cell {
         if *self == Self::OF_MAP {
             return cell;
@@ -90,7 +90,7 @@ mod tests {
     use crate::model::geometry::{Point2, Pose2};
 
     #[test]
-    fn there_and_back_is_where_it_was() {
+    fn transforming_forth_and_back_is_the_identity() {
         let frame = LaneFrame::along(0.6);
         let at = Point2 { x_m: 1.3, y_m: -4.2 };
         assert!(frame.point_in_map(frame.point(at)).distance_m(at) < 1e-12);
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_that_hardly_stands_askew_leaves_cells_as_they_are() {
+    fn a_slightly_rotated_wall_keeps_the_cells_of_the_map() {
         let frame = LaneFrame::along(0.01);
         assert_eq!(frame, LaneFrame::OF_MAP);
         let cell = Cell { x: -7, y: 3 };

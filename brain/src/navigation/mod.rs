@@ -1,7 +1,6 @@
-//! Getting from place to place: where the body can be, the way there, and the movements that take the robot along it.
+//! Navigation: where the body can be, the path to a goal, and the controllers and manoeuvres that follow it.
 //!
-//! What to drive for is the business of the tasks in the layers above. The movements are short and bounded: each ends by its own
-//! measure of way or turn, or by time.
+//! The tasks in the layers above choose the goals. Manoeuvres are short and bounded: each ends by distance, turn or time.
 
 mod bucket_queue;
 pub(crate) mod caution;
@@ -12,26 +11,26 @@ mod goal_path;
 pub(crate) mod heading;
 mod inflation;
 pub(crate) mod lane_frame;
-mod leg;
+mod manoeuvre;
+mod manoeuvre_sequence;
 mod obstructions;
 mod path_follower;
 pub(crate) mod router;
-mod sequence;
 mod situation;
 pub(crate) mod smoothing;
 mod task;
 mod wall_follower;
 
 pub(crate) use caution::caution;
-pub(crate) use contour_trace::EdgeTrace;
+pub(crate) use contour_trace::ContourTrace;
 pub(crate) use evasion::{Evasion, EvasionStep};
-pub(crate) use goal_path::{Goal, plan_way};
-pub(crate) use inflation::{Disc, reachable};
-pub(crate) use leg::{BACK_AT_CLIFF_M_PER_S, BackOff, Leg, Turn};
+pub(crate) use goal_path::{Goal, plan_path};
+pub(crate) use inflation::{Disc, Inflation, reachable};
+pub(crate) use manoeuvre::{BACK_AT_CLIFF_M_PER_S, BackOff, ManoeuvreStep, Turn};
+pub(crate) use manoeuvre_sequence::{Manoeuvre, ManoeuvreSequence};
 pub(crate) use obstructions::{Obstructions, encounter};
-pub(crate) use path_follower::{FollowStep, Follower};
-pub(crate) use sequence::{Part, Sequence};
+pub(crate) use path_follower::{FollowStep, PathFollower};
 pub(crate) use situation::Situation;
-pub use smoothing::Piece;
-pub(crate) use task::{Mind, Plan, Task};
+pub use smoothing::PathSegment;
+pub(crate) use task::{Task, TaskContext, TaskStatus};
 pub(crate) use wall_follower::{WallFollower, WallStep};

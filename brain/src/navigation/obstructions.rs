@@ -1,84 +1,88 @@
-//! Where something was met that stands in the way of plans.
+//! Contacts that block planned paths.
 //!
-//! A contact near to something that the map shows is first taken for a robot that came too near to it; met again, it stands there.
+//! A first contact near an obstacle of the map counts as a robot that came too close to it. Only a second contact there
+//! makes it an obstruction.
 
 use super::Situation;
 use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::model::geometry::Point2;
 use crate::model::reason::Reason;
 
-/// An obstruction is believed for this long.
-const BELIEVED_US: u64 = 240_000_000;
+/// An obstruction is remembered for this long.
+const KEPT_US: u64 = 240_000_000;
 /// Contacts kept; the oldest go first.
 const KEPT_MAX: usize = 64;
-/// Two contacts nearer than this are with the same thing.
+/// Two contacts nearer than this are with the same object.
 const SAME_M: f64 = 0.12;
-/// A contact this near to something known is with that.
+/// A contact this near to an obstacle of the map is with that.
 const KNOWN_M: f64 = 0.06;
-/// Direction of a contact on one side from straight ahead when nothing else tells, radians.
+/// Direction of a contact on one side from straight ahead without better information, radians.
 const SIDE_RAD: f64 = 0.7;
-/// So far to either side of `SIDE_RAD` it may be, and of straight ahead when both halves of the bumper are pressed, radians.
+/// Uncertainty on either side of `SIDE_RAD`, and of straight ahead when both halves of the bumper are pressed, radians.
 const SIDE_SPREAD_RAD: f64 = 0.35;
 const AHEAD_SPREAD_RAD: f64 = 0.2;
-/// Proximity level of a sensor that looks at what was touched.
+/// Proximity level of a sensor that faces the touched object.
 const TOUCH_LEVEL: f32 = 0.5;
 
 /// The contacts of the last minutes.
 #[derive(Debug, Default)]
 pub(crate) struct Obstructions {
-    met: Vec<Met>,
+    kept: Vec<Obstruction>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Met {
+struct Obstruction {
     since_us: u64,
     at: Point2,
-    /// Where it may be as well: the bumper does not tell more.
+    /// Other possible positions, within the resolution of the bumper.
     beside: [Point2; 2],
-    is_believed: bool,
+    is_confirmed: bool,
 }
 
 impl Obstructions {
-    /// Notes what was met.
+    /// Records a contact or a cliff.
     pub(crate) fn add(&mut self, reason: Reason, situation: &Situation<'_>) {
         let (bearing, spread_rad) = bearing_rad(reason, situation);
         let at = rim(bearing, situation);
         let beside = [-spread_rad, spread_rad].map(|aside_rad| rim(bearing + aside_rad, situation));
-        self.keep(at, beside, situation);
+        self.remember(at, beside, situation);
     }
 
-    /// Notes what the sensors show, at a place in the body's frame.
+    /// Records an obstacle that the sensors see at a point in the body frame.
     pub(crate) fn add_seen(&mut self, hit: Point2, situation: &Situation<'_>) {
         let at = rim(libm::atan2(hit.y_m, hit.x_m), situation);
-        self.keep(at, [at; 2], situation);
+        self.remember(at, [at; 2], situation);
     }
 
-    fn keep(&mut self, at: Point2, beside: [Point2; 2], situation: &Situation<'_>) {
-        let is_again = self.met.iter().any(|met| met.at.distance_m(at) < SAME_M);
-        if self.met.len() >= KEPT_MAX {
-            self.met.remove(0);
+    fn remember(&mut self, at: Point2, beside: [Point2; 2], situation: &Situation<'_>) {
+        let is_again = self
+            .kept
+            .iter()
+            .any(|obstruction| obstruction.at.distance_m(at) < SAME_M);
+        if self.kept.len() >= KEPT_MAX {
+            self.kept.remove(0);
         }
-        self.met.push(Met {
+        self.kept.push(Obstruction {
             since_us: situation.observation.time_us,
             at,
             beside,
-            is_believed: is_again || !is_known(at, situation),
+            is_confirmed: is_again || !is_known(at, situation),
         });
     }
 
-    /// Forgets all.
+    /// Forgets all obstructions.
     pub(crate) fn clear(&mut self) {
-        self.met.clear();
+        self.kept.clear();
     }
 
-    /// Where plans must not lead over.
+    /// Points that plans must avoid.
     pub(crate) fn points(&mut self, now_us: u64) -> Vec<Point2> {
-        self.met
-            .retain(|met| now_us < met.since_us.saturating_add(BELIEVED_US));
-        self.met
+        self.kept
+            .retain(|obstruction| now_us < obstruction.since_us.saturating_add(KEPT_US));
+        self.kept
             .iter()
-            .filter(|met| met.is_believed)
-            .flat_map(|met| [met.at, met.beside[0], met.beside[1]])
+            .filter(|obstruction| obstruction.is_confirmed)
+            .flat_map(|obstruction| [obstruction.at, obstruction.beside[0], obstruction.beside[1]])
             .collect()
     }
 }
@@ -89,7 +93,7 @@ fn rim(bearing_rad: f64, situation: &Situation<'_>) -> Point2 {
     situation.pose.transform(in_base)
 }
 
-/// Whether the map knows of something near a point.
+/// Whether the map has an obstacle near a point.
 fn is_known(at: Point2, situation: &Situation<'_>) -> bool {
     let knowledge = situation.map.knowledge();
     let reach = libm::ceil(KNOWN_M / CELL_M) as i32;
@@ -108,8 +112,8 @@ fn is_known(at: Point2, situation: &Situation<'_>) -> bool {
     })
 }
 
-/// Direction of what was met from straight ahead, and how far to either side of that it may be: that of the proximity sensor
-/// that sees most on this side, else somewhere in the middle of the side.
+/// Direction of a contact from straight ahead and its uncertainty: that of the proximity sensor with the highest level on
+/// this side, otherwise the middle of the side.
 fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> (f64, f64) {
     let side = match reason {
         Reason::BumpLeft | Reason::CliffLeft => 1.0,
@@ -126,7 +130,7 @@ fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> (f64, f64) {
     }
     best.1
 }
-/// What was just met, if anything was.
+/// The cliff or contact that was just detected, if any.
 pub(crate) fn encounter(situation: &Situation<'_>) -> Option<Reason> {
     if situation.at_cliff {
         Some(Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront))

@@ -1,80 +1,81 @@
-//! Following a way of arcs, straights and turns on the spot by the pose in the map.
+//! Follows a path of arcs, straights and turns on the spot by the pose in the map.
 //!
-//! Terms. *Piece*: see [`Piece`]. *Offset*: distance of the robot from the piece it follows, left positive.
+//! Terms. *Segment*: see [`PathSegment`]. *Offset*: distance of the robot from the segment it follows, left positive.
 
-use super::{Piece, Situation};
+use super::{PathSegment, Situation};
 use crate::model::action::Motion;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
-/// Steering for an error of heading, rad/s for each radian. With `OFFSET_GAIN` an offset is made good within some 0.4 m
-/// at cruise speed, without swinging.
+/// Steering per heading error, rad/s for each radian. Together with `OFFSET_GAIN` it removes an offset within some 0.4 m at
+/// cruise speed, without oscillation.
 const HEADING_GAIN_PER_S: f64 = 3.5;
 /// Steering for an offset, rad/s for each metre of offset and m/s of speed.
 const OFFSET_GAIN: f64 = 40.0;
-/// Steering below this is not worth it; a straight way then is really straight, which the rest for the gyro needs.
+/// Smaller corrections are omitted, so that straights are really straight; calibrating the gyro needs that.
 const STEER_MIN_RAD_PER_S: f64 = 0.03;
-/// Brakes and accelerates like this: less than the 0.5 m/s2 of the firmware, so that it can follow.
+/// Deceleration and acceleration: below the 0.5 m/s2 of the firmware, so that it can follow.
 const BRAKE_M_PER_S2: f64 = 0.4;
-/// Commands take this long to show in the wheels: arcs are entered as much earlier.
+/// Delay from command to wheels: arcs start this much earlier.
 const LAG_S: f64 = 0.25;
-/// Slowest speed that is still a speed for a motor with a dead band.
+/// Slowest speed that overcomes the dead band of the motors.
 const CREEP_M_PER_S: f64 = 0.05;
-/// Turn rate asked for each radian that is left of a turn on the spot.
+/// Turn rate per radian of remaining turn on the spot.
 const TURN_GAIN_PER_S: f64 = 4.0;
-/// Slowest turn that is still a turn.
+/// Slowest turn on the spot.
 const TURN_MIN_RAD_PER_S: f64 = 0.4;
-/// A turn on the spot is made when less than this is left; steering does the rest.
+/// A turn on the spot ends when less than this is left; steering does the rest.
 const TURN_DONE_RAD: f64 = 0.06;
-/// Share of the highest turn rate that arcs use: the rest is for steering. With 0.8 known homes take 0.01 to 0.1 T0 longer to 90 %,
-/// with 0.95 furniture is touched more often.
+/// Share of the maximum turn rate that arcs use: the rest is for steering. With 0.8 known homes take 0.01 to 0.1 T0 longer
+/// to 90 %, with 0.95 the robot touches furniture more often.
 const ARC_SHARE: f64 = 0.9;
-/// With less way ahead than this, and less than that left of a piece, the robot goes on with the next one, metres: what it sees
-/// tells better than its place where the way ends.
-const TURN_BEFORE_M: f64 = 0.02;
-const SHORT_OF_M: f64 = 0.08;
-/// Off a straight by more than the first and less than the second the robot keeps aside of something, metres.
+/// With less clearance ahead than this, and less than that left of a segment, the robot goes on with the next one, metres.
+/// At the end of a path its sensors are more accurate than its pose.
+const NEXT_SEGMENT_M: f64 = 0.02;
+const NEAR_END_M: f64 = 0.08;
+/// Range of offsets from a straight at which the robot is keeping away from an obstacle, metres.
 const ASIDE_MIN_M: f64 = 0.005;
 const ASIDE_MAX_M: f64 = 0.03;
-/// Farther from the way than this the robot does not follow it any more.
+/// Farther from the path than this the robot has left it.
 const LOST_M: f64 = 0.25;
-/// A robot that looks farther away from the way than this turns before it drives on.
-const ELSEWHERE_RAD: f64 = 1.2;
+/// With a larger heading error the robot turns on the spot before it drives on.
+const TURN_FIRST_RAD: f64 = 1.2;
 
-/// A way that is being driven.
+/// A path that is being driven.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Follower {
-    pieces: Vec<Piece>,
+pub(crate) struct PathFollower {
+    segments: Vec<PathSegment>,
     current: usize,
-    /// Turn on the spot: what is left of it, once it has begun.
+    /// Remaining turn on the spot, once it has begun.
     turn_left_rad: Option<f64>,
 }
 
-/// State of a way after a step.
+/// State of the path after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum FollowStep {
-    /// On it.
+    /// It goes on.
     Going(Motion),
-    /// At its end.
+    /// The robot is at its end.
     Arrived,
-    /// Too far from it.
+    /// The robot is too far from it.
     Off,
 }
 
-/// What surroundings allow at this moment.
+/// Corrections that the surroundings require at this moment.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Caution {
-    /// Fastest speed.
+    /// Speed limit.
     pub(crate) speed_m_per_s: f64,
-    /// Keep this much to the left of the way (negative: to the right).
+    /// Offset to keep to the left of the path (negative: to the right).
     pub(crate) offset_m: f64,
-    /// Go this much to the left of where it is now (negative: to the right), unless the way leads farther that way anyhow.
+    /// Correction to the left of the current position (negative: to the right), unless the path leads farther that way
+    /// anyhow.
     pub(crate) aside_m: f64,
-    /// Way straight ahead until something is touched, as far as it is seen.
+    /// Straight distance until a contact, as far as sensors see.
     pub(crate) ahead_m: f64,
 }
 
 impl Default for Caution {
-    /// Nothing is near.
+    /// No obstacle is near.
     fn default() -> Self {
         Self {
             speed_m_per_s: f64::INFINITY,
@@ -86,7 +87,7 @@ impl Default for Caution {
 }
 
 impl Caution {
-    /// What of an offset is to be made good.
+    /// The part of an offset that is to be corrected.
     fn off_m(&self, offset_m: f64) -> f64 {
         let off_m = offset_m - self.offset_m;
         if self.aside_m > 0.0 {
@@ -99,74 +100,75 @@ impl Caution {
     }
 }
 
-/// Where the robot is on a piece.
-struct Fix {
-    /// Way made on the piece.
+/// The position of the robot relative to a segment.
+struct SegmentPosition {
+    segment: PathSegment,
+    /// Distance along the segment.
     along_m: f64,
     offset_m: f64,
-    /// Heading beyond that of the way.
+    /// Heading relative to that of the path.
     heading_rad: f64,
 }
 
-impl Follower {
-    pub(crate) fn new(pieces: Vec<Piece>) -> Self {
+impl PathFollower {
+    pub(crate) fn new(segments: Vec<PathSegment>) -> Self {
         Self {
-            pieces,
+            segments,
             current: 0,
             turn_left_rad: None,
         }
     }
 
-    /// Corners of what is left of the way, arcs by their ends and middles.
-    pub(crate) fn way(&self) -> Vec<Point2> {
-        let left = self.pieces.get(self.current..).unwrap_or_default();
+    /// Corners of the remaining path, arcs by their ends and middles.
+    pub(crate) fn remaining_path(&self) -> Vec<Point2> {
+        let left = self.segments.get(self.current..).unwrap_or_default();
         let mut corners = Vec::with_capacity(left.len() + 1);
-        for piece in left.iter().filter(|piece| !is_turn(piece)) {
+        for segment in left.iter().filter(|segment| !is_turn(segment)) {
             if corners.is_empty() {
-                corners.push(piece.start.position());
+                corners.push(segment.start.position());
             }
-            if piece.turn_rad != 0.0 {
-                corners.push(piece.at(0.5).position());
+            if segment.turn_rad != 0.0 {
+                corners.push(segment.at(0.5).position());
             }
-            corners.push(piece.at(1.0).position());
+            corners.push(segment.at(1.0).position());
         }
         corners
     }
 
-    /// The place on the way beside the robot, where it keeps a little off a straight.
+    /// The point of the path beside the robot, while it keeps away from an obstacle beside a straight.
     pub(crate) fn beside(&self, situation: &Situation<'_>) -> Option<Point2> {
-        let piece = self
-            .pieces
+        let segment = self
+            .segments
             .get(self.current)
-            .filter(|piece| !is_turn(piece) && piece.turn_rad == 0.0)?;
-        let fix = Fix::on(piece, situation.pose);
-        let off_m = fix.offset_m.abs();
-        let is_beside = (0.0..=piece.length_m).contains(&fix.along_m);
+            .filter(|segment| !is_turn(segment) && segment.turn_rad == 0.0)?;
+        let position = SegmentPosition::on(segment, situation.pose);
+        let off_m = position.offset_m.abs();
+        let is_beside = (0.0..=segment.length_m).contains(&position.along_m);
         (is_beside && (ASIDE_MIN_M..ASIDE_MAX_M).contains(&off_m))
-            .then(|| piece.at(fix.along_m / piece.length_m).position())
+            .then(|| segment.at(position.along_m / segment.length_m).position())
     }
 
-    /// Whether a turn on the spot is being made.
+    /// Whether a turn on the spot is in progress.
     pub(crate) fn turns_on_spot(&self) -> bool {
-        self.pieces.get(self.current).is_some_and(is_turn)
+        self.segments.get(self.current).is_some_and(is_turn)
     }
 
     pub(crate) fn step(&mut self, situation: &Situation<'_>, caution: Caution) -> FollowStep {
-        while let Some(piece) = self.pieces.get(self.current).copied() {
-            if is_turn(&piece) {
-                if let Some(motion) = self.turn(&piece, situation) {
+        while let Some(segment) = self.segments.get(self.current).copied() {
+            if is_turn(&segment) {
+                if let Some(motion) = self.turn(&segment, situation) {
                     return FollowStep::Going(motion);
                 }
             } else {
-                let fix = Fix::on(&piece, situation.pose);
-                let left_m = piece.length_m - fix.along_m;
-                let is_at_wall = caution.ahead_m < TURN_BEFORE_M
-                    && left_m < SHORT_OF_M
-                    && self.current + 1 < self.pieces.len();
+                let position = SegmentPosition::on(&segment, situation.pose);
+                let left_m = segment.length_m - position.along_m;
+                let is_at_wall = caution.ahead_m < NEXT_SEGMENT_M
+                    && left_m < NEAR_END_M
+                    && self.current + 1 < self.segments.len();
                 let speeds = &situation.config.speeds;
-                let speed_m_per_s = piece_speed(&piece, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
+                let speed_m_per_s = segment_speed(&segment, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
                 if !is_at_wall && left_m > 0.5 * LAG_S * speed_m_per_s {
-                    return self.drive(&piece, &fix, (situation, caution));
+                    return self.drive(&position, situation, caution);
                 }
             }
             self.current += 1;
@@ -175,15 +177,15 @@ impl Follower {
         FollowStep::Arrived
     }
 
-    /// The motion of a turn on the spot; `None` when it is made.
-    fn turn(&mut self, piece: &Piece, situation: &Situation<'_>) -> Option<Motion> {
-        let target_rad = piece.start.heading_rad + piece.turn_rad;
+    /// The motion of a turn on the spot; `None` when it is finished.
+    fn turn(&mut self, segment: &PathSegment, situation: &Situation<'_>) -> Option<Motion> {
+        let target_rad = segment.start.heading_rad + segment.turn_rad;
         let error_rad = normalize_rad(target_rad - situation.pose.heading_rad);
-        // A half turn keeps the side on which it began.
+        // A half turn keeps its direction.
         let left_rad = match self.turn_left_rad {
             Some(before_rad) if error_rad.abs() > 2.0 => error_rad.abs().copysign(before_rad),
             Some(_) => error_rad,
-            None if error_rad.abs() > 2.0 => error_rad.abs().copysign(piece.turn_rad),
+            None if error_rad.abs() > 2.0 => error_rad.abs().copysign(segment.turn_rad),
             None => error_rad,
         };
         self.turn_left_rad = Some(left_rad);
@@ -198,93 +200,96 @@ impl Follower {
         })
     }
 
-    fn drive(&self, piece: &Piece, fix: &Fix, (situation, caution): (&Situation<'_>, Caution)) -> FollowStep {
-        if fix.offset_m.abs() > LOST_M {
+    fn drive(&self, position: &SegmentPosition, situation: &Situation<'_>, caution: Caution) -> FollowStep {
+        let segment = &position.segment;
+        if position.offset_m.abs() > LOST_M {
             return FollowStep::Off;
         }
         let turn_max = situation.config.speeds.turn_max_rad_per_s;
-        if fix.heading_rad.abs() > ELSEWHERE_RAD {
+        if position.heading_rad.abs() > TURN_FIRST_RAD {
             return FollowStep::Going(Motion::Drive {
                 speed_m_per_s: 0.0,
-                turn_rad_per_s: -turn_max.copysign(fix.heading_rad),
+                turn_rad_per_s: -turn_max.copysign(position.heading_rad),
             });
         }
         let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
-        let left_m = piece.length_m - fix.along_m;
-        let free_m_per_s = piece_speed(piece, cruise_m_per_s, turn_max)
+        let left_m = segment.length_m - position.along_m;
+        let free_m_per_s = segment_speed(segment, cruise_m_per_s, turn_max)
             .min(self.braked(left_m, cruise_m_per_s, turn_max))
             .max(CREEP_M_PER_S);
         let speed_m_per_s = free_m_per_s.min(caution.speed_m_per_s.max(CREEP_M_PER_S));
-        let curvature = self.curvature_ahead(piece, left_m, LAG_S * speed_m_per_s);
-        let offset_m = caution.off_m(fix.offset_m);
-        let steer = -HEADING_GAIN_PER_S * fix.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
+        let curvature = self.curvature_ahead(segment, left_m, LAG_S * speed_m_per_s);
+        let offset_m = caution.off_m(position.offset_m);
+        let steer = -HEADING_GAIN_PER_S * position.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
         let steer = if steer.abs() < STEER_MIN_RAD_PER_S {
             0.0
         } else {
             steer
         };
-        // A robot that looks elsewhere first turns.
-        let facing = libm::cos(fix.heading_rad).max(0.2);
+        // A robot with a heading error turns first.
+        let facing = libm::cos(position.heading_rad).max(0.2);
         FollowStep::Going(Motion::Drive {
             speed_m_per_s: speed_m_per_s * facing,
-            // Caution does not slow the turn: an arc gets tighter before something near, and turns away from it.
+            // Caution does not slow the turn: an arc gets tighter before an obstacle, and turns away from it.
             turn_rad_per_s: (free_m_per_s * facing * curvature + steer).clamp(-turn_max, turn_max),
         })
     }
 
-    /// The speed from which it can brake for what comes after this piece.
+    /// The speed from which it can brake for the next segment.
     fn braked(&self, left_m: f64, cruise_m_per_s: f64, turn_max: f64) -> f64 {
-        let after_m_per_s = match self.pieces.get(self.current + 1) {
-            Some(next) if !is_turn(next) => piece_speed(next, cruise_m_per_s, turn_max),
+        let after_m_per_s = match self.segments.get(self.current + 1) {
+            Some(next) if !is_turn(next) => segment_speed(next, cruise_m_per_s, turn_max),
             _ => 0.0,
         };
         libm::sqrt(after_m_per_s * after_m_per_s + 2.0 * BRAKE_M_PER_S2 * left_m.max(0.0))
     }
 
-    /// Curvature of the way a little ahead.
-    fn curvature_ahead(&self, piece: &Piece, left_m: f64, ahead_m: f64) -> f64 {
+    /// Curvature of the path a little ahead.
+    fn curvature_ahead(&self, segment: &PathSegment, left_m: f64, ahead_m: f64) -> f64 {
         let there = if ahead_m < left_m {
-            Some(piece)
+            Some(segment)
         } else {
-            self.pieces.get(self.current + 1).filter(|next| !is_turn(next))
+            self.segments.get(self.current + 1).filter(|next| !is_turn(next))
         };
         there.map_or(0.0, curvature)
     }
 }
 
-fn is_turn(piece: &Piece) -> bool {
-    piece.length_m <= 0.0
+fn is_turn(segment: &PathSegment) -> bool {
+    segment.length_m <= 0.0
 }
 
-fn curvature(piece: &Piece) -> f64 {
-    piece.turn_rad / piece.length_m
+fn curvature(segment: &PathSegment) -> f64 {
+    segment.turn_rad / segment.length_m
 }
 
-fn piece_speed(piece: &Piece, cruise_m_per_s: f64, turn_max: f64) -> f64 {
-    if piece.turn_rad == 0.0 {
+fn segment_speed(segment: &PathSegment, cruise_m_per_s: f64, turn_max: f64) -> f64 {
+    if segment.turn_rad == 0.0 {
         cruise_m_per_s
     } else {
-        cruise_m_per_s.min(ARC_SHARE * turn_max / curvature(piece).abs())
+        cruise_m_per_s.min(ARC_SHARE * turn_max / curvature(segment).abs())
     }
 }
 
-impl Fix {
-    fn on(piece: &Piece, pose: Pose2) -> Self {
-        let local = piece.start.inverse() * pose;
-        // Before its start an arc goes on straight: the circle of a tight one leads elsewhere within centimetres.
-        if piece.turn_rad == 0.0 || local.x_m < 0.0 {
+impl SegmentPosition {
+    fn on(segment: &PathSegment, pose: Pose2) -> Self {
+        let local = segment.start.inverse() * pose;
+        // Before its start an arc continues as a straight: the circle of a tight arc deviates within centimetres.
+        if segment.turn_rad == 0.0 || local.x_m < 0.0 {
             return Self {
+                segment: *segment,
                 along_m: local.x_m,
                 offset_m: local.y_m,
                 heading_rad: local.heading_rad,
             };
         }
-        // Seen from the middle of the arc, with the start below it for a left turn and above it for a right one.
-        let radius_m = piece.length_m / piece.turn_rad;
+        // Relative to the centre of the arc, with the start below it for a left turn and above it for a right one.
+        let radius_m = segment.length_m / segment.turn_rad;
         let (x_m, y_m) = (local.x_m, local.y_m - radius_m);
         let side = radius_m.signum();
         let angle_rad = libm::atan2(x_m, -y_m * side);
         Self {
+            segment: *segment,
             along_m: angle_rad * radius_m.abs(),
             offset_m: side * (radius_m.abs() - libm::sqrt(x_m * x_m + y_m * y_m)),
             heading_rad: normalize_rad(local.heading_rad - angle_rad * side),
@@ -294,20 +299,20 @@ impl Fix {
 
 #[cfg(test)]
 mod tests {
-    use super::{Caution, Fix, Piece};
+    use super::{Caution, PathSegment, SegmentPosition};
     use crate::model::geometry::Pose2;
 
     #[test]
-    fn going_aside_counts_from_where_the_robot_is_and_the_way_may_ask_for_more() {
+    fn a_sideways_correction_is_relative_to_the_robot_unless_the_path_needs_more() {
         let aside = |aside_m: f64| Caution {
             aside_m,
             ..Caution::default()
         };
         assert_eq!(aside(0.0).off_m(0.02), 0.02);
-        // Off to the right, a little more to the left is asked for than the way does, then less.
+        // Offset to the right: the correction exceeds that of the path a little, then it is smaller.
         assert_eq!(aside(0.03).off_m(-0.01), -0.03);
         assert_eq!(aside(0.03).off_m(-0.05), -0.05);
-        // Off to the left of a way beside something on the right, it stays off.
+        // Offset to the left of a path with an obstacle on the right: the offset stays.
         assert_eq!(aside(0.01).off_m(0.02), -0.01);
         assert_eq!(aside(-0.01).off_m(-0.02), 0.01);
     }
@@ -320,25 +325,25 @@ mod tests {
                 y_m: -0.1,
                 heading_rad: 0.7,
             };
-            let piece = Piece {
+            let segment = PathSegment {
                 start,
                 length_m: 0.3,
                 turn_rad,
             };
-            let there = piece.at(0.5);
-            let fix = Fix::on(&piece, there);
-            assert!((fix.along_m - 0.15).abs() < 1e-9 && fix.offset_m.abs() < 1e-9);
-            assert!(fix.heading_rad.abs() < 1e-9);
+            let there = segment.at(0.5);
+            let position = SegmentPosition::on(&segment, there);
+            assert!((position.along_m - 0.15).abs() < 1e-9 && position.offset_m.abs() < 1e-9);
+            assert!(position.heading_rad.abs() < 1e-9);
             let left = there.transform(crate::model::geometry::Point2 { x_m: 0.0, y_m: 0.02 });
-            let fix = Fix::on(
-                &piece,
+            let position = SegmentPosition::on(
+                &segment,
                 Pose2 {
                     x_m: left.x_m,
                     y_m: left.y_m,
                     ..there
                 },
             );
-            assert!((fix.offset_m - 0.02).abs() < 1e-9, "{}", fix.offset_m);
+            assert!((position.offset_m - 0.02).abs() < 1e-9, "{}", position.offset_m);
         }
     }
 }

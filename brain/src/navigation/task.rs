@@ -1,4 +1,4 @@
-//! The seam between the state machine and everything that knows how to drive: strategies, spot cleaning, docking.
+//! The interface between the state machine and everything that drives: strategies, spot cleaning, docking.
 
 use core::fmt::Debug;
 
@@ -10,14 +10,14 @@ use crate::model::random::Random;
 use crate::model::reason::Reason;
 use crate::model::swept_share::SweptShare;
 
-/// What a task may use besides its eyes.
+/// What a task may use besides its inputs.
 #[derive(Debug)]
-pub(crate) struct Mind {
+pub(crate) struct TaskContext {
     pub(crate) random: Random,
     pub(crate) journal: Vec<Decision>,
 }
 
-impl Mind {
+impl TaskContext {
     pub(crate) fn decide(&mut self, what: &'static str, reason: Reason, value: f64) {
         self.journal.push(Decision {
             what,
@@ -27,32 +27,32 @@ impl Mind {
     }
 }
 
-/// What a task wants.
+/// What a task reports after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Plan {
-    /// Move so.
+pub(crate) enum TaskStatus {
+    /// It drives with this motion.
     Go(Motion),
-    /// It cannot go on by its own means: the recovery ladder's turn.
+    /// It cannot go on: recovery takes over.
     Trouble(Reason),
     /// It is done.
     Finished(Reason),
 }
 
-/// Something that drives the robot while the state machine lets it. Coverage strategies are tasks; a new one is a new
+/// Something that drives the robot under the state machine. Coverage strategies are tasks; a new one is a new
 /// implementation and a new [`crate::StrategyName`].
 pub(crate) trait Task: Debug + Send {
-    /// What to do now. A task never asks to drive towards a pressed bumper or a cliff.
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan;
+    /// What to do now. A task never drives towards a pressed bumper or a cliff.
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus;
 
-    /// The robot was moved by somebody else (a person, the recovery ladder) or stood still: half-done manoeuvres are void.
+    /// Somebody else moved the robot (a person, recovery) or it stood still: unfinished manoeuvres are void.
     fn interrupted(&mut self);
 
-    /// Corners of the way that it means to drive from here on, for people who look; none where it decides as it goes.
-    fn way(&self) -> Vec<Point2> {
+    /// Corners of the planned path from here on, for display; none where the task decides as it goes.
+    fn planned_path(&self) -> Vec<Point2> {
         Vec::new()
     }
 
-    /// How much of the floor that it wants it has swept; `None` where it does not know what there is to sweep.
+    /// How much of its target floor is swept; `None` where the task does not know the floor.
     fn swept_share(&self, _map: &Map) -> Option<SweptShare> {
         None
     }

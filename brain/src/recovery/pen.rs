@@ -1,17 +1,17 @@
-//! Whether the robot gets anywhere: the box around where it has been.
+//! Whether the robot gets anywhere: the bounding box of where it has been.
 
 use crate::model::geometry::Point2;
 
-/// A box whose diagonal is longer than this is left: a robot that came so far is not shut in. Longer than a closet, shorter
-/// than any room in which somebody would let a robot clean.
+/// The robot has left a box whose diagonal exceeds this. It is longer than a closet and shorter than any room in which
+/// people would let a robot clean.
 const LEFT_M: f64 = 2.3;
-/// Held at one place, the robot has moved off when it is so far from there.
+/// A held robot has moved off at this distance.
 const MOVED_OFF_M: f64 = 0.3;
-/// So long in one box, the robot is penned. A box of that size is clean in less than a minute.
+/// After this time in one box the robot is penned. A box of that size is clean in less than a minute.
 const PATIENCE_S: f64 = 240.0;
-/// After each rung, the robot gets so long to come out by its own task.
+/// After each behavior the task has this time to get out by itself.
 const PATIENCE_AGAIN_S: f64 = 45.0;
-/// A job that ends with most of the home not swept, after so long in one box, ends in a pen.
+/// A job that ends with most of the home unswept after this time in one box ends in a pen.
 const ENDS_IN_PEN_S: f64 = 20.0;
 
 /// What became of the robot in a step.
@@ -21,24 +21,24 @@ pub(crate) enum Whereabouts {
     Inside,
     /// Still in the box, but away from where it was held.
     MovedOff,
-    /// Out of it. Where it first was in trouble, if it was.
+    /// Out of the box. Where it first got stuck, if it did.
     Left(Option<Point2>),
 }
 
-/// The box around where the robot has been since it last left one.
+/// The bounding box of where the robot has been since it last left one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pen {
     /// Lower left and upper right corner.
     corners: Option<(Point2, Point2)>,
     time_s: f64,
-    /// Time at which the robot counts as penned the next time; `None` = after the usual patience.
+    /// Time at which the robot next counts as penned; `None` = the default.
     due_s: Option<f64>,
     held_at: Option<Point2>,
-    troubled_at: Option<Point2>,
+    stuck_at: Option<Point2>,
 }
 
 impl Pen {
-    /// Takes in where the robot is now.
+    /// Updates the box with the robot's position.
     pub(crate) fn follow(&mut self, place: Point2, time_s: f64) -> Whereabouts {
         let (low, high) = self.corners.unwrap_or((place, place));
         let low = Point2 {
@@ -50,12 +50,12 @@ impl Pen {
             y_m: high.y_m.max(place.y_m),
         };
         if low.distance_m(high) > LEFT_M {
-            let troubled_at = self.troubled_at;
+            let stuck_at = self.stuck_at;
             *self = Self {
                 corners: Some((place, place)),
                 ..Self::default()
             };
-            return Whereabouts::Left(troubled_at);
+            return Whereabouts::Left(stuck_at);
         }
         self.corners = Some((low, high));
         self.time_s += time_s;
@@ -72,15 +72,15 @@ impl Pen {
     /// The robot is held here.
     pub(crate) fn hold(&mut self, place: Point2) {
         self.held_at.get_or_insert(place);
-        self.troubled_at.get_or_insert(place);
+        self.stuck_at.get_or_insert(place);
     }
 
-    /// The robot is penned, and tries to get out.
-    pub(crate) fn climb(&mut self, place: Point2) {
-        self.troubled_at.get_or_insert(place);
+    /// The robot is penned here, and recovery begins.
+    pub(crate) fn begin_recovery(&mut self, place: Point2) {
+        self.stuck_at.get_or_insert(place);
     }
 
-    /// A try to get out is over: the task gets some time before the robot counts as penned again.
+    /// A behavior is over: the task gets some time before the robot counts as penned again.
     pub(crate) fn try_again(&mut self) {
         let due_s = self.due_s.unwrap_or(PATIENCE_S);
         self.due_s = Some(due_s.max(self.time_s + PATIENCE_AGAIN_S));
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_goes_to_and_fro_is_penned_and_whoever_goes_away_has_left() {
+    fn a_robot_that_moves_to_and_fro_is_penned_and_one_that_moves_away_has_left() {
         let mut pen = Pen::default();
         for second in 0..239 {
             assert_eq!(
@@ -118,7 +118,7 @@ mod tests {
         }
         pen.follow(at(0.0), 1.0);
         assert!(pen.is_due());
-        pen.climb(at(0.5));
+        pen.begin_recovery(at(0.5));
         pen.try_again();
         assert!(!pen.is_due());
         (0..45).for_each(|_| {
@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn moving_off_is_told_once() {
+    fn moving_off_is_reported_once() {
         let mut pen = Pen::default();
         pen.follow(at(0.0), 1.0);
         pen.hold(at(0.0));

@@ -1,20 +1,20 @@
-//! Commanded to move and not moving (S15).
+//! Detects that a commanded robot does not move (S15).
 
 use crate::model::action::Motion;
 use crate::model::advance::Advance;
 
-/// Not moving for this long is trouble.
+/// Not moving for this long means that the robot is stuck.
 const PATIENCE_S: f64 = 2.0;
-/// Way that counts as moving.
+/// Distance that counts as moving.
 const MOVED_M: f64 = 0.02;
 /// Turn that counts as moving.
 const TURNED_RAD: f64 = 0.1;
-/// Slower commands prove nothing: a motor's dead band may swallow them.
+/// Slower commands are ignored: the dead band of a motor may swallow them.
 const SPEED_MIN_M_PER_S: f64 = 0.03;
 /// As `SPEED_MIN_M_PER_S`.
 const TURN_MIN_RAD_PER_S: f64 = 0.25;
 
-/// Compares what was commanded with what came of it.
+/// Compares commanded with actual movement.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ProgressWatch {
     commanded_s: f64,
@@ -23,8 +23,8 @@ pub(crate) struct ProgressWatch {
 }
 
 impl ProgressWatch {
-    /// Takes in what came of `commanded` since the last step; true when patience is at its end.
-    pub(crate) fn stands_still(&mut self, commanded: Motion, advance: Advance) -> bool {
+    /// Updates with the movement that followed `commanded`; true when the robot is stuck.
+    pub(crate) fn is_stuck(&mut self, commanded: Motion, advance: Advance) -> bool {
         let demanding = matches!(commanded, Motion::Drive { speed_m_per_s, turn_rad_per_s }
             if speed_m_per_s.abs() >= SPEED_MIN_M_PER_S || turn_rad_per_s.abs() >= TURN_MIN_RAD_PER_S);
         if !demanding {
@@ -54,7 +54,7 @@ mod tests {
 
     fn steps_until_trouble(commanded: Motion, advance: Advance) -> Option<u32> {
         let mut watch = ProgressWatch::default();
-        (1..=1000).find(|_| watch.stands_still(commanded, advance))
+        (1..=1000).find(|_| watch.is_stuck(commanded, advance))
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Gyro and wheels that tell different stories (S14).
+//! Detects wheel slip from the difference of gyro and wheels (S14).
 
 use crate::model::advance::Advance;
 
@@ -9,18 +9,18 @@ const DISAGREEMENT_RAD: f64 = 0.2;
 /// Slipping this long is a reason to stop.
 const PATIENCE_S: f64 = 5.0;
 
-/// How the wheels hold the floor.
+/// How well the wheels grip the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Traction {
-    /// Well, or nobody can tell because there is no gyro.
+    /// Well, or unknown because there is no gyro.
     Good,
-    /// They slip: slower.
+    /// They slip: drive slower.
     Slipping,
     /// They have slipped for too long: stop and report.
     Lost,
 }
 
-/// Compares the two in windows.
+/// Compares gyro and wheels in windows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SlipWatch {
     window_s: f64,
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn without_a_gyro_nothing_is_claimed() {
+    fn without_a_gyro_no_slip_is_reported() {
         let advance = Advance {
             time_s: 1.0,
             wheel_turn_rad: 1.0,

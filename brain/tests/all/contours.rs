@@ -38,14 +38,14 @@ fn plan(ground: &Raster<bool>, pattern: Pattern) -> CoveragePlan {
 }
 
 fn turned_deg(plan: &CoveragePlan) -> f64 {
-    plan.pieces
+    plan.segments
         .iter()
-        .map(|piece| piece.turn_rad.abs().to_degrees())
+        .map(|segment| segment.turn_rad.abs().to_degrees())
         .sum()
 }
 
 fn length_m(plan: &CoveragePlan) -> f64 {
-    plan.pieces.iter().map(|piece| piece.length_m).sum()
+    plan.segments.iter().map(|segment| segment.length_m).sum()
 }
 
 #[test]

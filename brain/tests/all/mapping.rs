@@ -1,6 +1,6 @@
 //! The map of the home: from observations and from hand-made rasters to knowledge, distances, rooms, doors and walls.
 
-use brain::mapping::{COORDINATE_MAX_M, Door, Keyframe, Rooms};
+use brain::mapping::{Door, FAR_M, Keyframe, Rooms};
 use brain::observation::{Cliffs, Contacts};
 use brain::{
     Body, CELL_M, Cell, CellKnowledge, DistanceField, Map, NoGo, Observation, Point2, Pose2, PoseEstimate,
@@ -353,7 +353,7 @@ fn distances_are_those_of_brute_force() {
         let expected_m = if nearest_m == 0.0 {
             -0.5 * CELL_M
         } else {
-            (nearest_m - 0.5 * CELL_M).min(COORDINATE_MAX_M)
+            (nearest_m - 0.5 * CELL_M).min(FAR_M)
         };
         let found_m = field.cell_m(cell);
         assert!(
@@ -361,8 +361,8 @@ fn distances_are_those_of_brute_force() {
             "{found_m} at {cell:?}, not {expected_m}"
         );
     }
-    assert_eq!(field.cell_m(Cell { x: 900, y: 0 }), COORDINATE_MAX_M);
-    assert_eq!(field.at(point(-9.0, 900.0)), COORDINATE_MAX_M);
+    assert_eq!(field.cell_m(Cell { x: 900, y: 0 }), FAR_M);
+    assert_eq!(field.at(point(-9.0, 900.0)), FAR_M);
 }
 
 /// Metres as a rectangle of cells of one kind.

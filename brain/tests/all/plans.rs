@@ -54,10 +54,14 @@ fn a_plan_passes_all_floor_in_little_more_than_the_least_time() {
 fn the_way_stays_on_free_cells() {
     let ground = hall(200, 120);
     let plan = plan_coverage(&ground, |_| false, start(), &SETTINGS);
-    let first = plan.pieces.iter().position(|piece| piece.length_m > 0.0).unwrap();
-    for piece in &plan.pieces[first..] {
+    let first = plan
+        .segments
+        .iter()
+        .position(|segment| segment.length_m > 0.0)
+        .unwrap();
+    for segment in &plan.segments[first..] {
         for step in 0..=20 {
-            let place = piece.at(f64::from(step) / 20.0).position();
+            let place = segment.at(f64::from(step) / 20.0).position();
             // An arc may cut the corner of a cell.
             let near = [
                 (0.0, 0.0),
@@ -73,7 +77,7 @@ fn the_way_stays_on_free_cells() {
                 });
                 ground.get(cell) == Some(&true)
             });
-            assert!(free, "{place:?} on {piece:?}");
+            assert!(free, "{place:?} on {segment:?}");
         }
     }
 }
@@ -103,7 +107,7 @@ fn nothing_to_sweep_gives_no_way() {
     assert_eq!(plan_coverage(&ground, |_| true, start(), &SETTINGS).lanes, 0);
     let walls = Raster::filled(Cell::default(), 40, 40, false);
     let plan = plan_coverage(&walls, |_| false, start(), &SETTINGS);
-    assert_eq!((plan.pieces.len(), plan.floor_m2), (0, 0.0));
+    assert_eq!((plan.segments.len(), plan.floor_m2), (0, 0.0));
     let nothing = Raster::filled(Cell::default(), 0, 0, true);
     assert_eq!(plan_coverage(&nothing, |_| false, start(), &SETTINGS).lanes, 0);
 }

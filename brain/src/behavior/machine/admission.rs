@@ -7,7 +7,7 @@ use crate::mapping::Map;
 use crate::model::command::{Command, StrategyName};
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
-use crate::navigation::Mind;
+use crate::navigation::TaskContext;
 
 impl Behavior {
     /// Whether `command` may be obeyed now, in a home that is as the map says.
@@ -145,7 +145,7 @@ impl Behavior {
     }
 
     /// Does what an admitted command says.
-    pub(super) fn obey(&mut self, command: &Command, mind: &mut Mind) {
+    pub(super) fn obey(&mut self, command: &Command, mind: &mut TaskContext) {
         let whole = CleaningOrder::default();
         match *command {
             Command::Clean { strategy } => self.begin((JobKind::Clean(strategy), whole), mind),
@@ -201,7 +201,7 @@ impl Behavior {
         }
     }
 
-    fn pause(&mut self, mind: &mut Mind) {
+    fn pause(&mut self, mind: &mut TaskContext) {
         self.stays_where_it_is();
         match self.mode {
             Mode::Disconnected { since_us, .. } => {
@@ -218,7 +218,7 @@ impl Behavior {
         }
     }
 
-    fn stop(&mut self, mind: &mut Mind) {
+    fn stop(&mut self, mind: &mut TaskContext) {
         self.centre_first = true;
         self.stays_where_it_is();
         match self.mode {

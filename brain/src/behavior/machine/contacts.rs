@@ -6,7 +6,7 @@
 use super::{Behavior, Mode};
 use crate::model::observation::ChargeFlow;
 use crate::model::reason::Reason;
-use crate::navigation::Mind;
+use crate::navigation::TaskContext;
 
 /// Current must flow within this time, if it can be expected at all. The firmware looks at dock and pack for some seconds
 /// before it lets it flow, and tells it in a report that comes once a second.
@@ -16,7 +16,7 @@ const DRY_TRIES_MAX: u32 = 2;
 
 impl Behavior {
     /// What a robot on its way home does on contacts that are closed.
-    pub(super) fn meet_contacts(&mut self, mind: &mut Mind) {
+    pub(super) fn meet_contacts(&mut self, mind: &mut TaskContext) {
         if self.facts.charge_flow != Some(ChargeFlow::Missing) {
             self.dry_tries = 0;
             self.arrive(mind);
@@ -44,7 +44,7 @@ impl Behavior {
     }
 
     /// The contacts opened while the robot waited for current on them.
-    pub(super) fn lose_contacts(&mut self, mind: &mut Mind) {
+    pub(super) fn lose_contacts(&mut self, mind: &mut TaskContext) {
         if self.slips_left() {
             self.announce(Reason::DockMissed, mind);
         } else {
@@ -58,7 +58,7 @@ impl Behavior {
     }
 
     /// A pack that is charged at last, after nothing had flown.
-    pub(super) fn watch_dry_dock(&mut self, mind: &mut Mind) {
+    pub(super) fn watch_dry_dock(&mut self, mind: &mut TaskContext) {
         if self.reason == Reason::NoChargeCurrent && self.facts.charge_flow == Some(ChargeFlow::Flowing) {
             self.enter(Mode::Docked, Reason::Docked, mind);
         }

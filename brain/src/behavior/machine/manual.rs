@@ -3,7 +3,7 @@
 use super::{Behavior, Mode};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-use crate::navigation::Mind;
+use crate::navigation::TaskContext;
 
 /// The newest wish of the person who drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,7 @@ pub(in crate::behavior) struct ManualDrive {
 
 impl Behavior {
     /// A wish of the person who drives, the first or a further one.
-    pub(super) fn take_wheel(&mut self, drive: ManualDrive, mind: &mut Mind) {
+    pub(super) fn take_wheel(&mut self, drive: ManualDrive, mind: &mut TaskContext) {
         self.centre_first = false;
         match self.mode {
             Mode::Manual(earlier) => {
@@ -32,7 +32,7 @@ impl Behavior {
     }
 
     /// The person lets go; the stick counts as centred.
-    pub(super) fn release_wheel(&mut self, mind: &mut Mind) {
+    pub(super) fn release_wheel(&mut self, mind: &mut TaskContext) {
         self.centre_first = false;
         if matches!(self.mode, Mode::Manual(_)) {
             self.hold(Reason::Released, mind);

@@ -4,7 +4,7 @@ use super::{Behavior, Mode};
 use crate::behavior::JobKind;
 use crate::behavior::job::Job;
 use crate::model::reason::Reason;
-use crate::navigation::{Mind, Situation};
+use crate::navigation::{Situation, TaskContext};
 
 /// An outage of the link up to this length needs no new announcement: nobody has had time to come near.
 const SHORT_OUTAGE_US: u64 = 5_000_000;
@@ -25,7 +25,7 @@ impl Behavior {
     }
 
     /// Changes the mode where what was perceived demands it.
-    pub(super) fn react(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    pub(super) fn react(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
         if !self.facts.link_up {
             self.lose_link(mind);
             return;
@@ -41,7 +41,7 @@ impl Behavior {
         self.react_to_budgets(situation, mind);
     }
 
-    fn lose_link(&mut self, mind: &mut Mind) {
+    fn lose_link(&mut self, mind: &mut TaskContext) {
         let resume = match self.mode {
             Mode::Disconnected { .. } => return,
             Mode::Starting { .. } | Mode::Working => true,
@@ -59,7 +59,7 @@ impl Behavior {
         self.enter(Mode::Disconnected { since_us, resume }, Reason::LinkLost, mind);
     }
 
-    fn reconnect(&mut self, since_us: Option<u64>, resume: bool, mind: &mut Mind) {
+    fn reconnect(&mut self, since_us: Option<u64>, resume: bool, mind: &mut TaskContext) {
         let short =
             since_us.is_some_and(|since_us| self.facts.now_us.saturating_sub(since_us) < SHORT_OUTAGE_US);
         match (&self.job, resume) {
@@ -82,7 +82,7 @@ impl Behavior {
     }
 
     /// True while a fault stands or waits to be acknowledged.
-    fn react_to_fault(&mut self, mind: &mut Mind) -> bool {
+    fn react_to_fault(&mut self, mind: &mut TaskContext) -> bool {
         match (self.mode, self.facts.fault) {
             (Mode::Error { .. }, Some(fault)) => self.reason = fault,
             (_, Some(fault)) => {
@@ -101,7 +101,7 @@ impl Behavior {
     }
 
     /// Lifted, stopped at the button, stopped by somebody else's `stop`, or the lease of a person who drives is over.
-    fn react_to_person(&mut self, mind: &mut Mind) {
+    fn react_to_person(&mut self, mind: &mut TaskContext) {
         let disarmed = self.facts.disarmed;
         let ready = match self.mode {
             Mode::Working => true,
@@ -125,7 +125,7 @@ impl Behavior {
         self.hold(reason, mind);
     }
 
-    fn react_to_dock(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    fn react_to_dock(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
         match self.mode {
             Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, mind),
             Mode::Docked if !self.facts.docked => self.come_off(mind),
@@ -148,7 +148,7 @@ impl Behavior {
     }
 
     /// Off the dock without being sent.
-    fn come_off(&mut self, mind: &mut Mind) {
+    fn come_off(&mut self, mind: &mut TaskContext) {
         if self.slips_off() {
             self.job = Some(Job::new(JobKind::Dock, self.figures()));
             self.announce(Reason::DockMissed, mind);
@@ -162,7 +162,7 @@ impl Behavior {
     }
 
     /// Strayed onto the dock while cleaning: off again.
-    fn leave_dock(&mut self, mind: &mut Mind) {
+    fn leave_dock(&mut self, mind: &mut TaskContext) {
         if let Some(job) = &mut self.job
             && !job.is_departing()
         {
@@ -171,7 +171,7 @@ impl Behavior {
         }
     }
 
-    fn react_to_budgets(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    fn react_to_budgets(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
         if self.mode != Mode::Working || self.waits_for_current() {
             return;
         }

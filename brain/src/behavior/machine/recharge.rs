@@ -14,7 +14,7 @@ use crate::model::command::StrategyName;
 use crate::model::energy::{Activity, EnergyLearner, EnergyModel, RemainingWork};
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
-use crate::navigation::{Mind, Situation};
+use crate::navigation::{Situation, TaskContext};
 
 /// Below this charge the way home is looked at, and again after `LOOK_US`: it takes a plan each time.
 const LOOK_BELOW: f32 = 0.5;
@@ -46,7 +46,7 @@ impl Behavior {
     }
 
     /// The running job ends for the pack's sake: it is put off, unless what is left of it is not worth a charge.
-    pub(super) fn turn_home_for_charge(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    pub(super) fn turn_home_for_charge(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
         if self.leaves_crumbs(situation) {
             self.finish(Reason::CrumbsLeft, situation, mind);
         } else {
@@ -99,13 +99,13 @@ impl Behavior {
             .is_none_or(|looked_us| now_us >= looked_us + LOOK_US);
         if is_due {
             self.way_home_us = Some(now_us);
-            self.way_home = docking::way_home_m(situation);
+            self.way_home = docking::path_home_m(situation);
         }
         None
     }
 
     /// The running job becomes a search for the dock and keeps its figures. One that ends for the pack's sake is put off.
-    pub(super) fn turn_home(&mut self, reason: Reason, mind: &mut Mind) {
+    pub(super) fn turn_home(&mut self, reason: Reason, mind: &mut TaskContext) {
         let figures = self.figures();
         let before = self.job.replace(Job::new(JobKind::Dock, figures));
         let goes_on = matches!(reason, Reason::BatteryLow | Reason::LookAgain);
@@ -118,7 +118,7 @@ impl Behavior {
 
     /// The running job is at its end. One that has cleaned goes home if the map tells where that is, or the dock's beams were heard
     /// on the way: who began somewhere else has never stood on it.
-    pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
+    pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut TaskContext) {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
             && matches!(
                 reason,
@@ -139,7 +139,7 @@ impl Behavior {
     }
 
     /// On the dock at the end of the way home.
-    pub(super) fn arrive(&mut self, mind: &mut Mind) {
+    pub(super) fn arrive(&mut self, mind: &mut TaskContext) {
         let figures = self.figures();
         self.home_us = Some(self.facts.now_us);
         match self.put_off.take() {
@@ -178,7 +178,7 @@ impl Behavior {
     }
 
     /// The way home has ended elsewhere: what was put off waits for a person.
-    pub(super) fn give_up_home(&mut self, reason: Reason, mind: &mut Mind) {
+    pub(super) fn give_up_home(&mut self, reason: Reason, mind: &mut TaskContext) {
         let figures = self.figures();
         match self.put_off.take() {
             None => self.end_job(reason, mind),
@@ -190,7 +190,7 @@ impl Behavior {
     }
 
     /// Goes on when the pack is charged; waits for a person when somebody took the robot off its dock.
-    pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
         self.tell_of_charger(mind);
         let may_start = !self.facts.battery_low && !self.facts.wheel_drop;
         let charge = situation.observation.battery_charge;
@@ -209,7 +209,7 @@ impl Behavior {
 
     /// A job that waits for charge says so when the charger has stopped for a fault, and goes on waiting: once a person has seen
     /// to it, current flows again.
-    fn tell_of_charger(&mut self, mind: &mut Mind) {
+    fn tell_of_charger(&mut self, mind: &mut TaskContext) {
         let reason = match self.facts.charger_fault {
             true => Reason::ChargerFault,
             false => Reason::Recharging,

@@ -53,15 +53,15 @@ mod tests {
     use crate::model::pose_estimate::PoseEstimate;
     use crate::model::random::Random;
     use crate::model::swept_share::SweptShare;
-    use crate::navigation::{Mind, Plan, Situation, Task};
+    use crate::navigation::{Situation, Task, TaskContext, TaskStatus};
 
     /// A job that has swept this share and gets no further.
     #[derive(Debug)]
     struct AtItsEnd(f64);
 
     impl Task for AtItsEnd {
-        fn step(&mut self, _: &Situation<'_>, _: &mut Mind) -> Plan {
-            Plan::Finished(Reason::RestOutOfReach)
+        fn step(&mut self, _: &Situation<'_>, _: &mut TaskContext) -> TaskStatus {
+            TaskStatus::Finished(Reason::RestOutOfReach)
         }
 
         fn interrupted(&mut self) {}
@@ -78,7 +78,7 @@ mod tests {
     /// A robot that works, in a home of which it knows where its dock is.
     struct Stage {
         behavior: Behavior,
-        mind: Mind,
+        mind: TaskContext,
         map: Map,
         observation: Observation,
     }
@@ -97,7 +97,7 @@ mod tests {
             });
             Self {
                 behavior,
-                mind: Mind {
+                mind: TaskContext {
                     random: Random::new(1),
                     journal: Vec::new(),
                 },
@@ -107,7 +107,10 @@ mod tests {
         }
 
         /// One step of the job, or of the wait for charge; gives the state after it.
-        fn step(&mut self, step: fn(&mut Behavior, &Situation<'_>, &mut Mind)) -> (BehaviorState, Reason) {
+        fn step(
+            &mut self,
+            step: fn(&mut Behavior, &Situation<'_>, &mut TaskContext),
+        ) -> (BehaviorState, Reason) {
             let (config, beams) = (BrainConfig::of_tests(), BeamMemory::default());
             let situation = Situation {
                 observation: &self.observation,
@@ -118,7 +121,7 @@ mod tests {
                 is_tracked: false,
                 gyro_scale_sigma: None,
                 gyro_bias_sigma_rad_per_s: None,
-                way_back_m: 0.15,
+                reverse_budget_m: 0.15,
                 beams: &beams,
                 config: &config,
                 knows_heading: true,

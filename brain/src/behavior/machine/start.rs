@@ -6,7 +6,7 @@ use crate::behavior::{JobFigures, JobKind};
 use crate::model::action::{Arm, Motion, Tone};
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
-use crate::navigation::Mind;
+use crate::navigation::TaskContext;
 
 /// Pause between two tries to arm.
 const ARM_AGAIN_US: u64 = 500_000;
@@ -26,7 +26,7 @@ const ARM_PATIENCE_US: u64 = 3_000_000;
 
 impl Behavior {
     /// Waits for the announcement to end, arms, and waits for the firmware to agree.
-    pub(super) fn start(&mut self, since_us: u64, mind: &mut Mind) -> Motion {
+    pub(super) fn start(&mut self, since_us: u64, mind: &mut TaskContext) -> Motion {
         let waited_us = self.facts.now_us.saturating_sub(since_us);
         if waited_us < ANNOUNCEMENT_US {
             return Motion::Rest;
@@ -64,7 +64,7 @@ impl Behavior {
     }
 
     /// Announces and starts the present job (S24).
-    pub(super) fn announce(&mut self, reason: Reason, mind: &mut Mind) {
+    pub(super) fn announce(&mut self, reason: Reason, mind: &mut TaskContext) {
         if let (Mode::Recharging, Some(job)) = (self.mode, &mut self.job) {
             job.returns = true;
             job.second_look.begins();
@@ -80,7 +80,7 @@ impl Behavior {
     }
 
     /// Begins a new job; the old one is forgotten.
-    pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), mind: &mut Mind) {
+    pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), mind: &mut TaskContext) {
         self.job = Some(Job::with_order((kind, order), JobFigures::default()));
         self.put_off = None;
         self.slips = 0;

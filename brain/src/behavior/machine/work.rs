@@ -13,8 +13,8 @@ use crate::model::no_go::NoGo;
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::model::swept_share::SweptShare;
-use crate::navigation::{Mind, Plan, Situation};
-use crate::recovery::{self, Grip, Traction, Whereabouts};
+use crate::navigation::{Situation, TaskContext, TaskStatus};
+use crate::recovery::{self, StuckKind, Traction, Whereabouts};
 
 /// The firmware may be out of reach of `arm` for this long before the job is put off.
 const STARVE_US: u64 = 3_000_000;
@@ -41,7 +41,7 @@ impl Behavior {
         }
     }
 
-    pub(super) fn work(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+    pub(super) fn work(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) -> Motion {
         let commanded = self.last_motion;
         let Some(job) = &mut self.job else {
             self.hold(Reason::NoJob, mind);
@@ -73,7 +73,7 @@ impl Behavior {
     }
 
     /// Whether the robot has come free.
-    fn watch_pen(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    fn watch_pen(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
         let Some(job) = &mut self.job else { return };
         match job
             .pen
@@ -120,7 +120,7 @@ impl Behavior {
         job.gyro_rest.follow(self.facts.now_us, is_ahead, budget)
     }
 
-    fn wait_for_arm(&mut self, mind: &mut Mind) -> Motion {
+    fn wait_for_arm(&mut self, mind: &mut TaskContext) -> Motion {
         let since_us = *self.starved_since_us.get_or_insert(self.facts.now_us);
         if self.facts.now_us.saturating_sub(since_us) > STARVE_US {
             let reason = if self.facts.disarmed.link_lost {
@@ -136,47 +136,54 @@ impl Behavior {
     }
 
     /// What the task or a detour wants, unless a watch calls trouble first.
-    fn watched_plan(&mut self, commanded: Motion, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn watched_plan(
+        &mut self,
+        commanded: Motion,
+        situation: &Situation<'_>,
+        mind: &mut TaskContext,
+    ) -> TaskStatus {
         let Some(job) = &mut self.job else {
-            return Plan::Go(Motion::Halt);
+            return TaskStatus::Go(Motion::Halt);
         };
         let traction = job.slip.judge(situation.advance);
         if traction == Traction::Lost {
-            return Plan::Finished(Reason::Slip);
+            return TaskStatus::Finished(Reason::Slip);
         }
-        let stands_still = job.progress.stands_still(commanded, situation.advance);
+        let stands_still = job.progress.is_stuck(commanded, situation.advance);
         let first_report = self.facts.not_moving && commanded != Motion::Rest;
         if stands_still || first_report {
             job.progress = recovery::ProgressWatch::default();
-            return Plan::Trouble(Reason::NotMoving);
+            return TaskStatus::Trouble(Reason::NotMoving);
         }
         if self.facts.not_moving {
             // The firmware rests for a second after it saw no progress; the escape starts after that.
-            return Plan::Go(Motion::Rest);
+            return TaskStatus::Go(Motion::Rest);
         }
         if job.edges.must_wait(situation.at_cliff, self.facts.now_us, mind) {
-            return Plan::Go(Motion::Halt);
+            return TaskStatus::Go(Motion::Halt);
         }
         if job.detour.is_none() && job.pen.is_due() {
-            return Plan::Trouble(Reason::ShutIn);
+            return TaskStatus::Trouble(Reason::ShutIn);
         }
         let plan = self.plan(situation, mind);
         match plan {
-            Plan::Finished(Reason::Finished | Reason::RestOutOfReach) if self.ends_in_pen(situation) => {
-                Plan::Trouble(Reason::ShutIn)
+            TaskStatus::Finished(Reason::Finished | Reason::RestOutOfReach)
+                if self.ends_in_pen(situation) =>
+            {
+                TaskStatus::Trouble(Reason::ShutIn)
             }
-            Plan::Go(motion) if traction == Traction::Slipping => Plan::Go(slowed(motion)),
+            TaskStatus::Go(motion) if traction == Traction::Slipping => TaskStatus::Go(slowed(motion)),
             other => other,
         }
     }
 
-    fn plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn plan(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) -> TaskStatus {
         let Some(job) = &mut self.job else {
-            return Plan::Go(Motion::Halt);
+            return TaskStatus::Go(Motion::Halt);
         };
         if let Some(detour) = &mut job.detour {
             if let Some(motion) = detour.sequence.step(situation) {
-                return Plan::Go(motion);
+                return TaskStatus::Go(motion);
             }
             job.detour = None;
             job.pen.try_again();
@@ -194,27 +201,27 @@ impl Behavior {
         job.task.step(situation, mind)
     }
 
-    fn follow(&mut self, plan: Plan, situation: &Situation<'_>, mind: &mut Mind) -> Motion {
+    fn follow(&mut self, plan: TaskStatus, situation: &Situation<'_>, mind: &mut TaskContext) -> Motion {
         match plan {
-            Plan::Go(motion) => return motion,
-            Plan::Trouble(reason) => self.escape(reason, situation, mind),
-            Plan::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, mind),
-            Plan::Finished(reason) => self.finish(reason, situation, mind),
+            TaskStatus::Go(motion) => return motion,
+            TaskStatus::Trouble(reason) => self.escape(reason, situation, mind),
+            TaskStatus::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, mind),
+            TaskStatus::Finished(reason) => self.finish(reason, situation, mind),
         }
         Motion::Halt
     }
 
-    fn escape(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) {
+    fn escape(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut TaskContext) {
         let Some(job) = &mut self.job else { return };
         job.task.interrupted();
-        let grip = recovery::grip(reason);
+        let grip = recovery::stuck_kind(reason);
         let Some(rung) = job.ladder.trouble(grip) else {
             self.enter(Mode::Stuck, reason, mind);
             return;
         };
         match grip {
-            Grip::Held => job.pen.hold(situation.pose.position()),
-            Grip::Penned => job.pen.climb(situation.pose.position()),
+            StuckKind::Held => job.pen.hold(situation.pose.position()),
+            StuckKind::Penned => job.pen.begin_recovery(situation.pose.position()),
         }
         mind.decide(rung.decision(), reason, 0.0);
         let sequence = recovery::escape(rung, &mut mind.random);
@@ -237,7 +244,9 @@ impl Behavior {
 
     /// Corners of the way that the running or waiting job means to drive.
     pub(crate) fn planned_way(&self) -> Vec<Point2> {
-        self.job.as_ref().map_or_else(Vec::new, |job| job.task.way())
+        self.job
+            .as_ref()
+            .map_or_else(Vec::new, |job| job.task.planned_path())
     }
 
     /// How much of its floor the running or waiting job has swept.
@@ -267,7 +276,7 @@ impl Behavior {
 }
 
 /// Stands still, and tells why when the rest begins.
-fn rest_for_gyro(commanded: Motion, mind: &mut Mind) -> Motion {
+fn rest_for_gyro(commanded: Motion, mind: &mut TaskContext) -> Motion {
     if commanded != Motion::Halt {
         mind.decide("rest", Reason::GyroDrift, 0.0);
     }

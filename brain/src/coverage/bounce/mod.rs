@@ -1,136 +1,152 @@
-//! `bounce`: drive until something is met, back off, turn away by a random angle, drive on.
+//! `bounce`: drive until the robot hits something, back off, turn away by a random angle, drive on.
 //!
-//! Terms. *Run*: the straight way between two encounters. *Pocket*: a place where run after run is short; there the
-//! robot backs off further, turns more and always to the same side, which leads out of corners and from between chair
-//! legs where a fresh coin toss each time would keep it.
+//! Terms. *Straight*: the straight drive between two encounters. *Pocket*: a place where one straight after another is
+//! short. There the robot backs off further, turns more and always to the same side. That leads out of corners and from
+//! between chair legs, where a fresh coin toss each time would keep it in.
 
 mod pocket;
 
-use super::recent_coverage::Lately;
+use super::recent_coverage::{RecentContacts, TurnRange};
 use crate::model::action::Motion;
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
-use crate::navigation::{Evasion, Mind, Plan, Situation, Task};
+use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus};
 use pocket::Pocket;
 
-/// A run this long without an encounter is no run any more (a home has walls): perhaps the wheels spin.
-const RUN_MAX_M: f64 = 14.0;
-/// Way back at a cliff: sensors lead the wheels by little, so it must be clear of the edge before it turns.
+/// A longer straight without an encounter is implausible, since a home has walls: perhaps the wheels spin.
+const STRAIGHT_MAX_M: f64 = 14.0;
+/// Distance to back off at a cliff. The sensors lead the wheels by little, so the robot must clear the edge before it
+/// turns.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Turns away from a cliff in radians: near to straight back, so that the edge is not met again at once (three cliffs in
-/// 5 s latch the firmware, S8).
+/// Turn angles away from a cliff, radians. They are close to a half turn, so that the robot does not meet the edge again at
+/// once: three cliffs in 5 s latch the firmware (S8).
 const CLIFF_TURN_RAD: (f64, f64) = (1.9, 2.8);
-/// Proximity above which contact is near: about 7 cm for the sensors of the SR8730.
+/// Proximity level above which contact is near: about 7 cm for the sensors of the SR8730.
 const NEAR_LEVEL: f32 = 0.45;
-/// Speed with something near ahead: a soft contact.
+/// Speed with an obstacle close ahead, for a soft contact.
 const NEAR_M_PER_S: f64 = 0.12;
 
 /// The strategy.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Bounce {
     evasion: Option<Evasion>,
-    run_m: f64,
+    straight_m: f64,
     pocket: Pocket,
-    /// What it turns by where it is free to choose; `None` = by chance alone.
-    lately: Option<Lately>,
+    /// Steers free turns towards floor that was not swept recently; `None` = turns are random.
+    recent_contacts: Option<RecentContacts>,
 }
 
 impl Task for Bounce {
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let evades = self.evasion.is_some();
         match Evasion::pursue(&mut self.evasion, situation) {
-            Some(Ok(motion)) => return Plan::Go(motion),
+            Some(Ok(motion)) => return TaskStatus::Go(motion),
             Some(Err(reason)) => {
                 self.interrupted();
-                return Plan::Trouble(reason);
+                return TaskStatus::Trouble(reason);
             }
             None => {}
         }
         if evades {
-            self.run_m = 0.0;
+            self.straight_m = 0.0;
         }
-        self.run(situation, mind)
+        self.drive(situation, context)
     }
 
     fn interrupted(&mut self) {
         self.evasion = None;
-        self.run_m = 0.0;
+        self.straight_m = 0.0;
     }
 }
 
+/// A contact, and the side to which the robot would turn in the open.
+#[derive(Clone, Copy)]
+struct Encounter {
+    reason: Reason,
+    side: TurnSide,
+}
+
 impl Bounce {
-    /// Bounces towards floor that was not swept lately.
+    /// Bounces towards floor that was not swept recently.
     pub(super) fn towards_new_floor() -> Self {
         Self {
-            lately: Some(Lately::default()),
+            recent_contacts: Some(RecentContacts::default()),
             ..Self::default()
         }
     }
 
-    /// Whether it is just getting away from something.
+    /// Whether an evasion is in progress.
     pub(crate) fn is_evading(&self) -> bool {
         self.evasion.is_some()
     }
 
-    /// Way since the last encounter, metres.
-    pub(crate) fn run_m(&self) -> f64 {
-        self.run_m
+    /// Distance driven since the last encounter, metres.
+    pub(crate) fn straight_m(&self) -> f64 {
+        self.straight_m
     }
 
-    fn run(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        self.run_m += situation.advance.distance_m.max(0.0);
-        let Some((reason, evasion)) = self.encounter(situation, mind) else {
-            return Plan::Go(ahead(situation));
+    fn drive(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        self.straight_m += situation.advance.distance_m.max(0.0);
+        let Some((reason, evasion)) = self.encounter(situation, context) else {
+            return TaskStatus::Go(ahead(situation));
         };
         if self.pocket.is_closed() {
             self.pocket = Pocket::default();
-            return Plan::Trouble(Reason::BoxedIn);
+            return TaskStatus::Trouble(Reason::BoxedIn);
         }
-        mind.decide("back-off", reason, self.run_m);
+        context.decide("back-off", reason, self.straight_m);
         self.evasion = Some(evasion);
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 
-    /// Turn away from a contact, radians.
-    fn turn_rad(
-        &self,
-        reason: Reason,
-        side: TurnSide,
-        (situation, mind): (&Situation<'_>, &mut Mind),
-    ) -> f64 {
-        let range_rad = self.pocket.turn_range_rad(reason);
-        match &self.lately {
-            Some(lately) if self.pocket.is_open() => {
+    /// Turn away from a contact, radians. Positive is to the left.
+    fn turn_rad(&self, encounter: Encounter, situation: &Situation<'_>, context: &mut TaskContext) -> f64 {
+        let Encounter { reason, side } = encounter;
+        let (low_rad, high_rad) = self.pocket.turn_range_rad(reason);
+        match &self.recent_contacts {
+            Some(recent_contacts) if self.pocket.is_open() => {
                 let side = (reason != Reason::BumpFront).then_some(side);
-                lately.turn_rad(range_rad, side, (situation, mind))
+                recent_contacts.turn_rad(
+                    TurnRange {
+                        low_rad,
+                        high_rad,
+                        side,
+                    },
+                    situation,
+                    context,
+                )
             }
-            _ => self.pocket.side().unwrap_or(side).sign() * mind.random.between(range_rad.0, range_rad.1),
+            _ => self.pocket.side().unwrap_or(side).sign() * context.random.between(low_rad, high_rad),
         }
     }
 
-    fn encounter(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<(Reason, Evasion)> {
+    fn encounter(
+        &mut self,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> Option<(Reason, Evasion)> {
         if !situation.is_free()
-            && let Some(lately) = &mut self.lately
+            && let Some(recent_contacts) = &mut self.recent_contacts
         {
-            lately.note(situation);
+            recent_contacts.note(situation);
         }
         if situation.at_cliff {
             let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
-            let side = self.side(reason, mind);
-            self.pocket.enter(self.run_m, side);
-            let turn_rad = side.sign() * mind.random.between(CLIFF_TURN_RAD.0, CLIFF_TURN_RAD.1);
+            let side = self.side(reason, context);
+            self.pocket.enter(self.straight_m, side);
+            let turn_rad = side.sign() * context.random.between(CLIFF_TURN_RAD.0, CLIFF_TURN_RAD.1);
             return Some((reason, Evasion::from_cliff(CLIFF_BACK_M, turn_rad)));
         }
         if situation.touching {
             let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
-            let side = self.side(reason, mind);
-            self.pocket.enter(self.run_m, side);
-            let turn_rad = self.turn_rad(reason, side, (situation, mind));
+            let side = self.side(reason, context);
+            self.pocket.enter(self.straight_m, side);
+            let turn_rad = self.turn_rad(Encounter { reason, side }, situation, context);
             return Some((reason, Evasion::from_contact(self.pocket.back_m(), turn_rad)));
         }
-        (self.run_m > RUN_MAX_M).then(|| {
-            let side = self.side(Reason::LongRun, mind);
-            let turn_rad = side.sign() * mind.random.between(1.0, 2.5);
+        (self.straight_m > STRAIGHT_MAX_M).then(|| {
+            let side = self.side(Reason::LongRun, context);
+            let turn_rad = side.sign() * context.random.between(1.0, 2.5);
             (
                 Reason::LongRun,
                 Evasion::from_contact(self.pocket.back_m(), turn_rad),
@@ -138,21 +154,21 @@ impl Bounce {
         })
     }
 
-    /// The side to turn to: away from what was met.
-    fn side(&self, reason: Reason, mind: &mut Mind) -> TurnSide {
+    /// The side to turn to, away from the obstacle.
+    fn side(&self, reason: Reason, context: &mut TaskContext) -> TurnSide {
         match reason {
             Reason::BumpLeft | Reason::CliffLeft => TurnSide::Right,
             Reason::BumpRight | Reason::CliffRight => TurnSide::Left,
-            _ if mind.random.coin() => TurnSide::Left,
+            _ if context.random.coin() => TurnSide::Left,
             _ => TurnSide::Right,
         }
     }
 }
 
-/// Straight ahead, slower when something is near.
+/// Straight ahead, slower when an obstacle is near.
 fn ahead(situation: &Situation<'_>) -> Motion {
     let proximity = &situation.observation.proximity;
-    // The third in the middle looks ahead; a single sensor looks aside.
+    // The middle third of the sensors faces ahead; a single sensor faces sideways.
     let third = (proximity.len() / 3).max(1);
     let front = proximity
         .get(third..proximity.len().saturating_sub(third))

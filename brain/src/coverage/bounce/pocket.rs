@@ -1,94 +1,94 @@
-//! Memory of short runs.
+//! Memory of short straights.
 
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
 
-/// A run below this is short.
-const SHORT_RUN_M: f64 = 0.25;
-/// A run above this leads out of the pocket.
-const FREE_RUN_M: f64 = 0.6;
-/// Short runs until the robot feels its way along the edge.
+/// A straight below this is short.
+const SHORT_M: f64 = 0.25;
+/// A straight above this leads out of the pocket.
+const FREE_M: f64 = 0.6;
+/// Short straights until the robot follows the edge by touch.
 const EDGE_AFTER: u32 = 3;
-/// Short runs until it scans round for an opening.
+/// Short straights until it searches all round for an opening.
 const SCAN_AFTER: u32 = 10;
-/// Short runs until the pocket is called closed.
+/// Short straights until the pocket counts as closed.
 const CLOSED_AFTER: u32 = 22;
-/// Way back in the open and along an edge.
+/// Distance to back off in the open and along an edge.
 const BACK_M: f64 = 0.03;
-/// Way back while scanning: between chair legs a turn needs other ground than the one it was tried on.
+/// Distance to back off while searching. Between chair legs the next turn needs a different position.
 const SCAN_BACK_M: f64 = 0.08;
 
-/// What the last runs tell about the place.
+/// What the last straights show about the place.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pocket {
-    short_runs: u32,
+    short_straights: u32,
     side: Option<TurnSide>,
 }
 
-/// How to behave in it.
+/// How tight the place is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
+enum PocketKind {
     /// No pocket.
     Open,
     /// Narrow: small turns away from each contact follow the edge out.
     Edge,
-    /// A corner or a cage: steps to one and the same side look for the opening.
+    /// A corner or a cage: steps to the same side search for the opening.
     Cage,
 }
 
 impl Pocket {
-    /// Notes an encounter after a run, and the side that would be turned to in the open.
-    pub(super) fn enter(&mut self, run_m: f64, side: TurnSide) {
-        if run_m > FREE_RUN_M {
+    /// Records an encounter after a straight, and the side to which the robot would turn in the open.
+    pub(super) fn enter(&mut self, straight_m: f64, side: TurnSide) {
+        if straight_m > FREE_M {
             *self = Self::default();
-        } else if run_m < SHORT_RUN_M {
-            self.short_runs += 1;
-            if self.place() == Place::Cage {
+        } else if straight_m < SHORT_M {
+            self.short_straights += 1;
+            if self.kind() == PocketKind::Cage {
                 self.side.get_or_insert(side);
             }
         }
     }
 
-    /// The side to keep to, if the place asks for it.
+    /// The side to keep to, where the place requires one.
     pub(super) fn side(&self) -> Option<TurnSide> {
         self.side
     }
 
-    /// Way back for the next evasion.
+    /// Distance of the next back-off.
     pub(super) fn back_m(&self) -> f64 {
-        if self.place() == Place::Cage {
+        if self.kind() == PocketKind::Cage {
             SCAN_BACK_M
         } else {
             BACK_M
         }
     }
 
-    /// Range of the next turn in radians. Head-on a turn must be larger to come free than after a touch on one side.
-    pub(super) fn turn_range_rad(&self, met: Reason) -> (f64, f64) {
-        match (self.place(), met) {
-            (Place::Open, Reason::BumpFront) => (1.3, 3.1),
-            (Place::Open, _) => (0.7, 2.6),
-            (Place::Edge, Reason::BumpFront) => (0.8, 1.8),
-            (Place::Edge, _) => (0.15, 0.6),
-            (Place::Cage, _) => (0.4, 1.4),
+    /// Range of the next turn, radians. After a head-on contact the turn must be larger than after a touch on one side.
+    pub(super) fn turn_range_rad(&self, reason: Reason) -> (f64, f64) {
+        match (self.kind(), reason) {
+            (PocketKind::Open, Reason::BumpFront) => (1.3, 3.1),
+            (PocketKind::Open, _) => (0.7, 2.6),
+            (PocketKind::Edge, Reason::BumpFront) => (0.8, 1.8),
+            (PocketKind::Edge, _) => (0.15, 0.6),
+            (PocketKind::Cage, _) => (0.4, 1.4),
         }
     }
 
-    /// Whether it is none.
+    /// Whether the robot is in the open.
     pub(super) fn is_open(&self) -> bool {
-        self.place() == Place::Open
+        self.kind() == PocketKind::Open
     }
 
-    /// Whether nothing helped.
+    /// Whether all attempts have failed.
     pub(super) fn is_closed(&self) -> bool {
-        self.short_runs >= CLOSED_AFTER
+        self.short_straights >= CLOSED_AFTER
     }
 
-    fn place(&self) -> Place {
-        match self.short_runs {
-            0..EDGE_AFTER => Place::Open,
-            EDGE_AFTER..SCAN_AFTER => Place::Edge,
-            _ => Place::Cage,
+    fn kind(&self) -> PocketKind {
+        match self.short_straights {
+            0..EDGE_AFTER => PocketKind::Open,
+            EDGE_AFTER..SCAN_AFTER => PocketKind::Edge,
+            _ => PocketKind::Cage,
         }
     }
 }
@@ -100,7 +100,7 @@ mod tests {
     use crate::model::reason::Reason;
 
     #[test]
-    fn short_runs_lead_along_the_edge_then_round_to_one_side() {
+    fn short_straights_lead_along_the_edge_then_round_to_one_side() {
         let mut pocket = Pocket::default();
         let open = (pocket.back_m(), pocket.turn_range_rad(Reason::BumpLeft));
         for _ in 0..5 {
@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pocket_closes_after_a_bounded_number_of_runs() {
+    fn a_pocket_closes_after_a_bounded_number_of_straights() {
         let mut pocket = Pocket::default();
         let runs = (1..100).find(|_| {
             pocket.enter(0.0, TurnSide::Left);

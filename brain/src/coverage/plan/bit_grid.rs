@@ -1,10 +1,10 @@
-//! The open floor as bits, so that a window across a lane is one word.
+//! The open floor as bits, so that the cells across a lane fit into one word.
 
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::{Axis, Ground};
+use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
-/// Work of looking at a cell.
-const LOOK_WORK: usize = 1;
+/// Work to read a cell.
+const READ_WORK: usize = 1;
 
 /// One bit for each cell; each line of cells across an axis is a row of words.
 #[derive(Clone, Debug)]
@@ -14,31 +14,31 @@ pub(super) struct BitGrid {
 }
 
 impl BitGrid {
-    /// The open floor, with the cells across lanes of this axis side by side.
-    pub(super) async fn of_open(ground: &Ground, axis: Axis, budget: &mut StepBudget) -> Self {
+    /// The open floor, with the cells across lanes of this axis adjacent.
+    pub(super) async fn of_open(space: &ConfigurationSpace, axis: Axis, budget: &mut StepBudget) -> Self {
         let (lines, across) = match axis {
-            Axis::X => (ground.width, ground.height),
-            Axis::Y => (ground.height, ground.width),
+            Axis::X => (space.width, space.height),
+            Axis::Y => (space.height, space.width),
         };
         let words_per_line = across / 64 + 2;
         let mut bits = Self {
             words_per_line,
             words: vec![0; lines * words_per_line],
         };
-        for row in 0..ground.height {
-            let open = &ground.open[row * ground.width..(row + 1) * ground.width];
-            for column in (0..ground.width).filter(|column| open[*column]) {
+        for row in 0..space.height {
+            let open = &space.open[row * space.width..(row + 1) * space.width];
+            for column in (0..space.width).filter(|column| open[*column]) {
                 match axis {
                     Axis::X => bits.words[column * words_per_line + row / 64] |= 1 << (row % 64),
                     Axis::Y => bits.words[row * words_per_line + column / 64] |= 1 << (column % 64),
                 }
             }
-            budget.spend(LOOK_WORK * ground.width).await;
+            budget.spend(READ_WORK * space.width).await;
         }
         bits
     }
 
-    /// The lowest bits are those of `start`, `start + 1`, ... on a line.
+    /// The bits from `start` on a line; the lowest bit is `start`.
     pub(super) fn window(&self, line: usize, start: usize) -> u64 {
         let word = line * self.words_per_line + start / 64;
         let shift = start % 64;

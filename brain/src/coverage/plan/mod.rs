@@ -1,18 +1,18 @@
-//! A way over known ground that sweeps most of it soon and with few turns.
+//! A path over known floor that sweeps most of it early and with few turns.
 //!
-//! Terms. *Ground*: cells that the middle of the body can take, and the floor that a swath sweeps from there. *Lane*: a
-//! straight piece along a row or column of cells that is worth driving for what it sweeps. *Link*: the way from the end of
-//! one lane to the start of the next. *Round*: lanes that are driven in one tour; leftovers that cost much for what they
-//! sweep come in later rounds.
+//! Terms. *Configuration space*: cells that the robot's centre can take, and the floor that a swath sweeps from there.
+//! *Lane*: a straight drive along a row or column of cells that is worth it for what it sweeps. *Link*: the path from the
+//! end of one lane to the start of the next. *Round*: lanes that are driven in one tour; leftovers that cost much for what
+//! they sweep come in later rounds.
 //!
-//! All work is bounded by counts of cells and lanes, never by a clock: equal ground gives equal plans on every machine.
+//! All work is bounded by counts of cells and lanes, never by a clock: equal input gives equal plans on every machine.
 
 mod bit_grid;
 mod contour;
-mod course;
+mod free_strips;
 mod lanes;
 mod settings;
-mod stretches;
+mod sweep_pattern;
 mod timing;
 mod tour;
 
@@ -20,45 +20,45 @@ use crate::mapping::{CELL_M, Cell, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{StepBudget, at_once};
 use crate::model::room_settings::Pattern;
-pub use crate::navigation::Piece;
-use crate::navigation::configuration_space::Ground;
+pub use crate::navigation::PathSegment;
+use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::router::Router;
-use crate::navigation::smoothing;
-use contour::{RingFloor, ring_way};
-pub(crate) use course::Course;
+use crate::navigation::smoothing::{self, Polyline};
+use contour::{RingFloor, RingStart, ring_path};
 use lanes::Picker;
 pub use settings::PlanSettings;
 pub(crate) use settings::{Departure, reach_cells};
+pub(crate) use sweep_pattern::SweepPattern;
 use tour::Tour;
 
-/// A way to drive.
+/// A path to drive.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CoveragePlan {
-    /// Corners of the way in the map frame.
+    /// Corners of the path in the map frame.
     pub corners: Vec<Point2>,
-    /// The way along them, with arcs where there is room.
-    pub pieces: Vec<Piece>,
-    /// Lanes in it.
+    /// The path along them, with arcs where there is room.
+    pub segments: Vec<PathSegment>,
+    /// Number of lanes.
     pub lanes: usize,
-    /// Floor that the ground offers to the swath, in square metres.
+    /// Floor that the swath can reach, in square metres.
     pub floor_m2: f64,
-    /// What of it is not swept yet, in square metres.
+    /// Part of it that is not swept yet, in square metres.
     pub open_m2: f64,
-    /// What of it will not be swept after the plan either, in square metres.
+    /// Part of it that stays unswept after the plan, in square metres.
     pub left_m2: f64,
     /// Expected time in seconds.
     pub time_s: f64,
 }
 
 impl CoveragePlan {
-    /// Floor that is swept already, in square metres.
+    /// Floor that is already swept, in square metres.
     #[must_use]
     pub fn passed_m2(&self) -> f64 {
         (self.floor_m2 - self.open_m2).max(0.0)
     }
 
-    /// Share of the floor that is swept already, 0..=1.
+    /// Share of the floor that is already swept, 0..=1.
     #[must_use]
     pub fn share_passed(&self) -> f64 {
         if self.floor_m2 > 0.0 {
@@ -68,7 +68,7 @@ impl CoveragePlan {
         }
     }
 
-    /// A plan that was made in `frame`, in the frame of the map.
+    /// Transforms a plan from `frame` to the frame of the map.
     #[must_use]
     pub(crate) fn in_map(mut self, frame: &LaneFrame) -> Self {
         if *frame == LaneFrame::OF_MAP {
@@ -77,14 +77,14 @@ impl CoveragePlan {
         for corner in &mut self.corners {
             *corner = frame.point_in_map(*corner);
         }
-        for piece in &mut self.pieces {
-            piece.start = frame.in_map() * piece.start;
+        for segment in &mut self.segments {
+            segment.start = frame.in_map() * segment.start;
         }
         self
     }
 }
 
-/// Plans a way over `reachable` (cells that the middle of the body can take) that sweeps what `swept` has not seen yet,
+/// Plans a path over `reachable` (cells that the robot's centre can take) that sweeps all floor for which `swept` is false,
 /// starting at `start`. Without anything to sweep or any reachable cell the plan has no corners.
 #[must_use]
 pub fn plan_coverage(
@@ -96,7 +96,7 @@ pub fn plan_coverage(
     plan_pattern(reachable, (Pattern::Lines, swept), start, settings)
 }
 
-/// As [`plan_coverage`], with the floor swept by this pattern.
+/// As [`plan_coverage`], with this pattern.
 #[must_use]
 pub fn plan_pattern(
     reachable: &Raster<bool>,
@@ -108,48 +108,58 @@ pub fn plan_pattern(
         start,
         settings: *settings,
     };
-    let course = |_| Some(Course::from(pattern));
-    at_once(plan_area(
-        reachable,
-        (course, swept),
-        from,
-        &mut StepBudget::unlimited(),
-    ))
+    let area = Area {
+        pattern: |_| Some(SweepPattern::from(pattern)),
+        is_swept: swept,
+    };
+    at_once(plan_area(reachable, area, from, &mut StepBudget::unlimited()))
 }
 
-/// As [`plan_coverage`], but only floor that has a course is swept and counted; the way may lead over all that is reachable.
-/// Floor with rings comes first.
+/// The floor to sweep.
+pub(crate) struct Area<Pattern, IsSwept> {
+    /// The pattern of each cell; `None` = the cell is not to be swept.
+    pub(crate) pattern: Pattern,
+    /// Whether a cell is already swept.
+    pub(crate) is_swept: IsSwept,
+}
+
+/// As [`plan_coverage`], but only floor that has a pattern is swept and counted. The path may lead over all reachable
+/// cells. Floor with rings comes first.
 pub(crate) async fn plan_area(
     reachable: &Raster<bool>,
-    (course, swept): (impl Fn(Cell) -> Option<Course>, impl Fn(Cell) -> bool),
+    area: Area<impl Fn(Cell) -> Option<SweepPattern>, impl Fn(Cell) -> bool>,
     departure: Departure,
     budget: &mut StepBudget,
 ) -> CoveragePlan {
     let Departure { start, settings } = &departure;
-    let mut ground = Ground::new(reachable, reach_cells(settings), budget).await;
-    let Some(origin) = ground.origin_near(start.position(), budget).await else {
+    let mut space = ConfigurationSpace::new(reachable, reach_cells(settings), budget).await;
+    let Some(origin) = space.origin_near(start.position(), budget).await else {
         return CoveragePlan::default();
     };
-    ground.keep_connected(origin, budget).await;
-    ground.close(|cell| course(cell).is_none(), budget).await;
-    let floor = ground.open_count();
-    let ring_floor = RingFloor::of(&ground, course, budget).await;
-    ground.close(swept, budget).await;
-    let open = ground.open_count();
+    space.keep_connected(origin, budget).await;
+    space.close(|cell| (area.pattern)(cell).is_none(), budget).await;
+    let floor = space.open_count();
+    let ring_floor = RingFloor::of(&space, area.pattern, budget).await;
+    space.close(area.is_swept, budget).await;
+    let open = space.open_count();
+    let ring_start = RingStart {
+        departure: &departure,
+        cell: origin,
+    };
     let rings = match &ring_floor {
-        Some(floor) => Some(ring_way(&ground, floor, (&departure, origin), budget).await),
+        Some(floor) => Some(ring_path(&space, floor, ring_start, budget).await),
         None => None,
     };
-    let (mut corners, runs, (from, heading_rad)) = match rings {
-        Some(way) => {
-            ground.open = way.open;
-            (way.corners, way.runs, way.end)
+    let (mut corners, ring_sections, (from, heading_rad)) = match rings {
+        Some(path) => {
+            space.open = path.open;
+            (path.corners, path.sections, path.end)
         }
         None => (Vec::new(), 0, (origin, start.heading_rad)),
     };
-    let mut picker = Picker::new(&mut ground, settings, budget).await;
+    let mut picker = Picker::new(&mut space, settings, budget).await;
     let rounds = picker.rounds(budget).await;
-    let router = Router::new(&ground, budget).await;
+    let router = Router::new(&space, budget).await;
     let start_of_lanes = Pose2 {
         heading_rad,
         ..*start
@@ -158,31 +168,36 @@ pub(crate) async fn plan_area(
     tour.drive(&rounds, budget).await;
     // The lanes begin where the rings end.
     corners.pop();
-    let of_rings = corners.len();
+    let ring_corners = corners.len();
     corners.extend(tour.corners(budget).await);
-    let pieces = smoothing::pieces((&corners, of_rings), start.heading_rad, (&ground, budget)).await;
+    let polyline = Polyline {
+        corners: &corners,
+        ring_corners,
+        heading_rad: start.heading_rad,
+    };
+    let segments = smoothing::segments(polyline, &space, budget).await;
     CoveragePlan {
-        time_s: pieces.iter().map(|piece| settings.time_s(piece)).sum(),
+        time_s: segments.iter().map(|segment| settings.time_s(segment)).sum(),
         corners,
-        pieces,
-        lanes: runs + rounds.iter().map(Vec::len).sum::<usize>(),
+        segments,
+        lanes: ring_sections + rounds.iter().map(Vec::len).sum::<usize>(),
         floor_m2: floor as f64 * CELL_M * CELL_M,
         open_m2: open as f64 * CELL_M * CELL_M,
-        left_m2: ground.open_count() as f64 * CELL_M * CELL_M,
+        left_m2: space.open_count() as f64 * CELL_M * CELL_M,
     }
 }
 
-/// All floor that a robot at `departure` can sweep, swept already or not.
+/// All floor that a robot at `departure` can sweep, whether swept already or not.
 pub(crate) async fn floor_in_reach(
     reachable: &Raster<bool>,
     departure: &Departure,
     budget: &mut StepBudget,
 ) -> Raster<bool> {
-    let mut ground = Ground::new(reachable, reach_cells(&departure.settings), budget).await;
-    let mut floor = Raster::filled(ground.cell(0), ground.width, ground.height, false);
-    if let Some(origin) = ground.origin_near(departure.start.position(), budget).await {
-        ground.keep_connected(origin, budget).await;
-        floor.values_mut().copy_from_slice(&ground.open);
+    let mut space = ConfigurationSpace::new(reachable, reach_cells(&departure.settings), budget).await;
+    let mut floor = Raster::filled(space.cell(0), space.width, space.height, false);
+    if let Some(origin) = space.origin_near(departure.start.position(), budget).await {
+        space.keep_connected(origin, budget).await;
+        floor.values_mut().copy_from_slice(&space.open);
     }
     floor
 }
@@ -191,11 +206,11 @@ pub(crate) async fn floor_in_reach(
 mod tests {
     use super::CoveragePlan;
     use crate::model::geometry::{Point2, Pose2};
-    use crate::navigation::Piece;
+    use crate::navigation::PathSegment;
     use crate::navigation::lane_frame::LaneFrame;
 
     #[test]
-    fn a_plan_is_turned_into_the_frame_of_the_map() {
+    fn a_plan_is_transformed_into_the_frame_of_the_map() {
         let frame = LaneFrame::along(0.6);
         let at = Point2 { x_m: 1.3, y_m: -4.2 };
         let pose = Pose2 {
@@ -203,20 +218,23 @@ mod tests {
             y_m: at.y_m,
             heading_rad: 3.0,
         };
-        let piece = Piece {
+        let segment = PathSegment {
             start: frame.pose(pose),
             length_m: 0.5,
             turn_rad: 0.2,
         };
         let plan = CoveragePlan {
             corners: vec![frame.point(at)],
-            pieces: vec![piece],
+            segments: vec![segment],
             ..CoveragePlan::default()
         };
         let there = plan.in_map(&frame);
         assert!(there.corners[0].distance_m(at) < 1e-12);
-        let start = there.pieces[0].start;
+        let start = there.segments[0].start;
         assert!(start.position().distance_m(at) < 1e-12 && (start.heading_rad - 3.0).abs() < 1e-12);
-        assert_eq!((there.pieces[0].length_m, there.pieces[0].turn_rad), (0.5, 0.2));
+        assert_eq!(
+            (there.segments[0].length_m, there.segments[0].turn_rad),
+            (0.5, 0.2)
+        );
     }
 }

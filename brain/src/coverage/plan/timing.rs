@@ -1,26 +1,35 @@
-//! What driving and turning on a way take.
+//! Times of driving and turning.
 
 use super::settings::PlanSettings;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::heading::{heading_rad, turn_rad};
 
-/// Time of a way over cells that starts in one direction and ends against the direction of leaving its other end.
-pub(super) fn way_s(
-    ground: &Ground,
-    way: &[usize],
-    (out_rad, back_rad): (Option<f64>, Option<f64>),
+/// Headings at the ends of a path, radians; `None` = the path does not depend on it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EndHeadings {
+    /// Heading of the robot at the start.
+    pub(super) start_rad: Option<f64>,
+    /// Direction in which the other end would be left; the path ends opposite to it.
+    pub(super) leave_rad: Option<f64>,
+}
+
+/// Time of a path over cells, turns at its ends included.
+pub(super) fn path_s(
+    space: &ConfigurationSpace,
+    path: &[usize],
+    ends: EndHeadings,
     settings: &PlanSettings,
 ) -> f32 {
-    let mut heading = out_rad;
+    let mut heading = ends.start_rad;
     let (mut length_m, mut turned_rad) = (0.0, 0.0);
-    for pair in way.windows(2).filter(|pair| pair[0] != pair[1]) {
-        let (from, to) = (ground.point(pair[0]), ground.point(pair[1]));
+    for pair in path.windows(2).filter(|pair| pair[0] != pair[1]) {
+        let (from, to) = (space.point(pair[0]), space.point(pair[1]));
         let next = heading_rad(from, to);
         turned_rad += heading.map_or(0.0, |now| turn_rad(now, next));
         heading = Some(next);
         length_m += from.distance_m(to);
     }
-    if let (Some(now), Some(back)) = (heading, back_rad) {
+    if let (Some(now), Some(back)) = (heading, ends.leave_rad) {
         turned_rad += turn_rad(now, back + core::f64::consts::PI);
     }
     let drive_s = length_m / settings.cruise_m_per_s;

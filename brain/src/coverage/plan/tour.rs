@@ -1,35 +1,35 @@
-//! In which order lanes are driven, and from which end.
+//! The order and direction of lanes: a travelling-salesman tour.
 //!
-//! Terms. *End*: one end of a lane; end `2 * lane` is its `from`, `2 * lane + 1` its `to`. *Visit*: a lane with the end it
-//! is entered at. Costs are seconds, turning included; the way back costs the same, so a part of a tour can be turned
-//! round without changing what lies inside.
+//! Terms. *End*: one end of a lane; end `2 * lane` is its `from`, `2 * lane + 1` its `to`. A *visit* is a lane with the end at
+//! which it is entered. Costs are seconds, turning included. They are symmetric, so reversing a part of a tour does not
+//! change the cost inside it.
 
 use super::lanes::Lane;
 use super::settings::PlanSettings;
-use super::timing::way_s;
+use super::timing::{EndHeadings, path_s};
 use crate::mapping::CELL_M;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
-use crate::navigation::router::{Router, Spread};
+use crate::navigation::router::{CostField, Router};
 
-/// Nearest ends to which the way is really looked for; ways to others are guessed.
+/// Number of nearest ends to which a path is searched; the costs of others are guessed.
 const NEAR_ENDS: usize = 20;
-/// How much longer than straight a guessed way is.
+/// Ratio of a guessed path to the straight distance.
 const GUESS: f64 = 1.6;
-/// Turning on a guessed way.
+/// Turning on a guessed path, radians.
 const GUESS_RAD: f64 = 4.0;
 /// Most rounds of improvement.
 const PASSES_MAX: usize = 30;
-/// Lanes moved together.
+/// Most lanes that are moved together.
 const MOVED_MAX: usize = 3;
-/// Lanes of a later round are taken along where they sweep at least this share of what a lane over wholly open floor sweeps in
-/// the time that they cost, and so often others are tried after that.
+/// Lanes of a later round are driven early where they sweep at least this share of what a lane over fully open floor sweeps
+/// in the same time. This many passes look for more of them.
 const TAKE_ALONG_SHARE: f64 = 0.2;
 const TAKE_ALONG_PASSES: usize = 4;
-/// Work of a guess, of the search for a way beyond that for its end, and of comparing two orders of lanes.
+/// Work of a guess, of a path search beyond that for its goal, and of comparing two orders of lanes.
 const GUESS_WORK: usize = 5;
-const WAY_WORK: usize = 3_000;
+const PATH_WORK: usize = 3_000;
 const COMPARE_WORK: usize = 3;
 
 /// A lane and the end at which it is entered (0 = `from`, 1 = `to`).
@@ -42,7 +42,7 @@ pub(super) struct Tour<'plan> {
     start: Pose2,
     start_cell: usize,
     lanes: Vec<Lane>,
-    /// The end at which each lane is entered, in the order of driving.
+    /// The end at which each lane is entered, in driving order.
     visits: Vec<End>,
 }
 
@@ -71,8 +71,8 @@ impl<'plan> Tour<'plan> {
         }
     }
 
-    /// Drives the lanes of one round after those of the other. Lanes of a later round that lie beside the way are driven with
-    /// an earlier one: coming back for them would cost more.
+    /// Appends the lanes of one round after another. Lanes of a later round that lie beside the path are driven with an
+    /// earlier one, since returning for them would cost more.
     pub(super) async fn drive(&mut self, rounds: &[Vec<Lane>], budget: &mut StepBudget) {
         self.lanes = rounds.concat();
         if self.lanes.is_empty() {
@@ -80,44 +80,38 @@ impl<'plan> Tour<'plan> {
         }
         let costs = self.costs(budget).await;
         let mut is_left = vec![true; self.lanes.len()];
+        let mut order = Order {
+            visits: core::mem::take(&mut self.visits),
+            fixed: 0,
+            costs: &costs,
+        };
         let mut round = 0..0;
         for lanes in rounds {
             round = round.end..round.end + lanes.len();
-            let fixed = self.visits.len();
-            nearest_first(
-                &mut self.visits,
-                (&mut is_left, round.clone()),
-                (&costs, &mut *budget),
-            )
-            .await;
-            improve(&mut self.visits, fixed, (&costs, &mut *budget)).await;
-            if self.settings.takes_along
-                && self
-                    .take_along((&mut is_left, fixed), (&costs, &mut *budget))
-                    .await
-            {
-                improve(&mut self.visits, fixed, (&costs, &mut *budget)).await;
+            order.fixed = order.visits.len();
+            order.append_nearest(&mut is_left, round.clone(), budget).await;
+            order.improve(budget).await;
+            if self.settings.takes_along && self.take_along(&mut order, &mut is_left, budget).await {
+                order.improve(budget).await;
             }
         }
+        self.visits = order.visits;
     }
 
-    /// Takes lanes along that lie beside the way and are worth the way round by them. `true` when any was.
-    async fn take_along(
-        &mut self,
-        (is_left, fixed): (&mut [bool], usize),
-        (costs, budget): (&Costs, &mut StepBudget),
-    ) -> bool {
+    /// Inserts lanes that lie beside the path and are worth the detour. `true` when any was inserted.
+    async fn take_along(&self, order: &mut Order<'_>, is_left: &mut [bool], budget: &mut StepBudget) -> bool {
         let mut any = false;
         for _ in 0..TAKE_ALONG_PASSES {
             let mut more = false;
             for (lane, is_left) in is_left.iter_mut().enumerate().filter(|(_, is_left)| **is_left) {
-                budget.spend(COMPARE_WORK * (self.visits.len() - fixed)).await;
-                let Some((cost_s, position, enter)) = cheapest_place(&self.visits, (lane, fixed), costs)
-                else {
+                budget
+                    .spend(COMPARE_WORK * (order.visits.len() - order.fixed))
+                    .await;
+                let Some(insertion) = order.cheapest_insertion(lane) else {
                     continue;
                 };
-                if f64::from(cost_s) + self.lane_s(lane) < self.worth_s(lane) {
-                    self.visits.insert(position, enter);
+                if f64::from(insertion.cost_s) + self.lane_s(lane) < self.worth_s(lane) {
+                    order.visits.insert(insertion.position, insertion.enter);
                     *is_left = false;
                     more = true;
                 }
@@ -130,15 +124,15 @@ impl<'plan> Tour<'plan> {
         any
     }
 
-    /// Time that driving a lane takes.
+    /// Driving time of a lane.
     fn lane_s(&self, lane: usize) -> f64 {
         let Lane { from, to, .. } = self.lanes[lane];
         self.point(from).distance_m(self.point(to)) / self.settings.cruise_m_per_s
     }
 
-    /// Time that a lane is worth on the way.
+    /// Time that a lane is worth.
     fn worth_s(&self, lane: usize) -> f64 {
-        let width = (2 * self.router.ground().reach + 1) as f64;
+        let width = (2 * self.router.space().reach + 1) as f64;
         let cells_per_s = width * self.settings.cruise_m_per_s / CELL_M;
         self.lanes[lane].swept as f64 / (TAKE_ALONG_SHARE * cells_per_s)
     }
@@ -149,10 +143,10 @@ impl<'plan> Tour<'plan> {
     }
 
     fn point(&self, cell: usize) -> Point2 {
-        self.router.ground().point(cell)
+        self.router.space().point(cell)
     }
 
-    /// Direction in which the robot leaves its lane at this end.
+    /// Heading in which the robot leaves its lane at this end.
     fn out_rad(&self, end: End) -> f64 {
         let lane = self.lanes[end / 2];
         if lane.from == lane.to {
@@ -189,28 +183,35 @@ impl<'plan> Tour<'plan> {
             .map(|(end, cell)| (self.router.block(*cell), end))
             .collect();
         at_block.sort_unstable();
-        let mut spread = self.router.spread();
+        let mut cost_field = self.router.cost_field();
         let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
-            let out = (!self.is_point(a)).then(|| self.out_rad(a));
-            for b in self.near(cells[a], &at_block, (&mut spread, &mut *budget)).await {
-                // The way back is as long; it was looked for already if the other end found this one.
+            let start_rad = (!self.is_point(a)).then(|| self.out_rad(a));
+            for b in self
+                .near(cells[a], &at_block, (&mut cost_field, &mut *budget))
+                .await
+            {
+                // Costs are symmetric: the other end may have found this one already.
                 if b / 2 == a / 2 || is_known[b * ends + a] {
                     continue;
                 }
                 is_known[a * ends + b] = true;
-                let way = self.router.way(&spread, cells[a], cells[b]);
-                let back = (!self.is_point(b)).then(|| self.out_rad(b));
-                let seconds = self.way_s(&way, out, back);
+                let path = self.router.path(&cost_field, cells[a], cells[b]);
+                let leave_rad = (!self.is_point(b)).then(|| self.out_rad(b));
+                let seconds = self.path_s(&path, EndHeadings { start_rad, leave_rad });
                 costs.seconds[a * ends + b] = seconds;
                 costs.seconds[b * ends + a] = seconds;
-                budget.spend(WAY_WORK).await;
+                budget.spend(PATH_WORK).await;
             }
         }
-        for b in self.near(from, &at_block, (&mut spread, &mut *budget)).await {
-            let way = self.router.way(&spread, from, cells[b]);
-            costs.first[b] = self.way_s(&way, Some(direction_rad), Some(self.out_rad(b)));
-            budget.spend(WAY_WORK).await;
+        for b in self.near(from, &at_block, (&mut cost_field, &mut *budget)).await {
+            let path = self.router.path(&cost_field, from, cells[b]);
+            let ends = EndHeadings {
+                start_rad: Some(direction_rad),
+                leave_rad: Some(self.out_rad(b)),
+            };
+            costs.first[b] = self.path_s(&path, ends);
+            budget.spend(PATH_WORK).await;
         }
         costs
     }
@@ -220,12 +221,12 @@ impl<'plan> Tour<'plan> {
         (drive_s + GUESS_RAD / self.settings.turn_rad_per_s) as f32
     }
 
-    /// The ends nearest to a cell; `spread` then knows the ways.
+    /// The ends nearest to a cell; `cost_field` then holds the paths.
     async fn near(
         &self,
         from: usize,
         at_block: &[(usize, usize)],
-        (spread, budget): (&mut Spread, &mut StepBudget),
+        (cost_field, budget): (&mut CostField, &mut StepBudget),
     ) -> Vec<usize> {
         let mut found = Vec::with_capacity(NEAR_ENDS + 8);
         let enough = |block| {
@@ -238,17 +239,17 @@ impl<'plan> Tour<'plan> {
             );
             found.len() >= NEAR_ENDS
         };
-        self.router.explore(from, (spread, budget), enough).await;
+        self.router.explore(from, (cost_field, budget), enough).await;
         found
     }
 
-    fn way_s(&self, way: &[usize], out_rad: Option<f64>, back_rad: Option<f64>) -> f32 {
-        way_s(self.router.ground(), way, (out_rad, back_rad), self.settings)
+    fn path_s(&self, path: &[usize], ends: EndHeadings) -> f32 {
+        path_s(self.router.space(), path, ends, self.settings)
     }
 
-    /// The corners of the whole way.
+    /// The corners of the whole path.
     pub(super) async fn corners(&self, budget: &mut StepBudget) -> Vec<Point2> {
-        let mut spread = self.router.spread();
+        let mut cost_field = self.router.cost_field();
         let mut corners = vec![self.point(self.start_cell)];
         let mut at = self.start_cell;
         let mut push = |cell: usize| {
@@ -262,173 +263,211 @@ impl<'plan> Tour<'plan> {
             let goal = self.router.block(enter);
             let is_there = |block| block == goal;
             self.router
-                .explore(at, (&mut spread, &mut *budget), is_there)
+                .explore(at, (&mut cost_field, &mut *budget), is_there)
                 .await;
-            for cell in self.router.way(&spread, at, enter) {
+            for cell in self.router.path(&cost_field, at, enter) {
                 push(cell);
             }
             push(leave);
             at = leave;
-            budget.spend(WAY_WORK).await;
+            budget.spend(PATH_WORK).await;
         }
         corners
     }
 }
 
 impl Costs {
-    /// From leaving at one end to entering at another; `None` is the start.
+    /// From the exit of one lane to the entry of another; `None` is the start.
     fn between(&self, leave: Option<End>, enter: Option<End>) -> f32 {
         match (leave, enter) {
             (Some(leave), Some(enter)) => self.seconds[leave * self.ends + enter],
             (None, Some(enter)) => self.first[enter],
-            // The end of a tour is free.
+            // The tour may end anywhere.
             (_, None) => 0.0,
         }
     }
 }
 
-/// Appends the lanes of a round, each time the one that is nearest.
-async fn nearest_first(
-    order: &mut Vec<End>,
-    (is_left, round): (&mut [bool], core::ops::Range<usize>),
-    (costs, budget): (&Costs, &mut StepBudget),
-) {
-    let mut leave = order.last().map(|end| end ^ 1);
-    let ends = 2 * round.start..2 * round.end;
-    for _ in round {
-        let mut best: Option<(f32, End)> = None;
-        for enter in ends.clone().filter(|end| is_left[end / 2]) {
-            let cost = costs.between(leave, Some(enter));
-            if best.is_none_or(|(least, _)| cost < least) {
-                best = Some((cost, enter));
-            }
-        }
-        let Some((_, enter)) = best else { break };
-        is_left[enter / 2] = false;
-        order.push(enter);
-        leave = Some(enter ^ 1);
-        budget.spend(COMPARE_WORK * ends.len()).await;
-    }
+/// The lanes in driving order.
+struct Order<'costs> {
+    /// The end at which each lane is entered.
+    visits: Vec<End>,
+    /// The first visits, which stay as they are.
+    fixed: usize,
+    costs: &'costs Costs,
 }
 
-/// Where in the tour, after so many visits, a lane costs least, and from which end.
-fn cheapest_place(order: &[End], (lane, fixed): (usize, usize), costs: &Costs) -> Option<(f32, usize, End)> {
-    let mut best: Option<(f32, usize, End)> = None;
-    for position in fixed..=order.len() {
-        let (left, right) = (leave_before(order, position), order.get(position).copied());
-        let open = costs.between(left, right);
-        for enter in [2 * lane, 2 * lane + 1] {
-            let cost = costs.between(left, Some(enter)) + costs.between(Some(enter ^ 1), right) - open;
-            if best.is_none_or(|(least, _, _)| cost < least) {
-                best = Some((cost, position, enter));
-            }
-        }
-    }
-    best
+/// Where a lane can be inserted into an order.
+struct Insertion {
+    /// Additional time on links, seconds.
+    cost_s: f32,
+    position: usize,
+    enter: End,
 }
 
-/// Improves the tour after so many visits.
-async fn improve(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) {
-    for _ in 0..PASSES_MAX {
-        let turned = turn_parts(order, fixed, (costs, &mut *budget)).await;
-        let moved = move_parts(order, fixed, (costs, &mut *budget)).await;
-        if !turned && !moved {
-            return;
-        }
-    }
-}
-
-/// The end at which the tour leaves the lane before a position.
-fn leave_before(order: &[End], position: usize) -> Option<End> {
-    position
-        .checked_sub(1)
-        .and_then(|before| order.get(before))
-        .map(|end| end ^ 1)
-}
-
-/// Turns parts of the tour round where that saves time (2-opt).
-async fn turn_parts(order: &mut [End], fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
-    let mut any = false;
-    for first in fixed..order.len() {
-        for last in first..order.len() {
-            let before = leave_before(order, first);
-            let after = order.get(last + 1).copied();
-            let now = costs.between(before, Some(order[first])) + costs.between(Some(order[last] ^ 1), after);
-            let then =
-                costs.between(before, Some(order[last] ^ 1)) + costs.between(Some(order[first]), after);
-            if then < now - 1e-3 {
-                order[first..=last].reverse();
-                for end in &mut order[first..=last] {
-                    *end ^= 1;
+impl Order<'_> {
+    /// Appends the lanes of a round by nearest neighbour.
+    async fn append_nearest(
+        &mut self,
+        is_left: &mut [bool],
+        round: core::ops::Range<usize>,
+        budget: &mut StepBudget,
+    ) {
+        let mut leave = self.visits.last().map(|end| end ^ 1);
+        let ends = 2 * round.start..2 * round.end;
+        for _ in round {
+            let mut best: Option<(f32, End)> = None;
+            for enter in ends.clone().filter(|end| is_left[end / 2]) {
+                let cost = self.costs.between(leave, Some(enter));
+                if best.is_none_or(|(least, _)| cost < least) {
+                    best = Some((cost, enter));
                 }
-                any = true;
+            }
+            let Some((_, enter)) = best else { break };
+            is_left[enter / 2] = false;
+            self.visits.push(enter);
+            leave = Some(enter ^ 1);
+            budget.spend(COMPARE_WORK * ends.len()).await;
+        }
+    }
+
+    /// Where a lane costs least, and from which end.
+    fn cheapest_insertion(&self, lane: usize) -> Option<Insertion> {
+        let mut best: Option<Insertion> = None;
+        for position in self.fixed..=self.visits.len() {
+            let (left, right) = (self.leave_before(position), self.visits.get(position).copied());
+            let open = self.costs.between(left, right);
+            for enter in [2 * lane, 2 * lane + 1] {
+                let cost_s =
+                    self.costs.between(left, Some(enter)) + self.costs.between(Some(enter ^ 1), right) - open;
+                if best.as_ref().is_none_or(|best| cost_s < best.cost_s) {
+                    best = Some(Insertion {
+                        cost_s,
+                        position,
+                        enter,
+                    });
+                }
             }
         }
-        budget.spend(COMPARE_WORK * (order.len() - first)).await;
+        best
     }
-    any
-}
 
-/// Moves few lanes elsewhere, either way round, where that saves time (Or-opt).
-async fn move_parts(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
-    let mut any = false;
-    for count in 1..=MOVED_MAX {
-        let mut first = fixed;
-        while first + count <= order.len() {
-            any |= move_part(order, (fixed, first, count), costs);
-            first += 1;
-            budget.spend(COMPARE_WORK * (order.len() - fixed)).await;
-        }
-    }
-    any
-}
-
-fn move_part(order: &mut Vec<End>, (fixed, first, count): (usize, usize, usize), costs: &Costs) -> bool {
-    let (enter, leave) = (order[first], order[first + count - 1] ^ 1);
-    let before = leave_before(order, first);
-    let after = order.get(first + count).copied();
-    let saved =
-        costs.between(before, Some(enter)) + costs.between(Some(leave), after) - costs.between(before, after);
-    let mut best: Option<(f32, usize, bool)> = None;
-    for position in (fixed..=order.len()).filter(|position| *position < first || *position > first + count) {
-        let (left, right) = (leave_before(order, position), order.get(position).copied());
-        let open = costs.between(left, right);
-        let ahead = costs.between(left, Some(enter)) + costs.between(Some(leave), right) - open;
-        let round = costs.between(left, Some(leave)) + costs.between(Some(enter), right) - open;
-        for (cost, turned) in [(ahead, false), (round, true)] {
-            if cost < saved - 1e-3 && best.is_none_or(|(least, _, _)| cost < least) {
-                best = Some((cost, position, turned));
+    async fn improve(&mut self, budget: &mut StepBudget) {
+        for _ in 0..PASSES_MAX {
+            let turned = self.reverse_parts(budget).await;
+            let moved = self.move_parts(budget).await;
+            if !turned && !moved {
+                return;
             }
         }
     }
-    let Some((_, position, turned)) = best else {
-        return false;
-    };
-    let mut part: Vec<End> = order.drain(first..first + count).collect();
-    if turned {
-        part.reverse();
-        for end in &mut part {
-            *end ^= 1;
-        }
-    }
-    let target = if position > first {
-        position - count
-    } else {
+
+    /// The end at which the tour leaves the lane before a position.
+    fn leave_before(&self, position: usize) -> Option<End> {
         position
-    };
-    order.splice(target..target, part);
-    true
+            .checked_sub(1)
+            .and_then(|before| self.visits.get(before))
+            .map(|end| end ^ 1)
+    }
+
+    /// Reverses parts of the tour where that saves time (2-opt).
+    async fn reverse_parts(&mut self, budget: &mut StepBudget) -> bool {
+        let costs = self.costs;
+        let mut any = false;
+        for first in self.fixed..self.visits.len() {
+            for last in first..self.visits.len() {
+                let before = self.leave_before(first);
+                let after = self.visits.get(last + 1).copied();
+                let order = &mut self.visits;
+                let now =
+                    costs.between(before, Some(order[first])) + costs.between(Some(order[last] ^ 1), after);
+                let then =
+                    costs.between(before, Some(order[last] ^ 1)) + costs.between(Some(order[first]), after);
+                if then < now - 1e-3 {
+                    order[first..=last].reverse();
+                    for end in &mut order[first..=last] {
+                        *end ^= 1;
+                    }
+                    any = true;
+                }
+            }
+            budget.spend(COMPARE_WORK * (self.visits.len() - first)).await;
+        }
+        any
+    }
+
+    /// Moves a few lanes elsewhere, in either direction, where that saves time (Or-opt).
+    async fn move_parts(&mut self, budget: &mut StepBudget) -> bool {
+        let mut any = false;
+        for count in 1..=MOVED_MAX {
+            let mut first = self.fixed;
+            while first + count <= self.visits.len() {
+                any |= self.move_part(first, count);
+                first += 1;
+                budget
+                    .spend(COMPARE_WORK * (self.visits.len() - self.fixed))
+                    .await;
+            }
+        }
+        any
+    }
+
+    fn move_part(&mut self, first: usize, count: usize) -> bool {
+        let Some((position, turned)) = self.best_move(first, count) else {
+            return false;
+        };
+        let mut part: Vec<End> = self.visits.drain(first..first + count).collect();
+        if turned {
+            part.reverse();
+            for end in &mut part {
+                *end ^= 1;
+            }
+        }
+        let target = if position > first {
+            position - count
+        } else {
+            position
+        };
+        self.visits.splice(target..target, part);
+        true
+    }
+
+    /// The position to which moving some lanes saves most time, and whether they are reversed there.
+    fn best_move(&self, first: usize, count: usize) -> Option<(usize, bool)> {
+        let costs = self.costs;
+        let order = &self.visits;
+        let (enter, leave) = (order[first], order[first + count - 1] ^ 1);
+        let before = self.leave_before(first);
+        let after = order.get(first + count).copied();
+        let saved = costs.between(before, Some(enter)) + costs.between(Some(leave), after)
+            - costs.between(before, after);
+        let mut best: Option<(f32, usize, bool)> = None;
+        for position in
+            (self.fixed..=order.len()).filter(|position| *position < first || *position > first + count)
+        {
+            let (left, right) = (self.leave_before(position), order.get(position).copied());
+            let open = costs.between(left, right);
+            let ahead = costs.between(left, Some(enter)) + costs.between(Some(leave), right) - open;
+            let round = costs.between(left, Some(leave)) + costs.between(Some(enter), right) - open;
+            for (cost, turned) in [(ahead, false), (round, true)] {
+                if cost < saved - 1e-3 && best.is_none_or(|(least, _, _)| cost < least) {
+                    best = Some((cost, position, turned));
+                }
+            }
+        }
+        best.map(|(_, position, turned)| (position, turned))
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Costs, End, Lane, PlanSettings, Router, Tour, cheapest_place};
+    use super::{Costs, End, Lane, Order, PlanSettings, Router, Tour};
     use crate::mapping::{Cell, Raster};
     use crate::model::geometry::Pose2;
     use crate::model::gradual::{StepBudget, at_once};
-    use crate::navigation::configuration_space::Ground;
+    use crate::navigation::configuration_space::ConfigurationSpace;
 
-    /// Lanes without length at these places of a line; the start is at 0.
+    /// Lanes of zero length at these positions on a line; the start is at 0.
     fn costs(places: &[f32]) -> Costs {
         let ends = 2 * places.len();
         let at = |end: End| places[end / 2];
@@ -442,18 +481,25 @@ mod tests {
     }
 
     #[test]
-    fn a_lane_costs_least_between_those_beside_it_and_nothing_is_put_among_visits_that_are_fixed() {
+    fn a_lane_is_cheapest_between_its_neighbours_and_fixed_visits_stay_together() {
         let costs = costs(&[1.0, 5.0, 9.0, 3.0]);
-        let order = [0, 2, 4];
-        let place =
-            |fixed| cheapest_place(&order, (3, fixed), &costs).map(|(cost, position, _)| (cost, position));
+        let place = |fixed| {
+            let order = Order {
+                visits: vec![0, 2, 4],
+                fixed,
+                costs: &costs,
+            };
+            order
+                .cheapest_insertion(3)
+                .map(|insertion| (insertion.cost_s, insertion.position))
+        };
         assert_eq!(place(0), Some((0.0, 1)));
         assert_eq!(place(2), Some((4.0, 2)));
         assert_eq!(place(3), Some((6.0, 3)));
     }
 
-    /// In which order lanes are driven in a hall of 10 x 2 m: two of the first round at its ends, and one of the second round
-    /// beside the way between them, which sweeps this many cells.
+    /// Driving order in a hall of 10 x 2 m: two lanes of the first round at its ends, and one of the second round beside
+    /// the path between them, which sweeps this many cells.
     fn driven(swept: usize) -> Vec<usize> {
         let settings = PlanSettings {
             swath_m: 0.3,
@@ -465,17 +511,17 @@ mod tests {
         let hall = Raster::filled(Cell { x: 0, y: 0 }, 400, 80, true);
         let budget = &mut StepBudget::unlimited();
         at_once(async {
-            let mut ground = Ground::new(&hall, 5, budget).await;
+            let mut space = ConfigurationSpace::new(&hall, 5, budget).await;
             let start = Pose2 {
                 x_m: 0.3,
                 y_m: 0.3,
                 heading_rad: 0.0,
             };
-            let origin = ground.origin_near(start.position(), budget).await.unwrap();
-            ground.keep_connected(origin, budget).await;
-            let router = Router::new(&ground, budget).await;
+            let origin = space.origin_near(start.position(), budget).await.unwrap();
+            space.keep_connected(origin, budget).await;
+            let router = Router::new(&space, budget).await;
             let lane = |column: usize, row: usize, swept: usize| {
-                let from = origin + column + row * ground.width;
+                let from = origin + column + row * space.width;
                 Lane {
                     from,
                     to: from + 20,
@@ -493,7 +539,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_beside_the_way_is_taken_along_if_it_is_worth_it() {
+    fn a_lane_beside_the_path_is_driven_early_if_it_is_worth_it() {
         assert_eq!(driven(600), [0, 2, 1]);
         assert_eq!(driven(20), [0, 1, 2]);
     }

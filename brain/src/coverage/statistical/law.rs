@@ -1,57 +1,59 @@
 //! How much floor there is, and how much of it is swept, by statistics.
 //!
-//! A robot that comes over floor at random finds what it has swept lately the more often the less floor there is: of a floor `A` a
-//! share `exp(-d w / A)` is still new after a way `d` with a swath `w`, if places are independent of each other. Turned round, how
-//! much of the floor was new tells `A`, from ways so short that wheels alone still tell where they led. How much of a floor is swept
-//! after a long way over it is known from simulated homes.
+//! A robot that crosses floor at random meets recently swept floor the more often the less floor there is: of a floor `A` a
+//! share `exp(-d w / A)` is still new after a distance `d` with a swath `w`, if points are independent of each other.
+//! Conversely, the share that was new gives `A`, over distances so short that wheel odometry is still accurate. The swept
+//! share after a long distance comes from simulated homes.
 
 use crate::model::swept_share::SweptShare;
 
-/// What was swept longer ago than this counts as new, seconds: by then the place of a robot with nothing but wheels is wrong by some
+/// Floor that was swept longer ago counts as new, seconds: by then the position from wheel odometry alone is wrong by some
 /// decimetres.
-pub(super) const KNOWN_S: u32 = 1_200;
-/// Before it has swept for this time it tells nothing, seconds: it has been in a part of the home and would take that for all of it.
-const TELLING_S: f64 = KNOWN_S as f64;
-/// Floors of which one is looked for, square metres.
+pub(super) const MEMORY_S: u32 = 1_200;
+/// No estimate before this time of sweeping, seconds: the robot has seen a part of the home only and would take that for
+/// all of it.
+const ESTIMATE_AFTER_S: f64 = MEMORY_S as f64;
+/// Range of the search for the floor area, square metres.
 const FLOOR_M2: (f64, f64) = (1.0, 1_000.0);
-/// Halvings of these: they leave less than a square centimetre.
+/// Steps of the bisection: they leave less than a square centimetre.
 const HALVINGS: u32 = 24;
-/// The low bound is that of a floor so many times as large, and larger by so much more of that as [`KNOWN_S`] is of the time that was swept.
-/// In four simulated homes there was up to 2.5 times the floor that was told after 20 minutes, 1.4 times after 45, 1.1 times after 120.
+/// The low bound assumes a floor this many times as large, and larger still by this factor of [`MEMORY_S`] over the time
+/// swept. In four simulated homes the real floor was up to 2.5 times the estimate after 20 minutes, 1.4 times after 45, 1.1
+/// times after 120.
 const LARGER: f64 = 1.4;
 const LARGER_EARLY: f64 = 1.5;
-/// Share that is still not swept after the floor's area was swept `n` times: `exp(-PACE n^SLOWING)`, slower than places that are
-/// independent of each other, since rooms are left seldom and furniture hides floor. From simulated homes.
+/// Share that is still unswept after the floor's area was swept `n` times: `exp(-PACE n^SLOWING)`. That is slower than for
+/// independent points, since robots rarely leave a room and furniture hides floor. From simulated homes.
 const PACE: f64 = 0.69;
 const SLOWING: f64 = 0.7;
 
-/// What was counted on the way.
+/// What was counted on the drive.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Tally {
-    /// Way that was swept before the count began, metres.
+pub(super) struct NoveltyCount {
+    /// Distance swept before the count began, metres.
     pub(super) before_m: f64,
-    /// Way since then, metres.
-    pub(super) way_m: f64,
-    /// Time that this took, seconds.
+    /// Distance since then, metres.
+    pub(super) driven_m: f64,
+    /// Time of that distance, seconds.
     pub(super) time_s: f64,
-    /// Places that were looked at on it, and those of them that were new.
+    /// Points that were sampled, and those of them that were new.
     pub(super) seen: u32,
     pub(super) new: u32,
 }
 
-impl Tally {
-    /// Floor that there is, square metres; `None` before that can be told.
+impl NoveltyCount {
+    /// Floor area, square metres; `None` before it can be estimated.
     fn floor_m2(&self, swath_m: f64) -> Option<f64> {
         if self.seen == 0 {
             return None;
         }
-        let known_m = (f64::from(KNOWN_S) * self.way_m / self.time_s.max(1.0)).min(self.way_m);
+        let known_m = (f64::from(MEMORY_S) * self.driven_m / self.time_s.max(1.0)).min(self.driven_m);
         let share = f64::from(self.new) / f64::from(self.seen);
         let (mut low_m2, mut high_m2) = FLOOR_M2;
         for _ in 0..HALVINGS {
             let middle_m2 = 0.5 * (low_m2 + high_m2);
-            // The more floor there is the more is new.
-            if new_share(swath_m / middle_m2, known_m, self.way_m) < share {
+            // More floor means a larger new share.
+            if new_share(swath_m / middle_m2, known_m, self.driven_m) < share {
                 low_m2 = middle_m2;
             } else {
                 high_m2 = middle_m2;
@@ -60,14 +62,14 @@ impl Tally {
         Some(0.5 * (low_m2 + high_m2))
     }
 
-    /// How much of it is swept; `None` before that can be told.
+    /// Share that is swept; `None` before it can be estimated.
     pub(super) fn share(&self, swath_m: f64) -> Option<SweptShare> {
-        if self.time_s < TELLING_S {
+        if self.time_s < ESTIMATE_AFTER_S {
             return None;
         }
         let floor_m2 = self.floor_m2(swath_m)?;
-        let times = (self.before_m + self.way_m) * swath_m / floor_m2;
-        let larger = LARGER * (1.0 + LARGER_EARLY * TELLING_S / self.time_s);
+        let times = (self.before_m + self.driven_m) * swath_m / floor_m2;
+        let larger = LARGER * (1.0 + LARGER_EARLY * ESTIMATE_AFTER_S / self.time_s);
         Some(SweptShare {
             share: swept(times),
             share_low: swept(times / larger),
@@ -76,66 +78,70 @@ impl Tally {
     }
 }
 
-/// Expected share of new places on a way whose last `known_m` are known at any time, where each metre sweeps so much of the floor.
-fn new_share(part_per_m: f64, known_m: f64, way_m: f64) -> f64 {
+/// Expected share of new points on a drive whose last `known_m` are remembered at any time, where each metre sweeps
+/// `part_per_m` of the floor.
+fn new_share(part_per_m: f64, known_m: f64, driven_m: f64) -> f64 {
     let in_the_end = libm::exp(-part_per_m * known_m);
-    ((1.0 - in_the_end) / part_per_m + (way_m - known_m) * in_the_end) / way_m
+    ((1.0 - in_the_end) / part_per_m + (driven_m - known_m) * in_the_end) / driven_m
 }
 
-/// Share of a floor that is swept when so many times its area was.
+/// Share of a floor that is swept after this many times its area was.
 fn swept(times: f64) -> f64 {
     1.0 - libm::exp(-PACE * libm::pow(times, SLOWING))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{KNOWN_S, Tally, swept};
+    use super::{MEMORY_S, NoveltyCount, swept};
     use crate::model::random::Random;
 
     const SWATH_M: f64 = 0.25;
     const SPEED_M_PER_S: f64 = 0.2;
-    /// A place is as large as what a robot sweeps on 5 cm.
+    /// A point is as large as what a robot sweeps in 5 cm.
     const STEP_M: f64 = 0.05;
 
-    /// A robot that comes by chance to any place of a floor, until it has come so far.
-    fn by_chance(floor_m2: f64, way_m: f64, seed: u64) -> Tally {
+    /// A robot that reaches random points of a floor, for this distance.
+    fn by_chance(floor_m2: f64, driven_m: f64, seed: u64) -> NoveltyCount {
         let mut random = Random::new(seed);
         let places = (floor_m2 / (SWATH_M * STEP_M)) as usize;
         let mut swept_s: Vec<Option<f64>> = vec![None; places];
-        let mut tally = Tally::default();
-        while tally.way_m < way_m {
-            tally.way_m += STEP_M;
-            tally.time_s += STEP_M / SPEED_M_PER_S;
+        let mut count = NoveltyCount::default();
+        while count.driven_m < driven_m {
+            count.driven_m += STEP_M;
+            count.time_s += STEP_M / SPEED_M_PER_S;
             let place = (random.between(0.0, places as f64) as usize).min(places - 1);
-            let is_known = swept_s[place].is_some_and(|at_s| tally.time_s - at_s <= f64::from(KNOWN_S));
-            tally.seen += 1;
-            tally.new += u32::from(!is_known);
-            swept_s[place] = Some(tally.time_s);
+            let is_known = swept_s[place].is_some_and(|at_s| count.time_s - at_s <= f64::from(MEMORY_S));
+            count.seen += 1;
+            count.new += u32::from(!is_known);
+            swept_s[place] = Some(count.time_s);
         }
-        tally
+        count
     }
 
     #[test]
-    fn the_floor_is_told_from_how_much_of_it_was_new() {
-        for (floor_m2, way_m) in [(8.0, 60.0), (20.0, 100.0), (60.0, 300.0), (150.0, 1_200.0)] {
+    fn the_floor_area_follows_from_the_share_of_new_floor() {
+        for (floor_m2, driven_m) in [(8.0, 60.0), (20.0, 100.0), (60.0, 300.0), (150.0, 1_200.0)] {
             for seed in 1..=3 {
-                let told_m2 = by_chance(floor_m2, way_m, seed).floor_m2(SWATH_M).unwrap();
+                let estimated_m2 = by_chance(floor_m2, driven_m, seed).floor_m2(SWATH_M).unwrap();
                 assert!(
-                    (told_m2 / floor_m2 - 1.0).abs() < 0.12,
-                    "{told_m2} m2 instead of {floor_m2} m2"
+                    (estimated_m2 / floor_m2 - 1.0).abs() < 0.12,
+                    "{estimated_m2} m2 instead of {floor_m2} m2"
                 );
             }
         }
     }
 
     #[test]
-    fn nothing_is_told_at_first_and_all_of_it_never() {
+    fn there_is_no_early_estimate_and_the_share_never_reaches_one() {
         assert_eq!(by_chance(50.0, 230.0, 1).share(SWATH_M), None);
         let shares: Vec<f64> = [250.0, 400.0, 800.0, 1_600.0]
-            .map(|way_m| by_chance(50.0, way_m, 1).share(SWATH_M).unwrap())
-            .map(|told| {
-                assert!(told.share_low < told.share && told.share < 1.0, "{told:?}");
-                told.share
+            .map(|driven_m| by_chance(50.0, driven_m, 1).share(SWATH_M).unwrap())
+            .map(|estimate| {
+                assert!(
+                    estimate.share_low < estimate.share && estimate.share < 1.0,
+                    "{estimate:?}"
+                );
+                estimate.share
             })
             .to_vec();
         assert!(shares.is_sorted(), "{shares:?}");
@@ -143,12 +149,12 @@ mod tests {
     }
 
     #[test]
-    fn what_was_swept_before_a_restart_counts() {
-        let tally = by_chance(100.0, 300.0, 1);
-        let with_before = Tally {
+    fn floor_swept_before_a_restart_counts() {
+        let count = by_chance(100.0, 300.0, 1);
+        let with_before = NoveltyCount {
             before_m: 200.0,
-            ..tally
+            ..count
         };
-        assert!(with_before.share(SWATH_M).unwrap().share > tally.share(SWATH_M).unwrap().share + 0.1);
+        assert!(with_before.share(SWATH_M).unwrap().share > count.share(SWATH_M).unwrap().share + 0.1);
     }
 }

@@ -1,47 +1,50 @@
-//! `statistical`: what a robot does that nothing but its wheels tells its heading.
+//! `statistical`: the strategy of a robot whose heading comes from its wheels alone.
 //!
-//! It has no map, but for some minutes its wheels tell well enough where it was. So it bounces towards floor that was not swept lately,
-//! with a spiral where the floor is open, until hardly anything that it comes over is new; then it follows the walls until what lies
-//! beside them is, which is mostly another room. How much is swept in all is told by statistics ([`law`]), and so is when to end.
+//! It has no map, but for some minutes wheel odometry is good enough to tell swept floor from unswept. So it bounces
+//! towards floor that was not swept recently, with a spiral in the open, until hardly any floor is new. Then it follows the
+//! walls until the floor beside them is new, which is mostly another room. Statistics estimate the swept share ([`law`])
+//! and decide when to end.
 
 mod law;
 mod novelty;
 
 use super::Bounce;
 use super::spiral::Spiral;
-use crate::coverage::recent_coverage::{LATELY_S, is_new};
+use crate::coverage::recent_coverage::{RECENT_S, is_new};
 use crate::mapping::Map;
 use crate::model::action::Motion;
 use crate::model::geometry::Point2;
 use crate::model::reason::Reason;
 use crate::model::swept_share::SweptShare;
-use crate::navigation::{Leg, Mind, Plan, Situation, Task, Turn, WallFollower, WallStep};
+use crate::navigation::{
+    ManoeuvreStep, Situation, Task, TaskContext, TaskStatus, Turn, WallFollower, WallStep,
+};
 use novelty::Novelty;
 
-/// A place is left when no more than this share of what the robot comes over is new.
+/// The robot leaves a place when no more than this share of its floor is new.
 const LEAVE_SHARE: f64 = 0.35;
-/// A spiral is worth it where more than this is.
+/// A spiral is worth it where more than this share is new.
 const SPIRAL_SHARE: f64 = 0.7;
-/// Shortest and longest way along the walls to another place, metres.
+/// Shortest and longest drive along the walls to another place, metres.
 const WALL_M: (f64, f64) = (3.0, 20.0);
-/// The floor beside the wall is looked at so far to the left of the robot's middle, metres.
+/// Points beside the wall that are sampled: distances to the left of the robot's centre, metres.
 const BESIDE_M: [f64; 4] = [0.45, 0.7, 0.95, 1.2];
-/// So many of these places must be new, over so much way in a row, metres.
+/// This many of these points must be new, over this distance without interruption, metres.
 const NEW_MIN: usize = 3;
 const NEW_M: f64 = 1.5;
-/// Turn away from the wall after it, radians.
+/// Turn away from the wall afterwards, radians.
 const AWAY_RAD: (f64, f64) = (0.7, 2.0);
-/// A run this long without an encounter is on open floor, metres.
-const OPEN_RUN_M: f64 = 1.8;
-/// Way between two spirals, metres.
+/// A longer straight without an encounter is on open floor, metres.
+const OPEN_STRAIGHT_M: f64 = 1.8;
+/// Distance between two spirals, metres.
 const SPIRAL_EVERY_M: f64 = 25.0;
-/// The job is done when at least this share is swept, by the low bound.
+/// The job is done when the low bound of the swept share reaches this.
 const ENOUGH_SHARE: f64 = 0.9;
 
 /// The strategy.
 #[derive(Clone, Debug)]
 pub(crate) struct Statistical {
-    manner: Manner,
+    mode: StatisticalMode,
     bounce: Bounce,
     wall: WallFollower,
     novelty: Novelty,
@@ -51,44 +54,44 @@ pub(crate) struct Statistical {
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Manner {
-    /// In widening turns.
+enum StatisticalMode {
+    /// A widening spiral.
     Spiral(Spiral),
-    /// Towards what is new.
+    /// Bouncing towards new floor.
     Bounce,
-    /// Along what stands on the right.
-    Wall(Stretch),
-    /// Away from it.
+    /// Along the wall on the right.
+    Wall(WallDrive),
+    /// Turning away from the wall.
     Away(Turn),
 }
 
-/// Way along the walls, metres.
+/// A drive along the walls, metres.
 #[derive(Clone, Copy, Debug, Default)]
-struct Stretch {
-    way_m: f64,
-    /// The last of it, with new floor beside it.
+struct WallDrive {
+    driven_m: f64,
+    /// The last part of it, with new floor beside it.
     new_m: f64,
 }
 
-impl Stretch {
-    fn follow(&mut self, way_m: f64, situation: &Situation<'_>) {
-        self.way_m += way_m;
+impl WallDrive {
+    fn follow(&mut self, driven_m: f64, situation: &Situation<'_>) {
+        self.driven_m += driven_m;
         self.new_m = if is_new_beside(situation) {
-            self.new_m + way_m
+            self.new_m + driven_m
         } else {
             0.0
         };
     }
 
     fn is_over(self) -> bool {
-        (self.way_m > WALL_M.0 && self.new_m > NEW_M) || self.way_m > WALL_M.1
+        (self.driven_m > WALL_M.0 && self.new_m > NEW_M) || self.driven_m > WALL_M.1
     }
 }
 
 impl Default for Statistical {
     fn default() -> Self {
         Self {
-            manner: Manner::Spiral(Spiral::default()),
+            mode: StatisticalMode::Spiral(Spiral::default()),
             bounce: Bounce::towards_new_floor(),
             wall: WallFollower::default(),
             novelty: Novelty::default(),
@@ -100,28 +103,28 @@ impl Default for Statistical {
 }
 
 impl Task for Statistical {
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        self.begin(situation, mind);
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        self.begin(situation, context);
         self.novelty.follow(situation);
-        let told = self.swept_share(situation.map).unwrap_or_default();
-        if told.share_low >= ENOUGH_SHARE {
-            mind.decide("covered", Reason::ByStatistics, told.share);
-            return Plan::Finished(Reason::ByStatistics);
+        let estimate = self.swept_share(situation.map).unwrap_or_default();
+        if estimate.share_low >= ENOUGH_SHARE {
+            context.decide("covered", Reason::ByStatistics, estimate.share);
+            return TaskStatus::Finished(Reason::ByStatistics);
         }
-        let way_m = situation.advance.distance_m.max(0.0);
-        self.since_spiral_m += way_m;
-        match &mut self.manner {
-            Manner::Spiral(_) => self.spiral(situation, mind),
-            Manner::Bounce => self.bounce(situation, mind),
-            Manner::Wall(stretch) => {
+        let driven_m = situation.advance.distance_m.max(0.0);
+        self.since_spiral_m += driven_m;
+        match &mut self.mode {
+            StatisticalMode::Spiral(_) => self.spiral(situation, context),
+            StatisticalMode::Bounce => self.bounce(situation, context),
+            StatisticalMode::Wall(wall_drive) => {
                 if self.wall.is_following() {
-                    stretch.follow(way_m, situation);
+                    wall_drive.follow(driven_m, situation);
                 }
-                self.follow_wall(situation, mind)
+                self.follow_wall(situation, context)
             }
-            Manner::Away(turn) => match turn.step(situation) {
-                Leg::Going(motion) if situation.is_free() => Plan::Go(motion),
-                _ => self.begin_bounce(situation, mind),
+            StatisticalMode::Away(turn) => match turn.step(situation) {
+                ManoeuvreStep::Going(motion) if situation.is_free() => TaskStatus::Go(motion),
+                _ => self.begin_bounce(situation, context),
             },
         }
     }
@@ -129,86 +132,86 @@ impl Task for Statistical {
     fn interrupted(&mut self) {
         self.bounce.interrupted();
         self.wall.interrupted();
-        if let Manner::Spiral(_) | Manner::Away(_) = self.manner {
-            self.manner = Manner::Bounce;
+        if let StatisticalMode::Spiral(_) | StatisticalMode::Away(_) = self.mode {
+            self.mode = StatisticalMode::Bounce;
         }
     }
 
     fn swept_share(&self, _map: &Map) -> Option<SweptShare> {
-        self.novelty.tally().share(self.swath_m)
+        self.novelty.count().share(self.swath_m)
     }
 }
 
 impl Statistical {
-    /// Says once how it cleans.
-    fn begin(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
+    /// Records once how it cleans.
+    fn begin(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         self.swath_m = situation.config.body.swath_m;
         if !core::mem::replace(&mut self.has_begun, true) && !situation.knows_heading {
-            mind.decide("clean-by-statistics", Reason::NoHeading, 0.0);
+            context.decide("clean-by-statistics", Reason::NoHeading, 0.0);
         }
     }
 
-    fn begin_bounce(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn begin_bounce(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         self.bounce.interrupted();
-        self.manner = Manner::Bounce;
-        self.bounce.step(situation, mind)
+        self.mode = StatisticalMode::Bounce;
+        self.bounce.step(situation, context)
     }
 
-    fn spiral(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn spiral(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         self.since_spiral_m = 0.0;
-        if let Manner::Spiral(spiral) = &mut self.manner
+        if let StatisticalMode::Spiral(spiral) = &mut self.mode
             && let Some(motion) = spiral.step(situation)
         {
-            return Plan::Go(motion);
+            return TaskStatus::Go(motion);
         }
-        self.begin_bounce(situation, mind)
+        self.begin_bounce(situation, context)
     }
 
-    fn bounce(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn bounce(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let share = self.novelty.share();
         if self.bounce.is_evading() {
-            return self.bounce.step(situation, mind);
+            return self.bounce.step(situation, context);
         }
         if share < LEAVE_SHARE && !situation.is_free() {
-            mind.decide("follow-wall", Reason::SweptLately, share);
+            context.decide("follow-wall", Reason::SweptLately, share);
             self.wall = WallFollower::default();
-            self.manner = Manner::Wall(Stretch::default());
-            return self.follow_wall(situation, mind);
+            self.mode = StatisticalMode::Wall(WallDrive::default());
+            return self.follow_wall(situation, context);
         }
-        let is_open = self.bounce.run_m() > OPEN_RUN_M && self.since_spiral_m > SPIRAL_EVERY_M;
+        let is_open = self.bounce.straight_m() > OPEN_STRAIGHT_M && self.since_spiral_m > SPIRAL_EVERY_M;
         if is_open && share > SPIRAL_SHARE {
-            mind.decide("spiral", Reason::OpenFloor, self.bounce.run_m());
-            self.manner = Manner::Spiral(Spiral::default());
-            return self.spiral(situation, mind);
+            context.decide("spiral", Reason::OpenFloor, self.bounce.straight_m());
+            self.mode = StatisticalMode::Spiral(Spiral::default());
+            return self.spiral(situation, context);
         }
-        self.bounce.step(situation, mind)
+        self.bounce.step(situation, context)
     }
 
-    fn follow_wall(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        let is_over = matches!(self.manner, Manner::Wall(stretch) if stretch.is_over());
+    fn follow_wall(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        let is_over = matches!(self.mode, StatisticalMode::Wall(wall_drive) if wall_drive.is_over());
         if is_over && situation.is_free() && !self.wall.is_evading() {
-            let turn_rad = mind.random.between(AWAY_RAD.0, AWAY_RAD.1);
-            mind.decide("leave-wall", Reason::NewFloor, turn_rad);
-            self.novelty.begin_anew();
-            self.manner = Manner::Away(Turn::by(turn_rad));
-            return Plan::Go(Motion::Halt);
+            let turn_rad = context.random.between(AWAY_RAD.0, AWAY_RAD.1);
+            context.decide("leave-wall", Reason::NewFloor, turn_rad);
+            self.novelty.restart();
+            self.mode = StatisticalMode::Away(Turn::by(turn_rad));
+            return TaskStatus::Go(Motion::Halt);
         }
-        match self.wall.step(situation, mind) {
-            WallStep::Going(motion) => Plan::Go(motion),
+        match self.wall.step(situation, context) {
+            WallStep::Going(motion) => TaskStatus::Go(motion),
             WallStep::Trouble(reason) => {
                 self.bounce.interrupted();
-                self.manner = Manner::Bounce;
-                Plan::Trouble(reason)
+                self.mode = StatisticalMode::Bounce;
+                TaskStatus::Trouble(reason)
             }
         }
     }
 }
 
-/// Whether the floor beside a robot that follows a wall was hardly swept lately.
+/// Whether most of the floor beside the robot was not swept recently.
 fn is_new_beside(situation: &Situation<'_>) -> bool {
     let is_new_at = |y_m: &&f64| {
         let at = situation.pose.transform(Point2 { x_m: 0.0, y_m: **y_m });
-        is_new(situation.map, at, LATELY_S)
+        is_new(situation.map, at, RECENT_S)
     };
     BESIDE_M.iter().filter(is_new_at).count() >= NEW_MIN
 }

@@ -1,17 +1,17 @@
-//! How much of the floor that the robot comes over is new.
+//! The share of new floor on the robot's drive.
 
-use super::law::{KNOWN_S, Tally};
-use crate::coverage::recent_coverage::{LATELY_S, is_new};
+use super::law::{MEMORY_S, NoveltyCount};
+use crate::coverage::recent_coverage::{RECENT_S, is_new};
 use crate::model::geometry::Point2;
 use crate::navigation::Situation;
 
-/// Way over which the share is averaged, metres.
+/// Distance over which the share is averaged, metres.
 const WINDOW_M: f64 = 10.0;
-/// It is looked at each time the robot has come so far, metres.
+/// Distance between samples, metres.
 const STEP_M: f64 = 0.05;
-/// The floor is looked at so far before the brush, which has just been over what is nearer, metres.
+/// Distance of the samples ahead of the robot's centre, metres: the brush has just swept what is nearer.
 const AHEAD_M: f64 = 0.15;
-/// Places across the swath, in shares of its width.
+/// Sample points across the swath, as shares of its width.
 const ACROSS: [f64; 4] = [-0.4, -0.15, 0.15, 0.4];
 
 /// A running average, and the count of the whole job.
@@ -19,7 +19,7 @@ const ACROSS: [f64; 4] = [-0.4, -0.15, 0.15, 0.4];
 pub(super) struct Novelty {
     share: f64,
     since_m: f64,
-    tally: Option<Tally>,
+    count: Option<NoveltyCount>,
 }
 
 impl Default for Novelty {
@@ -27,33 +27,33 @@ impl Default for Novelty {
         Self {
             share: 1.0,
             since_m: 0.0,
-            tally: None,
+            count: None,
         }
     }
 }
 
 impl Novelty {
-    /// Share of the last metres that was not swept lately, 0..=1; 1 at the beginning of a place.
+    /// Share of the last metres that was not swept recently, 0..=1; 1 at the start in a new place.
     pub(super) fn share(&self) -> f64 {
         self.share
     }
 
-    /// What was counted in this job.
-    pub(super) fn tally(&self) -> Tally {
-        self.tally.unwrap_or_default()
+    /// The counts of this job.
+    pub(super) fn count(&self) -> NoveltyCount {
+        self.count.unwrap_or_default()
     }
 
     /// The robot has come to another place.
-    pub(super) fn begin_anew(&mut self) {
+    pub(super) fn restart(&mut self) {
         self.share = 1.0;
     }
 
     pub(super) fn follow(&mut self, situation: &Situation<'_>) {
-        let tally = self.tally.get_or_insert_with(|| Tally {
+        let count = self.count.get_or_insert_with(|| NoveltyCount {
             before_m: situation.map.path_length_m(),
-            ..Tally::default()
+            ..NoveltyCount::default()
         });
-        tally.time_s += situation.advance.time_s;
+        count.time_s += situation.advance.time_s;
         self.since_m += situation.advance.distance_m.max(0.0);
         if self.since_m < STEP_M {
             return;
@@ -65,14 +65,14 @@ impl Novelty {
                 .count()
         };
         let weight = (self.since_m / WINDOW_M).min(1.0);
-        self.share += weight * (new(LATELY_S) as f64 / ACROSS.len() as f64 - self.share);
-        tally.way_m += core::mem::take(&mut self.since_m);
-        tally.seen += ACROSS.len() as u32;
-        tally.new += new(KNOWN_S) as u32;
+        self.share += weight * (new(RECENT_S) as f64 / ACROSS.len() as f64 - self.share);
+        count.driven_m += core::mem::take(&mut self.since_m);
+        count.seen += ACROSS.len() as u32;
+        count.new += new(MEMORY_S) as u32;
     }
 }
 
-/// Whether the floor ahead of a place across the swath is new.
+/// Whether the floor ahead of a point across the swath is new.
 fn is_new_at(across: f64, within_s: u32, situation: &Situation<'_>) -> bool {
     let at = situation.pose.transform(Point2 {
         x_m: AHEAD_M,

@@ -1,18 +1,18 @@
 //! Which part of an order is being cleaned, and how often it was.
 
-use crate::coverage::wanted::Wanted;
+use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::Map;
 use crate::model::order::{CleaningOrder, HomePart};
 
-/// An order, and how far it is.
+/// An order, and its progress.
 #[derive(Debug, Default)]
 pub(super) struct Assignment {
     order: CleaningOrder,
-    /// Index of the present part.
+    /// Index of the current part.
     part: usize,
-    /// Passes over it that are done.
+    /// Finished passes over it.
     passes_done: u8,
-    /// Some part could not be reached, or not all of it.
+    /// A part could not be reached completely.
     pub(super) is_missed: bool,
 }
 
@@ -24,22 +24,22 @@ impl Assignment {
         }
     }
 
-    /// The present part; `None` = the whole home.
+    /// The current part; `None` = the whole home.
     pub(super) fn part(&self) -> Option<&HomePart> {
         self.order.parts().get(self.part)
     }
 
-    /// No parts were ordered.
+    /// Whether the order names no parts.
     pub(super) fn is_whole_home(&self) -> bool {
         self.order.is_for_whole_home()
     }
 
-    /// What shall be swept now.
-    pub(super) fn wanted(&self, map: &Map) -> Wanted {
-        Wanted::of(&self.order, self.part(), map)
+    /// The floor to sweep now.
+    pub(super) fn target_floor(&self, map: &Map) -> TargetFloor {
+        TargetFloor::of(&self.order, self.part(), map)
     }
 
-    /// The present part is done once more.
+    /// Finishes one pass over the current part.
     pub(super) fn advance(&mut self, map: &Map) -> Next {
         self.passes_done += 1;
         if self.passes_done < map.annotations().passes_over(&self.order, self.part()) {
@@ -54,7 +54,7 @@ impl Assignment {
     }
 }
 
-/// What comes after a part.
+/// What follows a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Next {
     /// The same part once more.

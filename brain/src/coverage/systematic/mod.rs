@@ -1,29 +1,32 @@
-//! `systematic`: lanes over the whole home, few turns, then what was left over.
+//! `systematic`: lanes over the whole home, with few turns, then the leftovers.
 //!
-//! In a home that it does not know it first drives a lap along the walls, which shows the outline, and then plans over what
-//! lies within as if it were floor, until something is met there.
+//! In an unknown home it first drives a lap along the walls, which shows the outline. Then it plans over everything inside
+//! as if it were floor, until it finds obstacles there.
 //!
-//! It plans, follows the plan, and plans again from what it has passed: when something stood in the way, when the way was
-//! lost, and when the plan is at its end. Plans are made step by step, while the robot backs off or stands. Where plan after plan brings nothing it bounces out of the place. It is done when
-//! nothing is left that is worth the way, or when even that leads nowhere. Terms are those of [`super::plan`]; *obstruction*: a place where something was met that the map
-//! does not know, kept for a while because things are moved and the robot may have been wrong about its place.
+//! It plans, follows the plan, and plans again from what it has swept: when something blocked the path, when it left the
+//! path, and at the end of the plan. Planning runs in steps while the robot backs off or stands. Where several plans in a
+//! row have no effect it bounces out of the place. It is done when no floor is left that is worth driving to, or when even
+//! bouncing fails.
+//!
+//! Terms are those of [`super::plan`]. *Obstruction*: a contact that is not on the map. It is remembered for a while only,
+//! because things move and the pose may have been wrong.
 
 mod assignment;
+mod contact_offset;
 mod frontier;
-mod judging;
+mod new_obstacles;
 mod outline;
 mod passed;
-mod planning;
-mod seeking;
+mod plan_evaluation;
+mod plan_progress;
+mod recent_track;
+mod relocalization;
 mod share;
-mod shyness;
-mod since;
 mod squeeze;
 mod standoff;
-mod trail;
 
-use super::astray::Astray;
-use super::margins::KEEP_OFF_M;
+use super::escape_bounce::EscapeBounce;
+use super::margins::CLEARANCE_M;
 use super::perimeter::LapStep;
 use super::plan::{Departure, reach_cells};
 use crate::mapping::{CellKnowledge, Map, Raster};
@@ -35,28 +38,29 @@ use crate::model::swept_share::SweptShare;
 use crate::navigation::caution::{Ahead, ahead, caution};
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{
-    Evasion, FollowStep, Follower, Mind, Obstructions, Plan, Situation, Task, encounter,
+    Evasion, FollowStep, Obstructions, PathFollower, Situation, Task, TaskContext, TaskStatus, encounter,
 };
 use assignment::{Assignment, Next};
+use contact_offset::ContactOffset;
 use frontier::margin_cells;
-use outline::{Hope, Outline, knows_home, shuts_in};
-use passed::{Passed, Window};
-use planning::{Basis, Planning, settings};
-use seeking::{Seeking, Sought};
+use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
+use passed::{CellWindow, Passed};
+use plan_evaluation::MadePlan;
+use plan_progress::{PlanInputs, PlanProgress, settings};
+use relocalization::{RelocalizationLap, RelocalizationStep};
 use share::{PassedFloor, Shares};
-use shyness::Shyness;
 use squeeze::Squeeze;
 use standoff::Standoff;
 
-/// Way back after a contact: far enough to turn.
+/// Distance to back off after a contact: far enough to turn.
 const CONTACT_BACK_M: f64 = 0.03;
-/// Way back from what is seen ahead.
+/// Distance to back off from an obstacle seen ahead.
 const SEEN_BACK_M: f64 = 0.02;
-/// Way back that is added for each plan in a row that brought nothing.
+/// Additional back-off for each plan in a row without effect.
 const MORE_BACK_M: f64 = 0.02;
-/// Way back at a cliff.
+/// Distance to back off at a cliff.
 const CLIFF_BACK_M: f64 = 0.08;
-/// Turn away from an edge that nobody knew, radians.
+/// Turn away from an unknown cliff, radians.
 const AWAY_RAD: f64 = 1.2;
 
 /// The strategy.
@@ -64,74 +68,74 @@ const AWAY_RAD: f64 = 1.2;
 pub(crate) struct Systematic {
     assignment: Assignment,
     outline: Option<Outline>,
-    planning: Option<Planning>,
-    /// It stands until the plan is made.
+    plan_progress: Option<PlanProgress>,
+    /// The robot stands until the plan is finished.
     waits: bool,
-    follower: Option<Follower>,
+    follower: Option<PathFollower>,
     evasion: Option<Evasion>,
     passed: Option<Passed>,
-    /// Generation of the map in which it plans.
+    /// Generation of the map on which it plans.
     generation: u32,
-    /// The frame in which lanes are planned, once it is found in this drawing of the map.
+    /// The frame of the lanes, once found for this generation of the map.
     frame: Option<LaneFrame>,
     obstructions: Obstructions,
-    vain_plans: u32,
+    failed_plans: u32,
     fresh_starts: u32,
-    astray: Option<Astray>,
-    seeking: Seeking,
-    strays: u32,
-    /// Floor that was passed when obstructions were forgotten last.
+    escape_bounce: Option<EscapeBounce>,
+    relocalization: RelocalizationLap,
+    escapes: u32,
+    /// Floor that was swept when obstructions were last forgotten.
     passed_at_start_m2: f64,
     /// Floor that was still open when the last plan was made.
     open_before_m2: f64,
-    /// Most floor that could be reached at any time, with what was hoped for: by it is judged whether something is cut off.
+    /// Most floor that was reachable at any time, assumed floor included: the reference for what is cut off.
     floor_m2: f64,
-    /// Much less than that can be reached now.
+    /// Much less than `floor_m2` is reachable now.
     is_cut_off: bool,
-    /// Less than that can be reached now, by so much that somebody may stand in a door.
+    /// Less than `floor_m2` is reachable now, by so much that somebody may stand in a door.
     misses_a_part: bool,
-    /// It keeps off what it has just touched.
-    shyness: Shyness,
+    /// Keeps away from what it has just touched.
+    contact_offset: ContactOffset,
     standoff: Standoff,
     squeeze: Squeeze,
-    /// What was known when it began, in a home that was known then.
+    /// The map at the start of the job, in a known home.
     began: Option<Raster<CellKnowledge>>,
     shares: Shares,
 }
 
 impl Task for Systematic {
-    fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        self.heed_redrawing(situation);
+    fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        self.discard_outdated(situation);
         if let Some(passed) = &mut self.passed
             && !situation.estimate.lost
         {
             passed.follow(situation);
         }
         self.plan_on(situation);
-        if let Some(plan) = self.seek_place(situation, mind) {
+        if let Some(plan) = self.relocalize(situation, context) {
             return plan;
         }
-        if let Some(plan) = self.lap(situation, mind) {
+        if let Some(plan) = self.lap(situation, context) {
             return plan;
         }
-        if let Some(astray) = &mut self.astray {
-            if let Some(plan) = astray.step(situation, mind) {
+        if let Some(escape_bounce) = &mut self.escape_bounce {
+            if let Some(plan) = escape_bounce.step(situation, context) {
                 return plan;
             }
-            self.astray = None;
+            self.escape_bounce = None;
         }
         match Evasion::pursue(&mut self.evasion, situation) {
-            Some(Ok(motion)) => return Plan::Go(motion),
+            Some(Ok(motion)) => return TaskStatus::Go(motion),
             Some(Err(reason)) => {
                 self.interrupted();
-                return Plan::Trouble(reason);
+                return TaskStatus::Trouble(reason);
             }
             None => {}
         }
         if let Some(reason) = encounter(situation) {
-            return self.evade(reason, situation, mind);
+            return self.evade(reason, situation, context);
         }
-        self.drive(situation, mind)
+        self.drive(situation, context)
     }
 
     fn interrupted(&mut self) {
@@ -140,28 +144,30 @@ impl Task for Systematic {
         }
         self.evasion = None;
         self.follower = None;
-        self.planning = None;
-        self.seeking.interrupted();
-        if let Some(astray) = &mut self.astray {
-            astray.interrupted();
+        self.plan_progress = None;
+        self.relocalization.interrupted();
+        if let Some(escape_bounce) = &mut self.escape_bounce {
+            escape_bounce.interrupted();
         }
     }
 
-    fn way(&self) -> Vec<Point2> {
-        self.follower.as_ref().map_or_else(Vec::new, Follower::way)
+    fn planned_path(&self) -> Vec<Point2> {
+        self.follower
+            .as_ref()
+            .map_or_else(Vec::new, PathFollower::remaining_path)
     }
 
     fn swept_share(&self, map: &Map) -> Option<SweptShare> {
-        let wanted = self.assignment.wanted(map);
+        let target = self.assignment.target_floor(map);
         self.shares.share(|settings| {
             let passed = self.passed.as_ref()?.cells();
-            Some(PassedFloor::count(&passed, (&wanted, map), settings))
+            Some(PassedFloor::count(&passed, &target, map, settings))
         })
     }
 }
 
 impl Systematic {
-    /// Cleans what is ordered.
+    /// Cleans this order.
     pub(super) fn with(order: CleaningOrder) -> Self {
         Self {
             assignment: Assignment::of(order),
@@ -169,8 +175,8 @@ impl Systematic {
         }
     }
 
-    /// Turns to what comes after the present part; `false` when nothing does.
-    fn turns_to_next(&mut self, is_missed: bool, (map, mind): (&Map, &mut Mind)) -> bool {
+    /// Goes on to the next part; `false` when there is none.
+    fn turns_to_next(&mut self, is_missed: bool, map: &Map, context: &mut TaskContext) -> bool {
         self.assignment.is_missed |= is_missed;
         match self.assignment.advance(map) {
             Next::End => return false,
@@ -181,86 +187,86 @@ impl Systematic {
                 }
             }
         }
-        mind.decide("turn-to-part", Reason::NextPart, 0.0);
+        context.decide("turn-to-part", Reason::NextPart, 0.0);
         (self.floor_m2, self.open_before_m2, self.passed_at_start_m2) = (0.0, 0.0, 0.0);
-        (self.vain_plans, self.fresh_starts, self.strays) = (0, 0, 0);
+        (self.failed_plans, self.fresh_starts, self.escapes) = (0, 0, 0);
         self.shares = Shares::default();
         true
     }
 
-    /// Looks for its own place, once it knows no more where it is in a map that it has.
-    fn seek_place(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+    /// Relocalizes when the robot is lost on its map.
+    fn relocalize(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
         if !situation.is_tracked || self.evasion.is_some() {
             return None;
         }
-        match self.seeking.step(situation, mind) {
-            Sought::Nothing => None,
-            Sought::Over => {
+        match self.relocalization.step(situation, context) {
+            RelocalizationStep::Idle => None,
+            RelocalizationStep::Over => {
                 self.interrupted();
                 None
             }
-            Sought::Still(plan) => Some(plan),
+            RelocalizationStep::Driving(plan) => Some(plan),
         }
     }
 
     /// The lap along the walls of an unknown home; `None` when there is none to drive.
-    fn lap(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+    fn lap(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
         let outline = self.outline.get_or_insert_with(|| {
             if knows_home(situation) {
                 Outline::Known
             } else {
-                mind.decide("lap", Reason::NoMap, 0.0);
+                context.decide("lap", Reason::NoMap, 0.0);
                 Outline::Lap(Box::default())
             }
         });
         let Outline::Lap(lap) = outline else { return None };
-        let reason = match lap.step(situation, mind) {
-            LapStep::Going(motion) => return Some(Plan::Go(motion)),
-            LapStep::Trouble(reason) => return Some(Plan::Trouble(reason)),
+        let reason = match lap.step(situation, context) {
+            LapStep::Going(motion) => return Some(TaskStatus::Go(motion)),
+            LapStep::Trouble(reason) => return Some(TaskStatus::Trouble(reason)),
             LapStep::Over(reason) => reason,
         };
-        let (what, hope) = match reason {
-            Reason::BackAtStart => ("contour-closed", Hope::CLOSED),
-            Reason::KnownWall => ("end-lap", Hope::KNOWN),
-            _ => ("end-lap", Hope::OPEN),
+        let (what, margin) = match reason {
+            Reason::BackAtStart => ("contour-closed", OptimisticMargin::CLOSED),
+            Reason::KnownWall => ("end-lap", OptimisticMargin::KNOWN),
+            _ => ("end-lap", OptimisticMargin::OPEN),
         };
-        mind.decide(what, reason, lap.way_m());
-        self.outline = Some(Outline::Growing(hope));
+        context.decide(what, reason, lap.driven_m());
+        self.outline = Some(Outline::Growing(margin));
         None
     }
 
-    /// Forgets what it remembers in places of a map that was drawn again with other poses.
-    fn heed_redrawing(&mut self, situation: &Situation<'_>) {
+    /// Discards everything in coordinates of a map that was drawn again with corrected poses.
+    fn discard_outdated(&mut self, situation: &Situation<'_>) {
         let generation = situation.map.snapshot().generation;
         if generation != self.generation {
             self.generation = generation;
             self.passed = None;
             self.frame = None;
             self.obstructions.clear();
-            self.planning = self.planning.take().map(Planning::afresh);
+            self.plan_progress = self.plan_progress.take().map(PlanProgress::restarted);
         }
     }
 
-    /// Backs off from what was met, and remembers it.
-    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        mind.decide("back-off", reason, 0.0);
+    /// Backs off from an obstacle, and remembers it.
+    fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        context.decide("back-off", reason, 0.0);
         self.obstructions.add(reason, situation);
-        self.shyness.touched(reason);
+        self.contact_offset.touched(reason);
         self.follower = None;
         if situation.at_cliff {
             self.evasion = Some(Evasion::from_cliff(CLIFF_BACK_M, self.away_rad(reason)));
-            // Beside an edge a plan begins where the robot really stands.
-            self.planning = None;
+            // At a cliff the plan must begin at the robot's actual position.
+            self.plan_progress = None;
         } else {
             self.standoff.touched(ahead(situation));
             self.back_off(CONTACT_BACK_M, situation);
         }
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 
-    /// Goes on, unless it would run into what it sees in a home of which it draws the map. In a home that is known the ways end where
-    /// walls are, and a touch in passing costs less than a new plan: with it 95 % took 0.05 T0 longer in the AWS house.
-    fn go(&mut self, motion: Motion, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    /// Goes on, but stops before obstacles ahead while it draws the map. In a known home the paths end at walls, and a
+    /// touch in passing costs less than a new plan: stopping there made 95 % take 0.05 T0 longer in the AWS house.
+    fn go(&mut self, motion: Motion, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let explores = matches!(self.outline, Some(Outline::Growing(_)));
         let drives = situation.advance.distance_m > 0.0
             && matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
@@ -270,29 +276,30 @@ impl Systematic {
             None
         };
         match seen {
-            Some(seen) if self.standoff.is_reached(seen) => self.stand_off(seen, situation, mind),
-            _ => Plan::Go(motion),
+            Some(seen) if self.standoff.is_reached(seen) => self.stand_off(seen, situation, context),
+            _ => TaskStatus::Go(motion),
         }
     }
 
-    /// Leaves a way on which something is seen, before it is touched.
-    fn stand_off(&mut self, seen: Ahead, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
-        mind.decide("leave-way", Reason::WallAhead, seen.way_m);
+    /// Leaves a path on which an obstacle is visible, before touching it.
+    fn stand_off(&mut self, seen: Ahead, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        context.decide("leave-way", Reason::WallAhead, seen.clear_m);
         self.obstructions.add_seen(seen.at, situation);
         self.follower = None;
         self.back_off(SEEN_BACK_M, situation);
-        Plan::Go(Motion::Halt)
+        TaskStatus::Go(Motion::Halt)
     }
 
-    /// Backs off on the way it came, farther the more plans were vain; the next one is made meanwhile, for where the robot will stand.
+    /// Backs off along its path, farther after plans without effect. The next plan is made meanwhile, from where the robot
+    /// will stand.
     fn back_off(&mut self, least_m: f64, situation: &Situation<'_>) {
-        let back_m = least_m + MORE_BACK_M * f64::from(self.vain_plans);
+        let back_m = least_m + MORE_BACK_M * f64::from(self.failed_plans);
         self.evasion = Some(Evasion::from_contact(back_m, 0.0));
-        self.planning = Some(Planning::Due(situation.pose.after_arc(-back_m, 0.0)));
+        self.plan_progress = Some(PlanProgress::Due(situation.pose.after_arc(-back_m, 0.0)));
     }
 
-    /// Turn after an edge: where edges are not known yet the robot looks away from one before it drives on, because way
-    /// forward is what lets it back off again.
+    /// Turn after a cliff. Where cliffs are not known yet the robot turns away before it drives on, because forward travel
+    /// restores the distance that it may reverse.
     fn away_rad(&self, reason: Reason) -> f64 {
         match (&self.outline, reason) {
             (Some(Outline::Known), _) => 0.0,
@@ -301,48 +308,48 @@ impl Systematic {
         }
     }
 
-    fn drive(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
+    fn drive(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if self.follower.is_none()
-            && let Some(instead) = self.take_plan(situation, mind)
+            && let Some(instead) = self.take_plan(situation, context)
         {
             return instead;
         }
         let Some(follower) = &mut self.follower else {
-            return Plan::Go(Motion::Halt);
+            return TaskStatus::Go(Motion::Halt);
         };
         let mut caution = caution(situation, follower);
         self.standoff.follow(situation.advance);
-        caution.offset_m += self.shyness.offset_m(situation.advance);
+        caution.offset_m += self.contact_offset.offset_m(situation.advance);
         let step = follower.step(situation, caution);
         if let (Some(passed), Some(beside)) = (&mut self.passed, follower.beside(situation)) {
-            passed.give_up(beside);
+            passed.skip_beside(beside);
         }
         match step {
-            FollowStep::Going(motion) => return self.go(motion, situation, mind),
-            FollowStep::Off => mind.decide("leave-way", Reason::OffTheWay, 0.0),
+            FollowStep::Going(motion) => return self.go(motion, situation, context),
+            FollowStep::Off => context.decide("leave-way", Reason::OffTheWay, 0.0),
             FollowStep::Arrived => {}
         }
         self.follower = None;
-        self.planning = Some(Planning::Due(situation.pose));
-        Plan::Go(Motion::Halt)
+        self.plan_progress = Some(PlanProgress::Due(situation.pose));
+        TaskStatus::Go(Motion::Halt)
     }
 
-    /// Goes on with the plan that is being made, if one is.
+    /// Continues the plan in progress, if there is one.
     fn plan_on(&mut self, situation: &Situation<'_>) {
-        self.planning = match self.planning.take() {
-            Some(Planning::Due(start)) => Some(self.begin_plan(start, situation)),
-            Some(planning) => Some(planning.go_on()),
+        self.plan_progress = match self.plan_progress.take() {
+            Some(PlanProgress::Due(start)) => Some(self.begin_plan(start, situation)),
+            Some(plan_progress) => Some(plan_progress.go_on()),
             None => None,
         };
     }
 
-    /// Begins a plan for what is left, for a robot that sets out from `start`, once it is recalled what was passed and the map
-    /// shows what was met.
-    fn begin_plan(&mut self, start: Pose2, situation: &Situation<'_>) -> Planning {
+    /// Begins a plan for the remaining floor, for a robot that sets out from `start`, once the swept floor is recalled and
+    /// the map shows the latest contacts.
+    fn begin_plan(&mut self, start: Pose2, situation: &Situation<'_>) -> PlanProgress {
         let settings = settings(situation);
         let knowledge = situation.map.knowledge();
         let beyond_m = match self.outline {
-            Some(Outline::Growing(hope)) => Some(hope.beyond_m),
+            Some(Outline::Growing(margin)) => Some(margin.beyond_m),
             _ => None,
         };
         if matches!(self.outline, Some(Outline::Known)) && self.began.is_none() {
@@ -353,46 +360,50 @@ impl Systematic {
             Some(_) => beyond_m.max(squeeze::BEYOND_M),
             None => beyond_m,
         });
-        let window = Window::around(knowledge, beyond_m.map_or(0, margin_cells));
+        let window = CellWindow::around(knowledge, beyond_m.map_or(0, margin_cells));
         let passed = self
             .passed
             .get_or_insert_with(|| Passed::new(situation.map, &window, reach_cells(&settings)));
         if !passed.recall(situation.map) || !situation.map.is_fresh() {
-            return Planning::Due(start);
+            return PlanProgress::Due(start);
         }
         passed.cover(&window);
-        let (passed, wanted) = (passed.cells(), self.assignment.wanted(situation.map));
-        let counted = PassedFloor::count(&passed, (&wanted, situation.map), &settings);
+        let (passed, target) = (passed.cells(), self.assignment.target_floor(situation.map));
+        let counted = PassedFloor::count(&passed, &target, situation.map, &settings);
         self.shares.begin(settings, counted);
-        Planning::begin(Basis {
+        PlanProgress::begin(PlanInputs {
             knowledge: knowledge.clone(),
             beyond_m,
-            radius_m: situation.config.body.radius_m + KEEP_OFF_M,
+            radius_m: situation.config.body.radius_m + CLEARANCE_M,
             squeezed_m,
             began: squeezed_m.filter(|_| self.misses_a_part).and(self.began.clone()),
             blocked: self.obstructions.points(situation.observation.time_us),
-            wanted,
+            target,
             passed,
             departure: Departure { start, settings },
             frame: self.frame,
         })
     }
 
-    /// Takes up the plan that was made for what is left; gives what to do instead if there is none to follow.
-    fn take_plan(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> Option<Plan> {
+    /// Takes the finished plan for the remaining floor; gives what to do instead if there is none to follow.
+    fn take_plan(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<TaskStatus> {
         let here = situation.pose;
-        match self.planning.take() {
-            Some(Planning::Made { made, draft }) if draft.begins_at(here.position()) => {
+        match self.plan_progress.take() {
+            Some(PlanProgress::Finished { finished, request }) if request.begins_at(here.position()) => {
                 self.waits = false;
-                self.frame = Some(made.frame);
-                return self.judge(made.plan, draft.is_blocked, (situation, mind));
+                self.frame = Some(finished.frame);
+                let made = MadePlan {
+                    plan: finished.plan,
+                    is_blocked: request.is_blocked,
+                };
+                return self.evaluate(made, situation, context);
             }
-            Some(Planning::Made { .. }) | None => self.planning = Some(Planning::Due(here)),
-            unfinished => self.planning = unfinished,
+            Some(PlanProgress::Finished { .. }) | None => self.plan_progress = Some(PlanProgress::Due(here)),
+            unfinished => self.plan_progress = unfinished,
         }
         if !core::mem::replace(&mut self.waits, true) {
-            mind.decide("wait", Reason::Planning, 0.0);
+            context.decide("wait", Reason::Planning, 0.0);
         }
-        Some(Plan::Go(Motion::Halt))
+        Some(TaskStatus::Go(Motion::Halt))
     }
 }

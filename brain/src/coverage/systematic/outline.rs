@@ -1,15 +1,15 @@
-//! What a robot knows of the outline of its home when it plans.
+//! What the robot knows of the outline of its home when it plans.
 
 use crate::coverage::perimeter::Perimeter;
 use crate::mapping::{CELL_M, CellKnowledge};
 use crate::navigation::Situation;
 
-/// Less than this share of the free floor that is known: the map shuts the robot in where it stands after its lap.
+/// If less than this share of the known free floor is reachable after the lap, the map wrongly encloses the robot.
 const SHUT_IN_SHARE: f64 = 0.4;
-/// Floor is hoped for so far beyond what is known, metres: a little, and as far as a room reaches.
+/// Width of the optimistic margin, metres: a little, and the size of a room.
 const NEAR_M: f64 = 0.6;
-const COORDINATE_MAX_M: f64 = 2.5;
-/// A robot that sees nothing plans in a map that shows this much free floor, square metres.
+const FAR_M: f64 = 2.5;
+/// A robot without proximity sensors plans on a map that shows this much free floor, square metres.
 const KNOWN_M2: f64 = 4.0;
 
 /// What is known of the home.
@@ -17,44 +17,44 @@ const KNOWN_M2: f64 = 4.0;
 pub(super) enum Outline {
     /// All of it, since before the job.
     Known,
-    /// Nothing: the walls come first.
+    /// Nothing: the lap along the walls comes first.
     Lap(Box<Perimeter>),
-    /// The walls; the rest is found out on the way.
-    Growing(Hope),
+    /// The walls; the robot explores the rest.
+    Growing(OptimisticMargin),
 }
 
-/// How much floor is hoped for beyond what is known.
+/// How much unknown floor beyond the known part is assumed to be free.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Hope {
-    /// How far, metres.
+pub(super) struct OptimisticMargin {
+    /// Width, metres.
     pub(super) beyond_m: f64,
-    /// How far once nothing else is left, metres.
+    /// Width once no other floor is left, metres.
     at_last_m: f64,
 }
 
-impl Hope {
-    /// After a lap along the walls that closed.
+impl OptimisticMargin {
+    /// After a closed lap along the walls.
     pub(super) const CLOSED: Self = Self {
         beyond_m: NEAR_M,
         at_last_m: NEAR_M,
     };
-    /// After one that ended because it showed nothing new any more.
+    /// After a lap that ended because it showed nothing new.
     pub(super) const KNOWN: Self = Self {
         beyond_m: NEAR_M,
-        at_last_m: COORDINATE_MAX_M,
+        at_last_m: FAR_M,
     };
-    /// After one that ended for another reason.
+    /// After a lap that ended for another reason.
     pub(super) const OPEN: Self = Self {
-        beyond_m: COORDINATE_MAX_M,
-        at_last_m: COORDINATE_MAX_M,
+        beyond_m: FAR_M,
+        at_last_m: FAR_M,
     };
 
-    /// Whether floor is hoped for as far as a room reaches: where a wall was missed that is also what lies outside of the home.
+    /// Whether the margin reaches as far as a room: where a wall was missed it includes floor outside of the home.
     pub(super) fn is_far(self) -> bool {
         self.beyond_m > NEAR_M
     }
 
-    /// Nothing else is left. `false` when as much was hoped for already.
+    /// Widens the margin when no other floor is left. `false` when it was as wide already.
     pub(super) fn grow(&mut self) -> bool {
         let grows = self.beyond_m < self.at_last_m;
         self.beyond_m = self.at_last_m;
@@ -62,12 +62,12 @@ impl Hope {
     }
 }
 
-/// Whether floor that can be reached is next to nothing of the free floor that is known.
+/// Whether the reachable floor is next to nothing of the known free floor.
 pub(super) fn shuts_in(reachable_m2: f64, free_m2: f64) -> bool {
     reachable_m2 < SHUT_IN_SHARE * free_m2
 }
 
-/// Whether the map was good enough to plan in it when the job began.
+/// Whether the map was good enough to plan on when the job began.
 pub(super) fn knows_home(situation: &Situation<'_>) -> bool {
     let is_blind = situation.config.sensors.proximity.sensors().is_empty();
     let knowledge = situation.map.knowledge().values();
@@ -81,18 +81,22 @@ pub(super) fn knows_home(situation: &Situation<'_>) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Hope, shuts_in};
+    use super::{OptimisticMargin, shuts_in};
 
     #[test]
-    fn only_a_lap_that_may_have_missed_a_way_on_is_followed_by_more_hope() {
-        for (mut hope, grows) in [(Hope::CLOSED, false), (Hope::KNOWN, true), (Hope::OPEN, false)] {
-            assert_eq!(hope.grow(), grows);
-            assert!(!hope.grow(), "once");
+    fn only_a_lap_that_may_have_missed_a_passage_widens_the_margin() {
+        for (mut margin, grows) in [
+            (OptimisticMargin::CLOSED, false),
+            (OptimisticMargin::KNOWN, true),
+            (OptimisticMargin::OPEN, false),
+        ] {
+            assert_eq!(margin.grow(), grows);
+            assert!(!margin.grow(), "once");
         }
     }
 
     #[test]
-    fn a_map_shuts_in_whoever_reaches_a_corner_of_it_and_nobody_who_reaches_most_of_it() {
+    fn a_map_encloses_a_robot_that_reaches_only_a_corner_of_it() {
         assert!(shuts_in(0.8, 9.0));
         assert!(
             !shuts_in(7.0, 9.0),

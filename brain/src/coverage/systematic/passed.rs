@@ -1,42 +1,42 @@
-//! Which floor the swath has passed in this job, as the planner sees it: a disc around the middle.
+//! The floor that the swath has passed in this job, as the planner counts it: a disc around the robot's centre.
 //!
-//! The swept layer of the map paints the bar under the robot, which is what people are shown. A plan made from that would
-//! send the robot back to each end of a lane for the half swath before the wall that the side brushes have reached.
+//! The coverage grid of the map holds the bar under the robot, which is what people see. A plan based on that would send
+//! the robot back to each end of a lane, for the half swath before the wall that the side brushes have reached.
 
-use super::trail::{Place, Trail};
+use super::recent_track::{RecentTrack, TrackPoint};
 use crate::mapping::{Cell, Map, Raster};
 use crate::model::geometry::Point2;
 use crate::navigation::{Disc, Situation};
 
-/// Places of the way that are recalled in one step.
+/// Points of the path that are recalled in one step.
 const RECALLED_A_STEP: usize = 1_000;
 
 /// Passed cells.
 #[derive(Debug)]
 pub(super) struct Passed {
-    /// What was passed before the trail.
+    /// Cells passed before the recent track.
     settled: Raster<bool>,
-    trail: Trail,
+    track: RecentTrack,
     disc: Disc,
-    /// Places of the job's way that were recalled, of those that are to be.
+    /// Points of the job's path that were recalled, and their total.
     recalled: usize,
     to_recall: usize,
 }
 
 impl Passed {
-    /// What the way of this job passes from now on. `reach` cells to either side of the middle count. What it has passed so
-    /// far is still to be recalled: the map remembers it, and a job that goes on after a restart has no other memory.
-    pub(super) fn new(map: &Map, window: &Window, reach: usize) -> Self {
+    /// Records what this job passes from now on, with `reach` cells on either side of the centre. What it has passed so far
+    /// is recalled from the map: a job that continues after a restart has no other memory.
+    pub(super) fn new(map: &Map, window: &CellWindow, reach: usize) -> Self {
         Self {
             settled: Raster::filled(window.origin, window.width, window.height, false),
-            trail: Trail::default(),
+            track: RecentTrack::default(),
             disc: Disc::of_radius(reach as f64 + 0.6),
             recalled: 0,
             to_recall: map.snapshot().path.len(),
         }
     }
 
-    /// Recalls some more of what the way of this job had passed where it cleaned. `true` when all of it is there.
+    /// Recalls some more of what this job has passed and swept. `true` when all of it is recalled.
     pub(super) fn recall(&mut self, map: &Map) -> bool {
         let path = map.snapshot().path;
         let end = self.to_recall.min(path.len());
@@ -54,15 +54,15 @@ impl Passed {
         some == end
     }
 
-    /// Nothing was passed.
+    /// Forgets all passed cells.
     pub(super) fn forget(&mut self) {
         self.settled.values_mut().fill(false);
-        self.trail.forget();
+        self.track.forget();
     }
 
-    /// Takes over another window; what lies outside of it is forgotten.
-    pub(super) fn cover(&mut self, window: &Window) {
-        if *window == Window::of(&self.settled) {
+    /// Changes to another window; cells outside of it are forgotten.
+    pub(super) fn cover(&mut self, window: &CellWindow) {
+        if *window == CellWindow::of(&self.settled) {
             return;
         }
         let mut cells = Raster::filled(window.origin, window.width, window.height, false);
@@ -73,30 +73,30 @@ impl Passed {
     /// The cells as they are known now.
     pub(super) fn cells(&self) -> Raster<bool> {
         let mut cells = self.settled.clone();
-        for place in self.trail.places() {
-            self.disc.paint_place(&mut cells, place);
+        for point in self.track.points() {
+            self.disc.paint_point(&mut cells, point);
         }
         cells
     }
 
     pub(super) fn follow(&mut self, situation: &Situation<'_>) {
         let advance = situation.is_tracked.then_some(situation.advance);
-        for place in self.trail.follow(&situation.estimate, advance) {
-            self.disc.paint_place(&mut self.settled, &place);
+        for point in self.track.follow(&situation.estimate, advance) {
+            self.disc.paint_point(&mut self.settled, &point);
         }
     }
 
-    /// Counts what would have been swept from a place beside the way that the robot really takes: a strip that it left out
-    /// because it came too near to something is not worth another way.
-    pub(super) fn give_up(&mut self, beside: Point2) {
-        self.trail.give_up(beside);
+    /// Counts floor as swept that the robot would have swept from a point beside its actual path. A strip that it left out
+    /// because it kept away from an obstacle is not worth another drive.
+    pub(super) fn skip_beside(&mut self, beside: Point2) {
+        self.track.skip_beside(beside);
     }
 }
 
 impl Disc {
-    /// Paints what is swept from a place of the way, and what was given up beside it.
-    fn paint_place(&self, cells: &mut Raster<bool>, place: &Place) {
-        for at in place.swept_from() {
+    /// Paints what is swept from a track point, and what was given up beside it.
+    fn paint_point(&self, cells: &mut Raster<bool>, point: &TrackPoint) {
+        for at in point.swept_from() {
             self.paint(cells, at);
         }
     }
@@ -105,20 +105,20 @@ impl Disc {
         let cell = Cell::under(at);
         let column = i64::from(cell.x) - i64::from(cells.origin().x);
         let row = i64::from(cell.y) - i64::from(cells.origin().y);
-        self.fill(cells, (column, row), true);
+        self.set(cells, column, row);
     }
 }
 
 /// A rectangle of cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Window {
+pub(super) struct CellWindow {
     origin: Cell,
     width: usize,
     height: usize,
 }
 
-impl Window {
-    /// That of a raster.
+impl CellWindow {
+    /// The window of a raster.
     fn of<T>(raster: &Raster<T>) -> Self {
         Self {
             origin: raster.origin(),
@@ -127,7 +127,7 @@ impl Window {
         }
     }
 
-    /// That of a raster with `margin` cells more on each side.
+    /// The window of a raster with `margin` cells more on each side.
     pub(super) fn around<T>(raster: &Raster<T>, margin: usize) -> Self {
         let shift = i32::try_from(margin).unwrap_or(0);
         Self {

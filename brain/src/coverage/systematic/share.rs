@@ -1,19 +1,19 @@
 //! How much of its floor a job has swept so far, also between two plans.
 //!
-//! The newest plan tells how much floor there is and how much of it was passed; what was passed since is added. A strip that was
-//! passed counts less in the low bound, the less sure the robot's place was there.
+//! The newest plan gives the floor area and the swept part; what was swept since is added. In the low bound a strip counts
+//! less, the less certain the pose was there.
 
 use crate::coverage::estimate::kept_low;
 use crate::coverage::plan::{CoveragePlan, PlanSettings};
-use crate::coverage::wanted::Wanted;
+use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::{CELL_M, Map, Raster};
 use crate::model::swept_share::SweptShare;
 
-/// A plan that finds less than this share of what is counted is one of a robot that stands elsewhere: cut off from the rest, or
-/// outside of the walls by its map.
+/// A plan that finds less than this share of the counted floor belongs to a robot that is cut off from the rest, or outside
+/// of the walls on its map.
 const ELSEWHERE_SHARE: f64 = 0.5;
 
-/// Floor that was passed, square metres, and what stays of it with more doubt.
+/// Floor that was passed, square metres, and its low bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct PassedFloor {
     m2: f64,
@@ -21,18 +21,19 @@ pub(super) struct PassedFloor {
 }
 
 impl PassedFloor {
-    /// What of the passed cells is wanted.
+    /// Counts the passed cells that belong to the target floor.
     pub(super) fn count(
         passed: &Raster<bool>,
-        (wanted, map): (&Wanted, &Map),
+        target: &TargetFloor,
+        map: &Map,
         settings: &PlanSettings,
     ) -> Self {
         let (mut cells, mut cells_low) = (0.0, 0.0);
-        // Neighbours are mostly as sure, and the share takes long to find.
+        // Neighbours mostly have the same deviation, and the share is expensive to compute.
         let mut before: (Option<f64>, f64) = (None, kept_low(None, settings));
         for (index, _) in passed.values().iter().enumerate().filter(|(_, is)| **is) {
             let cell = passed.cell(index);
-            if wanted.course(cell).is_none() {
+            if target.pattern_at(cell).is_none() {
                 continue;
             }
             let sigma_m = map.sigma_m(cell);
@@ -48,24 +49,24 @@ impl PassedFloor {
         }
     }
 
-    /// Share of what was passed that stays with more doubt.
+    /// Ratio of the low bound to the passed floor.
     fn kept_low(self) -> f64 {
         if self.m2 > 0.0 { self.low_m2 / self.m2 } else { 1.0 }
     }
 }
 
-/// What a plan knows of it.
+/// The figures of a plan.
 #[derive(Clone, Copy, Debug)]
 struct Tally {
     settings: PlanSettings,
-    /// What was counted when it was begun.
+    /// Floor counted when the plan was begun.
     counted: PassedFloor,
-    /// What it found passed, and how much floor there is, square metres; 0 while it is being made.
+    /// Swept and total floor according to the plan, square metres; 0 until it is finished.
     passed_m2: f64,
     floor_m2: f64,
 }
 
-/// What the plan that is being made and the newest one know of it.
+/// The figures of the plan in progress and of the newest one.
 #[derive(Debug, Default)]
 pub(super) struct Shares {
     next: Option<Tally>,
@@ -75,7 +76,7 @@ pub(super) struct Shares {
 }
 
 impl Shares {
-    /// A plan is begun when so much is counted.
+    /// A plan is begun with this much counted.
     pub(super) fn begin(&mut self, settings: PlanSettings, counted: PassedFloor) {
         self.next = Some(Tally {
             settings,
@@ -85,13 +86,13 @@ impl Shares {
         });
     }
 
-    /// So much floor is known now; gives the most that ever was.
+    /// Records how much floor is known now; gives the maximum so far.
     pub(super) fn know_floor(&mut self, known_m2: f64) -> f64 {
         self.most_m2 = self.most_m2.max(known_m2);
         self.most_m2
     }
 
-    /// That plan is made, and there is so much floor.
+    /// The plan is finished, with this much floor.
     pub(super) fn take(&mut self, plan: &CoveragePlan, floor_m2: f64) {
         self.newest = self.next.take().map(|tally| Tally {
             passed_m2: plan.passed_m2(),
@@ -100,23 +101,24 @@ impl Shares {
         });
     }
 
-    /// That plan tells nothing: the one before it stays the newest.
+    /// The plan gives no figures: the one before it stays the newest.
     pub(super) fn pass_over(&mut self) {
         self.next = None;
     }
 
-    /// Whether this plan, which is made, knows nothing of most of what was passed.
+    /// Whether this finished plan does not know most of what was passed.
     pub(super) fn is_elsewhere(&self, plan: &CoveragePlan) -> bool {
-        let begun = self.next.filter(|_| self.are_told());
+        let begun = self.next.filter(|_| self.has_plan());
         begun.is_some_and(|tally| plan.passed_m2() < ELSEWHERE_SHARE * tally.counted.m2)
     }
 
-    /// Whether a plan has told anything yet.
-    pub(super) fn are_told(&self) -> bool {
+    /// Whether any plan has given figures yet.
+    pub(super) fn has_plan(&self) -> bool {
         self.newest.is_some()
     }
 
-    /// The share with what is counted now; where that gives nothing, since the map was drawn again, what the plan knew has to do.
+    /// The share with what is counted now. Where nothing can be counted because the map was drawn again, the figures of the
+    /// plan are used alone.
     pub(super) fn share(&self, count: impl Fn(&PlanSettings) -> Option<PassedFloor>) -> Option<SweptShare> {
         let tally = self.newest.filter(|tally| tally.floor_m2 > 0.0)?;
         let floor_m2 = tally.floor_m2;
@@ -163,19 +165,19 @@ mod tests {
     }
 
     #[test]
-    fn what_was_passed_since_the_plan_is_added() {
-        let told = shares()
+    fn floor_passed_since_the_plan_is_added() {
+        let reported = shares()
             .share(|_| Some(passed(5.5, 4.4)))
             .expect("there is floor");
-        assert!((told.share - 0.5).abs() < 1e-9, "{told:?}");
-        assert!((told.share_low - 0.4).abs() < 1e-9, "{told:?}");
+        assert!((reported.share - 0.5).abs() < 1e-9, "{reported:?}");
+        assert!((reported.share_low - 0.4).abs() < 1e-9, "{reported:?}");
     }
 
     #[test]
-    fn without_a_count_the_plan_tells_and_no_share_is_more_than_all() {
-        let told = shares().share(|_| None).expect("there is floor");
-        assert!((told.share - 0.2).abs() < 1e-9, "{told:?}");
-        assert!((told.share_low - 0.16).abs() < 1e-9, "{told:?}");
+    fn without_a_count_the_plan_gives_the_share_and_no_share_exceeds_one() {
+        let reported = shares().share(|_| None).expect("there is floor");
+        assert!((reported.share - 0.2).abs() < 1e-9, "{reported:?}");
+        assert!((reported.share_low - 0.16).abs() < 1e-9, "{reported:?}");
         let all = shares()
             .share(|_| Some(passed(40.0, 40.0)))
             .expect("there is floor");
@@ -183,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_that_finds_nothing_passed_is_of_a_robot_elsewhere_once_something_was_passed() {
+    fn a_plan_that_misses_the_passed_floor_belongs_to_a_robot_elsewhere() {
         let beside = CoveragePlan {
             floor_m2: 20.0,
             open_m2: 20.0,
@@ -209,12 +211,12 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_of_a_robot_that_is_cut_off_changes_nothing_and_no_floor_has_no_share() {
+    fn the_plan_of_a_robot_that_is_cut_off_changes_nothing_and_no_floor_has_no_share() {
         let mut shares = shares();
         shares.begin(SETTINGS, passed(3.5, 2.8));
         shares.pass_over();
-        let told = shares.share(|_| Some(passed(5.5, 4.4))).expect("there is floor");
-        assert!((told.share - 0.5).abs() < 1e-9, "{told:?}");
+        let reported = shares.share(|_| Some(passed(5.5, 4.4))).expect("there is floor");
+        assert!((reported.share - 0.5).abs() < 1e-9, "{reported:?}");
         shares.begin(SETTINGS, passed(0.0, 0.0));
         shares.take(&CoveragePlan::default(), 0.0);
         assert_eq!(shares.share(|_| None), None);

@@ -1,23 +1,24 @@
-//! Stopping before what is seen ahead instead of running into it.
+//! Stops before obstacles that are seen ahead instead of running into them.
 //!
-//! The way leads to where the map shows nothing; the sensors see it first. Dark things reflect little and look farther away than they
-//! are: a robot that touches what it saw farther ahead stops earlier for a while, since walls of one home mostly look alike.
+//! The path leads to where the map shows nothing; the sensors see the obstacle first. Dark objects reflect little and
+//! appear farther away than they are. After touching an object that appeared farther ahead the robot stops earlier for a
+//! while, since the walls of one home are mostly alike.
 
 use crate::model::advance::Advance;
 use crate::navigation::caution::Ahead;
 
-/// Nearer than this to something that looks like a wall it stops, metres: what stands there is swept by the way beside it.
+/// Distance at which it stops before an apparent wall, metres: the path along the wall sweeps the rest.
 const STOP_M: f64 = 0.02;
-/// So much earlier it stops after a touch of what it saw farther away, metres.
+/// Additional distance after a touch of something that appeared farther away, metres.
 const DARK_M: f64 = 0.01;
-/// Earliest, metres.
+/// Upper limit of the additional distance, metres.
 const DARK_MAX_M: f64 = 0.03;
-/// What looked farther away than this when it was touched is another thing, metres.
+/// What appeared farther away than this at the touch is a different object, metres.
 const SAME_M: f64 = 0.05;
-/// Way on which a step of `DARK_M` is forgotten, metres.
+/// Distance after which a step of `DARK_M` is forgotten, metres.
 const FORGET_M: f64 = 10.0;
 
-/// Where it stops.
+/// The current stopping distance.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Standoff {
     dark_m: f64,
@@ -30,16 +31,16 @@ impl Standoff {
         self.dark_m = (self.dark_m - forgotten_m).max(0.0);
     }
 
-    /// Something was touched while this was seen ahead.
+    /// Records a touch while this was seen ahead.
     pub(super) fn touched(&mut self, ahead: Option<Ahead>) {
-        if ahead.is_some_and(|ahead| ahead.way_m < SAME_M) {
+        if ahead.is_some_and(|ahead| ahead.clear_m < SAME_M) {
             self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
         }
     }
 
-    /// Whether the robot stands before this now.
+    /// Whether the robot must stop before this now.
     pub(super) fn is_reached(self, ahead: Ahead) -> bool {
-        ahead.way_m < STOP_M + self.dark_m
+        ahead.clear_m < STOP_M + self.dark_m
     }
 }
 
@@ -50,15 +51,15 @@ mod tests {
     use crate::model::geometry::Point2;
     use crate::navigation::caution::Ahead;
 
-    fn at(way_m: f64) -> Ahead {
+    fn at(clear_m: f64) -> Ahead {
         Ahead {
-            way_m,
+            clear_m,
             at: Point2 { x_m: 0.2, y_m: 0.0 },
         }
     }
 
     #[test]
-    fn what_was_touched_too_early_is_stopped_for_earlier_and_forgotten_on_the_way() {
+    fn an_early_touch_makes_it_stop_earlier_for_a_distance() {
         let mut standoff = Standoff::default();
         assert!(standoff.is_reached(at(0.019)) && !standoff.is_reached(at(0.025)));
         standoff.touched(Some(at(0.028)));
@@ -71,7 +72,7 @@ mod tests {
     }
 
     #[test]
-    fn a_touch_of_what_no_sensor_shows_changes_nothing_and_many_touches_do_not_stop_it_far_away() {
+    fn unseen_touches_change_nothing_and_the_additional_distance_is_limited() {
         let mut standoff = Standoff::default();
         standoff.touched(None);
         standoff.touched(Some(at(0.2)));

@@ -1,148 +1,149 @@
-//! Following whatever stands on the right: walls, corners, furniture, edges of the floor.
+//! Follows the wall on the right: walls, corners, furniture, cliffs.
 //!
-//! Terms. *Gap*: distance between the rim and what stands on the right. *Inner corner*: something ahead, the robot turns
+//! Terms. *Gap*: distance between the rim and the wall on the right. *Inner corner*: an obstacle ahead; the robot turns
 //! left on the spot. *Outer corner*: the wall ends beside the robot, which drives round its end in an arc to the right. A
-//! robot without sensors that look to the side does the same by touch: after each contact a little to the left, then the arc.
+//! robot without side sensors does the same by touch: after each contact a little to the left, then the arc.
 //!
-//! Each step is bounded: turns and arcs by their angle, the search by its way, contacts by their number on little way.
+//! Everything is bounded: turns and arcs by their angle, the search by its distance, contacts by their number within a
+//! short distance.
 
-mod beams;
 mod wall_line;
+mod wall_ranges;
 
 use super::{Evasion, EvasionStep};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-use crate::navigation::{Mind, Situation};
-use beams::Beams;
+use crate::navigation::{Situation, TaskContext};
 use wall_line::WallLine;
+use wall_ranges::WallRanges;
 
-/// Gap that is kept, metres. A dark wall is really nearer, a bright one farther away: half a centimetre more or less.
+/// Gap to keep, metres. A dark wall is really nearer, a bright one farther away: half a centimetre more or less.
 const GAP_M: f64 = 0.035;
-/// Added to the gap after a contact with what is seen farther away: a very dark wall.
+/// Added to the gap after a contact with a wall that appeared farther away: it is very dark.
 const DARK_M: f64 = 0.01;
-/// Most that is added.
+/// Upper limit of that.
 const DARK_MAX_M: f64 = 0.04;
-/// Way after which a step of `DARK_M` is forgotten.
+/// Distance after which a step of `DARK_M` is forgotten.
 const DARK_FORGET_M: f64 = 3.0;
-/// Curvature for each metre of gap too much, 1/m2. With `SLOPE_GAIN` an error is made good on some 0.35 m.
+/// Curvature per metre of excess gap, 1/m2. With `SLOPE_GAIN` an error is corrected within some 0.35 m.
 const GAP_GAIN: f64 = 16.0;
 /// Curvature for each radian of slope, 1/m.
 const SLOPE_GAIN: f64 = 8.0;
 /// Sharpest curve towards or away from a wall, 1/m.
 const CURVATURE_MAX: f64 = 4.0;
-/// Share of the highest turn rate that curves use.
+/// Share of the maximum turn rate that curves use.
 const TURN_SHARE: f64 = 0.85;
-/// Brakes like this before something ahead, m/s2.
+/// Deceleration before an obstacle ahead, m/s2.
 const BRAKE_M_PER_S2: f64 = 0.3;
-/// Commands take this long to show in the wheels, seconds.
+/// Delay from command to wheels, seconds.
 const LAG_S: f64 = 0.15;
-/// Slowest speed that is still a speed for a motor with a dead band, m/s.
+/// Slowest speed that overcomes the dead band of the motors, m/s.
 const CREEP_M_PER_S: f64 = 0.05;
-/// Nearer than this to something ahead the robot turns, metres.
+/// Nearer than this to an obstacle ahead the robot turns, metres.
 const STOP_M: f64 = 0.03;
-/// So much free way ahead ends a turn at an inner corner, metres.
+/// This much clearance ahead ends a turn at an inner corner, metres.
 const CLEAR_M: f64 = 0.16;
-/// A wall that is not seen for this way has ended, metres.
+/// A wall that is not seen for this distance has ended, metres.
 const ENDED_M: f64 = 0.02;
 /// Radius of the arc by touch beyond that of the body, metres.
 const TOUCH_ARC_M: f64 = 0.1;
-/// Radius of the arc back to an edge of the floor beyond that of the body, metres: edges are not met often (S8).
+/// Radius of the arc back to a cliff beyond that of the body, metres, so that cliffs are met rarely (S8).
 const EDGE_ARC_M: f64 = 0.35;
-/// Straight way after an edge, for the same reason.
+/// Straight drive after a cliff, for the same reason.
 const EDGE_PASS_M: f64 = 0.3;
-/// An arc that has turned this far leads round nothing, radians.
+/// After this turn an arc leads round nothing, radians.
 const ARC_MAX_RAD: f64 = 7.0;
-/// A turn on the spot that has come this far finds no way out, radians.
+/// After this angle a turn on the spot finds no way out, radians.
 const TURN_MAX_RAD: f64 = 7.0;
-/// A straight search longer than this ends no more in any home, metres.
+/// No home has a longer straight search, metres.
 const SEEK_MAX_M: f64 = 14.0;
-/// Way back after a contact and at an edge, metres.
+/// Distance to back off after a contact and at a cliff, metres.
 const CONTACT_BACK_M: f64 = 0.02;
 const EDGE_BACK_M: f64 = 0.08;
-/// Turn away from an edge, radians.
+/// Turn away from a cliff, radians.
 const EDGE_TURN_RAD: f64 = 0.9;
-/// Added to it for each edge on little way before: where edges meet, three of them in 5 s would latch the firmware (S8).
+/// Added for each recent cliff: where cliffs meet, three of them in 5 s would latch the firmware (S8).
 const EDGES_TURN_RAD: f64 = 0.7;
 const EDGES_MAX: u32 = 2;
-/// As `EDGES_TURN_RAD`: the way, metres.
+/// Distance within which a cliff is recent, metres.
 const EDGES_M: f64 = 0.7;
-/// Contacts on less than `CROWDED_M` add this much to the turn each, radians.
+/// Each contact within `CROWDED_M` adds this much to the turn, radians.
 const CROWDED_RAD: f64 = 0.35;
-/// As `CROWDED_RAD`: the way, metres.
+/// Distance within which contacts count as crowded, metres.
 const CROWDED_M: f64 = 0.25;
-/// So many contacts on little way: boxed in.
+/// After this many crowded contacts the robot is boxed in.
 const CROWDED_MAX: u32 = 10;
 
 /// Follows a wall on the right.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct WallFollower {
-    phase: Phase,
+    phase: WallFollowPhase,
     line: WallLine,
     evasion: Option<Evasion>,
     dark_m: f64,
-    /// Contacts on little way, and the way since the last one.
+    /// Crowded contacts, and the distance since the last one.
     contacts: u32,
     since_contact_m: f64,
-    /// The same for edges of the floor.
+    /// The same for cliffs.
     edges: u32,
     since_edge_m: f64,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Phase {
-    /// Straight on until there is something.
-    Seek { way_m: f64 },
-    /// Along it.
+enum WallFollowPhase {
+    /// Straight on until an obstacle.
+    Seek { driven_m: f64 },
+    /// Along the wall.
     Along,
-    /// Round its end; `beyond_m` is the radius beyond that of the body.
+    /// Round the end of the wall; `beyond_m` is the radius beyond that of the body.
     Around { turned_rad: f64, beyond_m: f64 },
     /// Left on the spot.
     Turn { turned_rad: f64 },
-    /// Straight on along an edge of the floor.
+    /// Straight on along a cliff.
     Pass { left_m: f64 },
 }
 
-impl Default for Phase {
+impl Default for WallFollowPhase {
     fn default() -> Self {
-        Self::Seek { way_m: 0.0 }
+        Self::Seek { driven_m: 0.0 }
     }
 }
 
 /// State after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum WallStep {
-    /// On it.
+    /// It goes on.
     Going(Motion),
     /// It cannot go on.
     Trouble(Reason),
 }
 
 impl WallFollower {
-    /// Whether it follows something, and is not still looking for it.
+    /// Whether it follows a wall, and is not searching for one.
     pub(crate) fn is_following(&self) -> bool {
-        !matches!(self.phase, Phase::Seek { .. })
+        !matches!(self.phase, WallFollowPhase::Seek { .. })
     }
 
-    /// Whether a wall is beside it that it sees and goes along.
+    /// Whether it sees a wall beside it and drives along it.
     pub(crate) fn is_along_wall(&self) -> bool {
-        self.phase == Phase::Along && self.evasion.is_none() && self.line.is_seen_within(ENDED_M)
+        self.phase == WallFollowPhase::Along && self.evasion.is_none() && self.line.is_seen_within(ENDED_M)
     }
 
-    /// Whether it is getting away from something that it touched.
+    /// Whether it is evading a contact.
     pub(crate) fn is_evading(&self) -> bool {
         self.evasion.is_some()
     }
 
-    /// Half-done movements are void.
+    /// Discards unfinished movements.
     pub(crate) fn interrupted(&mut self) {
         self.evasion = None;
-        self.line.give_up();
-        self.phase = Phase::default();
+        self.line.lose();
+        self.phase = WallFollowPhase::default();
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> WallStep {
-        let beams = Beams::read(situation);
-        self.line.follow(situation.advance, &beams);
+    pub(crate) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> WallStep {
+        let ranges = WallRanges::read(situation);
+        self.line.follow(situation.advance, &ranges);
         if let Some(evasion) = &mut self.evasion {
             match evasion.step(situation) {
                 EvasionStep::Going(motion) => return WallStep::Going(motion),
@@ -153,14 +154,16 @@ impl WallFollower {
                 }
             }
         } else if !situation.is_free() {
-            return self.evade(situation, mind);
+            return self.evade(situation, context);
         }
         self.count(situation.advance.distance_m.max(0.0));
-        self.change_phase(situation, &beams, mind);
+        self.change_phase(situation, &ranges, context);
         match self.phase {
-            Phase::Seek { way_m } if way_m > SEEK_MAX_M => self.trouble(Reason::LongRun),
-            Phase::Turn { turned_rad } if turned_rad > TURN_MAX_RAD => self.trouble(Reason::BoxedIn),
-            _ => WallStep::Going(self.motion(situation, &beams)),
+            WallFollowPhase::Seek { driven_m } if driven_m > SEEK_MAX_M => self.trouble(Reason::LongRun),
+            WallFollowPhase::Turn { turned_rad } if turned_rad > TURN_MAX_RAD => {
+                self.trouble(Reason::BoxedIn)
+            }
+            _ => WallStep::Going(self.motion(situation, &ranges)),
         }
     }
 
@@ -169,29 +172,29 @@ impl WallFollower {
         WallStep::Trouble(reason)
     }
 
-    fn count(&mut self, way_m: f64) {
-        self.since_contact_m += way_m;
+    fn count(&mut self, driven_m: f64) {
+        self.since_contact_m += driven_m;
         if self.since_contact_m > CROWDED_M {
             self.contacts = 0;
         }
-        self.since_edge_m += way_m;
+        self.since_edge_m += driven_m;
         if self.since_edge_m > EDGES_M {
             self.edges = 0;
         }
-        self.dark_m = (self.dark_m - DARK_M * way_m / DARK_FORGET_M).max(0.0);
+        self.dark_m = (self.dark_m - DARK_M * driven_m / DARK_FORGET_M).max(0.0);
     }
 
-    fn evade(&mut self, situation: &Situation<'_>, mind: &mut Mind) -> WallStep {
+    fn evade(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> WallStep {
         let observation = situation.observation;
         if situation.at_cliff {
             let reason = Reason::of_cliffs(observation.cliffs).unwrap_or(Reason::CliffFront);
-            mind.decide("back-off", reason, 0.0);
+            context.decide("back-off", reason, 0.0);
             let turn_rad = EDGE_TURN_RAD + EDGES_TURN_RAD * f64::from(self.edges);
             self.edges = (self.edges + 1).min(EDGES_MAX);
             self.since_edge_m = 0.0;
             self.evasion = Some(Evasion::from_cliff(EDGE_BACK_M, turn_rad));
-            self.line.give_up();
-            self.phase = Phase::Pass { left_m: EDGE_PASS_M };
+            self.line.lose();
+            self.phase = WallFollowPhase::Pass { left_m: EDGE_PASS_M };
             return WallStep::Going(Motion::Halt);
         }
         let reason = Reason::of_contacts(observation.contacts).unwrap_or(Reason::BumpFront);
@@ -204,13 +207,13 @@ impl WallFollower {
             self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
         }
         let turn_rad = self.turn_after(reason);
-        mind.decide("back-off", reason, turn_rad);
+        context.decide("back-off", reason, turn_rad);
         self.evasion = Some(Evasion::from_contact(CONTACT_BACK_M, turn_rad));
         self.since_contact_m = 0.0;
         self.phase = if self.line.is_seen_within(ENDED_M) {
-            Phase::Along
+            WallFollowPhase::Along
         } else {
-            Phase::Around {
+            WallFollowPhase::Around {
                 turned_rad: 0.0,
                 beyond_m: TOUCH_ARC_M,
             }
@@ -218,8 +221,8 @@ impl WallFollower {
         WallStep::Going(Motion::Halt)
     }
 
-    /// Where to turn after a contact, radians. What touches on the left while there is room on the right is passed there
-    /// first; met again, the passage is too narrow.
+    /// Turn after a contact, radians. After a first contact on the left the robot tries to pass on the right; after a
+    /// second one the passage is too narrow.
     fn turn_after(&self, reason: Reason) -> f64 {
         let crowded_rad = CROWDED_RAD * f64::from(self.contacts.saturating_sub(1)).min(4.0);
         match reason {
@@ -230,43 +233,47 @@ impl WallFollower {
         }
     }
 
-    fn change_phase(&mut self, situation: &Situation<'_>, beams: &Beams, mind: &mut Mind) {
+    fn change_phase(&mut self, situation: &Situation<'_>, ranges: &WallRanges, context: &mut TaskContext) {
         let advance = situation.advance;
-        let way_m = advance.distance_m.max(0.0);
+        let driven_m = advance.distance_m.max(0.0);
         let stop_m = STOP_M + self.dark_m;
-        let is_blocked = beams.ahead_m.is_some_and(|ahead_m| ahead_m < stop_m);
+        let is_blocked = ranges.ahead_m.is_some_and(|ahead_m| ahead_m < stop_m);
         let next = match self.phase {
-            Phase::Turn { turned_rad } => {
-                if beams.ahead_m.is_none_or(|ahead_m| ahead_m > CLEAR_M) {
-                    Phase::Along
+            WallFollowPhase::Turn { turned_rad } => {
+                if ranges.ahead_m.is_none_or(|ahead_m| ahead_m > CLEAR_M) {
+                    WallFollowPhase::Along
                 } else {
-                    Phase::Turn {
+                    WallFollowPhase::Turn {
                         turned_rad: turned_rad + advance.turn_rad.max(0.0),
                     }
                 }
             }
             _ if is_blocked => {
-                mind.decide("turn", Reason::WallAhead, 0.0);
-                self.line.give_up();
-                Phase::Turn { turned_rad: 0.0 }
+                context.decide("turn", Reason::WallAhead, 0.0);
+                self.line.lose();
+                WallFollowPhase::Turn { turned_rad: 0.0 }
             }
-            Phase::Seek { .. } | Phase::Around { .. } if beams.side_m.is_some() => Phase::Along,
-            Phase::Seek { way_m: before_m } => Phase::Seek {
-                way_m: before_m + way_m,
+            WallFollowPhase::Seek { .. } | WallFollowPhase::Around { .. } if ranges.side_m.is_some() => {
+                WallFollowPhase::Along
+            }
+            WallFollowPhase::Seek { driven_m: before_m } => WallFollowPhase::Seek {
+                driven_m: before_m + driven_m,
             },
-            Phase::Pass { left_m } if left_m > 0.0 => Phase::Pass {
-                left_m: left_m - way_m,
+            WallFollowPhase::Pass { left_m } if left_m > 0.0 => WallFollowPhase::Pass {
+                left_m: left_m - driven_m,
             },
-            Phase::Pass { .. } => around(EDGE_ARC_M),
-            Phase::Along if !self.line.is_seen_within(ENDED_M) => {
+            WallFollowPhase::Pass { .. } => around(EDGE_ARC_M),
+            WallFollowPhase::Along if !self.line.is_seen_within(ENDED_M) => {
                 let gap_m = self.line.gap_m.clamp(GAP_M, 2.0 * GAP_M);
-                self.line.give_up();
-                mind.decide("arc", Reason::WallEnded, gap_m);
+                self.line.lose();
+                context.decide("arc", Reason::WallEnded, gap_m);
                 around(gap_m)
             }
-            Phase::Along => Phase::Along,
-            Phase::Around { turned_rad, .. } if turned_rad > ARC_MAX_RAD => Phase::default(),
-            Phase::Around { turned_rad, beyond_m } => Phase::Around {
+            WallFollowPhase::Along => WallFollowPhase::Along,
+            WallFollowPhase::Around { turned_rad, .. } if turned_rad > ARC_MAX_RAD => {
+                WallFollowPhase::default()
+            }
+            WallFollowPhase::Around { turned_rad, beyond_m } => WallFollowPhase::Around {
                 turned_rad: turned_rad + (-advance.turn_rad).max(0.0),
                 beyond_m,
             },
@@ -274,24 +281,26 @@ impl WallFollower {
         self.phase = next;
     }
 
-    fn motion(&self, situation: &Situation<'_>, beams: &Beams) -> Motion {
+    fn motion(&self, situation: &Situation<'_>, ranges: &WallRanges) -> Motion {
         let speeds = situation.config.speeds;
         let curvature = match self.phase {
-            Phase::Turn { .. } => {
+            WallFollowPhase::Turn { .. } => {
                 return Motion::Drive {
                     speed_m_per_s: 0.0,
                     turn_rad_per_s: TURN_SHARE * speeds.turn_max_rad_per_s,
                 };
             }
-            Phase::Seek { .. } | Phase::Pass { .. } => 0.0,
-            Phase::Along => self.along(),
-            Phase::Around { beyond_m, .. } => self.arc(beyond_m, situation.config.body.radius_m, beams),
+            WallFollowPhase::Seek { .. } | WallFollowPhase::Pass { .. } => 0.0,
+            WallFollowPhase::Along => self.along(),
+            WallFollowPhase::Around { beyond_m, .. } => {
+                self.arc(beyond_m, situation.config.body.radius_m, ranges)
+            }
         };
         let turn_max = TURN_SHARE * speeds.turn_max_rad_per_s;
         let speed_m_per_s = speeds
             .cruise_m_per_s
             .min(turn_max / curvature.abs().max(1e-6))
-            .min(self.braked(beams, speeds.cruise_m_per_s))
+            .min(self.braked(ranges, speeds.cruise_m_per_s))
             .max(CREEP_M_PER_S);
         Motion::Drive {
             speed_m_per_s,
@@ -306,9 +315,9 @@ impl WallFollower {
         (GAP_GAIN * error_m - SLOPE_GAIN * self.line.slope_rad).clamp(-CURVATURE_MAX, CURVATURE_MAX)
     }
 
-    /// Curvature of the arc round an end, straighter where something comes too near.
-    fn arc(&self, beyond_m: f64, radius_m: f64, beams: &Beams) -> f64 {
-        let is_near = beams.diagonal_m.is_some_and(|gap_m| gap_m < GAP_M + self.dark_m);
+    /// Curvature of the arc round an end; straight where an obstacle is too near.
+    fn arc(&self, beyond_m: f64, radius_m: f64, ranges: &WallRanges) -> f64 {
+        let is_near = ranges.diagonal_m.is_some_and(|gap_m| gap_m < GAP_M + self.dark_m);
         if is_near {
             0.0
         } else {
@@ -316,9 +325,9 @@ impl WallFollower {
         }
     }
 
-    /// The speed from which it can stop before what is ahead.
-    fn braked(&self, beams: &Beams, cruise_m_per_s: f64) -> f64 {
-        let Some(ahead_m) = beams.ahead_m else {
+    /// The speed from which it can stop before the obstacle ahead.
+    fn braked(&self, ranges: &WallRanges, cruise_m_per_s: f64) -> f64 {
+        let Some(ahead_m) = ranges.ahead_m else {
             return f64::INFINITY;
         };
         let left_m = ahead_m - STOP_M - self.dark_m - LAG_S * cruise_m_per_s;
@@ -326,8 +335,8 @@ impl WallFollower {
     }
 }
 
-fn around(beyond_m: f64) -> Phase {
-    Phase::Around {
+fn around(beyond_m: f64) -> WallFollowPhase {
+    WallFollowPhase::Around {
         turned_rad: 0.0,
         beyond_m,
     }

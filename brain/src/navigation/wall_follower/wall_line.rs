@@ -1,18 +1,18 @@
-//! The wall on the right as a line, carried along by what the robot moved and corrected by what it sees.
+//! The wall on the right as a line, predicted from odometry and corrected by the sensors.
 //!
-//! One sensor that looks to the side is enough: how its distance changes on the way tells the angle. A second one that looks
-//! before the side tells the angle at once.
+//! One side sensor is enough: the change of its distance while driving gives the angle. A second sensor that faces between
+//! ahead and the side gives the angle at once.
 
-use super::beams::Beams;
+use super::wall_ranges::WallRanges;
 use crate::model::advance::Advance;
 
-/// Share of a difference in distance that is taken over for each metre of way.
+/// Gain of the distance correction per metre driven.
 const GAP_SHARE_PER_M: f64 = 25.0;
-/// Angle that a difference in distance speaks for, radians a metre of difference and metre of way.
+/// Gain of the angle correction from a distance error, radians per metre of error and metre driven.
 const SLOPE_PER_M2: f64 = 200.0;
-/// Share of a difference in angle that is taken over for each metre of way.
+/// Gain of the angle correction per metre driven.
 const SLOPE_SHARE_PER_M: f64 = 12.0;
-/// What differs more is another thing, metres.
+/// A larger difference is another object, metres.
 const OTHER_M: f64 = 0.05;
 
 /// The wall.
@@ -20,43 +20,43 @@ const OTHER_M: f64 = 0.05;
 pub(super) struct WallLine {
     /// Gap between the rim and the wall, metres.
     pub(super) gap_m: f64,
-    /// Heading beyond that of the wall, radians; positive looks away from it.
+    /// Heading relative to the wall, radians; positive faces away from it.
     pub(super) slope_rad: f64,
-    /// Way since something was seen on the right; `None` = nothing was seen since the line was given up.
+    /// Distance since the wall was last seen on the right; `None` = it was not seen since the line was given up.
     unseen_m: Option<f64>,
 }
 
 impl WallLine {
-    /// Whether a wall was seen within the last `way_m`.
-    pub(super) fn is_seen_within(&self, way_m: f64) -> bool {
-        self.unseen_m.is_some_and(|unseen_m| unseen_m <= way_m)
+    /// Whether a wall was seen within the last `driven_m`.
+    pub(super) fn is_seen_within(&self, driven_m: f64) -> bool {
+        self.unseen_m.is_some_and(|unseen_m| unseen_m <= driven_m)
     }
 
-    /// The wall is not beside the robot any more.
-    pub(super) fn give_up(&mut self) {
+    /// The wall is no longer beside the robot.
+    pub(super) fn lose(&mut self) {
         self.unseen_m = None;
     }
 
-    pub(super) fn follow(&mut self, advance: Advance, beams: &Beams) {
-        let way_m = advance.distance_m;
-        self.gap_m += way_m * libm::sin(self.slope_rad + 0.5 * advance.turn_rad);
+    pub(super) fn follow(&mut self, advance: Advance, ranges: &WallRanges) {
+        let driven_m = advance.distance_m;
+        self.gap_m += driven_m * libm::sin(self.slope_rad + 0.5 * advance.turn_rad);
         self.slope_rad += advance.turn_rad;
-        let Some(side_m) = beams.side_m else {
-            self.unseen_m = self.unseen_m.map(|unseen_m| unseen_m + way_m.abs());
+        let Some(side_m) = ranges.side_m else {
+            self.unseen_m = self.unseen_m.map(|unseen_m| unseen_m + driven_m.abs());
             return;
         };
         let apart_m = side_m - self.gap_m;
         if self.unseen_m.is_none() || apart_m.abs() > OTHER_M {
             self.gap_m = side_m;
-            self.slope_rad = beams.slope_rad.unwrap_or(0.0);
+            self.slope_rad = ranges.slope_rad.unwrap_or(0.0);
         } else {
-            let way_m = way_m.abs();
-            self.gap_m += (GAP_SHARE_PER_M * way_m).min(1.0) * apart_m;
-            match beams.slope_rad {
+            let driven_m = driven_m.abs();
+            self.gap_m += (GAP_SHARE_PER_M * driven_m).min(1.0) * apart_m;
+            match ranges.slope_rad {
                 Some(seen_rad) => {
-                    self.slope_rad += (SLOPE_SHARE_PER_M * way_m).min(1.0) * (seen_rad - self.slope_rad);
+                    self.slope_rad += (SLOPE_SHARE_PER_M * driven_m).min(1.0) * (seen_rad - self.slope_rad);
                 }
-                None => self.slope_rad += SLOPE_PER_M2 * way_m * apart_m * way_m.signum(),
+                None => self.slope_rad += SLOPE_PER_M2 * driven_m * apart_m * driven_m.signum(),
             }
         }
         self.unseen_m = Some(0.0);
@@ -65,11 +65,11 @@ impl WallLine {
 
 #[cfg(test)]
 mod tests {
-    use super::{Beams, WallLine};
+    use super::{WallLine, WallRanges};
     use crate::model::advance::Advance;
 
     #[test]
-    fn one_sensor_tells_the_angle_by_the_way() {
+    fn one_sensor_gives_the_angle_from_the_change_of_its_distance() {
         let mut line = WallLine::default();
         let slope_rad: f64 = 0.2;
         let mut gap_m = 0.04;
@@ -80,11 +80,11 @@ mod tests {
                 distance_m: 0.005,
                 ..Advance::default()
             };
-            let beams = Beams {
+            let ranges = WallRanges {
                 side_m: Some(gap_m),
-                ..Beams::default()
+                ..WallRanges::default()
             };
-            line.follow(advance, &beams);
+            line.follow(advance, &ranges);
         }
         assert!((line.slope_rad - slope_rad).abs() < 0.04, "{line:?}");
         assert!((line.gap_m - gap_m).abs() < 0.01, "{line:?}");

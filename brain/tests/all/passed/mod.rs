@@ -9,10 +9,10 @@ use crate::plane::BODY;
 pub(crate) fn passed(plan: &CoveragePlan, ground: &Raster<bool>) -> f64 {
     let mut near = Raster::filled(ground.origin(), ground.width(), ground.height(), false);
     let reach = (0.5 * BODY.swath_m / CELL_M) as i32;
-    for piece in &plan.pieces {
-        for step in 0..=(piece.length_m / 0.02) as i32 + 1 {
-            let share = f64::from(step) / f64::from((piece.length_m / 0.02) as i32 + 1);
-            let middle = Cell::under(piece.at(share).position());
+    for segment in &plan.segments {
+        for step in 0..=(segment.length_m / 0.02) as i32 + 1 {
+            let share = f64::from(step) / f64::from((segment.length_m / 0.02) as i32 + 1);
+            let middle = Cell::under(segment.at(share).position());
             for (dx, dy) in (-reach..=reach).flat_map(|dx| (-reach..=reach).map(move |dy| (dx, dy))) {
                 if dx * dx + dy * dy <= reach * reach
                     && let Some(cell) = near.get_mut(Cell {

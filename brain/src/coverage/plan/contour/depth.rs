@@ -1,20 +1,20 @@
-//! How deep within the floor that is ringed each cell lies.
+//! Depth of each cell within the floor that is swept in rings (chamfer distance transform).
 
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// Depths are whole fifths of a cell: with steps of 5, 7 and 11 they are right to 2 %.
+/// Depths are whole fifths of a cell: with steps of 5, 7 and 11 they are accurate to 2 %.
 pub(super) const CELL: i32 = 5;
 const DIAGONAL: i32 = 7;
 const KNIGHT: i32 = 11;
-/// Work of a cell in one sweep.
+/// Work of a cell in one scan.
 const VISIT_WORK: usize = 8;
 
-/// The depth of each cell. Cells beside what the body cannot take are one cell deep; where floor of another kind begins the
-/// first ring keeps off by what a lane sweeps to its side.
-pub(super) async fn depths(ground: &Ground, ringed: &[bool], budget: &mut StepBudget) -> Vec<i32> {
-    let beyond = -CELL * ground.reach as i32;
-    let mut depths: Vec<i32> = ground
+/// The depth of each cell. Cells beside the border of the free space are one cell deep. Where floor with another pattern
+/// begins, the first ring keeps away by half a lane.
+pub(super) async fn depths(space: &ConfigurationSpace, ringed: &[bool], budget: &mut StepBudget) -> Vec<i32> {
+    let beyond = -CELL * space.reach as i32;
+    let mut depths: Vec<i32> = space
         .free
         .iter()
         .zip(ringed)
@@ -24,7 +24,7 @@ pub(super) async fn depths(ground: &Ground, ringed: &[bool], budget: &mut StepBu
             (false, _) => 0,
         })
         .collect();
-    let width = ground.width;
+    let width = space.width;
     let before = [
         (1, CELL),
         (width, CELL),
@@ -35,11 +35,11 @@ pub(super) async fn depths(ground: &Ground, ringed: &[bool], budget: &mut StepBu
         (2 * width + 1, KNIGHT),
         (2 * width - 1, KNIGHT),
     ];
-    // The margin around the ground is wider than the longest step.
+    // The margin around the free space is wider than the longest step.
     let border = 2 * width + 2;
     let inner = border..depths.len().saturating_sub(border);
     for index in inner.clone() {
-        if ground.free[index] {
+        if space.free[index] {
             let through = before.map(|(back, step)| depths[index - back] + step);
             depths[index] = through.into_iter().fold(depths[index], i32::min);
         }
@@ -48,7 +48,7 @@ pub(super) async fn depths(ground: &Ground, ringed: &[bool], budget: &mut StepBu
         }
     }
     for index in inner.rev() {
-        if ground.free[index] {
+        if space.free[index] {
             let through = before.map(|(ahead, step)| depths[index + ahead] + step);
             depths[index] = through.into_iter().fold(depths[index], i32::min);
         }

@@ -1,66 +1,66 @@
-//! Rings along the border of the ground, from the wall inwards or from the middle outwards.
+//! Rings along the border of the free space, from the wall inwards or from the middle outwards.
 //!
-//! Terms. *Depth*: how far a cell lies from the border of the ground that is ringed. *Ring*: a closed row of cells of one
-//! depth; those of the next *level* lie a lane's spacing deeper. Furniture is a border, too, so that rings lie around it.
-//! *Run*: a part of a ring that is worth driving, or all of it. Where the sides of a ring come so near to each other that one
-//! of them sweeps the floor of both, only one is driven.
+//! Terms. *Depth*: distance of a cell from the border of the ringed floor. *Ring*: a closed chain of cells of one depth;
+//! those of the next *level* lie one lane spacing deeper. Furniture has a border, too, so rings lie around it. *Section*: a
+//! part of a ring that is worth driving, or the whole ring. Where the sides of a ring come so close that one sweeps the
+//! floor of both, only one is driven.
 //!
-//! Rings leave floor open where they turn and in the middle between the last of them: that is for lanes.
+//! Rings leave floor open where they turn and in the middle of the innermost one. Lanes sweep that.
 
 mod depth;
 mod order;
+mod ring_sections;
 mod rings;
-mod runs;
 mod shape;
 #[cfg(test)]
 mod tests;
 
-use super::course::Course;
-use super::settings::Departure;
+use super::sweep_pattern::SweepPattern;
 use crate::mapping::Cell;
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 use crate::navigation::router::Router;
-use order::{Drive, RingWay};
-use runs::{Run, Sweeper};
+pub(super) use order::RingStart;
+use order::{RingPath, RingTour};
+use ring_sections::{RingSection, Sweeper};
 
-/// A job that has swept less than this share of the floor to be ringed begins at the wall, or in the middle; a later plan
-/// goes on where the robot is.
+/// A job that has swept less than this share of the ringed floor begins at the wall or in the middle; a later plan
+/// continues where the robot is.
 const BEGUN_SHARE: f64 = 0.05;
-/// Work of asking how a cell is to be swept.
+/// Work to find the pattern of a cell.
 const ASK_WORK: usize = 1;
 
 /// The floor that is swept in rings.
 pub(super) struct RingFloor {
-    /// By the indices of the ground.
+    /// By the indices of the configuration space.
     cells: Vec<bool>,
     is_outwards: bool,
-    /// How much of it there was before any of it was swept.
+    /// Cells of it before any of it was swept.
     floor: usize,
 }
 
 impl RingFloor {
-    /// The part of the ground that is to be swept in rings, before what is swept already is closed; `None` if there is none.
+    /// The floor that is swept in rings, before already swept floor is closed; `None` if there is none.
     pub(super) async fn of(
-        ground: &Ground,
-        course: impl Fn(Cell) -> Option<Course>,
+        space: &ConfigurationSpace,
+        pattern: impl Fn(Cell) -> Option<SweepPattern>,
         budget: &mut StepBudget,
     ) -> Option<Self> {
         let mut floor = Self {
-            cells: vec![false; ground.free.len()],
+            cells: vec![false; space.free.len()],
             is_outwards: false,
             floor: 0,
         };
-        for row in 0..ground.height {
-            for index in row * ground.width..(row + 1) * ground.width {
-                let course = course(ground.cell(index)).filter(|course| *course != Course::Lines);
-                if ground.open[index] && course.is_some() {
+        for row in 0..space.height {
+            for index in row * space.width..(row + 1) * space.width {
+                let pattern = pattern(space.cell(index)).filter(|pattern| *pattern != SweepPattern::Lines);
+                if space.open[index] && pattern.is_some() {
                     floor.cells[index] = true;
                     floor.floor += 1;
-                    floor.is_outwards |= course == Some(Course::Outwards);
+                    floor.is_outwards |= pattern == Some(SweepPattern::Outwards);
                 }
             }
-            budget.spend(ASK_WORK * ground.width).await;
+            budget.spend(ASK_WORK * space.width).await;
         }
         (floor.floor > 0).then_some(floor)
     }
@@ -76,26 +76,27 @@ impl RingFloor {
     }
 }
 
-/// The way along all rings that are worth it, from the cell `origin`.
-pub(super) async fn ring_way(
-    ground: &Ground,
+/// The path along all rings that are worth driving, from `start`.
+pub(super) async fn ring_path(
+    space: &ConfigurationSpace,
     floor: &RingFloor,
-    (departure, origin): (&Departure, usize),
+    start: RingStart<'_>,
     budget: &mut StepBudget,
-) -> RingWay {
-    let depths = depth::depths(ground, &floor.cells, budget).await;
-    let rings = rings::rings(ground, &depths, budget).await;
-    let sweeper = Sweeper::new(ground);
-    let mut runs: Vec<Run> = Vec::new();
+) -> RingPath {
+    let depths = depth::depths(space, &floor.cells, budget).await;
+    let rings = rings::rings(space, &depths, budget).await;
+    let sweeper = Sweeper::new(space);
+    let mut sections: Vec<RingSection> = Vec::new();
     for ring in rings {
-        runs.extend(sweeper.runs(ring, budget).await);
+        sections.extend(sweeper.sections(ring, budget).await);
     }
-    let is_fresh = floor.is_fresh(&ground.open);
-    let router = Router::new(ground, budget).await;
-    let mut drive = Drive::new(&router, (sweeper, runs), (departure, origin));
+    let is_fresh = floor.is_fresh(&space.open);
+    let router = Router::new(space, budget).await;
+    let mut tour = RingTour::new(&router, sweeper, start);
+    sections.into_iter().for_each(|section| tour.add(section));
     if is_fresh {
-        drive.begin(floor.is_outwards, budget).await;
+        tour.begin(floor.is_outwards, budget).await;
     }
-    drive.go_through(budget).await;
-    drive.way()
+    tour.go_through(budget).await;
+    tour.path()
 }

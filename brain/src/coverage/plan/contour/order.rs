@@ -1,42 +1,42 @@
-//! In which order runs are driven: each time that which takes least to get to, turning included.
+//! The order of ring sections: always the one that costs least to reach, turning included.
 
 use std::collections::BTreeSet;
 
-use super::runs::{Run, Sweeper};
+use super::ring_sections::{RingSection, Sweeper};
 use super::shape::corners;
 use crate::coverage::plan::Departure;
-use crate::coverage::plan::timing::way_s;
+use crate::coverage::plan::timing::{EndHeadings, path_s};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
-use crate::navigation::router::{Router, Spread};
+use crate::navigation::router::{CostField, Router};
 
-/// Nearest places to enter a run that are compared.
+/// Number of nearest entries that are compared.
 const NEAR_ENTRIES: usize = 16;
-/// Cells along a run over which its direction at a place is taken.
+/// Cells along a section over which its direction is measured.
 const AHEAD: usize = 8;
-/// Work of the search for a way beyond that for its end, and of looking at a cell of a run.
-const WAY_WORK: usize = 3_000;
-const LOOK_WORK: usize = 2;
+/// Work to search a path beyond that for its goal, and to read a cell of a section.
+const PATH_WORK: usize = 3_000;
+const READ_WORK: usize = 2;
 
-/// A way along rings.
-pub(in crate::coverage::plan) struct RingWay {
+/// A path along rings.
+pub(in crate::coverage::plan) struct RingPath {
     pub(in crate::coverage::plan) corners: Vec<Point2>,
-    pub(in crate::coverage::plan) runs: usize,
+    pub(in crate::coverage::plan) sections: usize,
     /// The cell where it ends, and the heading there.
     pub(in crate::coverage::plan) end: (usize, f64),
-    /// What is open after it.
+    /// The floor that is open after it.
     pub(in crate::coverage::plan) open: Vec<bool>,
 }
 
-/// A way along runs in the making.
-pub(super) struct Drive<'plan> {
+/// A path along ring sections under construction.
+pub(super) struct RingTour<'plan> {
     router: &'plan Router<'plan>,
     departure: &'plan Departure,
     sweeper: Sweeper,
-    /// What may still be worth driving.
-    runs: Vec<Run>,
-    /// Block, run and place of each entry.
+    /// Sections that may still be worth driving.
+    sections: Vec<RingSection>,
+    /// Block, section and cell of each entry.
     entries: BTreeSet<(usize, usize, usize)>,
     at: usize,
     heading_rad: f64,
@@ -44,98 +44,100 @@ pub(super) struct Drive<'plan> {
     driven: usize,
 }
 
-/// Where a run is entered, and whether it is driven against the order of its cells.
+/// Where a path along rings starts.
 #[derive(Clone, Copy)]
-struct Entry {
-    run: usize,
+pub(in crate::coverage::plan) struct RingStart<'plan> {
+    pub(in crate::coverage::plan) departure: &'plan Departure,
+    /// The free cell from which the robot sets out.
+    pub(in crate::coverage::plan) cell: usize,
+}
+
+/// Where a section is entered, and whether it is driven against the order of its cells.
+#[derive(Clone, Copy)]
+struct SectionEntry {
+    section: usize,
     place: usize,
     is_backwards: bool,
 }
 
-impl<'plan> Drive<'plan> {
-    pub(super) fn new(
-        router: &'plan Router<'plan>,
-        (sweeper, runs): (Sweeper, Vec<Run>),
-        (departure, origin): (&'plan Departure, usize),
-    ) -> Self {
-        let mut drive = Self {
+impl<'plan> RingTour<'plan> {
+    pub(super) fn new(router: &'plan Router<'plan>, sweeper: Sweeper, start: RingStart<'plan>) -> Self {
+        Self {
             router,
-            departure,
+            departure: start.departure,
             sweeper,
-            runs: Vec::new(),
+            sections: Vec::new(),
             entries: BTreeSet::new(),
-            at: origin,
-            heading_rad: departure.start.heading_rad,
-            corners: vec![router.ground().point(origin)],
+            at: start.cell,
+            heading_rad: start.departure.start.heading_rad,
+            corners: vec![router.space().point(start.cell)],
             driven: 0,
-        };
-        runs.into_iter().for_each(|run| drive.add(run));
-        drive
+        }
     }
 
-    /// Drives one of the outermost runs, or of the innermost ones.
+    /// Drives one of the outermost or one of the innermost sections.
     pub(super) async fn begin(&mut self, is_innermost: bool, budget: &mut StepBudget) {
-        let levels = self.runs.iter().map(|run| run.level);
+        let levels = self.sections.iter().map(|section| section.level);
         let Some(level) = (if is_innermost { levels.max() } else { levels.min() }) else {
             return;
         };
-        let mut spread = self.router.spread();
-        let is_eligible = |run: &Run| run.level == level;
-        if let Some(entry) = self.nearest(&mut spread, is_eligible, budget).await {
-            self.enter(entry, &spread, budget).await;
+        let mut cost_field = self.router.cost_field();
+        let is_eligible = |section: &RingSection| section.level == level;
+        if let Some(entry) = self.nearest(&mut cost_field, is_eligible, budget).await {
+            self.enter(entry, &cost_field, budget).await;
         }
     }
 
-    /// Drives all that is worth it.
+    /// Drives all sections that are worth it.
     pub(super) async fn go_through(&mut self, budget: &mut StepBudget) {
-        let mut spread = self.router.spread();
-        while let Some(entry) = self.nearest(&mut spread, |_| true, budget).await {
-            self.enter(entry, &spread, budget).await;
+        let mut cost_field = self.router.cost_field();
+        while let Some(entry) = self.nearest(&mut cost_field, |_| true, budget).await {
+            self.enter(entry, &cost_field, budget).await;
         }
     }
 
-    pub(super) fn way(self) -> RingWay {
-        RingWay {
+    pub(super) fn path(self) -> RingPath {
+        RingPath {
             corners: self.corners,
-            runs: self.driven,
+            sections: self.driven,
             end: (self.at, self.heading_rad),
             open: self.sweeper.open,
         }
     }
 
-    /// A closed run can be entered in each block that it leads through, another one at its ends.
-    fn add(&mut self, run: Run) {
-        let number = self.runs.len();
+    /// A closed section can be entered in each block that it passes, an open one only at its ends.
+    pub(super) fn add(&mut self, section: RingSection) {
+        let number = self.sections.len();
         let mut before = None;
-        for (place, cell) in run.cells.iter().enumerate() {
+        for (place, cell) in section.cells.iter().enumerate() {
             let block = self.router.block(*cell);
-            let is_end = place == 0 || place + 1 == run.cells.len();
-            if is_end || run.is_closed && before != Some(block) {
+            let is_end = place == 0 || place + 1 == section.cells.len();
+            if is_end || section.is_closed && before != Some(block) {
                 self.entries.insert((block, number, place));
             }
             before = Some(block);
         }
-        self.runs.push(run);
+        self.sections.push(section);
     }
 
-    /// Takes a run out.
-    fn remove(&mut self, number: usize) -> Run {
-        self.entries.retain(|(_, run, _)| *run != number);
-        let run = &mut self.runs[number];
-        Run {
-            level: run.level,
-            cells: core::mem::take(&mut run.cells),
-            is_closed: run.is_closed,
+    /// Removes a section.
+    fn remove(&mut self, number: usize) -> RingSection {
+        self.entries.retain(|(_, section, _)| *section != number);
+        let section = &mut self.sections[number];
+        RingSection {
+            level: section.level,
+            cells: core::mem::take(&mut section.cells),
+            is_closed: section.is_closed,
         }
     }
 
-    /// The entry that takes least to get to, of the nearest ones; `spread` then knows the way.
+    /// The entry that costs least to reach, of the nearest ones; `cost_field` then holds the path.
     async fn nearest(
         &self,
-        spread: &mut Spread,
-        is_eligible: impl Fn(&Run) -> bool,
+        cost_field: &mut CostField,
+        is_eligible: impl Fn(&RingSection) -> bool,
         budget: &mut StepBudget,
-    ) -> Option<Entry> {
+    ) -> Option<SectionEntry> {
         let mut found: Vec<(usize, usize)> = Vec::new();
         let enough = |block| {
             let in_block = self
@@ -143,46 +145,48 @@ impl<'plan> Drive<'plan> {
                 .range((block, 0, 0)..=(block, usize::MAX, usize::MAX));
             found.extend(
                 in_block
-                    .filter(|(_, run, _)| is_eligible(&self.runs[*run]))
-                    .map(|(_, run, place)| (*run, *place)),
+                    .filter(|(_, section, _)| is_eligible(&self.sections[*section]))
+                    .map(|(_, section, place)| (*section, *place)),
             );
             found.len() >= NEAR_ENTRIES
         };
         if self.entries.is_empty() {
             return None;
         }
-        self.router.explore(self.at, (spread, budget), enough).await;
-        let mut best: Option<(f32, Entry)> = None;
-        for (run, place) in found {
-            let way = self.router.way(spread, self.at, self.runs[run].cells[place]);
-            for entry in self.directions(run, place) {
-                let cost = self.cost_s(&way, entry);
+        self.router.explore(self.at, (cost_field, budget), enough).await;
+        let mut best: Option<(f32, SectionEntry)> = None;
+        for (section, place) in found {
+            let path = self
+                .router
+                .path(cost_field, self.at, self.sections[section].cells[place]);
+            for entry in self.directions(section, place) {
+                let cost = self.cost_s(&path, entry);
                 if best.is_none_or(|(least, _)| cost < least) {
                     best = Some((cost, entry));
                 }
             }
-            budget.spend(WAY_WORK).await;
+            budget.spend(PATH_WORK).await;
         }
         best.map(|(_, entry)| entry)
     }
 
-    /// A run that is open at its ends leads away from the one where it is entered.
-    fn directions(&self, run: usize, place: usize) -> impl Iterator<Item = Entry> + use<> {
-        let Run { cells, is_closed, .. } = &self.runs[run];
+    /// An open section can only be driven away from the end at which it is entered.
+    fn directions(&self, section: usize, place: usize) -> impl Iterator<Item = SectionEntry> + use<> {
+        let RingSection { cells, is_closed, .. } = &self.sections[section];
         let forwards = *is_closed || place == 0;
         let backwards = *is_closed || place + 1 == cells.len();
         [(forwards, false), (backwards, true)]
             .into_iter()
             .filter(|(is_possible, _)| *is_possible)
-            .map(move |(_, is_backwards)| Entry {
-                run,
+            .map(move |(_, is_backwards)| SectionEntry {
+                section,
                 place,
                 is_backwards,
             })
     }
 
-    fn cost_s(&self, way: &[usize], entry: Entry) -> f32 {
-        let cells = &self.runs[entry.run].cells;
+    fn cost_s(&self, path: &[usize], entry: SectionEntry) -> f32 {
+        let cells = &self.sections[entry.section].cells;
         let count = cells.len();
         let ahead = AHEAD.min(count - 1);
         let next = if entry.is_backwards {
@@ -190,28 +194,31 @@ impl<'plan> Drive<'plan> {
         } else {
             (entry.place + ahead) % count
         };
-        let ground = self.router.ground();
-        let (from, to) = (ground.point(cells[entry.place]), ground.point(cells[next]));
+        let space = self.router.space();
+        let (from, to) = (space.point(cells[entry.place]), space.point(cells[next]));
         let against_rad = (ahead > 0).then(|| heading_rad(to, from));
-        way_s(
-            ground,
-            way,
-            (Some(self.heading_rad), against_rad),
+        path_s(
+            space,
+            path,
+            EndHeadings {
+                start_rad: Some(self.heading_rad),
+                leave_rad: against_rad,
+            },
             &self.departure.settings,
         )
     }
 
-    /// Drives along a run from an entry, as far as that is worth it. If less of it is worth it than was when it was found,
-    /// its parts take its place instead.
-    async fn enter(&mut self, entry: Entry, spread: &Spread, budget: &mut StepBudget) {
-        let run = self.remove(entry.run);
+    /// Drives along a section from an entry, as far as that is worth it. If less of it is worth driving now than when it
+    /// was found, its remaining parts replace it.
+    async fn enter(&mut self, entry: SectionEntry, cost_field: &CostField, budget: &mut StepBudget) {
+        let section = self.remove(entry.section);
         budget
-            .spend(LOOK_WORK * (run.cells.len() + self.entries.len()))
+            .spend(READ_WORK * (section.cells.len() + self.entries.len()))
             .await;
-        let count = run.cells.len();
-        let was_closed = run.is_closed;
-        let parts = self.sweeper.parts(run, budget).await;
-        let (mut run, is_whole) = match <[Run; 1]>::try_from(parts) {
+        let count = section.cells.len();
+        let was_closed = section.is_closed;
+        let parts = self.sweeper.parts(section, budget).await;
+        let (mut section, is_whole) = match <[RingSection; 1]>::try_from(parts) {
             Ok([only]) => {
                 let is_whole = only.cells.len() == count && only.is_closed == was_closed;
                 (only, is_whole)
@@ -222,36 +229,36 @@ impl<'plan> Drive<'plan> {
             }
         };
         if !is_whole {
-            self.add(run);
+            self.add(section);
             return;
         }
-        if run.is_closed {
-            run.cells.rotate_left(entry.place);
+        if section.is_closed {
+            section.cells.rotate_left(entry.place);
         }
         if entry.is_backwards {
-            run.cells.reverse();
-            if run.is_closed {
-                run.cells.rotate_right(1);
+            section.cells.reverse();
+            if section.is_closed {
+                section.cells.rotate_right(1);
             }
         }
-        run.is_closed = false;
-        let driven = self.sweeper.sweep(&run, budget).await;
+        section.is_closed = false;
+        let driven = self.sweeper.sweep(&section, budget).await;
         if driven > 0 {
-            self.follow(&run.cells[..driven], spread);
-            run.cells.drain(..driven);
-            for part in self.sweeper.parts(run, budget).await {
+            self.follow(&section.cells[..driven], cost_field);
+            section.cells.drain(..driven);
+            for part in self.sweeper.parts(section, budget).await {
                 self.add(part);
             }
         }
     }
 
-    /// Goes to the first cell of a row, and along it.
-    fn follow(&mut self, cells: &[usize], spread: &Spread) {
+    /// Drives to the first cell of a chain, and along it.
+    fn follow(&mut self, cells: &[usize], cost_field: &CostField) {
         let Some(first) = cells.first() else { return };
-        let ground = self.router.ground();
-        let link = self.router.way(spread, self.at, *first);
-        for cell in link.into_iter().chain(corners(ground, cells)) {
-            let (point, before) = (ground.point(cell), self.corners.last().copied());
+        let space = self.router.space();
+        let link = self.router.path(cost_field, self.at, *first);
+        for cell in link.into_iter().chain(corners(space, cells)) {
+            let (point, before) = (space.point(cell), self.corners.last().copied());
             if before != Some(point) {
                 self.heading_rad = before.map_or(self.heading_rad, |before| heading_rad(before, point));
                 self.corners.push(point);

@@ -1,38 +1,38 @@
-//! Rows of cells along the borders of each level.
+//! Chains of cells along the borders of each level.
 
 use super::depth::CELL;
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// Work of looking at a cell, and of a step along a border.
-const LOOK_WORK: usize = 1;
+/// Work to read a cell, and of a step along a border.
+const READ_WORK: usize = 1;
 const STEP_WORK: usize = 4;
 
-/// Cells of one level, each beside the one before; the last one lies beside the first.
+/// Cells of one level, each adjacent to the one before; the last one is adjacent to the first.
 pub(super) struct Ring {
     pub(super) level: usize,
     pub(super) cells: Vec<usize>,
 }
 
 /// The rings of all levels.
-pub(super) async fn rings(ground: &Ground, depths: &[i32], budget: &mut StepBudget) -> Vec<Ring> {
-    let spacing = CELL * (2 * ground.reach as i32 + 1);
-    // Each border has a cell that lies deep enough above one that does not; as depths of neighbours differ by a cell at
-    // most and levels by more, that pair belongs to one level only.
+pub(super) async fn rings(space: &ConfigurationSpace, depths: &[i32], budget: &mut StepBudget) -> Vec<Ring> {
+    let spacing = CELL * (2 * space.reach as i32 + 1);
+    // Each border has a cell that is deep enough above one that is not. Depths of neighbours differ by at most a cell and
+    // levels by more, so that pair belongs to one level only.
     let mut is_seen = vec![false; depths.len()];
     let mut rings = Vec::new();
-    for index in ground.width..depths.len() {
-        if index.is_multiple_of(ground.width) {
-            budget.spend(LOOK_WORK * ground.width).await;
+    for index in space.width..depths.len() {
+        if index.is_multiple_of(space.width) {
+            budget.spend(READ_WORK * space.width).await;
         }
         if depths[index] < CELL || is_seen[index] {
             continue;
         }
         let level = (depths[index] - CELL) / spacing;
         let least = CELL + level * spacing;
-        if depths[index - ground.width] < least {
+        if depths[index - space.width] < least {
             let is_in = |cell: usize| depths[cell] >= least;
-            let cells = border(index, ground.width, is_in, &mut is_seen);
+            let cells = border(index, space.width, is_in, &mut is_seen);
             budget.spend(STEP_WORK * cells.len()).await;
             rings.push(Ring {
                 level: level as usize,
@@ -43,7 +43,7 @@ pub(super) async fn rings(ground: &Ground, depths: &[i32], budget: &mut StepBudg
     rings
 }
 
-/// Follows the border of the cells that are in, with them on the left, from the lower edge of one.
+/// Follows the border of the cells inside, keeping them on the left, from the lower edge of one.
 fn border(start: usize, width: usize, is_in: impl Fn(usize) -> bool, is_seen: &mut [bool]) -> Vec<usize> {
     // East, north, west, south.
     let ahead = [1, width as isize, -1, -(width as isize)];
@@ -70,7 +70,7 @@ fn border(start: usize, width: usize, is_in: impl Fn(usize) -> bool, is_seen: &m
         }
     }
     if cells.len() > 1 {
-        // The start, once more.
+        // The start is in the chain twice.
         cells.pop();
     }
     cells
@@ -80,7 +80,7 @@ fn border(start: usize, width: usize, is_in: impl Fn(usize) -> bool, is_seen: &m
 mod tests {
     use super::border;
 
-    /// The border of the marked cells of a picture, its lowest line first, from the first cell that is marked.
+    /// The border of the marked cells of a picture, lowest line first, from the first marked cell.
     fn of(lines: &[&str]) -> Vec<usize> {
         let width = lines[0].len();
         let marked: Vec<bool> = lines.concat().chars().map(|mark| mark == '#').collect();
@@ -89,12 +89,12 @@ mod tests {
     }
 
     #[test]
-    fn a_border_leads_round_its_cells_with_them_on_the_left() {
+    fn a_border_keeps_its_cells_on_the_left() {
         assert_eq!(of(&["....", ".##.", ".##.", "...."]), [5, 6, 10, 9]);
         assert_eq!(of(&["...", ".#.", "..."]), [4]);
         // There and back.
         assert_eq!(of(&[".....", ".###.", "....."]), [6, 7, 8, 7]);
-        // Round an inner corner, over the cell in it.
+        // Round an inner corner, through the cell in it.
         assert_eq!(of(&["....", ".#..", ".##.", "...."]), [5, 9, 10, 9]);
     }
 }

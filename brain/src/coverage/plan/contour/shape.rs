@@ -1,22 +1,22 @@
-//! From rows of cells to corners.
+//! Simplifies chains of cells to corners (Ramer-Douglas-Peucker).
 
 use crate::mapping::CELL_M;
 use crate::model::geometry::Point2;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// A corner may be left out where the straight way is no farther off than this: walls are drawn with steps of a cell.
+/// A corner may be left out where the straight line deviates by no more than this: walls are drawn in steps of a cell.
 const OFF_MAX_M: f64 = 1.3 * CELL_M;
 
-/// The cells of a row at which the way turns, both ends included. Straight ways between them lead over free cells only.
-pub(super) fn corners(ground: &Ground, cells: &[usize]) -> Vec<usize> {
+/// The corner cells of a chain, both ends included. The straight lines between them pass over free cells only.
+pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize> {
     let Some(last) = cells.len().checked_sub(1) else {
         return Vec::new();
     };
     let mut kept = vec![cells[0]];
     let mut parts = vec![(0, last)];
     while let Some((from, to)) = parts.pop() {
-        let (off_m, place) = farthest(ground, cells, (from, to));
-        let is_straight = off_m <= OFF_MAX_M && ground.sees(cells[from], cells[to]);
+        let (off_m, place) = farthest(space, cells, from, to);
+        let is_straight = off_m <= OFF_MAX_M && space.has_line_of_sight(cells[from], cells[to]);
         if is_straight || to <= from + 1 {
             kept.push(cells[to]);
         } else {
@@ -26,14 +26,14 @@ pub(super) fn corners(ground: &Ground, cells: &[usize]) -> Vec<usize> {
     kept
 }
 
-/// The cell between two others that lies farthest from the straight way between them, and how far. Of equals that nearest to
-/// the middle is taken, so that parts get shorter fast.
-fn farthest(ground: &Ground, cells: &[usize], (from, to): (usize, usize)) -> (f64, usize) {
+/// The cell that lies farthest from the straight line between two others, and its distance. Among equals the one nearest to
+/// the middle wins, which halves the chain fastest.
+fn farthest(space: &ConfigurationSpace, cells: &[usize], from: usize, to: usize) -> (f64, usize) {
     let middle = from.midpoint(to);
-    let ends = (ground.point(cells[from]), ground.point(cells[to]));
+    let (start, end) = (space.point(cells[from]), space.point(cells[to]));
     let mut farthest = (0.0, middle);
     for (place, cell) in cells.iter().enumerate().take(to).skip(from + 1) {
-        let off_m = off_m(ground.point(*cell), ends);
+        let off_m = off_m(space.point(*cell), start, end);
         let is_nearer = place.abs_diff(middle) < farthest.1.abs_diff(middle);
         if off_m > farthest.0 || off_m >= farthest.0 && is_nearer {
             farthest = (off_m, place);
@@ -42,8 +42,8 @@ fn farthest(ground: &Ground, cells: &[usize], (from, to): (usize, usize)) -> (f6
     farthest
 }
 
-/// Distance of a point from the straight way between two others.
-fn off_m(point: Point2, (from, to): (Point2, Point2)) -> f64 {
+/// Distance of a point from the straight line between two others.
+fn off_m(point: Point2, from: Point2, to: Point2) -> f64 {
     let (along_x, along_y) = (to.x_m - from.x_m, to.y_m - from.y_m);
     let square = along_x * along_x + along_y * along_y;
     if square <= 0.0 {

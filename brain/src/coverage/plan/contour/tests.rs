@@ -2,11 +2,13 @@
 
 use super::depth::depths;
 use super::rings::{Ring, rings};
-use crate::coverage::plan::{Course, CoveragePlan, Departure, PlanSettings, plan_area, reach_cells};
+use crate::coverage::plan::{
+    Area, CoveragePlan, Departure, PlanSettings, SweepPattern, plan_area, reach_cells,
+};
 use crate::mapping::{CELL_M, Cell, Raster};
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{StepBudget, at_once};
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 
 const SETTINGS: PlanSettings = PlanSettings {
     swath_m: 0.25,
@@ -27,20 +29,20 @@ fn room(is_furnished: bool) -> Raster<bool> {
     room
 }
 
-fn found(room: &Raster<bool>) -> (Ground, Vec<Ring>) {
+fn found(room: &Raster<bool>) -> (ConfigurationSpace, Vec<Ring>) {
     let budget = &mut StepBudget::unlimited();
-    let mut ground = at_once(Ground::new(room, reach_cells(&SETTINGS), budget));
-    let origin = at_once(ground.origin_near(Point2::default(), budget)).unwrap();
-    at_once(ground.keep_connected(origin, budget));
-    let ringed = ground.free.clone();
-    let depths = at_once(depths(&ground, &ringed, budget));
-    let rings = at_once(rings(&ground, &depths, budget));
-    (ground, rings)
+    let mut space = at_once(ConfigurationSpace::new(room, reach_cells(&SETTINGS), budget));
+    let origin = at_once(space.origin_near(Point2::default(), budget)).unwrap();
+    at_once(space.keep_connected(origin, budget));
+    let ringed = space.free.clone();
+    let depths = at_once(depths(&space, &ringed, budget));
+    let rings = at_once(rings(&space, &depths, budget));
+    (space, rings)
 }
 
 #[test]
-fn rings_of_two_levels_lie_a_lane_apart() {
-    let (ground, rings) = found(&room(true));
+fn rings_of_two_levels_are_a_lane_apart() {
+    let (space, rings) = found(&room(true));
     let spacing_m = (2 * reach_cells(&SETTINGS) + 1) as f64 * CELL_M;
     let mut pairs = 0;
     for (place, ring) in rings.iter().enumerate() {
@@ -56,7 +58,7 @@ fn rings_of_two_levels_lie_a_lane_apart() {
                     other
                         .cells
                         .iter()
-                        .map(|two| ground.point(*one).distance_m(ground.point(*two)))
+                        .map(|two| space.point(*one).distance_m(space.point(*two)))
                 })
                 .fold(f64::INFINITY, f64::min);
             assert!(
@@ -73,17 +75,17 @@ fn rings_of_two_levels_lie_a_lane_apart() {
 fn each_border_has_its_ring_and_each_ring_is_closed() {
     let around = |room: &Raster<bool>| found(room).1.iter().filter(|ring| ring.level == 0).count();
     assert_eq!((around(&room(false)), around(&room(true))), (1, 2));
-    let (ground, rings) = found(&room(true));
+    let (space, rings) = found(&room(true));
     for ring in rings {
         let ends = [ring.cells[0], ring.cells[ring.cells.len() - 1]];
         let pairs = ring.cells.windows(2).map(|pair| [pair[0], pair[1]]).chain([ends]);
         for [one, other] in pairs {
-            assert!(ground.free[one] && ground.neighbours(one).contains(&other));
+            assert!(space.free[one] && space.neighbours(one).contains(&other));
         }
     }
 }
 
-fn planned(course: Course, start: Point2) -> CoveragePlan {
+fn planned(pattern: SweepPattern, start: Point2) -> CoveragePlan {
     let departure = Departure {
         start: Pose2 {
             x_m: start.x_m,
@@ -92,7 +94,10 @@ fn planned(course: Course, start: Point2) -> CoveragePlan {
         },
         settings: SETTINGS,
     };
-    let whole = (|_: Cell| Some(course), |_: Cell| false);
+    let whole = Area {
+        pattern: |_: Cell| Some(pattern),
+        is_swept: |_: Cell| false,
+    };
     at_once(plan_area(
         &room(false),
         whole,
@@ -101,7 +106,7 @@ fn planned(course: Course, start: Point2) -> CoveragePlan {
     ))
 }
 
-/// Distance of a place from the wall of the empty room.
+/// Distance of a point from the wall of the empty room.
 fn off_wall_m(place: Point2) -> f64 {
     let (x, y) = (place.x_m / CELL_M + 5.0, place.y_m / CELL_M - 3.0);
     CELL_M * x.min(120.0 - x).min(y).min(100.0 - y)
@@ -112,9 +117,9 @@ fn inwards_begins_at_the_wall_and_outwards_in_the_middle() {
     let middle = Point2 { x_m: 1.3, y_m: 1.3 };
     let wall = Point2 { x_m: 0.0, y_m: 0.2 };
     for start in [middle, wall] {
-        let inwards = planned(Course::Inwards, start);
-        let outwards = planned(Course::Outwards, start);
-        // The way after the link to the first ring, and that before the lanes in the end.
+        let inwards = planned(SweepPattern::Inwards, start);
+        let outwards = planned(SweepPattern::Outwards, start);
+        // This corner comes after the link to the first ring and before the lanes at the end.
         let early = |plan: &CoveragePlan| off_wall_m(plan.corners[4]);
         assert!(early(&inwards) < 0.3, "{:?}", inwards.corners);
         assert!(early(&outwards) > 0.7, "{:?}", outwards.corners);
@@ -130,7 +135,10 @@ fn a_plan_made_in_steps_is_the_same() {
         settings: SETTINGS,
     };
     let in_steps = |budget: &mut StepBudget| {
-        let whole = (|_: Cell| Some(Course::Inwards), |_: Cell| false);
+        let whole = Area {
+            pattern: |_: Cell| Some(SweepPattern::Inwards),
+            is_swept: |_: Cell| false,
+        };
         at_once(plan_area(&room(true), whole, departure, budget))
     };
     assert_eq!(

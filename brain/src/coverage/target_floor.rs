@@ -1,23 +1,23 @@
-//! The floor that a part of an order asks for, and in which way it is to be swept.
+//! The floor that a part of an order asks for, and its sweep pattern.
 
-use super::plan::Course;
+use super::plan::SweepPattern;
 use crate::mapping::{Cell, Map, Rooms};
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::model::room_settings::Pattern;
 
-/// The floor that shall be swept, as it was known at one time.
+/// The floor to sweep, as known at one time.
 #[derive(Debug)]
-pub(crate) struct Wanted {
+pub(crate) struct TargetFloor {
     /// `None` = the whole home.
     part: Option<HomePart>,
-    usual: Course,
-    /// Rooms of the home that are swept in rings when all of it is.
+    usual: SweepPattern,
+    /// Rooms that are swept in rings when the whole home is cleaned.
     ring_rooms: Vec<u16>,
     rooms: Option<Rooms>,
 }
 
-impl Wanted {
-    /// What a part of an order asks for; `None` = the whole home.
+impl TargetFloor {
+    /// The floor of a part of an order; `None` = the whole home.
     pub(crate) fn of(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Self {
         let words = map.annotations();
         let ring_rooms = match part {
@@ -27,30 +27,34 @@ impl Wanted {
         let needs_rooms = part.is_some() || !ring_rooms.is_empty();
         Self {
             part: part.cloned(),
-            usual: course_over(order, part, map),
+            usual: sweep_pattern(order, part, map),
             ring_rooms,
             rooms: needs_rooms.then(|| map.rooms().clone()),
         }
     }
 
-    /// How a cell is to be swept, if it belongs to it.
-    pub(crate) fn course(&self, cell: Cell) -> Option<Course> {
+    /// How a cell is to be swept, if it belongs to the target floor.
+    pub(crate) fn pattern_at(&self, cell: Cell) -> Option<SweepPattern> {
         match (&self.part, &self.rooms) {
             (Some(part), Some(rooms)) => rooms.is_in_part(cell, part).then_some(self.usual),
             (None, Some(rooms)) => {
                 let room = rooms.labels().get(cell);
                 let is_ringed = room.is_some_and(|room| self.ring_rooms.contains(room));
-                Some(if is_ringed { Course::Inwards } else { self.usual })
+                Some(if is_ringed {
+                    SweepPattern::Inwards
+                } else {
+                    self.usual
+                })
             }
             (_, None) => Some(self.usual),
         }
     }
 }
 
-/// Dirt lies in the middle of a spot, and it is swept from there.
-fn course_over(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> Course {
+/// In a spot the dirt is in the middle, so sweeping starts there.
+fn sweep_pattern(order: &CleaningOrder, part: Option<&HomePart>, map: &Map) -> SweepPattern {
     match (part, order.pattern()) {
-        (Some(HomePart::Spot(_)), None | Some(Pattern::Contour)) => Course::Outwards,
+        (Some(HomePart::Spot(_)), None | Some(Pattern::Contour)) => SweepPattern::Outwards,
         _ => map.annotations().pattern_over(order, part).into(),
     }
 }

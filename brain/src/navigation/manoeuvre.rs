@@ -1,4 +1,4 @@
-//! Backing off and turning on the spot.
+//! Single manoeuvres: backing off and turning on the spot.
 
 use super::Situation;
 use crate::model::action::Motion;
@@ -7,40 +7,40 @@ use crate::model::action::Motion;
 const BACK_M_PER_S: f64 = 0.15;
 /// Reverse speed at a cliff; the firmware allows 0.1 m/s (S8).
 pub(crate) const BACK_AT_CLIFF_M_PER_S: f64 = 0.08;
-/// A robot that is free keeps this much of its way back: what it meets while it turns, it must come free from again.
+/// A free robot keeps this much of its reverse budget: it must be able to back off from a contact during the turn.
 pub(super) const RESERVE_M: f64 = 0.04;
-/// Slowest turn that is still a turn for a motor with a dead band.
+/// Slowest turn that overcomes the dead band of the motors.
 const TURN_MIN_RAD_PER_S: f64 = 0.4;
-/// Turn rate asked for each radian that is left: the robot brakes over the last part.
+/// Turn rate per radian of remaining turn: the robot brakes over the last part.
 const TURN_GAIN_PER_S: f64 = 4.0;
-/// Closer than this a turn counts as made.
+/// Below this remaining angle a turn is finished.
 const TURN_DONE_RAD: f64 = 0.03;
-/// Time a leg may take beyond what its length needs.
+/// Extra time of a manoeuvre beyond what its length needs.
 const GRACE_S: f64 = 1.0;
-/// Backing that makes no way for this long is over: something stands behind.
+/// Backing without movement for this long is over: an obstacle is behind.
 const BLOCKED_S: f64 = 0.4;
-/// Share of the commanded speed below which no way is made.
+/// Share of the commanded speed below which the robot does not move.
 const BLOCKED_SHARE: f64 = 0.2;
 
-/// State of a leg after a step.
+/// State of a manoeuvre after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Leg {
-    /// Not there yet.
+pub(crate) enum ManoeuvreStep {
+    /// It goes on.
     Going(Motion),
-    /// There.
+    /// It is finished.
     Arrived,
-    /// Time is over, or the known ground behind the robot.
-    Late,
+    /// The time or the reverse budget is used up.
+    Aborted,
 }
 
-/// Straight back until the way is made.
+/// Straight back for a distance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BackOff {
     left_m: f64,
     speed_m_per_s: f64,
     left_s: f64,
     blocked_s: f64,
-    /// Way back that is left alone while nothing is met.
+    /// Part of the reverse budget that is left unused while the robot is free.
     reserve_m: f64,
 }
 
@@ -50,7 +50,7 @@ impl BackOff {
         Self::at_speed(length_m, BACK_M_PER_S)
     }
 
-    /// At a cliff: a turn too near to the edge would see it again, so nothing is spared.
+    /// At a cliff. A turn too close to the edge would detect it again, so no reverse budget is kept.
     pub(crate) fn from_cliff(length_m: f64) -> Self {
         Self {
             reserve_m: 0.0,
@@ -58,7 +58,7 @@ impl BackOff {
         }
     }
 
-    /// Off the dock, as far as the known ground reaches.
+    /// Off the dock, as far as the reverse budget reaches.
     pub(crate) fn from_dock(length_m: f64) -> Self {
         Self {
             reserve_m: 0.0,
@@ -76,30 +76,30 @@ impl BackOff {
         }
     }
 
-    /// Adds to the way.
+    /// Adds to the distance.
     pub(crate) fn lengthen(&mut self, length_m: f64) {
         self.left_m += length_m;
         self.left_s += 2.0 * length_m / self.speed_m_per_s;
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> Leg {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> ManoeuvreStep {
         let advance = situation.advance;
         self.left_m += advance.distance_m.min(0.0);
         self.left_s -= advance.time_s;
         let speed_m_per_s = self.speed_m_per_s.min(slow_m_per_s(situation));
-        let makes_way = -advance.distance_m > BLOCKED_SHARE * speed_m_per_s * advance.time_s;
-        self.blocked_s = if makes_way {
+        let is_moving = -advance.distance_m > BLOCKED_SHARE * speed_m_per_s * advance.time_s;
+        self.blocked_s = if is_moving {
             0.0
         } else {
             self.blocked_s + advance.time_s
         };
-        let spares = situation.is_free() && situation.way_back_m < self.reserve_m;
-        if self.left_m <= 0.0 || spares {
-            Leg::Arrived
-        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S || situation.way_back_m <= 0.0 {
-            Leg::Late
+        let keeps_reserve = situation.is_free() && situation.reverse_budget_m < self.reserve_m;
+        if self.left_m <= 0.0 || keeps_reserve {
+            ManoeuvreStep::Arrived
+        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S || situation.reverse_budget_m <= 0.0 {
+            ManoeuvreStep::Aborted
         } else {
-            Leg::Going(Motion::Drive {
+            ManoeuvreStep::Going(Motion::Drive {
                 speed_m_per_s: -speed_m_per_s,
                 turn_rad_per_s: 0.0,
             })
@@ -107,9 +107,9 @@ impl BackOff {
     }
 }
 
-/// Fastest that pays: near the end of the known ground a robot creeps, so that little of it goes into stopping.
+/// Highest useful speed: near the end of the reverse budget the robot creeps, so that stopping uses little of it.
 fn slow_m_per_s(situation: &Situation<'_>) -> f64 {
-    if situation.way_back_m < RESERVE_M {
+    if situation.reverse_budget_m < RESERVE_M {
         BACK_AT_CLIFF_M_PER_S
     } else {
         BACK_M_PER_S
@@ -132,20 +132,20 @@ impl Turn {
         }
     }
 
-    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> Leg {
+    pub(crate) fn step(&mut self, situation: &Situation<'_>) -> ManoeuvreStep {
         let before_rad = self.left_rad;
         self.left_rad -= situation.advance.turn_rad;
         self.left_s -= situation.advance.time_s;
         let passed = before_rad * self.left_rad <= 0.0;
         if passed || self.left_rad.abs() < TURN_DONE_RAD {
-            return Leg::Arrived;
+            return ManoeuvreStep::Arrived;
         }
         if self.left_s <= 0.0 {
-            return Leg::Late;
+            return ManoeuvreStep::Aborted;
         }
         let fastest = situation.config.speeds.turn_max_rad_per_s.max(TURN_MIN_RAD_PER_S);
         let rate = (TURN_GAIN_PER_S * self.left_rad.abs()).clamp(TURN_MIN_RAD_PER_S, fastest);
-        Leg::Going(Motion::Drive {
+        ManoeuvreStep::Going(Motion::Drive {
             speed_m_per_s: 0.0,
             turn_rad_per_s: rate.copysign(self.left_rad),
         })

@@ -1,19 +1,19 @@
-//! In which way floor is swept.
+//! The pattern in which floor is swept.
 
 use crate::model::room_settings::Pattern;
 
 /// How floor is swept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Course {
+pub(crate) enum SweepPattern {
     /// By lanes.
     Lines,
-    /// By rings, those along its border first.
+    /// By rings, the outermost first.
     Inwards,
-    /// By rings, those in its middle first.
+    /// By rings, the innermost first.
     Outwards,
 }
 
-impl From<Pattern> for Course {
+impl From<Pattern> for SweepPattern {
     fn from(pattern: Pattern) -> Self {
         match pattern {
             Pattern::Lines => Self::Lines,

@@ -1,47 +1,48 @@
-//! The drive along the line between the two lobes of the dock.
+//! The drive along the centreline between the two lobes of the dock.
 //!
 //! Terms are those of [`super::approach`].
 
 use crate::mapping::{DockBeamFilter, Lobe};
 
-/// Speed on the line far from the dock, and while one lobe alone is heard.
+/// Speed on the centreline far from the dock, and while only one lobe is received.
 const LINE_M_PER_S: f64 = 0.2;
 const TRIM_M_PER_S: f64 = 0.12;
-/// Speed in the near field: contacts are met softly.
+/// Speed in the near field, for a soft touch of the dock contacts.
 const FINAL_M_PER_S: f64 = 0.05;
-/// Turn back to the line while one lobe alone is heard, radians; less in the near field, where nothing has time to straighten.
+/// Turn back to the centreline while only one lobe is received, radians. It is smaller in the near field, where no distance
+/// is left to straighten.
 const TRIM_RAD: f64 = 0.22;
 const TRIM_NEAR_RAD: f64 = 0.14;
-/// What a base that beams alone have told learns when the line was lost and found again, radians.
+/// Correction of a base from beams alone when the robot lost the centreline and found it again, radians.
 const LEARN_RAD: f64 = 0.02;
-/// Way to the side by which the robot goes on into the line after it has found it again, metres: to its middle.
+/// Sideways distance that the robot continues after it has found the centreline again, to reach its middle, metres.
 const MIDDLE_M: f64 = 0.05;
 const MIDDLE_NEAR_M: f64 = 0.02;
-/// From this way into the near field on it drives straight, metres: 0.1 m before the contacts.
+/// After this distance in the near field it drives straight, metres: 0.1 m before the contacts.
 const STRAIGHT_M: f64 = 0.26;
-/// The near field begins 0.36 m before the contacts; who has driven so far in it has missed them, metres.
+/// The near field begins 0.36 m before the contacts. After this distance in it the robot has missed them, metres.
 const NEAR_MAX_M: f64 = 0.6;
-/// Longest way on the line, metres: beams reach 3 m.
+/// Longest drive on the centreline, metres: beams reach 3 m.
 const LINE_MAX_M: f64 = 4.0;
-/// Silence in front for so long means that the line is lost, seconds.
+/// After this time without a beam in front the centreline is lost, seconds.
 const SILENCE_S: f64 = 1.0;
 
-/// The drive along the line.
+/// The drive along the centreline.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct CentrelineDrive {
     base_rad: f64,
-    /// The base is the map's.
+    /// The base comes from the map.
     is_known: bool,
     lobe: Lobe,
-    /// Way to the side that is left to the middle of the line.
+    /// Sideways distance left to the middle of the centreline.
     middle_m: f64,
     silent_s: f64,
-    way_m: f64,
+    driven_m: f64,
     near_m: f64,
 }
 
-impl Line {
-    /// In this direction, which beams have told.
+impl CentrelineDrive {
+    /// In this direction, measured from the beams.
     pub(super) fn along(base_rad: f64) -> Self {
         Self {
             base_rad,
@@ -49,12 +50,12 @@ impl Line {
             lobe: Lobe::Both,
             middle_m: 0.0,
             silent_s: 0.0,
-            way_m: 0.0,
+            driven_m: 0.0,
             near_m: 0.0,
         }
     }
 
-    /// In this direction, which the map has told.
+    /// In this direction, known from the map.
     pub(super) fn of_map(base_rad: f64) -> Self {
         Self {
             is_known: true,
@@ -62,29 +63,29 @@ impl Line {
         }
     }
 
-    /// Its direction as far as it is known, radians.
+    /// Its direction as far as known, radians.
     pub(super) fn base_rad(&self) -> f64 {
         self.base_rad
     }
 
-    /// So far along it that the contacts were missed.
+    /// Whether the robot has driven so far that it missed the contacts.
     pub(super) fn is_missed(&self) -> bool {
-        self.near_m > NEAR_MAX_M || self.way_m > LINE_MAX_M
+        self.near_m > NEAR_MAX_M || self.driven_m > LINE_MAX_M
     }
 
-    /// Nothing was heard in front for too long.
+    /// Whether nothing was received in front for too long.
     pub(super) fn is_lost(&self) -> bool {
         self.silent_s > SILENCE_S
     }
 
-    /// Takes in what is heard after a step of the drive.
+    /// Updates the drive with what is received after a step.
     pub(super) fn follow(&mut self, hearing: &DockBeamFilter, distance_m: f64, time_s: f64) {
         self.silent_s = if hearing.is_in_front() {
             0.0
         } else {
             self.silent_s + time_s
         };
-        self.way_m += distance_m.max(0.0);
+        self.driven_m += distance_m.max(0.0);
         if hearing.is_near() || self.near_m > 0.0 {
             self.near_m += distance_m.max(1e-6);
         }
@@ -106,7 +107,7 @@ impl Line {
                 self.middle_m -= self.trim_rad() * distance_m.max(0.0);
                 if self.middle_m <= 0.0 {
                     if !self.is_known {
-                        self.base_rad += LEARN_RAD * toward_line(self.lobe);
+                        self.base_rad += LEARN_RAD * toward_centreline(self.lobe);
                     }
                     self.lobe = Lobe::Both;
                 }
@@ -128,7 +129,7 @@ impl Line {
         if self.near_m > STRAIGHT_M {
             self.base_rad
         } else {
-            self.base_rad + self.trim_rad() * toward_line(self.lobe)
+            self.base_rad + self.trim_rad() * toward_centreline(self.lobe)
         }
     }
 
@@ -144,8 +145,8 @@ impl Line {
     }
 }
 
-/// +1 when the line lies on the left of a robot that faces the dock, -1 on the right.
-fn toward_line(lobe: Lobe) -> f64 {
+/// +1 when the centreline is on the left of a robot that faces the dock, -1 on the right.
+fn toward_centreline(lobe: Lobe) -> f64 {
     match lobe {
         Lobe::Left => -1.0,
         Lobe::Right => 1.0,

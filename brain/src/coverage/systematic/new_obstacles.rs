@@ -1,17 +1,18 @@
-//! What came to stand in the way since the job began: a person in a door, a bag, a chair that was moved.
+//! Obstacles that appeared since the job began: a person in a door, a bag, a chair that was moved.
 //!
-//! A home that is known was whole when the job began. Where a robot has nothing left to plan, it looks once more at what would be
-//! in reach if that were gone again, and tries the way there: who stood in a door has mostly left by then.
+//! In a known home everything was reachable when the job began. Where the robot has nothing left to plan, it checks once
+//! more what would be reachable without these obstacles, and drives there: people who stood in a door have mostly left by
+//! then.
 
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::gradual::StepBudget;
 
-/// Cells that are looked at for a unit of work.
+/// Cells read for a unit of work.
 const CELLS_A_WORK: usize = 4;
 
-/// Knowledge in which what was free floor when the job `began`, and is occupied now, is free again. Edges, and what people do not
-/// allow, stay as they are.
-pub(super) async fn without_what_came(
+/// A copy of the map in which cells that were free when the job `began` and are occupied now are free again. Cliffs and
+/// no-go zones stay.
+pub(super) async fn without_new_obstacles(
     mut knowledge: Raster<CellKnowledge>,
     began: &Raster<CellKnowledge>,
     budget: &mut StepBudget,
@@ -34,12 +35,12 @@ pub(super) async fn without_what_came(
 
 #[cfg(test)]
 mod tests {
-    use super::without_what_came;
+    use super::without_new_obstacles;
     use crate::mapping::{Cell, CellKnowledge, Raster};
     use crate::model::gradual::{StepBudget, at_once};
 
     #[test]
-    fn what_came_is_gone_again_and_walls_edges_and_what_is_forbidden_stay() {
+    fn new_obstacles_are_removed_and_walls_cliffs_and_no_go_zones_stay() {
         use CellKnowledge::{Cliff, Free, NoGo, Occupied, Unknown};
         let raster = |origin, kinds: &[CellKnowledge]| {
             let mut raster = Raster::filled(origin, kinds.len(), 1, Unknown);
@@ -51,7 +52,7 @@ mod tests {
             Cell { x: -1, y: 0 },
             &[Occupied, Occupied, Free, Cliff, NoGo, Occupied, Occupied],
         );
-        let without = at_once(without_what_came(now, &began, &mut StepBudget::unlimited()));
+        let without = at_once(without_new_obstacles(now, &began, &mut StepBudget::unlimited()));
         assert_eq!(
             without.values(),
             [Occupied, Free, Free, Cliff, NoGo, Occupied, Occupied],

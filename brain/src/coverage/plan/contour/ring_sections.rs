@@ -2,49 +2,50 @@
 
 use super::rings::Ring;
 use crate::model::gradual::StepBudget;
-use crate::navigation::configuration_space::Ground;
+use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// Least share of what a ring sweeps over wholly open floor that makes it worth driving: as that of a lane of the first round.
+/// Smallest share of what a ring sweeps over fully open floor that makes it worth driving: as for a lane of the first
+/// round.
 const WORTH_PERCENT: usize = 35;
-/// Work of looking at the floor around a cell.
+/// Work to count the open floor around a cell.
 const COUNT_WORK: usize = 40;
 
 /// A part of a ring.
 #[derive(Clone, Debug)]
-pub(super) struct Run {
+pub(super) struct RingSection {
     pub(super) level: usize,
     pub(super) cells: Vec<usize>,
-    /// It can be entered anywhere: its last cell lies beside its first.
+    /// It can be entered anywhere: its last cell is adjacent to its first.
     pub(super) is_closed: bool,
 }
 
-/// Weighs cells by the floor that is open around them, and closes it.
+/// Counts the open floor around cells, and closes it.
 pub(super) struct Sweeper {
     pub(super) open: Vec<bool>,
     disc: Vec<(isize, usize)>,
     width: usize,
     /// Cells across a swath.
     swath: usize,
-    /// Open cells around a cell from which on a run begins there.
+    /// Open cells around a cell that make a section begin there.
     begin: usize,
 }
 
 impl Sweeper {
-    pub(super) fn new(ground: &Ground) -> Self {
-        let disc = ground.disc();
+    pub(super) fn new(space: &ConfigurationSpace) -> Self {
+        let disc = space.disc();
         let cells: usize = disc.iter().map(|(_, half)| 2 * half + 1).sum();
         Self {
-            open: ground.open.clone(),
-            width: ground.width,
-            swath: 2 * ground.reach + 1,
+            open: space.open.clone(),
+            width: space.width,
+            swath: 2 * space.reach + 1,
             begin: WORTH_PERCENT * cells / 100,
             disc,
         }
     }
 
-    /// The parts of a ring that are worth it.
-    pub(super) async fn runs(&self, ring: Ring, budget: &mut StepBudget) -> Vec<Run> {
-        let whole = Run {
+    /// The parts of a ring that are worth driving.
+    pub(super) async fn sections(&self, ring: Ring, budget: &mut StepBudget) -> Vec<RingSection> {
+        let whole = RingSection {
             level: ring.level,
             cells: ring.cells,
             is_closed: true,
@@ -52,12 +53,12 @@ impl Sweeper {
         self.parts(whole, budget).await
     }
 
-    /// The parts of a run that are still worth it: that run itself, shorter ones or none. Gaps of less than a swath are
-    /// driven through; what is shorter than two is left to lanes.
-    pub(super) async fn parts(&self, run: Run, budget: &mut StepBudget) -> Vec<Run> {
-        let count = run.cells.len();
+    /// The parts of a section that are still worth driving: the whole section, shorter ones or none. Gaps of less than a
+    /// swath are driven through. Parts shorter than two swaths are left to lanes.
+    pub(super) async fn parts(&self, section: RingSection, budget: &mut StepBudget) -> Vec<RingSection> {
+        let count = section.cells.len();
         budget.spend(COUNT_WORK * count).await;
-        let is_worth: Vec<bool> = run
+        let is_worth: Vec<bool> = section
             .cells
             .iter()
             .map(|cell| self.open_around(*cell) >= self.begin)
@@ -69,10 +70,10 @@ impl Sweeper {
         else {
             return Vec::new();
         };
-        // From one cell that is worth it; a closed run comes back to it.
+        // Starts at a cell that is worth driving; a closed section returns to it.
         let mut spans: Vec<(usize, usize)> = Vec::new();
         for place in (first..first + count).filter(|place| is_worth[place % count]) {
-            if place >= count && !run.is_closed {
+            if place >= count && !section.is_closed {
                 break;
             }
             match spans.last_mut() {
@@ -80,25 +81,25 @@ impl Sweeper {
                 _ => spans.push((place, place)),
             }
         }
-        if run.is_closed {
-            self.close_up(&mut spans, (first, count));
+        if section.is_closed {
+            self.close_up(&mut spans, first, count);
         }
-        if run.is_closed && spans == [(first, first + count)] {
-            return vec![run];
+        if section.is_closed && spans == [(first, first + count)] {
+            return vec![section];
         }
         spans
             .into_iter()
             .filter(|(from, to)| to - from + 1 >= 2 * self.swath)
-            .map(|(from, to)| Run {
-                level: run.level,
-                cells: (from..=to).map(|place| run.cells[place % count]).collect(),
+            .map(|(from, to)| RingSection {
+                level: section.level,
+                cells: (from..=to).map(|place| section.cells[place % count]).collect(),
                 is_closed: false,
             })
             .collect()
     }
 
-    /// Joins the last part with the first one where the gap between them is small: one turn later is the same place.
-    fn close_up(&self, spans: &mut Vec<(usize, usize)>, (first, count): (usize, usize)) {
+    /// Joins the last part with the first one where the gap between them is small: indices wrap round a closed section.
+    fn close_up(&self, spans: &mut Vec<(usize, usize)>, first: usize, count: usize) {
         let Some((_, last)) = spans
             .last()
             .copied()
@@ -117,21 +118,21 @@ impl Sweeper {
         }
     }
 
-    /// Drives along a run and closes what that sweeps. Gives how many of its cells are driven: it ends where more than a
-    /// swath's length would bring next to nothing.
-    pub(super) async fn sweep(&mut self, run: &Run, budget: &mut StepBudget) -> usize {
-        let (mut driven, mut vain) = (0, 0_usize);
-        for (place, cell) in run.cells.iter().enumerate() {
-            let worth = WORTH_PERCENT * self.swath * (vain + 1).min(self.swath) / 100;
+    /// Drives along a section and closes the floor that it sweeps. Gives how many of its cells are driven. It ends where
+    /// more than a swath's length would sweep next to nothing.
+    pub(super) async fn sweep(&mut self, section: &RingSection, budget: &mut StepBudget) -> usize {
+        let (mut driven, mut unproductive) = (0, 0_usize);
+        for (place, cell) in section.cells.iter().enumerate() {
+            let worth = WORTH_PERCENT * self.swath * (unproductive + 1).min(self.swath) / 100;
             if self.open_around(*cell) >= worth.max(1) {
-                for cell in &run.cells[driven..=place] {
+                for cell in &section.cells[driven..=place] {
                     self.close_around(*cell);
                 }
-                (driven, vain) = (place + 1, 0);
+                (driven, unproductive) = (place + 1, 0);
             } else {
-                vain += 1;
+                unproductive += 1;
             }
-            if vain > self.swath {
+            if unproductive > self.swath {
                 break;
             }
             budget.spend(2 * COUNT_WORK).await;

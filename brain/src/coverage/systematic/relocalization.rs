@@ -1,0 +1,82 @@
+//! A lost robot follows walls until it is localized again.
+//!
+//! Lanes on a wrong pose lead nowhere, and what they sweep is recorded in the wrong place. Walls give the particle filter
+//! most information, and following them leads through all rooms.
+
+use crate::coverage::{LapStep, Perimeter};
+use crate::model::reason::Reason;
+use crate::navigation::{Situation, TaskContext, TaskStatus};
+
+/// Longest drive along walls before the robot goes on with its pose estimate, metres: once around a large home, so the map
+/// may be of another one.
+const SEEK_MAX_M: f64 = 120.0;
+
+/// The drive along walls.
+#[derive(Debug, Default)]
+pub(super) struct RelocalizationLap {
+    lap: Option<Perimeter>,
+    has_given_up: bool,
+}
+
+/// What to do after a step of relocalization.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum RelocalizationStep {
+    /// The pose is known, or relocalization failed: lanes go on.
+    Idle,
+    /// Relocalization has just ended: earlier plans are void.
+    Over,
+    /// Relocalization is in progress.
+    Driving(TaskStatus),
+}
+
+impl RelocalizationLap {
+    /// Somebody else moved the robot.
+    pub(super) fn interrupted(&mut self) {
+        if let Some(lap) = &mut self.lap {
+            lap.interrupted();
+        }
+    }
+
+    pub(super) fn step(
+        &mut self,
+        situation: &Situation<'_>,
+        context: &mut TaskContext,
+    ) -> RelocalizationStep {
+        if !situation.estimate.lost {
+            self.has_given_up = false;
+            return match self.lap.take() {
+                Some(lap) if lap.is_evading() || !situation.is_free() => {
+                    self.lap = Some(lap);
+                    self.follow(situation, context)
+                }
+                Some(_) => RelocalizationStep::Over,
+                None => RelocalizationStep::Idle,
+            };
+        }
+        if self.has_given_up {
+            return RelocalizationStep::Idle;
+        }
+        if self.lap.is_none() {
+            context.decide("follow-wall", Reason::PlaceUnknown, 0.0);
+        }
+        self.follow(situation, context)
+    }
+
+    fn follow(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> RelocalizationStep {
+        let lap = self.lap.get_or_insert_default();
+        if lap.driven_m() > SEEK_MAX_M && !lap.is_evading() && situation.is_free() {
+            self.lap = None;
+            self.has_given_up = true;
+            context.decide("end-lap", Reason::LongLap, SEEK_MAX_M);
+            return RelocalizationStep::Over;
+        }
+        RelocalizationStep::Driving(match lap.step(situation, context) {
+            LapStep::Going(motion) => TaskStatus::Go(motion),
+            LapStep::Trouble(reason) => TaskStatus::Trouble(reason),
+            LapStep::Over(reason) => {
+                context.decide("leave-wall", reason, lap.driven_m());
+                TaskStatus::Go(lap.leave())
+            }
+        })
+    }
+}
