@@ -4,9 +4,10 @@
 //! length of its map (four bytes, low one first) and the map's bytes as they are kept; in the end a CRC-32C over everything
 //! before it, low byte first. Maps have versions of their own: those that the disk may hold an archive may hold, too.
 
-use brain::{RoomName, StoredMap};
+use brain::RoomName;
 use rvac_api::ARCHIVE_BYTES_MAX;
 use rvac_protocol::seal::crc32c;
+use vthal_core::stored_map;
 
 const MAGIC: &[u8; 8] = b"RVACFLRS";
 const VERSION: u8 = 1;
@@ -155,7 +156,7 @@ fn floor(reader: &mut Reader<'_>, place: usize) -> Result<ArchivedFloor, Archive
     let length = length.first_chunk().map(|bytes| u32::from_le_bytes(*bytes));
     let length = length.and_then(|length| usize::try_from(length).ok());
     let map = reader.take(length.ok_or(ArchiveError::Wrong(at))?)?.to_vec();
-    match StoredMap::decode(&map) {
+    match stored_map::decode(&map) {
         Ok(_) => Ok(ArchivedFloor { name, map }),
         Err(error) => Err(ArchiveError::Map {
             place,

@@ -317,7 +317,7 @@ mod tests {
     fn the_only_map_of_before_there_were_floors_is_the_first_floors() {
         let scratch = Scratch::new("before");
         fs::create_dir_all(scratch.0.path()).expect("creates");
-        let bytes = home(7).encode();
+        let bytes = vthal_core::stored_map::encode(&home(7));
         for file in ["000003.map", "000004.map"] {
             fs::write(scratch.0.path().join(file), &bytes).expect("writes");
         }

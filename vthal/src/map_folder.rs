@@ -8,6 +8,7 @@ use std::time::UNIX_EPOCH;
 
 use brain::{CELL_M, CellKnowledge, StoredMap};
 use rvac_api::KeptMap;
+use vthal_core::stored_map;
 
 /// Versions kept: a map that was spoilt is noticed within some runs, and each change that a person makes is a version, too.
 const VERSIONS_MAX: usize = 40;
@@ -66,7 +67,7 @@ impl MapFolder {
     /// # Errors
     /// What the file system says.
     pub(crate) fn save(&self, home: &StoredMap) -> io::Result<()> {
-        self.save_bytes(&home.encode())
+        self.save_bytes(&stored_map::encode(home))
     }
 
     /// As [`Self::save`], of a map that is bytes already.
@@ -108,7 +109,7 @@ impl MapFolder {
     pub(crate) fn newest_bytes(&self) -> Option<Vec<u8>> {
         let read = |number| self.read(number).ok();
         let mut versions = self.numbers().into_iter().filter_map(read);
-        versions.find(|bytes| StoredMap::decode(bytes).is_ok())
+        versions.find(|bytes| stored_map::decode(bytes).is_ok())
     }
 
     /// Number of the newest version.
@@ -175,7 +176,7 @@ impl MapFolder {
 
     fn load(&self, number: u64) -> Result<StoredMap, String> {
         let bytes = self.read(number).map_err(|error| error.to_string())?;
-        StoredMap::decode(&bytes).map_err(|error| error.to_string())
+        stored_map::decode(&bytes).map_err(|error| error.to_string())
     }
 
     fn kept_s(&self, number: u64) -> u64 {

@@ -88,7 +88,7 @@ fn main() -> Result<(), String> {
     let log = Rawlog::new(&bytes)?;
     let truth = true_poses(truth)?;
     let mut localization = Localization::new(TRACK_M, RIM_MAX_M_PER_S);
-    let mut odometry = localization.clone();
+    let mut odometry = Localization::new(TRACK_M, RIM_MAX_M_PER_S);
     let (mut by_beacons, mut by_odometry) = (Errors::default(), Errors::default());
     let mut view = Observation::default();
     let mut known_at = None;

@@ -301,10 +301,9 @@ fn same(map: &Map) -> Map {
     same
 }
 
-#[test]
-fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it_has_made() {
-    let home = flat();
-    let mut truth = Truth::new(&home, START);
+/// What a robot knows that is lifted after twenty minutes of its first run, and what it sees then.
+fn lifted_in_first_run(home: &Map) -> (Localization, Map, Observation) {
+    let mut truth = Truth::new(home, START);
     let mut localization = Localization::new(TRACK_M, 0.5);
     localization.place_at(START);
     localization.survey(&config());
@@ -319,6 +318,12 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
         held.time_us += 20_000;
         take_and_draw(&mut localization, &mut map, &held);
     }
+    (localization, map, held)
+}
+
+#[test]
+fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it_has_made() {
+    let home = flat();
     let mut offs_m = Vec::new();
     for (x_m, y_m, heading_rad) in [(4.6, 0.8, -2.0), (1.2, 2.0, 1.0), (2.8, 0.6, 3.0)] {
         let mut truth = Truth::new(
@@ -330,9 +335,9 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
             },
         );
         truth.random = Random::new(5);
-        truth.view = held.clone();
+        let (mut localization, map, held) = lifted_in_first_run(&home);
+        truth.view = held;
         truth.view.wheel_drop = false;
-        let mut localization = localization.clone();
         let mut map = same(&map);
         // Half of the home looks like the other half: a find counts when it holds.
         let (mut steps, mut known) = (0, 0);

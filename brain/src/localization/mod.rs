@@ -23,6 +23,7 @@ mod places;
 mod rest;
 mod retreat;
 mod search;
+mod skyline;
 mod stand;
 mod strengths;
 mod survey;

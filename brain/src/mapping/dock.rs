@@ -22,10 +22,11 @@ pub struct DockPlace {
 
 /// Where the robot has stood on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Felt {
-    pub(super) pose: Pose2,
+pub struct Felt {
+    /// The mean of the poses in which it was felt.
+    pub pose: Pose2,
     /// How often it was felt there, from 1.
-    pub(super) times: u8,
+    pub times: u8,
 }
 
 impl DockPlace {

@@ -3,13 +3,11 @@
 //! *Evidence*: small saturating counts for and against what a cell may be. *Knowledge*: what the evidence of a cell amounts
 //! to. *Dirty*: cells whose knowledge may have changed since the derived rasters were last brought up to date.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::tile_grid::{TILE_CELLS, TileGrid, TileKey, first_cell, locate};
 use super::{Cell, FloorKind};
 
-/// Cells along the edge of a tile.
-pub(super) const TILE_CELLS: i32 = 64;
 /// Tiles that the bounding box of a map may have: 1,638 square metres. What lies beyond is not remembered, so that no
 /// stray pose makes the dense rasters outgrow the memory of a small board.
 pub(super) const TILES_MAX: i64 = 640;
@@ -177,8 +175,6 @@ impl CellBox {
     }
 }
 
-type TileKey = (i32, i32);
-
 #[derive(Clone, Debug)]
 struct Tile {
     /// Shared with copies of the layers until one of them changes it, so that a copy costs next to nothing.
@@ -186,8 +182,8 @@ struct Tile {
     dirty: Option<CellBox>,
 }
 
-impl Tile {
-    fn new() -> Self {
+impl Default for Tile {
+    fn default() -> Self {
         let area = (TILE_CELLS * TILE_CELLS) as usize;
         Self {
             cells: Arc::from(vec![Evidence::default(); area]),
@@ -199,10 +195,7 @@ impl Tile {
 /// Everything that was gathered about the cells of a floor.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Layers {
-    tiles: Vec<Tile>,
-    tile_at: BTreeMap<TileKey, usize>,
-    /// The tile used last: nearly every cell falls into it.
-    recent: Option<(TileKey, usize)>,
+    tiles: TileGrid<Tile>,
     /// Lowest and highest key.
     keys: Option<(TileKey, TileKey)>,
     /// Places of the tiles in `tiles` that are dirty.
@@ -212,38 +205,28 @@ pub(super) struct Layers {
 impl Layers {
     /// Cells that tiles cover; `None` while there is none.
     pub(super) fn bounds(&self) -> Option<CellBox> {
-        let ((low_x, low_y), (high_x, high_y)) = self.keys?;
-        Some(CellBox {
-            low: Cell {
-                x: low_x * TILE_CELLS,
-                y: low_y * TILE_CELLS,
-            },
-            high: Cell {
-                x: (high_x + 1) * TILE_CELLS - 1,
-                y: (high_y + 1) * TILE_CELLS - 1,
-            },
-        })
+        let (low, high) = self.keys?;
+        Some(tile_box(low).joined(tile_box(high)))
     }
 
     /// What was gathered about a cell.
     pub(super) fn at(&self, cell: Cell) -> Evidence {
-        let (key, index) = locate(cell);
-        self.tile_at
-            .get(&key)
-            .and_then(|tile| self.tiles.get(*tile))
-            .and_then(|tile| tile.cells.get(index))
-            .copied()
-            .unwrap_or_default()
+        let place = locate(cell);
+        let tile = self.tiles.get(place.key);
+        let evidence = tile.and_then(|tile| tile.cells.get(place.index()));
+        evidence.copied().unwrap_or_default()
     }
 
     /// Changes what was gathered about a cell, unless it lies too far away to be remembered.
     pub(super) fn change(&mut self, cell: Cell, change: impl FnOnce(&mut Evidence)) {
-        let (key, index) = locate(cell);
-        let Some(place) = self.tile(key) else { return };
-        let Some(tile) = self.tiles.get_mut(place) else {
+        let located = locate(cell);
+        let Some(place) = self.tile(located.key) else {
             return;
         };
-        let Some(evidence) = Arc::make_mut(&mut tile.cells).get_mut(index) else {
+        let Some(tile) = self.tiles.at_mut(place) else {
+            return;
+        };
+        let Some(evidence) = Arc::make_mut(&mut tile.cells).get_mut(located.index()) else {
             return;
         };
         let before = evidence.knowledge();
@@ -269,7 +252,7 @@ impl Layers {
         let places = core::mem::take(&mut self.dirty);
         places
             .into_iter()
-            .filter_map(|place| self.tiles.get_mut(place)?.dirty.take())
+            .filter_map(|place| self.tiles.at_mut(place)?.dirty.take())
             .collect()
     }
 
@@ -279,7 +262,7 @@ impl Layers {
             return None;
         }
         let place = self.dirty.remove(0);
-        self.tiles.get_mut(place)?.dirty.take()
+        self.tiles.at_mut(place)?.dirty.take()
     }
 
     /// Tiles in which knowledge may have changed.
@@ -289,27 +272,28 @@ impl Layers {
 
     /// Everything counts as changed: for rasters that know nothing yet.
     pub(super) fn soil(&mut self) {
-        for (key, place) in &self.tile_at {
-            if let Some(tile) = self.tiles.get_mut(*place) {
+        let places: Vec<(TileKey, usize)> = self.tiles.places().collect();
+        for (key, place) in &places {
+            if let Some(tile) = self.tiles.at_mut(*place) {
                 tile.dirty = Some(tile_box(*key));
             }
         }
-        self.dirty = self.tile_at.values().copied().collect();
+        self.dirty = places.iter().map(|(_, place)| *place).collect();
     }
 
     /// Every cell about which something was gathered, row after row within tiles, tiles in the order of their keys.
     pub(super) fn gathered(&self) -> impl Iterator<Item = (Cell, Evidence)> + '_ {
-        self.tile_at.iter().flat_map(|(&(tile_x, tile_y), &place)| {
-            let cells = self.tiles.get(place).map_or(&[][..], |tile| &tile.cells);
-            cells
+        self.tiles.iter().flat_map(|(key, tile)| {
+            let low = first_cell(key);
+            tile.cells
                 .iter()
                 .enumerate()
                 .filter(|(_, evidence)| **evidence != Evidence::default())
                 .map(move |(index, evidence)| {
                     let (row, column) = (index as i32 / TILE_CELLS, index as i32 % TILE_CELLS);
                     let cell = Cell {
-                        x: tile_x * TILE_CELLS + column,
-                        y: tile_y * TILE_CELLS + row,
+                        x: low.x + column,
+                        y: low.y + row,
                     };
                     (cell, *evidence)
                 })
@@ -322,44 +306,30 @@ impl Layers {
     }
 
     fn tile(&mut self, key: TileKey) -> Option<usize> {
-        if let Some((recent, tile)) = self.recent
-            && recent == key
-        {
-            return Some(tile);
-        }
-        let tile = match self.tile_at.get(&key) {
-            Some(tile) => *tile,
-            None => self.allocate(key)?,
-        };
-        self.recent = Some((key, tile));
-        Some(tile)
+        let keys = &mut self.keys;
+        self.tiles.place(key, || {
+            *keys = Some(grown(*keys, key)?);
+            Some(Tile::default())
+        })
     }
+}
 
-    fn allocate(&mut self, key: TileKey) -> Option<usize> {
-        if key.0.abs() > KEY_MAX || key.1.abs() > KEY_MAX {
-            return None;
-        }
-        let (low, high) = self.keys.unwrap_or((key, key));
-        let low = (low.0.min(key.0), low.1.min(key.1));
-        let high = (high.0.max(key.0), high.1.max(key.1));
-        let columns = i64::from(high.0) - i64::from(low.0) + 1;
-        let rows = i64::from(high.1) - i64::from(low.1) + 1;
-        if columns.saturating_mul(rows) > TILES_MAX {
-            return None;
-        }
-        self.keys = Some((low, high));
-        self.tiles.push(Tile::new());
-        self.tile_at.insert(key, self.tiles.len() - 1);
-        Some(self.tiles.len() - 1)
+/// Lowest and highest key when a tile comes to be; `None` when that is too far away.
+fn grown(keys: Option<(TileKey, TileKey)>, key: TileKey) -> Option<(TileKey, TileKey)> {
+    if key.0.abs() > KEY_MAX || key.1.abs() > KEY_MAX {
+        return None;
     }
+    let (low, high) = keys.unwrap_or((key, key));
+    let low = (low.0.min(key.0), low.1.min(key.1));
+    let high = (high.0.max(key.0), high.1.max(key.1));
+    let columns = i64::from(high.0) - i64::from(low.0) + 1;
+    let rows = i64::from(high.1) - i64::from(low.1) + 1;
+    (columns.saturating_mul(rows) <= TILES_MAX).then_some((low, high))
 }
 
 /// The cells of a tile.
 fn tile_box(key: TileKey) -> CellBox {
-    let low = Cell {
-        x: key.0 * TILE_CELLS,
-        y: key.1 * TILE_CELLS,
-    };
+    let low = first_cell(key);
     CellBox {
         low,
         high: Cell {
@@ -367,13 +337,6 @@ fn tile_box(key: TileKey) -> CellBox {
             y: low.y + TILE_CELLS - 1,
         },
     }
-}
-
-/// Tile and place in it.
-fn locate(cell: Cell) -> (TileKey, usize) {
-    let key = (cell.x.div_euclid(TILE_CELLS), cell.y.div_euclid(TILE_CELLS));
-    let (column, row) = (cell.x.rem_euclid(TILE_CELLS), cell.y.rem_euclid(TILE_CELLS));
-    (key, (row * TILE_CELLS + column) as usize)
 }
 
 #[cfg(test)]

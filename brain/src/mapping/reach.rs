@@ -1,9 +1,8 @@
 //! Where the body can be.
 
-use std::collections::VecDeque;
-
 use super::cell::neighbours;
 use super::distance::{squared_cells, window};
+use super::flood_fill::FloodFill;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{Pace, at_once};
@@ -22,23 +21,23 @@ pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f
     let squared = at_once(squared_cells(all, |cell| !is_free(cell), &mut Pace::at_once()));
     let clearance = clearance_m / CELL_M;
     let least = (clearance * clearance) as f32;
-    let fits = |cell: Cell| {
-        knowledge
-            .index(cell)
-            .is_some_and(|index| is_free(cell) && squared.get(index).is_some_and(|there| *there >= least))
+    let is_passable = |place: usize| {
+        let is_free = knowledge.values().get(place) == Some(&CellKnowledge::Free);
+        is_free && squared.get(place).is_some_and(|there| *there >= least)
     };
-    let Some(start) = nearest(Cell::under(from), &fits) else {
-        return reached;
-    };
-    let mut waiting = VecDeque::from([start]);
-    while let Some(cell) = waiting.pop_front() {
-        let Some(place) = reached.get_mut(cell) else {
-            continue;
-        };
-        if !core::mem::replace(place, true) {
-            waiting.extend(neighbours(cell).into_iter().filter(|next| fits(*next)));
-        }
+    let fits = |cell: Cell| knowledge.index(cell).is_some_and(is_passable);
+    let start = nearest(Cell::under(from), &fits);
+    let mut fill = FloodFill::over(reached.values().len());
+    if let Some(place) = start.and_then(|start| knowledge.index(start)) {
+        fill.reach(place);
     }
+    let beside = |place: usize| {
+        neighbours(knowledge.cell(place))
+            .into_iter()
+            .filter_map(|cell| knowledge.index(cell))
+    };
+    while fill.go_on(beside, is_passable).is_some() {}
+    reached.values_mut().copy_from_slice(&fill.into_reached());
     reached
 }
 

@@ -53,7 +53,7 @@ pub struct RoomJoin {
 
 impl RoomChange {
     /// Identities that mean something else without it.
-    fn rooms(&self) -> [u16; 2] {
+    pub(super) fn rooms(&self) -> [u16; 2] {
         match self {
             Self::Split(split) => [split.room, split.part],
             Self::Join(join) => [join.kept, join.lost],

@@ -6,10 +6,9 @@
 use std::collections::BTreeMap;
 
 use super::cell::{CELL_M, Cell, index};
+use super::tile_grid::{Located, TILE_CELLS, TileGrid, first_cell, locate};
 use crate::model::geometry::{Point2, Pose2};
 
-/// Cells along the edge of a tile; one row of a tile is one `u64`.
-const TILE_CELLS: i32 = 64;
 /// Tiles kept of one map: 10,000 square metres. What lies beyond is not remembered.
 const TILES_MAX: usize = 4096;
 /// The brush paints when one of its ends has moved this far since it last painted.
@@ -74,7 +73,7 @@ impl CellWord {
     }
 }
 
-/// 64 rows of bits, and a word for each cell: 9 kB.
+/// A `u64` of bits for each row, and a word for each cell: 9 kB.
 #[derive(Clone, Debug)]
 struct Tile {
     swept: [u64; TILE_CELLS as usize],
@@ -93,10 +92,7 @@ impl Default for Tile {
 /// Which cells were swept, and in which order.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SweptLayer {
-    tiles: Vec<Tile>,
-    tile_at: BTreeMap<(i32, i32), usize>,
-    /// The tile painted last: nearly every cell falls into it.
-    recent: Option<((i32, i32), usize)>,
+    tiles: TileGrid<Tile>,
     order: Vec<Cell>,
     /// When the first cell was swept, microseconds of the host's time; `None` = not yet since a restart.
     begun_us: Option<u64>,
@@ -120,7 +116,7 @@ impl SweptLayer {
     /// How a cell was swept; `None` = never.
     pub(super) fn sweeping(&self, cell: Cell) -> Option<Sweeping> {
         let place = locate(cell);
-        let tile = self.tiles.get(*self.tile_at.get(&place.key)?)?;
+        let tile = self.tiles.get(place.key)?;
         tile.words.get(place.index())?.sweeping()
     }
 
@@ -134,28 +130,24 @@ impl SweptLayer {
 
     pub(super) fn contains(&self, cell: Cell) -> bool {
         let place = locate(cell);
-        self.tile_at
-            .get(&place.key)
-            .and_then(|tile| self.tiles.get(*tile))
-            .is_some_and(|tile| tile.swept[place.row] & place.bit() != 0)
+        let tile = self.tiles.get(place.key);
+        tile.is_some_and(|tile| tile.swept[place.row] & bit(&place) != 0)
     }
 
     /// All cells, joined to runs in the order of their rows.
     pub(super) fn runs(&self) -> Vec<SweptRun> {
         let mut rows: BTreeMap<i32, Vec<(i32, &Tile)>> = BTreeMap::new();
-        for ((column, row), place) in &self.tile_at {
-            if let Some(tile) = self.tiles.get(*place) {
-                rows.entry(*row).or_default().push((*column, tile));
-            }
+        for ((column, row), tile) in self.tiles.iter() {
+            rows.entry(row).or_default().push((column, tile));
         }
         let mut runs = Vec::new();
         for (tile_row, tiles) in rows {
             for row in 0..TILE_CELLS {
-                let y = tile_row * TILE_CELLS + row;
                 for (column, tile) in &tiles {
+                    let low = first_cell((*column, tile_row));
                     let start = Cell {
-                        x: column * TILE_CELLS,
-                        y,
+                        y: low.y + row,
+                        ..low
                     };
                     add_runs(&mut runs, start, tile.swept[row as usize]);
                 }
@@ -175,33 +167,17 @@ impl SweptLayer {
 
     fn paint(&mut self, cell: Cell) {
         let place = locate(cell);
-        let Some(tile) = self.tile(place.key) else { return };
-        let tile = &mut self.tiles[tile];
-        if tile.swept[place.row] & place.bit() == 0 {
-            tile.swept[place.row] |= place.bit();
+        let has_room = self.tiles.len() < TILES_MAX;
+        let tile = self.tiles.place(place.key, || has_room.then(Tile::default));
+        let Some(tile) = tile.and_then(|tile| self.tiles.at_mut(tile)) else {
+            return;
+        };
+        if tile.swept[place.row] & bit(&place) == 0 {
+            tile.swept[place.row] |= bit(&place);
             self.order.push(cell);
         }
         let word = &mut tile.words[place.index()];
         *word = word.swept_at(self.tick);
-    }
-
-    fn tile(&mut self, key: (i32, i32)) -> Option<usize> {
-        if let Some((recent, tile)) = self.recent
-            && recent == key
-        {
-            return Some(tile);
-        }
-        let tile = match self.tile_at.get(&key) {
-            Some(tile) => *tile,
-            None if self.tiles.len() >= TILES_MAX => return None,
-            None => {
-                self.tiles.push(Tile::default());
-                self.tile_at.insert(key, self.tiles.len() - 1);
-                self.tiles.len() - 1
-            }
-        };
-        self.recent = Some((key, tile));
-        Some(tile)
     }
 
     /// Paints the cells whose centres lie in the triangle, borders included.
@@ -243,31 +219,9 @@ fn add_runs(runs: &mut Vec<SweptRun>, start: Cell, bits: u64) {
     }
 }
 
-/// Where a cell is kept.
-struct Located {
-    /// Its tile.
-    key: (i32, i32),
-    /// Row and column in that.
-    row: usize,
-    column: usize,
-}
-
-impl Located {
-    fn bit(&self) -> u64 {
-        1 << self.column
-    }
-
-    fn index(&self) -> usize {
-        self.row * TILE_CELLS as usize + self.column
-    }
-}
-
-fn locate(cell: Cell) -> Located {
-    Located {
-        key: (cell.x.div_euclid(TILE_CELLS), cell.y.div_euclid(TILE_CELLS)),
-        row: cell.y.rem_euclid(TILE_CELLS) as usize,
-        column: cell.x.rem_euclid(TILE_CELLS) as usize,
-    }
+/// The bit of a cell in its row.
+fn bit(place: &Located) -> u64 {
+    1 << place.column
 }
 
 fn extent(coordinates_m: [f64; 3]) -> (i32, i32) {

@@ -30,16 +30,21 @@ impl Pace {
         Self::of(usize::MAX)
     }
 
-    const fn of(step: usize) -> Self {
+    /// Pauses when so much work was done.
+    pub(crate) const fn of(step: usize) -> Self {
         Self { left: step, step }
     }
 
     /// Counts work that was done, and pauses if that was enough for a step.
     pub(crate) async fn spend(&mut self, done: usize) {
         self.left = self.left.saturating_sub(done);
-        if self.left > 0 {
-            return;
+        if self.left == 0 {
+            self.pause().await;
         }
+    }
+
+    /// Leaves the rest to the next step, however much was done in this one.
+    pub(crate) async fn pause(&mut self) {
         self.left = self.step;
         let mut has_paused = false;
         poll_fn(|_| {

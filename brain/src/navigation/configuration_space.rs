@@ -1,6 +1,6 @@
 //! The ground: where the body's middle can be, and what of the floor is still open.
 
-use crate::mapping::{Cell, Raster};
+use crate::mapping::{Cell, FloodFill, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::Pace;
 
@@ -171,17 +171,17 @@ impl Ground {
     /// The free cell from which a robot at a point sets out: the nearest one of the largest ground if that is within its
     /// reach, else the nearest of all. A robot that has just met something often stands beside a splinter of free cells.
     pub(crate) async fn origin_near(&self, point: Point2, pace: &mut Pace) -> Option<usize> {
-        let mut seen = vec![false; self.free.len()];
+        let mut fill = FloodFill::over(self.free.len());
         let mut nearest: Option<(f64, usize)> = None;
         let mut largest: Option<(usize, f64, usize)> = None;
         for seed in 0..self.free.len() {
             if seed.is_multiple_of(self.width) {
                 pace.spend(self.width).await;
             }
-            if seen[seed] || !self.free[seed] {
+            if fill.has_reached(seed) || !self.free[seed] {
                 continue;
             }
-            let (size, distance_m, cell) = self.component(seed, &mut seen, (point, &mut *pace)).await;
+            let (size, distance_m, cell) = self.component(seed, &mut fill, (point, &mut *pace)).await;
             if nearest.is_none_or(|(least_m, _)| distance_m < least_m) {
                 nearest = Some((distance_m, cell));
             }
@@ -196,13 +196,12 @@ impl Ground {
     async fn component(
         &self,
         seed: usize,
-        seen: &mut [bool],
+        fill: &mut FloodFill,
         (point, pace): (Point2, &mut Pace),
     ) -> (usize, f64, usize) {
-        let mut stack = vec![seed];
-        seen[seed] = true;
+        fill.reach(seed);
         let (mut size, mut best) = (0, (f64::INFINITY, seed));
-        while let Some(index) = stack.pop() {
+        while let Some(index) = self.go_on(fill) {
             size += 1;
             if size % VISITS == 0 {
                 pace.spend(MEASURE_WORK * VISITS).await;
@@ -211,25 +210,21 @@ impl Ground {
             if distance_m < best.0 {
                 best = (distance_m, index);
             }
-            for neighbour in self.neighbours(index) {
-                if self.free[neighbour] && !seen[neighbour] {
-                    seen[neighbour] = true;
-                    stack.push(neighbour);
-                }
-            }
         }
         (size, best.0, best.1)
     }
 
     /// Closes all ground that cannot be reached from a free cell, and the floor that only such ground could sweep.
     pub(crate) async fn keep_connected(&mut self, from: usize, pace: &mut Pace) {
-        let mut reached = vec![false; self.free.len()];
-        let mut stack = vec![from];
-        reached[from] = true;
-        while !stack.is_empty() {
-            self.reach_some(&mut stack, &mut reached);
+        let mut fill = FloodFill::over(self.free.len());
+        fill.reach(from);
+        while !fill.is_done() {
+            for _ in 0..VISITS {
+                self.go_on(&mut fill);
+            }
             pace.spend(VISIT_WORK * VISITS).await;
         }
+        let reached = fill.into_reached();
         if reached != self.free {
             self.free = reached;
             self.open.fill(false);
@@ -238,17 +233,9 @@ impl Ground {
         self.measure_clearance(pace).await;
     }
 
-    /// Goes to the neighbours of some of the cells on the stack.
-    fn reach_some(&self, stack: &mut Vec<usize>, reached: &mut [bool]) {
-        for _ in 0..VISITS {
-            let Some(index) = stack.pop() else { return };
-            for neighbour in self.neighbours(index) {
-                if self.free[neighbour] && !reached[neighbour] {
-                    reached[neighbour] = true;
-                    stack.push(neighbour);
-                }
-            }
-        }
+    /// Goes on over free cells.
+    fn go_on(&self, fill: &mut FloodFill) -> Option<usize> {
+        fill.go_on(|index| self.neighbours(index), |index| self.free[index])
     }
 
     /// Two sweeps over the cells: from above and the left, then from below and the right.

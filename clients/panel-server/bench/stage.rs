@@ -123,5 +123,5 @@ fn home() -> Vec<u8> {
             *cell = CellKnowledge::Occupied;
         }
     }
-    StoredMap::from_raster(&floor, Some(Pose2::IDENTITY)).encode()
+    vthal_core::stored_map::encode(&StoredMap::from_raster(&floor, Some(Pose2::IDENTITY)))
 }

@@ -56,7 +56,9 @@ impl CleaningPattern {
         Self::ALL.into_iter().find(|pattern| pattern.name() == name)
     }
 
-    fn is_usual(&self) -> bool {
+    /// Whether it is what floor is swept by if nobody says otherwise.
+    #[must_use]
+    pub fn is_usual(&self) -> bool {
         *self == Self::default()
     }
 }

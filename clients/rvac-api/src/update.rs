@@ -203,6 +203,7 @@ pub struct Failure {
 
 /// Versions of all parts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Versions {
     /// The daemon.
     pub vthal: String,
@@ -241,6 +242,7 @@ pub struct RobotDescription {
 
 /// What the robot is doing and why.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct Status {
     /// `disconnected`, `idle`, `starting`, `cleaning`, `spot`, `docking`, `docked`, `manual`, `paused`, `stuck`, `error`.
     pub state: String,
@@ -269,6 +271,7 @@ pub struct Status {
 
 /// The room in which the robot is.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct RoomHere {
     /// Identity as in [`RoomView`](crate::RoomView), from 1.
     pub id: u16,
@@ -300,6 +303,7 @@ pub struct Pose {
 
 /// The device information table of the panel. What is not measured is absent.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct DeviceTable {
     /// Versions of all parts.
     pub versions: Versions,
@@ -340,6 +344,7 @@ pub struct DeviceTable {
 
 /// Battery readings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct BatteryReading {
     /// 0..1.
     pub charge: f64,
@@ -358,6 +363,7 @@ pub struct BatteryReading {
 
 /// What the charger does. Names are those of the protocol.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct ChargerReading {
     /// `idle`, `precharge`, `fast`, `top-off`, `maintain`, `fault`.
     pub phase: String,
@@ -369,6 +375,7 @@ pub struct ChargerReading {
 
 /// Link quality.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
 pub struct LinkReading {
     /// Telemetry is fresh.
     pub up: bool,

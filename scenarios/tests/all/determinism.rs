@@ -55,7 +55,7 @@ fn planned_run(seed: u64, prepare: impl Fn(Household) -> Household) -> Outcome {
         world: household.robot().state_hash(),
         figures: format!("{report:?}"),
         log,
-        map: brain.map().stored().encode(),
+        map: vthal_core::stored_map::encode(&brain.map().stored()),
     }
 }
 

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 
 use brain::command::StrategyName;
-use brain::{Cell, Map, StoredMap};
+use brain::{Cell, Map};
 use rvac_api::{JobOrder, JobPart, RequestBody, RoomSplitting};
 use rvac_sim::run::household;
 use rvac_sim::{Host, Household};
 use scenarios::{scene, settings};
+use vthal_core::stored_map;
 
 const HOME: &str = "two-room-flat";
 const MINUTE_MS: u64 = 60_000;
@@ -100,9 +101,9 @@ fn a_split_room_stays_split_while_one_half_is_cleaned_the_home_mapped_on_and_the
     let host = household.kill_host().expect("lives");
     let kept = host
         .brain()
-        .map(|brain| brain.map().stored().encode())
+        .map(|brain| stored_map::encode(&brain.map().stored()))
         .expect("a brain");
-    let kept = StoredMap::decode(&kept).expect("a good map");
+    let kept = stored_map::decode(&kept).expect("a good map");
     let mut household = rvac_sim::run::household(&scene, &settings(2, 0)).with_map(kept);
     household.pass_ms(3_000);
     assert_eq!(ids(&household), split, "in another host's hands");

@@ -24,6 +24,7 @@ use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::trace::KeptRun;
 use rvac_sim::{Firmware, Host, Household, Record, Report, Scene, SceneError, explain};
+use vthal_core::stored_map;
 
 /// Bad input; nothing was done.
 const BAD_INPUT: u8 = 2;
@@ -115,13 +116,14 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
 
 fn read_map(path: &Path) -> anyhow::Result<StoredMap> {
     let bytes = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
-    StoredMap::decode(&bytes).with_context(|| format!("{} is no map that can be used", path.display()))
+    stored_map::decode(&bytes).with_context(|| format!("{} is no map that can be used", path.display()))
 }
 
 fn save_map(path: &Path, household: &Household) -> anyhow::Result<()> {
     let brain = household.host().and_then(Host::brain);
     let brain = brain.context("the host never knew its robot, so there is no map to save")?;
-    fs::write(path, brain.map().stored().encode()).with_context(|| format!("cannot write {}", path.display()))
+    fs::write(path, stored_map::encode(&brain.map().stored()))
+        .with_context(|| format!("cannot write {}", path.display()))
 }
 
 fn write_homes(folder: &Path) -> anyhow::Result<ExitCode> {

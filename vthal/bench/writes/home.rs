@@ -16,7 +16,7 @@ pub(crate) struct Home;
 /// A room of 4 by 3 metres with the dock in it.
 pub(crate) fn first_version() -> Vec<u8> {
     let floor = Raster::filled(Cell { x: -40, y: -40 }, 160, 120, CellKnowledge::Free);
-    StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY)).encode()
+    vthal_core::stored_map::encode(&StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY)))
 }
 
 /// Waits until the daemon has taken the map up: the robot stands on its dock.

@@ -12,7 +12,7 @@ mod history;
 mod learnt;
 mod link_facts;
 mod manual;
-mod orders;
+pub(crate) mod orders;
 pub(crate) mod places;
 mod refusal;
 mod refusal_log;

@@ -3,11 +3,11 @@
 use brain::mapping::{Annotations, Door, Room, RoomChange, Sureness, WallSegment};
 use brain::{CELL_M, Cell, CellKnowledge, FloorKind, KeptPlace, Map, NoGo, Raster};
 use rvac_api::{
-    CarpetView, DoorView, HomeView, NoGoShape, NoGoView, PlaceView, Rle, RoomChangeView, RoomView,
-    SurenessView, WallView,
+    CarpetView, DoorView, HomeView, NoGoView, PlaceView, Rle, RoomChangeView, RoomView, SurenessView,
+    WallView,
 };
 
-use crate::to_api;
+use crate::{api_forms, to_api};
 
 /// Numbers that the runs of cells may have together: a message of a megabyte at most. A home of 150 square metres has
 /// some 20,000.
@@ -241,16 +241,9 @@ fn runs(values: &[u32]) -> Rle {
 }
 
 fn no_go((number, no_go): (u16, &NoGo)) -> NoGoView {
-    let shape = match no_go.shape() {
-        brain::NoGoShape::Zone => {
-            let corners = no_go.area().corners().iter();
-            NoGoShape::Zone(corners.map(|corner| [corner.x_m, corner.y_m]).collect())
-        }
-        brain::NoGoShape::Wall { from, to } => NoGoShape::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
-    };
     NoGoView {
         number,
-        shape,
+        shape: api_forms::no_go(no_go),
         name: no_go.name().map(|name| name.as_str().to_owned()),
     }
 }
@@ -259,7 +252,7 @@ fn place((number, place): (u16, &KeptPlace)) -> PlaceView {
     PlaceView {
         number,
         name: place.name().as_str().to_owned(),
-        shape: crate::core::places::to_api(place.shape()),
+        shape: api_forms::place(place.shape()),
     }
 }
 

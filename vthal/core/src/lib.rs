@@ -12,6 +12,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod api_forms;
 mod arbiter;
 mod buttons;
 mod checkpoint;
@@ -36,6 +37,7 @@ mod outputs;
 mod quest;
 pub mod schedule;
 mod scheduler;
+pub mod stored_map;
 mod stored_version;
 mod swept_sigma;
 mod to_api;

@@ -3,12 +3,13 @@
 use brain::{Cell, CellKnowledge, Raster, RoomName, StoredMap};
 use proptest::prelude::*;
 use rvac_api::ARCHIVE_BYTES_MAX;
+use vthal_core::stored_map;
 
 use super::{ArchiveError, ArchivedFloor, MAGIC, VERSION, decode, encode, sum};
 
 fn map(width: usize) -> Vec<u8> {
     let floor = Raster::filled(Cell { x: 1, y: 2 }, width, 4, CellKnowledge::Free);
-    StoredMap::from_raster(&floor, None).encode()
+    stored_map::encode(&StoredMap::from_raster(&floor, None))
 }
 
 /// A map as the first version of its format has it.

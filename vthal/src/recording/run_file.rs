@@ -9,12 +9,10 @@ use std::path::{Path, PathBuf};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::{Attachment, WriteOptions, Writer};
 use serde::Serialize;
-use serde_json::json;
 use vthal_core::{Record, RunStart};
 
-use super::format::{Answered, Given, GivenCommand, RunHeader, Seen};
+use super::format::{Answered, Given, GivenCommand, RunHeader, Seen, SentPacket};
 use super::foxglove;
-use super::schemas::CHANNELS;
 use super::{COMMANDS, DECISIONS, DEVICE, LOG, OBSERVATIONS, PACKETS, POSE, ROBOT, RUN, STATUS, TRANSFORM};
 
 /// Why a record was not written.
@@ -86,14 +84,15 @@ impl RunFile {
             .library(library);
         let mut writer = options.create(BufWriter::new(file)).map_err(failed)?;
         let mut channels = BTreeMap::new();
-        for (topic, name, schema) in CHANNELS {
+        for channel in super::schemas::channels() {
+            let schema = serde_json::to_vec(&channel.schema)?;
             let schema = writer
-                .add_schema(name, "jsonschema", schema.as_bytes())
+                .add_schema(channel.name, "jsonschema", &schema)
                 .map_err(failed)?;
-            let channel = writer
-                .add_channel(schema, topic, "json", &BTreeMap::new())
+            let number = writer
+                .add_channel(schema, channel.topic, "json", &BTreeMap::new())
                 .map_err(failed)?;
-            channels.insert(topic, channel);
+            channels.insert(channel.topic, number);
         }
         writer
             .write_metadata(&metadata(start, settings))
@@ -158,10 +157,7 @@ impl RunFile {
                 time_us,
                 direction,
                 text,
-            } => self.write_json(
-                (PACKETS, *time_us),
-                &json!({"direction": direction.symbol(), "text": text}),
-            ),
+            } => self.write_json((PACKETS, *time_us), &SentPacket::new(*direction, text)),
             Record::Status { time_us, status } => self.write_json((STATUS, *time_us), status),
             Record::Pose(pose) => {
                 let time_us = foxglove::time_us(pose.t);

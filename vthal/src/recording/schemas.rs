@@ -1,60 +1,68 @@
 //! JSON schemas of the channels: what Foxglove needs to offer the fields by name, and to draw what is its own.
 
-/// Name, topic and schema of each channel.
-pub(crate) const CHANNELS: [(&str, &str, &str); 11] = [
-    (
-        super::RUN,
-        "vthal.Run",
-        r#"{"type":"object","properties":{"format":{"type":"integer"},"vthal":{"type":"string"},"time_us":{"type":"integer"},"run":{"type":"integer"},"cause":{"type":"string"},"seed":{"type":"integer"},"device":{"type":"string"},"firmware":{"type":"string"},"config":{"type":"object"},"state":{"type":"object"}}}"#,
-    ),
-    (
-        super::OBSERVATIONS,
-        "vthal.Observation",
-        r#"{"type":"object","properties":{"time_us":{"type":"integer"},"left_m":{"type":"number"},"right_m":{"type":"number"},"gyro_rad":{"type":"number"},"contacts":{"type":"array","items":{"type":"boolean"}},"cliffs":{"type":"array","items":{"type":"boolean"}},"wheel_drop":{"type":"boolean"},"proximity":{"type":"array","items":{"type":"number"}},"dock_beams":{"type":"array","items":{"type":"integer"}},"docked":{"type":"boolean"},"battery":{"type":"number"},"charge_flow":{"type":"string"},"currents_a":{"type":"array","items":{"type":"number"}},"inhibits":{"type":"array","items":{"type":"string"}},"link_up":{"type":"boolean"},"speed_share":{"type":"number"},"beacons":{"type":"array","items":{"type":"array","items":{"type":"number"}}},"strengths":{"type":"array","items":{"type":"array","items":{"type":"number"}}}}}"#,
-    ),
-    (
-        super::COMMANDS,
-        "vthal.Command",
-        r#"{"type":"object","properties":{"time_us":{"type":"integer"},"command":{}}}"#,
-    ),
-    (
-        super::DECISIONS,
-        "vthal.Actions",
-        r#"{"type":"object","properties":{"motion":{},"cleaners":{"type":"boolean"},"arm":{"type":"object"},"tones":{"type":"array"},"decisions":{"type":"array","items":{"type":"object","properties":{"what":{"type":"string"},"reason":{"type":"string"},"value":{"type":"number"}}}}}}"#,
-    ),
-    (
-        super::PACKETS,
-        "vthal.Packet",
-        r#"{"type":"object","properties":{"direction":{"type":"string"},"text":{"type":"string"}}}"#,
-    ),
-    (
-        super::STATUS,
-        "vthal.Status",
-        r#"{"type":"object","properties":{"state":{"type":"string"},"reason":{"type":"string"},"strategy":{"type":"string"},"inhibits":{"type":"array","items":{"type":"string"}},"job_s":{"type":"number"},"swept_m2":{"type":"number"},"path_m":{"type":"number"},"bumps":{"type":"integer"},"driver":{"type":"string"}}}"#,
-    ),
-    (
-        super::DEVICE,
-        "vthal.Device",
-        r#"{"type":"object","properties":{"versions":{"type":"object","properties":{"vthal":{"type":"string"},"brain":{"type":"string"},"firmware":{"type":"string"},"cordlib":{"type":"string"},"protocol":{"type":"integer"}}},"battery":{"type":"object","properties":{"charge":{"type":"number"},"voltage_v":{"type":"number"},"current_a":{"type":"number"},"temperature_c":{"type":"number"},"state":{"type":"string"},"charger":{"type":"object","properties":{"phase":{"type":"string"},"end":{"type":"string"},"fault":{"type":"string"}}}}},"main_loop_hz":{"type":"integer"},"bytes_out_per_s":{"type":"number"},"bytes_in_per_s":{"type":"number"},"link":{"type":"object","properties":{"up":{"type":"boolean"},"age_ms":{"type":"integer"},"bad_share":{"type":"number"},"round_trip_ms":{"type":"number"},"resets":{"type":"integer"},"reset_cause":{"type":"string"},"reconnects":{"type":"integer"},"binary":{"type":"boolean"}}},"wheel_left_m_per_s":{"type":"number"},"wheel_right_m_per_s":{"type":"number"},"bumpers":{"type":"array","items":{"type":"boolean"}},"cliffs":{"type":"array","items":{"type":"boolean"}},"wheel_drops":{"type":"array","items":{"type":"boolean"}},"proximity":{"type":"array","items":{"type":"number"}},"currents_a":{"type":"array","items":{"type":"number"}},"cleaners":{"type":"array","items":{"type":"boolean"}},"dust_box":{"type":"boolean"},"docked":{"type":"boolean"}}}"#,
-    ),
-    (
-        super::POSE,
-        "foxglove.PoseInFrame",
-        r#"{"title":"foxglove.PoseInFrame","type":"object","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},"nsec":{"type":"integer","minimum":0,"maximum":999999999}}},"frame_id":{"type":"string"},"pose":{"title":"foxglove.Pose","type":"object","properties":{"position":{"title":"foxglove.Vector3","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"orientation":{"title":"foxglove.Quaternion","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"},"w":{"type":"number"}}}}}}}"#,
-    ),
-    (
-        super::TRANSFORM,
-        "foxglove.FrameTransform",
-        r#"{"title":"foxglove.FrameTransform","type":"object","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},"nsec":{"type":"integer","minimum":0,"maximum":999999999}}},"parent_frame_id":{"type":"string"},"child_frame_id":{"type":"string"},"translation":{"title":"foxglove.Vector3","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"rotation":{"title":"foxglove.Quaternion","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"},"w":{"type":"number"}}}}}"#,
-    ),
-    (
-        super::ROBOT,
-        "foxglove.SceneUpdate",
-        r#"{"title":"foxglove.SceneUpdate","type":"object","properties":{"deletions":{"type":"array"},"entities":{"type":"array","items":{"title":"foxglove.SceneEntity","type":"object","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},"nsec":{"type":"integer","minimum":0,"maximum":999999999}}},"frame_id":{"type":"string"},"id":{"type":"string"},"lifetime":{"type":"object","title":"duration","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer","minimum":0,"maximum":999999999}}},"frame_locked":{"type":"boolean"},"metadata":{"type":"array"},"arrows":{"type":"array","items":{"title":"foxglove.ArrowPrimitive","type":"object","properties":{"pose":{"title":"foxglove.Pose","type":"object","properties":{"position":{"title":"foxglove.Vector3","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"orientation":{"title":"foxglove.Quaternion","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"},"w":{"type":"number"}}}}},"shaft_length":{"type":"number"},"shaft_diameter":{"type":"number"},"head_length":{"type":"number"},"head_diameter":{"type":"number"},"color":{"title":"foxglove.Color","type":"object","properties":{"r":{"type":"number"},"g":{"type":"number"},"b":{"type":"number"},"a":{"type":"number"}}}}}},"cubes":{"type":"array"},"spheres":{"type":"array"},"cylinders":{"type":"array","items":{"title":"foxglove.CylinderPrimitive","type":"object","properties":{"pose":{"title":"foxglove.Pose","type":"object","properties":{"position":{"title":"foxglove.Vector3","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"orientation":{"title":"foxglove.Quaternion","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"},"w":{"type":"number"}}}}},"size":{"title":"foxglove.Vector3","type":"object","properties":{"x":{"type":"number"},"y":{"type":"number"},"z":{"type":"number"}}},"bottom_scale":{"type":"number"},"top_scale":{"type":"number"},"color":{"title":"foxglove.Color","type":"object","properties":{"r":{"type":"number"},"g":{"type":"number"},"b":{"type":"number"},"a":{"type":"number"}}}}}},"lines":{"type":"array"},"triangles":{"type":"array"},"texts":{"type":"array"},"models":{"type":"array"}}}}}}"#,
-    ),
-    (
-        super::LOG,
-        "foxglove.Log",
-        r#"{"title":"foxglove.Log","type":"object","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer","minimum":0},"nsec":{"type":"integer","minimum":0,"maximum":999999999}}},"level":{"title":"foxglove.LogLevel","oneOf":[{"title":"UNKNOWN","const":0},{"title":"DEBUG","const":1},{"title":"INFO","const":2},{"title":"WARNING","const":3},{"title":"ERROR","const":4},{"title":"FATAL","const":5}]},"message":{"type":"string"},"name":{"type":"string"},"file":{"type":"string"},"line":{"type":"integer"}}}"#,
-    ),
-];
+use rvac_api::{DeviceTable, Status};
+use schemars::generate::SchemaSettings;
+use schemars::transform::transform_subschemas;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+
+use super::format::{Answered, Given, RunHeader, Seen, SentPacket};
+use super::foxglove::{FrameTransform, Log, PoseInFrame, SceneUpdate};
+use super::{COMMANDS, DECISIONS, DEVICE, LOG, OBSERVATIONS, PACKETS, POSE, ROBOT, RUN, STATUS, TRANSFORM};
+
+/// A channel of a recording.
+pub(super) struct Channel {
+    pub(super) topic: &'static str,
+    /// Name of the schema.
+    pub(super) name: &'static str,
+    pub(super) schema: Schema,
+}
+
+/// All channels of a recording.
+pub(super) fn channels() -> [Channel; 11] {
+    [
+        channel::<RunHeader>(RUN, "vthal.Run"),
+        channel::<Seen>(OBSERVATIONS, "vthal.Observation"),
+        channel::<Given>(COMMANDS, "vthal.Command"),
+        channel::<Answered<'_>>(DECISIONS, "vthal.Actions"),
+        channel::<SentPacket<'_>>(PACKETS, "vthal.Packet"),
+        channel::<Status>(STATUS, "vthal.Status"),
+        channel::<DeviceTable>(DEVICE, "vthal.Device"),
+        channel::<PoseInFrame>(POSE, "foxglove.PoseInFrame"),
+        channel::<FrameTransform>(TRANSFORM, "foxglove.FrameTransform"),
+        channel::<SceneUpdate>(ROBOT, "foxglove.SceneUpdate"),
+        channel::<Log<'_>>(LOG, "foxglove.Log"),
+    ]
+}
+
+fn channel<T: JsonSchema>(topic: &'static str, name: &'static str) -> Channel {
+    let settings = SchemaSettings::default().for_serialize().with_transform(plain);
+    let settings = settings.with(|settings| {
+        settings.meta_schema = None;
+        // Foxglove follows no references.
+        settings.inline_subschemas = true;
+    });
+    let mut schema = settings.into_generator().into_root_schema_for::<T>();
+    schema.insert("title".to_owned(), name.into());
+    Channel { topic, name, schema }
+}
+
+/// Foxglove knows neither choices of types nor types of nothing, and what stands in comments and defaults is not for who looks at a recording.
+fn plain(schema: &mut Schema) {
+    let object = schema.ensure_object();
+    object.remove("description");
+    object.remove("default");
+    if let Some(present) = object.get("type").and_then(|kinds| kinds.get(0)).cloned() {
+        object.insert("type".to_owned(), present);
+    }
+    if let Some(choices) = object.remove("anyOf")
+        && let Some(present) = choices.get(0).and_then(|choice| choice.as_object())
+    {
+        object.extend(present.clone());
+    }
+    transform_subschemas(&mut plain, schema);
+}
+
+/// A list of what is drawn nowhere.
+pub(super) fn list(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({"type": "array"})
+}

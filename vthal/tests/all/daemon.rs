@@ -16,6 +16,7 @@ use rvac_protocol::message::{self, BinaryKinds};
 use rvac_protocol::seal::{Digest, Direction as SealDirection};
 
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
+use vthal_core::stored_map;
 
 /// Generous: the machine may be busy with other tests.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -421,7 +422,7 @@ fn refused(desk: &mut Desk) -> Option<String> {
 
 fn map_of(width: usize) -> Vec<u8> {
     let floor = Raster::filled(Cell { x: 0, y: 0 }, width, 8, CellKnowledge::Free);
-    StoredMap::from_raster(&floor, None).encode()
+    stored_map::encode(&StoredMap::from_raster(&floor, None))
 }
 
 #[test]
@@ -494,7 +495,7 @@ fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
     fs::create_dir_all(&maps).expect("creates");
     let floor = Raster::filled(Cell { x: -40, y: -40 }, 160, 120, CellKnowledge::Free);
     let home = StoredMap::from_raster(&floor, Some(brain::Pose2::IDENTITY));
-    fs::write(maps.join("000001.map"), home.encode()).expect("writes");
+    fs::write(maps.join("000001.map"), stored_map::encode(&home)).expect("writes");
     let mut robot = robot(&scratch, 1);
     robot.dock();
     let daemon = start(&scratch);
@@ -510,7 +511,7 @@ fn what_people_say_of_the_home_is_on_the_disk_when_it_is_acknowledged() {
     });
     // No warning and no time to write: what is there is what the next daemon finds.
     drop(daemon);
-    let newest = StoredMap::decode(&fs::read(maps.join("000002.map")).expect("reads")).expect("is whole");
+    let newest = stored_map::decode(&fs::read(maps.join("000002.map")).expect("reads")).expect("is whole");
     assert_eq!(newest.annotations().no_go().count(), 1);
     assert_eq!(newest.dock().map(|dock| dock.x_m), Some(0.0));
 }

@@ -11,6 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
 use rvac_api::{ARCHIVE_UPLOAD_BYTES, FloorsView, Update};
 use vthal_bench::{Client, Daemon, Scratch};
+use vthal_core::stored_map;
 
 /// Generous: the machine may be busy with other tests.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -155,7 +156,7 @@ fn gather(folder: &Path, files: &mut BTreeMap<String, Vec<u8>>) {
 
 fn map(width: usize) -> Vec<u8> {
     let floor = Raster::filled(Cell { x: 0, y: 0 }, width, 8, CellKnowledge::Free);
-    StoredMap::from_raster(&floor, None).encode()
+    stored_map::encode(&StoredMap::from_raster(&floor, None))
 }
 
 /// One that needs several pieces: no two cells side by side are equal.
@@ -163,7 +164,7 @@ fn large_map() -> Vec<u8> {
     let mut floor = Raster::filled(Cell { x: 0, y: 0 }, 200, 200, CellKnowledge::Free);
     let odd = floor.values_mut().iter_mut().step_by(2);
     odd.for_each(|kind| *kind = CellKnowledge::Occupied);
-    StoredMap::from_raster(&floor, None).encode()
+    stored_map::encode(&StoredMap::from_raster(&floor, None))
 }
 
 #[test]

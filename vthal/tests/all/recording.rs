@@ -10,8 +10,8 @@ use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, 
 use brain::{Actions, Body, BrainConfig, Command, Inhibits, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
 use rvac_api::{
-    BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RunRecord,
-    Status, TrackPose,
+    BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RoomHere,
+    RunRecord, Status, TrackPose,
 };
 use serde_json::{Value, json};
 use vthal::recording::{Part, RunFile, Whole, track};
@@ -94,6 +94,10 @@ fn records() -> Vec<Record> {
     let named = Status {
         strategy: Some("bounce".to_owned()),
         driver: Some("panel".to_owned()),
+        room: Some(RoomHere {
+            id: 3,
+            name: Some("Kitchen".to_owned()),
+        }),
         ..status.clone()
     };
     let full = Observation {
@@ -287,6 +291,41 @@ fn every_message_keeps_to_its_schema() {
                 keys_met.contains(&(topic.clone(), key.clone())),
                 "{topic} never has {key}"
             );
+        }
+    }
+}
+
+/// Plots and tables that people have made in Foxglove go by these names.
+#[test]
+fn fields_have_the_names_that_they_always_had() {
+    let names = [
+        (
+            "/run",
+            "format vthal time_us run cause seed device firmware config state",
+        ),
+        (
+            "/observations",
+            "time_us left_m right_m gyro_rad contacts cliffs wheel_drop proximity dock_beams docked battery charge_flow \
+             currents_a inhibits link_up speed_share beacons strengths",
+        ),
+        ("/commands", "time_us command"),
+        ("/decisions", "motion cleaners arm tones decisions"),
+        ("/packets", "direction text"),
+        (
+            "/status",
+            "state reason strategy inhibits job_s swept_m2 path_m bumps driver",
+        ),
+        (
+            "/device",
+            "versions battery main_loop_hz bytes_out_per_s bytes_in_per_s link wheel_left_m_per_s wheel_right_m_per_s bumpers \
+             cliffs wheel_drops proximity currents_a cleaners dust_box docked",
+        ),
+    ];
+    let schemas = schemas(&recording("names"));
+    for (topic, names) in names {
+        for name in names.split_whitespace() {
+            let field = &schemas[topic]["properties"][name];
+            assert!(!field.is_null(), "{topic} has no {name}");
         }
     }
 }

@@ -4,13 +4,14 @@
 //! beacons. It is tried every few metres until the answer is sure; a way that does not bend enough to tell a beacon from
 //! its mirror image has to be longer.
 
-use super::envelope::{Envelope, Factor};
 use super::follower::{BEND_SIGMA, Follower, SCALE_SIGMA, STRETCH_SIGMA, Start, WHEELS};
 use super::guess::{Ranged, guess};
 use super::hop::Hop;
 use super::sight::Sight;
 use super::weight::weight;
+use crate::localization::skyline::{Factor, Solution, Summation, System};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::gradual::{Pace, at_once};
 use crate::model::pose_estimate::PoseEstimate;
 
 /// Way before the first try, and between two, metres.
@@ -158,13 +159,14 @@ impl FirstLook {
     fn step(&self, guess: &Guess) -> Option<(Vec<f64>, Factor, f64)> {
         let common = POSE * guess.poses.len();
         let unknowns = common + WHEELS + 2 * guess.beacons.len();
-        let mut system = Envelope::new((0..unknowns).map(|row| {
+        let first = (0..unknowns).map(|row| {
             if row < common {
                 (row / POSE).saturating_sub(1) * POSE
             } else {
                 0
             }
-        }));
+        });
+        let mut system = System::new(first.collect(), Summation::InOrder);
         self.measure_start(guess, &mut system, common);
         for (number, hop) in self.hops.iter().enumerate() {
             let (from, to) = (guess.poses.get(number)?, guess.poses.get(number + 1)?);
@@ -190,7 +192,8 @@ impl FirstLook {
             let per = libm::sqrt(weight) / range.sigma_m;
             let at = POSE * (number + 1);
             let beacon_at = common + WHEELS + 2 * beacon;
-            system.measure(
+            measure(
+                &mut system,
                 libm::sqrt(weight) * off,
                 &[
                     (at, per * sight.by_x),
@@ -201,21 +204,21 @@ impl FirstLook {
                 ],
             );
         }
-        let (change, factor) = system.solve()?;
-        Some((change, factor, libm::sqrt(misfit / f64::from(count.max(1)))))
+        let Solution { values, factor } = at_once(system.solve(&mut Pace::at_once()))?;
+        Some((values, factor, libm::sqrt(misfit / f64::from(count.max(1)))))
     }
 
-    fn measure_start(&self, guess: &Guess, system: &mut Envelope, common: usize) {
+    fn measure_start(&self, guess: &Guess, system: &mut System, common: usize) {
         let (start, sigma) = (self.start.pose, self.start.sigma_m.max(START_SIGMA_M));
         let now = guess.poses.first().copied().unwrap_or(start);
-        system.measure((now.x_m - start.x_m) / sigma, &[(0, 1.0 / sigma)]);
-        system.measure((now.y_m - start.y_m) / sigma, &[(1, 1.0 / sigma)]);
+        measure(system, (now.x_m - start.x_m) / sigma, &[(0, 1.0 / sigma)]);
+        measure(system, (now.y_m - start.y_m) / sigma, &[(1, 1.0 / sigma)]);
         let sigma_rad = self.start.sigma_rad.max(START_SIGMA_RAD);
         let off_rad = normalize_rad(now.heading_rad - start.heading_rad);
-        system.measure(off_rad / sigma_rad, &[(2, 1.0 / sigma_rad)]);
+        measure(system, off_rad / sigma_rad, &[(2, 1.0 / sigma_rad)]);
         let sigmas = [BEND_SIGMA, SCALE_SIGMA, STRETCH_SIGMA];
         for (number, (value, sigma)) in guess.wheels.iter().zip(sigmas).enumerate() {
-            system.measure(value / sigma, &[(common + number, 1.0 / sigma)]);
+            measure(system, value / sigma, &[(common + number, 1.0 / sigma)]);
         }
     }
 
@@ -228,22 +231,22 @@ impl FirstLook {
         let common = POSE * guess.poses.len();
         let unknowns = common + WHEELS + 2 * guess.beacons.len();
         let kept: Vec<usize> = (common - POSE..unknowns).collect();
-        let covariance: Vec<Vec<f64>> = kept
+        let covariance: Option<Vec<Vec<f64>>> = kept
             .iter()
             .map(|&row| {
                 let mut unit = vec![0.0; unknowns];
                 if let Some(one) = unit.get_mut(row) {
                     *one = 1.0;
                 }
-                let column = factor.solve(unit);
-                column.get(common - POSE..).unwrap_or_default().to_vec()
+                let column = at_once(factor.solve(unit, &mut Pace::at_once()))?;
+                Some(column.get(common - POSE..).unwrap_or_default().to_vec())
             })
             .collect();
         let mut follower = Follower::begin(Start {
             pose: *guess.poses.last()?,
             wheels: guess.wheels,
             beacons: &guess.beacons,
-            covariance,
+            covariance: covariance?,
         });
         follower.forget_beyond(SURE_M);
         (follower.places().len() >= BEACONS_MIN).then_some(follower)
@@ -273,12 +276,17 @@ impl Guess {
     }
 }
 
+/// Adds a measurement that is off by so many standard deviations, with the derivatives of that by the unknowns.
+fn measure(system: &mut System, off: f64, derivatives: &[(usize, f64)]) {
+    system.add_residual(derivatives, off, 1.0);
+}
+
 /// What a hop says of the poses before and after it.
 fn measure_hop(
     hop: &Hop,
     (from, to): (Pose2, Pose2),
     (wheels, at, common): ([f64; WHEELS], usize, usize),
-    system: &mut Envelope,
+    system: &mut System,
 ) {
     let expected = hop.corrected(wheels);
     let (sin, cos) = libm::sincos(from.heading_rad);
@@ -292,7 +300,8 @@ fn measure_hop(
     let bent = |of: f64, towards: f64| 0.5 * of * towards;
     let (bend, scale, stretch) = (common, common + 1, common + 2);
     let per = 1.0 / libm::sqrt(hop.way_variance_m2);
-    system.measure(
+    measure(
+        system,
         per * (along_m - expected.x_m),
         &[
             (at, -per * cos),
@@ -308,7 +317,8 @@ fn measure_hop(
     // Wheels do not slide aside: only the turn within the hop is unsure.
     let side_m2 = 0.1 * hop.way_variance_m2 + 0.1 * hop.turn_variance_rad2 * hop.length_m * hop.length_m;
     let per = 1.0 / libm::sqrt(side_m2 + 1e-6);
-    system.measure(
+    measure(
+        system,
         per * (left_m - expected.y_m),
         &[
             (at, per * sin),
@@ -323,7 +333,8 @@ fn measure_hop(
     );
     let per = 1.0 / libm::sqrt(hop.turn_variance_rad2 + 1e-8);
     let off_rad = normalize_rad(to.heading_rad - from.heading_rad - expected.heading_rad);
-    system.measure(
+    measure(
+        system,
         per * off_rad,
         &[
             (at + 2, -per),

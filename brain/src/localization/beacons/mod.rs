@@ -8,7 +8,6 @@
 //! Ranges lie: walls lengthen them, and some come by a detour. So what is far off counts little, and what is measured
 //! twenty times at one place counts as little more than once.
 
-mod envelope;
 mod first_look;
 mod follower;
 mod guess;

@@ -63,7 +63,7 @@ pub(super) struct Tracked {
 }
 
 /// Pose estimate.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Localization {
     pub(super) odometry: Odometry,
     map_from_odom: Pose2,

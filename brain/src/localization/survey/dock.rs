@@ -2,9 +2,9 @@
 
 use super::Survey;
 use super::graph::Graph;
-use super::linear::System;
 use super::turns::TurnCounting;
 use super::visit::Visit;
+use crate::localization::skyline::System;
 use crate::model::geometry::{Pose2, normalize_rad};
 
 /// How well two stands on the dock agree, metres and radians: the contacts are some centimetres wide, and close on a robot that is

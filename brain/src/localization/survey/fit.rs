@@ -4,24 +4,21 @@
 //! board would think about them for seconds. When it is done the graph takes it up, and what came to the graph meanwhile
 //! is moved along with the last pose that the fit knew.
 
-use core::task::Poll;
-
 use super::doubled::{Trial, doubles};
 use super::graph::{Graph, Mark};
-use super::optimization::Optimization;
+use super::optimization::{Reach, optimize};
 use super::square::{directed, square};
 use super::tidy::tidy;
-use super::work::Work;
 use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::gradual::{Gradual, Pace};
 
 /// Work of a step: a quarter of a millisecond of a desktop's core.
 const STEP_WORK: usize = 300_000;
 
-/// A fit that is under way.
-#[derive(Clone, Debug)]
-pub(super) struct Fit {
+/// What is fitted.
+#[derive(Debug)]
+struct Fit {
     graph: Graph,
-    stage: Stage,
     /// For each wall at the beginning the one that it became.
     became: Vec<Option<usize>>,
     /// How many marks there were at the beginning.
@@ -32,62 +29,55 @@ pub(super) struct Fit {
     trial: Option<Box<Trial>>,
 }
 
-/// What comes next. Each but the optimization is one pass over the marks, and a step of its own.
-#[derive(Clone, Debug)]
-enum Stage {
-    Tidy,
-    JoinDoubles,
-    Square,
-    Optimize(Box<Optimization>),
-    TidyAgain,
+/// Whether walls are one that seemed to stand twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    /// They are, or none seemed to.
+    Holds,
+    /// Some are not: all is fitted again.
+    Refuted,
+}
+
+/// Begins a fit of the graph as it is now, which gives `None` when nothing fits; there is none while the graph has no nodes.
+pub(super) fn begin(graph: &Graph) -> Option<Gradual<Option<Fitted>>> {
+    let fit = Fit::of(graph)?;
+    Some(Gradual::new(
+        async move { fit.fitted(&mut Pace::of(STEP_WORK)).await },
+    ))
 }
 
 impl Fit {
-    /// Of the graph as it is now; `None` while it has no nodes.
-    pub(super) fn of(graph: &Graph) -> Option<Box<Self>> {
-        Some(Box::new(Self {
-            stage: Stage::Tidy,
+    fn of(graph: &Graph) -> Option<Self> {
+        Some(Self {
             became: (0..graph.walls.len()).map(Some).collect(),
             marks: graph.marks.len(),
             last: graph.nodes.last()?.pose,
             trial: None,
             graph: graph.clone(),
-        }))
+        })
     }
 
-    /// Does a step. When it was the last one it gives the fit if there is one.
-    pub(super) fn go_on(mut self: Box<Self>) -> Result<Option<Fitted>, Box<Self>> {
-        match &mut self.stage {
-            Stage::Tidy => {
-                self.tidy();
-                self.stage = Stage::JoinDoubles;
-            }
-            Stage::JoinDoubles => {
-                self.join_doubles();
-                self.stage = Stage::Square;
-            }
-            Stage::Square => {
-                square(&mut self.graph);
-                self.stage = Stage::Optimize(Box::new(match self.trial {
-                    Some(_) => Optimization::from_far(),
-                    None => Optimization::default(),
-                }));
-            }
-            Stage::Optimize(optimization) => {
-                match optimization.go_on(&mut self.graph, &mut Work::of(STEP_WORK)) {
-                    Poll::Pending => {}
-                    Poll::Ready(is_solved) => match self.judge_doubles(is_solved) {
-                        Some(next) => self.stage = next,
-                        None => return Ok(None),
-                    },
-                }
-            }
-            Stage::TidyAgain => {
-                self.tidy();
-                return Ok(Some(self.fitted()));
+    /// Does all of it. Each part but the optimization is one pass over the marks, and a step of its own.
+    async fn fitted(mut self, pace: &mut Pace) -> Option<Fitted> {
+        self.tidy();
+        loop {
+            pace.pause().await;
+            self.join_doubles();
+            pace.pause().await;
+            square(&mut self.graph);
+            pace.pause().await;
+            let reach = match self.trial {
+                Some(_) => Reach::Far,
+                None => Reach::Near,
+            };
+            let is_solved = optimize(&mut self.graph, reach, pace).await;
+            if self.judge_doubles(is_solved)? == Verdict::Holds {
+                break;
             }
         }
-        Err(self)
+        pace.pause().await;
+        self.tidy();
+        Some(self.into_fitted())
     }
 
     fn tidy(&mut self) {
@@ -114,22 +104,21 @@ impl Fit {
         self.trial = Some(Box::new(trial));
     }
 
-    /// What comes after the optimization: if walls were not one after all, or nothing fits with them as one, it is done again without
-    /// taking them for one. `None` when nothing fits anyway.
-    fn judge_doubles(&mut self, is_solved: bool) -> Option<Stage> {
+    /// Walls that were not one after all, or with which nothing fits as one, are taken apart again. `None` when nothing fits anyway.
+    fn judge_doubles(&mut self, is_solved: bool) -> Option<Verdict> {
         let Some(trial) = self.trial.take() else {
-            return is_solved.then_some(Stage::TidyAgain);
+            return is_solved.then_some(Verdict::Holds);
         };
         let refuted = trial.refuted(is_solved.then_some(&self.graph));
         if refuted.is_empty() {
             self.trial = Some(trial);
-            return Some(Stage::TidyAgain);
+            return Some(Verdict::Holds);
         }
         (self.graph, self.became) = trial.taken_back(&refuted);
-        Some(Stage::JoinDoubles)
+        Some(Verdict::Refuted)
     }
 
-    fn fitted(mut self) -> Fitted {
+    fn into_fitted(mut self) -> Fitted {
         self.graph.fitted_strain = self.graph.strain();
         let last = self.graph.nodes.last().map_or(self.last, |node| node.pose);
         Fitted {
@@ -188,7 +177,9 @@ impl Fitted {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::{Fit, Fitted, Stage};
+    use core::task::Poll;
+
+    use super::{Fit, Fitted, Verdict, begin};
     use crate::localization::survey::doubled::tests::seen_twice;
     use crate::localization::survey::graph::tests::{laps, rmse_m};
     use crate::localization::survey::graph::{Graph, Wall};
@@ -196,12 +187,12 @@ pub(super) mod tests {
 
     /// The fit of a graph, and how many steps it took.
     pub(in crate::localization::survey) fn fitted(graph: &Graph) -> (Fitted, u32) {
-        let mut fit = Fit::of(graph).unwrap();
+        let mut fit = begin(graph).unwrap();
         let mut steps = 1;
         loop {
             match fit.go_on() {
-                Ok(fitted) => return (fitted.unwrap(), steps),
-                Err(more) => (fit, steps) = (more, steps + 1),
+                Poll::Ready(fitted) => return (fitted.unwrap(), steps),
+                Poll::Pending => steps += 1,
             }
         }
     }
@@ -263,7 +254,7 @@ pub(super) mod tests {
         fit.tidy();
         fit.join_doubles();
         assert!(fit.trial.is_some());
-        assert!(matches!(fit.judge_doubles(false), Some(Stage::JoinDoubles)));
+        assert_eq!(fit.judge_doubles(false), Some(Verdict::Refuted));
         assert_eq!(fit.graph.walls.len(), graph.walls.len(), "as it was before");
         fit.join_doubles();
         assert!(fit.trial.is_none(), "they are apart");

@@ -7,9 +7,9 @@
 //! squares by Gauss and Newton; marks that do not fit count little (Cauchy's kernel).
 
 use super::kalman::StepVariance;
-use super::linear::System;
 use super::stroke::Stroke;
 use super::turns::{TurnErrors, TurnUnknowns, Turns};
+use crate::localization::skyline::{Summation, System};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use core::f64::consts::FRAC_PI_2;
 
@@ -167,7 +167,7 @@ impl Graph {
             first.push(3 * spell.first.saturating_sub(1));
         }
         first.push(0);
-        let mut system = System::new(first);
+        let mut system = System::new(first, Summation::Interleaved);
         for unknown in 0..3 {
             system.add_residual(&[(unknown, 1.0)], 0.0, 1e7);
         }

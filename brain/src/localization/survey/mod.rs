@@ -12,7 +12,6 @@ mod doubled;
 mod fit;
 mod graph;
 mod kalman;
-mod linear;
 mod optimization;
 mod square;
 mod stroke;
@@ -20,10 +19,11 @@ mod tidy;
 mod turns;
 mod visit;
 mod walls;
-mod work;
+
+use core::task::Poll;
 
 use dock::DockWatch;
-use fit::{Fit, Fitted};
+use fit::Fitted;
 use graph::{Graph, Node};
 use kalman::{Belief, StepVariance};
 pub(super) use turns::TurnCounting;
@@ -34,6 +34,7 @@ use crate::mapping::Keyframe;
 use crate::model::advance::Advance;
 use crate::model::config::ProximityLayout;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::gradual::Gradual;
 use crate::model::observation::Observation;
 
 /// Slip along the way, square metres per metre, and what each step adds: that of a bad robot. One that is taken for too good
@@ -70,7 +71,7 @@ pub(super) struct Fix {
 }
 
 /// The survey of a home.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(super) struct Survey {
     layout: ProximityLayout,
     log: VisitLog,
@@ -83,7 +84,7 @@ pub(super) struct Survey {
     here: usize,
     pending: Pending,
     marks_fitted: usize,
-    fit: Option<Box<Fit>>,
+    fit: Option<Gradual<Option<Fitted>>>,
     drawn_us: u64,
     /// Poses of the nodes with which the map was drawn.
     drawn: Vec<Pose2>,
@@ -307,21 +308,19 @@ impl Survey {
 
     /// Begins to fit all poses and walls anew when enough is new, and goes on with it. Says whether a fit was taken up.
     fn fit_on(&mut self) -> bool {
-        let Some(fit) = self.fit.take() else {
+        let Some(fit) = &mut self.fit else {
             self.begin_fit();
             return false;
         };
-        match fit.go_on() {
-            Err(fit) => {
-                self.fit = Some(fit);
-                false
-            }
-            Ok(Some(fitted)) => {
-                self.take_up(fitted);
-                true
-            }
-            Ok(None) => false,
+        let Poll::Ready(fitted) = fit.go_on() else {
+            return false;
+        };
+        self.fit = None;
+        let is_taken_up = fitted.is_some();
+        if let Some(fitted) = fitted {
+            self.take_up(fitted);
         }
+        is_taken_up
     }
 
     fn begin_fit(&mut self) {
@@ -332,7 +331,7 @@ impl Survey {
         if is_telling || marks >= self.marks_fitted + due {
             self.marks_fitted = marks;
             self.graph.count_anew(self.graph.turn_errors.scale);
-            self.fit = Fit::of(&self.graph);
+            self.fit = fit::begin(&self.graph);
         }
     }
 

@@ -1,10 +1,10 @@
-//! All poses and walls moved to where they fit best, by Gauss and Newton, piece by piece.
-
-use core::task::Poll;
+//! All poses and walls moved to where they fit best, by Gauss and Newton.
 
 use super::graph::{Graph, KERNEL, Unknowns};
-use super::linear::{Solving, System};
-use super::work::Work;
+use crate::localization::skyline::{Solution, System};
+use crate::model::gradual::Pace;
+#[cfg(test)]
+use crate::model::gradual::at_once;
 
 /// Most rounds, and steps that end them, metres or radians.
 const ROUNDS: usize = 5;
@@ -18,128 +18,68 @@ const MOVE_WORK: usize = 15;
 const WIDE_ROUNDS: usize = 3;
 const WIDE_KERNEL: f64 = 500.0;
 
-/// The rounds.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Optimization {
-    /// So many of them come first in which marks count that are far off.
-    wide: usize,
-    rounds: usize,
-    round: Round,
+/// From how far away marks pull walls over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Reach {
+    /// From near the walls on which they lie.
+    Near,
+    /// In the first rounds from far, too: they lie on walls that they are far from.
+    Far,
 }
 
-/// What a round is about to do.
-#[derive(Clone, Debug, Default)]
-enum Round {
-    #[default]
-    Begin,
-    /// Steps, then marks, then stands on the dock, go into the system.
-    Gather {
-        unknowns: Unknowns,
-        system: System,
-        next: usize,
-    },
-    Solve {
-        unknowns: Unknowns,
-        solving: Solving,
-    },
-}
-
-impl Optimization {
-    /// One that pulls marks over, which lie on walls that they are far from.
-    pub(super) fn from_far() -> Self {
-        Self {
-            wide: WIDE_ROUNDS,
-            ..Self::default()
+impl Reach {
+    /// So many rounds come first in which marks count that are far off.
+    const fn wide_rounds(self) -> usize {
+        match self {
+            Self::Near => 0,
+            Self::Far => WIDE_ROUNDS,
         }
-    }
-
-    fn kernel(&self) -> f64 {
-        if self.rounds < self.wide {
-            WIDE_KERNEL
-        } else {
-            KERNEL
-        }
-    }
-
-    /// Goes on while work is left, with the same graph each time. Gives whether there is a best place for all.
-    pub(super) fn go_on(&mut self, graph: &mut Graph, work: &mut Work) -> Poll<bool> {
-        while work.is_left() {
-            match core::mem::take(&mut self.round) {
-                Round::Begin => {
-                    let unknowns = graph.unknowns();
-                    self.round = Round::Gather {
-                        system: graph.system(&unknowns),
-                        unknowns,
-                        next: 0,
-                    };
-                    work.spend(MOVE_WORK * graph.nodes.len());
-                }
-                Round::Gather {
-                    unknowns,
-                    system,
-                    next,
-                } => self.round = gather(unknowns, (system, next), (graph, self.kernel()), work),
-                Round::Solve {
-                    unknowns,
-                    mut solving,
-                } => match solving.go_on(work) {
-                    Poll::Pending => self.round = Round::Solve { unknowns, solving },
-                    Poll::Ready(None) => return Poll::Ready(false),
-                    Poll::Ready(Some(solution)) => {
-                        let change = solution.values;
-                        graph.apply(&unknowns, &change);
-                        graph.turn_errors.scale_sigma = Some(solution.last_sigma);
-                        work.spend(MOVE_WORK * graph.nodes.len());
-                        let is_still = change.iter().all(|step| step.abs() < STILL);
-                        let is_wide = self.rounds < self.wide;
-                        self.rounds += 1;
-                        if !is_wide && (is_still || self.rounds == self.wide + ROUNDS) {
-                            return Poll::Ready(true);
-                        }
-                    }
-                },
-            }
-        }
-        Poll::Pending
     }
 }
 
-/// Puts steps, marks and stands from `next` on into the system while work is left.
-fn gather(
-    unknowns: Unknowns,
-    (mut system, mut next): (System, usize),
-    (graph, kernel): (&Graph, f64),
-    work: &mut Work,
-) -> Round {
-    let steps = graph.nodes.len().saturating_sub(1);
-    while work.is_left() {
-        if next < steps {
-            graph.add_step(next, &unknowns, &mut system);
-            work.spend(STEP_WORK);
-        } else if let Some(mark) = graph.marks.get(next - steps) {
-            graph.add_mark((mark, kernel), &unknowns, &mut system);
-            work.spend(MARK_WORK);
-        } else if next - steps - graph.marks.len() < graph.docked.len() {
-            graph.add_stand(next - steps - graph.marks.len(), &mut system);
-            work.spend(MARK_WORK);
-        } else {
-            return Round::Solve {
-                unknowns,
-                solving: system.solve(),
-            };
+/// Moves all poses and walls. Gives whether there is a best place for all.
+pub(super) async fn optimize(graph: &mut Graph, reach: Reach, pace: &mut Pace) -> bool {
+    let wide = reach.wide_rounds();
+    for round in 0..wide + ROUNDS {
+        let kernel = if round < wide { WIDE_KERNEL } else { KERNEL };
+        let unknowns = graph.unknowns();
+        let mut system = graph.system(&unknowns);
+        pace.spend(MOVE_WORK * graph.nodes.len()).await;
+        gather(graph, (&unknowns, kernel), &mut system, pace).await;
+        let Some(Solution { values, factor }) = system.solve(pace).await else {
+            return false;
+        };
+        graph.apply(&unknowns, &values);
+        graph.turn_errors.scale_sigma = Some(factor.last_sigma());
+        let is_still = values.iter().all(|step| step.abs() < STILL);
+        if is_still && round >= wide {
+            return true;
         }
-        next += 1;
+        if round + 1 < wide + ROUNDS {
+            pace.spend(MOVE_WORK * graph.nodes.len()).await;
+        }
     }
-    Round::Gather {
-        unknowns,
-        system,
-        next,
+    true
+}
+
+/// Puts steps, marks and stands on the dock into the system.
+async fn gather(graph: &Graph, (unknowns, kernel): (&Unknowns, f64), system: &mut System, pace: &mut Pace) {
+    for step in 0..graph.nodes.len().saturating_sub(1) {
+        graph.add_step(step, unknowns, system);
+        pace.spend(STEP_WORK).await;
+    }
+    for mark in &graph.marks {
+        graph.add_mark((mark, kernel), unknowns, system);
+        pace.spend(MARK_WORK).await;
+    }
+    for stand in 0..graph.docked.len() {
+        graph.add_stand(stand, system);
+        pace.spend(MARK_WORK).await;
     }
 }
 
 /// Does all of it at once.
 #[cfg(test)]
 pub(super) fn optimized(graph: &mut Graph) -> bool {
-    let mut work = Work::of(usize::MAX);
-    Optimization::default().go_on(graph, &mut work) == Poll::Ready(true)
+    at_once(optimize(graph, Reach::Near, &mut Pace::at_once()))
 }

@@ -2,7 +2,7 @@
 //! left. Both are unknowns of the graph. A fit hardly moves a heading off what was counted where walls are seen now and then;
 //! what it moves it by says too little of the scale, and says it for sure.
 
-use super::linear::System;
+use crate::localization::skyline::System;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
 /// How well turns are counted.

@@ -1,17 +1,18 @@
-//! A map as plain data, for the disk and for the beginning of a recording.
+//! A map as plain data, for the disk and for the beginning of a recording; who keeps it makes bytes of its [parts](StoredMapParts).
 //!
 //! What a cell holds is rounded to what decides about it; equal cells side by side are one run. A home of 150 square
 //! metres takes some ten kilobytes.
 
-mod codec;
+mod parts;
 
 use std::collections::BTreeSet;
 
-pub use codec::StoredMapError;
+pub use parts::{Numbered, StoredMapError, StoredMapParts};
 
 use super::annotations::Annotations;
-use super::layers::{CellBox, Evidence, Flag, Layers, TILE_CELLS, TILES_MAX};
+use super::layers::{CellBox, Evidence, Flag, Layers, TILES_MAX};
 use super::rooms::Rooms;
+use super::tile_grid::TILE_CELLS;
 use super::{Cell, CellKnowledge, DockPlace, FloorKind, Raster};
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{Pace, at_once};
@@ -19,7 +20,7 @@ use crate::model::gradual::{Pace, at_once};
 /// Most cells of a stored map's window.
 pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) as u64;
 
-/// A map as plain data. [`Self::encode`] makes bytes of it and [`Self::decode`] checks them.
+/// A map as plain data.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StoredMap {
     dock: DockPlace,
@@ -36,9 +37,11 @@ pub struct StoredMap {
 
 /// Equal cells side by side, rows joined.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Run {
-    pub(super) value: u16,
-    pub(super) length: u32,
+pub struct Run {
+    /// What the cells hold, packed, or their room.
+    pub value: u16,
+    /// How many they are.
+    pub length: u32,
 }
 
 /// Work on a cell that is written down or taken up, beside one that is only looked at.

@@ -7,11 +7,12 @@ use brain::StoredMap;
 use brain::command::StrategyName;
 use content_hash::ContentHash;
 use scenarios::{JOB_S, Table, Watched, generated, scene};
+use vthal_core::stored_map;
 
 /// A file of `tests/kept/`.
 fn kept(name: &str) -> StoredMap {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/kept/{name}.map"));
-    StoredMap::decode(&fs::read(path).expect("the file is there")).expect("it is a map")
+    stored_map::decode(&fs::read(path).expect("the file is there")).expect("it is a map")
 }
 
 #[test]
@@ -22,7 +23,7 @@ fn kept_maps_say_what_they_said() {
     );
     for name in ["two-room-flat", "generated-14"] {
         let map = kept(name);
-        let again = StoredMap::decode(&map.encode()).expect("what was stored can be read");
+        let again = stored_map::decode(&stored_map::encode(&map)).expect("what was stored can be read");
         assert_eq!(map, again, "{name}");
         table.line(&format!(
             "{name:<16} {:>3} rooms {:016x} {:016x}",

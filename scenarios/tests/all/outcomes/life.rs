@@ -1,11 +1,10 @@
 //! A life of runs: each daemon begins with what the one before has kept.
 
-use brain::StoredMap;
 use brain::command::StrategyName;
 use rvac_sim::{Host, Scene};
 use scenarios::{Table, Watched, generated, scene, usual};
 use vthal_core::learnt::Learnings;
-use vthal_core::{CoreConfig, KeptFloor};
+use vthal_core::{CoreConfig, KeptFloor, stored_map};
 
 const RUNS: u64 = 5;
 /// Longest run, seconds.
@@ -13,8 +12,8 @@ const RUN_S: u64 = 20 * 60;
 
 /// What a daemon finds on the disk of the one before.
 fn after(watched: &Watched, scene: &Scene, seed: u64) -> CoreConfig {
-    let bytes = watched.brain().map().stored().encode();
-    let home = StoredMap::decode(&bytes).expect("a map that was stored");
+    let bytes = stored_map::encode(&watched.brain().map().stored());
+    let home = stored_map::decode(&bytes).expect("a map that was stored");
     let learnt = watched.household().host().and_then(Host::kept_learnt);
     CoreConfig {
         floors: vec![KeptFloor {

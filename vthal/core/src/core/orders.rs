@@ -257,7 +257,7 @@ fn not_kept(id: Option<u32>) -> Update {
 }
 
 /// An order whose places are zones and spots by now.
-pub(super) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
+pub(crate) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
     let part = |(place, part): (usize, &JobPart)| match part {
         JobPart::Room(id) => Ok(HomePart::Room(*id)),
         JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),
@@ -315,7 +315,7 @@ pub(super) fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal>
     })
 }
 
-fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
+pub(crate) fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
     match shape {
         NoGoShape::Zone(corners) => Ok(NoGo::zone(&to_zone("The no-go zone", corners)?)?),
         NoGoShape::Wall([[x, y], [to_x, to_y]]) => {

@@ -6,7 +6,7 @@ use rvac_api::{JobOrder, JobPart, RequestBody};
 use super::Core;
 use super::orders::{Asker, to_name, to_zone};
 use super::refusal::Refusal;
-use crate::Outputs;
+use crate::{Outputs, api_forms};
 
 impl Core {
     /// Changes which places are kept; nothing else comes here.
@@ -88,7 +88,7 @@ fn no_such_place(number: u16, brain: &Brain) -> Refusal {
     Refusal::because(Reason::NoSuchPlace, text)
 }
 
-fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refusal> {
+pub(crate) fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refusal> {
     match shape {
         rvac_api::PlaceShape::Zone(corners) => to_zone("The place", corners).map(PlaceShape::Zone),
         rvac_api::PlaceShape::Spot([x_m, y_m]) => Ok(PlaceShape::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
@@ -100,7 +100,7 @@ pub(super) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, R
     let words = brain.map().annotations();
     let part = |part: &JobPart| match part {
         JobPart::Place(number) => match words.place(*number) {
-            Some(place) => Ok(match to_api(place.shape()) {
+            Some(place) => Ok(match api_forms::place(place.shape()) {
                 rvac_api::PlaceShape::Zone(corners) => JobPart::Zone(corners),
                 rvac_api::PlaceShape::Spot(middle) => JobPart::Spot(middle),
             }),
@@ -124,16 +124,5 @@ pub(super) fn with_any_places(order: &JobOrder) -> JobOrder {
     JobOrder {
         parts: order.parts.iter().map(part).collect(),
         ..order.clone()
-    }
-}
-
-/// Where a place is, in the words of clients.
-pub(crate) fn to_api(shape: &PlaceShape) -> rvac_api::PlaceShape {
-    match shape {
-        PlaceShape::Zone(zone) => {
-            let corners = zone.corners().iter();
-            rvac_api::PlaceShape::Zone(corners.map(|corner| [corner.x_m, corner.y_m]).collect())
-        }
-        PlaceShape::Spot(middle) => rvac_api::PlaceShape::Spot([middle.x_m, middle.y_m]),
     }
 }

@@ -9,7 +9,7 @@ const NOT_NOW: &str = "The robot cannot do this in its present state; the reason
 
 /// A refusal.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Refusal {
+pub(crate) struct Refusal {
     pub(super) reason: &'static str,
     pub(super) text: String,
 }

@@ -7,8 +7,8 @@ use rvac_units::Throttle;
 use super::Core;
 use super::orders::Asker;
 use super::refusal::Refusal;
-use crate::Outputs;
 use crate::device::CleanerPower;
+use crate::{Outputs, api_forms};
 
 impl Core {
     pub(super) fn set_room(
@@ -90,7 +90,7 @@ fn percent(share: f64) -> u8 {
     (100.0 * share).round().clamp(0.0, 100.0) as u8
 }
 
-pub(super) fn to_pattern(pattern: CleaningPattern) -> Pattern {
+pub(crate) const fn to_pattern(pattern: CleaningPattern) -> Pattern {
     match pattern {
         CleaningPattern::Lines => Pattern::Lines,
         CleaningPattern::Contour => Pattern::Contour,
@@ -108,9 +108,6 @@ pub(crate) fn to_api(settings: &brain::RoomSettings) -> RoomSettings {
             main_brush: share(power.main_brush),
             side_brushes: share(power.side_brushes),
         },
-        pattern: match settings.pattern() {
-            Pattern::Lines => CleaningPattern::Lines,
-            Pattern::Contour => CleaningPattern::Contour,
-        },
+        pattern: api_forms::pattern(settings.pattern()),
     }
 }

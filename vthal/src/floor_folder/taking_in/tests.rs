@@ -53,7 +53,7 @@ fn called(name: &str) -> Option<RoomName> {
 fn archived(name: &str, width: usize) -> ArchivedFloor {
     ArchivedFloor {
         name: called(name),
-        map: map(width).encode(),
+        map: vthal_core::stored_map::encode(&map(width)),
     }
 }
 

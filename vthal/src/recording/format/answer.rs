@@ -2,16 +2,22 @@
 
 use brain::action::Arm;
 use brain::{Actions, Motion};
+use schemars::JsonSchema;
 use serde::Serialize;
+use serde_json::Value;
+
+use crate::recording::schemas::list;
 
 /// [`Actions`], one way only: a replay compares what is written.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub struct Answered<'a> {
+    #[schemars(with = "Value")]
     motion: AnsweredMotion,
     cleaners: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     arm: Option<AnsweredArm>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(schema_with = "list")]
     tones: Vec<(u32, u16)>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     decisions: Vec<AnsweredDecision<'a>>,
@@ -25,12 +31,12 @@ enum AnsweredMotion {
     Drive { v: f64, w: f64 },
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct AnsweredArm {
     undock: bool,
 }
 
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct AnsweredDecision<'a> {
     what: &'a str,
     reason: &'a str,

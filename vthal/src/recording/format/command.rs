@@ -2,9 +2,11 @@
 
 use brain::CutLine;
 use brain::{Command, KeptPlace, Point2, Pose2, RoomName, RoomSettings, StrategyName};
+use rvac_api::{CleaningPattern, NoGoShape, PlaceShape};
 use serde::{Deserialize, Serialize};
+use vthal_core::api_forms;
 
-use super::order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern, from_power, to_power};
+use super::order::{GivenOrder, from_power, to_power};
 
 /// [`Command`]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,9 +17,9 @@ pub enum GivenCommand {
     /// [`Command::CleanParts`]
     CleanParts(GivenOrder),
     /// [`Command::AddNoGo`]
-    AddNoGo(GivenNoGo),
+    AddNoGo(NoGoShape),
     /// [`Command::AddNoGo`] of one that has a name.
-    AddNamedNoGo(GivenNoGo, String),
+    AddNamedNoGo(NoGoShape, String),
     /// [`Command::RemoveNoGo`] by its number.
     RemoveNoGo(u16),
     /// [`Command::NameNoGo`]
@@ -32,14 +34,14 @@ pub enum GivenCommand {
         /// Its number.
         number: u16,
         /// Where it is from now on.
-        no_go: GivenNoGo,
+        no_go: NoGoShape,
     },
     /// [`Command::KeepPlace`]
     KeepPlace {
         /// Its name.
         name: String,
         /// Where.
-        place: GivenPart,
+        place: PlaceShape,
         /// The number that it had.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         number: Option<u16>,
@@ -56,7 +58,7 @@ pub enum GivenCommand {
         /// Its number.
         number: u16,
         /// Where it is from now on.
-        place: GivenPart,
+        place: PlaceShape,
     },
     /// [`Command::ForgetPlace`] by its number.
     ForgetPlace(u16),
@@ -74,8 +76,8 @@ pub enum GivenCommand {
         /// Passes, then percent of suction, main brush and side brushes; absent = as any other.
         settings: Option<[u8; 4]>,
         /// Absent = lines.
-        #[serde(default, skip_serializing_if = "GivenPattern::is_usual")]
-        pattern: GivenPattern,
+        #[serde(default, skip_serializing_if = "CleaningPattern::is_usual")]
+        pattern: CleaningPattern,
     },
     /// [`Command::SplitRoom`]
     SplitRoom {
@@ -123,8 +125,8 @@ impl From<&Command> for GivenCommand {
             Command::Clean { strategy } => Self::Clean(strategy.name().to_owned()),
             Command::CleanParts { order } => Self::CleanParts(order.into()),
             Command::AddNoGo { no_go } => match no_go.name() {
-                None => Self::AddNoGo(no_go.into()),
-                Some(name) => Self::AddNamedNoGo(no_go.into(), name.as_str().to_owned()),
+                None => Self::AddNoGo(api_forms::no_go(no_go)),
+                Some(name) => Self::AddNamedNoGo(api_forms::no_go(no_go), name.as_str().to_owned()),
             },
             Command::RemoveNoGo { number } => Self::RemoveNoGo(*number),
             Command::NameNoGo { number, name } => Self::NameNoGo {
@@ -133,11 +135,11 @@ impl From<&Command> for GivenCommand {
             },
             Command::ReshapeNoGo { number, no_go } => Self::ReshapeNoGo {
                 number: *number,
-                no_go: no_go.into(),
+                no_go: api_forms::no_go(no_go),
             },
             Command::KeepPlace { place, number } => Self::KeepPlace {
                 name: place.name().as_str().to_owned(),
-                place: GivenPart::from(&place.part()),
+                place: api_forms::place(place.shape()),
                 number: *number,
             },
             Command::NamePlace { number, name } => Self::NamePlace {
@@ -146,7 +148,7 @@ impl From<&Command> for GivenCommand {
             },
             Command::ReshapePlace { number, shape } => Self::ReshapePlace {
                 number: *number,
-                place: GivenPart::from(&shape.part()),
+                place: api_forms::place(shape),
             },
             Command::ForgetPlace { number } => Self::ForgetPlace(*number),
             Command::NameRoom { room, name } => Self::NameRoom {
@@ -159,7 +161,7 @@ impl From<&Command> for GivenCommand {
                     let [suction, main_brush, side_brushes] = from_power(settings.power());
                     [settings.passes(), suction, main_brush, side_brushes]
                 }),
-                pattern: settings.unwrap_or_default().pattern().into(),
+                pattern: api_forms::pattern(settings.unwrap_or_default().pattern()),
             },
             Command::SplitRoom { room, line } => Self::SplitRoom {
                 room: *room,
@@ -250,10 +252,10 @@ impl GivenCommand {
     fn edit_to_brain(&self) -> Option<Command> {
         Some(match self {
             Self::AddNoGo(no_go) => Command::AddNoGo {
-                no_go: no_go.to_brain()?,
+                no_go: api_forms::to_no_go(no_go)?,
             },
             Self::AddNamedNoGo(no_go, name) => Command::AddNoGo {
-                no_go: no_go.to_brain()?.with_name(Some(RoomName::new(name).ok()?)),
+                no_go: api_forms::to_no_go(no_go)?.with_name(Some(RoomName::new(name).ok()?)),
             },
             Self::RemoveNoGo(number) => Command::RemoveNoGo { number: *number },
             Self::NameNoGo { number, name } => Command::NameNoGo {
@@ -262,10 +264,10 @@ impl GivenCommand {
             },
             Self::ReshapeNoGo { number, no_go } => Command::ReshapeNoGo {
                 number: *number,
-                no_go: no_go.to_brain()?,
+                no_go: api_forms::to_no_go(no_go)?,
             },
             Self::KeepPlace { name, place, number } => Command::KeepPlace {
-                place: KeptPlace::new(RoomName::new(name).ok()?, &place.to_shape()?).ok()?,
+                place: KeptPlace::new(RoomName::new(name).ok()?, &api_forms::to_place(place)?).ok()?,
                 number: *number,
             },
             Self::NamePlace { number, name } => Command::NamePlace {
@@ -274,7 +276,7 @@ impl GivenCommand {
             },
             Self::ReshapePlace { number, place } => Command::ReshapePlace {
                 number: *number,
-                shape: place.to_shape()?,
+                shape: api_forms::to_place(place)?,
             },
             Self::ForgetPlace(number) => Command::ForgetPlace { number: *number },
             Self::NameRoom { room, name } => Command::NameRoom {
@@ -291,7 +293,7 @@ impl GivenCommand {
                     None => None,
                     Some([passes, power @ ..]) => {
                         let settings = RoomSettings::new(*passes, to_power(*power)).ok()?;
-                        Some(settings.with_pattern(pattern.to_brain()))
+                        Some(settings.with_pattern(api_forms::to_pattern(*pattern)))
                     }
                 },
             },

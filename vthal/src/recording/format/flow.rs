@@ -1,10 +1,11 @@
 //! What the charger says, in recordings.
 
 use brain::observation::ChargeFlow;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// [`ChargeFlow`]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum FlowName {
     Flowing,

@@ -6,17 +6,21 @@ mod answer;
 mod command;
 mod flow;
 mod order;
+mod packet;
 mod sensors;
 mod state;
 
 pub use answer::Answered;
 pub use command::GivenCommand;
-pub use order::{GivenNoGo, GivenOrder, GivenPart, GivenPattern};
+pub use order::GivenOrder;
+pub use packet::SentPacket;
 pub use state::BrainState;
 
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, Cliffs, Contacts, MotorCurrents};
 use brain::{Body, BrainConfig, Inhibits, Observation, Speeds};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use vthal_core::RunStart;
 
 use flow::FlowName;
@@ -26,7 +30,7 @@ use sensors::SensorSettings;
 pub const FORMAT: u32 = 1;
 
 /// Beginning of a run.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct RunHeader {
     /// [`FORMAT`] of the writer.
     pub format: u32,
@@ -45,8 +49,10 @@ pub struct RunHeader {
     /// Version of its firmware.
     pub firmware: String,
     /// Settings of the brain.
+    #[schemars(with = "Map<String, Value>")]
     pub config: BrainSettings,
     /// What the brain took up.
+    #[schemars(with = "Map<String, Value>")]
     pub state: BrainState,
 }
 
@@ -137,7 +143,7 @@ impl BrainSettings {
 }
 
 /// [`Observation`]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Seen {
     time_us: u64,
     left_m: f64,
@@ -162,9 +168,11 @@ pub struct Seen {
     speed_share: f64,
     /// Number, range and its deviation of each beacon that was measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<Vec<f64>>")]
     beacons: Vec<(u16, f64, f64)>,
     /// Number and received power of each beacon of which only that was measured.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(with = "Vec<Vec<f64>>")]
     strengths: Vec<(u16, f64)>,
 }
 
@@ -262,11 +270,12 @@ fn strength(signal: &BeaconSignal) -> Option<(u16, f64)> {
 }
 
 /// [`Command`] with the time at which it was given.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Given {
     /// Host time in microseconds.
     pub time_us: u64,
     /// What.
+    #[schemars(with = "Value")]
     pub command: GivenCommand,
 }
 

@@ -1,53 +1,18 @@
-//! Parts of a home as they stand in recordings and checkpoints.
+//! Jobs for parts of the home as they stand in recordings and checkpoints.
 
-use brain::{CleaningOrder, HomePart, NoGo, NoGoShape, Pattern, PlaceShape, Point2, RoomPower, Zone};
+use brain::{CleaningOrder, RoomPower};
+use rvac_api::JobOrder;
 use serde::{Deserialize, Serialize};
+use vthal_core::api_forms;
 
 /// [`CleaningOrder`]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GivenOrder {
-    parts: Vec<GivenPart>,
-    passes: u8,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    avoid: Vec<GivenNoGo>,
-    /// Suction, main brush and side brushes in percent.
+    /// Suction, main brush and side brushes in percent, in place of the shares that clients tell.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     power: Option<[u8; 3]>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pattern: Option<GivenPattern>,
-}
-
-/// [`Pattern`]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum GivenPattern {
-    /// [`Pattern::Lines`]
-    #[default]
-    Lines,
-    /// [`Pattern::Contour`]
-    Contour,
-}
-
-impl From<Pattern> for GivenPattern {
-    fn from(pattern: Pattern) -> Self {
-        match pattern {
-            Pattern::Lines => Self::Lines,
-            Pattern::Contour => Self::Contour,
-        }
-    }
-}
-
-impl GivenPattern {
-    pub(super) const fn to_brain(self) -> Pattern {
-        match self {
-            Self::Lines => Pattern::Lines,
-            Self::Contour => Pattern::Contour,
-        }
-    }
-
-    pub(super) fn is_usual(&self) -> bool {
-        *self == Self::default()
-    }
+    #[serde(flatten)]
+    rest: JobOrder,
 }
 
 pub(super) fn from_power(power: RoomPower) -> [u8; 3] {
@@ -62,47 +27,11 @@ pub(super) fn to_power([suction, main_brush, side_brushes]: [u8; 3]) -> RoomPowe
     }
 }
 
-/// [`HomePart`]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum GivenPart {
-    /// A room by its identity.
-    Room(u16),
-    /// Corners, x and y in metres.
-    Zone(Vec<[f64; 2]>),
-    /// A place, x and y in metres.
-    Spot([f64; 2]),
-}
-
-impl From<&HomePart> for GivenPart {
-    fn from(part: &HomePart) -> Self {
-        match part {
-            HomePart::Room(id) => Self::Room(*id),
-            HomePart::Zone(zone) => Self::Zone(from_zone(zone)),
-            HomePart::Spot(place) => Self::Spot([place.x_m, place.y_m]),
-        }
-    }
-}
-
-impl GivenPart {
-    /// What a person keeps under a name; `None` for a room, and for what the brain would refuse.
-    pub(super) fn to_shape(&self) -> Option<PlaceShape> {
-        match self {
-            Self::Room(_) => None,
-            Self::Zone(corners) => to_zone(corners).map(PlaceShape::Zone),
-            Self::Spot([x_m, y_m]) => Some(PlaceShape::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
-        }
-    }
-}
-
 impl From<&CleaningOrder> for GivenOrder {
     fn from(order: &CleaningOrder) -> Self {
         Self {
-            parts: order.parts().iter().map(GivenPart::from).collect(),
-            passes: order.passes(),
-            avoid: order.avoid().iter().map(GivenNoGo::from).collect(),
             power: order.power().map(from_power),
-            pattern: order.pattern().map(GivenPattern::from),
+            rest: api_forms::order(order),
         }
     }
 }
@@ -110,69 +39,42 @@ impl From<&CleaningOrder> for GivenOrder {
 impl GivenOrder {
     /// Back to the brain's own type; `None` for one that the brain would refuse.
     pub(super) fn to_brain(&self) -> Option<CleaningOrder> {
-        let part = |part: &GivenPart| {
-            Some(match part {
-                GivenPart::Room(id) => HomePart::Room(*id),
-                GivenPart::Zone(corners) => HomePart::Zone(to_zone(corners)?),
-                GivenPart::Spot([x_m, y_m]) => HomePart::Spot(Point2 { x_m: *x_m, y_m: *y_m }),
-            })
-        };
-        let parts: Option<Vec<HomePart>> = self.parts.iter().map(part).collect();
-        let avoid: Option<Vec<NoGo>> = self.avoid.iter().map(GivenNoGo::to_brain).collect();
-        let mut order = CleaningOrder::new(parts?, self.passes)
-            .ok()?
-            .avoiding(avoid?)
-            .ok()?;
-        if let Some(power) = self.power {
-            order = order.with_power(to_power(power)).ok()?;
-        }
-        Some(match self.pattern {
-            Some(pattern) => order.with_pattern(pattern.to_brain()),
-            None => order,
-        })
-    }
-}
-
-/// [`NoGo`]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum GivenNoGo {
-    /// Corners, x and y in metres.
-    Zone(Vec<[f64; 2]>),
-    /// Both ends.
-    Wall([[f64; 2]; 2]),
-}
-
-impl From<&NoGo> for GivenNoGo {
-    fn from(no_go: &NoGo) -> Self {
-        match no_go.shape() {
-            NoGoShape::Zone => Self::Zone(from_zone(no_go.area())),
-            NoGoShape::Wall { from, to } => Self::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
+        let order = api_forms::to_order(&self.rest)?;
+        match self.power {
+            Some(power) => order.with_power(to_power(power)).ok(),
+            None => Some(order),
         }
     }
 }
 
-impl GivenNoGo {
-    /// Back to the brain's own type; `None` for one that the brain would refuse.
-    pub(super) fn to_brain(&self) -> Option<NoGo> {
-        match self {
-            Self::Zone(corners) => NoGo::zone(&to_zone(corners)?).ok(),
-            Self::Wall(ends) => {
-                let [from, to] = ends.map(|[x_m, y_m]| Point2 { x_m, y_m });
-                NoGo::wall(from, to).ok()
-            }
+#[cfg(test)]
+mod tests {
+    use super::super::GivenCommand;
+
+    /// As recordings have kept them since there are orders and edits.
+    const RECORDED: [&str; 12] = [
+        r#"{"clean-parts":{"parts":[{"room":3},{"zone":[[0.0,0.1],[0.3333333333333333,0.0],[-1.0,2.0]]},{"spot":[0.5,1.5]}],"passes":2}}"#,
+        r#"{"clean-parts":{"parts":[],"passes":1,"avoid":[{"wall":[[0.0,0.0],[1.0,0.5]]}],"power":[30,100,0],"pattern":"contour"}}"#,
+        r#"{"add-no-go":{"zone":[[0.0,0.25],[0.5,0.0],[-1.0,2.0]]}}"#,
+        r#"{"add-named-no-go":[{"wall":[[0.0,0.0],[1.0,0.5]]},"Cats"]}"#,
+        r#"{"reshape-no-go":{"number":7,"no_go":{"wall":[[0.0,0.0],[1.0,0.5]]}}}"#,
+        r#"{"keep-place":{"name":"Table","place":{"zone":[[0.0,0.25],[0.5,0.0],[-1.0,2.0]]}}}"#,
+        r#"{"keep-place":{"name":"Bowl","place":{"spot":[0.5,1.5]},"number":3}}"#,
+        r#"{"reshape-place":{"number":3,"place":{"spot":[0.5,1.5]}}}"#,
+        r#"{"set-room":{"room":3,"settings":[2,30,100,0]}}"#,
+        r#"{"set-room":{"room":3,"settings":[2,30,100,0],"pattern":"contour"}}"#,
+        r#"{"set-room":{"room":3,"settings":null}}"#,
+        r#"{"split-room":{"room":3,"line":[[0.0,0.0],[1.0,0.5]]}}"#,
+    ];
+
+    #[test]
+    fn recorded_orders_and_edits_are_read_and_written_as_ever() {
+        for text in RECORDED {
+            let given: GivenCommand = serde_json::from_str(text).expect("is read");
+            let command = given.to_brain().expect("a good one");
+            let again = serde_json::to_value(GivenCommand::from(&command)).expect("plain");
+            let before: serde_json::Value = serde_json::from_str(text).expect("is JSON");
+            assert_eq!(again, before);
         }
     }
-}
-
-fn from_zone(zone: &Zone) -> Vec<[f64; 2]> {
-    zone.corners()
-        .iter()
-        .map(|corner| [corner.x_m, corner.y_m])
-        .collect()
-}
-
-fn to_zone(corners: &[[f64; 2]]) -> Option<Zone> {
-    let corners = corners.iter().map(|&[x_m, y_m]| Point2 { x_m, y_m });
-    Zone::new(corners.collect()).ok()
 }

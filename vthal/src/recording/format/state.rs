@@ -1,12 +1,13 @@
 //! The recorded form of a brain's state.
 
 use brain::geometry::{Point2, Pose2};
-use brain::mapping::{Cell, Mark, MarkKind, PathPoint, StoredMap, SweptRun};
+use brain::mapping::{Cell, Mark, MarkKind, PathPoint, SweptRun};
 use brain::{
     Checkpoint, CleaningOrder, EnergyModel, GyroLearnt, JobCheckpoint, JobFigures, JobKind, StrategyName,
     TrackingCheckpoint,
 };
 use serde::{Deserialize, Serialize};
+use vthal_core::stored_map;
 
 use super::order::GivenOrder;
 
@@ -95,7 +96,10 @@ impl From<&Checkpoint> for BrainState {
                 .iter()
                 .map(|mark| (mark.at.x_m, mark.at.y_m, mark.kind == MarkKind::Contact))
                 .collect(),
-            home: checkpoint.home.as_ref().map(|home| to_hex(&home.encode())),
+            home: checkpoint
+                .home
+                .as_ref()
+                .map(|home| to_hex(&stored_map::encode(home))),
             tracking: checkpoint.tracking.map(|tracking| {
                 let lost = f64::from(u8::from(tracking.lost));
                 let (scale, bias) = (tracking.gyro_scale, tracking.gyro_bias_rad_per_s);
@@ -125,7 +129,7 @@ impl BrainState {
         };
         let home = match &self.home {
             None => None,
-            Some(text) => Some(StoredMap::decode(&from_hex(text)?).ok()?),
+            Some(text) => Some(stored_map::decode(&from_hex(text)?).ok()?),
         };
         Some(Checkpoint {
             pose: Pose2 {

@@ -1,0 +1,84 @@
+//! What people order and draw, between the brain's types and those of the interface to clients, which recordings keep, too.
+//!
+//! Each way back gives `None` for what the brain would refuse.
+
+use brain::{CleaningOrder, HomePart, NoGo, Pattern, PlaceShape, Zone};
+use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape};
+
+use crate::core::{orders, places, room_power};
+
+/// An order but for its power, which clients tell in shares.
+#[must_use]
+pub fn order(order: &CleaningOrder) -> JobOrder {
+    JobOrder {
+        parts: order.parts().iter().map(part).collect(),
+        passes: order.passes(),
+        avoid: order.avoid().iter().map(no_go).collect(),
+        power: None,
+        pattern: order.pattern().map(pattern),
+    }
+}
+
+/// The order of this form.
+#[must_use]
+pub fn to_order(order: &JobOrder) -> Option<CleaningOrder> {
+    orders::to_order(order).ok()
+}
+
+fn part(part: &HomePart) -> JobPart {
+    match part {
+        HomePart::Room(id) => JobPart::Room(*id),
+        HomePart::Zone(zone) => JobPart::Zone(corners(zone)),
+        HomePart::Spot(middle) => JobPart::Spot([middle.x_m, middle.y_m]),
+    }
+}
+
+fn corners(zone: &Zone) -> Vec<[f64; 2]> {
+    let corners = zone.corners().iter();
+    corners.map(|corner| [corner.x_m, corner.y_m]).collect()
+}
+
+/// What is forbidden.
+#[must_use]
+pub fn no_go(no_go: &NoGo) -> NoGoShape {
+    match no_go.shape() {
+        brain::NoGoShape::Zone => NoGoShape::Zone(corners(no_go.area())),
+        brain::NoGoShape::Wall { from, to } => NoGoShape::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
+    }
+}
+
+/// What this form forbids.
+#[must_use]
+pub fn to_no_go(shape: &NoGoShape) -> Option<NoGo> {
+    orders::to_no_go(shape).ok()
+}
+
+/// Where a place is.
+#[must_use]
+pub fn place(shape: &PlaceShape) -> rvac_api::PlaceShape {
+    match shape {
+        PlaceShape::Zone(zone) => rvac_api::PlaceShape::Zone(corners(zone)),
+        PlaceShape::Spot(middle) => rvac_api::PlaceShape::Spot([middle.x_m, middle.y_m]),
+    }
+}
+
+/// The place of this form.
+#[must_use]
+pub fn to_place(shape: &rvac_api::PlaceShape) -> Option<PlaceShape> {
+    places::to_shape(shape).ok()
+}
+
+/// In which way floor is swept.
+#[must_use]
+pub const fn pattern(pattern: Pattern) -> CleaningPattern {
+    match pattern {
+        Pattern::Lines => CleaningPattern::Lines,
+        Pattern::Contour => CleaningPattern::Contour,
+    }
+}
+
+/// The pattern of this form.
+#[must_use]
+pub const fn to_pattern(pattern: CleaningPattern) -> Pattern {
+    room_power::to_pattern(pattern)
+}

@@ -1,0 +1,147 @@
+//! What the bytes of a stored map hold: its parts, with lengths in whole micrometres and angles in whole microradians.
+
+use std::collections::BTreeMap;
+
+use brain::mapping::{self, Felt, RoomSplit, StoredMapParts};
+use brain::{Cell, Pose2, StoredMap, StoredMapError};
+use serde::{Deserialize, Serialize};
+
+use super::annotations::{
+    NoGo, Numbered, Place, RoomChange, RoomChanges, RoomSettings, millionths, of_millionths, room_name,
+};
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct Body {
+    pub(super) felt_dock: Option<FeltDock>,
+    pub(super) told_dock: Option<Pose>,
+    pub(super) layers: Layers,
+    pub(super) no_go: Numbered<NoGo>,
+    pub(super) names: Vec<(u16, String)>,
+    pub(super) room_changes: RoomChanges,
+    pub(super) room_settings: Vec<(u16, RoomSettings)>,
+    pub(super) places: Numbered<Place>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct FeltDock {
+    pub(super) times: u8,
+    pub(super) pose: Pose,
+}
+
+/// x, y and heading.
+pub(super) type Pose = [i64; 3];
+
+/// What so many cells side by side hold.
+pub(super) type Run = (u16, u32);
+
+/// What each cell of the window holds and in which room it lies.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Layers {
+    origin_x: i32,
+    origin_y: i32,
+    width: u32,
+    height: u32,
+    next_room: u16,
+    pub(super) cells: Vec<Run>,
+    rooms: Vec<Run>,
+}
+
+impl Body {
+    pub(super) fn of(map: &StoredMap) -> Self {
+        let parts = map.parts();
+        Self {
+            felt_dock: parts.felt_dock.map(|felt| FeltDock {
+                times: felt.times,
+                pose: pose(felt.pose),
+            }),
+            told_dock: parts.told_dock.map(pose),
+            layers: Layers {
+                origin_x: parts.origin.x,
+                origin_y: parts.origin.y,
+                width: parts.width,
+                height: parts.height,
+                next_room: parts.next_room,
+                cells: runs(parts.cells),
+                rooms: runs(parts.rooms),
+            },
+            no_go: Numbered::of(parts.no_go),
+            names: parts
+                .names
+                .iter()
+                .map(|(room, name)| (*room, name.as_str().to_owned()))
+                .collect(),
+            room_changes: RoomChanges {
+                made: Numbered::of(parts.room_changes),
+                taken_back: parts
+                    .splits_taken_back
+                    .into_iter()
+                    .map(RoomChange::from)
+                    .collect(),
+            },
+            room_settings: parts
+                .room_settings
+                .iter()
+                .map(|(room, settings)| (*room, (*settings).into()))
+                .collect(),
+            places: Numbered::of(parts.places),
+        }
+    }
+
+    pub(super) fn into_map(self) -> Result<StoredMap, StoredMapError> {
+        let layers = self.layers;
+        let taken_back = self.room_changes.taken_back.into_iter().map(RoomSplit::try_from);
+        StoredMap::from_parts(StoredMapParts {
+            felt_dock: self.felt_dock.map(|felt| Felt {
+                times: felt.times,
+                pose: to_pose(felt.pose),
+            }),
+            told_dock: self.told_dock.map(to_pose),
+            origin: Cell {
+                x: layers.origin_x,
+                y: layers.origin_y,
+            },
+            width: layers.width,
+            height: layers.height,
+            cells: to_runs(layers.cells),
+            rooms: to_runs(layers.rooms),
+            next_room: layers.next_room,
+            no_go: self.no_go.parts()?,
+            names: by_room(self.names, |name| room_name(&name))?,
+            splits_taken_back: taken_back.collect::<Result<_, _>>()?,
+            room_changes: self.room_changes.made.parts()?,
+            room_settings: by_room(self.room_settings, brain::RoomSettings::try_from)?,
+            places: self.places.parts()?,
+        })
+    }
+}
+
+fn by_room<T, P>(
+    rooms: Vec<(u16, T)>,
+    part: impl Fn(T) -> Result<P, StoredMapError>,
+) -> Result<BTreeMap<u16, P>, StoredMapError> {
+    let parts = rooms.into_iter().map(|(room, kept)| Ok((room, part(kept)?)));
+    parts.collect()
+}
+
+fn pose(pose: Pose2) -> Pose {
+    [pose.x_m, pose.y_m, pose.heading_rad].map(millionths)
+}
+
+fn to_pose(pose: Pose) -> Pose2 {
+    let [x_m, y_m, heading_rad] = pose.map(of_millionths);
+    Pose2 {
+        x_m,
+        y_m,
+        heading_rad,
+    }
+}
+
+fn runs(runs: Vec<mapping::Run>) -> Vec<Run> {
+    runs.into_iter().map(|run| (run.value, run.length)).collect()
+}
+
+fn to_runs(runs: Vec<Run>) -> Vec<mapping::Run> {
+    let runs = runs.into_iter();
+    runs.map(|(value, length)| mapping::Run { value, length })
+        .collect()
+}
