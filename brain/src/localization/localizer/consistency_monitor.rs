@@ -102,14 +102,12 @@ impl Localization {
         config: &BrainConfig,
         time_us: u64,
     ) -> Option<MapCorrection> {
-        let Some((terrain, since_us)) = self.witness.take_denied() else {
-            self.witness.keep(map, time_us);
+        let first_run = self.estimator.first_run_mut()?;
+        let Some((terrain, since_us)) = first_run.monitor.take_denied() else {
+            first_run.monitor.keep(map, time_us);
             return None;
         };
-        let mut keyframes = self
-            .survey
-            .as_ref()
-            .map_or_else(Vec::new, |survey| survey.keyframes());
+        let mut keyframes = first_run.slam.keyframes();
         keyframes.retain(|keyframe| keyframe.time_us <= since_us);
         self.lose_in(*terrain, config, time_us);
         Some(MapCorrection::Withdraw { since_us, keyframes })
@@ -117,9 +115,11 @@ impl Localization {
 
     /// Takes in what is seen where the robot believes to be, for a robot on its first run.
     pub(crate) fn look(&mut self, observation: &Observation, advance: Advance, config: &BrainConfig) {
-        if self.survey.is_some() && !observation.wheel_drop {
-            let estimate = self.estimate();
-            self.witness.look((observation, advance), &estimate, config);
+        let estimate = self.estimate();
+        if let Some(first_run) = self.estimator.first_run_mut()
+            && !observation.wheel_drop
+        {
+            first_run.monitor.look((observation, advance), &estimate, config);
         }
     }
 }

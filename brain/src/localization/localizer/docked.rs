@@ -3,7 +3,8 @@
 //! A dock of which nobody but a person has said where it is tells the robot's place by and large; a robot that is sure of its place
 //! tells where the dock is.
 
-use super::{Localization, START_SIGMA_M, START_SIGMA_RAD, Tracked};
+use super::estimator::{Estimator, KnownMap};
+use super::{Localization, START_SIGMA_M, START_SIGMA_RAD};
 use crate::localization::TrackingCheckpoint;
 use crate::localization::drift::Drift;
 use crate::localization::tracker::PROBATION_BEAMS;
@@ -22,7 +23,7 @@ impl Localization {
     pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
         self.place_at(pose);
         self.track(map, config, seed);
-        if self.tracked.is_none() {
+        if self.estimator.known_map().is_none() {
             self.survey(config);
         }
         self.begin_roughly_at(pose);
@@ -35,16 +36,16 @@ impl Localization {
             sigma_m: TOLD_SIGMA_M,
             sigma_rad: TOLD_SIGMA_RAD,
         };
-        if let Some(tracked) = &mut self.tracked {
-            tracked.tracker.place_at(pose, TOLD_SIGMA_M, TOLD_SIGMA_RAD);
-            tracked.tracker.doubt_for(PROBATION_BEAMS);
+        if let Some(known) = self.estimator.known_map_mut() {
+            known.tracker.place_at(pose, TOLD_SIGMA_M, TOLD_SIGMA_RAD);
+            known.tracker.doubt_for(PROBATION_BEAMS);
         }
     }
 
     /// The dock is known to be elsewhere.
     pub fn put_dock(&mut self, dock: DockPlace) {
-        if let Some(tracked) = &mut self.tracked {
-            tracked.terrain.put_dock(dock);
+        if let Some(known) = self.estimator.known_map_mut() {
+            known.terrain.put_dock(dock);
         }
     }
 
@@ -54,9 +55,10 @@ impl Localization {
     pub fn is_confirmed(&self) -> bool {
         let is_narrow = self.drift.sigma_m <= CONFIRMED_M;
         is_narrow
-            && match &self.tracked {
-                Some(tracked) => tracked.tracker.is_confirmed(),
-                None => self.survey.is_some(),
+            && match &self.estimator {
+                Estimator::MonteCarlo(known) => known.tracker.is_confirmed(),
+                Estimator::LineSlam(_) => true,
+                Estimator::Odometry => false,
             }
     }
 
@@ -89,7 +91,7 @@ impl Localization {
     /// its place first.
     #[must_use]
     pub fn may_draw(&self) -> bool {
-        let is_told = |tracked: &Tracked| tracked.tracker.unconfirmed_beams() > 0;
-        !self.tracked.as_deref().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
+        let is_told = |known: &KnownMap| known.tracker.unconfirmed_beams() > 0;
+        !self.estimator.known_map().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
     }
 }

@@ -2,27 +2,28 @@
 
 mod consistency_monitor;
 mod docked;
+mod estimator;
 mod gyro_knowledge;
+mod lift;
 mod relocalization;
 
 use super::TrackingCheckpoint;
 use super::beacons::Beacons;
 use super::drift::{Drift, WHEEL_TURN_SCALE};
-use super::gyro_belief::GyroBelief;
 use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
 use super::retreat::Retreat;
 use super::strengths::Strengths;
-use super::survey::{Survey, TurnCounting};
-use super::terrain::Terrain;
-use super::tracker::{Moved, SENSORS_MIN, Tracker};
+use super::survey::TurnCounting;
+use super::tracker::{Moved, SENSORS_MIN};
 use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
-use consistency_monitor::Witness;
+use estimator::{Estimator, EstimatorKind, KnownMap};
+use lift::Lift;
 
 /// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
 const START_SIGMA_M: f64 = 0.02;
@@ -52,16 +53,6 @@ const HEARD_SIGMA_M: f64 = 0.3;
 const LEARN_US: u64 = 120_000_000;
 /// as long as the map explains so much of what the sensors show.
 const LEARN_EXPLAINED: f64 = 0.75;
-/// A wheel that hangs for so long hangs because somebody holds the robot, seconds.
-const LIFTED_S: f64 = 1.0;
-
-/// A filter and the map that it compares with.
-#[derive(Clone, Debug)]
-pub(super) struct Tracked {
-    pub(super) tracker: Tracker,
-    pub(super) terrain: Terrain,
-}
-
 /// Pose estimate.
 #[derive(Debug)]
 pub struct Localization {
@@ -69,9 +60,7 @@ pub struct Localization {
     map_from_odom: Pose2,
     retreat: Retreat,
     drift: Drift,
-    pub(super) tracked: Option<Box<Tracked>>,
-    pub(super) survey: Option<Box<Survey>>,
-    witness: Witness,
+    pub(super) estimator: Estimator,
     pub(super) beacons: Beacons,
     strengths: Strengths,
     /// When the first observation came.
@@ -81,7 +70,7 @@ pub struct Localization {
     was_docked: bool,
     was_off_dock: bool,
     has_just_docked: bool,
-    hanging_s: f64,
+    lift: Lift,
     learnt_us: u64,
 }
 
@@ -94,9 +83,7 @@ impl Localization {
             map_from_odom: Pose2::IDENTITY,
             retreat: Retreat::default(),
             drift: Drift::default(),
-            tracked: None,
-            survey: None,
-            witness: Witness::default(),
+            estimator: Estimator::Odometry,
             beacons: Beacons::new(),
             strengths: Strengths::default(),
             began_us: None,
@@ -104,7 +91,7 @@ impl Localization {
             was_docked: false,
             was_off_dock: false,
             has_just_docked: false,
-            hanging_s: 0.0,
+            lift: Lift::default(),
             learnt_us: 0,
         }
     }
@@ -120,80 +107,41 @@ impl Localization {
         advance
     }
 
-    /// From now on [`Self::refine`] compares with `map` as it is now, for a robot whose pose is known as well as
-    /// [`Self::estimate`] says. Equal seeds give equal poses. What is drawn into the map later is not taken up before the
-    /// next call. Nothing happens for a robot without proximity sensors, which could only feel its way, and in a map that
-    /// odometry alone has drawn.
-    pub fn track(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
-        self.tracked = None;
-        self.survey = None;
-        if config.sensors.proximity.sensors().is_empty() || !Terrain::is_trustworthy(map) {
-            return;
-        }
-        let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
-        tracker.place_at(
-            self.pose(),
-            self.drift.sigma_m.max(START_SIGMA_M),
-            self.drift.sigma_rad.max(START_SIGMA_RAD),
-        );
-        self.follow_in(Terrain::of(map), tracker);
-    }
-
-    fn follow_in(&mut self, terrain: Terrain, tracker: Tracker) {
-        self.survey = None;
-        self.tracked = Some(Box::new(Tracked { tracker, terrain }));
-    }
-
-    /// From now on [`Self::refine`] finds out how the walls run in a home of which nothing is known yet, beginning where the
-    /// robot stands. Nothing happens for a robot without proximity sensors.
-    pub fn survey(&mut self, config: &BrainConfig) {
-        let layout = config.sensors.proximity;
-        self.tracked = None;
-        self.witness = Witness::default();
-        self.survey = (!layout.sensors().is_empty())
-            .then(|| Box::new(Survey::new(layout, self.pose(), self.odometry.odom_from_base())));
-    }
-
     /// Takes up what has become known of the home since: a tracked robot compares with it, too, and one that was carried away
     /// in the midst of a survey looks for itself in the map that it has made, if that is any good. Says what the map must take
     /// back.
     pub fn learn(&mut self, map: &Map, config: &BrainConfig, time_us: u64) -> Option<MapCorrection> {
-        if self.survey.is_some() && self.hanging_s < 0.0 {
-            self.hanging_s = 0.0;
-            self.recover(map, config, time_us);
-            return None;
-        }
-        if self.survey.is_some() {
-            return self.hear_witness(map, config, time_us);
-        }
-        self.learn_tracked(map, time_us);
-        None
-    }
-
-    fn learn_tracked(&mut self, map: &Map, time_us: u64) {
-        let Some(tracked) = &mut self.tracked else {
-            return;
-        };
-        let Tracked { tracker, terrain } = &mut **tracked;
-        let is_due = time_us >= self.learnt_us.saturating_add(LEARN_US);
-        if is_due && !tracker.is_lost() && tracker.explained() >= LEARN_EXPLAINED {
-            self.learnt_us = time_us;
-            terrain.grow(map);
+        match &mut self.estimator {
+            Estimator::Odometry => None,
+            Estimator::LineSlam(_) if self.lift.take_put_down() => {
+                self.recover(map, config, time_us);
+                None
+            }
+            Estimator::LineSlam(_) => self.hear_witness(map, config, time_us),
+            Estimator::MonteCarlo(known) => {
+                let is_due = time_us >= self.learnt_us.saturating_add(LEARN_US);
+                let tracker = &known.tracker;
+                if is_due && !tracker.is_lost() && tracker.explained() >= LEARN_EXPLAINED {
+                    self.learnt_us = time_us;
+                    known.terrain.grow(map);
+                }
+                None
+            }
         }
     }
 
     /// What must survive a restart of a robot that is tracked.
     #[must_use]
     pub fn checkpoint(&self) -> Option<TrackingCheckpoint> {
-        let tracked = self.tracked.as_ref()?;
+        let tracker = &self.estimator.known_map()?.tracker;
         let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
         Some(TrackingCheckpoint {
             sigma_m: self.drift.sigma_m,
             sigma_rad: self.drift.sigma_rad,
-            lost: tracked.tracker.is_lost(),
+            lost: tracker.is_lost(),
             gyro_scale,
             gyro_bias_rad_per_s,
-            unconfirmed_beams: tracked.tracker.unconfirmed_beams(),
+            unconfirmed_beams: tracker.unconfirmed_beams(),
         })
     }
 
@@ -206,14 +154,14 @@ impl Localization {
             sigma_m: finite(before.sigma_m, START_SIGMA_M),
             sigma_rad: finite(before.sigma_rad, START_SIGMA_RAD),
         };
-        let Some(tracked) = &mut self.tracked else {
+        let Some(KnownMap { tracker, .. }) = self.estimator.known_map_mut() else {
             return;
         };
         let Drift { sigma_m, sigma_rad } = self.drift;
-        tracked.tracker.place_at(pose, sigma_m, sigma_rad);
-        tracked.tracker.doubt_for(before.unconfirmed_beams);
+        tracker.place_at(pose, sigma_m, sigma_rad);
+        tracker.doubt_for(before.unconfirmed_beams);
         if before.lost {
-            tracked.tracker.lose(pose);
+            tracker.lose(pose);
         }
     }
 
@@ -226,15 +174,17 @@ impl Localization {
             let at = self.pose().position();
             self.strengths.learn(at);
         }
-        let keyframes = self.survey.as_mut()?.redraw(observation.time_us)?;
+        let first_run = self.estimator.first_run_mut()?;
+        let keyframes = first_run.slam.redraw(observation.time_us)?;
         Some(MapCorrection::Redraw { keyframes })
     }
 
     /// Whether what is received here may be learnt as that of the place where the robot believes to be.
     fn is_placed(&self) -> bool {
-        let is_followed = match &self.tracked {
-            Some(tracked) => tracked.tracker.is_settled(),
-            None => self.survey.is_some() && self.hanging_s >= 0.0,
+        let is_followed = match &self.estimator {
+            Estimator::MonteCarlo(known) => known.tracker.is_settled(),
+            Estimator::LineSlam(_) => self.lift != Lift::PutDown,
+            Estimator::Odometry => false,
         };
         is_followed && self.drift.sigma_m <= HEARD_SIGMA_M
     }
@@ -247,16 +197,20 @@ impl Localization {
         self.was_docked = observation.docked;
         self.was_off_dock |= !observation.docked;
         self.has_just_docked = docks && self.was_off_dock;
-        let Some(tracked) = &mut self.tracked else {
-            if let Some(estimate) = by_beacons {
-                return self.adopt(estimate);
+        match (self.active_estimator(), by_beacons) {
+            (EstimatorKind::MonteCarlo, _) => self.follow_map(observation, moved, docks),
+            (_, Some(estimate)) => self.adopt(estimate),
+            (EstimatorKind::Beacons, None) => {}
+            (EstimatorKind::LineSlam | EstimatorKind::Odometry, None) => {
+                self.follow_walls(observation, advance);
             }
-            if self.beacons.is_following() {
-                return;
-            }
-            return self.follow_walls(observation, advance);
+        }
+    }
+
+    fn follow_map(&mut self, observation: &Observation, moved: Moved, docks: bool) {
+        let Some(KnownMap { tracker, terrain }) = self.estimator.known_map_mut() else {
+            return;
         };
-        let Tracked { tracker, terrain } = &mut **tracked;
         tracker.hear(self.beacons.heard());
         tracker.receive(&self.strengths);
         tracker.search_on(terrain);
@@ -273,43 +227,25 @@ impl Localization {
             self.put_at(dock);
         } else if docks
             && tracker.is_lost()
-            && let Some(dock) = terrain.dock().pose()
+            && let Some(dock) = place.pose()
         {
             self.begin_roughly_at(dock);
         } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
-            let gyro = tracker.gyro();
-            self.take_up(estimate, gyro);
+            self.adopt_tracked(estimate);
         }
     }
 
     fn follow_walls(&mut self, observation: &Observation, advance: Advance) {
+        self.lift.update(observation, advance);
         if observation.wheel_drop {
-            self.hanging_s += advance.time_s;
             return;
         }
-        // Below zero: it was put down, and nobody has drawn the consequences yet.
-        self.hanging_s = if self.hanging_s >= LIFTED_S { -1.0 } else { 0.0 };
+        let turns = self.turn_counting(observation.time_us);
         let odom = self.odometry.odom_from_base();
-        // Asked of the gyro and not of this advance, which the first one after a start is not of: what was learnt of the gyro
-        // before counts from the first step on.
-        let turns = if self.has_gyro(observation.time_us) {
-            TurnCounting {
-                scale: self.odometry.gyro().0,
-                scale_sigma: self.odometry.calibration.scale_sigma(),
-                bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
-            }
-        } else {
-            TurnCounting {
-                scale: 0.0,
-                scale_sigma: WHEEL_TURN_SCALE,
-                bias_sigma_rad_per_s: 0.0,
-            }
+        let Some(first_run) = self.estimator.first_run_mut() else {
+            return;
         };
-        let Some(fix) = self
-            .survey
-            .as_mut()
-            .and_then(|survey| survey.follow(odom, (advance, turns), observation))
-        else {
+        let Some(fix) = first_run.slam.follow(odom, (advance, turns), observation) else {
             return;
         };
         if advance.gyro_turn_rad.is_some()
@@ -324,17 +260,38 @@ impl Localization {
         };
     }
 
+    /// How turns are counted. It asks whether there is a gyro and not whether this advance has a turn of it: the first advance after a
+    /// start has none, and what was learned of the gyro before counts from the first step on.
+    fn turn_counting(&self, now_us: u64) -> TurnCounting {
+        if !self.has_gyro(now_us) {
+            return TurnCounting {
+                scale: 0.0,
+                scale_sigma: WHEEL_TURN_SCALE,
+                bias_sigma_rad_per_s: 0.0,
+            };
+        }
+        TurnCounting {
+            scale: self.odometry.gyro().0,
+            scale_sigma: self.odometry.calibration.scale_sigma(),
+            bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
+        }
+    }
+
     /// Whether anything but its wheels tells the robot where it is heading: a gyro, beacons, or a map that it can compare
     /// with. Without, it is lost within minutes, and what it draws is no map.
     #[must_use]
     pub fn knows_heading(&self, now_us: u64) -> bool {
-        self.has_gyro(now_us) || self.beacons.is_following() || self.tracked.is_some()
+        self.has_gyro(now_us)
+            || matches!(
+                self.active_estimator(),
+                EstimatorKind::Beacons | EstimatorKind::MonteCarlo
+            )
     }
 
     /// Deviation of the gyro's scale, relative, while the robot surveys a home that it does not know; `None` = it has no gyro,
     /// or compares with a map, which tells the scale by itself.
     pub(crate) fn surveyed_gyro_scale_sigma(&self, now_us: u64) -> Option<f64> {
-        let surveys = self.survey.is_some() && self.has_gyro(now_us);
+        let surveys = self.estimator.is_line_slam() && self.has_gyro(now_us);
         surveys.then(|| self.odometry.calibration.scale_sigma())
     }
 
@@ -352,13 +309,13 @@ impl Localization {
     /// A robot with next to no sensors lets go of the map when nothing tells its heading.
     fn leave_hopeless_map(&mut self, now_us: u64) {
         let blind = self
-            .tracked
-            .as_ref()
-            .is_some_and(|tracked| tracked.tracker.sensor_count() < SENSORS_MIN);
+            .estimator
+            .known_map()
+            .is_some_and(|known| known.tracker.sensor_count() < SENSORS_MIN);
         let began_us = *self.began_us.get_or_insert(now_us);
         let waited = now_us >= began_us.saturating_add(GYRO_GONE_US);
         if blind && waited && !self.has_gyro(now_us) && !self.beacons.are_heard() {
-            self.tracked = None;
+            self.leave_map();
         }
     }
 
@@ -370,9 +327,9 @@ impl Localization {
             sigma_m: self.drift.sigma_m,
             sigma_rad: self.drift.sigma_rad,
             lost: self
-                .tracked
-                .as_ref()
-                .is_some_and(|tracked| tracked.tracker.is_lost()),
+                .estimator
+                .known_map()
+                .is_some_and(|known| known.tracker.is_lost()),
             odom: self.odometry.odom_from_base(),
         }
     }
@@ -380,7 +337,7 @@ impl Localization {
     /// How well the map explains what the sensors show, 0..1; `None` without a map to compare with.
     #[must_use]
     pub fn explained(&self) -> Option<f64> {
-        self.tracked.as_ref().map(|tracked| tracked.tracker.explained())
+        self.estimator.known_map().map(|known| known.tracker.explained())
     }
 
     /// Way back in metres that no way forward has made good, 0..=0.15: ground that nothing has seen.
@@ -411,14 +368,6 @@ impl Localization {
         self.map_from_odom = map_from_odom;
     }
 
-    /// Takes up what guesses in a map have found, of the gyro, too.
-    fn take_up(&mut self, estimate: PoseEstimate, gyro: Option<GyroBelief>) {
-        self.adopt(estimate);
-        if let Some(gyro) = gyro.filter(|_| !estimate.lost) {
-            self.odometry.calibration.know(gyro);
-        }
-    }
-
     /// Takes up what the filter found; the gyro learns from it.
     fn adopt(&mut self, estimate: PoseEstimate) {
         let correction_rad = normalize_rad(estimate.pose.heading_rad - self.pose().heading_rad);
@@ -441,18 +390,19 @@ impl Localization {
     pub fn place_at(&mut self, pose: Pose2) {
         let before = self.pose();
         self.put_at(pose);
-        if let Some(survey) = &mut self.survey {
-            survey.begin_at(pose, self.odometry.odom_from_base());
+        let odom = self.odometry.odom_from_base();
+        if let Some(first_run) = self.estimator.first_run_mut() {
+            first_run.slam.begin_at(pose, odom);
         }
         let is_there = before.position().distance_m(pose.position()) < PLACED_M
             && normalize_rad(before.heading_rad - pose.heading_rad).abs() < PLACED_RAD;
         if !is_there {
             self.beacons.place_at(pose);
         }
-        if let Some(tracked) = &mut self.tracked
+        if let Some(known) = self.estimator.known_map_mut()
             && !is_there
         {
-            tracked.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
+            known.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
         }
     }
 

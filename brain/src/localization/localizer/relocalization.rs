@@ -20,7 +20,7 @@ impl Localization {
     pub(super) fn lose_in(&mut self, terrain: Terrain, config: &BrainConfig, seed: u64) {
         let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
         tracker.lose(self.pose());
-        self.follow_in(terrain, tracker);
+        self.compare_with(terrain, tracker);
         self.drift.sigma_m = SIGMA_MAX;
     }
 }

@@ -48,7 +48,15 @@ fn a_lap_that_comes_back_to_its_first_wall_is_closed_by_it() {
     turn(&mut truth, &mut localization);
     let open_m = truth.off_m(&localization);
     assert!(open_m > 0.8 * SLIP_M, "{open_m} m off at the end of the lap");
-    let graph = |localization: &Localization| localization.survey.as_ref().expect("a survey").graph.clone();
+    let graph = |localization: &Localization| {
+        localization
+            .estimator
+            .first_run()
+            .expect("line SLAM")
+            .slam
+            .graph
+            .clone()
+    };
     let lap = graph(&localization);
     go(&mut truth, &mut localization, 1.8);
     let closed_m = truth.off_m(&localization);

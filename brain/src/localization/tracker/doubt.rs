@@ -70,8 +70,8 @@ mod tests {
         let mut localization = placed(&map, off * START);
         drive(&mut truth, &mut localization, 60);
         let tracker = &mut localization
-            .tracked
-            .as_mut()
+            .estimator
+            .known_map_mut()
             .expect("a map to compare with")
             .tracker;
         let unexplained = Fit { told: 200, agreed: 0 };

@@ -1,0 +1,47 @@
+//! Whether somebody lifts a robot on its first run, as its wheels show it.
+
+use crate::model::advance::Advance;
+use crate::model::observation::Observation;
+
+/// A wheel that hangs for so long hangs because somebody holds the robot, seconds.
+const LIFTED_S: f64 = 1.0;
+
+/// The wheels of a robot that may be lifted.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Lift {
+    /// All wheels are on the floor.
+    #[default]
+    OnFloor,
+    /// A wheel has been hanging for so long.
+    Hanging { time_s: f64 },
+    /// Somebody has just put it down, and the estimator does not know it yet.
+    PutDown,
+}
+
+impl Lift {
+    /// Takes in whether a wheel hangs.
+    pub(super) fn update(&mut self, observation: &Observation, advance: Advance) {
+        let hanging_s = match *self {
+            Self::Hanging { time_s } => time_s,
+            Self::OnFloor | Self::PutDown => 0.0,
+        };
+        *self = if observation.wheel_drop {
+            Self::Hanging {
+                time_s: hanging_s + advance.time_s,
+            }
+        } else if hanging_s >= LIFTED_S {
+            Self::PutDown
+        } else {
+            Self::OnFloor
+        };
+    }
+
+    /// Whether it was put down since this was last asked.
+    pub(super) fn take_put_down(&mut self) -> bool {
+        let is_put_down = *self == Self::PutDown;
+        if is_put_down {
+            *self = Self::OnFloor;
+        }
+        is_put_down
+    }
+}
