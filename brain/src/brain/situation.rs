@@ -29,7 +29,7 @@ impl<'step> Parts<'step> {
             is_tracked: localization.explained().is_some(),
             gyro_scale_sigma: localization.surveyed_gyro_scale_sigma(observation.time_us),
             gyro_bias_sigma_rad_per_s: localization.gyro_bias_sigma_rad_per_s(observation.time_us),
-            way_back_m: localization.way_back_m(),
+            way_back_m: localization.reverse_left_m(),
             beams: self.beams,
             config: self.config,
             knows_heading: localization.knows_heading(observation.time_us),

@@ -2,11 +2,11 @@
 //!
 //! Over some ten seconds the heading that the filter gained and the heading that the gyro counted differ by what is wrong
 //! with the gyro: `gained = (1 + scale) * (counted - bias * time)`. A Kalman filter of these two numbers takes the difference
-//! of each such window, and what the gyro shows while the wheels stand still ([`super::rest`]). It is one filter for both: a
+//! of each such window, and what the gyro shows while the wheels stand still ([`super::stationary`]). It is one filter for both: a
 //! bias that walls have told and a later rest denies would stay otherwise.
 
-use super::gyro_belief::{BiasTold, GyroBelief};
-use super::rest::Rested;
+use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
+use super::stationary::StationaryInterval;
 use crate::model::advance::Advance;
 use crate::model::learnt::GyroLearnt;
 
@@ -40,12 +40,12 @@ pub(super) struct Calibration {
     bias_rad_per_s: f64,
     /// Covariance: of the scale, of both, of the bias.
     covariance: [f64; 3],
-    window: Window,
+    window: CalibrationWindow,
 }
 
 /// What was counted and gained between two moments at which the heading was known.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gain {
+pub(super) struct HeadingGain {
     pub(super) time_s: f64,
     pub(super) counted_rad: f64,
     pub(super) gained_rad: f64,
@@ -54,7 +54,7 @@ pub(super) struct Gain {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Window {
+struct CalibrationWindow {
     time_s: f64,
     counted_rad: f64,
     gained_rad: f64,
@@ -72,7 +72,7 @@ impl Default for Calibration {
                 0.0,
                 BIAS_SIGMA_RAD_PER_S * BIAS_SIGMA_RAD_PER_S,
             ],
-            window: Window::default(),
+            window: CalibrationWindow::default(),
         }
     }
 }
@@ -106,8 +106,8 @@ impl Calibration {
     }
 
     /// All that is believed of the gyro.
-    pub(super) fn belief(&self) -> GyroBelief {
-        GyroBelief {
+    pub(super) fn belief(&self) -> GyroEstimate {
+        GyroEstimate {
             scale: self.scale,
             scale_sigma: self.scale_sigma(),
             bias_rad_per_s: self.bias_rad_per_s,
@@ -116,8 +116,8 @@ impl Calibration {
     }
 
     /// Somebody who has weighed all that was seen knows this.
-    pub(super) fn know(&mut self, belief: GyroBelief) {
-        self.know_scale(belief.scale, belief.scale_sigma);
+    pub(super) fn set(&mut self, belief: GyroEstimate) {
+        self.set_scale(belief.scale, belief.scale_sigma);
         self.bias_rad_per_s = belief
             .bias_rad_per_s
             .clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
@@ -145,7 +145,7 @@ impl Calibration {
     }
 
     /// Takes in what the gyro showed while the wheels stood still. Gives what that says of the bias.
-    pub(super) fn rest(&mut self, rested: Rested) -> BiasTold {
+    pub(super) fn rest(&mut self, rested: StationaryInterval) -> BiasMeasurement {
         let [ss, sb, bb] = self.covariance;
         let swing_rad_per_s = SWING_RAD / rested.time_s;
         let noise =
@@ -159,14 +159,14 @@ impl Calibration {
         let (gain_scale, gain_bias) = (sb * weight, bb * weight);
         self.move_by(gain_scale * off_rad_per_s, gain_bias * off_rad_per_s);
         self.covariance = [ss - gain_scale * sb, sb - gain_scale * bb, bb - gain_bias * bb];
-        BiasTold {
+        BiasMeasurement {
             rad_per_s: rested.rad_per_s,
             variance_rad2_per_s2: variance * doubt - bb,
         }
     }
 
     /// Somebody who has weighed all that was seen knows the scale this well.
-    pub(super) fn know_scale(&mut self, scale: f64, sigma: f64) {
+    pub(super) fn set_scale(&mut self, scale: f64, sigma: f64) {
         self.scale = scale.clamp(-SCALE_MAX, SCALE_MAX);
         let [_, _, bias] = self.covariance;
         self.covariance = [sigma * sigma, 0.0, bias];
@@ -187,7 +187,7 @@ impl Calibration {
                 self.window.counted_rad += turn_rad;
                 self.window.gained_rad += turn_rad;
             }
-            None => self.window = Window::default(),
+            None => self.window = CalibrationWindow::default(),
         }
     }
 
@@ -195,41 +195,41 @@ impl Calibration {
     pub(super) fn correct(&mut self, correction_rad: f64, variance_rad2: f64) {
         self.window.gained_rad += correction_rad;
         let Some(began_rad2) = self.window.variance_rad2 else {
-            self.window = Window {
+            self.window = CalibrationWindow {
                 variance_rad2: Some(variance_rad2),
-                ..Window::default()
+                ..CalibrationWindow::default()
             };
             return;
         };
         if self.window.time_s < WINDOW_S {
             return;
         }
-        let Window {
+        let CalibrationWindow {
             time_s,
             counted_rad,
             gained_rad,
             ..
         } = self.window;
-        self.learn(Gain {
+        self.learn(HeadingGain {
             time_s,
             counted_rad,
             gained_rad,
             variance_rad2: began_rad2 + variance_rad2,
         });
-        self.window = Window {
+        self.window = CalibrationWindow {
             variance_rad2: Some(variance_rad2),
-            ..Window::default()
+            ..CalibrationWindow::default()
         };
     }
 
     /// The filter lost its way: what it says of the heading is worth nothing.
     pub(super) fn interrupt(&mut self) {
-        self.window = Window::default();
+        self.window = CalibrationWindow::default();
     }
 
     /// Takes in how the heading changed between two moments at which it was known.
-    pub(super) fn learn(&mut self, gain: Gain) {
-        let Gain {
+    pub(super) fn learn(&mut self, gain: HeadingGain) {
+        let HeadingGain {
             time_s,
             counted_rad,
             gained_rad,
@@ -257,12 +257,12 @@ impl Calibration {
 
 #[cfg(test)]
 mod tests {
-    use super::{Calibration, Gain, LEARNT_SIGMA, RESUMED_SIGMA, Rested, SCALE_SIGMA};
-    use crate::localization::gyro_belief::BiasTold;
+    use super::{Calibration, HeadingGain, LEARNT_SIGMA, RESUMED_SIGMA, SCALE_SIGMA, StationaryInterval};
+    use crate::localization::gyro_estimate::BiasMeasurement;
     use crate::model::learnt::GyroLearnt;
 
-    fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasTold {
-        BiasTold {
+    fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasMeasurement {
+        BiasMeasurement {
             rad_per_s,
             variance_rad2_per_s2: sigma_rad_per_s * sigma_rad_per_s,
         }
@@ -280,7 +280,7 @@ mod tests {
     fn rests(calibration: &mut Calibration, times: u32, rad_per_s: f64) {
         for _ in 0..times {
             calibration.covariance[2] += 100.0 * super::BIAS_DRIFT_RAD2_PER_S3;
-            calibration.rest(Rested {
+            calibration.rest(StationaryInterval {
                 rad_per_s,
                 time_s: 2.0,
             });
@@ -307,7 +307,7 @@ mod tests {
         let mut calibration = Calibration::default();
         rests(&mut calibration, 3, 0.001);
         for _ in 0..60 {
-            calibration.learn(Gain {
+            calibration.learn(HeadingGain {
                 time_s: 20.0,
                 counted_rad: 0.1,
                 gained_rad: 0.1 - 20.0 * 0.001,
@@ -326,7 +326,7 @@ mod tests {
         let fresh = Calibration::default();
         assert_eq!(fresh.learnt(), None, "nothing is known");
         let mut before = fresh;
-        before.know_scale(0.012, 0.0005);
+        before.set_scale(0.012, 0.0005);
         before.move_by(0.0, 0.001);
         let learnt = before.learnt().expect("it is well known");
         let after = Calibration::resumed(learnt);
@@ -352,7 +352,7 @@ mod tests {
             let counted_rad = if number % 2 == 0 { 6.0 } else { 0.0 };
             let (scale, bias) = calibration.found();
             let gained_rad = counted_rad * (1.0 + 0.01 - scale) - 20.0 * (0.002 - bias);
-            calibration.learn(Gain {
+            calibration.learn(HeadingGain {
                 time_s: 20.0,
                 counted_rad,
                 gained_rad,

@@ -1,8 +1,8 @@
 //! Whether the robot is where it believes to be: does the map explain what the sensors show?
 
-use super::particles::Fit;
+use super::particles::BeamScore;
 
-/// Beams over which the share of explained ones is averaged: a long memory tells whether the robot is lost, so that one
+/// BeamModel over which the share of explained ones is averaged: a long memory tells whether the robot is lost, so that one
 /// door that opened does not, a short one whether something is wrong here.
 const LONG_BEAMS: f64 = 220.0;
 const SHORT_BEAMS: f64 = 50.0;
@@ -15,11 +15,11 @@ const DOUBT_BELOW: f64 = 0.6;
 const HOLD_FROM: f64 = 0.75;
 /// From this share on there is no doubt: more than in a home whose doors and chairs moved.
 const CONFIRM_FROM: f64 = 0.88;
-/// Beams that must have been told for that since the robot was placed: it has driven since.
+/// BeamModel that must have been told for that since the robot was placed: it has driven since.
 const CONFIRM_BEAMS: u32 = 20;
 /// From this share on a lost robot has found itself.
 const FOUND_FROM: f64 = 0.8;
-/// Beams that must have been told since the robot was lost.
+/// BeamModel that must have been told since the robot was lost.
 const FOUND_BEAMS: u32 = 60;
 /// What is believed of a place that nothing was compared with yet.
 const START: f64 = 0.9;
@@ -29,7 +29,7 @@ const START: f64 = 0.9;
 pub(super) struct Confidence {
     explained: f64,
     recently: f64,
-    /// Beams since the last reset.
+    /// BeamModel since the last reset.
     beams: u32,
 }
 
@@ -64,11 +64,11 @@ impl Confidence {
         }
     }
 
-    pub(super) fn take(&mut self, fit: Fit) {
-        let (told, agreed) = (f64::from(fit.told), f64::from(fit.agreed));
-        self.explained += (agreed - told * self.explained) / LONG_BEAMS;
-        self.recently += (agreed - told * self.recently) / SHORT_BEAMS;
-        self.beams = self.beams.saturating_add(fit.told);
+    pub(super) fn take(&mut self, score: BeamScore) {
+        let (informative, consistent) = (f64::from(score.informative), f64::from(score.consistent));
+        self.explained += (consistent - informative * self.explained) / LONG_BEAMS;
+        self.recently += (consistent - informative * self.recently) / SHORT_BEAMS;
+        self.beams = self.beams.saturating_add(score.informative);
     }
 
     /// Whether nothing speaks against what has been learnt lately.

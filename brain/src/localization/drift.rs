@@ -11,7 +11,7 @@ pub(super) struct Drift {
 
 /// Error of the way by wheels that differ from the data sheet, relative. Figures of this file: navigation experiments of
 /// the project with robots of this class; no robot was measured yet.
-const WAY_SCALE: f64 = 0.01;
+const DISTANCE_SCALE: f64 = 0.01;
 /// Slip along the way, metres per square root of a metre.
 const SLIP_M_PER_SQRT_M: f64 = 0.01;
 /// Slip in heading, radians per square root of a metre: 0.5 degrees, only where there is no gyro.
@@ -27,12 +27,12 @@ impl Drift {
     /// What the motion adds. The error of the heading tilts all of the way that follows, so the figure is that of a
     /// straight way: an upper one for ways that turn back.
     pub(super) fn grow(&mut self, advance: Advance) {
-        let way_m = advance.distance_m.abs();
+        let distance_m = advance.distance_m.abs();
         let turn_variance = turn_variance(advance);
         self.sigma_rad = libm::sqrt(self.sigma_rad * self.sigma_rad + turn_variance);
-        let slipped_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * way_m;
+        let slipped_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * distance_m;
         self.sigma_m = libm::sqrt(self.sigma_m * self.sigma_m + slipped_m2)
-            + way_m * libm::sqrt(WAY_SCALE * WAY_SCALE + self.sigma_rad * self.sigma_rad);
+            + distance_m * libm::sqrt(DISTANCE_SCALE * DISTANCE_SCALE + self.sigma_rad * self.sigma_rad);
     }
 }
 

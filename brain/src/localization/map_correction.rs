@@ -11,7 +11,7 @@ pub enum MapCorrection {
         keyframes: Vec<Keyframe>,
     },
     /// What was drawn by a robot that was not where it believed to be is to be taken back.
-    Withdraw {
+    RollBack {
         /// All that was seen from this time on, microseconds.
         since_us: u64,
         /// Where the robot was before.

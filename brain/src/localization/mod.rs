@@ -7,33 +7,33 @@
 
 mod beacons;
 mod calibration;
+mod candidates;
 mod confidence;
 mod drift;
-mod floors;
-mod gyro_belief;
-#[cfg(test)]
-mod known_floors;
+mod global_localizer;
+mod gyro_estimate;
 #[cfg(test)]
 mod known_home;
+#[cfg(test)]
+mod known_storeys;
+mod line_slam;
 mod localizer;
 mod map_correction;
 mod odometry;
 mod particles;
-mod places;
-mod rest;
-mod retreat;
-mod search;
+mod reference_map;
+mod reverse_budget;
+mod rssi_fingerprint;
+mod scan_history;
 mod skyline;
-mod stand;
-mod strengths;
-mod survey;
-mod terrain;
+mod standstill;
+mod stationary;
+mod storey_finder;
 mod totals;
 mod tracker;
 mod tracking_checkpoint;
-mod trail;
 
-pub use floors::{Finding, FloorFinder, FloorPlace};
 pub use localizer::Localization;
 pub use map_correction::MapCorrection;
+pub use storey_finder::{StoreyFinder, StoreyFinding, StoreyPose};
 pub use tracking_checkpoint::TrackingCheckpoint;

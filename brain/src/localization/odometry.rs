@@ -1,8 +1,8 @@
 //! Dead reckoning from wheel travel, with the gyro's heading where there is one.
 
 use super::calibration::Calibration;
-use super::gyro_belief::BiasTold;
-use super::rest::RestWatch;
+use super::gyro_estimate::BiasMeasurement;
+use super::stationary::StationaryDetector;
 use super::totals::Totals;
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
@@ -15,9 +15,9 @@ pub(super) struct Odometry {
     rim_max_m_per_s: f64,
     odom_from_base: Pose2,
     last: Option<Totals>,
-    rest: RestWatch,
+    rest: StationaryDetector,
     /// What a rest has told that the last observation ended.
-    told: Option<BiasTold>,
+    bias: Option<BiasMeasurement>,
     pub(super) calibration: Calibration,
 }
 
@@ -33,8 +33,8 @@ impl Odometry {
             rim_max_m_per_s,
             odom_from_base: Pose2::IDENTITY,
             last: None,
-            rest: RestWatch::default(),
-            told: None,
+            rest: StationaryDetector::default(),
+            bias: None,
             calibration: Calibration::default(),
         }
     }
@@ -58,8 +58,8 @@ impl Odometry {
     }
 
     /// What a rest has told that the last observation ended.
-    pub(super) fn told_bias(&self) -> Option<BiasTold> {
-        self.told
+    pub(super) fn measured_bias(&self) -> Option<BiasMeasurement> {
+        self.bias
     }
 
     pub(super) fn update(&mut self, observation: &Observation) -> Advance {
@@ -92,7 +92,7 @@ impl Odometry {
             self.rest.end(last)
         };
         let rested = ended.or(self.rest.observe(now));
-        self.told = rested.map(|rested| self.calibration.rest(rested));
+        self.bias = rested.map(|rested| self.calibration.rest(rested));
     }
 
     fn advance(&self, last: Totals, now: Totals) -> Advance {

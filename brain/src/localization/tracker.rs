@@ -3,19 +3,21 @@
 //! A robot is *lost* when the map does not explain what it sees, or when somebody had it in the hands. Then the guesses
 //! are spread over all free floor, and it is *found* when one cluster of them is left that the map explains.
 
-mod doubt;
+mod drift_check;
 
-use super::beacons::Heard;
+use super::beacons::LocatedRange;
+use super::candidates::{is_alone, is_among, near_if_as_good};
 use super::confidence::{Confidence, Verdict};
 use super::drift::{WHEEL_TURN_SCALE, turn_variance};
-use super::gyro_belief::{BiasTold, GyroBelief};
+use super::global_localizer::{GlobalLocalizer, PoseCandidate};
+use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::odometry::Odometry;
-use super::particles::{Felt, Fit, Manner, Motion, ParticleFilter, Spread, Surroundings};
-use super::places::{is_alone, is_among, near_if_as_good};
-use super::search::{Candidate, Search};
-use super::stand::Stand;
-use super::strengths::{Hearing, StrengthMap, Strengths};
-use super::trail::Trail;
+use super::particles::{
+    BeamScore, FilterMode, Measurements, MotionDelta, ParticleFilter, PoseSpread, Surroundings,
+};
+use super::rssi_fingerprint::{FingerprintMap, FingerprintMatcher, RssiFingerprints};
+use super::scan_history::ScanHistory;
+use super::standstill::Standstill;
 use crate::model::advance::Advance;
 use crate::model::pose_estimate::PoseEstimate;
 use std::sync::Arc;
@@ -35,18 +37,18 @@ const CORRELATED: f64 = 3.0;
 /// A wheel that hangs for so long hangs because somebody holds the robot.
 const LIFTED_S: f64 = 1.0;
 /// How far a robot is put from where it was lifted by people who put it back.
-const PUT_BACK: Spread = Spread {
+const PUT_BACK: PoseSpread = PoseSpread {
     sigma_m: 0.3,
     sigma_rad: 0.5,
 };
 /// How far the guesses of a doubtful robot are spread: as far as walls of a map that a robot has drawn itself are wrong. With 0.15 m
 /// and 0.12 rad a robot in such a map jumped to other furniture when it touched a leg that the map does not have.
-const DOUBT: Spread = Spread {
+const DOUBT_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.04,
     sigma_rad: 0.03,
 };
 /// The same for one that competes with others on other floors, which must not be sure too soon.
-const RIVAL_DOUBT: Spread = Spread {
+const COMPETITOR_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.15,
     sigma_rad: 0.12,
 };
@@ -64,34 +66,34 @@ const SEARCH_EVERY_M: f64 = 2.5;
 const HEARING_FROM_M: f64 = 2.5;
 const HEARING_EVERY_M: f64 = 1.5;
 /// How far the guesses around a searched place are spread.
-const SEARCHED: Spread = Spread {
+const SEARCHED: PoseSpread = PoseSpread {
     sigma_m: 0.06,
     sigma_rad: 0.03,
 };
 /// Until so many beams were told since, a robot that has found itself must not be where nothing is known: it looked for itself
 /// in what is known only, and a wrong find leads out of it soon.
-pub(super) const PROBATION_BEAMS: u32 = 200;
+pub(super) const CONFIRMATION_BEAMS: u32 = 200;
 
 /// What the robot moved in a step, and what it believes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moved {
+pub(super) struct MotionUpdate {
     pub(super) advance: Advance,
     /// Pose by odometry since the last estimate.
     pub(super) pose: Pose2,
     /// With what odometry has put right what the gyro counted.
-    pub(super) gyro: GyroBelief,
+    pub(super) gyro: GyroEstimate,
     /// What a rest that has just ended says of its bias.
-    pub(super) told: Option<BiasTold>,
+    pub(super) measured_bias: Option<BiasMeasurement>,
 }
 
-impl Moved {
+impl MotionUpdate {
     /// The last step that odometry counted.
     pub(super) fn of(odometry: &Odometry, advance: Advance, pose: Pose2) -> Self {
         Self {
             advance,
             pose,
             gyro: odometry.calibration.belief(),
-            told: odometry.told_bias(),
+            measured_bias: odometry.measured_bias(),
         }
     }
 }
@@ -100,7 +102,7 @@ impl Moved {
 #[derive(Clone, Debug)]
 pub(super) struct Tracker {
     filter: ParticleFilter,
-    pending: Motion,
+    pending: MotionDelta,
     pending_turn_rad: f64,
     contacts_before: Contacts,
     cliffs_before: Cliffs,
@@ -111,23 +113,23 @@ pub(super) struct Tracker {
     has_drifted: bool,
     weighings: u32,
     /// Ranges to beacons since the last weighing.
-    heard: Vec<Heard>,
+    heard: Vec<LocatedRange>,
     /// What a rest has told of the gyro since the last weighing.
-    told: Option<BiasTold>,
-    stand: Stand,
-    trail: Trail,
+    measured_bias: Option<BiasMeasurement>,
+    stand: Standstill,
+    history: ScanHistory,
     /// While it is lost: how strongly beacons are received where.
-    strengths: Option<Arc<StrengthMap>>,
+    fingerprints: Option<Arc<FingerprintMap>>,
     /// Way until the next search of a lost robot, metres.
     search_in_m: f64,
     /// The search that is under way.
-    searching: Option<Box<Search>>,
+    global_localizer: Option<Box<GlobalLocalizer>>,
     /// How the map fitted since the robot found itself.
-    since_found: Fit,
-    /// Beams until a find is not on probation any more.
-    probation: u32,
+    since_found: BeamScore,
+    /// BeamModel until a find is not on probation any more.
+    unconfirmed: u32,
     /// It competes with others on other floors: what speaks against its floor must not be explained away.
-    is_rival: bool,
+    competes: bool,
     radius_m: f64,
     layout: SensorLayout,
 }
@@ -137,7 +139,7 @@ impl Tracker {
     pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
         Self {
             filter: ParticleFilter::new(radius_m, layout, seed),
-            pending: Motion::default(),
+            pending: MotionDelta::default(),
             pending_turn_rad: 0.0,
             contacts_before: Contacts::default(),
             cliffs_before: Cliffs::default(),
@@ -147,40 +149,40 @@ impl Tracker {
             has_drifted: false,
             weighings: 0,
             heard: Vec::new(),
-            told: None,
-            stand: Stand::default(),
-            trail: Trail::default(),
-            strengths: None,
+            measured_bias: None,
+            stand: Standstill::default(),
+            history: ScanHistory::default(),
+            fingerprints: None,
             search_in_m: 0.0,
-            searching: None,
-            since_found: Fit::default(),
-            probation: 0,
-            is_rival: false,
+            global_localizer: None,
+            since_found: BeamScore::default(),
+            unconfirmed: 0,
+            competes: false,
             radius_m,
             layout,
         }
     }
 
     /// One of several, each in the map of another floor.
-    pub(super) fn into_rival(self) -> Self {
+    pub(super) fn into_competitor(self) -> Self {
         Self {
-            is_rival: true,
+            competes: true,
             ..self
         }
     }
 
     /// What it has learnt of the gyro.
-    pub(super) fn gyro(&self) -> Option<GyroBelief> {
+    pub(super) fn gyro(&self) -> Option<GyroEstimate> {
         self.filter.gyro()
     }
 
     /// The robot stands at `pose`, give or take these deviations.
     pub(super) fn place_at(&mut self, pose: Pose2, sigma_m: f64, sigma_rad: f64) {
-        self.filter.gather(pose, Spread { sigma_m, sigma_rad });
+        self.filter.gather(pose, PoseSpread { sigma_m, sigma_rad });
         self.forget_motion();
         self.confidence = Confidence::default();
-        self.searching = None;
-        self.probation = 0;
+        self.global_localizer = None;
+        self.unconfirmed = 0;
         // Hands that have put it there do not carry it away from there.
         self.hanging_s = 0.0;
         self.lost = false;
@@ -188,18 +190,18 @@ impl Tracker {
 
     /// Nothing but the word of a person says that the robot stands where it was placed: until so many beams were told, it must not
     /// be where nothing is known, and learns nothing that a wrong place would teach.
-    pub(super) fn doubt_for(&mut self, beams: u32) {
-        self.probation = beams;
+    pub(super) fn require_confirmation(&mut self, beams: u32) {
+        self.unconfirmed = beams;
     }
 
     /// Whether what the sensors show speaks clearly for the robot's place.
     pub(super) fn is_confirmed(&self) -> bool {
-        !self.lost && self.probation == 0 && self.confidence.confirms()
+        !self.lost && self.unconfirmed == 0 && self.confidence.confirms()
     }
 
-    /// Beams until the robot's place counts as confirmed.
+    /// BeamModel until the robot's place counts as confirmed.
     pub(super) fn unconfirmed_beams(&self) -> u32 {
-        self.probation
+        self.unconfirmed
     }
 
     /// The robot may be anywhere. Until a search tells better, the guesses stay around `pose`.
@@ -207,9 +209,9 @@ impl Tracker {
         self.filter.gather(pose, PUT_BACK);
         self.forget_motion();
         self.confidence = Confidence::none();
-        self.search_in_m = (SEARCH_FROM_M - self.trail.length_m()).max(0.0);
-        self.searching = None;
-        self.since_found = Fit::default();
+        self.search_in_m = (SEARCH_FROM_M - self.history.length_m()).max(0.0);
+        self.global_localizer = None;
+        self.since_found = BeamScore::default();
         self.lost = true;
         self.has_drifted = false;
     }
@@ -230,42 +232,42 @@ impl Tracker {
     }
 
     /// Takes in ranges to beacons whose places are known.
-    pub(super) fn hear(&mut self, heard: &[Heard]) {
+    pub(super) fn hear(&mut self, heard: &[LocatedRange]) {
         self.heard.extend_from_slice(heard);
     }
 
     /// Takes in how strongly beacons are received. Only where a lost robot may be follows from that.
-    pub(super) fn receive(&mut self, strengths: &Strengths) {
-        self.trail.receive(strengths.fresh());
+    pub(super) fn receive(&mut self, fingerprints: &RssiFingerprints) {
+        self.history.receive(fingerprints.fresh());
         if !self.lost {
-            self.strengths = None;
-        } else if self.strengths.is_none() && !strengths.is_empty() {
-            self.strengths = Some(strengths.map());
-            let from_m = (HEARING_FROM_M - self.trail.length_m()).max(0.0);
+            self.fingerprints = None;
+        } else if self.fingerprints.is_none() && !fingerprints.is_empty() {
+            self.fingerprints = Some(fingerprints.map());
+            let from_m = (HEARING_FROM_M - self.history.length_m()).max(0.0);
             self.search_in_m = self.search_in_m.min(from_m);
         }
     }
 
     /// Whether the robot is where it believes to be, and is not still on probation.
     pub(super) fn is_settled(&self) -> bool {
-        !self.lost && self.probation == 0 && self.hanging_s <= 0.0
+        !self.lost && self.unconfirmed == 0 && self.hanging_s <= 0.0
     }
 
     /// Does a step of the search of a lost robot, before each [`Self::follow`] or now and then.
-    pub(super) fn search_on(&mut self, map: &impl Surroundings) {
-        if let Some(search) = &mut self.searching {
+    pub(super) fn step_search(&mut self, map: &impl Surroundings) {
+        if let Some(search) = &mut self.global_localizer {
             search.go_on(map);
         }
     }
 
     /// How the map fitted what the sensors showed since the robot found itself.
-    pub(super) fn since_found(&self) -> Fit {
+    pub(super) fn since_found(&self) -> BeamScore {
         self.since_found
     }
 
     /// A search for all places where the last metres can have been, whatever the robot believes.
-    pub(super) fn second_look(&self, map: &impl Surroundings) -> Option<Search> {
-        Search::of(&Whole(map), &self.trail, self.radius_m)
+    pub(super) fn second_look(&self, map: &impl Surroundings) -> Option<GlobalLocalizer> {
+        GlobalLocalizer::of(&Whole(map), &self.history, self.radius_m)
     }
 
     /// Takes in what the robot moved and perceived, and what it believes. Gives the estimate when the sensors
@@ -274,53 +276,53 @@ impl Tracker {
         &mut self,
         map: &impl Surroundings,
         observation: &Observation,
-        moved: Moved,
+        moved: MotionUpdate,
     ) -> Option<PoseEstimate> {
-        let Moved { advance, pose, .. } = moved;
-        self.filter.know_gyro(moved.gyro);
+        let MotionUpdate { advance, pose, .. } = moved;
+        self.filter.set_gyro_prior(moved.gyro);
         self.collect(advance, moved.gyro);
-        let told = [self.told, moved.told];
-        self.told = told.into_iter().flatten().reduce(BiasTold::and);
+        let measured = [self.measured_bias, moved.measured_bias];
+        self.measured_bias = measured.into_iter().flatten().reduce(BiasMeasurement::and);
         if self.stand.ends_long(advance) {
             self.filter.draw_bias(moved.gyro);
-            self.told = None;
+            self.measured_bias = None;
         }
-        if let Some(search) = &mut self.searching {
+        if let Some(search) = &mut self.global_localizer {
             search.follow(advance);
         }
         let felt = self.felt(observation);
         if self.was_lifted(observation, advance) {
-            self.trail.forget();
+            self.history.forget();
             self.lose(pose);
             return Some(self.estimate());
         }
-        self.trail.note(observation, &self.layout.proximity);
-        self.trail.touch(felt.0, self.radius_m);
-        let due = self.pending.way_m >= WEIGH_M
+        self.history.note(observation, &self.layout.proximity);
+        self.history.touch(felt.0, self.radius_m);
+        let due = self.pending.distance_m >= WEIGH_M
             || self.pending_turn_rad >= WEIGH_RAD
             || felt.0.any()
             || felt.1.any();
         if !due || observation.wheel_drop {
             return None;
         }
-        let manner = self.manner();
-        let scale_sigma = match (advance.gyro_turn_rad, manner) {
+        let mode = self.mode();
+        let scale_sigma = match (advance.gyro_turn_rad, mode) {
             (None, _) => Some(WHEEL_TURN_SCALE),
-            (Some(_), Manner::Searching) => Some(moved.gyro.scale_sigma),
-            (Some(_), Manner::Holding) => None,
+            (Some(_), FilterMode::Searching) => Some(moved.gyro.scale_sigma),
+            (Some(_), FilterMode::Holding) => None,
         };
         if let Some(scale_sigma) = scale_sigma {
             let scale_rad = CORRELATED * scale_sigma * self.pending_turn_rad;
             self.pending.turn_variance += scale_rad * scale_rad;
         }
-        self.filter.take_manner(manner);
+        self.filter.set_mode(mode);
         self.filter.follow(self.pending);
         let heard = core::mem::take(&mut self.heard);
-        let felt = Felt {
+        let felt = Measurements {
             contacts: felt.0,
             edges: felt.1,
             heard: &heard,
-            told: self.told.take(),
+            measured_bias: self.measured_bias.take(),
         };
         self.forget_motion();
         self.weighings = self.weighings.saturating_add(1);
@@ -335,26 +337,26 @@ impl Tracker {
     }
 
     /// Guesses hold on to what they have learnt only where the robot is known to be.
-    fn manner(&self) -> Manner {
-        let is_known = !self.lost && self.probation == 0 && !self.is_rival;
+    fn mode(&self) -> FilterMode {
+        let is_known = !self.lost && self.unconfirmed == 0 && !self.competes;
         if is_known && self.confidence.holds() {
-            Manner::Holding
+            FilterMode::Holding
         } else {
-            Manner::Searching
+            FilterMode::Searching
         }
     }
 
     /// Compares the estimate with what the sensors show, and draws the consequences.
     fn judge(&mut self, map: &impl Surroundings) -> PoseEstimate {
         let estimate = self.filter.estimate();
-        let fit = self.filter.fit(map, estimate.pose);
-        self.since_found = self.since_found.and(fit);
-        if self.probation > 0 {
-            let fit = self.filter.fit(&Whole(map), estimate.pose);
-            self.probation = self.probation.saturating_sub(fit.told);
-            self.confidence.take(fit);
+        let score = self.filter.score(map, estimate.pose);
+        self.since_found = self.since_found.and(score);
+        if self.unconfirmed > 0 {
+            let score = self.filter.score(&Whole(map), estimate.pose);
+            self.unconfirmed = self.unconfirmed.saturating_sub(score.informative);
+            self.confidence.take(score);
         } else {
-            self.confidence.take(fit);
+            self.confidence.take(score);
         }
         let verdict = self.confidence.verdict();
         if estimate.sigma_m > LOST_SIGMA_M {
@@ -363,9 +365,13 @@ impl Tracker {
             self.doubt(map, estimate.pose);
         } else {
             // What a look around would say is of a doubt that is over.
-            self.searching = None;
+            self.global_localizer = None;
             if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
-                let doubt = if self.is_rival { RIVAL_DOUBT } else { DOUBT };
+                let doubt = if self.competes {
+                    COMPETITOR_SPREAD
+                } else {
+                    DOUBT_SPREAD
+                };
                 self.filter.widen(estimate.pose, doubt);
                 self.weighings = 0;
             }
@@ -379,20 +385,20 @@ impl Tracker {
     /// Looks for a robot that is at `carried` if it was where it believed to be.
     fn search(&mut self, map: &impl Surroundings, carried: Pose2) -> PoseEstimate {
         let (estimate, share) = self.filter.cluster();
-        self.confidence.take(self.filter.fit(map, estimate.pose));
+        self.confidence.take(self.filter.score(map, estimate.pose));
         let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
-        if self.searching.is_none() && self.search_in_m <= 0.0 {
-            self.search_in_m = match self.strengths {
+        if self.global_localizer.is_none() && self.search_in_m <= 0.0 {
+            self.search_in_m = match self.fingerprints {
                 Some(_) => HEARING_EVERY_M,
                 None => SEARCH_EVERY_M,
             };
-            let hearing = self.strengths.clone();
-            let hearing = hearing.map(|map| Hearing::new(self.trail.received(), map));
-            self.searching =
-                Search::of(map, &self.trail, self.radius_m).map(|search| Box::new(search.hearing(hearing)));
+            let hearing = self.fingerprints.clone();
+            let hearing = hearing.map(|map| FingerprintMatcher::new(self.history.received(), map));
+            self.global_localizer = GlobalLocalizer::of(map, &self.history, self.radius_m)
+                .map(|search| Box::new(search.hearing(hearing)));
         }
-        if let Some(places) = self.searching.as_ref().and_then(|search| search.places()) {
-            self.searching = None;
+        if let Some(places) = self.global_localizer.as_ref().and_then(|search| search.places()) {
+            self.global_localizer = None;
             let places = if self.has_drifted {
                 near_if_as_good(places, carried)
             } else {
@@ -401,7 +407,7 @@ impl Tracker {
             if gathered && self.confidence.is_found() && is_alone(&places, estimate.pose) {
                 self.lost = false;
                 self.weighings = 0;
-                self.probation = PROBATION_BEAMS;
+                self.unconfirmed = CONFIRMATION_BEAMS;
             } else if !gathered || !is_among(&places, estimate.pose) {
                 self.try_places(&places);
             }
@@ -412,7 +418,7 @@ impl Tracker {
         }
     }
 
-    fn try_places(&mut self, places: &[Candidate]) {
+    fn try_places(&mut self, places: &[PoseCandidate]) {
         if places.is_empty() {
             return;
         }
@@ -456,19 +462,19 @@ impl Tracker {
         lifted
     }
 
-    fn collect(&mut self, advance: Advance, gyro: GyroBelief) {
+    fn collect(&mut self, advance: Advance, gyro: GyroEstimate) {
         self.pending.gyro.add(advance, gyro);
         self.pending.step = self.pending.step.after_arc(advance.distance_m, advance.turn_rad);
-        self.pending.way_m += advance.distance_m.abs();
+        self.pending.distance_m += advance.distance_m.abs();
         self.pending.turn_variance += turn_variance(advance);
         self.pending_turn_rad += advance.turn_rad.abs();
-        self.trail.advance(advance);
+        self.history.advance(advance);
         self.search_in_m -= advance.distance_m.abs();
     }
 
     fn forget_motion(&mut self) {
         self.heard.clear();
-        self.pending = Motion::default();
+        self.pending = MotionDelta::default();
         self.pending_turn_rad = 0.0;
     }
 }

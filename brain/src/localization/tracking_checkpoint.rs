@@ -13,6 +13,6 @@ pub struct TrackingCheckpoint {
     pub gyro_scale: f64,
     /// Bias of the gyro, rad/s.
     pub gyro_bias_rad_per_s: f64,
-    /// Beams that must still tell something before it counts as known where it is.
+    /// BeamModel that must still tell something before it counts as known where it is.
     pub unconfirmed_beams: u32,
 }

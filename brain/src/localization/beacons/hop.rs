@@ -1,4 +1,4 @@
-//! Motion and ranges, gathered into hops.
+//! MotionDelta and ranges, gathered into hops.
 
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2};
@@ -34,13 +34,13 @@ pub(super) struct Hop {
     /// From the pose before to the one after, by odometry.
     pub(super) step: Pose2,
     /// Way of the centre, backwards negative, metres.
-    pub(super) way_m: f64,
+    pub(super) distance_m: f64,
     /// Way, backwards counted too, metres.
     pub(super) length_m: f64,
     /// Turn that the wheels counted, radians; 0 where a gyro did.
     pub(super) wheel_turn_rad: f64,
     /// Variance of the way and of the turn.
-    pub(super) way_variance_m2: f64,
+    pub(super) distance_variance_m2: f64,
     pub(super) turn_variance_rad2: f64,
     /// The turn comes from a gyro.
     pub(super) by_gyro: bool,
@@ -65,7 +65,7 @@ impl Hop {
         } else {
             (bend_rad_per_m, scale)
         };
-        let more_rad = scale * self.wheel_turn_rad + bend_rad_per_m * self.way_m;
+        let more_rad = scale * self.wheel_turn_rad + bend_rad_per_m * self.distance_m;
         let (sin, cos) = libm::sincos(0.5 * more_rad);
         let longer = 1.0 + stretch;
         Pose2 {
@@ -78,26 +78,26 @@ impl Hop {
 
 /// A hop that is not over yet.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Gathering {
+pub(super) struct HopBuilder {
     hop: Hop,
     turned_rad: f64,
-    sums: Vec<Sum>,
+    sums: Vec<RangeSum>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Sum {
+struct RangeSum {
     beacon: u16,
     count: u32,
     range_m: f64,
     sigma_m: f64,
 }
 
-impl Gathering {
+impl HopBuilder {
     /// Adds a step; the hop, if it is over now.
     pub(super) fn take(&mut self, observation: &Observation, advance: Advance) -> Option<Hop> {
         let hop = &mut self.hop;
         hop.step = hop.step.after_arc(advance.distance_m, advance.turn_rad);
-        hop.way_m += advance.distance_m;
+        hop.distance_m += advance.distance_m;
         hop.length_m += advance.distance_m.abs();
         hop.by_gyro = advance.gyro_turn_rad.is_some();
         hop.wheel_turn_rad += advance.wheel_turn_rad;
@@ -128,7 +128,7 @@ impl Gathering {
                 sum.range_m += range.range_m;
                 sum.sigma_m = sum.sigma_m.max(range.sigma_m);
             }
-            None if room => self.sums.push(Sum {
+            None if room => self.sums.push(RangeSum {
                 beacon: range.beacon,
                 count: 1,
                 range_m: range.range_m,
@@ -141,7 +141,7 @@ impl Gathering {
     fn end(&mut self) -> Hop {
         let mut hop = core::mem::take(&mut self.hop);
         let turned_rad = core::mem::take(&mut self.turned_rad);
-        hop.way_variance_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * hop.length_m + JITTER_M * JITTER_M;
+        hop.distance_variance_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * hop.length_m + JITTER_M * JITTER_M;
         hop.turn_variance_rad2 = if hop.by_gyro {
             let scale_rad = GYRO_SCALE * turned_rad;
             GYRO_RAD * GYRO_RAD + scale_rad * scale_rad
@@ -149,13 +149,13 @@ impl Gathering {
             SLIP_RAD_PER_SQRT_M * SLIP_RAD_PER_SQRT_M * hop.length_m
                 + TURN_RAD_PER_SQRT_RAD * TURN_RAD_PER_SQRT_RAD * turned_rad
         };
-        hop.ranges = self.sums.drain(..).map(Sum::mean).collect();
+        hop.ranges = self.sums.drain(..).map(RangeSum::mean).collect();
         hop.ranges.sort_by_key(|range| range.beacon);
         hop
     }
 }
 
-impl Sum {
+impl RangeSum {
     fn mean(self) -> BeaconRange {
         let count = f64::from(self.count);
         let own_m2 = self.sigma_m * self.sigma_m / count;

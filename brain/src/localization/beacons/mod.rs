@@ -1,29 +1,29 @@
 //! Where the robot is by its distances to radio beacons whose places nobody has told.
 //!
 //! Terms. *Hop*: the motion between two moments at which ranges are taken in. *First look*: the first metres, kept whole
-//! and solved at once for the way, the wheels' errors and the places of the beacons ([`first_look`]). *Follower*: what
-//! carries all of these on from there, hop by hop ([`follower`]). Until the first look has an answer the robot goes by its
+//! and solved at once for the way, the wheels' errors and the places of the beacons ([`initialization`]). *BeaconFilter*: what
+//! carries all of these on from there, hop by hop ([`filter`]). Until the first look has an answer the robot goes by its
 //! odometry.
 //!
 //! Ranges lie: walls lengthen them, and some come by a detour. So what is far off counts little, and what is measured
 //! twenty times at one place counts as little more than once.
 
-mod first_look;
-mod follower;
-mod guess;
-mod heard;
+mod filter;
 mod hop;
-mod sight;
+mod initialization;
+mod located_range;
+mod multilateration;
+mod range_prediction;
 mod weight;
 
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
-use first_look::FirstLook;
-use follower::Follower;
-pub(super) use heard::Heard;
-use hop::Gathering;
+use filter::BeaconFilter;
+use hop::HopBuilder;
+use initialization::BatchInitializer;
+pub(super) use located_range::LocatedRange;
 
 /// Wheels that hang for so long hang because somebody carries the robot, seconds.
 const CARRIED_S: f64 = 1.0;
@@ -31,18 +31,18 @@ const CARRIED_S: f64 = 1.0;
 /// Pose by beacons.
 #[derive(Clone, Debug)]
 pub(super) struct Beacons {
-    gathering: Gathering,
-    stage: Stage,
+    gathering: HopBuilder,
+    stage: BeaconStage,
     hanging_s: f64,
-    heard: Vec<Heard>,
+    heard: Vec<LocatedRange>,
 }
 
 #[derive(Clone, Debug)]
-enum Stage {
+enum BeaconStage {
     /// No beacon was heard yet.
     Silent,
-    Looking(Box<FirstLook>),
-    Following(Box<Follower>),
+    Initializing(Box<BatchInitializer>),
+    Following(Box<BeaconFilter>),
     /// Somebody carried the robot: where to is not known.
     Carried,
 }
@@ -50,8 +50,8 @@ enum Stage {
 impl Beacons {
     pub(super) fn new() -> Self {
         Self {
-            gathering: Gathering::default(),
-            stage: Stage::Silent,
+            gathering: HopBuilder::default(),
+            stage: BeaconStage::Silent,
             hanging_s: 0.0,
             heard: Vec::new(),
         }
@@ -71,25 +71,25 @@ impl Beacons {
         }
         let hop = self.gathering.take(observation, advance)?;
         match &mut self.stage {
-            Stage::Carried => None,
-            Stage::Silent => {
+            BeaconStage::Carried => None,
+            BeaconStage::Silent => {
                 if !hop.ranges.is_empty() {
-                    self.stage = Stage::Looking(Box::new(FirstLook::new(before)));
+                    self.stage = BeaconStage::Initializing(Box::new(BatchInitializer::new(before)));
                 }
                 None
             }
-            Stage::Looking(look) => {
+            BeaconStage::Initializing(look) => {
                 let Some(found) = look.take(hop) else {
                     if look.is_hopeless() {
-                        **look = FirstLook::new(before);
+                        **look = BatchInitializer::new(before);
                     }
                     return None;
                 };
                 let estimate = found.estimate();
-                self.stage = Stage::Following(Box::new(found));
+                self.stage = BeaconStage::Following(Box::new(found));
                 Some(estimate)
             }
-            Stage::Following(follower) => {
+            BeaconStage::Following(follower) => {
                 follower.take(&hop);
                 follower.hear(&hop, &mut self.heard);
                 Some(follower.estimate())
@@ -105,10 +105,12 @@ impl Beacons {
         let carried = self.hanging_s >= CARRIED_S;
         self.hanging_s = 0.0;
         if carried {
-            self.gathering = Gathering::default();
-            self.stage = match core::mem::replace(&mut self.stage, Stage::Silent) {
-                Stage::Silent => Stage::Silent,
-                Stage::Looking(_) | Stage::Following(_) | Stage::Carried => Stage::Carried,
+            self.gathering = HopBuilder::default();
+            self.stage = match core::mem::replace(&mut self.stage, BeaconStage::Silent) {
+                BeaconStage::Silent => BeaconStage::Silent,
+                BeaconStage::Initializing(_) | BeaconStage::Following(_) | BeaconStage::Carried => {
+                    BeaconStage::Carried
+                }
             };
         }
         carried
@@ -116,25 +118,25 @@ impl Beacons {
 
     /// Whether there are beacons at all.
     pub(super) fn are_heard(&self) -> bool {
-        !matches!(self.stage, Stage::Silent)
+        !matches!(self.stage, BeaconStage::Silent)
     }
 
     /// Whether the way of the robot follows from beacons.
     pub(super) fn is_following(&self) -> bool {
-        matches!(self.stage, Stage::Following(_))
+        matches!(self.stage, BeaconStage::Following(_))
     }
 
     /// What the last hop heard of beacons whose places are known; empty between hops.
-    pub(super) fn heard(&self) -> &[Heard] {
+    pub(super) fn heard(&self) -> &[LocatedRange] {
         &self.heard
     }
 
     /// Somebody who knows better says where the robot is.
     pub(super) fn place_at(&mut self, pose: Pose2) {
         match &mut self.stage {
-            Stage::Following(follower) => follower.place_at(pose),
-            Stage::Looking(_) | Stage::Carried => self.stage = Stage::Silent,
-            Stage::Silent => {}
+            BeaconStage::Following(follower) => follower.place_at(pose),
+            BeaconStage::Initializing(_) | BeaconStage::Carried => self.stage = BeaconStage::Silent,
+            BeaconStage::Silent => {}
         }
     }
 
@@ -142,8 +144,8 @@ impl Beacons {
     #[cfg(test)]
     pub(super) fn places(&self) -> Vec<(u16, crate::model::geometry::Point2, f64)> {
         match &self.stage {
-            Stage::Following(follower) => follower.places(),
-            Stage::Silent | Stage::Looking(_) | Stage::Carried => Vec::new(),
+            BeaconStage::Following(follower) => follower.places(),
+            BeaconStage::Silent | BeaconStage::Initializing(_) | BeaconStage::Carried => Vec::new(),
         }
     }
 }

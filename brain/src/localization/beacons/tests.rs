@@ -15,7 +15,7 @@ const BEACONS: [Point2; 4] = [
 ];
 
 /// The real robot: drives until it meets the border of a room of 6 x 4 m, then turns by a random angle.
-struct Truth {
+struct BeaconRobot {
     pose: Pose2,
     random: Random,
     turn_left_rad: f64,
@@ -25,7 +25,7 @@ struct Truth {
     delay_m: f64,
 }
 
-impl Truth {
+impl BeaconRobot {
     fn new(seed: u64) -> Self {
         Self {
             pose: Pose2 {
@@ -44,11 +44,11 @@ impl Truth {
     fn step(&mut self) -> &Observation {
         self.view.time_us += 50_000;
         self.steps += 1;
-        let (way_m, turn_rad) = self.motion();
-        let next = self.pose.after_arc(way_m, turn_rad);
+        let (distance_m, turn_rad) = self.motion();
+        let next = self.pose.after_arc(distance_m, turn_rad);
         if (0.0..=6.0).contains(&next.x_m) && (0.0..=4.0).contains(&next.y_m) {
             self.pose = next;
-            self.count(way_m, turn_rad);
+            self.count(distance_m, turn_rad);
         } else {
             let side = if self.random.coin() { 1.0 } else { -1.0 };
             self.turn_left_rad = side * self.random.between(1.4, 3.0);
@@ -68,12 +68,12 @@ impl Truth {
     }
 
     /// The wheels count a bend of 0.4 degrees a metre that was not driven, turns 2 % too small, and slip.
-    fn count(&mut self, way_m: f64, turn_rad: f64) {
-        let slip_rad = 0.009 * way_m.abs().sqrt() * self.random.normal();
-        let counted_rad = 0.98 * turn_rad + 0.007 * way_m + slip_rad;
+    fn count(&mut self, distance_m: f64, turn_rad: f64) {
+        let slip_rad = 0.009 * distance_m.abs().sqrt() * self.random.normal();
+        let counted_rad = 0.98 * turn_rad + 0.007 * distance_m + slip_rad;
         let rim_m = 0.5 * TRACK_M * counted_rad;
-        self.view.travel_left_m += way_m - rim_m;
-        self.view.travel_right_m += way_m + rim_m;
+        self.view.travel_left_m += distance_m - rim_m;
+        self.view.travel_right_m += distance_m + rim_m;
     }
 
     fn range(&mut self) {
@@ -115,7 +115,7 @@ fn take(localization: &mut Localization, view: &Observation) {
 #[test]
 fn ranges_give_a_robot_without_gyro_its_place_and_heading() {
     for seed in 1..=4 {
-        let mut truth = Truth::new(seed);
+        let mut truth = BeaconRobot::new(seed);
         let mut localization = placed(truth.pose);
         let mut odometry = placed(truth.pose);
         let (mut squares, mut turned_squares, mut counted_squares, mut counted) = (0.0, 0.0, 0.0, 0.0);
@@ -157,7 +157,7 @@ fn ranges_give_a_robot_without_gyro_its_place_and_heading() {
 
 #[test]
 fn a_wall_before_one_beacon_does_not_push_the_robot_away() {
-    let mut truth = Truth::new(9);
+    let mut truth = BeaconRobot::new(9);
     let mut localization = placed(truth.pose);
     for _ in 0..20 * 60 * 8 {
         take(&mut localization, truth.step());
@@ -173,7 +173,7 @@ fn a_wall_before_one_beacon_does_not_push_the_robot_away() {
 
 #[test]
 fn a_robot_that_hears_nothing_goes_by_its_wheels() {
-    let mut truth = Truth::new(2);
+    let mut truth = BeaconRobot::new(2);
     let (mut localization, mut odometry) = (placed(truth.pose), placed(truth.pose));
     for _ in 0..5_000 {
         let mut view = truth.step().clone();

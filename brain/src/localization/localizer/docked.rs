@@ -7,14 +7,14 @@ use super::estimator::{Estimator, KnownMap};
 use super::{Localization, START_SIGMA_M, START_SIGMA_RAD};
 use crate::localization::TrackingCheckpoint;
 use crate::localization::drift::Drift;
-use crate::localization::tracker::PROBATION_BEAMS;
+use crate::localization::tracker::CONFIRMATION_BEAMS;
 use crate::mapping::{DockPlace, Map};
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
 
 /// How well a pose is known that a person has pointed out, metres and radians.
-const TOLD_SIGMA_M: f64 = 0.3;
-const TOLD_SIGMA_RAD: f64 = 0.4;
+const ROUGH_SIGMA_M: f64 = 0.3;
+const ROUGH_SIGMA_RAD: f64 = 0.4;
 /// A pose that is as sure as this may lead others, metres.
 const CONFIRMED_M: f64 = 0.15;
 
@@ -22,9 +22,9 @@ impl Localization {
     /// A person says that the robot stands at `pose` in `map`, by eye. Until its sensors have confirmed that it counts as unsure.
     pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
         self.place_at(pose);
-        self.track(map, config, seed);
+        self.start_monte_carlo(map, config, seed);
         if self.estimator.known_map().is_none() {
-            self.survey(config);
+            self.start_line_slam(config);
         }
         self.begin_roughly_at(pose);
     }
@@ -33,19 +33,19 @@ impl Localization {
         self.put_at(pose);
         self.odometry.calibration.interrupt();
         self.drift = Drift {
-            sigma_m: TOLD_SIGMA_M,
-            sigma_rad: TOLD_SIGMA_RAD,
+            sigma_m: ROUGH_SIGMA_M,
+            sigma_rad: ROUGH_SIGMA_RAD,
         };
         if let Some(known) = self.estimator.known_map_mut() {
-            known.tracker.place_at(pose, TOLD_SIGMA_M, TOLD_SIGMA_RAD);
-            known.tracker.doubt_for(PROBATION_BEAMS);
+            known.tracker.place_at(pose, ROUGH_SIGMA_M, ROUGH_SIGMA_RAD);
+            known.tracker.require_confirmation(CONFIRMATION_BEAMS);
         }
     }
 
     /// The dock is known to be elsewhere.
     pub fn put_dock(&mut self, dock: DockPlace) {
         if let Some(known) = self.estimator.known_map_mut() {
-            known.terrain.put_dock(dock);
+            known.reference_map.put_dock(dock);
         }
     }
 

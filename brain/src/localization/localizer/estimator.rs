@@ -1,9 +1,9 @@
 //! The estimators that correct odometry, and the transitions between them.
 
-use super::consistency_monitor::Witness;
+use super::consistency_monitor::ConsistencyMonitor;
 use super::{Localization, START_SIGMA_M, START_SIGMA_RAD};
-use crate::localization::survey::Survey;
-use crate::localization::terrain::Terrain;
+use crate::localization::line_slam::LineSlam;
+use crate::localization::reference_map::ReferenceMap;
 use crate::localization::tracker::Tracker;
 use crate::mapping::Map;
 use crate::model::config::BrainConfig;
@@ -33,15 +33,15 @@ pub(super) enum EstimatorKind {
 /// Line SLAM and what checks its map.
 #[derive(Debug)]
 pub(in crate::localization) struct FirstRun {
-    pub(in crate::localization) slam: Survey,
-    pub(super) monitor: Witness,
+    pub(in crate::localization) slam: LineSlam,
+    pub(super) monitor: ConsistencyMonitor,
 }
 
 /// A filter and the map against which it compares.
 #[derive(Clone, Debug)]
 pub(in crate::localization) struct KnownMap {
     pub(in crate::localization) tracker: Tracker,
-    pub(super) terrain: Terrain,
+    pub(super) reference_map: ReferenceMap,
 }
 
 impl Estimator {
@@ -93,9 +93,9 @@ impl Localization {
     /// From now on [`Self::refine`] compares with `map` as it is now, for a robot whose pose is known as well as
     /// [`Self::estimate`] says. Equal seeds give equal poses. What is drawn into the map later is not taken up before the
     /// next call. Odometry alone goes on for a robot without proximity sensors, and in a map that odometry alone has drawn.
-    pub fn track(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
+    pub fn start_monte_carlo(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
         self.estimator = Estimator::Odometry;
-        if config.sensors.proximity.sensors().is_empty() || !Terrain::is_trustworthy(map) {
+        if config.sensors.proximity.sensors().is_empty() || !ReferenceMap::is_trustworthy(map) {
             return;
         }
         let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
@@ -104,24 +104,27 @@ impl Localization {
             self.drift.sigma_m.max(START_SIGMA_M),
             self.drift.sigma_rad.max(START_SIGMA_RAD),
         );
-        self.compare_with(Terrain::of(map), tracker);
+        self.compare_with(ReferenceMap::of(map), tracker);
     }
 
     /// From now on the tracker compares with this map.
-    pub(super) fn compare_with(&mut self, terrain: Terrain, tracker: Tracker) {
-        self.estimator = Estimator::MonteCarlo(Box::new(KnownMap { tracker, terrain }));
+    pub(super) fn compare_with(&mut self, reference_map: ReferenceMap, tracker: Tracker) {
+        self.estimator = Estimator::MonteCarlo(Box::new(KnownMap {
+            tracker,
+            reference_map,
+        }));
     }
 
     /// From now on [`Self::refine`] finds out how the walls run in a home of which nothing is known yet, beginning where the
     /// robot is. Odometry alone goes on for a robot without proximity sensors.
-    pub fn survey(&mut self, config: &BrainConfig) {
+    pub fn start_line_slam(&mut self, config: &BrainConfig) {
         let layout = config.sensors.proximity;
         self.estimator = if layout.sensors().is_empty() {
             Estimator::Odometry
         } else {
             Estimator::LineSlam(Box::new(FirstRun {
-                slam: Survey::new(layout, self.pose(), self.odometry.odom_from_base()),
-                monitor: Witness::default(),
+                slam: LineSlam::new(layout, self.pose(), self.odometry.odom_from_base()),
+                monitor: ConsistencyMonitor::default(),
             }))
         };
     }
@@ -136,7 +139,7 @@ impl Localization {
         let gyro = self.estimator.known_map().and_then(|known| known.tracker.gyro());
         self.adopt(estimate);
         if let Some(gyro) = gyro.filter(|_| !estimate.lost) {
-            self.odometry.calibration.know(gyro);
+            self.odometry.calibration.set(gyro);
         }
     }
 }

@@ -10,12 +10,12 @@ mod relocalization;
 use super::TrackingCheckpoint;
 use super::beacons::Beacons;
 use super::drift::{Drift, WHEEL_TURN_SCALE};
+use super::line_slam::TurnCalibration;
 use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
-use super::retreat::Retreat;
-use super::strengths::Strengths;
-use super::survey::TurnCounting;
-use super::tracker::{Moved, SENSORS_MIN};
+use super::reverse_budget::ReverseBudget;
+use super::rssi_fingerprint::RssiFingerprints;
+use super::tracker::{MotionUpdate, SENSORS_MIN};
 use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
@@ -58,11 +58,11 @@ const LEARN_EXPLAINED: f64 = 0.75;
 pub struct Localization {
     pub(super) odometry: Odometry,
     map_from_odom: Pose2,
-    retreat: Retreat,
+    reverse_budget: ReverseBudget,
     drift: Drift,
     pub(super) estimator: Estimator,
     pub(super) beacons: Beacons,
-    strengths: Strengths,
+    fingerprints: RssiFingerprints,
     /// When the first observation came.
     began_us: Option<u64>,
     /// When a gyro spoke last.
@@ -81,11 +81,11 @@ impl Localization {
         Self {
             odometry: Odometry::new(track_m, rim_max_m_per_s),
             map_from_odom: Pose2::IDENTITY,
-            retreat: Retreat::default(),
+            reverse_budget: ReverseBudget::default(),
             drift: Drift::default(),
             estimator: Estimator::Odometry,
             beacons: Beacons::new(),
-            strengths: Strengths::default(),
+            fingerprints: RssiFingerprints::default(),
             began_us: None,
             gyro_us: None,
             was_docked: false,
@@ -102,7 +102,7 @@ impl Localization {
         if observation.gyro_heading_rad.is_some() {
             self.gyro_us = Some(observation.time_us);
         }
-        self.retreat.follow(advance);
+        self.reverse_budget.follow(advance);
         self.drift.grow(advance);
         advance
     }
@@ -114,16 +114,16 @@ impl Localization {
         match &mut self.estimator {
             Estimator::Odometry => None,
             Estimator::LineSlam(_) if self.lift.take_put_down() => {
-                self.recover(map, config, time_us);
+                self.relocalize(map, config, time_us);
                 None
             }
-            Estimator::LineSlam(_) => self.hear_witness(map, config, time_us),
+            Estimator::LineSlam(_) => self.check_consistency(map, config, time_us),
             Estimator::MonteCarlo(known) => {
                 let is_due = time_us >= self.learnt_us.saturating_add(LEARN_US);
                 let tracker = &known.tracker;
                 if is_due && !tracker.is_lost() && tracker.explained() >= LEARN_EXPLAINED {
                     self.learnt_us = time_us;
-                    known.terrain.grow(map);
+                    known.reference_map.grow(map);
                 }
                 None
             }
@@ -145,7 +145,7 @@ impl Localization {
         })
     }
 
-    /// Takes up what [`Self::checkpoint`] said before a restart, after [`Self::track`] and at the same pose.
+    /// Takes up what [`Self::checkpoint`] said before a restart, after [`Self::start_monte_carlo`] and at the same pose.
     pub fn resume_tracking(&mut self, before: TrackingCheckpoint) {
         self.odometry
             .resume_gyro(before.gyro_scale, before.gyro_bias_rad_per_s);
@@ -159,20 +159,20 @@ impl Localization {
         };
         let Drift { sigma_m, sigma_rad } = self.drift;
         tracker.place_at(pose, sigma_m, sigma_rad);
-        tracker.doubt_for(before.unconfirmed_beams);
+        tracker.require_confirmation(before.unconfirmed_beams);
         if before.lost {
             tracker.lose(pose);
         }
     }
 
-    /// Compares what was perceived with the map, and corrects [`Self::pose`]. Unless [`Self::track`] was asked for there is
+    /// Compares what was perceived with the map, and corrects [`Self::pose`]. Unless [`Self::start_monte_carlo`] was asked for there is
     /// no map; then only ranges to beacons count. Says with which poses the map should be drawn again.
     pub fn refine(&mut self, observation: &Observation, advance: Advance) -> Option<MapCorrection> {
-        self.strengths.listen(observation, advance);
+        self.fingerprints.listen(observation, advance);
         self.find_place(observation, advance);
         if self.is_placed() {
             let at = self.pose().position();
-            self.strengths.learn(at);
+            self.fingerprints.learn(at);
         }
         let first_run = self.estimator.first_run_mut()?;
         let keyframes = first_run.slam.redraw(observation.time_us)?;
@@ -192,7 +192,7 @@ impl Localization {
     fn find_place(&mut self, observation: &Observation, advance: Advance) {
         let by_beacons = self.beacons.follow(observation, advance, self.estimate());
         self.leave_hopeless_map(observation.time_us);
-        let moved = Moved::of(&self.odometry, advance, self.pose());
+        let moved = MotionUpdate::of(&self.odometry, advance, self.pose());
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
         self.was_off_dock |= !observation.docked;
@@ -207,15 +207,19 @@ impl Localization {
         }
     }
 
-    fn follow_map(&mut self, observation: &Observation, moved: Moved, docks: bool) {
-        let Some(KnownMap { tracker, terrain }) = self.estimator.known_map_mut() else {
+    fn follow_map(&mut self, observation: &Observation, moved: MotionUpdate, docks: bool) {
+        let Some(KnownMap {
+            tracker,
+            reference_map,
+        }) = self.estimator.known_map_mut()
+        else {
             return;
         };
         tracker.hear(self.beacons.heard());
-        tracker.receive(&self.strengths);
-        tracker.search_on(terrain);
+        tracker.receive(&self.fingerprints);
+        tracker.step_search(reference_map);
         // Where the dock is not known better than the robot knows its own place, that one stays.
-        let place = terrain.dock();
+        let place = reference_map.dock();
         let is_better = !place.is_told() && (place.is_sure() || !tracker.is_confirmed());
         if docks
             && is_better
@@ -230,7 +234,7 @@ impl Localization {
             && let Some(dock) = place.pose()
         {
             self.begin_roughly_at(dock);
-        } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
+        } else if let Some(estimate) = tracker.follow(reference_map, observation, moved) {
             self.adopt_tracked(estimate);
         }
     }
@@ -251,7 +255,7 @@ impl Localization {
         if advance.gyro_turn_rad.is_some()
             && let Some((scale, sigma)) = fix.scale
         {
-            self.odometry.calibration.know_scale(scale, sigma);
+            self.odometry.calibration.set_scale(scale, sigma);
         }
         self.correct(fix.map_from_odom);
         self.drift = Drift {
@@ -262,15 +266,15 @@ impl Localization {
 
     /// How turns are counted. It asks whether there is a gyro and not whether this advance has a turn of it: the first advance after a
     /// start has none, and what was learned of the gyro before counts from the first step on.
-    fn turn_counting(&self, now_us: u64) -> TurnCounting {
+    fn turn_counting(&self, now_us: u64) -> TurnCalibration {
         if !self.has_gyro(now_us) {
-            return TurnCounting {
+            return TurnCalibration {
                 scale: 0.0,
                 scale_sigma: WHEEL_TURN_SCALE,
                 bias_sigma_rad_per_s: 0.0,
             };
         }
-        TurnCounting {
+        TurnCalibration {
             scale: self.odometry.gyro().0,
             scale_sigma: self.odometry.calibration.scale_sigma(),
             bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
@@ -343,18 +347,18 @@ impl Localization {
     /// Way back in metres that no way forward has made good, 0..=0.15: ground that nothing has seen.
     #[must_use]
     pub fn backed_m(&self) -> f64 {
-        self.retreat.backed_m()
+        self.reverse_budget.backed_m()
     }
 
     /// Way in metres for which backing may still be commanded before the robot has driven forward again.
     #[must_use]
-    pub fn way_back_m(&self) -> f64 {
-        self.retreat.left_m()
+    pub fn reverse_left_m(&self) -> f64 {
+        self.reverse_budget.left_m()
     }
 
     /// Takes up what [`Self::backed_m`] said before a restart.
     pub fn resume_backed(&mut self, backed_m: f64) {
-        self.retreat = Retreat::resumed(backed_m);
+        self.reverse_budget = ReverseBudget::resumed(backed_m);
     }
 
     /// Pose in the map.

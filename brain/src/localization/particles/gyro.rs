@@ -4,7 +4,7 @@
 
 use super::ParticleFilter;
 use crate::localization::calibration::BIAS_DRIFT_RAD2_PER_S3;
-use crate::localization::gyro_belief::{BiasTold, GyroBelief};
+use crate::localization::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use crate::model::advance::Advance;
 use crate::model::random::Random;
 
@@ -24,7 +24,7 @@ const BIAS_SIGMA_DRAWN_MAX_RAD_PER_S: f64 = 5.0e-4;
 
 /// Least variance that a long rest is believed to have, square radians per square second: few guesses would be left, and with them few
 /// places.
-const TOLD_VARIANCE_MIN: f64 = 2.5e-8;
+const MEASURED_VARIANCE_MIN: f64 = 2.5e-8;
 
 /// What the gyro showed while the robot moved.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,7 +37,7 @@ pub(in crate::localization) struct GyroCount {
 
 impl GyroCount {
     /// Adds a move that odometry counted with this belief. A robot that stands does not count what the gyro shows.
-    pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroBelief) {
+    pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroEstimate) {
         let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !advance.stands()) else {
             return;
         };
@@ -49,14 +49,14 @@ impl GyroCount {
 
 /// The gyro as one guess has it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct GyroGuess {
+pub(super) struct ParticleGyro {
     scale: f64,
     bias_rad_per_s: f64,
 }
 
-impl GyroGuess {
+impl ParticleGyro {
     /// A guess as good as the belief.
-    pub(super) fn drawn(belief: GyroBelief, random: &mut Random) -> Self {
+    pub(super) fn drawn(belief: GyroEstimate, random: &mut Random) -> Self {
         Self {
             scale: belief.scale + belief.scale_sigma * random.normal(),
             bias_rad_per_s: belief.bias_rad_per_s
@@ -76,13 +76,13 @@ impl GyroGuess {
     }
 
     /// Likelihood of what a rest has told; 1 at best.
-    pub(super) fn likelihood(&self, told: BiasTold) -> f64 {
-        let off = told.rad_per_s - self.bias_rad_per_s;
-        libm::exp(-0.5 * off * off / told.variance_rad2_per_s2.max(TOLD_VARIANCE_MIN))
+    pub(super) fn likelihood(&self, measured: BiasMeasurement) -> f64 {
+        let off = measured.rad_per_s - self.bias_rad_per_s;
+        libm::exp(-0.5 * off * off / measured.variance_rad2_per_s2.max(MEASURED_VARIANCE_MIN))
     }
 
     /// The same once more, for guesses of which some are copies.
-    pub(super) fn redrawn(self, belief: GyroBelief, random: &mut Random) -> Self {
+    pub(super) fn redrawn(self, belief: GyroEstimate, random: &mut Random) -> Self {
         let kept = libm::sqrt(1.0 - REDRAWN * REDRAWN);
         let about = |value: f64, mean: f64, sigma: f64, chance: f64| {
             mean + kept * (value - mean) + REDRAWN * sigma * chance
@@ -106,20 +106,20 @@ impl GyroGuess {
 
 impl ParticleFilter {
     /// All guesses take over this belief of the gyro's bias, and keep their scales.
-    pub(in crate::localization) fn draw_bias(&mut self, belief: GyroBelief) {
+    pub(in crate::localization) fn draw_bias(&mut self, belief: GyroEstimate) {
         for particle in &mut self.particles {
-            particle.gyro = GyroGuess {
+            particle.gyro = ParticleGyro {
                 scale: particle.gyro.scale,
-                ..GyroGuess::drawn(belief, &mut self.random)
+                ..ParticleGyro::drawn(belief, &mut self.random)
             };
         }
     }
 }
 
 /// What guesses of these weights believe together.
-pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) -> GyroBelief {
+pub(super) fn belief(guesses: impl Iterator<Item = (f64, ParticleGyro)> + Clone) -> GyroEstimate {
     let sum: f64 = guesses.clone().map(|(weight, _)| weight).sum();
-    let mean = |of: &dyn Fn(GyroGuess) -> f64| {
+    let mean = |of: &dyn Fn(ParticleGyro) -> f64| {
         let weighted = guesses.clone().map(|(weight, guess)| weight * of(guess));
         weighted.sum::<f64>() / sum.max(1e-300)
     };
@@ -130,7 +130,7 @@ pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) ->
         let off = guess.bias_rad_per_s - bias_rad_per_s;
         off * off
     });
-    GyroBelief {
+    GyroEstimate {
         scale,
         scale_sigma: libm::sqrt(scale_variance),
         bias_rad_per_s,
@@ -140,12 +140,12 @@ pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) ->
 
 #[cfg(test)]
 mod tests {
-    use super::{BiasTold, GyroCount, GyroGuess, belief};
-    use crate::localization::gyro_belief::GyroBelief;
+    use super::{BiasMeasurement, GyroCount, ParticleGyro, belief};
+    use crate::localization::gyro_estimate::GyroEstimate;
     use crate::model::advance::Advance;
     use crate::model::random::Random;
 
-    const BELIEF: GyroBelief = GyroBelief {
+    const BELIEF: GyroEstimate = GyroEstimate {
         scale: 0.01,
         scale_sigma: 0.004,
         bias_rad_per_s: 0.002,
@@ -153,7 +153,7 @@ mod tests {
     };
 
     /// What odometry counts with this belief when the gyro shows a turn.
-    fn counted(shown_rad: f64, time_s: f64, belief: GyroBelief) -> Advance {
+    fn counted(shown_rad: f64, time_s: f64, belief: GyroEstimate) -> Advance {
         let turn_rad = (shown_rad - belief.bias_rad_per_s * time_s) * (1.0 + belief.scale);
         Advance {
             time_s,
@@ -173,7 +173,7 @@ mod tests {
             // A rest has told another bias meanwhile.
             other.bias_rad_per_s += 0.001;
         }
-        let mut guess = GyroGuess {
+        let mut guess = ParticleGyro {
             scale: -0.02,
             bias_rad_per_s: -0.003,
         };
@@ -200,13 +200,13 @@ mod tests {
         count.add(standing, BELIEF);
         count.add(by_wheels, BELIEF);
         let mut random = Random::new(1);
-        let mut guess = GyroGuess::drawn(BELIEF, &mut random);
+        let mut guess = ParticleGyro::drawn(BELIEF, &mut random);
         assert_eq!(guess.turned_more_rad(count, &mut random), 0.0);
     }
 
-    fn guesses(random: &mut Random) -> Vec<(f64, GyroGuess)> {
+    fn guesses(random: &mut Random) -> Vec<(f64, ParticleGyro)> {
         (0..20_000)
-            .map(|_| (1.0, GyroGuess::drawn(BELIEF, random)))
+            .map(|_| (1.0, ParticleGyro::drawn(BELIEF, random)))
             .collect()
     }
 
@@ -239,12 +239,12 @@ mod tests {
     #[test]
     fn a_rest_pulls_the_bias_as_far_as_it_is_sure() {
         let mut all = guesses(&mut Random::new(4));
-        let told = BiasTold {
+        let measured = BiasMeasurement {
             rad_per_s: 0.003,
             variance_rad2_per_s2: 2.5e-7,
         };
         for (weight, guess) in &mut all {
-            *weight *= guess.likelihood(told);
+            *weight *= guess.likelihood(measured);
         }
         let after = belief(all.iter().copied());
         // Rest and belief are equally sure.

@@ -1,7 +1,7 @@
 //! A particle filter in a map: many guesses of the pose move as odometry says, each with errors of its own, and those that
 //! fit what the sensors show multiply.
 //!
-//! Terms. *Place*: a pose with its cosine, sine and clearance. *Fit*: how many beams the map explains at a place.
+//! Terms. *BodyPose*: a pose with its cosine, sine and clearance. *BeamScore*: how many beams the map explains at a place.
 //! *Tempered*: a likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent:
 //! a dark cupboard is dark for all of its length.
 
@@ -17,15 +17,15 @@ use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::observation::{Cliffs, Contacts, Observation};
 use crate::model::random::Random;
 
-use super::beacons::Heard;
-use super::gyro_belief::{BiasTold, GyroBelief};
+use super::beacons::LocatedRange;
+use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use crate::model::pose_estimate::PoseEstimate;
-pub(super) use filter_mode::Manner;
+pub(super) use filter_mode::FilterMode;
 pub(super) use gyro::GyroCount;
-use gyro::GyroGuess;
-pub(super) use infrared::Fit;
-use infrared::{Beams, Place};
-use surface::Surfaces;
+use gyro::ParticleGyro;
+pub(super) use infrared::BeamScore;
+use infrared::{BeamModel, BodyPose};
+use surface::Reflectances;
 pub(super) use surroundings::Surroundings;
 use touch::{Touch, body_likelihood};
 
@@ -58,30 +58,30 @@ const SEARCHING_JITTER_RAD: f64 = 0.002;
 /// A few guesses turn by this much at each move, radians: all of them may hold a heading that is wrong.
 const SURPRISE_SHARE: f64 = 0.002;
 const SURPRISE_RAD: f64 = 0.03;
-/// Spread of the way's factor among robots, and how it wanders on rugs, per square root of a metre.
-const WAY_FACTOR_SIGMA: f64 = 0.01;
-const WAY_FACTOR_WALK: f64 = 0.002;
+/// PoseSpread of the way's factor among robots, and how it wanders on rugs, per square root of a metre.
+const DISTANCE_FACTOR_SIGMA: f64 = 0.01;
+const DISTANCE_FACTOR_WALK: f64 = 0.002;
 /// Least and greatest factor that is believed.
-const WAY_FACTORS: (f64, f64) = (0.9, 1.1);
+const DISTANCE_FACTORS: (f64, f64) = (0.9, 1.1);
 
 /// One guess.
 #[derive(Clone, Copy, Debug)]
 struct Particle {
     pose: Pose2,
     /// True way by counted way: wheels, slip on rugs.
-    way_factor: f64,
-    gyro: GyroGuess,
-    surfaces: Surfaces,
+    distance_factor: f64,
+    gyro: ParticleGyro,
+    surfaces: Reflectances,
     weight: f64,
 }
 
 /// What the robot moved since the guesses were weighed last.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Motion {
+pub(super) struct MotionDelta {
     /// From the last pose to this one.
     pub(super) step: Pose2,
     /// Way, backwards counted too, metres.
-    pub(super) way_m: f64,
+    pub(super) distance_m: f64,
     /// Variance of the turn, square radians.
     pub(super) turn_variance: f64,
     pub(super) gyro: GyroCount,
@@ -89,18 +89,18 @@ pub(super) struct Motion {
 
 /// What the robot noticed since the guesses were weighed last, besides what its infrared sensors show.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Felt<'noticed> {
+pub(super) struct Measurements<'noticed> {
     /// Contacts and edges of the floor that begin now.
     pub(super) contacts: Contacts,
     pub(super) edges: Cliffs,
-    pub(super) heard: &'noticed [Heard],
+    pub(super) heard: &'noticed [LocatedRange],
     /// What rests have told of the gyro.
-    pub(super) told: Option<BiasTold>,
+    pub(super) measured_bias: Option<BiasMeasurement>,
 }
 
 /// Standard deviations around a pose.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spread {
+pub(super) struct PoseSpread {
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
 }
@@ -114,10 +114,10 @@ pub(super) struct ParticleFilter {
     random: Random,
     radius_m: f64,
     layout: SensorLayout,
-    beams: Beams,
+    beams: BeamModel,
     /// With what new guesses begin.
-    gyro: GyroBelief,
-    manner: Manner,
+    gyro: GyroEstimate,
+    mode: FilterMode,
 }
 
 impl ParticleFilter {
@@ -130,13 +130,13 @@ impl ParticleFilter {
             random: Random::new(seed),
             radius_m,
             layout,
-            beams: Beams::new(&layout.proximity),
-            gyro: GyroBelief::default(),
-            manner: Manner::Searching,
+            beams: BeamModel::new(&layout.proximity),
+            gyro: GyroEstimate::default(),
+            mode: FilterMode::Searching,
         };
         filter.gather(
             Pose2::IDENTITY,
-            Spread {
+            PoseSpread {
                 sigma_m: 0.0,
                 sigma_rad: 0.0,
             },
@@ -145,31 +145,31 @@ impl ParticleFilter {
     }
 
     /// New guesses begin with this belief.
-    pub(super) fn know_gyro(&mut self, belief: GyroBelief) {
+    pub(super) fn set_gyro_prior(&mut self, belief: GyroEstimate) {
         self.gyro = belief;
     }
 
     /// From now on guesses are moved and weighed so. Those that begin to hold what they learn know no more of the gyro than was
     /// told.
-    pub(super) fn take_manner(&mut self, manner: Manner) {
-        if manner == Manner::Holding && self.manner == Manner::Searching {
+    pub(super) fn set_mode(&mut self, mode: FilterMode) {
+        if mode == FilterMode::Holding && self.mode == FilterMode::Searching {
             for particle in &mut self.particles {
-                particle.gyro = GyroGuess::drawn(self.gyro, &mut self.random);
-                particle.surfaces = Surfaces::default();
+                particle.gyro = ParticleGyro::drawn(self.gyro, &mut self.random);
+                particle.surfaces = Reflectances::default();
             }
         }
-        self.manner = manner;
+        self.mode = mode;
     }
 
     /// What the guesses believe of the gyro, if they have learnt anything of it.
-    pub(super) fn gyro(&self) -> Option<GyroBelief> {
+    pub(super) fn gyro(&self) -> Option<GyroEstimate> {
         let guesses = self.particles.iter();
         let guesses = guesses.map(|particle| (particle.weight, particle.gyro));
-        (self.manner == Manner::Holding).then(|| gyro::belief(guesses))
+        (self.mode == FilterMode::Holding).then(|| gyro::belief(guesses))
     }
 
     /// All guesses around one pose.
-    pub(super) fn gather(&mut self, around: Pose2, spread: Spread) {
+    pub(super) fn gather(&mut self, around: Pose2, spread: PoseSpread) {
         self.particles.clear();
         for _ in 0..TRACKING_MAX {
             let particle = self.draw(around, spread);
@@ -178,7 +178,7 @@ impl ParticleFilter {
     }
 
     /// Guesses around several poses.
-    pub(super) fn scatter(&mut self, around: &[Pose2], spread: Spread) {
+    pub(super) fn scatter(&mut self, around: &[Pose2], spread: PoseSpread) {
         self.particles.clear();
         for pose in around {
             for _ in 0..EACH {
@@ -189,12 +189,12 @@ impl ParticleFilter {
     }
 
     /// Gives every third guess another place around a pose.
-    pub(super) fn widen(&mut self, around: Pose2, spread: Spread) {
+    pub(super) fn widen(&mut self, around: Pose2, spread: PoseSpread) {
         for index in (0..self.particles.len()).step_by(3) {
             let drawn = self.draw(around, spread);
             if let Some(particle) = self.particles.get_mut(index) {
                 *particle = Particle {
-                    way_factor: particle.way_factor,
+                    distance_factor: particle.distance_factor,
                     gyro: particle.gyro,
                     ..drawn
                 };
@@ -202,44 +202,45 @@ impl ParticleFilter {
         }
     }
 
-    fn draw(&mut self, around: Pose2, spread: Spread) -> Particle {
+    fn draw(&mut self, around: Pose2, spread: PoseSpread) -> Particle {
         Particle {
             pose: Pose2 {
                 x_m: around.x_m + spread.sigma_m * self.random.normal(),
                 y_m: around.y_m + spread.sigma_m * self.random.normal(),
                 heading_rad: normalize_rad(around.heading_rad + spread.sigma_rad * self.random.normal()),
             },
-            way_factor: 1.0 + WAY_FACTOR_SIGMA * self.random.normal(),
-            gyro: GyroGuess::drawn(self.gyro, &mut self.random),
-            surfaces: Surfaces::default(),
+            distance_factor: 1.0 + DISTANCE_FACTOR_SIGMA * self.random.normal(),
+            gyro: ParticleGyro::drawn(self.gyro, &mut self.random),
+            surfaces: Reflectances::default(),
             weight: 1.0,
         }
     }
 
     /// Moves every guess.
-    pub(super) fn follow(&mut self, motion: Motion) {
-        let root_m = libm::sqrt(motion.way_m);
+    pub(super) fn follow(&mut self, motion: MotionDelta) {
+        let root_m = libm::sqrt(motion.distance_m);
         let along_m = SLIP_M_PER_SQRT_M * root_m + JITTER_M;
-        let (jitter_rad, kept) = match self.manner {
-            Manner::Searching => (SEARCHING_JITTER_RAD, 0.0),
-            Manner::Holding => (JITTER_RAD, Surfaces::kept_after(motion.way_m)),
+        let (jitter_rad, kept) = match self.mode {
+            FilterMode::Searching => (SEARCHING_JITTER_RAD, 0.0),
+            FilterMode::Holding => (JITTER_RAD, Reflectances::kept_after(motion.distance_m)),
         };
         let turn_rad = libm::sqrt(motion.turn_variance) + jitter_rad;
-        let walk = WAY_FACTOR_WALK * root_m;
+        let walk = DISTANCE_FACTOR_WALK * root_m;
         for particle in &mut self.particles {
             particle.surfaces.move_on(kept);
-            let uncounted_rad = match self.manner {
-                Manner::Searching => 0.0,
-                Manner::Holding => {
+            let uncounted_rad = match self.mode {
+                FilterMode::Searching => 0.0,
+                FilterMode::Holding => {
                     particle.gyro.turned_more_rad(motion.gyro, &mut self.random)
                         + surprise_rad(&mut self.random)
                 }
             };
-            let (low, high) = WAY_FACTORS;
-            particle.way_factor = (particle.way_factor + walk * self.random.normal()).clamp(low, high);
+            let (low, high) = DISTANCE_FACTORS;
+            particle.distance_factor =
+                (particle.distance_factor + walk * self.random.normal()).clamp(low, high);
             let step = Pose2 {
-                x_m: motion.step.x_m * particle.way_factor + along_m * self.random.normal(),
-                y_m: motion.step.y_m * particle.way_factor + JITTER_M * self.random.normal(),
+                x_m: motion.step.x_m * particle.distance_factor + along_m * self.random.normal(),
+                y_m: motion.step.y_m * particle.distance_factor + JITTER_M * self.random.normal(),
                 heading_rad: motion.step.heading_rad + uncounted_rad + turn_rad * self.random.normal(),
             };
             particle.pose = particle.pose * step;
@@ -247,27 +248,35 @@ impl ParticleFilter {
     }
 
     /// Weighs every guess by what the sensors show, and draws new ones where few are left that fit.
-    pub(super) fn weigh(&mut self, map: &impl Surroundings, observation: &Observation, felt: &Felt<'_>) {
+    pub(super) fn weigh(
+        &mut self,
+        map: &impl Surroundings,
+        observation: &Observation,
+        measured: &Measurements<'_>,
+    ) {
         self.beams
             .look(&observation.proximity, &self.layout.proximity.response);
         let touch = Touch {
-            manner: self.manner,
-            contacts: felt.contacts,
-            edges: felt.edges,
+            mode: self.mode,
+            contacts: measured.contacts,
+            edges: measured.edges,
         };
         let mut sum = 0.0;
         for particle in &mut self.particles {
             let place = place(map, particle.pose);
             let infrared = self.beams.likelihood(map, &place, &mut particle.surfaces);
-            let mut likelihood = tempered(infrared, self.manner);
+            let mut likelihood = tempered(infrared, self.mode);
             likelihood *= body_likelihood(place.clearance_m - self.radius_m);
             if touch.tells() {
                 likelihood *= touch.likelihood(map, &place, (self.radius_m, &self.layout));
             }
-            if let Some(told) = felt.told.filter(|_| self.manner == Manner::Holding) {
-                likelihood *= particle.gyro.likelihood(told);
+            if let Some(measured_bias) = measured
+                .measured_bias
+                .filter(|_| self.mode == FilterMode::Holding)
+            {
+                likelihood *= particle.gyro.likelihood(measured_bias);
             }
-            particle.weight *= likelihood * heard_likelihood(felt.heard, place.centre);
+            particle.weight *= likelihood * heard_likelihood(measured.heard, place.centre);
             sum += particle.weight;
         }
         self.normalize(sum);
@@ -390,13 +399,13 @@ impl ParticleFilter {
     }
 
     /// How well the beams of the last weighing fit at a pose.
-    pub(super) fn fit(&self, map: &impl Surroundings, pose: Pose2) -> Fit {
-        self.beams.fit(map, &place(map, pose))
+    pub(super) fn score(&self, map: &impl Surroundings, pose: Pose2) -> BeamScore {
+        self.beams.score(map, &place(map, pose))
     }
 }
 
 /// Likelihood of ranges to beacons at a place, with the heavy tails of Student's t: 1 at best.
-fn heard_likelihood(heard: &[Heard], centre: Point2) -> f64 {
+fn heard_likelihood(heard: &[LocatedRange], centre: Point2) -> f64 {
     heard.iter().fold(1.0, |likelihood, range| {
         let off = (range.range_m - range.at.distance_m(centre)) / range.sigma_m;
         let body = 1.0 + off * off / 3.0;
@@ -405,11 +414,11 @@ fn heard_likelihood(heard: &[Heard], centre: Point2) -> f64 {
 }
 
 /// To the power of 1/2, or of 3/8 where surfaces are not known again; by roots because they are cheap.
-fn tempered(likelihood: f64, manner: Manner) -> f64 {
+fn tempered(likelihood: f64, mode: FilterMode) -> f64 {
     let root = libm::sqrt(likelihood);
-    match manner {
-        Manner::Searching => libm::sqrt(root * libm::sqrt(root)),
-        Manner::Holding => root,
+    match mode {
+        FilterMode::Searching => libm::sqrt(root * libm::sqrt(root)),
+        FilterMode::Holding => root,
     }
 }
 
@@ -465,9 +474,9 @@ fn mean(particles: &[Particle]) -> PoseEstimate {
     }
 }
 
-fn place(map: &impl Surroundings, pose: Pose2) -> Place {
+fn place(map: &impl Surroundings, pose: Pose2) -> BodyPose {
     let (sin, cos) = libm::sincos(pose.heading_rad);
-    Place {
+    BodyPose {
         centre: pose.position(),
         cos,
         sin,

@@ -33,18 +33,18 @@ pub(super) struct Range {
 /// its first levels tell how far away it is, as well as surfaces go, and all later ones only how the distance changes. A filter of
 /// one number for each sensor and guess (a particle filter after Rao and Blackwell).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surfaces {
-    pub(super) surfaces: [Surface; PROXIMITY_MAX],
+pub(super) struct Reflectances {
+    pub(super) surfaces: [Reflectance; PROXIMITY_MAX],
 }
 
 /// By how much a surface reflects too little, relative, and the variance of that.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surface {
+pub(super) struct Reflectance {
     darkness: f32,
     variance: f32,
 }
 
-impl Default for Surface {
+impl Default for Reflectance {
     fn default() -> Self {
         Self {
             darkness: 0.0,
@@ -53,23 +53,23 @@ impl Default for Surface {
     }
 }
 
-impl Default for Surfaces {
+impl Default for Reflectances {
     fn default() -> Self {
         Self {
-            surfaces: [Surface::default(); PROXIMITY_MAX],
+            surfaces: [Reflectance::default(); PROXIMITY_MAX],
         }
     }
 }
 
-impl Surfaces {
+impl Reflectances {
     /// Share of what is known of a surface that still holds after a way.
-    pub(super) fn kept_after(way_m: f64) -> f32 {
-        libm::exp(-way_m / SURFACE_M) as f32
+    pub(super) fn kept_after(distance_m: f64) -> f32 {
+        libm::exp(-distance_m / SURFACE_M) as f32
     }
 
     /// The sensors may look at other surfaces now.
     pub(super) fn move_on(&mut self, kept: f32) {
-        let usual = Surface::default();
+        let usual = Reflectance::default();
         for surface in &mut self.surfaces {
             surface.darkness *= kept;
             surface.variance = usual.variance + kept * (surface.variance - usual.variance);
@@ -77,7 +77,7 @@ impl Surfaces {
     }
 }
 
-impl Surface {
+impl Reflectance {
     /// Likelihood of a distance where the map has a thing at another one; 1 at best. Learns from it.
     pub(super) fn likelihood(&mut self, range: Range, expected_m: f64) -> f64 {
         let (slope_m, known) = (range.by_reflection_m, f64::from(self.variance));
@@ -109,7 +109,7 @@ pub(super) fn bell(off2: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Range, Surface, Surfaces};
+    use super::{Range, Reflectance, Reflectances};
 
     const EXPECTED_M: f64 = 0.1;
 
@@ -123,7 +123,7 @@ mod tests {
 
     /// Likelihood that the next level along a wall is this far off, after twenty that all were seen 2 cm too far.
     fn after_dark_wall(off_m: f64) -> f64 {
-        let mut surface = Surface::default();
+        let mut surface = Reflectance::default();
         for _ in 0..20 {
             surface.likelihood(range(0.02), EXPECTED_M);
         }
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn along_one_wall_only_a_change_of_the_distance_is_a_surprise() {
-        let first = Surface::default().likelihood(range(0.02), EXPECTED_M);
+        let first = Reflectance::default().likelihood(range(0.02), EXPECTED_M);
         assert!(after_dark_wall(0.02) > 0.95 && first < 0.85, "{first}");
         // A wall that is where it is said to be, but was dark until now, is as surprising as one that is twice as far off.
         let changes = [0.0, 0.04].map(after_dark_wall);
@@ -142,13 +142,13 @@ mod tests {
 
     #[test]
     fn another_surface_is_a_new_one() {
-        let mut surfaces = Surfaces::default();
+        let mut surfaces = Reflectances::default();
         surfaces.surfaces[0].likelihood(range(0.03), EXPECTED_M);
         let learnt = surfaces.surfaces[0];
         assert!(learnt.darkness > 0.1 && learnt.variance < 0.03, "{learnt:?}");
-        surfaces.move_on(Surfaces::kept_after(0.05));
+        surfaces.move_on(Reflectances::kept_after(0.05));
         assert!(surfaces.surfaces[0].darkness > 0.9 * learnt.darkness);
-        surfaces.move_on(Surfaces::kept_after(5.0));
+        surfaces.move_on(Reflectances::kept_after(5.0));
         let forgotten = surfaces.surfaces[0];
         assert!(
             forgotten.darkness < 0.01 && forgotten.variance > 0.039,
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn what_is_no_wall_of_the_map_teaches_nothing_of_its_surface() {
-        let mut surface = Surface::default();
+        let mut surface = Reflectance::default();
         let likelihood = surface.likelihood(range(-0.3), EXPECTED_M);
         assert!(likelihood < 0.2, "{likelihood}");
         assert_eq!(surface.darkness, 0.0);

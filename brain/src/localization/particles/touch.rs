@@ -1,7 +1,7 @@
 //! How likely contacts, cliffs and the mere presence of the body are at a place of the map.
 
-use super::filter_mode::Manner;
-use super::infrared::Place;
+use super::filter_mode::FilterMode;
+use super::infrared::BodyPose;
 use super::surroundings::Surroundings;
 use crate::model::config::SensorLayout;
 use crate::model::geometry::Point2;
@@ -16,11 +16,11 @@ const INSIDE: f64 = 0.005;
 /// What a closing bumper says of a place: deviation of the gap between rim and wall in metres, and likelihood of a contact with
 /// what the map does not have. Where the robot is known to be, they are those of maps that robots draw: wrong by 3 to 4 cm, and
 /// without many a leg. Where it looks for itself, a touch must tell places apart.
-const HOLDING: Bump = Bump {
+const HOLDING: ContactModel = ContactModel {
     sigma_m: 0.025,
     unmapped: 0.3,
 };
-const SEARCHING: Bump = Bump {
+const SEARCHING: ContactModel = ContactModel {
     sigma_m: 0.015,
     unmapped: 0.08,
 };
@@ -37,7 +37,7 @@ const SLOPE_STEP_M: f64 = 0.02;
 
 /// How much a closing bumper tells.
 #[derive(Clone, Copy, Debug)]
-struct Bump {
+struct ContactModel {
     sigma_m: f64,
     unmapped: f64,
 }
@@ -45,7 +45,7 @@ struct Bump {
 /// What the body felt.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
-    pub(super) manner: Manner,
+    pub(super) mode: FilterMode,
     pub(super) contacts: Contacts,
     /// Cliffs that were seen first now.
     pub(super) edges: Cliffs,
@@ -70,7 +70,7 @@ impl Touch {
     pub(super) fn likelihood(
         &self,
         map: &impl Surroundings,
-        place: &Place,
+        place: &BodyPose,
         (radius_m, layout): (f64, &SensorLayout),
     ) -> f64 {
         let mut likelihood = 1.0;
@@ -93,12 +93,12 @@ impl Touch {
     fn contact(
         &self,
         map: &impl Surroundings,
-        place: &Place,
+        place: &BodyPose,
         (radius_m, layout): (f64, &SensorLayout),
     ) -> f64 {
-        let bump = match self.manner {
-            Manner::Holding => HOLDING,
-            Manner::Searching => SEARCHING,
+        let bump = match self.mode {
+            FilterMode::Holding => HOLDING,
+            FilterMode::Searching => SEARCHING,
         };
         let off = (place.clearance_m - radius_m) / bump.sigma_m;
         if off.abs() > 5.0 {

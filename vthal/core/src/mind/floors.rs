@@ -1,7 +1,7 @@
 //! On which floor the robot is: found out, said by a person, or lost.
 
 use brain::mapping::StoredMap;
-use brain::{Brain, Checkpoint, FloorPlace, ReadyHome};
+use brain::{Brain, Checkpoint, ReadyHome, StoreyPose};
 
 use super::next_run::FloorOnItsWay;
 use super::{Mind, Recorder};
@@ -135,7 +135,7 @@ impl Mind {
     fn move_to(
         &mut self,
         now_us: u64,
-        (place, home, ready): (FloorPlace, &StoredMap, ReadyHome),
+        (place, home, ready): (StoreyPose, &StoredMap, ReadyHome),
         recorder: &mut Recorder<'_>,
     ) {
         let checkpoint = Checkpoint {

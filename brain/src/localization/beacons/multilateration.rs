@@ -1,0 +1,102 @@
+//! A first guess of a beacon's place, from ranges along a way that is roughly known.
+
+use super::weight::weight;
+use crate::model::geometry::Point2;
+
+/// Directions from the nearest place on the way in which the beacon is tried.
+const DIRECTIONS: u32 = 72;
+/// Distances that are tried, relative to the shortest range, metres.
+const OFF_M: [f64; 5] = [-0.6, -0.3, 0.0, 0.3, 0.6];
+/// Deviation of a range from a way that is only roughly known, metres.
+const ROUGH_SIGMA_M: f64 = 0.5;
+/// A guess this far from the best one is another one: metres, and a share of the shortest range, because far away a short
+/// way tells the distance well and the direction badly.
+const OTHER_M: f64 = 1.5;
+const OTHER_SHARE: f64 = 0.8;
+/// Another guess must fit worse by this factor.
+const WORSE: f64 = 1.4;
+
+/// A range and where it was measured.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MeasuredRange {
+    pub(super) from: Point2,
+    pub(super) range_m: f64,
+}
+
+/// The place that fits best, if no other fits nearly as well: along a straight way the mirrored one does.
+pub(super) fn guess(ranges: &[MeasuredRange]) -> Option<Point2> {
+    let nearest = ranges
+        .iter()
+        .min_by(|one, other| one.range_m.total_cmp(&other.range_m))?;
+    let mut tried: Vec<(f64, Point2)> = Vec::new();
+    for direction in 0..DIRECTIONS {
+        let (sin, cos) = libm::sincos(core::f64::consts::TAU * f64::from(direction) / f64::from(DIRECTIONS));
+        for off_m in OFF_M {
+            let away_m = (nearest.range_m + off_m).max(0.0);
+            let place = Point2 {
+                x_m: nearest.from.x_m + away_m * cos,
+                y_m: nearest.from.y_m + away_m * sin,
+            };
+            tried.push((misfit(ranges, place), place));
+        }
+    }
+    let (least, best) = tried
+        .iter()
+        .min_by(|one, other| one.0.total_cmp(&other.0))
+        .copied()?;
+    let other_m = OTHER_M.max(OTHER_SHARE * nearest.range_m);
+    let alone = tried
+        .iter()
+        .filter(|(_, place)| place.distance_m(best) > other_m)
+        .all(|(misfit, _)| *misfit > WORSE * least);
+    alone.then_some(best)
+}
+
+/// Mean of the squared deviations, large ones counted little.
+pub(super) fn misfit(ranges: &[MeasuredRange], place: Point2) -> f64 {
+    let sum: f64 = ranges
+        .iter()
+        .map(|range| {
+            let off = (range.range_m - range.from.distance_m(place)) / ROUGH_SIGMA_M;
+            weight(off) * off * off
+        })
+        .sum();
+    sum / ranges.len().max(1) as f64 + 0.05
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MeasuredRange, guess};
+    use crate::model::geometry::Point2;
+
+    const BEACON: Point2 = Point2 { x_m: 4.0, y_m: 3.0 };
+
+    fn ranges(way: impl Fn(f64) -> Point2) -> Vec<MeasuredRange> {
+        (0..60)
+            .map(|number| {
+                let from = way(0.1 * f64::from(number));
+                // Every tenth comes by a detour.
+                let detour_m = if number % 10 == 0 { 2.0 } else { 0.0 };
+                MeasuredRange {
+                    from,
+                    range_m: from.distance_m(BEACON) + detour_m,
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_way_with_a_bend_tells_the_place_and_a_straight_one_does_not() {
+        let bent = ranges(|distance_m| Point2 {
+            x_m: distance_m.min(3.0),
+            y_m: (distance_m - 3.0).max(0.0),
+        });
+        let found = guess(&bent).unwrap();
+        assert!(found.distance_m(BEACON) < 0.6, "{found:?}");
+        let straight = ranges(|distance_m| Point2 {
+            x_m: distance_m,
+            y_m: 0.0,
+        });
+        assert_eq!(guess(&straight), None);
+    }
+}

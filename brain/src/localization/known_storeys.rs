@@ -1,0 +1,55 @@
+//! The robot of [`super::known_home`], by a host that has maps of several floors.
+
+use super::known_home::{START, SimulatedRobot, config, flat};
+use super::{StoreyFinder, StoreyFinding};
+use crate::mapping::StoredMap;
+use crate::model::geometry::Point2;
+
+/// The flat as a mirror shows it: walls and furniture of the same sizes.
+fn mirrored(home: &StoredMap) -> StoredMap {
+    let knowledge = home.knowledge();
+    let mut mirrored = knowledge.clone();
+    for (place, row) in mirrored
+        .values_mut()
+        .chunks_exact_mut(knowledge.width())
+        .zip(knowledge.values().chunks_exact(knowledge.width()))
+    {
+        place.copy_from_slice(row);
+        place.reverse();
+    }
+    StoredMap::from_raster(&mirrored, None)
+}
+
+/// What a robot that drives about in the flat for so many minutes finds out.
+fn sought(floors: &[StoredMap], minutes: u32) -> (StoreyFinding, Point2) {
+    let home = flat();
+    let mut truth = SimulatedRobot::new(&home, START);
+    let mut finder = StoreyFinder::new(&config(), 5, (1..).zip(floors));
+    let mut finding = StoreyFinding::Open;
+    for _ in 0..60 * 50 * minutes {
+        finding = finder.follow(truth.step());
+        if matches!(finding, StoreyFinding::Found(_)) {
+            break;
+        }
+    }
+    (finding, truth.pose.position())
+}
+
+#[test]
+fn of_a_flat_and_its_mirror_image_the_right_one_is_found_and_the_place_on_it() {
+    let own = flat().stored();
+    let (finding, there) = sought(&[mirrored(&own), own], 6);
+    let StoreyFinding::Found(place) = finding else {
+        panic!("{finding:?}");
+    };
+    assert_eq!(place.floor, 2);
+    let off_m = place.pose.position().distance_m(there);
+    assert!(off_m < 0.15, "{off_m} m");
+}
+
+#[test]
+fn neither_of_two_floors_that_are_alike_is_found_and_none_that_is_another_home() {
+    let own = flat().stored();
+    assert_eq!(sought(&[own.clone(), own.clone()], 6).0, StoreyFinding::Unclear);
+    assert_eq!(sought(&[mirrored(&own)], 6).0, StoreyFinding::Unclear);
+}

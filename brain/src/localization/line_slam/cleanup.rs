@@ -1,0 +1,112 @@
+//! The graph put in order: what does not fit is torn off, walls that are one are joined, and those that nothing lies on are
+//! dropped.
+
+use super::graph::{Graph, LineLandmark, LineObservation};
+use crate::model::geometry::normalize_rad;
+
+/// Walls nearer to each other than this are one, metres, if the gap between their ends is no longer than that.
+const MERGE_M: f64 = 0.05;
+const MERGE_GAP_M: f64 = 0.5;
+/// Walls that are one look the same way, radians: 7 degrees.
+const MERGE_RAD: f64 = 0.125;
+/// A mark this far off its wall was never on it, metres.
+pub(super) const OUTLIER_M: f64 = 0.12;
+
+/// Puts the graph in order. Gives for each wall the one that it became; `None` = it is gone.
+pub(super) fn clean_up(graph: &mut Graph) -> Vec<Option<usize>> {
+    reject_outliers(graph);
+    measure(graph);
+    let merged = merged(&graph.landmarks);
+    merge(graph, &merged)
+}
+
+/// Each wall becomes the one that `joined` gives for it. Gives for each wall where that one is now; `None` = it is gone.
+pub(super) fn merge(graph: &mut Graph, merged: &[usize]) -> Vec<Option<usize>> {
+    let is_changed = merged.iter().enumerate().any(|(index, whole)| index != *whole);
+    if is_changed {
+        for observation in &mut graph.observations {
+            observation.landmark = merged
+                .get(observation.landmark)
+                .copied()
+                .unwrap_or(observation.landmark);
+        }
+        measure(graph);
+    }
+    let places = drop_unobserved(graph);
+    merged
+        .iter()
+        .map(|whole| places.get(*whole).copied().flatten())
+        .collect()
+}
+
+fn reject_outliers(graph: &mut Graph) {
+    let mut observations = core::mem::take(&mut graph.observations);
+    observations.retain(|observation| graph.off_m(observation).abs() <= OUTLIER_M);
+    graph.observations = observations;
+}
+
+/// Ends and number of marks of each wall anew, from the marks as they lie now.
+fn measure(graph: &mut Graph) {
+    graph.forget_ends();
+    let observations = core::mem::take(&mut graph.observations);
+    for observation in &observations {
+        graph.reach(observation);
+    }
+    graph.observations = observations;
+}
+
+/// For each wall the one that it is a part of.
+fn merged(landmarks: &[LineLandmark]) -> Vec<usize> {
+    let mut merged: Vec<usize> = (0..landmarks.len()).collect();
+    for (index, landmark) in landmarks.iter().enumerate() {
+        let other = landmarks
+            .iter()
+            .take(index)
+            .enumerate()
+            .find(|(other, longer)| merged.get(*other) == Some(other) && are_mergeable(longer, landmark));
+        if let (Some((other, _)), Some(place)) = (other, merged.get_mut(index)) {
+            *place = other;
+        }
+    }
+    merged
+}
+
+/// Drops the walls without marks, and gives for each wall where it is now.
+fn drop_unobserved(graph: &mut Graph) -> Vec<Option<usize>> {
+    let mut kept = 0..;
+    let places: Vec<Option<usize>> = graph
+        .landmarks
+        .iter()
+        .map(|landmark| {
+            if landmark.observation_count > 0 {
+                kept.next()
+            } else {
+                None
+            }
+        })
+        .collect();
+    let place = |observation: &LineObservation| places.get(observation.landmark).copied().flatten();
+    for observation in &mut graph.observations {
+        observation.landmark = place(observation).unwrap_or(observation.landmark);
+    }
+    graph.landmarks.retain(|landmark| landmark.observation_count > 0);
+    places
+}
+
+/// Whether two walls face the same way.
+pub(super) fn face_the_same_way(one: &LineLandmark, other: &LineLandmark) -> bool {
+    let turned_rad = normalize_rad(one.normal_rad - other.normal_rad);
+    turned_rad.abs() <= MERGE_RAD && one.quarter == other.quarter
+}
+
+fn are_mergeable(one: &LineLandmark, other: &LineLandmark) -> bool {
+    if !face_the_same_way(one, other) {
+        return false;
+    }
+    let end = |along_m: f64| one.project(other.at(along_m));
+    let ends = [end(other.low_m), end(other.high_m)];
+    let is_near = ends.iter().all(|(off_m, _)| off_m.abs() <= MERGE_M);
+    let low_m = ends[0].1.min(ends[1].1);
+    let high_m = ends[0].1.max(ends[1].1);
+    is_near && (low_m - one.high_m).max(one.low_m - high_m) <= MERGE_GAP_M
+}

@@ -1,0 +1,234 @@
+//! Short ways along walls, told apart from the ways between them.
+
+use super::line_segment::{LineSegment, RangePoint, extract_segments};
+use crate::model::advance::Advance;
+use crate::model::config::ProximityLayout;
+use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::observation::Observation;
+
+/// A visit is over when nothing was seen for this way, metres.
+const UNSEEN_M: f64 = 0.12;
+/// And at the latest after this way, metres.
+const LENGTH_MAX_M: f64 = 0.7;
+/// Glimpses are this far apart, metres and radians.
+const STEP_M: f64 = 0.01;
+const STEP_RAD: f64 = 0.045;
+/// Most glimpses of a visit.
+const POINTS_MAX: usize = 500;
+/// A turn on the spot by more than this is made to see by how much the gyro is off, radians: no corner needs as much. What is seen
+/// on it tells no direction, and what was seen before and after belongs to two visits.
+const SPIN_RAD: f64 = 3.5;
+/// Way that ends a turn on the spot, metres.
+const SPIN_DISTANCE_M: f64 = 0.02;
+/// Levels below this are noise.
+const LEVEL_MIN: f64 = 0.06;
+
+/// A visit that is over.
+#[derive(Clone, Debug)]
+pub(super) struct LocalSubmap {
+    /// When it ended.
+    pub(super) time_us: u64,
+    /// Where it ended, by odometry.
+    pub(super) odom: Pose2,
+    /// What it showed, in the frame of the robot at its end.
+    pub(super) segments: Vec<LineSegment>,
+}
+
+/// The visit that is going on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SubmapBuilder {
+    points: Vec<RangePoint>,
+    distance_m: f64,
+    unseen_m: f64,
+    step_m: f64,
+    step_rad: f64,
+    spin: Spin,
+}
+
+/// A turn on the spot.
+#[derive(Clone, Copy, Debug, Default)]
+struct Spin {
+    turned_rad: f64,
+    distance_m: f64,
+    /// Glimpses that were there when it began.
+    began: usize,
+}
+
+impl Spin {
+    fn follow(&mut self, advance: Advance, points: usize) {
+        self.distance_m += advance.distance_m.abs();
+        self.turned_rad += advance.turn_rad;
+        if self.distance_m > SPIN_DISTANCE_M {
+            *self = Self {
+                began: points,
+                ..Self::default()
+            };
+        }
+    }
+
+    fn is_whole_turn(&self) -> bool {
+        self.turned_rad.abs() > SPIN_RAD
+    }
+}
+
+impl SubmapBuilder {
+    /// Takes in where the robot is by odometry and what it sees there. Gives the visit that ends here.
+    pub(super) fn follow(
+        &mut self,
+        (odom, advance): (Pose2, Advance),
+        observation: &Observation,
+        layout: &ProximityLayout,
+    ) -> Option<LocalSubmap> {
+        let distance_m = advance.distance_m.abs();
+        self.step_m += distance_m;
+        self.step_rad += advance.turn_rad.abs();
+        if !self.points.is_empty() {
+            self.distance_m += distance_m;
+            self.unseen_m += distance_m;
+        }
+        self.spin.follow(advance, self.points.len());
+        let is_spinning = self.spin.is_whole_turn();
+        if !is_spinning && (self.step_m >= STEP_M || self.step_rad >= STEP_RAD) {
+            (self.step_m, self.step_rad) = (0.0, 0.0);
+            self.look(odom, observation, layout);
+        }
+        let is_cut = is_spinning && !self.points.is_empty();
+        let over = is_cut
+            || self.unseen_m >= UNSEEN_M
+            || self.distance_m >= LENGTH_MAX_M
+            || self.points.len() >= POINTS_MAX;
+        if !over {
+            return None;
+        }
+        let next = Self {
+            spin: Spin {
+                began: 0,
+                ..self.spin
+            },
+            ..Self::default()
+        };
+        let mut log = core::mem::replace(self, next);
+        if is_cut {
+            log.points.truncate(log.spin.began);
+        }
+        let base_from_odom = odom.inverse();
+        let segments = extract_segments(&log.points, &layout.response)
+            .into_iter()
+            .map(|segment| LineSegment {
+                middle: base_from_odom.transform(segment.middle),
+                normal_rad: normalize_rad(segment.normal_rad - odom.heading_rad),
+                ..segment
+            })
+            .collect();
+        Some(LocalSubmap {
+            time_us: observation.time_us,
+            odom,
+            segments,
+        })
+    }
+
+    fn look(&mut self, odom: Pose2, observation: &Observation, layout: &ProximityLayout) {
+        for (sensor, level) in layout.sensors().iter().zip(&observation.proximity) {
+            let level = f64::from(*level);
+            let seen = layout.response.distance_m(level).filter(|_| level >= LEVEL_MIN);
+            if let Some(seen_m) = seen {
+                self.unseen_m = 0.0;
+                self.points.push(RangePoint {
+                    beam: odom * *sensor,
+                    seen_m,
+                });
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LocalSubmap, SubmapBuilder};
+    use crate::model::advance::Advance;
+    use crate::model::config::{ProximityLayout, ProximityResponse};
+    use crate::model::geometry::{Pose2, normalize_rad};
+    use crate::model::observation::Observation;
+    use core::f64::consts::{FRAC_PI_2, TAU};
+
+    /// By how much this gyro counts too much.
+    const ERROR: f64 = 0.01;
+
+    /// Looks to its right.
+    fn layout() -> ProximityLayout {
+        let response = ProximityResponse {
+            range_m: 0.25,
+            half_angle_rad: 0.0,
+            half_level_m: 0.06,
+            skin_m: 0.01,
+            near_m: None,
+        };
+        ProximityLayout::ring(&[-FRAC_PI_2], 0.16, response)
+    }
+
+    /// A robot that goes along a wall on its right, 0.2 m from its centre, and now and then turns on the spot.
+    #[derive(Default)]
+    struct Ride {
+        truth: Pose2,
+        odom: Pose2,
+        log: SubmapBuilder,
+        submaps: Vec<LocalSubmap>,
+    }
+
+    impl Ride {
+        fn step(&mut self, distance_m: f64, turn_rad: f64) {
+            let layout = layout();
+            self.truth = self.truth.after_arc(distance_m, turn_rad);
+            self.odom = self.odom.after_arc(distance_m, turn_rad * (1.0 + ERROR));
+            let beam = self.truth * layout.sensors()[0];
+            let toward = -beam.heading_rad.sin();
+            let clear_m = (beam.y_m + 0.2) / toward.max(1e-9);
+            let level = layout.response.level(clear_m);
+            let observation = Observation {
+                proximity: vec![level as f32],
+                ..Observation::default()
+            };
+            let advance = Advance {
+                distance_m,
+                turn_rad: turn_rad * (1.0 + ERROR),
+                ..Advance::default()
+            };
+            self.submaps
+                .extend(self.log.follow((self.odom, advance), &observation, &layout));
+        }
+
+        fn drive(&mut self, centimetres: u32) {
+            (0..2 * centimetres).for_each(|_| self.step(0.005, 0.0));
+        }
+
+        fn turn(&mut self, turns: f64) {
+            (0..600).for_each(|_| self.step(0.0, turns * TAU / 600.0));
+        }
+
+        /// Direction of the wall that the visit saw best, by odometry.
+        fn normal_rad(&self, submap: usize) -> f64 {
+            let submap = &self.submaps[submap];
+            normalize_rad(submap.odom.heading_rad + submap.segments[0].normal_rad)
+        }
+    }
+
+    #[test]
+    fn whole_turns_part_the_wall_before_from_the_wall_after_and_show_by_how_much_the_gyro_is_off() {
+        let mut ride = Ride::default();
+        ride.drive(50);
+        ride.turn(3.0);
+        ride.drive(75);
+        assert_eq!(ride.submaps.len(), 2);
+        assert!(ride.submaps.iter().all(|submap| submap.segments.len() == 1));
+        let off_rad = normalize_rad(ride.normal_rad(1) - ride.normal_rad(0));
+        assert!((off_rad - 3.0 * TAU * ERROR).abs() < 0.02, "{off_rad}");
+    }
+
+    #[test]
+    fn a_corner_parts_nothing() {
+        let mut ride = Ride::default();
+        ride.drive(20);
+        ride.turn(0.25);
+        assert!(ride.submaps.is_empty());
+    }
+}

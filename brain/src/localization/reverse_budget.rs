@@ -1,0 +1,92 @@
+//! How far back the robot may still drive.
+//!
+//! Nothing on the robot looks backwards: ground behind it is floor only as far as the robot came over it. Backing uses
+//! the way back up, driving forward makes it good, and never more than the bound is to be had, because a turn on the spot
+//! puts other ground behind the robot.
+
+use crate::model::advance::Advance;
+
+/// Most way back that no way forward has made good, in metres. The firmware ends reversing from a cliff (S8) and from a
+/// pressed bumper (S7) after the same way.
+const BLIND_MAX_M: f64 = 0.15;
+/// Way that the robot still makes at 0.15 m/s after the wheels should stop: 40 ms for telemetry and command, then braking.
+const STOPPING_M: f64 = 0.03;
+
+/// Way back and way forward, balanced.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ReverseBudget {
+    backed_m: f64,
+}
+
+impl ReverseBudget {
+    /// Goes on from `backed_m` metres of unbalanced way back.
+    pub(super) fn resumed(backed_m: f64) -> Self {
+        // The comparison is written so that NaN leaves no way back.
+        let backed_m = if backed_m < BLIND_MAX_M {
+            backed_m.max(0.0)
+        } else {
+            BLIND_MAX_M
+        };
+        Self { backed_m }
+    }
+
+    pub(super) fn follow(&mut self, advance: Advance) {
+        *self = Self::resumed(self.backed_m - advance.distance_m);
+    }
+
+    /// Way back in metres that no way forward has made good, 0..=0.15.
+    pub(super) fn backed_m(self) -> f64 {
+        self.backed_m
+    }
+
+    /// Way in metres for which backing may still be commanded.
+    pub(super) fn left_m(self) -> f64 {
+        (BLIND_MAX_M - STOPPING_M - self.backed_m).max(0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Advance, ReverseBudget};
+
+    fn left_after(distances_m: &[f64]) -> f64 {
+        let mut reverse_budget = ReverseBudget::default();
+        for &distance_m in distances_m {
+            reverse_budget.follow(Advance {
+                distance_m,
+                ..Advance::default()
+            });
+        }
+        reverse_budget.left_m()
+    }
+
+    fn check(distances_m: &[f64], left_m: f64) {
+        let found_m = left_after(distances_m);
+        assert!(
+            (found_m - left_m).abs() < 1e-12,
+            "{found_m} m after {distances_m:?}"
+        );
+    }
+
+    #[test]
+    fn backing_uses_it_up_and_driving_forward_makes_it_good() {
+        check(&[], 0.12);
+        check(&[-0.05, -0.04], 0.03);
+        check(&[-0.05, 0.02, -0.04], 0.05);
+        check(&[-0.12], 0.0);
+        check(&[-0.12, 0.5], 0.12);
+    }
+
+    #[test]
+    fn no_way_forward_earns_more_than_the_bound() {
+        check(&[7.0, -0.1], 0.02);
+        check(&[-7.0, 0.1], 0.07);
+    }
+
+    #[test]
+    fn what_is_not_a_number_leaves_no_way_back() {
+        assert_eq!(ReverseBudget::resumed(f64::NAN).left_m(), 0.0);
+        assert_eq!(ReverseBudget::resumed(f64::INFINITY).left_m(), 0.0);
+        assert_eq!(ReverseBudget::resumed(-1.0), ReverseBudget::default());
+    }
+}

@@ -1,0 +1,117 @@
+//! Mean strength of each beacon on each piece of floor.
+
+use std::collections::BTreeMap;
+
+use super::mean_rssi::MeanRssi;
+use crate::model::geometry::Point2;
+
+/// Edge of a piece of floor, metres.
+const CELL_M: f64 = 0.5;
+/// Pieces on each side that speak for a place, and how far what was received in one speaks, metres: shadows of walls are a metre or
+/// two wide.
+const AROUND: i32 = 2;
+const REACH_M: f64 = 0.6;
+/// A place is known when what speaks for it weighs as much as this, in means of a piece right there.
+const KNOWN: f64 = 0.5;
+/// Means that a piece counts at most: the home changes, and the last ones count.
+const COUNT_MAX: f64 = 12.0;
+/// Means of a piece that weigh as much as any more: what a piece is worth for its neighbours does not grow further.
+const WORTH_MAX: f64 = 3.0;
+
+/// RssiFingerprints by beacon and piece.
+#[derive(Clone, Debug, Default)]
+pub(in super::super) struct FingerprintMap {
+    pieces: BTreeMap<(u16, i32, i32), FingerprintCell>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct FingerprintCell {
+    count: f64,
+    dbm: f64,
+}
+
+impl FingerprintMap {
+    pub(super) fn learn(&mut self, at: Point2, levels: &[MeanRssi]) {
+        let Some((x, y)) = piece(at) else { return };
+        for level in levels {
+            let piece = self.pieces.entry((level.beacon, x, y)).or_default();
+            piece.count = (piece.count + 1.0).min(COUNT_MAX);
+            piece.dbm += (level.dbm - piece.dbm) / piece.count;
+        }
+    }
+
+    /// With which strength a beacon is received at a place; `None` where too little was received of it around.
+    pub(super) fn expected_dbm(&self, beacon: u16, at: Point2) -> Option<f64> {
+        let (middle_x, middle_y) = piece(at)?;
+        let (mut weight, mut sum) = (0.0, 0.0);
+        for x in middle_x - AROUND..=middle_x + AROUND {
+            let row = (beacon, x, middle_y - AROUND)..=(beacon, x, middle_y + AROUND);
+            for ((_, _, y), piece) in self.pieces.range(row) {
+                let off_m = centre(x, *y).distance_m(at) / REACH_M;
+                let worth = piece.count.min(WORTH_MAX) * libm::exp(-0.5 * off_m * off_m);
+                weight += worth;
+                sum += worth * piece.dbm;
+            }
+        }
+        (weight >= KNOWN).then(|| sum / weight)
+    }
+
+    /// Nothing was received yet.
+    pub(super) fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+}
+
+/// The piece under a place, if that is in any home.
+fn piece(at: Point2) -> Option<(i32, i32)> {
+    let number = |value_m: f64| {
+        let number = libm::floor(value_m / CELL_M);
+        (number.abs() < 10_000.0).then_some(number as i32)
+    };
+    Some((number(at.x_m)?, number(at.y_m)?))
+}
+
+fn centre(x: i32, y: i32) -> Point2 {
+    Point2 {
+        x_m: (f64::from(x) + 0.5) * CELL_M,
+        y_m: (f64::from(y) + 0.5) * CELL_M,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FingerprintMap, MeanRssi};
+    use crate::model::geometry::Point2;
+
+    fn at(x_m: f64) -> Point2 {
+        Point2 { x_m, y_m: 0.25 }
+    }
+
+    #[test]
+    fn what_was_received_speaks_for_its_surroundings_only() {
+        let mut map = FingerprintMap::default();
+        assert!(map.is_empty());
+        for number in 0..20 {
+            let x_m = 0.1 * f64::from(number);
+            let dbm = if x_m < 1.0 { -50.0 } else { -70.0 };
+            map.learn(at(x_m), &[MeanRssi { beacon: 2, dbm }]);
+        }
+        assert!((map.expected_dbm(2, at(0.1)).unwrap() + 50.0).abs() < 3.0);
+        assert!((map.expected_dbm(2, at(1.9)).unwrap() + 70.0).abs() < 3.0);
+        assert_eq!(map.expected_dbm(2, at(4.0)), None);
+        assert_eq!(map.expected_dbm(1, at(0.1)), None);
+        assert_eq!(map.expected_dbm(2, at(f64::NAN)), None);
+    }
+
+    #[test]
+    fn the_last_ones_count() {
+        let mut map = FingerprintMap::default();
+        for dbm in [-80.0, -60.0] {
+            for _ in 0..60 {
+                map.learn(at(0.2), &[MeanRssi { beacon: 0, dbm }]);
+            }
+        }
+        let now_dbm = map.expected_dbm(0, at(0.2)).unwrap();
+        assert!((now_dbm + 60.0).abs() < 1.0, "{now_dbm}");
+    }
+}

@@ -1,0 +1,262 @@
+//! On which of several floors is the robot? Where nothing else tells it, the map of each is compared with what the robot
+//! meets on its way.
+//!
+//! *StoreyHypothesis*: a floor whose map may be the right one; on it the robot is lost and looks for itself, as [`super::tracker`] does.
+//! A rival that has found the robot must then explain what it meets on its further way, which a wrong one does not. When it has
+//! done so for some metres it comes to a *second look*: the last metres are laid over every place of all rivals. It wins when
+//! they fit where it has found the robot, and nowhere else nearly as well. Two floors that are alike never win: then a person
+//! must say which it is.
+
+use core::task::Poll;
+
+use super::TrackingCheckpoint;
+use super::candidates::is_alone;
+use super::global_localizer::{GlobalLocalizer, PoseCandidate};
+use super::odometry::Odometry;
+use super::reference_map::ReferenceMap;
+use super::tracker::{MotionUpdate, SENSORS_MIN, Tracker};
+use crate::mapping::StoredMap;
+use crate::model::advance::Advance;
+use crate::model::config::BrainConfig;
+use crate::model::geometry::Pose2;
+use crate::model::gradual::{Gradual, Pace};
+use crate::model::observation::Observation;
+
+/// Way for which a rival must explain what the robot meets, metres,
+const PROVEN_M: f64 = 6.0;
+/// beams that must have told something on it,
+const PROVEN_BEAMS: u32 = 150;
+/// and the share of them that must agree with its map.
+const PROVEN_SHARE: f64 = 0.8;
+/// The last metres must fit the winner's map this well,
+const WINNER_SCORE: f64 = 0.6;
+/// and each other's at best this share as well.
+const RIVAL_SHARE: f64 = 0.85;
+/// Way after a second look that told nothing until the next one, metres.
+const LOOK_AGAIN_M: f64 = 6.0;
+/// After this way without a winner a person is asked, metres; the search goes on
+const ASK_AFTER_M: f64 = 40.0;
+/// up to this way.
+const GIVE_UP_M: f64 = 120.0;
+
+/// What has come out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StoreyFinding {
+    /// Nothing yet.
+    Open,
+    /// The robot is there.
+    Found(StoreyPose),
+    /// Nothing on so much way that a person should be asked. A floor may still be found.
+    Unclear,
+}
+
+/// A place on one of the floors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StoreyPose {
+    /// Number of the floor.
+    pub floor: u16,
+    /// Pose of the robot in the floor's map.
+    pub pose: Pose2,
+    /// How sure that is, and what was learnt of the gyro meanwhile.
+    pub tracking: TrackingCheckpoint,
+}
+
+/// Looks for the floor.
+#[derive(Debug)]
+pub struct StoreyFinder {
+    odometry: Odometry,
+    config: BrainConfig,
+    seed: u64,
+    /// Floors whose maps are still made ready, the last one first.
+    waiting: Vec<(u16, Gradual<ReferenceMap>)>,
+    hypotheses: Vec<StoreyHypothesis>,
+    /// Whose search goes on with the next step: one a step, so that many floors take no longer steps than one.
+    searches: usize,
+    distance_m: f64,
+    /// Searches of the second look, one for each rival in their order.
+    second_look: Option<Vec<GlobalLocalizer>>,
+    looks_from_m: f64,
+    /// The rival that has won: whoever takes up its map needs some steps for that.
+    winner: Option<usize>,
+    can_see: bool,
+}
+
+#[derive(Clone, Debug)]
+struct StoreyHypothesis {
+    floor: u16,
+    tracker: Tracker,
+    reference_map: ReferenceMap,
+    /// Way since it found the robot, metres.
+    proven_m: f64,
+}
+
+impl StoreyFinder {
+    /// For a robot that may stand anywhere on one of these floors. Equal seeds and observations give equal findings.
+    #[must_use]
+    pub fn new<'home>(
+        config: &BrainConfig,
+        seed: u64,
+        floors: impl Iterator<Item = (u16, &'home StoredMap)>,
+    ) -> Self {
+        let rim_max_m_per_s =
+            config.speeds.max_m_per_s + 0.5 * config.body.track_m * config.speeds.turn_max_rad_per_s;
+        let ready = |(floor, home): (u16, &StoredMap)| {
+            let home = home.clone();
+            let reference_map = async move { ReferenceMap::of_stored(home, &mut Pace::in_steps()).await };
+            (floor, Gradual::new(reference_map))
+        };
+        Self {
+            odometry: Odometry::new(config.body.track_m, rim_max_m_per_s),
+            config: *config,
+            seed,
+            waiting: floors.map(ready).collect(),
+            hypotheses: Vec::new(),
+            searches: 0,
+            distance_m: 0.0,
+            second_look: None,
+            looks_from_m: 0.0,
+            winner: None,
+            can_see: config.sensors.proximity.sensors().len() >= SENSORS_MIN,
+        }
+    }
+
+    /// Takes in what the robot perceived.
+    pub fn follow(&mut self, observation: &Observation) -> StoreyFinding {
+        let advance = self.odometry.update(observation);
+        if !self.can_see || self.distance_m > GIVE_UP_M {
+            return StoreyFinding::Unclear;
+        }
+        self.get_ready();
+        if observation.wheel_drop || !self.waiting.is_empty() {
+            (self.distance_m, self.looks_from_m) = (0.0, 0.0);
+        }
+        self.distance_m += advance.distance_m.abs();
+        let moved = self.moved(advance);
+        for hypothesis in &mut self.hypotheses {
+            hypothesis.follow(observation, moved);
+        }
+        match self.judge(advance) {
+            Some(place) => StoreyFinding::Found(place),
+            None if self.distance_m > ASK_AFTER_M => StoreyFinding::Unclear,
+            None => StoreyFinding::Open,
+        }
+    }
+
+    /// Goes on with the second look, or with the searches of the rivals until one is proven.
+    fn judge(&mut self, advance: Advance) -> Option<StoreyPose> {
+        let winner = self.winner.and_then(|winner| self.hypotheses.get(winner));
+        if let Some(winner) = winner.filter(|winner| winner.is_proven()) {
+            return Some(self.place_on(winner));
+        }
+        self.winner = None;
+        let proven = self.hypotheses.iter().position(StoreyHypothesis::is_proven);
+        let Some(proven) = proven.filter(|_| self.waiting.is_empty() && self.distance_m >= self.looks_from_m)
+        else {
+            self.second_look = None;
+            self.step_search();
+            return None;
+        };
+        let Some(looks) = &mut self.second_look else {
+            let looks = self.hypotheses.iter().map(StoreyHypothesis::second_look);
+            self.second_look = looks.collect();
+            return None;
+        };
+        looks.iter_mut().for_each(|look| look.follow(advance));
+        let undone = self.hypotheses.iter().zip(looks.iter_mut());
+        if let Some((hypothesis, look)) = undone.into_iter().find(|(_, look)| look.places().is_none()) {
+            look.go_on(&hypothesis.reference_map);
+            return None;
+        }
+        let all: Vec<Vec<PoseCandidate>> = looks.iter().filter_map(GlobalLocalizer::places).collect();
+        self.second_look = None;
+        self.looks_from_m = self.distance_m + LOOK_AGAIN_M;
+        let winner = self.hypotheses.get(proven)?;
+        let place = is_clear(&all, proven, winner.tracker.estimate().pose).then(|| self.place_on(winner));
+        self.winner = place.map(|_| proven);
+        place
+    }
+
+    fn step_search(&mut self) {
+        if let Some(hypothesis) = self.hypotheses.get_mut(self.searches) {
+            hypothesis.tracker.step_search(&hypothesis.reference_map);
+        }
+        self.searches = (self.searches + 1) % self.hypotheses.len().max(1);
+    }
+
+    /// Does a step of what must be done before maps can be compared with.
+    fn get_ready(&mut self) {
+        let Some((floor, reference_map)) = self.waiting.last_mut() else {
+            return;
+        };
+        if let Poll::Ready(reference_map) = reference_map.go_on() {
+            let mut tracker =
+                Tracker::new(self.config.body.radius_m, self.config.sensors, self.seed).into_competitor();
+            tracker.lose(Pose2::IDENTITY);
+            self.hypotheses.push(StoreyHypothesis {
+                floor: *floor,
+                tracker,
+                reference_map,
+                proven_m: 0.0,
+            });
+            self.waiting.pop();
+        }
+    }
+
+    fn moved(&self, advance: Advance) -> MotionUpdate {
+        MotionUpdate::of(&self.odometry, advance, self.odometry.odom_from_base())
+    }
+
+    fn place_on(&self, hypothesis: &StoreyHypothesis) -> StoreyPose {
+        let estimate = hypothesis.tracker.estimate();
+        let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
+        StoreyPose {
+            floor: hypothesis.floor,
+            pose: estimate.pose,
+            tracking: TrackingCheckpoint {
+                sigma_m: estimate.sigma_m,
+                sigma_rad: estimate.sigma_rad,
+                lost: false,
+                gyro_scale,
+                gyro_bias_rad_per_s,
+                unconfirmed_beams: 0,
+            },
+        }
+    }
+}
+
+impl StoreyHypothesis {
+    fn follow(&mut self, observation: &Observation, moved: MotionUpdate) {
+        self.tracker.follow(&self.reference_map, observation, moved);
+        self.proven_m = if self.tracker.is_lost() {
+            0.0
+        } else {
+            self.proven_m + moved.advance.distance_m.abs()
+        };
+    }
+
+    fn is_proven(&self) -> bool {
+        let score = self.tracker.since_found();
+        self.proven_m >= PROVEN_M
+            && score.informative >= PROVEN_BEAMS
+            && f64::from(score.consistent) >= PROVEN_SHARE * f64::from(score.informative)
+    }
+
+    fn second_look(&self) -> Option<GlobalLocalizer> {
+        self.tracker.second_look(&self.reference_map)
+    }
+}
+
+/// Whether the places of the floor number `winner` say that the robot is at `pose` there, and those of the others do not come
+/// near.
+fn is_clear(all: &[Vec<PoseCandidate>], winner: usize, pose: Pose2) -> bool {
+    let best = |places: &[PoseCandidate]| places.first().map_or(0.0, |best| best.score);
+    let Some(own) = all.get(winner) else {
+        return false;
+    };
+    let others = all.iter().enumerate().filter(|(place, _)| *place != winner);
+    is_alone(own, pose)
+        && best(own) >= WINNER_SCORE
+        && others
+            .into_iter()
+            .all(|(_, places)| best(places) <= RIVAL_SHARE * best(own))
+}
