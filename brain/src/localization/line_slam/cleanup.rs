@@ -1,18 +1,17 @@
-//! The graph put in order: what does not fit is torn off, walls that are one are joined, and those that nothing lies on are
-//! dropped.
+//! Cleans up the graph: rejects outliers, merges landmarks that are one wall, and drops landmarks without observations.
 
 use super::graph::{Graph, LineLandmark, LineObservation};
 use crate::model::geometry::normalize_rad;
 
-/// Walls nearer to each other than this are one, metres, if the gap between their ends is no longer than that.
+/// Landmarks closer to each other than this are merged, metres, unless the gap between their ends is longer than that.
 const MERGE_M: f64 = 0.05;
 const MERGE_GAP_M: f64 = 0.5;
-/// Walls that are one look the same way, radians: 7 degrees.
+/// Landmarks are merged only when their normals differ by less than this, radians: 7 degrees.
 const MERGE_RAD: f64 = 0.125;
-/// A mark this far off its wall was never on it, metres.
+/// An observation farther than this from its landmark is an outlier, metres.
 pub(super) const OUTLIER_M: f64 = 0.12;
 
-/// Puts the graph in order. Gives for each wall the one that it became; `None` = it is gone.
+/// Cleans up the graph. Returns for each landmark the one that replaces it; `None` = it was dropped.
 pub(super) fn clean_up(graph: &mut Graph) -> Vec<Option<usize>> {
     reject_outliers(graph);
     measure(graph);
@@ -20,7 +19,7 @@ pub(super) fn clean_up(graph: &mut Graph) -> Vec<Option<usize>> {
     merge(graph, &merged)
 }
 
-/// Each wall becomes the one that `joined` gives for it. Gives for each wall where that one is now; `None` = it is gone.
+/// Replaces each landmark by the one that `merged` names for it. Returns the new index of each landmark; `None` = it was dropped.
 pub(super) fn merge(graph: &mut Graph, merged: &[usize]) -> Vec<Option<usize>> {
     let is_changed = merged.iter().enumerate().any(|(index, whole)| index != *whole);
     if is_changed {
@@ -45,7 +44,7 @@ fn reject_outliers(graph: &mut Graph) {
     graph.observations = observations;
 }
 
-/// Ends and number of marks of each wall anew, from the marks as they lie now.
+/// Measures the ends of each landmark and counts its observations again, with the present poses.
 fn measure(graph: &mut Graph) {
     graph.forget_ends();
     let observations = core::mem::take(&mut graph.observations);
@@ -55,7 +54,7 @@ fn measure(graph: &mut Graph) {
     graph.observations = observations;
 }
 
-/// For each wall the one that it is a part of.
+/// For each landmark the one into which it is merged.
 fn merged(landmarks: &[LineLandmark]) -> Vec<usize> {
     let mut merged: Vec<usize> = (0..landmarks.len()).collect();
     for (index, landmark) in landmarks.iter().enumerate() {
@@ -71,7 +70,7 @@ fn merged(landmarks: &[LineLandmark]) -> Vec<usize> {
     merged
 }
 
-/// Drops the walls without marks, and gives for each wall where it is now.
+/// Drops the landmarks without observations. Returns the new index of each landmark.
 fn drop_unobserved(graph: &mut Graph) -> Vec<Option<usize>> {
     let mut kept = 0..;
     let places: Vec<Option<usize>> = graph
@@ -93,7 +92,7 @@ fn drop_unobserved(graph: &mut Graph) -> Vec<Option<usize>> {
     places
 }
 
-/// Whether two walls face the same way.
+/// Whether two landmarks face the same way.
 pub(super) fn face_the_same_way(one: &LineLandmark, other: &LineLandmark) -> bool {
     let turned_rad = normalize_rad(one.normal_rad - other.normal_rad);
     turned_rad.abs() <= MERGE_RAD && one.quarter == other.quarter

@@ -1,4 +1,4 @@
-//! Which strokes lie on which walls.
+//! Data association: which line segments belong to which landmarks.
 
 use super::graph::{LineLandmark, LineObservation, direction};
 use super::line_segment::LineSegment;
@@ -6,21 +6,21 @@ use super::manhattan::quarter;
 use super::{LineSlam, NODES_MAX};
 use crate::model::geometry::{Pose2, normalize_rad};
 
-/// A stroke lies on a wall when it is within so many deviations of it,
+/// A segment belongs to a landmark when it lies within this many standard deviations of it,
 const GATE: f64 = 3.0;
-/// but never farther, metres,
+/// is no farther away than this, metres,
 const GATE_MAX_M: f64 = 0.3;
-/// and looks the same way, radians: 14 degrees.
+/// and faces the same way within this angle, radians: 14 degrees.
 const GATE_RAD: f64 = 0.25;
-/// Deviation of a wall's own place, metres.
+/// Standard deviation of a landmark's own position, metres.
 const LANDMARK_SIGMA_M: f64 = 0.03;
-/// A stroke may lie this far beyond the known end of a wall, metres.
+/// A segment may lie this far beyond the known end of a landmark, metres.
 const EXTENSION_M: f64 = 0.6;
-/// Another wall that fits nearly as well, metres, makes it open on which one the stroke lies.
+/// The association is ambiguous when another landmark fits worse by less than this, metres.
 const AMBIGUITY_M: f64 = 0.12;
 
 impl LineSlam {
-    /// Lets the strokes of the newest node correct the belief, and remembers on which walls they lie.
+    /// Corrects the belief with the segments of the newest node and stores them as observations.
     pub(super) fn associate_segments(&mut self, segments: &[LineSegment]) {
         let mut new = Vec::new();
         for segment in segments {
@@ -116,7 +116,7 @@ impl LineSlam {
         );
     }
 
-    /// The wall on which a stroke lies that is seen from where the robot believes to be.
+    /// The landmark to which a segment belongs, seen from the believed pose.
     fn associate(&self, segment: &LineSegment) -> Association {
         let pose = self.belief.pose;
         let mut best: Option<(f64, usize)> = None;
@@ -142,7 +142,7 @@ impl LineSlam {
         }
     }
 
-    /// How far a stroke lies off a wall, if it may lie on it.
+    /// Distance of a segment from a landmark, metres; `None` when it cannot belong to it.
     fn off_m(&self, segment: &LineSegment, pose: Pose2, landmark: &LineLandmark) -> Option<f64> {
         let turned_rad = normalize_rad(pose.heading_rad + segment.normal_rad - landmark.normal_rad);
         if turned_rad.abs() > GATE_RAD {
@@ -159,10 +159,10 @@ impl LineSlam {
     }
 }
 
-/// What is known of the wall of a stroke.
+/// The landmark of a segment.
 enum Association {
     Landmark(usize),
-    /// It may be one of several.
+    /// Several landmarks fit.
     Ambiguous,
     New,
 }

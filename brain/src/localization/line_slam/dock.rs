@@ -1,4 +1,4 @@
-//! The robot on its dock: it stands there as it stood there before, whatever it has driven meanwhile.
+//! Loop closure at the dock: the robot has the same pose whenever it is docked.
 
 use super::LineSlam;
 use super::graph::Graph;
@@ -7,27 +7,28 @@ use super::turns::TurnCalibration;
 use crate::localization::skyline::System;
 use crate::model::geometry::{Pose2, normalize_rad};
 
-/// How well two stands on the dock agree, metres and radians: the contacts are some centimetres wide, and close on a robot that is
-/// askew by some degrees. 2 cm and 2 degrees for each of the two.
+/// How well two dockings agree, metres and radians. The contacts are some centimetres wide and close on a robot that is a few
+/// degrees askew: 2 cm and 2 degrees for each of the two.
 const SIGMAS: [f64; 3] = [0.028, 0.028, 0.05];
-/// Misfit at which a stand counts a quarter, squared deviations: 25 deviations, so 0.7 m. Geman and McClure's kernel: a survey that
-/// is off by half a metre when it comes home is closed, and a dock that somebody has moved by metres hardly pulls. One that was moved by
-/// decimetres pulls, but against all walls around it, by which the robot knows where it is then.
+/// Squared deviations at which a docking has a quarter of its weight (Geman and McClure's kernel): 25 deviations, which is 0.7 m. A
+/// graph that is off by half a metre at the dock is closed. A dock that somebody has moved by metres hardly pulls. A dock that was
+/// moved by decimetres pulls against the walls around it, which then tell the pose.
 const KERNEL: f64 = 625.0;
-/// A dock farther than so many deviations of belief and stand from where it was is left to the fit.
+/// A dock that is more than this many standard deviations from its expected pose does not correct the belief. The optimization
+/// decides.
 const GATE: f64 = 4.0;
-/// The robot comes back to its dock when it was away for this way, metres: contacts that part and close again tell nothing new.
+/// The robot must have driven this far since the last docking, metres. Contacts that open and close again add no information.
 const AWAY_M: f64 = 0.5;
 
-/// Tells when the robot comes back to its dock.
+/// Detects when the robot comes back to its dock.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct DockWatch {
-    /// Way since it stood on the dock, metres; `None` = it never did.
+    /// Distance driven since the last docking, metres; `None` = the robot was never docked.
     away_m: Option<f64>,
 }
 
 impl DockWatch {
-    /// Takes in a way and whether the robot stands on the dock at its end. Whether it has just come there.
+    /// Takes a distance and whether the robot is docked at its end. Returns whether it has just arrived.
     pub(super) fn arrives(&mut self, distance_m: f64, docked: bool) -> bool {
         let away_m = self.away_m.map(|away_m| away_m + distance_m.abs());
         if !docked {
@@ -40,7 +41,7 @@ impl DockWatch {
 }
 
 impl LineSlam {
-    /// The robot has just come to its dock, at `odom`: the first time tells where that is, each later one where the robot is.
+    /// The robot has just docked at `odom`. The first docking gives the dock's pose, each later one the robot's.
     pub(super) fn arrive_at_dock(&mut self, (time_us, odom): (u64, Pose2), turns: TurnCalibration) {
         let stand = LocalSubmap {
             time_us,
@@ -61,7 +62,7 @@ impl LineSlam {
         }
     }
 
-    /// The belief takes in that the robot stands on the dock, if it can be true.
+    /// Corrects the belief with the dock's pose, if that pose is plausible.
     fn correct_at_dock(&mut self, dock: Pose2) {
         let [[xx, _, _], [_, yy, _], [_, _, turns]] = self.belief.covariance;
         let is_possible = off(self.belief.pose, dock)
@@ -84,7 +85,7 @@ impl LineSlam {
     }
 }
 
-/// By how much a pose is off a stand on the dock: x, y, heading.
+/// Difference between a pose and the pose at the dock: x, y, heading.
 fn off(pose: Pose2, dock: Pose2) -> [f64; 3] {
     [
         pose.x_m - dock.x_m,
@@ -94,7 +95,7 @@ fn off(pose: Pose2, dock: Pose2) -> [f64; 3] {
 }
 
 impl Graph {
-    /// Adds that the robot stood at a later node as it stood on the dock the first time.
+    /// Adds the residual between a later docking and the first one.
     pub(super) fn add_dock_residual(&self, number: usize, system: &mut System) {
         let (Some(first), Some(later)) = (self.docked.first(), self.docked.get(number)) else {
             return;
@@ -144,7 +145,7 @@ mod tests {
         assert_eq!(arrivals, [true, false, false, false, true, false]);
     }
 
-    /// One lap, and its end as far off as it was, with and without standing on the dock at both ends.
+    /// One lap with drift, with and without dockings at both ends.
     #[test]
     fn a_lap_that_ends_on_the_dock_closes() {
         let mut sums_m = [0.0; 2];
@@ -161,8 +162,8 @@ mod tests {
         assert!(sums_m[1] < 0.7 * sums_m[0], "{sums_m:?} m in all");
     }
 
-    /// One lap whose end seems to be this far off, because a step in its middle was longer than it was counted; how far off the nodes
-    /// are in the end, with these stands on the dock.
+    /// One lap that seems to end this far off, because a step in its middle was longer than counted. Returns the error of the nodes
+    /// after the optimization with these dockings.
     fn off_after_a_lap(off_m: f64, docked: Vec<usize>, seed: u64) -> f64 {
         let (mut graph, truth) = laps(0.0, seed);
         graph.nodes.truncate(33);
@@ -205,7 +206,7 @@ mod tests {
         }
     }
 
-    /// Around 4 by 3 m without any wall in sight, by a gyro that counts too much, and back on the dock.
+    /// A lap of 4 by 3 m without any wall in sight, with a gyro that counts too much, from the dock to the dock.
     #[test]
     fn a_robot_that_comes_back_to_its_dock_is_there_again_and_its_way_is_drawn_anew() {
         let turns = TurnCalibration {

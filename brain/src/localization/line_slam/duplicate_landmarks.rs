@@ -1,57 +1,57 @@
-//! Walls that stand twice in the graph: the robot came to one again by another way, and was off by more than strokes are
-//! looked for.
+//! Duplicate landmarks: two landmarks that are the same wall, because the robot came back to it with more drift than data
+//! association accepts.
 //!
-//! Of two walls one close before the other, both facing the same way, the one behind cannot have been seen where the one
-//! before stands now: the beams, or the robot itself, were in between. So they are one wall, or something was moved since. Which
-//! of both is found out by taking them for one and fitting all anew ([`super::graph_fit`]).
+//! Take two landmarks that face the same way, one close in front of the other. The rear one cannot have been seen through the front
+//! one, because the beams or the robot would have crossed it. So both are one wall, or something was moved. A merge hypothesis
+//! decides: merge both, optimize the graph ([`super::graph_fit`]), and keep the merge when the graph stays consistent.
 
 use super::cleanup::{OUTLIER_M, face_the_same_way, merge};
 use super::graph::{Graph, LineLandmark, LineObservation};
 use std::collections::BTreeMap;
 
-/// Walls are compared in pieces of this length along them, metres.
+/// Landmarks are compared in stretches of this length, metres.
 const PIECE_M: f64 = 0.1;
-/// Most pieces of a stroke: a visit is shorter.
+/// Most stretches of one segment. A submap is shorter than that.
 const LENGTH_MAX: i32 = 30;
-/// So far before each other they are not one wall yet, metres; nearer ones are joined without this.
+/// Landmarks that are closer in front of each other than this are merged by the cleanup, metres.
 const BEFORE_M: f64 = 0.05;
-/// Farther before each other they are two, metres: nothing is seen from farther away.
+/// Landmarks that are farther apart than this are different walls, metres. No sensor sees farther.
 const BEFORE_MAX_M: f64 = 0.6;
-/// The robot reaches at least this far beyond its middle, metres.
+/// The robot's body reaches at least this far beyond its centre, metres.
 const BODY_M: f64 = 0.1;
-/// Length over which a wall must stand where the robot was when it saw the other one, metres: a chair that was moved is shorter.
+/// The contradiction must be this long, metres. A chair that was moved is shorter.
 const ALONG_M: f64 = 0.55;
 
-/// Of the marks of walls that are one so many lie on it in the end,
+/// At least this share of the merged observations must lie on the merged landmark,
 const INLIER_SHARE: f64 = 0.7;
-/// and the other marks that do not lie on their walls any more are fewer than this share of them.
+/// and the other outliers must be fewer than this share of the merged observations.
 const OUTLIER_SHARE: f64 = 0.3;
-/// What odometry may be wrong by for it, more than in the last fit, in squared deviations: 40 cm over 30 m of way. What was moved
-/// tears shorter ways apart.
+/// The odometry chi-square may rise by this much since the last optimization: 40 cm over a path of 30 m. A false merge of something
+/// that was moved strains shorter paths more.
 const CHI_SQUARE_RISE_MAX: f64 = 15.0;
 
-/// That a wall seems to be another one.
+/// A landmark that seems to be the same wall as an earlier one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct DuplicateLandmark {
-    /// The one that was seen first.
+    /// The landmark that was seen first.
     pub(super) earlier: usize,
-    /// The one that was seen later.
+    /// The landmark that was seen later.
     pub(super) later: usize,
 }
 
-/// What a mark shows of a wall.
+/// A stretch of a landmark as one observation shows it.
 #[derive(Clone, Copy, Debug)]
 struct ObservedStretch {
-    /// How far before the wall it lies, metres.
+    /// Distance in front of the landmark, metres.
     off_m: f64,
-    /// How far before the wall the robot was.
+    /// Distance of the robot in front of the landmark, metres.
     from_m: f64,
-    /// Ends along the wall, in pieces.
+    /// Ends along the landmark, in stretches.
     low: i32,
     high: i32,
 }
 
-/// Finds them: each wall at most once as the later one, and never one that is the earlier one of another pair.
+/// Finds the duplicates. Each landmark is the later one of at most one pair, and never also the earlier one of another pair.
 pub(super) fn duplicates(graph: &Graph) -> Vec<DuplicateLandmark> {
     let observations = observations_by_landmark(graph);
     let landmarks = || graph.landmarks.iter().zip(&observations).enumerate();
@@ -89,7 +89,7 @@ fn observations_by_landmark(graph: &Graph) -> Vec<Vec<&LineObservation>> {
     observations
 }
 
-/// Whether a look at the marks is worth it.
+/// Whether the two are close enough to compare their observations.
 fn is_close_before(front: &LineLandmark, back: &LineLandmark) -> bool {
     if front.is_distinct || back.is_distinct || !face_the_same_way(front, back) {
         return false;
@@ -102,7 +102,7 @@ fn is_close_before(front: &LineLandmark, back: &LineLandmark) -> bool {
     is_before && low.1.max(high.1) > back.low_m && low.1.min(high.1) < back.high_m
 }
 
-/// From how far away each piece of a wall was seen, at most, metres.
+/// Greatest distance from which each stretch of a landmark was seen, metres.
 fn seen_from(
     graph: &Graph,
     landmark: &LineLandmark,
@@ -121,7 +121,7 @@ fn seen_from(
     seen
 }
 
-/// Pieces of a wall that was seen although what these marks show is before it.
+/// Number of stretches of a landmark that were seen although these observations lie in front of them.
 fn hidden_pieces(
     graph: &Graph,
     (landmark, seen): (&LineLandmark, &BTreeMap<i32, f64>),
@@ -176,17 +176,17 @@ fn in_time(graph: &Graph, (one, other): (usize, usize)) -> DuplicateLandmark {
     }
 }
 
-/// Walls are taken for one, and a fit shows whether they are.
+/// A merge of duplicates that the next optimization accepts or rejects.
 #[derive(Clone, Debug)]
 pub(super) struct MergeHypothesis {
-    /// All as it was before.
+    /// The graph before the merge.
     graph: Graph,
     merged_into: Vec<Option<usize>>,
     duplicates: Vec<DuplicateLandmark>,
 }
 
 impl MergeHypothesis {
-    /// Before these are joined.
+    /// Keeps the graph as it is before the merge.
     pub(super) fn new(
         graph: &Graph,
         merged_into: &[Option<usize>],
@@ -199,7 +199,7 @@ impl MergeHypothesis {
         }
     }
 
-    /// Joins them. Gives for each wall where it is then.
+    /// Merges the duplicates. Returns the new index of each landmark.
     pub(super) fn merge(&self, graph: &mut Graph) -> Vec<Option<usize>> {
         let mut merged: Vec<usize> = (0..graph.landmarks.len()).collect();
         for duplicate in &self.duplicates {
@@ -210,7 +210,7 @@ impl MergeHypothesis {
         merge(graph, &merged)
     }
 
-    /// The graph as it was, with those apart that are not one.
+    /// The graph before the merge, with the rejected pairs marked as distinct.
     pub(super) fn reverted(mut self, rejected: &[DuplicateLandmark]) -> (Graph, Vec<Option<usize>>) {
         for duplicate in rejected {
             if let Some(landmark) = self.graph.landmarks.get_mut(duplicate.later) {
@@ -220,8 +220,8 @@ impl MergeHypothesis {
         (self.graph, self.merged_into)
     }
 
-    /// Those that are not one, after a fit: all of them when nothing fits with them as one. No mark comes or goes while a graph is
-    /// fitted, so that both graphs have the same.
+    /// The duplicates that the optimized graph rejects, or all of them when the optimization failed. The optimization neither adds
+    /// nor removes observations, so both graphs have the same ones.
     pub(super) fn rejected(&self, fitted: Option<&Graph>) -> Vec<DuplicateLandmark> {
         let Some(fitted) = fitted else {
             return self.duplicates.clone();
@@ -242,13 +242,13 @@ impl MergeHypothesis {
         let is_bent = fitted.odometry_chi_square() > self.graph.fitted_chi_square + CHI_SQUARE_RISE_MAX
             || f64::from(outliers) > OUTLIER_SHARE * f64::from(merged);
         if rejected.is_empty() && is_bent {
-            // One of them must be wrong: the one that the least speaks for.
+            // One pair must be wrong: the one with the least evidence.
             return self.duplicates.last().copied().into_iter().collect();
         }
         rejected
     }
 
-    /// Share of the later wall's marks that lie on the earlier one.
+    /// Share of the later landmark's observations that lie on the earlier one.
     fn inlier_share(&self, duplicate: &DuplicateLandmark, fitted: &Graph) -> f64 {
         let (mut all, mut inliers) = (0_u32, 0_u32);
         for (was, is) in self.graph.observations.iter().zip(&fitted.observations) {
@@ -274,7 +274,7 @@ pub(super) mod tests {
     const LAP: usize = 32;
     const LANDMARKS: usize = 4;
 
-    /// Two laps through a room, fitted.
+    /// Two laps through a room, optimized.
     fn room(seed: u64) -> (Graph, Vec<Pose2>) {
         let (mut graph, truth) = laps(0.0, seed);
         assert!(optimized(&mut graph));
@@ -282,8 +282,8 @@ pub(super) mod tests {
         (graph, truth)
     }
 
-    /// Two laps through a room between which the robot was elsewhere: it believes to be off by `drift` in the second one, of which
-    /// it has walls of its own. Gives where it was, too.
+    /// Two laps through a room with an error of `drift` between them. The second lap has landmarks of its own. Returns the true
+    /// poses, too.
     pub(in crate::localization::line_slam) fn seen_twice(
         drift: Point2,
         sigma_m: f64,
@@ -316,7 +316,7 @@ pub(super) mod tests {
         (graph, truth)
     }
 
-    /// These marks are of something that stands so far before the first wall, along which the robot drives with that to its right.
+    /// Moves these observations in front of the first wall. The robot drives along that wall with the wall to its right.
     fn see_before(graph: &mut Graph, off_m: f64, is_of_it: impl Fn(&LineObservation) -> bool) {
         let mut before = graph.landmarks[0];
         before.anchor.y_m += off_m;
@@ -386,13 +386,13 @@ pub(super) mod tests {
     #[test]
     fn walls_one_before_the_other_are_two_when_the_robot_passed_between_or_beside() {
         let (mut since, _) = room(1);
-        // The robot was 30 cm before the first wall: half a metre before it there may be a screen.
+        // The robot was 30 cm from the first wall. A screen half a metre in front of the wall is behind the robot.
         see_before(&mut since, 0.5, |observation| {
             observation.node >= LAP && observation.landmark == 0
         });
         assert_eq!(duplicates(&since), []);
         let (mut since, _) = room(1);
-        // A cupboard along its second half, which hides the wall behind.
+        // A cupboard along the second half of the wall hides that half.
         see_before(&mut since, 0.3, |observation| {
             observation.landmark == 0 && observation.node % LAP >= 5
         });

@@ -1,10 +1,9 @@
-//! The way as a graph: poses at which walls were seen, joined by odometry and by the walls.
+//! The pose graph: poses at which walls were seen, joined by odometry and by line landmarks.
 //!
-//! *Node*: the pose at the end of a visit. *LineLandmark*: a straight line that strokes of several visits lie on, with its front
-//! towards the free space. *LineObservation*: that a stroke seen from a node lies on a wall. *Quarter*: one of the four directions of a
-//! home whose walls are at right angles; walls of a quarter share one direction. *Standstill*: that the robot stood on its dock
-//! ([`super::dock`]). All of it together is solved for the least
-//! squares by Gauss and Newton; marks that do not fit count little (Cauchy's kernel).
+//! *Node*: the pose at the end of a submap. *Line landmark*: a wall as a straight line whose front faces the free space. *Line
+//! observation*: a segment, seen from a node, that lies on a landmark. *Quarter*: one of the four directions of a home with right
+//! angles; landmarks of one quarter share a direction. *Docking*: the robot was on its dock ([`super::dock`]). Gauss-Newton
+//! minimizes all squared residuals. Cauchy's kernel gives outliers little weight.
 
 use super::kalman::StepVariance;
 use super::line_segment::LineSegment;
@@ -17,14 +16,14 @@ use core::f64::consts::FRAC_PI_2;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) time_us: u64,
-    /// By odometry.
+    /// Pose by odometry.
     pub(super) odom: Pose2,
-    /// In the map, as far as is known.
+    /// Estimated pose in the map.
     pub(super) pose: Pose2,
-    /// From the node before, by odometry, and how sure that is.
+    /// Motion since the previous node by odometry, and its variance.
     pub(super) step: Pose2,
     pub(super) variance: StepVariance,
-    /// Since the node before.
+    /// Turns since the previous node.
     pub(super) turns: Turns,
 }
 
@@ -35,29 +34,29 @@ impl Node {
     }
 }
 
-/// A straight line, from its front.
+/// A wall as a straight line.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineLandmark {
-    /// The quarter whose direction it shares; `None` = it has one of its own.
+    /// The quarter whose direction it shares; `None` = its direction is free.
     pub(super) quarter: Option<u8>,
-    /// Direction of the free space before it.
+    /// Direction from the wall into the free space.
     pub(super) normal_rad: f64,
-    /// A point on it or near it; stays as it is.
+    /// A fixed point on the wall or near it.
     pub(super) anchor: Point2,
-    /// From the anchor to the wall along the normal, metres.
+    /// Distance from the anchor to the wall along the normal, metres.
     pub(super) offset_m: f64,
-    /// Ends along it, from the anchor, metres.
+    /// Ends along the wall, relative to the anchor, metres.
     pub(super) low_m: f64,
     pub(super) high_m: f64,
-    /// Its first node.
+    /// The first node that saw it.
     pub(super) first: usize,
-    /// Marks on it.
+    /// Number of observations.
     pub(super) observation_count: u32,
-    /// It was taken for another one that it stands close to, and is not.
+    /// A merge with a close landmark was rejected.
     pub(super) is_distinct: bool,
 }
 
-/// That a stroke lies on a wall.
+/// A segment that lies on a landmark.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineObservation {
     pub(super) node: usize,
@@ -65,12 +64,12 @@ pub(super) struct LineObservation {
     pub(super) segment: LineSegment,
 }
 
-/// Deviations within which a mark counts fully: Cauchy's constant, squared.
+/// Cauchy's constant, squared: observations within so many squared deviations have their full weight.
 pub(super) const KERNEL: f64 = 5.0;
-/// Longest believed step of a round, metres or radians.
+/// Longest accepted step of an iteration, metres or radians.
 const STEP_MAX: f64 = 0.5;
 
-/// What a residual of this variance counts.
+/// Weight of a residual with this variance.
 fn weight(variance: f64) -> f64 {
     1.0 / variance.max(1e-8)
 }
@@ -82,7 +81,7 @@ pub(super) fn direction(rad: f64) -> Point2 {
 }
 
 impl LineLandmark {
-    /// The point of it so far from the anchor, metres.
+    /// The point on the wall at this distance from the anchor, metres.
     pub(super) fn at(&self, along_m: f64) -> Point2 {
         let normal = direction(self.normal_rad);
         Point2 {
@@ -91,7 +90,7 @@ impl LineLandmark {
         }
     }
 
-    /// How far before the wall a point lies, metres, and how far along it from the anchor.
+    /// Distance of a point in front of the wall and position along it from the anchor, metres.
     pub(super) fn project(&self, at: Point2) -> (f64, f64) {
         let normal = direction(self.normal_rad);
         let (x_m, y_m) = (at.x_m - self.anchor.x_m, at.y_m - self.anchor.y_m);
@@ -102,26 +101,26 @@ impl LineLandmark {
     }
 }
 
-/// Nodes, walls and marks.
+/// Nodes, landmarks and observations.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Graph {
     pub(super) nodes: Vec<Node>,
     pub(super) landmarks: Vec<LineLandmark>,
     pub(super) observations: Vec<LineObservation>,
-    /// Nodes at which the robot stood on its dock.
+    /// Nodes at which the robot was docked.
     pub(super) docked: Vec<usize>,
-    /// Direction of the first quarter; `None` = the home has no right angles, as far as is known.
+    /// Direction of the first quarter; `None` = the home has no right angles, as far as known.
     pub(super) manhattan_rad: Option<f64>,
     pub(super) turn_errors: TurnErrors,
-    /// What [`Self::odometry_chi_square`] was when all was fitted last.
+    /// [`Self::odometry_chi_square`] after the last optimization.
     pub(super) fitted_chi_square: f64,
 }
 
-/// Places of the unknowns.
+/// Indices of the unknowns.
 #[derive(Clone, Debug)]
 pub(super) struct Unknowns {
     manhattan: usize,
-    /// For each wall the place of its offset; a direction of its own comes right after it.
+    /// For each landmark the index of its offset. A free direction has the next index.
     landmarks: Vec<usize>,
     turns: TurnUnknowns,
 }
@@ -146,13 +145,13 @@ impl Graph {
         }
     }
 
-    /// The empty system, with what keeps every unknown from flying off.
+    /// An empty system with weak priors that keep every unknown bounded.
     pub(super) fn system(&self, unknowns: &Unknowns) -> System {
         let mut first: Vec<usize> = (0..self.nodes.len())
             .flat_map(|node| [3 * node.saturating_sub(1); 3])
             .collect();
         for node in self.docked.iter().skip(1) {
-            // A later stand speaks of the first one.
+            // A later docking refers to the first one.
             let dock = self.docked.first().copied().unwrap_or(0);
             if let Some(rows) = first.get_mut(3 * node..3 * node + 3) {
                 rows.fill(3 * dock.min(*node));
@@ -182,7 +181,7 @@ impl Graph {
         system
     }
 
-    /// Adds the step from a node to the next one.
+    /// Adds the odometry residual between a node and the next one.
     pub(super) fn add_odometry_residual(&self, index: usize, unknowns: &Unknowns, system: &mut System) {
         if let (Some(before), Some(after)) = (self.nodes.get(index), self.nodes.get(index + 1)) {
             let (from, to) = (3 * index, 3 * index + 3);
@@ -215,7 +214,7 @@ impl Graph {
         }
     }
 
-    /// By how much more a step is than odometry says, x, y and heading.
+    /// Difference between a step in the graph and the same step by odometry: x, y, heading.
     fn step_off(&self, before: &Node, after: &Node) -> Pose2 {
         let made = before.pose.inverse() * after.pose;
         let step = self.turn_errors.unbiased(after.step, &after.turns);
@@ -226,7 +225,7 @@ impl Graph {
         }
     }
 
-    /// How far all steps are from what odometry says: the sum of their squared deviations.
+    /// Sum of the squared deviations of all steps from odometry.
     pub(super) fn odometry_chi_square(&self) -> f64 {
         let steps = self.nodes.windows(2).filter_map(|nodes| match nodes {
             [before, after] => Some((self.step_off(before, after), after.variance)),
@@ -241,7 +240,7 @@ impl Graph {
             .sum()
     }
 
-    /// Adds that a stroke lies on a wall. One that is off by more than `kernel` squared deviations counts little.
+    /// Adds the residual of an observation. One that is off by more than `kernel` squared deviations has little weight.
     pub(super) fn add_line_residual(
         &self,
         (observation, kernel): (&LineObservation, f64),
@@ -321,7 +320,7 @@ impl Graph {
         }
     }
 
-    /// How far a mark lies off its wall, metres; 0 when one of them is gone.
+    /// Distance of an observation from its landmark, metres; 0 when one of them is gone.
     pub(super) fn off_m(&self, observation: &LineObservation) -> f64 {
         match (
             self.nodes.get(observation.node),
@@ -336,7 +335,7 @@ impl Graph {
         }
     }
 
-    /// Nothing is known of where the walls end any more.
+    /// Resets the ends and the observation counts of all landmarks.
     pub(super) fn forget_ends(&mut self) {
         for landmark in &mut self.landmarks {
             (landmark.low_m, landmark.high_m, landmark.observation_count) =
@@ -345,7 +344,7 @@ impl Graph {
         }
     }
 
-    /// The wall of a mark reaches as far as the mark.
+    /// Extends the landmark of an observation to the ends of that observation.
     pub(super) fn reach(&mut self, observation: &LineObservation) {
         let (Some(node), Some(landmark)) = (
             self.nodes.get(observation.node),
@@ -377,8 +376,8 @@ pub(super) mod tests {
         turn_rad2: 1e-4,
     };
 
-    /// Two laps along the inside of a room of 5 by 3 m that is turned by `turned_rad`, with a node every half metre and errors
-    /// of the steps; the walls are seen as they are.
+    /// Two laps along the inside of a room of 5 by 3 m that is rotated by `turned_rad`. There is a node every half metre. Steps
+    /// have errors, walls are seen exactly.
     pub(in crate::localization::line_slam) fn laps(turned_rad: f64, seed: u64) -> (Graph, Vec<Pose2>) {
         let mut random = Random::new(seed);
         let (mut truth, mut graph) = (Vec::new(), Graph::default());
@@ -460,7 +459,7 @@ pub(super) mod tests {
         (squares / truth.len() as f64).sqrt()
     }
 
-    // Noise has tails, so these take seeds that are the same in each run.
+    // Noise has tails, so these tests use fixed seeds.
     #[test]
     fn laps_close_whatever_the_direction_of_the_home() {
         let mut sums_m = [0.0; 2];
@@ -484,7 +483,7 @@ pub(super) mod tests {
             let (mut graph, truth) = laps(0.0, seed);
             assert!(optimized(&mut graph));
             let right_m = rmse_m(&graph, &truth);
-            // From the middle of the second lap a cupboard is seen that stands 25 cm before the wall.
+            // From the middle of the second lap the robot sees a cupboard 25 cm in front of the wall.
             graph.observations[37].segment.middle.y_m = -0.05;
             assert!(optimized(&mut graph));
             let off_m = graph.off_m(&graph.observations[37]);

@@ -1,8 +1,8 @@
-//! All poses and walls fitted anew, while the robot drives on.
+//! Optimizes the whole graph in the background, while the robot drives on.
 //!
-//! The fit works on a copy of the graph, in many steps of little work each: a home has some thousand unknowns, and a small
-//! board would think about them for seconds. When it is done the graph takes it up, and what came to the graph meanwhile
-//! is moved along with the last pose that the fit knew.
+//! The optimization works on a copy of the graph in many short steps. A home has thousands of unknowns, and a small board would
+//! need seconds at once. When it is done, its result replaces the graph. Nodes and observations that came meanwhile move rigidly
+//! with the last optimized pose.
 
 use super::cleanup::clean_up;
 use super::duplicate_landmarks::{MergeHypothesis, duplicates};
@@ -12,33 +12,34 @@ use super::optimization::{CaptureRange, optimize};
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::gradual::{Gradual, Pace};
 
-/// Work of a step: a quarter of a millisecond of a desktop's core.
+/// Work of one step: a quarter of a millisecond on one desktop core.
 const STEP_WORK: usize = 300_000;
 
-/// What is fitted.
+/// An optimization in progress.
 #[derive(Debug)]
 struct GraphFit {
     graph: Graph,
-    /// For each wall at the beginning the one that it became.
+    /// For each landmark at the start, its present index; `None` = it was dropped.
     merged_into: Vec<Option<usize>>,
-    /// How many marks there were at the beginning.
+    /// Number of observations at the start.
     observations: usize,
-    /// The last pose at the beginning.
+    /// The last pose at the start.
     last: Pose2,
-    /// Walls that stand twice are taken for one.
+    /// Duplicate landmarks that are merged on trial.
     hypothesis: Option<Box<MergeHypothesis>>,
 }
 
-/// Whether walls are one that seemed to stand twice.
+/// Whether the graph is consistent with a merge hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum MergeVerdict {
-    /// They are, or none seemed to.
+    /// It is, or there is no hypothesis.
     Accepted,
-    /// Some are not: all is fitted again.
+    /// Some merges are wrong. The optimization runs again without them.
     Rejected,
 }
 
-/// Begins a fit of the graph as it is now, which gives `None` when nothing fits; there is none while the graph has no nodes.
+/// Starts to optimize a copy of the graph. The result is `None` when there is no solution. Does not start while the graph has no
+/// nodes.
 pub(super) fn begin(graph: &Graph) -> Option<Gradual<Option<FittedGraph>>> {
     let fit = GraphFit::of(graph)?;
     Some(Gradual::new(
@@ -57,7 +58,7 @@ impl GraphFit {
         })
     }
 
-    /// Does all of it. Each part but the optimization is one pass over the marks, and a step of its own.
+    /// Runs all of it. Each part except the optimization is one pass over the observations and one step.
     async fn fitted(mut self, pace: &mut Pace) -> Option<FittedGraph> {
         self.clean_up();
         loop {
@@ -85,14 +86,14 @@ impl GraphFit {
         self.follow(&places);
     }
 
-    /// Walls are elsewhere now, or gone.
+    /// Landmarks have new indices or were dropped.
     fn follow(&mut self, places: &[Option<usize>]) {
         for landmark in &mut self.merged_into {
             *landmark = landmark.and_then(|landmark| places.get(landmark).copied().flatten());
         }
     }
 
-    /// Takes walls that seem to stand twice for one, on trial.
+    /// Merges landmarks that seem to be duplicates, on trial.
     fn merge_duplicates(&mut self) {
         let duplicates = duplicates(&self.graph);
         if duplicates.is_empty() {
@@ -104,7 +105,7 @@ impl GraphFit {
         self.hypothesis = Some(Box::new(hypothesis));
     }
 
-    /// Walls that were not one after all, or with which nothing fits as one, are taken apart again. `None` when nothing fits anyway.
+    /// Reverts merges that are wrong, or with which there is no solution. `None` when there is no solution without merges either.
     fn judge_merge(&mut self, is_solved: bool) -> Option<MergeVerdict> {
         let Some(hypothesis) = self.hypothesis.take() else {
             return is_solved.then_some(MergeVerdict::Accepted);
@@ -131,20 +132,20 @@ impl GraphFit {
     }
 }
 
-/// A fit that is done.
+/// A completed optimization.
 #[derive(Clone, Debug)]
 pub(super) struct FittedGraph {
     graph: Graph,
-    /// How what came since is moved, in the map.
+    /// Rigid motion of everything that came since, in the map.
     pub(super) moved: Pose2,
-    /// Walls that stood twice are one now.
+    /// Duplicate landmarks were merged.
     pub(super) has_merged: bool,
     merged_into: Vec<Option<usize>>,
     observations: usize,
 }
 
 impl FittedGraph {
-    /// The fitted graph with what has come to `since` after the fit began.
+    /// The optimized graph with all nodes, landmarks and observations that were added to `since` after the start.
     pub(super) fn with_news_of(mut self, since: &Graph) -> Graph {
         let known = self.graph.nodes.len();
         for node in since.nodes.iter().skip(known) {
@@ -188,7 +189,7 @@ pub(super) mod tests {
     use crate::localization::line_slam::graph::{Graph, LineLandmark};
     use crate::model::geometry::Point2;
 
-    /// The fit of a graph, and how many steps it took.
+    /// Optimizes a graph and counts the steps.
     pub(in crate::localization::line_slam) fn fitted(graph: &Graph) -> (FittedGraph, u32) {
         let mut fit = begin(graph).unwrap();
         let mut steps = 1;
@@ -229,7 +230,7 @@ pub(super) mod tests {
     #[test]
     fn marks_that_came_meanwhile_follow_their_walls_and_new_walls_come_after_the_old_ones() {
         let (mut began, _) = laps(0.0, 3);
-        // Nothing lies on the first wall, so that the others move up.
+        // Nothing lies on the first landmark, so the other indices move down by one.
         began.observations.retain(|observation| observation.landmark != 0);
         let mut since = began.clone();
         let landmark = LineLandmark {

@@ -1,4 +1,4 @@
-//! The pose between two optimizations: a Kalman filter of three numbers, for which walls stand where they are.
+//! A Kalman filter for the pose between two optimizations. It treats landmarks as fixed.
 
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
@@ -9,7 +9,7 @@ pub(super) struct Belief {
     pub(super) covariance: [[f64; 3]; 3],
 }
 
-/// Variances of a step in the frame in which it began, square metres and square radians.
+/// Variances of a step in the frame of its start, square metres and square radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct StepVariance {
     pub(super) along_m2: f64,
@@ -17,17 +17,17 @@ pub(super) struct StepVariance {
     pub(super) turn_rad2: f64,
 }
 
-/// No measurement makes the pose surer than this: walls are not where they are believed to be to the last centimetre.
+/// No measurement reduces a variance below this: landmarks are not exact to the last centimetre.
 const LEAST: [f64; 3] = [1.5e-4, 1.5e-4, 2.5e-5];
 
 impl Belief {
-    /// Moves by a step of this uncertainty.
+    /// Predicts: moves by a step with this variance.
     pub(super) fn step(&mut self, step: Pose2, variance: StepVariance) {
         let before = self.pose;
         self.pose = before * step;
         let (dx_m, dy_m) = (self.pose.x_m - before.x_m, self.pose.y_m - before.y_m);
         let p = self.covariance;
-        // The heading's error tilts the step.
+        // The heading's error rotates the step.
         let tilt = [-dy_m, dx_m, 0.0];
         let mut next = p;
         for row in 0..3 {
@@ -51,7 +51,7 @@ impl Belief {
         self.covariance = next;
     }
 
-    /// Takes in that `slopes * (pose - true pose)` is `off`, with this variance.
+    /// Updates with a measurement of this variance: `slopes * (pose - true pose)` is `off`.
     pub(super) fn measure(&mut self, slopes: [f64; 3], off: f64, variance: f64) {
         let p = self.covariance;
         let mut gain = [0.0; 3];
@@ -64,7 +64,7 @@ impl Belief {
                 .zip(slopes)
                 .map(|(one, slope)| one * slope)
                 .sum::<f64>();
-        // Written so that NaN is not taken in.
+        // Written so that NaN is rejected.
         let is_sound = total > 0.0 && off.is_finite();
         if !is_sound {
             return;
@@ -83,14 +83,14 @@ impl Belief {
         }
     }
 
-    /// Variance of the way along a direction, square metres.
+    /// Variance of the position along a direction, square metres.
     pub(super) fn variance_along_m2(&self, direction: Point2) -> f64 {
         let Point2 { x_m: x, y_m: y } = direction;
         let p = self.covariance;
         x * x * p[0][0] + 2.0 * x * y * p[0][1] + y * y * p[1][1]
     }
 
-    /// Standard deviation of the place along its worst direction, metres, and of the heading, radians.
+    /// Standard deviations of the position along its worst direction, metres, and of the heading, radians.
     pub(super) fn sigmas(&self) -> (f64, f64) {
         let p = self.covariance;
         let half = 0.5 * (p[0][0] - p[1][1]);

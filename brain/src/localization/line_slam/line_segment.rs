@@ -1,22 +1,22 @@
-//! Straight pieces of wall from what the infrared sensors saw along a short way.
+//! Extracts straight line segments from the infrared readings of a short path.
 //!
-//! *LocalSubmap*: a short way on which something was seen; odometry is as good as true on it. *RangePoint*: what one sensor saw at one
-//! moment of it. *LineSegment*: a straight line that many glimpses of a visit agree on. The beams are cones: what they meet first
-//! is nearer than the wall in their middle, which the fit takes into account for the line at hand.
+//! *Local submap*: a short path on which something was seen; odometry is nearly exact on it. *Range point*: what one sensor saw at
+//! one moment. *Line segment*: a straight line on which many range points of a submap lie. Beams are cones, so the nearest point of
+//! a wall within a cone is closer than the wall on the cone's axis. The fit corrects for that.
 
 use crate::model::config::ProximityResponse;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
-/// What a sensor saw, in the frame of the visit.
+/// One sensor reading, in the frame of the submap.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RangePoint {
-    /// The sensor and its direction.
+    /// Position and direction of the sensor.
     pub(super) beam: Pose2,
-    /// Distance to what was seen, metres.
+    /// Measured distance, metres.
     pub(super) seen_m: f64,
 }
 
-/// A straight piece of wall, in the frame of the visit.
+/// A straight piece of wall, in the frame of the submap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LineSegment {
     /// Its middle.
@@ -27,41 +27,41 @@ pub(crate) struct LineSegment {
     pub(super) half_m: f64,
     /// Standard deviation of its direction, radians.
     pub(super) sigma_rad: f64,
-    /// Standard deviation of its place across, metres.
+    /// Standard deviation of its position across, metres.
     pub(super) sigma_m: f64,
 }
 
-/// Directions that are tried: 5 degrees.
+/// Directions of the Hough transform: 5 degrees apart.
 const DIRECTIONS: usize = 72;
-/// Lines side by side, metres.
+/// Offsets of the Hough transform, metres apart.
 const LINE_STEP_M: f64 = 0.02;
-/// Most lines side by side on either side of the visit's middle.
+/// Most offsets on either side of the submap's middle.
 const LINES: usize = 60;
-/// Glimpses this far from a line may belong to it, metres.
+/// Points this close to a line may belong to it, metres.
 const NEAR_M: f64 = 0.035;
-/// After the fit they must lie this near, metres.
+/// After the fit they must be this close, metres.
 const FIT_M: f64 = 0.025;
-/// Fewest glimpses and least length of a stroke, metres.
+/// Fewest points and least length of a segment, metres.
 const POINTS_MIN: usize = 8;
 const LENGTH_MIN_M: f64 = 0.12;
-/// Longest gap within a stroke, metres.
+/// Longest gap within a segment, metres.
 const GAP_M: f64 = 0.2;
-/// Largest scatter of a stroke, metres.
+/// Largest scatter of a segment, metres.
 const SCATTER_MAX_M: f64 = 0.013;
-/// BeamModel that meet a wall at a smaller cosine say little of where it is.
+/// Beams that hit a wall at a smaller cosine say little about its position.
 const COSINE_MIN: f64 = 0.35;
-/// Strokes of one visit.
+/// Most segments of one submap.
 const SEGMENTS_MAX: usize = 4;
-/// Deviations that no number of glimpses makes smaller: walls reflect differently along their length.
+/// Least standard deviations, however many points there are: walls reflect differently along their length.
 const SIGMA_M: f64 = 0.012;
 const SIGMA_RAD: f64 = 0.015;
-/// By how much one end of a stroke is off against the other one, metres.
+/// Error of one end of a segment relative to the other end, metres.
 const TURN_M: f64 = 0.02;
-/// The same two in scatters of the glimpses: noise shows in them, and walls that reflect more differently.
+/// The same two in units of the scatter, which shows noise and varying reflectance.
 const SIGMA_SCATTERS: f64 = 1.6;
 const TURN_SCATTERS: f64 = 3.0;
 
-/// A line: points whose way along the normal is `offset_m`.
+/// A line in Hesse normal form: all points at the distance `offset_m` along the normal.
 #[derive(Clone, Copy, Debug)]
 struct HesseLine {
     normal_rad: f64,
@@ -69,8 +69,8 @@ struct HesseLine {
 }
 
 impl HesseLine {
-    /// By how much a glimpse shows the wall nearer (positive) or farther than the line, and its slope by the normal's
-    /// direction; `None` when its beam does not meet the line's front.
+    /// How much closer than the line a point shows the wall, metres, and the derivative of that by the normal's direction; `None`
+    /// when the beam does not hit the front of the line.
     fn off_m(self, point: &RangePoint, cone: f64) -> Option<(f64, f64)> {
         let (sin, cos) = libm::sincos(self.normal_rad);
         let (beam_y, beam_x) = libm::sincos(point.beam.heading_rad);
@@ -86,7 +86,7 @@ impl HesseLine {
         Some((clear_m - point.seen_m * share, slope))
     }
 
-    /// Where along the line a glimpse saw it.
+    /// Position of a point along the line.
     fn along_m(self, point: &RangePoint) -> f64 {
         let at = hit(point);
         let (sin, cos) = libm::sincos(self.normal_rad);
@@ -101,7 +101,7 @@ fn hit(point: &RangePoint) -> Point2 {
     })
 }
 
-/// The strokes of a visit, the one that most glimpses agree on first.
+/// The segments of a submap, the one with the most points first.
 pub(super) fn extract_segments(points: &[RangePoint], response: &ProximityResponse) -> Vec<LineSegment> {
     let cone = libm::tan(response.half_angle_rad);
     let mut left: Vec<RangePoint> = points.to_vec();
@@ -131,7 +131,7 @@ pub(super) fn extract_segments(points: &[RangePoint], response: &ProximityRespon
     found
 }
 
-/// The line with most glimpses near it.
+/// The line with the most points near it (Hough transform).
 fn strongest(points: &[RangePoint], cone: f64) -> Option<HesseLine> {
     let middle = points.get(points.len() / 2)?.beam.position();
     let mut votes = vec![0_u32; DIRECTIONS * (2 * LINES + 1)];
@@ -167,7 +167,7 @@ fn line_of(direction: usize, middle: Point2, beyond_m: f64) -> HesseLine {
     }
 }
 
-/// Moves a line to where the glimpses near it want it, the far ones less.
+/// Fits a line to the points near it by reweighted least squares.
 fn fitted(points: &[RangePoint], mut line: HesseLine, cone: f64) -> HesseLine {
     for round in 0..6 {
         let near_m = if round < 2 { 2.0 * NEAR_M } else { NEAR_M };
@@ -202,7 +202,7 @@ fn fitted(points: &[RangePoint], mut line: HesseLine, cone: f64) -> HesseLine {
     line
 }
 
-/// A stroke of the glimpses of one line, if they are enough, near enough and one piece.
+/// The segment of the points of one line, if they are many, close and contiguous enough.
 fn segment_of(points: &[RangePoint], line: HesseLine, cone: f64) -> Option<LineSegment> {
     let mut along_m: Vec<f64> = points.iter().map(|point| line.along_m(point)).collect();
     along_m.sort_by(f64::total_cmp);
@@ -250,7 +250,7 @@ mod tests {
         near_m: None,
     };
 
-    /// What seven sensors see of a wall at x = 1 and one at y = `left_m`, both infinitely long.
+    /// Readings of seven sensors between a wall at x = 1 and one at y = `left_m`, both infinitely long.
     fn look(pose: Pose2, left_m: f64, points: &mut Vec<RangePoint>) {
         let cone = RESPONSE.half_angle_rad.tan();
         for number in -3..=3 {
@@ -275,7 +275,7 @@ mod tests {
         }
     }
 
-    /// What is seen on a way of so many centimetres from `x_m` on.
+    /// Readings along a path of so many centimetres from `x_m` on.
     fn driven((x_m, steps): (f64, u32), heading_rad: f64, left_m: f64) -> Vec<RangePoint> {
         let mut points = Vec::new();
         for step in 0..steps {

@@ -1,4 +1,4 @@
-//! Short ways along walls, told apart from the ways between them.
+//! Divides the path into submaps: short stretches along walls.
 
 use super::line_segment::{LineSegment, RangePoint, extract_segments};
 use crate::model::advance::Advance;
@@ -6,35 +6,35 @@ use crate::model::config::ProximityLayout;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
 
-/// A visit is over when nothing was seen for this way, metres.
+/// A submap ends when nothing was seen for this distance, metres,
 const UNSEEN_M: f64 = 0.12;
-/// And at the latest after this way, metres.
+/// and at the latest after this distance, metres.
 const LENGTH_MAX_M: f64 = 0.7;
-/// Glimpses are this far apart, metres and radians.
+/// Distance and turn between two samples, metres and radians.
 const STEP_M: f64 = 0.01;
 const STEP_RAD: f64 = 0.045;
-/// Most glimpses of a visit.
+/// Most points of a submap.
 const POINTS_MAX: usize = 500;
-/// A turn on the spot by more than this is made to see by how much the gyro is off, radians: no corner needs as much. What is seen
-/// on it tells no direction, and what was seen before and after belongs to two visits.
+/// A larger turn on the spot calibrates the gyro, radians: no corner needs as much. What is seen during such a turn has no reliable
+/// direction, and it separates two submaps.
 const SPIN_RAD: f64 = 3.5;
-/// Way that ends a turn on the spot, metres.
+/// Distance that ends a turn on the spot, metres.
 const SPIN_DISTANCE_M: f64 = 0.02;
 /// Levels below this are noise.
 const LEVEL_MIN: f64 = 0.06;
 
-/// A visit that is over.
+/// A completed submap.
 #[derive(Clone, Debug)]
 pub(super) struct LocalSubmap {
     /// When it ended.
     pub(super) time_us: u64,
-    /// Where it ended, by odometry.
+    /// Pose at its end, by odometry.
     pub(super) odom: Pose2,
-    /// What it showed, in the frame of the robot at its end.
+    /// Its segments, in the frame of the robot at its end.
     pub(super) segments: Vec<LineSegment>,
 }
 
-/// The visit that is going on.
+/// The submap that is being recorded.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SubmapBuilder {
     points: Vec<RangePoint>,
@@ -50,7 +50,7 @@ pub(super) struct SubmapBuilder {
 struct Spin {
     turned_rad: f64,
     distance_m: f64,
-    /// Glimpses that were there when it began.
+    /// Number of points when it began.
     began: usize,
 }
 
@@ -72,7 +72,7 @@ impl Spin {
 }
 
 impl SubmapBuilder {
-    /// Takes in where the robot is by odometry and what it sees there. Gives the visit that ends here.
+    /// Takes the pose by odometry and the sensor readings there. Returns the submap that ends here.
     pub(super) fn follow(
         &mut self,
         (odom, advance): (Pose2, Advance),
@@ -151,10 +151,10 @@ mod tests {
     use crate::model::observation::Observation;
     use core::f64::consts::{FRAC_PI_2, TAU};
 
-    /// By how much this gyro counts too much.
+    /// Scale error of this gyro.
     const ERROR: f64 = 0.01;
 
-    /// Looks to its right.
+    /// One sensor that faces right.
     fn layout() -> ProximityLayout {
         let response = ProximityResponse {
             range_m: 0.25,
@@ -166,7 +166,7 @@ mod tests {
         ProximityLayout::ring(&[-FRAC_PI_2], 0.16, response)
     }
 
-    /// A robot that goes along a wall on its right, 0.2 m from its centre, and now and then turns on the spot.
+    /// A robot that drives along a wall on its right, 0.2 m from its centre, and sometimes turns on the spot.
     #[derive(Default)]
     struct Ride {
         truth: Pose2,
@@ -205,7 +205,7 @@ mod tests {
             (0..600).for_each(|_| self.step(0.0, turns * TAU / 600.0));
         }
 
-        /// Direction of the wall that the visit saw best, by odometry.
+        /// Direction of the longest wall of the submap, by odometry.
         fn normal_rad(&self, submap: usize) -> f64 {
             let submap = &self.submaps[submap];
             normalize_rad(submap.odom.heading_rad + submap.segments[0].normal_rad)

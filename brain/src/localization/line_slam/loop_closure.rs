@@ -1,4 +1,4 @@
-//! A lap that comes back to the wall along which it began: strokes that lie on a wall which was seen before close it.
+//! A lap that returns to its first wall: observations of a known landmark close the loop.
 
 use crate::localization::Localization;
 use crate::localization::known_home::{SimulatedRobot, TRACK_M, config, flat, take};
@@ -7,7 +7,7 @@ use core::f64::consts::FRAC_PI_2;
 
 const STEP_M: f64 = 0.005;
 const STEP_RAD: f64 = 0.024;
-/// Way that the wheels do not count, metres.
+/// Distance that the wheels do not count, metres.
 const SLIP_M: f64 = 0.08;
 
 /// Straight on.
@@ -42,7 +42,7 @@ fn a_lap_that_comes_back_to_its_first_wall_is_closed_by_it() {
         turn(&mut truth, &mut localization);
     }
     go(&mut truth, &mut localization, 1.2);
-    // It slides on towards the wall along which it began, which no wall beside it tells.
+    // It slips towards the first wall. No wall beside it shows that.
     truth.pose.y_m -= SLIP_M;
     go(&mut truth, &mut localization, 1.2);
     turn(&mut truth, &mut localization);

@@ -1,4 +1,4 @@
-//! Whether the home's walls stand at right angles, and in which directions.
+//! Manhattan alignment: detects whether the walls are at right angles, and aligns them.
 
 use super::graph::{Graph, LineLandmark};
 use crate::model::geometry::normalize_rad;
@@ -6,18 +6,18 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 
 /// Bins of a quarter turn: 2 degrees each.
 const BINS: usize = 45;
-/// Bins to each side that belong to a peak: 7 degrees with the middle one.
+/// Bins on each side of a peak that belong to it: 7 degrees with the middle one.
 const PEAK_BINS: usize = 3;
-/// Strokes that are needed to tell.
+/// Fewest observations for a decision.
 const OBSERVATIONS_MIN: usize = 6;
-/// A home counts as square when this share of its walls' length has the four directions: by chance it were 0.16.
+/// A home has right angles when this share of its wall length lies in the four directions. Chance gives 0.16.
 const MANHATTAN_FROM: f64 = 0.6;
-/// Below this share it does not any more.
+/// A home with right angles loses them below this share.
 const MANHATTAN_TO: f64 = 0.45;
-/// Walls this near to one of the four directions have it, radians: 7 degrees.
+/// Walls this close to one of the four directions are aligned with it, radians: 7 degrees.
 const NEAR_RAD: f64 = 0.12;
 
-/// Looks at the strokes as they lie now, and lets the walls share directions or not.
+/// Detects the four directions from the present observations and aligns the landmarks with them.
 pub(super) fn align_to_manhattan(graph: &mut Graph) {
     graph.manhattan_rad = found(graph);
     for landmark in &mut graph.landmarks {
@@ -25,7 +25,7 @@ pub(super) fn align_to_manhattan(graph: &mut Graph) {
     }
 }
 
-/// The wall gets the direction of its quarter, if it is near to one of a home with right angles.
+/// Aligns a landmark with its quarter, if the home has right angles and the landmark is close to one.
 pub(super) fn directed(landmark: &mut LineLandmark, manhattan_rad: Option<f64>) {
     landmark.quarter =
         manhattan_rad.and_then(|manhattan_rad| quarter(manhattan_rad, landmark.normal_rad, 0.0));
@@ -34,14 +34,14 @@ pub(super) fn directed(landmark: &mut LineLandmark, manhattan_rad: Option<f64>) 
     }
 }
 
-/// The wall in another direction, about the middle of what was seen of it.
+/// Rotates a landmark about the middle of what was seen of it.
 fn turn_to(landmark: &mut LineLandmark, normal_rad: f64) {
     let turn_rad = normalize_rad(normal_rad - landmark.normal_rad);
     landmark.offset_m += 0.5 * (landmark.low_m + landmark.high_m) * libm::sin(turn_rad);
     landmark.normal_rad = normalize_rad(normal_rad);
 }
 
-/// The quarter whose direction a wall has that looks this way, give or take `sigma_rad`.
+/// The quarter of a landmark with this normal, give or take `sigma_rad`.
 pub(super) fn quarter(manhattan_rad: f64, normal_rad: f64, sigma_rad: f64) -> Option<u8> {
     let turns = (normal_rad - manhattan_rad) / FRAC_PI_2;
     let nearest = libm::round(turns);
@@ -53,7 +53,7 @@ fn found(graph: &Graph) -> Option<f64> {
     if graph.observations.len() < OBSERVATIONS_MIN {
         return None;
     }
-    // Directions of all strokes, folded into a quarter turn, and their lengths.
+    // Directions of all segments, modulo a quarter turn, and their lengths.
     let directions: Vec<(f64, f64)> = graph
         .observations
         .iter()
@@ -86,7 +86,7 @@ fn found(graph: &Graph) -> Option<f64> {
         return None;
     }
     let middle_rad = (peak as f64 + 0.5) / BINS as f64 * FRAC_PI_2;
-    // The mean of what lies near, on a circle of a quarter turn.
+    // Circular mean over a quarter turn of the directions near the peak.
     let (mut weighed, mut weights) = (0.0, 0.0);
     for (rad, weight) in &directions {
         let off_rad = normalize_rad((rad - middle_rad) * TAU / FRAC_PI_2) * FRAC_PI_2 / TAU;
@@ -96,7 +96,7 @@ fn found(graph: &Graph) -> Option<f64> {
         }
     }
     let mean_rad = middle_rad + weighed / f64::max(weights, 1e-9);
-    // The quarter turn next to the direction so far, so that quarters keep their numbers.
+    // The quarter turn closest to the previous direction, so that quarters keep their numbers.
     let before_rad = graph.manhattan_rad.unwrap_or(0.0);
     let turns = libm::round((before_rad - mean_rad) / FRAC_PI_2);
     Some(graph.manhattan_rad.unwrap_or(mean_rad + turns * FRAC_PI_2))
@@ -113,10 +113,10 @@ mod tests {
     use crate::model::random::Random;
     use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 
-    /// Directions of strokes scatter by so much, radians: 2 degrees.
+    /// Scatter of the segments' directions, radians: 2 degrees.
     const SCATTER_RAD: f64 = 0.035;
 
-    /// The robot passes a piece of a wall that looks this way, with the wall to its right.
+    /// The robot passes a piece of wall with this normal, with the wall to its right.
     fn see(graph: &mut Graph, normal_rad: f64, random: &mut Random) {
         let (node, landmark) = (graph.nodes.len(), graph.landmarks.len());
         let pose = Pose2 {
@@ -157,7 +157,7 @@ mod tests {
         align_to_manhattan(graph);
     }
 
-    /// Laps in a home whose walls have these directions; after each stroke, whether it counts as square.
+    /// Laps in a home whose walls have these directions. Returns after each segment whether the home has right angles.
     fn laps(directions_rad: &[f64], graph: &mut Graph, (laps, seed): (usize, u64)) -> Vec<bool> {
         let mut random = Random::new(seed);
         let mut is_manhattan = Vec::new();
@@ -231,7 +231,7 @@ mod tests {
             }
             assert_eq!(graph.manhattan_rad, None, "seed {seed}");
             assert!(graph.landmarks.iter().all(|landmark| landmark.quarter.is_none()));
-            // What is neither clearly square nor clearly not stays what it was: here it takes more to begin again.
+            // Between both thresholds the decision stays as it was, so it takes more evidence to align again.
             let later = laps(&four(0.3), &mut graph, (10, seed));
             assert!(!later.contains(&true), "seed {seed}");
         }

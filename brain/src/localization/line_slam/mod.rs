@@ -1,9 +1,10 @@
-//! Where the robot is in a home that it does not know yet: the walls that it passes tell.
+//! Line SLAM: localization and mapping in a home that is not known yet, with walls as landmarks.
 //!
-//! The infrared sensors see pieces of wall ([`line_segment`]) on short ways along them ([`local_submap`]). A piece of wall that lies where
-//! one was seen before corrects the pose at once ([`kalman`]), and now and then all poses and walls are fitted anew
-//! ([`graph`], [`optimization`]), with right angles where the home has them ([`manhattan`]), while the robot drives on ([`graph_fit`]).
-//! The map is then drawn again with the better poses.
+//! Infrared readings along short paths ([`local_submap`]) give line segments ([`line_segment`]). A segment that belongs to a known
+//! landmark ([`data_association`]) corrects the pose at once ([`kalman`]). Now and then all poses and landmarks ([`graph`]) are
+//! optimized ([`optimization`]) in the background ([`graph_fit`]), with right angles where the home has them ([`manhattan`]). Loops
+//! close at the dock ([`dock`]) and at duplicate landmarks ([`duplicate_landmarks`]). The map is then redrawn with the better
+//! poses.
 
 mod cleanup;
 mod data_association;
@@ -37,40 +38,40 @@ use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::gradual::Gradual;
 use crate::model::observation::Observation;
 
-/// Slip along the way, square metres per metre, and what each step adds: that of a bad robot. One that is taken for too good
-/// holds on to a wrong wall.
+/// Slip of the position, square metres per metre, and what each step adds, for a poor robot. A filter that is too sure keeps a
+/// wrong landmark.
 const SLIP_M2_PER_M: f64 = 4.0e-4;
 const STEP_M2: f64 = 4.0e-6;
-/// Noise of a gyro's heading, square radians per second: 0.04 degrees per square root of a second, that of a bad robot, too.
+/// Noise of a gyro's heading, square radians per second: 0.04 degrees per square root of a second, for a poor robot, too.
 const GYRO_RAD2_PER_S: f64 = 4.8e-7;
-/// Slip in heading where there is no gyro, square radians per metre.
+/// Slip in heading without a gyro, square radians per metre.
 const SLIP_RAD2_PER_M: f64 = 7.6e-5;
-/// Most nodes; what comes later is placed by the walls that are known by then.
+/// Most nodes. Later poses are corrected by the landmarks known by then.
 const NODES_MAX: usize = 2_000;
-/// All is fitted anew when so many marks have come: a share of those there are, or this number.
+/// The graph is optimized after so many new observations: this share of all, but at least this number.
 const FIT_SHARE: f64 = 0.03;
 const FIT_OBSERVATIONS: usize = 2;
-/// A step that turns so much, in radians, is one of whole turns on the spot: what it tells of the gyro is fitted at once.
+/// A step with a larger turn, in radians, has whole turns on the spot. It calibrates the gyro, so the graph is optimized at once.
 const CALIBRATION_TURN_RAD: f64 = 7.0;
-/// The map is drawn again when a pose has moved by this much since, metres.
+/// The map is redrawn when a pose has moved by this much, metres,
 const REDRAW_M: f64 = 0.025;
-/// At least this long after the last time, microseconds,
+/// at least this long after the last time, microseconds,
 const REDRAW_US: u64 = 60_000_000;
-/// and this share of the time since the survey began: drawing takes the longer the more there is.
+/// and after this share of the time since the start: redrawing takes longer the more there is.
 const REDRAW_SHARE: u64 = 5;
 
-/// What the survey found out.
+/// A correction of the pose.
 #[derive(Clone, Debug)]
 pub(super) struct PoseFix {
     pub(super) map_from_odom: Pose2,
-    /// What is wrong with the scale with which turns are counted, relative, and its deviation, when a fit has told it. It comes
-    /// where a step ends, so that all turns of the next one are counted alike: whole turns on the spot that are not tell a wrong scale.
+    /// Scale error of the turns, relative, and its standard deviation, when an optimization has estimated it. It is applied between
+    /// two steps, so that all turns of one step have the same scale. Whole turns with a mixed scale would give a wrong estimate.
     pub(super) scale: Option<(f64, f64)>,
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
 }
 
-/// The survey of a home.
+/// Line SLAM of one home.
 #[derive(Debug)]
 pub(super) struct LineSlam {
     layout: ProximityLayout,
@@ -78,9 +79,9 @@ pub(super) struct LineSlam {
     dock: DockWatch,
     graph: Graph,
     belief: Belief,
-    /// Where the belief is, by odometry.
+    /// Pose of the belief, by odometry.
     odom: Pose2,
-    /// The node of the newest visit; beyond the nodes when there are too many.
+    /// The newest node; beyond the nodes when there are too many.
     here: usize,
     pending: StepInProgress,
     observations_fitted: usize,
@@ -88,31 +89,31 @@ pub(super) struct LineSlam {
     drawn_us: u64,
     /// Poses of the nodes with which the map was drawn.
     drawn: Vec<Pose2>,
-    /// A pose has moved since by enough to draw the map again.
+    /// A pose has moved by enough since to redraw the map.
     outdated: bool,
-    /// The robot has come home, or has turned whole turns beside a wall, and what that tells is not in a fit yet.
+    /// The robot has docked again or turned whole turns beside a wall, and no optimization has used that yet.
     has_urgent_constraint: bool,
-    /// A fit has told the scale of turns, and nobody counts with it yet.
+    /// An optimization has estimated the scale of turns, and odometry does not use it yet.
     has_new_scale: bool,
-    /// It is in a fit: the map is drawn again at once, for the work may be over.
+    /// The map is redrawn at once when an urgent constraint is optimized, because the job may be over.
     redraws_at_once: bool,
 }
 
-/// What the robot moved since the last node.
+/// Motion since the last node.
 #[derive(Clone, Copy, Debug, Default)]
 struct StepInProgress {
     distance_m: f64,
     turn_rad: f64,
-    /// By how much the end moves for each unit of the scale of turns, in the frame of odometry.
+    /// Derivative of the end position by the scale of turns, metres, in the odometry frame.
     d_position_d_scale: Point2,
-    /// The same for each radian per second that it turned more.
+    /// Derivative of the end position by the gyro's bias, metres per radian per second.
     d_position_d_bias: Point2,
     noise_rad2: f64,
     time_s: f64,
 }
 
 impl StepInProgress {
-    /// Adds an advance that ended at `odom`. Standing turns nobody, however long it lasts.
+    /// Adds an advance that ended at `odom`. A robot at rest does not turn, however long it rests.
     fn add(&mut self, advance: Advance, odom: Pose2) {
         if advance.stands() {
             return;
@@ -164,7 +165,7 @@ impl StepInProgress {
 }
 
 impl LineSlam {
-    /// Of a robot that stands at `pose`, and at `odom` by odometry.
+    /// Starts at `pose`, which is `odom` by odometry.
     pub(super) fn new(layout: ProximityLayout, pose: Pose2, odom: Pose2) -> Self {
         Self {
             layout,
@@ -189,12 +190,12 @@ impl LineSlam {
         }
     }
 
-    /// Somebody knows where the robot is: what came before is not to be moved any more.
+    /// Starts again at a known pose. What came before is final.
     pub(super) fn begin_at(&mut self, pose: Pose2, odom: Pose2) {
         *self = Self::new(self.layout, pose, odom);
     }
 
-    /// Takes in where the robot is by odometry and what it sees. Gives what that says of the pose, now and then.
+    /// Takes the pose by odometry and the sensor readings. Returns a correction now and then.
     pub(super) fn follow(
         &mut self,
         odom: Pose2,
@@ -229,7 +230,7 @@ impl LineSlam {
         })
     }
 
-    /// The scale that a fit has found since this was asked last, at a moment at which no step is under way.
+    /// The scale that an optimization has estimated since the last call, at a moment between two steps.
     fn new_scale(&mut self) -> Option<(f64, f64)> {
         let is_between_steps = self.pending.time_s == 0.0;
         if !is_between_steps || !core::mem::take(&mut self.has_new_scale) {
@@ -238,8 +239,8 @@ impl LineSlam {
         self.graph.turn_errors.found()
     }
 
-    /// The first node is where it began. What later ones tell of the scale of turns says how far the robot had turned until it
-    /// saw the first wall, too: without, the whole map stays turned about the start.
+    /// Adds the first node at the start. A later estimate of the scale also corrects the turns before the first wall was seen.
+    /// Without this node the whole map would stay rotated about the start.
     fn begin(&mut self, time_us: u64, turns: TurnCalibration) {
         if self.graph.nodes.is_empty() {
             self.graph.turn_errors = TurnErrors::new(turns);
@@ -258,7 +259,7 @@ impl LineSlam {
         }
     }
 
-    /// Takes in a visit.
+    /// Adds a submap to the graph.
     fn take(&mut self, submap: &LocalSubmap, turns: TurnCalibration) {
         let turned_rad = self.pending.turn_rad;
         self.step_to(submap, turns);
@@ -275,7 +276,7 @@ impl LineSlam {
         }
     }
 
-    /// The belief moves to the visit's end, where there is a new node while there may be more.
+    /// Moves the belief to the end of the submap, and adds a node there while there are fewer than the most.
     fn step_to(&mut self, submap: &LocalSubmap, turns: TurnCalibration) {
         let step = self.odom.inverse() * submap.odom;
         let began = self.odom;
@@ -289,7 +290,7 @@ impl LineSlam {
                 .graph
                 .turn_errors
                 .epoch(self.here, submap.time_us, sigma_rad_per_s);
-            // What is wrong with scale and bias is unknown by itself.
+            // Scale and bias are unknowns of their own, so they add no variance here.
             let by_chance = TurnCalibration::default();
             self.graph.nodes.push(Node {
                 time_us: submap.time_us,
@@ -306,7 +307,7 @@ impl LineSlam {
         }
     }
 
-    /// Begins to fit all poses and walls anew when enough is new, and goes on with it. Says whether a fit was taken up.
+    /// Starts an optimization when enough is new, and continues it. Returns whether a result was adopted.
     fn fit_on(&mut self) -> bool {
         let Some(fit) = &mut self.fit else {
             self.begin_fit();
@@ -350,7 +351,7 @@ impl LineSlam {
         self.redraws_at_once = (self.redraws_at_once || has_merged) && self.outdated;
     }
 
-    /// The poses with which the map shall be drawn again; `None` while it is drawn well enough.
+    /// The poses with which the map is to be redrawn; `None` while it is good enough.
     pub(super) fn redraw(&mut self, time_us: u64) -> Option<Vec<Keyframe>> {
         let began_us = self.graph.nodes.first()?.time_us;
         let pause_us = REDRAW_US.max(self.drawn_us.saturating_sub(began_us) / REDRAW_SHARE);
@@ -367,7 +368,7 @@ impl LineSlam {
         Some(self.keyframes())
     }
 
-    /// Where the robot was at each node, as far as is known now.
+    /// The estimated poses of all nodes.
     pub(super) fn keyframes(&self) -> Vec<Keyframe> {
         let keyframe = |node: &Node| Keyframe {
             time_us: node.time_us,
@@ -386,7 +387,7 @@ mod tests {
     use crate::model::advance::Advance;
     use crate::model::geometry::Pose2;
 
-    /// A step of a turn on the spot, a straight way and an arc, by a gyro that counts so much too much. It began at `odom`.
+    /// A step with a turn on the spot, a straight line and an arc, by a gyro with this scale error. It began at `odom`.
     fn counted(error: f64, odom: Pose2) -> Node {
         let (mut here, mut pending) = (odom, StepInProgress::default());
         for (pieces, distance_m, turn_rad) in [(40, 0.0, 0.06), (100, 0.01, 0.0), (50, 0.01, -0.04)] {

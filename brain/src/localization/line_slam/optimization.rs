@@ -1,4 +1,4 @@
-//! All poses and walls moved to where they fit best, by Gauss and Newton.
+//! Optimizes all poses and landmarks by Gauss-Newton.
 
 use super::graph::{Graph, KERNEL, Unknowns};
 use crate::localization::skyline::{Solution, System};
@@ -6,29 +6,29 @@ use crate::model::gradual::Pace;
 #[cfg(test)]
 use crate::model::gradual::at_once;
 
-/// Most rounds, and steps that end them, metres or radians.
+/// Most iterations, and the step size that ends them, metres or radians.
 const ITERATIONS_MAX: usize = 5;
 const CONVERGED: f64 = 5e-4;
-/// Work of a step between two nodes, of a mark, and of moving a node.
+/// Work of an odometry residual, of an observation, and of moving a node.
 const STEP_WORK: usize = 250;
 const OBSERVATION_WORK: usize = 250;
 const MOVE_WORK: usize = 15;
 
-/// Rounds in which marks count that are far off, and what counts fully then, in squared deviations: half a metre.
+/// Iterations in which far observations count, and their kernel in squared deviations: half a metre.
 const WIDE_ITERATIONS: usize = 3;
 const WIDE_KERNEL: f64 = 500.0;
 
-/// From how far away marks pull walls over.
+/// Range within which observations pull landmarks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum CaptureRange {
-    /// From near the walls on which they lie.
+    /// Observations close to their landmarks.
     Near,
-    /// In the first rounds from far, too: they lie on walls that they are far from.
+    /// In the first iterations far observations, too: merged landmarks are far from their observations.
     Far,
 }
 
 impl CaptureRange {
-    /// So many rounds come first in which marks count that are far off.
+    /// Number of first iterations in which far observations count.
     const fn wide_iterations(self) -> usize {
         match self {
             Self::Near => 0,
@@ -37,7 +37,7 @@ impl CaptureRange {
     }
 }
 
-/// Moves all poses and walls. Gives whether there is a best place for all.
+/// Optimizes the graph. Returns whether there is a solution.
 pub(super) async fn optimize(graph: &mut Graph, reach: CaptureRange, pace: &mut Pace) -> bool {
     let wide = reach.wide_iterations();
     for round in 0..wide + ITERATIONS_MAX {
@@ -62,7 +62,7 @@ pub(super) async fn optimize(graph: &mut Graph, reach: CaptureRange, pace: &mut 
     true
 }
 
-/// Puts steps, marks and stands on the dock into the system.
+/// Adds odometry, observations and dockings to the system.
 async fn gather(graph: &Graph, (unknowns, kernel): (&Unknowns, f64), system: &mut System, pace: &mut Pace) {
     for step in 0..graph.nodes.len().saturating_sub(1) {
         graph.add_odometry_residual(step, unknowns, system);
@@ -78,7 +78,7 @@ async fn gather(graph: &Graph, (unknowns, kernel): (&Unknowns, f64), system: &mu
     }
 }
 
-/// Does all of it at once.
+/// Runs the whole optimization at once.
 #[cfg(test)]
 pub(super) fn optimized(graph: &mut Graph) -> bool {
     at_once(optimize(graph, CaptureRange::Near, &mut Pace::at_once()))

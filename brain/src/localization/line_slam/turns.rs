@@ -1,47 +1,47 @@
-//! What is wrong with how turns are counted: one scale for all of the survey, and for each spell of it a bias that rests have
-//! left. Both are unknowns of the graph. A fit hardly moves a heading off what was counted where walls are seen now and then;
-//! what it moves it by says too little of the scale, and says it for sure.
+//! Errors of the gyro in the graph: one scale, and one bias for each epoch, as left by the zero-velocity updates. Both are unknowns
+//! of the graph. Comparing headings after the optimization with the counted turns would underestimate the scale and be too sure of
+//! it, because walls that are seen rarely hardly move a heading.
 
 use crate::localization::skyline::System;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
-/// How well turns are counted.
+/// Calibration of the turns by odometry.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::localization) struct TurnCalibration {
-    /// What was found wrong with the scale and is put right, relative, and its deviation.
+    /// Scale error that odometry already corrects, relative, and its standard deviation.
     pub(in crate::localization) scale: f64,
     pub(in crate::localization) scale_sigma: f64,
-    /// Deviation of the bias, radians per second.
+    /// Standard deviation of the bias, radians per second.
     pub(in crate::localization) bias_sigma_rad_per_s: f64,
 }
 
-/// A spell lasts so long, microseconds.
+/// Length of an epoch, microseconds.
 const EPOCH_US: u64 = 60_000_000;
-/// A rest that leaves less than this share of a spell's doubt begins another one: the first is that of a robot that has only just
-/// been switched on.
+/// A zero-velocity update that reduces the deviation below this share of the epoch's begins another epoch. The first update comes
+/// soon after the robot is switched on.
 const SURER_SHARE: f64 = 0.5;
-/// Least deviations that are believed, so that weights stay finite.
+/// Least standard deviations, so that weights stay finite.
 const SCALE_SIGMA_MIN: f64 = 1e-4;
 const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 1e-5;
 
 /// The turns of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Turns {
-    /// Sum, full ones counted, radians.
+    /// Sum of all turns, not wrapped, radians.
     pub(super) sum_rad: f64,
-    /// By how much the end of the step moves for each unit of the scale with which they are counted.
+    /// Derivative of the end position by the scale of turns, metres.
     pub(super) d_position_d_scale: Point2,
-    /// What was wrong with the scale and is put right, relative.
+    /// Scale error that is already corrected, relative.
     pub(super) scale: f64,
     pub(super) time_s: f64,
-    /// By how much the end of the step moves for each radian per second that it turned more.
+    /// Derivative of the end position by the bias, metres per radian per second.
     pub(super) d_position_d_bias: Point2,
-    /// The spell to which it belongs.
+    /// The bias epoch of the step.
     pub(super) epoch: usize,
 }
 
 impl Turns {
-    /// Counts the turns of a step with another scale: the first ones were counted before walls had told it.
+    /// Counts the turns of a step with another scale. The first steps were counted before the scale was estimated.
     pub(super) fn recount(&mut self, step: Pose2, scale: f64) -> Pose2 {
         let before = core::mem::replace(&mut self.scale, scale);
         let more = (1.0 + scale) / (1.0 + before) - 1.0;
@@ -55,13 +55,13 @@ impl Turns {
     }
 }
 
-/// A minute of the survey.
+/// A minute with one gyro bias.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BiasEpoch {
     began_us: u64,
     /// Its first node.
     pub(super) first: usize,
-    /// Bias that is left, and its deviation as rests have told it, radians per second.
+    /// Remaining bias, and its standard deviation by zero-velocity updates, radians per second.
     bias_rad_per_s: f64,
     sigma_rad_per_s: f64,
 }
@@ -73,20 +73,20 @@ impl BiasEpoch {
     }
 }
 
-/// How all turns are counted.
+/// Errors of all turns.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TurnErrors {
     pub(super) epochs: Vec<BiasEpoch>,
-    /// What is wrong with the scale and is put right, relative.
+    /// Scale error that is corrected, relative.
     pub(super) scale: f64,
-    /// Its deviation; `None` = no fit has told it.
+    /// Its standard deviation; `None` = no optimization has estimated it.
     pub(super) scale_sigma: Option<f64>,
-    /// What was known of the scale when the survey began, and its deviation.
+    /// Prior of the scale at the start, and its standard deviation.
     known_scale: f64,
     known_sigma: f64,
 }
 
-/// Places of the unknowns.
+/// Indices of the unknowns.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TurnUnknowns {
     pub(super) first_epoch: usize,
@@ -95,7 +95,7 @@ pub(super) struct TurnUnknowns {
 }
 
 impl TurnErrors {
-    /// When nothing but this is known.
+    /// Starts with this prior.
     pub(super) fn new(turns: TurnCalibration) -> Self {
         Self {
             epochs: Vec::new(),
@@ -106,18 +106,18 @@ impl TurnErrors {
         }
     }
 
-    /// Turns turned out to be longer by this share. The next fit begins there: whole turns that were counted wrong by many deviations
-    /// of a wall's direction would count as a wall that does not fit.
+    /// Corrects the scale by this share before the next optimization. Without it, whole turns with many deviations of error would
+    /// look like outliers.
     pub(super) fn guess(&mut self, share: f64) {
         self.scale += share * (1.0 + self.scale);
     }
 
-    /// The scale that a fit has found and its deviation.
+    /// The estimated scale and its standard deviation.
     pub(super) fn found(&self) -> Option<(f64, f64)> {
         self.scale_sigma.map(|sigma| (self.scale, sigma))
     }
 
-    /// The spell of a new node.
+    /// The epoch of a new node.
     pub(super) fn epoch(&mut self, node: usize, time_us: u64, sigma_rad_per_s: f64) -> usize {
         let goes_on = self
             .epochs
@@ -134,7 +134,7 @@ impl TurnErrors {
         self.epochs.len().saturating_sub(1)
     }
 
-    /// Adds what is known of scale and biases without any wall.
+    /// Adds the priors of scale and biases.
     pub(super) fn add_knowledge(&self, unknowns: TurnUnknowns, system: &mut System) {
         let weight = |sigma: f64, least: f64| {
             let sigma = sigma.max(least);
@@ -153,7 +153,7 @@ impl TurnErrors {
         system.add_residual(&[(unknowns.scale, 1.0)], off, sure);
     }
 
-    /// A step as it is without the bias that is believed in.
+    /// A step without the estimated bias.
     pub(super) fn unbiased(&self, step: Pose2, turns: &Turns) -> Pose2 {
         let bias = self
             .epochs
@@ -166,7 +166,7 @@ impl TurnErrors {
         }
     }
 
-    /// By how much a step's x, y and heading fall short for each unit of scale and bias.
+    /// Derivatives of a step's residuals in x, y and heading by scale and bias.
     pub(super) fn slopes(turns: &Turns, unknowns: TurnUnknowns) -> [[(usize, f64); 2]; 3] {
         let counted = 1.0 / (1.0 + turns.scale);
         let epoch = unknowns.first_epoch + turns.epoch;
@@ -178,7 +178,7 @@ impl TurnErrors {
         .map(|(by_scale, by_bias)| [(epoch, by_bias), (unknowns.scale, -by_scale * counted)])
     }
 
-    /// Takes in what a round of the optimization found.
+    /// Applies the step of an iteration.
     pub(super) fn apply(&mut self, unknowns: TurnUnknowns, step: impl Fn(usize) -> f64) {
         for (number, epoch) in self.epochs.iter_mut().enumerate() {
             epoch.bias_rad_per_s += step(unknowns.first_epoch + number);
@@ -202,8 +202,8 @@ mod tests {
         bias_sigma_rad_per_s: 1e-3,
     };
 
-    /// Two laps of a robot that counts each turn by `scale` too much, and that turns by `bias_rad_per_s` in each of the ten
-    /// seconds of a step that it does not turn by.
+    /// Two laps of a robot that counts each turn by `scale` too much, and whose gyro adds `bias_rad_per_s` in each of the ten
+    /// seconds of a step.
     fn miscounted(scale: f64, bias_rad_per_s: f64, seed: u64) -> Graph {
         let (mut graph, truth) = laps(0.3, seed);
         graph.turn_errors = TurnErrors::new(COUNTING);
@@ -256,7 +256,7 @@ mod tests {
             biases.extend(epochs.iter().map(|epoch: &BiasEpoch| epoch.bias_rad_per_s));
         }
         let mean = biases.iter().sum::<f64>() / biases.len() as f64;
-        // Rests have said that there is hardly any.
+        // The prior says that there is hardly any bias.
         assert!((1e-3..2.1e-3).contains(&mean), "{mean}");
     }
 }
