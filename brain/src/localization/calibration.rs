@@ -1,9 +1,8 @@
-//! Scale and bias of the gyro, learnt at rest and from a filter that knows the heading by the walls.
+//! Calibrates scale and bias of the gyro, at rest and by headings that an estimator corrected.
 //!
-//! Over some ten seconds the heading that the filter gained and the heading that the gyro counted differ by what is wrong
-//! with the gyro: `gained = (1 + scale) * (counted - bias * time)`. A Kalman filter of these two numbers takes the difference
-//! of each such window, and what the gyro shows while the wheels stand still ([`super::stationary`]). It is one filter for both: a
-//! bias that walls have told and a later rest denies would stay otherwise.
+//! Over some ten seconds the true change of heading and the one that the gyro counted differ by the gyro's errors: `gained = (1 +
+//! scale) * (counted - bias * time)`. A Kalman filter of these two numbers uses the difference of each such window, and the
+//! zero-velocity updates ([`super::stationary`]). One filter does both, so that a later rest corrects a wrong bias from walls.
 
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::stationary::StationaryInterval;
@@ -12,44 +11,44 @@ use crate::model::learnt::GyroLearnt;
 
 /// Length of a window in seconds.
 const WINDOW_S: f64 = 20.0;
-/// Deviations before anything is known: 1 %, and some tenths of a degree a second.
+/// Prior standard deviations: 1 %, and some tenths of a degree a second.
 const SCALE_SIGMA: f64 = 0.008;
 const BIAS_SIGMA_RAD_PER_S: f64 = 5.0e-3;
 /// Noise of the heading, rad per square root of a second: 0.03 degrees, between a usual gyro and a bad one.
 const WALK_RAD_PER_SQRT_S: f64 = 5.0e-4;
-/// What the robot swings out and what the gyro's steps hide in any rest, radians.
+/// Error of any rest by swinging and by the resolution of the gyro, radians.
 const SWING_RAD: f64 = 8.0e-4;
-/// A rest that differs by more deviations than this counts the less the more it does: the bias of a gyro wanders slowly.
+/// A rest that is off by more standard deviations than this loses weight, because the bias of a gyro changes slowly.
 const REST_GATE: f64 = 4.0;
-/// By how much a scale that was learnt before may have changed: the gyro was perhaps colder then.
+/// Possible change of a scale that was learned before: the gyro may have been colder.
 const RESUMED_SIGMA: f64 = 0.002;
-/// A scale that is known no better than this is not worth keeping.
+/// A scale with a larger standard deviation than this is not worth keeping.
 const LEARNT_SIGMA: f64 = 0.006;
-/// How fast the bias wanders, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
+/// Random walk of the bias, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
 pub(super) const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
-/// A window that differs by more deviations than this is not believed.
+/// A window that is off by more standard deviations than this is rejected.
 const GATE: f64 = 3.5;
-/// Largest scale error and bias that are believed.
+/// Largest accepted scale error and bias.
 const SCALE_MAX: f64 = 0.05;
 const BIAS_MAX_RAD_PER_S: f64 = 0.03;
 
-/// What is wrong with the gyro, and the window that is being filled.
+/// Estimated errors of the gyro, and the window in progress.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Calibration {
     scale: f64,
     bias_rad_per_s: f64,
-    /// Covariance: of the scale, of both, of the bias.
+    /// Covariance: scale, both, bias.
     covariance: [f64; 3],
     window: CalibrationWindow,
 }
 
-/// What was counted and gained between two moments at which the heading was known.
+/// Counted and true turn between two moments at which the heading was known.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HeadingGain {
     pub(super) time_s: f64,
     pub(super) counted_rad: f64,
     pub(super) gained_rad: f64,
-    /// Variance of what was gained, square radians.
+    /// Variance of the true turn, square radians.
     pub(super) variance_rad2: f64,
 }
 
@@ -58,7 +57,7 @@ struct CalibrationWindow {
     time_s: f64,
     counted_rad: f64,
     gained_rad: f64,
-    /// Variance of the heading at the beginning, square radians; `None` = no window is open.
+    /// Variance of the heading at the start, square radians; `None` = no window is open.
     variance_rad2: Option<f64>,
 }
 
@@ -78,7 +77,7 @@ impl Default for Calibration {
 }
 
 impl Calibration {
-    /// Goes on with a scale and a bias that were learnt before; the bias may have wandered since.
+    /// Starts with a scale and a bias that were learned before. The bias may have changed since.
     pub(super) fn resumed(learnt: GyroLearnt) -> Self {
         let GyroLearnt {
             scale, scale_sigma, ..
@@ -95,7 +94,7 @@ impl Calibration {
         resumed
     }
 
-    /// What is worth keeping; `None` while little is known.
+    /// What is worth keeping; `None` while the uncertainty is large.
     pub(super) fn learnt(&self) -> Option<GyroLearnt> {
         let scale_sigma = self.scale_sigma();
         (scale_sigma <= LEARNT_SIGMA).then_some(GyroLearnt {
@@ -105,7 +104,7 @@ impl Calibration {
         })
     }
 
-    /// All that is believed of the gyro.
+    /// The whole estimate.
     pub(super) fn belief(&self) -> GyroEstimate {
         GyroEstimate {
             scale: self.scale,
@@ -115,7 +114,7 @@ impl Calibration {
         }
     }
 
-    /// Somebody who has weighed all that was seen knows this.
+    /// An estimator that has used all measurements sets the calibration.
     pub(super) fn set(&mut self, belief: GyroEstimate) {
         self.set_scale(belief.scale, belief.scale_sigma);
         self.bias_rad_per_s = belief
@@ -124,17 +123,17 @@ impl Calibration {
         self.covariance[2] = belief.bias_sigma_rad_per_s * belief.bias_sigma_rad_per_s;
     }
 
-    /// Error of the scale, relative, and bias, rad/s.
+    /// Scale error, relative, and bias, rad/s.
     pub(super) fn found(&self) -> (f64, f64) {
         (self.scale, self.bias_rad_per_s)
     }
 
-    /// Deviation of the scale, relative.
+    /// Standard deviation of the scale, relative.
     pub(super) fn scale_sigma(&self) -> f64 {
         libm::sqrt(self.covariance[0].max(0.0))
     }
 
-    /// Deviation of the bias, rad/s.
+    /// Standard deviation of the bias, rad/s.
     pub(super) fn bias_sigma_rad_per_s(&self) -> f64 {
         libm::sqrt(self.covariance[2].max(0.0))
     }
@@ -144,7 +143,7 @@ impl Calibration {
         (counted_rad - self.bias_rad_per_s * time_s) * (1.0 + self.scale)
     }
 
-    /// Takes in what the gyro showed while the wheels stood still. Gives what that says of the bias.
+    /// Zero-velocity update: takes the turn rate at rest. Returns it as a measurement of the bias.
     pub(super) fn rest(&mut self, rested: StationaryInterval) -> BiasMeasurement {
         let [ss, sb, bb] = self.covariance;
         let swing_rad_per_s = SWING_RAD / rested.time_s;
@@ -153,7 +152,7 @@ impl Calibration {
         let off_rad_per_s = rested.rad_per_s - self.bias_rad_per_s;
         let variance = bb + noise;
         let surprise = off_rad_per_s * off_rad_per_s / (REST_GATE * REST_GATE * variance);
-        // A robot that slides along what it touches turns slowly, too, while its wheels rest.
+        // A robot that slides along an obstacle turns slowly, too, while its wheels rest.
         let doubt = surprise.max(1.0);
         let weight = 1.0 / (variance * doubt);
         let (gain_scale, gain_bias) = (sb * weight, bb * weight);
@@ -165,7 +164,7 @@ impl Calibration {
         }
     }
 
-    /// Somebody who has weighed all that was seen knows the scale this well.
+    /// An estimator that has used all measurements sets the scale.
     pub(super) fn set_scale(&mut self, scale: f64, sigma: f64) {
         self.scale = scale.clamp(-SCALE_MAX, SCALE_MAX);
         let [_, _, bias] = self.covariance;
@@ -178,7 +177,7 @@ impl Calibration {
             (self.bias_rad_per_s + bias_rad_per_s).clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
     }
 
-    /// What the gyro counted (already corrected) in one step.
+    /// Takes the (already corrected) turn of one step.
     pub(super) fn count(&mut self, advance: Advance) {
         self.covariance[2] += BIAS_DRIFT_RAD2_PER_S3 * advance.time_s;
         match advance.gyro_turn_rad {
@@ -191,7 +190,7 @@ impl Calibration {
         }
     }
 
-    /// The filter turned the pose by `correction_rad`, and knows the heading with this variance.
+    /// An estimator turned the pose by `correction_rad`, and knows the heading with this variance.
     pub(super) fn correct(&mut self, correction_rad: f64, variance_rad2: f64) {
         self.window.gained_rad += correction_rad;
         let Some(began_rad2) = self.window.variance_rad2 else {
@@ -222,12 +221,12 @@ impl Calibration {
         };
     }
 
-    /// The filter lost its way: what it says of the heading is worth nothing.
+    /// The estimator is lost, so its heading is useless.
     pub(super) fn interrupt(&mut self) {
         self.window = CalibrationWindow::default();
     }
 
-    /// Takes in how the heading changed between two moments at which it was known.
+    /// Updates with the change of heading between two moments at which it was known.
     pub(super) fn learn(&mut self, gain: HeadingGain) {
         let HeadingGain {
             time_s,
@@ -240,7 +239,7 @@ impl Calibration {
         let by_scale = ss * counted_rad - sb * time_s;
         let by_bias = sb * counted_rad - bb * time_s;
         let variance = counted_rad * by_scale - time_s * by_bias + noise_rad2;
-        // Written so that NaN is not learnt.
+        // Written so that NaN is rejected.
         let believable = off_rad * off_rad <= GATE * GATE * variance;
         if !believable {
             return;
@@ -296,7 +295,7 @@ mod tests {
         rests(&mut calibration, 1, 0.02);
         let (_, after) = calibration.found();
         assert!((after - learnt).abs() < 2e-4, "{after} after {learnt}");
-        // One that has really changed is learnt all the same.
+        // A bias that has really changed is learned all the same.
         rests(&mut calibration, 20, 0.004);
         let (_, changed) = calibration.found();
         assert!((changed - 0.004).abs() < 5e-4, "{changed}");

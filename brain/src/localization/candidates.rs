@@ -1,18 +1,18 @@
-//! What the places mean that a search has found, the best one first.
+//! Decides from the candidate poses of a global localization, the best one first.
 
 use super::global_localizer::PoseCandidate;
 use crate::model::geometry::Pose2;
 
-/// Another place that fits nearly as well as the best one, this share of it, makes a find ambiguous.
+/// The result is ambiguous when another candidate has at least this share of the best score.
 const RIVAL_SHARE: f64 = 0.93;
-/// The trail of a find must fit this well.
+/// Least score of a result.
 const FIND_SCORE: f64 = 0.45;
-/// A cluster is at a searched place when it is this near, metres.
+/// A cluster of particles is at a candidate within this distance, metres.
 const AT_PLACE_M: f64 = 0.4;
-/// Drift leads no farther than this before the map explains too little, metres.
+/// Greatest drift before the map explains too little, metres.
 const DRIFT_M: f64 = 0.5;
 
-/// Whether `pose` is at the best of the places, and no other fits nearly as well.
+/// Whether `pose` is at the best candidate, and no other one scores nearly as high.
 pub(super) fn is_alone(places: &[PoseCandidate], pose: Pose2) -> bool {
     let Some((best, others)) = places.split_first() else {
         return false;
@@ -24,13 +24,13 @@ pub(super) fn is_alone(places: &[PoseCandidate], pose: Pose2) -> bool {
             .all(|other| is_at(other, pose) || other.score < RIVAL_SHARE * best.score)
 }
 
-/// Whether `pose` is at any of them.
+/// Whether `pose` is at any candidate.
 pub(super) fn is_among(places: &[PoseCandidate], pose: Pose2) -> bool {
     places.iter().any(|place| is_at(place, pose))
 }
 
-/// Of a robot that nobody has carried away the places near where it would be by odometry, if one of them fits nearly as well as the
-/// best of all: rooms look alike, and it is more likely to be still in the one that it believed in.
+/// For a robot that nobody has carried away: only the candidates near its odometry, if one of them scores nearly as high as the
+/// best. Rooms look alike, and the robot is more likely to be in the one where it was.
 pub(super) fn near_if_as_good(places: Vec<PoseCandidate>, carried: Pose2) -> Vec<PoseCandidate> {
     let least = RIVAL_SHARE * places.first().map_or(0.0, |best| best.score);
     let is_near = |place: &PoseCandidate| is_within_drift(place, carried);
@@ -41,7 +41,7 @@ pub(super) fn near_if_as_good(places: Vec<PoseCandidate>, carried: Pose2) -> Vec
     }
 }
 
-/// The best of the places if it is one where a robot at `pose` can have drifted to, and fits.
+/// The best candidate, if a robot at `pose` can have drifted there and the score suffices.
 pub(super) fn found_near(places: &[PoseCandidate], pose: Pose2) -> Option<Pose2> {
     let best = places.first().filter(|best| best.score >= FIND_SCORE)?;
     is_within_drift(best, pose).then_some(best.pose)

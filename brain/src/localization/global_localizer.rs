@@ -1,8 +1,8 @@
-//! Where on the map could the last metres have been? A trail is laid over every place in every direction; the best ones
-//! are moved about until they fit best.
+//! Global localization: finds all poses in the map that match the last metres. It tries every position in every direction, and
+//! refines the best poses.
 //!
-//! A coarse grid of poses is tried with wide tolerances, and most of them are given up after a few points. That costs some
-//! hundred milliseconds for a home, in many steps, and nothing has to be drawn by chance.
+//! A coarse grid of poses is tried with wide tolerances, and most poses are rejected after a few points. That costs some hundred
+//! milliseconds for a home, in many steps, and needs no randomness.
 
 use super::particles::Surroundings;
 use super::rssi_fingerprint::FingerprintMatcher;
@@ -10,38 +10,37 @@ use super::scan_history::{PointKind, ScanHistory};
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
-/// Poses that are tried in one step: a millisecond of a desktop's core.
+/// Poses that are tried in one step: a millisecond on a desktop core.
 const PLACES_A_STEP: usize = 300;
 /// Directions that are tried.
 const DIRECTIONS: u32 = 72;
-/// Points of each kind.
+/// Most points of each kind.
 const SOLID_MAX: usize = 70;
 const BODY_MAX: usize = 60;
 const OPEN_MAX: usize = 50;
-/// Fewer solid points than this say nothing.
+/// Fewest solid points.
 const SOLID_MIN: usize = 12;
-/// A coarse candidate must reach this share of what is possible.
+/// A coarse candidate must reach this share of the highest possible score,
 const COARSE_SHARE: f64 = 0.45;
-/// And this share of the best one so far.
+/// and this share of the best score so far.
 const COARSE_OF_BEST: f64 = 0.75;
 /// Coarse candidates that are refined.
 const COARSE_MAX: usize = 48;
-/// Places that are given back.
+/// Candidates that are returned.
 const FINE_MAX: usize = 8;
-/// They must reach this share of the best one.
+/// They must reach this share of the best score.
 const FINE_SHARE: f64 = 0.8;
-/// Poses nearer than this are one place, metres and radians.
+/// Poses closer than this are the same, metres and radians.
 const SAME_M: f64 = 0.4;
 const SAME_RAD: f64 = 0.35;
-/// What a body in a wall and an open point in a wall cost, in solid points.
+/// Costs of a body inside a wall and of a free point inside a wall, in solid points.
 const BODY_COST: f64 = 2.0;
 const OPEN_COST: f64 = 0.7;
 
-/// Solid points by which a place may lag behind on its way to the least score.
+/// Solid points by which a pose may fall behind the required score before it is rejected.
 const HOPE: f64 = 4.0;
 
-/// How far a point may be off: a floor, and a share of its distance from the robot because directions are coarse and
-/// odometry bends.
+/// Tolerance of a point: a constant, and a share of its distance from the robot, because directions are coarse and odometry bends.
 #[derive(Clone, Copy, Debug)]
 struct Tolerance {
     floor_m: f64,
@@ -57,7 +56,7 @@ const FINE: Tolerance = Tolerance {
     per_m: 0.02,
 };
 
-/// A point of the trail around the robot.
+/// A point of the history relative to the robot.
 #[derive(Clone, Copy, Debug)]
 struct Probe {
     at: Point2,
@@ -65,20 +64,20 @@ struct Probe {
     tolerance_m: f64,
 }
 
-/// A pose that the trail allows.
+/// A pose that matches the history.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PoseCandidate {
     pub(super) pose: Pose2,
-    /// Share of the solid points that fit, less what contradicts, at most 1.
+    /// Share of the solid points that match, less the contradictions, at most 1.
     pub(super) score: f64,
 }
 
-/// A search that is under way. The robot drives on meanwhile.
+/// A search in progress. The robot drives on meanwhile.
 #[derive(Clone, Debug)]
 pub(super) struct GlobalLocalizer {
     coarse: Vec<Probe>,
     fine: Vec<Probe>,
-    /// Solid points of the trail.
+    /// Number of solid points.
     solid: usize,
     radius_m: f64,
     places: Vec<Point2>,
@@ -86,22 +85,22 @@ pub(super) struct GlobalLocalizer {
     /// Least score of a coarse candidate, in solid points.
     least: f64,
     found: Vec<PoseCandidate>,
-    /// How strongly beacons were received on the trail.
+    /// Signal strengths along the history.
     hearing: Option<FingerprintMatcher>,
-    /// From where the robot was when the search began to where it is.
+    /// Motion since the search began.
     moved: Pose2,
 }
 
-/// What is done next.
+/// The next work.
 #[derive(Clone, Debug)]
 enum SearchStage {
-    /// The trail in this direction at the places from this one on.
+    /// Tries this direction at the positions from this one on.
     Coarse {
         direction: u32,
         turned: Vec<Probe>,
         place: usize,
     },
-    /// The candidates from this one on are moved about.
+    /// Refines the candidates from this one on.
     Refine {
         next: usize,
     },
@@ -109,7 +108,7 @@ enum SearchStage {
 }
 
 impl GlobalLocalizer {
-    /// For a robot of this radius; `None` when the trail tells too little.
+    /// For a robot of this radius; `None` when the history has too few points.
     pub(super) fn of(map: &impl Surroundings, history: &ScanHistory, radius_m: f64) -> Option<Self> {
         let coarse = probes(history, COARSE);
         let solid = coarse
@@ -130,12 +129,12 @@ impl GlobalLocalizer {
         })
     }
 
-    /// The same search for a robot that has received beacons, too.
+    /// The same search with signal strengths.
     pub(super) fn hearing(self, hearing: Option<FingerprintMatcher>) -> Self {
         Self { hearing, ..self }
     }
 
-    /// What it costs a pose that other strengths are received there.
+    /// Cost of a pose that does not explain the signal strengths.
     fn cost(&self, pose: Pose2) -> f64 {
         self.hearing.as_ref().map_or(0.0, |hearing| hearing.cost(pose))
     }
@@ -170,7 +169,7 @@ impl GlobalLocalizer {
         }
     }
 
-    /// All places where the robot may be now, the best one first; `None` while the search goes on.
+    /// All candidate poses of the robot now, the best one first; `None` while the search goes on.
     pub(super) fn places(&self) -> Option<Vec<PoseCandidate>> {
         let moved = |candidate: &PoseCandidate| PoseCandidate {
             pose: candidate.pose * self.moved,
@@ -179,7 +178,7 @@ impl GlobalLocalizer {
         matches!(self.stage, SearchStage::Done).then(|| self.found.iter().map(moved).collect())
     }
 
-    /// Tries the trail at some more places, and says what comes next.
+    /// Tries some more positions, and returns the next stage.
     fn try_places(
         &mut self,
         map: &impl Surroundings,
@@ -250,10 +249,10 @@ fn probes(history: &ScanHistory, tolerance: Tolerance) -> Vec<Probe> {
     shuffled(&probes)
 }
 
-/// A fixed order in which neighbours are far apart, so that the first few points already speak of the whole trail.
+/// A fixed order in which neighbours are far apart, so that the first few points represent the whole history.
 fn shuffled(probes: &[Probe]) -> Vec<Probe> {
     let count = probes.len().max(1);
-    // Near the golden section and coprime to the count: all are visited once.
+    // Close to the golden ratio and coprime to the count, so it visits all.
     let mut stride = (count as f64 * 0.618) as usize;
     while stride > 1 && greatest_divisor(stride, count) != 1 {
         stride -= 1;
@@ -271,7 +270,7 @@ fn greatest_divisor(mut one: usize, mut other: usize) -> usize {
     one
 }
 
-/// The best ones, not more than a few of each place.
+/// The best candidates, at most a few of each place.
 fn thinned(found: Vec<PoseCandidate>) -> Vec<PoseCandidate> {
     let mut kept: Vec<PoseCandidate> = Vec::new();
     for candidate in found {
@@ -312,7 +311,7 @@ fn turned(probes: &[Probe], heading_rad: f64) -> Vec<Probe> {
         .collect()
 }
 
-/// Score of already turned points at a place; `None` when it does not reach `least`, or is far from it half-way.
+/// Score of rotated points at a position; `None` when it does not reach `least`, or falls too far behind it on the way.
 fn score(
     map: &impl Surroundings,
     probes: &[Probe],
@@ -343,7 +342,7 @@ fn score(
     Some(score / solid as f64)
 }
 
-/// Moves a candidate about, in ever smaller steps, as long as that makes it better.
+/// Refines a candidate by hill climbing with ever smaller steps.
 fn refined(
     map: &impl Surroundings,
     probes: &[Probe],
@@ -392,7 +391,7 @@ fn refined(
     best
 }
 
-/// One candidate of each place, those that come near the best.
+/// One candidate of each place, if its score is close to the best.
 fn distinct(mut found: Vec<PoseCandidate>) -> Vec<PoseCandidate> {
     best_first(&mut found);
     let Some(best) = found.first().copied() else {

@@ -1,17 +1,17 @@
-//! What is believed of the gyro, and what a rest says of it.
+//! Estimates of the gyro's errors.
 
-/// What is believed of the gyro.
+/// Estimated errors of the gyro.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct GyroEstimate {
-    /// Error of the scale, relative, and its deviation.
+    /// Scale error, relative, and its standard deviation.
     pub(super) scale: f64,
     pub(super) scale_sigma: f64,
-    /// Bias and its deviation, radians per second.
+    /// Bias and its standard deviation, radians per second.
     pub(super) bias_rad_per_s: f64,
     pub(super) bias_sigma_rad_per_s: f64,
 }
 
-/// What a rest says of the bias.
+/// Bias as a zero-velocity update measured it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BiasMeasurement {
     pub(super) rad_per_s: f64,
@@ -19,7 +19,7 @@ pub(super) struct BiasMeasurement {
 }
 
 impl BiasMeasurement {
-    /// What both say together.
+    /// Combines two measurements.
     pub(super) fn and(self, other: Self) -> Self {
         let sum = self.variance_rad2_per_s2 + other.variance_rad2_per_s2;
         let own = other.variance_rad2_per_s2 / sum;

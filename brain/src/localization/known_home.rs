@@ -1,4 +1,4 @@
-//! A robot with bad wheels and a bad gyro drives about in a flat whose map it has.
+//! Tests with a robot with bad wheels and a bad gyro that drives in a flat with a known map.
 
 use super::{Localization, MapCorrection};
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
@@ -14,7 +14,7 @@ pub(super) const TRACK_M: f64 = 0.23;
 const STEP_S: f64 = 0.02;
 const SPEED_M_PER_S: f64 = 0.25;
 const TURN_RAD_PER_S: f64 = 1.2;
-/// What is wrong with wheels and gyro.
+/// Errors of wheels and gyro.
 const DISTANCE_FACTOR: f64 = 1.012;
 const GYRO_SCALE: f64 = 1.008;
 const GYRO_BIAS_RAD_PER_S: f64 = 4.0e-4;
@@ -84,7 +84,7 @@ pub(super) fn flat() -> Map {
     map
 }
 
-/// The real robot: drives until it touches, then turns by a random angle.
+/// The true robot: drives until it touches something, then turns by a random angle.
 pub(super) struct SimulatedRobot<'map> {
     map: &'map Map,
     pub(super) pose: Pose2,
@@ -124,7 +124,7 @@ impl<'map> SimulatedRobot<'map> {
         self.drive(distance_m, turn_rad)
     }
 
-    /// One step of this way and turn, unless something is in the way.
+    /// One step of this distance and turn, unless an obstacle blocks it.
     pub(super) fn drive(&mut self, distance_m: f64, turn_rad: f64) -> &Observation {
         self.view.time_us += 20_000;
         let next = self.pose.after_arc(distance_m, turn_rad);
@@ -297,14 +297,14 @@ fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
     assert!(rmse_m < 0.06, "{rmse_m} m");
 }
 
-/// A map that knows the same of the home.
+/// A map with the same knowledge.
 fn same(map: &Map) -> Map {
     let mut same = Map::new(config().body, config().sensors);
     same.take_up(&map.stored());
     same
 }
 
-/// What a robot knows that is lifted after twenty minutes of its first run, and what it sees then.
+/// A robot that is lifted after twenty minutes of its first run: its localization, its map and its last observation.
 fn lifted_in_first_run(home: &Map) -> (Localization, Map, Observation) {
     let mut truth = SimulatedRobot::new(home, START);
     let mut localization = Localization::new(TRACK_M, 0.5);
@@ -342,7 +342,7 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
         truth.view = held;
         truth.view.wheel_drop = false;
         let mut map = same(&map);
-        // Half of the home looks like the other half: a find counts when it holds.
+        // Half of the home looks like the other half, so the pose counts when it lasts.
         let (mut steps, mut known) = (0, 0);
         while known < 1_000 {
             let view = truth.step().clone();

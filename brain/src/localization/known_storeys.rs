@@ -1,11 +1,11 @@
-//! The robot of [`super::known_home`], by a host that has maps of several floors.
+//! Tests with the robot of [`super::known_home`] and maps of several storeys.
 
 use super::known_home::{START, SimulatedRobot, config, flat};
 use super::{StoreyFinder, StoreyFinding};
 use crate::mapping::StoredMap;
 use crate::model::geometry::Point2;
 
-/// The flat as a mirror shows it: walls and furniture of the same sizes.
+/// The mirror image of the flat: walls and furniture of the same sizes.
 fn mirrored(home: &StoredMap) -> StoredMap {
     let knowledge = home.knowledge();
     let mut mirrored = knowledge.clone();
@@ -20,7 +20,7 @@ fn mirrored(home: &StoredMap) -> StoredMap {
     StoredMap::from_raster(&mirrored, None)
 }
 
-/// What a robot that drives about in the flat for so many minutes finds out.
+/// The result for a robot that drives in the flat for so many minutes.
 fn sought(floors: &[StoredMap], minutes: u32) -> (StoreyFinding, Point2) {
     let home = flat();
     let mut truth = SimulatedRobot::new(&home, START);

@@ -1,9 +1,10 @@
-//! Where the robot believes to be.
+//! Localization: estimates the pose.
 //!
 //! Frames follow REP-105: *odom* is smooth and drifts, *map* is right on average and may jump; `pose = map_from_odom *
-//! odom_from_base`. Odometry makes the second factor. In a map that is known, a [`tracker`] with a particle filter corrects
-//! the first one, learns what is wrong with the gyro, notices when the robot is lost and finds it again. Without a known map
-//! radio [`beacons`] do, where there are such.
+//! odom_from_base`. Odometry gives the second factor. One of three estimators corrects the first one: line SLAM ([`line_slam`]) in
+//! a home that is not known yet, Monte Carlo localization ([`tracker`]) in a known map, or radio [`beacons`] where there are some.
+//! Monte Carlo localization also calibrates the gyro, notices when the robot is lost, and finds it again. The [`localizer`]
+//! combines them.
 
 mod beacons;
 mod calibration;

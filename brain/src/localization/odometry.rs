@@ -1,4 +1,4 @@
-//! Dead reckoning from wheel travel, with the gyro's heading where there is one.
+//! Odometry: dead reckoning from wheel encoders, with the gyro's heading where there is one.
 
 use super::calibration::Calibration;
 use super::gyro_estimate::BiasMeasurement;
@@ -16,14 +16,14 @@ pub(super) struct Odometry {
     odom_from_base: Pose2,
     last: Option<Totals>,
     rest: StationaryDetector,
-    /// What a rest has told that the last observation ended.
+    /// Bias by the zero-velocity update that the last observation ended.
     bias: Option<BiasMeasurement>,
     pub(super) calibration: Calibration,
 }
 
-/// A rim is believed to have turned up to this many times its highest speed; more is a jump of the totals.
+/// A wheel is believed to turn up to this many times its highest speed. More is a jump of the counters.
 const JUMP_FACTOR: f64 = 3.0;
-/// Way that is believed however short the time, in metres: telemetry comes in bunches.
+/// Distance that is believed however short the time is, metres: telemetry comes in bursts.
 const JUMP_FLOOR_M: f64 = 0.05;
 
 impl Odometry {
@@ -43,12 +43,12 @@ impl Odometry {
         self.odom_from_base
     }
 
-    /// Error of the gyro's scale, relative, and its bias in rad/s.
+    /// Scale error of the gyro, relative, and its bias in rad/s.
     pub(super) fn gyro(&self) -> (f64, f64) {
         self.calibration.found()
     }
 
-    /// Takes up what [`Self::gyro`] said before a restart.
+    /// Restores [`Self::gyro`] after a restart.
     pub(super) fn resume_gyro(&mut self, scale: f64, bias_rad_per_s: f64) {
         self.calibration = Calibration::resumed(GyroLearnt {
             scale,
@@ -57,7 +57,7 @@ impl Odometry {
         });
     }
 
-    /// What a rest has told that the last observation ended.
+    /// Bias by the zero-velocity update that the last observation ended.
     pub(super) fn measured_bias(&self) -> Option<BiasMeasurement> {
         self.bias
     }
@@ -157,7 +157,7 @@ mod tests {
         let mut odometry = Odometry::new(0.2, 0.5);
         let mut seen = Vec::new();
         for report in 0..60_000_u64 {
-            // Two reports in 25 ms: one soon after the other.
+            // Two reports in 25 ms, one soon after the other.
             let time_us = report / 2 * 25_000 + report % 2 * 3_000;
             let heading_rad = (1e-3 * time_us as f64 * 1e-6 / step_rad).round() * step_rad;
             odometry.update(&Observation {

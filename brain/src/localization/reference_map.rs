@@ -1,26 +1,26 @@
-//! The map as the filter sees it: a copy in which what is known stays as it is while the robot works. What was unknown is
-//! taken over now and then, once it was seen by a robot that knew where it was.
+//! The reference map of the particle filter: a copy in which known parts do not change during the job. It takes over parts that
+//! were unknown now and then, once a robot with a known pose has seen them.
 //!
-//! What the robot draws into the map while it works carries the error of its pose. A filter that compared with all of that would
-//! confirm its own errors, and walls and pose would wander off together: tried, it loses the way within half an hour.
+//! The live map carries the error of the pose. A filter that compared with it would confirm its own errors, and walls and pose
+//! would drift together: in an experiment the robot was lost within half an hour.
 
 use super::particles::Surroundings;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, Map, Raster, StoredMap};
 use crate::model::geometry::Point2;
 use crate::model::gradual::Pace;
 
-/// Cells between two places where a robot may be looked for: 15 cm.
+/// Cells between two candidate positions: 15 cm.
 const PLACE_CELLS: usize = 6;
-/// The body fits with its centre this far from solid things, less a cell, metres.
+/// Least clearance of a candidate position, metres: the body's radius less a cell.
 const PLACE_CLEAR_M: f64 = 0.15;
-/// A cell was seen by a robot that knew where it was when its pose was this sure, metres.
+/// A cell is trustworthy when it was seen with at most this standard deviation of the pose, metres.
 const SURE_M: f64 = 0.15;
-/// Share of the solid cells that must be sure.
+/// Share of the solid cells that must be trustworthy.
 const SURE_SHARE: f64 = 0.8;
-/// Cells in each direction in which the end of the floor is looked for.
+/// Cells in each direction in which a cliff edge is looked for.
 const EDGE_CELLS: i32 = 3;
 
-/// A home as it was known when the work began.
+/// The home as it was known when the job began.
 #[derive(Clone, Debug)]
 pub(super) struct ReferenceMap {
     distance: DistanceField,
@@ -37,7 +37,7 @@ impl ReferenceMap {
         }
     }
 
-    /// A home as it was kept, made in steps.
+    /// Loads a stored map in steps.
     pub(super) async fn of_stored(home: StoredMap, pace: &mut Pace) -> Self {
         let knowledge = home.knowledge_in_steps(pace).await;
         Self {
@@ -47,8 +47,8 @@ impl ReferenceMap {
         }
     }
 
-    /// Whether the map is worth to be compared with: most of what stands in it was seen by a robot that knew where it was.
-    /// A map that odometry alone has drawn shows the same wall at several places.
+    /// Whether the robot can localize in the map: a robot with a known pose has seen most of its obstacles. A map that was drawn by
+    /// odometry alone shows the same wall at several places.
     pub(super) fn is_trustworthy(map: &Map) -> bool {
         let knowledge = map.knowledge();
         let (mut solid, mut sure) = (0_u32, 0_u32);
@@ -83,12 +83,12 @@ impl ReferenceMap {
         self.put_dock(map.dock_place());
     }
 
-    /// Where the robot stands when it is docked.
+    /// Pose of the robot when it is docked.
     pub(super) fn dock(&self) -> DockPlace {
         self.dock
     }
 
-    /// It is known to be elsewhere.
+    /// The dock has another position.
     pub(super) fn put_dock(&mut self, dock: DockPlace) {
         self.dock = dock;
     }
@@ -129,7 +129,7 @@ impl Surroundings for ReferenceMap {
     }
 }
 
-/// Distance from a place to the border between floor and drop; `None` if there is none near.
+/// Distance to the border between floor and cliff; `None` if there is none near.
 fn edge_m(knowledge: &Raster<CellKnowledge>, at: Point2) -> Option<f64> {
     let here = Cell::under(at);
     let is_drop = |cell: Cell| knowledge.get(cell) == Some(&CellKnowledge::Cliff);

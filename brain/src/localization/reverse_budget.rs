@@ -1,27 +1,26 @@
-//! How far back the robot may still drive.
+//! How far the robot may still reverse.
 //!
-//! Nothing on the robot looks backwards: ground behind it is floor only as far as the robot came over it. Backing uses
-//! the way back up, driving forward makes it good, and never more than the bound is to be had, because a turn on the spot
-//! puts other ground behind the robot.
+//! No sensor looks backwards. Only where the robot came from is floor for sure. Reversing uses up the budget, driving forward
+//! restores it. The budget never exceeds its bound, because a turn on the spot puts other floor behind the robot.
 
 use crate::model::advance::Advance;
 
-/// Most way back that no way forward has made good, in metres. The firmware ends reversing from a cliff (S8) and from a
-/// pressed bumper (S7) after the same way.
+/// Longest reversed distance that was not driven forward again, metres. The firmware stops reversing from a cliff (S8) and from a
+/// pressed bumper (S7) after the same distance.
 const BLIND_MAX_M: f64 = 0.15;
-/// Way that the robot still makes at 0.15 m/s after the wheels should stop: 40 ms for telemetry and command, then braking.
+/// Stopping distance at 0.15 m/s: 40 ms for telemetry and command, then braking, metres.
 const STOPPING_M: f64 = 0.03;
 
-/// Way back and way forward, balanced.
+/// The balance of reverse and forward driving.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct ReverseBudget {
     backed_m: f64,
 }
 
 impl ReverseBudget {
-    /// Goes on from `backed_m` metres of unbalanced way back.
+    /// Starts with `backed_m` metres of reversed distance.
     pub(super) fn resumed(backed_m: f64) -> Self {
-        // The comparison is written so that NaN leaves no way back.
+        // The comparison is written so that NaN leaves no budget.
         let backed_m = if backed_m < BLIND_MAX_M {
             backed_m.max(0.0)
         } else {
@@ -34,12 +33,12 @@ impl ReverseBudget {
         *self = Self::resumed(self.backed_m - advance.distance_m);
     }
 
-    /// Way back in metres that no way forward has made good, 0..=0.15.
+    /// Reversed distance in metres that was not driven forward again, 0..=0.15.
     pub(super) fn backed_m(self) -> f64 {
         self.backed_m
     }
 
-    /// Way in metres for which backing may still be commanded.
+    /// Distance in metres by which the robot may still reverse.
     pub(super) fn left_m(self) -> f64 {
         (BLIND_MAX_M - STOPPING_M - self.backed_m).max(0.0)
     }

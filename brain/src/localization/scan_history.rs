@@ -1,5 +1,5 @@
-//! What the robot met on its last metres, in a frame of its own that only odometry carries on: a piece of map without a
-//! place, which [`super::global_localizer`] lays over the whole map.
+//! What the robot saw and touched on its last metres, in a frame that only odometry moves. [`super::global_localizer`] matches it
+//! against the whole map.
 
 use std::collections::VecDeque;
 
@@ -9,25 +9,25 @@ use crate::model::config::ProximityLayout;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{Contacts, Observation};
 
-/// Way that is remembered, metres: odometry bends a longer one too much.
+/// Distance that is remembered, metres: odometry bends a longer path too much.
 const TRAIL_M: f64 = 14.0;
-/// Way between two notes, metres.
+/// Distance between two samples, metres.
 const NOTE_M: f64 = 0.08;
-/// Turn between two notes, radians.
+/// Turn between two samples, radians.
 const NOTE_RAD: f64 = 0.35;
-/// A beam that shows nothing is free up to this share of its range.
+/// A beam without a reading is free up to this share of its range.
 const OPEN_SHARE: f64 = 0.75;
-/// Levels below this show nothing, 0..1.
+/// Levels below this are no reading, 0..1.
 const LEVEL_MIN: f64 = 0.02;
 
-/// What a point of the trail is.
+/// Kind of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PointKind {
     /// The body's centre was there.
     Body,
     /// Something solid was seen or touched there.
     Solid,
-    /// A beam went through.
+    /// A beam passed there.
     Open,
 }
 
@@ -38,7 +38,7 @@ struct ScanPoint {
     distance_m: f64,
 }
 
-/// How strongly a beacon was received on the way.
+/// Signal strength of a beacon at a point.
 #[derive(Clone, Copy, Debug)]
 struct ReceivedRssi {
     at: Point2,
@@ -46,7 +46,7 @@ struct ReceivedRssi {
     distance_m: f64,
 }
 
-/// The last metres.
+/// Points of the last metres.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ScanHistory {
     history_from_base: Pose2,
@@ -66,19 +66,19 @@ impl ScanHistory {
         self.turned_rad += advance.turn_rad.abs();
     }
 
-    /// The robot was carried away: nothing of what was noted is near any more.
+    /// The robot was carried away, so nothing of the history is near any more.
     pub(super) fn forget(&mut self) {
         *self = Self::default();
     }
 
-    /// Length of the trail in metres.
+    /// Length of the history in metres.
     pub(super) fn length_m(&self) -> f64 {
         self.notes
             .front()
             .map_or(0.0, |oldest| self.distance_m - oldest.distance_m)
     }
 
-    /// Notes what is seen, as often as the robot has moved enough.
+    /// Samples the sensors, as often as the robot has moved enough.
     pub(super) fn note(&mut self, observation: &Observation, layout: &ProximityLayout) {
         if self.distance_m - self.noted_at_m < NOTE_M && self.turned_rad < NOTE_RAD {
             return;
@@ -108,7 +108,7 @@ impl ScanHistory {
         }
     }
 
-    /// Notes how strongly beacons are received here.
+    /// Stores signal strengths received here.
     pub(super) fn receive(&mut self, levels: &[MeanRssi]) {
         let (at, distance_m) = (self.history_from_base.position(), self.distance_m);
         let received = levels.iter().map(|&level| ReceivedRssi {
@@ -126,7 +126,7 @@ impl ScanHistory {
         }
     }
 
-    /// Where in the frame of the robot as it stands now which strength was received.
+    /// Signal strengths and their positions in the present frame of the robot.
     pub(super) fn received(&self) -> Vec<(Point2, MeanRssi)> {
         let base_from_history = self.history_from_base.inverse();
         self.received
@@ -135,7 +135,7 @@ impl ScanHistory {
             .collect()
     }
 
-    /// Notes a contact at the rim of a body of this radius.
+    /// Stores a contact at the rim of a body of this radius.
     pub(super) fn touch(&mut self, contacts: Contacts, radius_m: f64) {
         if !contacts.any() {
             return;
@@ -155,7 +155,7 @@ impl ScanHistory {
         });
     }
 
-    /// Points of one kind in the frame of the robot as it stands now, at most about `most`, evenly picked.
+    /// Points of one kind in the present frame of the robot, about `most` at most, evenly picked.
     pub(super) fn points(&self, kind: PointKind, most: usize) -> Vec<Point2> {
         let base_from_history = self.history_from_base.inverse();
         let of_kind = || self.notes.iter().filter(|note| note.kind == kind);

@@ -1,18 +1,18 @@
-//! How long a robot has stood: where a long stand ends, what was learnt of its gyro on the way before is of yesterday.
+//! Detects the end of a long standstill, after which the bias that was learned while driving is out of date.
 
 use crate::model::advance::Advance;
 
-/// After a stand of so long, seconds, its rests have told more of the gyro's bias than was learnt on the way before.
+/// After a standstill of so long, seconds, zero-velocity updates know the gyro's bias better than the particles do.
 const LONG_STAND_S: f64 = 60.0;
 
-/// The present stand.
+/// The present standstill.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Standstill {
     stood_s: f64,
 }
 
 impl Standstill {
-    /// Whether a long stand ends with this advance of a robot that has a gyro.
+    /// Whether a long standstill ends with this advance of a robot that has a gyro.
     pub(super) fn ends_long(&mut self, advance: Advance) -> bool {
         if advance.stands() {
             self.stood_s += advance.time_s;

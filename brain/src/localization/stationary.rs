@@ -1,34 +1,34 @@
-//! What the gyro shows while the wheels stand still: its bias, and the noise of its heading.
+//! Zero-velocity updates: measures the gyro's bias while the wheels are at rest.
 
 use super::totals::Totals;
 
-/// After the last encoder count the robot still swings out for so long.
+/// The robot still swings for so long after the last encoder count, seconds.
 const SETTLE_S: f64 = 0.3;
-/// Rests shorter than this, the swinging out not counted, tell nothing.
+/// Shortest interval that is used, without the swinging, seconds.
 const REST_MIN_S: f64 = 0.3;
-/// Rests are told in pieces of this length at most.
+/// Longest interval of one measurement, seconds.
 const REST_MAX_S: f64 = 2.0;
-/// A faster turn at resting wheels is a person who turns the robot, or a bump that pushed it.
+/// A faster turn with resting wheels is a person who turns the robot, or a bump, radians per second.
 const CARRIED_RAD_PER_S: f64 = 0.03;
-/// One step of a heading that is told in hundredths of a degree, radians. Two reports that come soon after one another may have one
-/// between them: who counted it as a turn would turn on its dock by degrees an hour.
+/// Resolution of the reported heading, a hundredth of a degree, in radians. Two reports in quick succession may differ by one step.
+/// Counted as a turn, that would be degrees an hour on the dock.
 const STEP_RAD: f64 = 1.8e-4;
 
-/// Tells rests.
+/// Detects intervals at rest.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct StationaryDetector {
     rest: Option<Rest>,
 }
 
-/// Wheels that stand.
+/// Wheels at rest.
 #[derive(Clone, Copy, Debug)]
 struct Rest {
     began_us: u64,
-    /// What was seen at the beginning of the present piece.
+    /// Totals at the start of the present interval.
     since: Totals,
 }
 
-/// What the gyro showed of turning in a rest.
+/// Turn rate that the gyro measured at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct StationaryInterval {
     pub(super) rad_per_s: f64,
@@ -40,7 +40,7 @@ fn seconds(from_us: u64, to: Totals) -> f64 {
 }
 
 impl StationaryDetector {
-    /// Whether the wheels have rested for so long that the robot has swung out, and nobody turns it.
+    /// Whether the wheels have been at rest for longer than the swinging, and nobody turns the robot.
     pub(super) fn stands_still(&self, now: Totals, seen_rad: f64, time_s: f64) -> bool {
         let rests = self
             .rest
@@ -48,7 +48,7 @@ impl StationaryDetector {
         rests && seen_rad.abs() <= CARRIED_RAD_PER_S * time_s + STEP_RAD
     }
 
-    /// Takes in the totals of an observation. Gives the piece of a rest that is over.
+    /// Takes the totals of an observation. Returns the interval that ends here.
     pub(super) fn observe(&mut self, now: Totals) -> Option<StationaryInterval> {
         let Some(rest) = self.rest.filter(|rest| rest.since.wheels_agree_with(now)) else {
             self.rest = Some(Rest {
@@ -69,7 +69,7 @@ impl StationaryDetector {
         }
     }
 
-    /// The wheels begin to turn: what was rested so far counts.
+    /// The wheels begin to turn, which ends the interval.
     pub(super) fn end(&mut self, last: Totals) -> Option<StationaryInterval> {
         let rest = self.rest.take()?;
         rested(rest.since, last)
@@ -79,7 +79,7 @@ impl StationaryDetector {
 fn rested(since: Totals, now: Totals) -> Option<StationaryInterval> {
     let time_s = seconds(since.time_us, now);
     let rad_per_s = (now.gyro_rad? - since.gyro_rad?) / time_s;
-    // Written so that NaN tells nothing.
+    // Written so that NaN is not used.
     let is_told = time_s >= REST_MIN_S && rad_per_s.abs() <= CARRIED_RAD_PER_S;
     is_told.then_some(StationaryInterval { rad_per_s, time_s })
 }

@@ -1,11 +1,10 @@
-//! On which of several floors is the robot? Where nothing else tells it, the map of each is compared with what the robot
-//! meets on its way.
+//! Finds out on which of several storeys the robot is, by comparing the map of each with what the robot observes.
 //!
-//! *StoreyHypothesis*: a floor whose map may be the right one; on it the robot is lost and looks for itself, as [`super::tracker`] does.
-//! A rival that has found the robot must then explain what it meets on its further way, which a wrong one does not. When it has
-//! done so for some metres it comes to a *second look*: the last metres are laid over every place of all rivals. It wins when
-//! they fit where it has found the robot, and nowhere else nearly as well. Two floors that are alike never win: then a person
-//! must say which it is.
+//! *Hypothesis*: a storey whose map may be the right one. The robot is lost in it and localizes globally ([`super::tracker`]). A
+//! hypothesis that has found a pose must explain the observations of the further path, which a wrong one does not. After some
+//! metres it is checked once more (*second look*): the last metres are matched against all positions in the maps of all hypotheses.
+//! The hypothesis wins when they match at its pose, and nowhere else nearly as well. Two storeys that are alike never win. Then a
+//! person must choose.
 
 use core::task::Poll;
 
@@ -22,61 +21,62 @@ use crate::model::geometry::Pose2;
 use crate::model::gradual::{Gradual, Pace};
 use crate::model::observation::Observation;
 
-/// Way for which a rival must explain what the robot meets, metres,
+/// Distance for which a hypothesis must explain the observations, metres,
 const PROVEN_M: f64 = 6.0;
-/// beams that must have told something on it,
+/// informative beams on it,
 const PROVEN_BEAMS: u32 = 150;
-/// and the share of them that must agree with its map.
+/// and the share of them that must be consistent with its map.
 const PROVEN_SHARE: f64 = 0.8;
-/// The last metres must fit the winner's map this well,
+/// The last metres must match the winner's map with this score,
 const WINNER_SCORE: f64 = 0.6;
-/// and each other's at best this share as well.
+/// and the maps of the others with at most this share of it.
 const RIVAL_SHARE: f64 = 0.85;
-/// Way after a second look that told nothing until the next one, metres.
+/// Distance after an inconclusive second look until the next one, metres.
 const LOOK_AGAIN_M: f64 = 6.0;
-/// After this way without a winner a person is asked, metres; the search goes on
+/// After this distance without a winner the robot asks a person, metres. The search continues
 const ASK_AFTER_M: f64 = 40.0;
-/// up to this way.
+/// up to this distance, metres.
 const GIVE_UP_M: f64 = 120.0;
 
-/// What has come out.
+/// Result of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum StoreyFinding {
-    /// Nothing yet.
+    /// No result yet.
     Open,
     /// The robot is there.
     Found(StoreyPose),
-    /// Nothing on so much way that a person should be asked. A floor may still be found.
+    /// No result after so much driving that a person should be asked. A storey may still be found.
     Unclear,
 }
 
-/// A place on one of the floors.
+/// A pose on one of the storeys.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StoreyPose {
-    /// Number of the floor.
+    /// Number of the storey.
     pub floor: u16,
-    /// Pose of the robot in the floor's map.
+    /// Pose of the robot in the storey's map.
     pub pose: Pose2,
-    /// How sure that is, and what was learnt of the gyro meanwhile.
+    /// Uncertainty of the pose, and what was learned of the gyro meanwhile.
     pub tracking: TrackingCheckpoint,
 }
 
-/// Looks for the floor.
+/// The search for the storey.
 #[derive(Debug)]
 pub struct StoreyFinder {
     odometry: Odometry,
     config: BrainConfig,
     seed: u64,
-    /// Floors whose maps are still made ready, the last one first.
+    /// Storeys whose maps are still loading, the last one first.
     waiting: Vec<(u16, Gradual<ReferenceMap>)>,
     hypotheses: Vec<StoreyHypothesis>,
-    /// Whose search goes on with the next step: one a step, so that many floors take no longer steps than one.
+    /// Index of the hypothesis that searches in the next step. One searches per step, so steps take the same time with many
+    /// storeys.
     searches: usize,
     distance_m: f64,
-    /// Searches of the second look, one for each rival in their order.
+    /// Searches of the second look, one for each hypothesis in order.
     second_look: Option<Vec<GlobalLocalizer>>,
     looks_from_m: f64,
-    /// The rival that has won: whoever takes up its map needs some steps for that.
+    /// The hypothesis that has won. Loading its map takes the caller some steps.
     winner: Option<usize>,
     can_see: bool,
 }
@@ -86,12 +86,12 @@ struct StoreyHypothesis {
     floor: u16,
     tracker: Tracker,
     reference_map: ReferenceMap,
-    /// Way since it found the robot, metres.
+    /// Distance since it found the robot, metres.
     proven_m: f64,
 }
 
 impl StoreyFinder {
-    /// For a robot that may stand anywhere on one of these floors. Equal seeds and observations give equal findings.
+    /// For a robot that may be anywhere on these storeys. Equal seeds and observations give equal results.
     #[must_use]
     pub fn new<'home>(
         config: &BrainConfig,
@@ -120,7 +120,7 @@ impl StoreyFinder {
         }
     }
 
-    /// Takes in what the robot perceived.
+    /// Takes an observation.
     pub fn follow(&mut self, observation: &Observation) -> StoreyFinding {
         let advance = self.odometry.update(observation);
         if !self.can_see || self.distance_m > GIVE_UP_M {
@@ -142,7 +142,7 @@ impl StoreyFinder {
         }
     }
 
-    /// Goes on with the second look, or with the searches of the rivals until one is proven.
+    /// Continues the second look, or the searches of the hypotheses until one is proven.
     fn judge(&mut self, advance: Advance) -> Option<StoreyPose> {
         let winner = self.winner.and_then(|winner| self.hypotheses.get(winner));
         if let Some(winner) = winner.filter(|winner| winner.is_proven()) {
@@ -183,7 +183,7 @@ impl StoreyFinder {
         self.searches = (self.searches + 1) % self.hypotheses.len().max(1);
     }
 
-    /// Does a step of what must be done before maps can be compared with.
+    /// Does one step of loading the maps.
     fn get_ready(&mut self) {
         let Some((floor, reference_map)) = self.waiting.last_mut() else {
             return;
@@ -246,8 +246,7 @@ impl StoreyHypothesis {
     }
 }
 
-/// Whether the places of the floor number `winner` say that the robot is at `pose` there, and those of the others do not come
-/// near.
+/// Whether the candidates on storey `winner` confirm `pose`, and those on the others score clearly lower.
 fn is_clear(all: &[Vec<PoseCandidate>], winner: usize, pose: Pose2) -> bool {
     let best = |places: &[PoseCandidate]| places.first().map_or(0.0, |best| best.score);
     let Some(own) = all.get(winner) else {

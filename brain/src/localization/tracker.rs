@@ -1,7 +1,7 @@
-//! When the filter is moved and weighed, and what its answer is worth.
+//! Monte Carlo localization over time: when to move and weigh the particle filter, and how far to trust its estimate.
 //!
-//! A robot is *lost* when the map does not explain what it sees, or when somebody had it in the hands. Then the guesses
-//! are spread over all free floor, and it is *found* when one cluster of them is left that the map explains.
+//! A robot is *lost* when the map does not explain its observations, or when somebody has lifted it. Then the particles are spread
+//! over all free floor. It is *found* when one cluster of particles remains that the map explains.
 
 mod drift_check;
 
@@ -26,68 +26,69 @@ use crate::model::config::SensorLayout;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{Cliffs, Contacts, Observation};
 
-/// With fewer proximity sensors than this a robot cannot keep its place in a map by wheels alone: tried, it is metres off
+/// With fewer proximity sensors than this a robot with odometry cannot keep its pose in a map: in experiments it was metres off
 /// within minutes.
 pub(super) const SENSORS_MIN: usize = 3;
-/// The filter is weighed after this way, metres, or this turn, radians: more often tells nothing new.
+/// The filter is weighed after this distance, metres, or this turn, radians. More often gives no new information.
 const WEIGH_M: f64 = 0.05;
 const WEIGH_RAD: f64 = 0.15;
-/// A wrong scale errs the same way in all weighings of a turn; guesses err by chance, so they must err more.
+/// A wrong scale has the same effect in all weighings of a turn. Particles draw independent errors, so theirs must be larger by
+/// this factor.
 const CORRELATED: f64 = 3.0;
-/// A wheel that hangs for so long hangs because somebody holds the robot.
+/// A wheel that hangs for so long means that somebody holds the robot, seconds.
 const LIFTED_S: f64 = 1.0;
-/// How far a robot is put from where it was lifted by people who put it back.
+/// Distance between the place where people lift the robot and the place where they put it back.
 const PUT_BACK: PoseSpread = PoseSpread {
     sigma_m: 0.3,
     sigma_rad: 0.5,
 };
-/// How far the guesses of a doubtful robot are spread: as far as walls of a map that a robot has drawn itself are wrong. With 0.15 m
-/// and 0.12 rad a robot in such a map jumped to other furniture when it touched a leg that the map does not have.
+/// Spread of the particles of a doubtful robot: the error of walls in a map that a robot has drawn. With 0.15 m and 0.12 rad a
+/// robot jumped to other furniture when it touched a leg that the map does not have.
 const DOUBT_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.04,
     sigma_rad: 0.03,
 };
-/// The same for one that competes with others on other floors, which must not be sure too soon.
+/// The same for a hypothesis that competes with other storeys. It must not become sure too soon.
 const COMPETITOR_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.15,
     sigma_rad: 0.12,
 };
 /// Weighings between two such spreads.
 const DOUBT_WEIGHINGS: u32 = 40;
-/// A lost robot has found itself when so much of its guesses is in one cluster that is so narrow.
+/// A lost robot is found when this share of its particles is in a cluster this narrow.
 const FOUND_SHARE: f64 = 0.9;
 const FOUND_SIGMA_M: f64 = 0.2;
-/// A robot that is as wide spread as this does not know where it is, metres.
+/// A robot with a larger spread than this is lost, metres.
 const LOST_SIGMA_M: f64 = 0.8;
-/// A lost robot searches the map when its trail is so long, metres, and again after as much more.
+/// Global localization starts when the history has this length, metres, and again after so many more metres.
 const SEARCH_FROM_M: f64 = 4.0;
 const SEARCH_EVERY_M: f64 = 2.5;
-/// The same of one that receives beacons: strengths forbid most of what a few metres leave open.
+/// The same with RSSI fingerprints, which exclude most of the poses that a few metres leave open.
 const HEARING_FROM_M: f64 = 2.5;
 const HEARING_EVERY_M: f64 = 1.5;
-/// How far the guesses around a searched place are spread.
+/// Spread of the particles around a candidate pose.
 const SEARCHED: PoseSpread = PoseSpread {
     sigma_m: 0.06,
     sigma_rad: 0.03,
 };
-/// Until so many beams were told since, a robot that has found itself must not be where nothing is known: it looked for itself
-/// in what is known only, and a wrong find leads out of it soon.
+/// Number of informative beams after which a found pose counts as confirmed. Until then it must not lie in unknown space: global
+/// localization searches known space only, and a wrong pose leads out of it soon.
 pub(super) const CONFIRMATION_BEAMS: u32 = 200;
 
-/// What the robot moved in a step, and what it believes.
+/// The motion of a step, and the estimate.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MotionUpdate {
     pub(super) advance: Advance,
     /// Pose by odometry since the last estimate.
     pub(super) pose: Pose2,
-    /// With what odometry has put right what the gyro counted.
+    /// The calibration with which odometry corrected the gyro.
     pub(super) gyro: GyroEstimate,
-    /// What a rest that has just ended says of its bias.
+    /// Bias by a zero-velocity update that has just ended.
     pub(super) measured_bias: Option<BiasMeasurement>,
 }
 
 impl MotionUpdate {
-    /// The last step that odometry counted.
+    /// The last step of odometry.
     pub(super) fn of(odometry: &Odometry, advance: Advance, pose: Pose2) -> Self {
         Self {
             advance,
@@ -98,7 +99,7 @@ impl MotionUpdate {
     }
 }
 
-/// A robot that follows its pose in a map.
+/// Monte Carlo localization of a robot in a map.
 #[derive(Clone, Debug)]
 pub(super) struct Tracker {
     filter: ParticleFilter,
@@ -109,26 +110,26 @@ pub(super) struct Tracker {
     hanging_s: f64,
     confidence: Confidence,
     lost: bool,
-    /// It is lost because the map explains too little, and not because somebody had it in the hands.
+    /// The robot is lost because the map explains too little, and not because somebody lifted it.
     has_drifted: bool,
     weighings: u32,
     /// Ranges to beacons since the last weighing.
     heard: Vec<LocatedRange>,
-    /// What a rest has told of the gyro since the last weighing.
+    /// Bias by zero-velocity updates since the last weighing.
     measured_bias: Option<BiasMeasurement>,
     stand: Standstill,
     history: ScanHistory,
-    /// While it is lost: how strongly beacons are received where.
+    /// While the robot is lost: the RSSI fingerprints.
     fingerprints: Option<Arc<FingerprintMap>>,
-    /// Way until the next search of a lost robot, metres.
+    /// Distance until the next global localization of a lost robot, metres.
     search_in_m: f64,
-    /// The search that is under way.
+    /// The global localization in progress.
     global_localizer: Option<Box<GlobalLocalizer>>,
-    /// How the map fitted since the robot found itself.
+    /// Score of the map since the robot was found.
     since_found: BeamScore,
-    /// BeamModel until a find is not on probation any more.
+    /// Informative beams until a found pose is confirmed.
     unconfirmed: u32,
-    /// It competes with others on other floors: what speaks against its floor must not be explained away.
+    /// It competes with other storeys, so contradictions of its map must not be explained away.
     competes: bool,
     radius_m: f64,
     layout: SensorLayout,
@@ -163,7 +164,7 @@ impl Tracker {
         }
     }
 
-    /// One of several, each in the map of another floor.
+    /// One of several, each in the map of another storey.
     pub(super) fn into_competitor(self) -> Self {
         Self {
             competes: true,
@@ -171,40 +172,40 @@ impl Tracker {
         }
     }
 
-    /// What it has learnt of the gyro.
+    /// Estimate of the gyro.
     pub(super) fn gyro(&self) -> Option<GyroEstimate> {
         self.filter.gyro()
     }
 
-    /// The robot stands at `pose`, give or take these deviations.
+    /// The robot is at `pose`, with these standard deviations.
     pub(super) fn place_at(&mut self, pose: Pose2, sigma_m: f64, sigma_rad: f64) {
         self.filter.gather(pose, PoseSpread { sigma_m, sigma_rad });
         self.forget_motion();
         self.confidence = Confidence::default();
         self.global_localizer = None;
         self.unconfirmed = 0;
-        // Hands that have put it there do not carry it away from there.
+        // A person who has placed it there does not carry it away.
         self.hanging_s = 0.0;
         self.lost = false;
     }
 
-    /// Nothing but the word of a person says that the robot stands where it was placed: until so many beams were told, it must not
-    /// be where nothing is known, and learns nothing that a wrong place would teach.
+    /// Only a person says where the robot is. Until so many informative beams have confirmed it, the pose must not lie in unknown
+    /// space, and the filter learns nothing that a wrong pose would teach.
     pub(super) fn require_confirmation(&mut self, beams: u32) {
         self.unconfirmed = beams;
     }
 
-    /// Whether what the sensors show speaks clearly for the robot's place.
+    /// Whether the sensors clearly confirm the pose.
     pub(super) fn is_confirmed(&self) -> bool {
         !self.lost && self.unconfirmed == 0 && self.confidence.confirms()
     }
 
-    /// BeamModel until the robot's place counts as confirmed.
+    /// Informative beams until the pose is confirmed.
     pub(super) fn unconfirmed_beams(&self) -> u32 {
         self.unconfirmed
     }
 
-    /// The robot may be anywhere. Until a search tells better, the guesses stay around `pose`.
+    /// The robot may be anywhere. Until global localization finds it, the particles stay around `pose`.
     pub(super) fn lose(&mut self, pose: Pose2) {
         self.filter.gather(pose, PUT_BACK);
         self.forget_motion();
@@ -216,27 +217,27 @@ impl Tracker {
         self.has_drifted = false;
     }
 
-    /// Proximity sensors that it compares with the map.
+    /// Number of proximity sensors that are compared with the map.
     pub(super) fn sensor_count(&self) -> usize {
         self.layout.proximity.sensors().len()
     }
 
-    /// Whether the robot does not know where it is.
+    /// Whether the robot is lost.
     pub(super) fn is_lost(&self) -> bool {
         self.lost
     }
 
-    /// Share of what the sensors show that the map explains, 0..1.
+    /// Share of the sensor readings that the map explains, 0..1.
     pub(super) fn explained(&self) -> f64 {
         self.confidence.explained()
     }
 
-    /// Takes in ranges to beacons whose places are known.
+    /// Takes ranges to beacons whose positions are known.
     pub(super) fn hear(&mut self, heard: &[LocatedRange]) {
         self.heard.extend_from_slice(heard);
     }
 
-    /// Takes in how strongly beacons are received. Only where a lost robot may be follows from that.
+    /// Takes signal strengths. They only restrict where a lost robot may be.
     pub(super) fn receive(&mut self, fingerprints: &RssiFingerprints) {
         self.history.receive(fingerprints.fresh());
         if !self.lost {
@@ -248,30 +249,29 @@ impl Tracker {
         }
     }
 
-    /// Whether the robot is where it believes to be, and is not still on probation.
+    /// Whether the pose is known and confirmed.
     pub(super) fn is_settled(&self) -> bool {
         !self.lost && self.unconfirmed == 0 && self.hanging_s <= 0.0
     }
 
-    /// Does a step of the search of a lost robot, before each [`Self::follow`] or now and then.
+    /// Does a step of the global localization of a lost robot, before each [`Self::follow`] or now and then.
     pub(super) fn step_search(&mut self, map: &impl Surroundings) {
         if let Some(search) = &mut self.global_localizer {
             search.go_on(map);
         }
     }
 
-    /// How the map fitted what the sensors showed since the robot found itself.
+    /// Score of the map since the robot was found.
     pub(super) fn since_found(&self) -> BeamScore {
         self.since_found
     }
 
-    /// A search for all places where the last metres can have been, whatever the robot believes.
+    /// A search for all poses that the last metres allow, whatever the estimate is.
     pub(super) fn second_look(&self, map: &impl Surroundings) -> Option<GlobalLocalizer> {
         GlobalLocalizer::of(&Whole(map), &self.history, self.radius_m)
     }
 
-    /// Takes in what the robot moved and perceived, and what it believes. Gives the estimate when the sensors
-    /// had their say.
+    /// Takes motion, observation and the pose by odometry. Returns the estimate after each weighing.
     pub(super) fn follow(
         &mut self,
         map: &impl Surroundings,
@@ -336,7 +336,7 @@ impl Tracker {
         }
     }
 
-    /// Guesses hold on to what they have learnt only where the robot is known to be.
+    /// Particles hold what they have learned only while the pose is known.
     fn mode(&self) -> FilterMode {
         let is_known = !self.lost && self.unconfirmed == 0 && !self.competes;
         if is_known && self.confidence.holds() {
@@ -346,7 +346,7 @@ impl Tracker {
         }
     }
 
-    /// Compares the estimate with what the sensors show, and draws the consequences.
+    /// Compares the estimate with the sensors, and draws the consequences.
     fn judge(&mut self, map: &impl Surroundings) -> PoseEstimate {
         let estimate = self.filter.estimate();
         let score = self.filter.score(map, estimate.pose);
@@ -364,7 +364,7 @@ impl Tracker {
         } else if verdict == Verdict::Wrong {
             self.doubt(map, estimate.pose);
         } else {
-            // What a look around would say is of a doubt that is over.
+            // The doubt is over, so a search that it started is obsolete.
             self.global_localizer = None;
             if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
                 let doubt = if self.competes {
@@ -382,7 +382,7 @@ impl Tracker {
         }
     }
 
-    /// Looks for a robot that is at `carried` if it was where it believed to be.
+    /// Searches for a robot that would be at `carried` by odometry.
     fn search(&mut self, map: &impl Surroundings, carried: Pose2) -> PoseEstimate {
         let (estimate, share) = self.filter.cluster();
         self.confidence.take(self.filter.score(map, estimate.pose));
@@ -451,7 +451,7 @@ impl Tracker {
         (first_contacts, first_cliffs)
     }
 
-    /// Whether the robot has just been put down by hands.
+    /// Whether somebody has just put the robot down.
     fn was_lifted(&mut self, observation: &Observation, advance: Advance) -> bool {
         if observation.wheel_drop {
             self.hanging_s += advance.time_s;
@@ -479,8 +479,7 @@ impl Tracker {
     }
 }
 
-/// A map to which nothing is unknown. A lost robot looks for itself in what is known only: every place would do where
-/// nothing is.
+/// A map without unknown space. A lost robot searches known space only, because any pose would do in unknown space.
 struct Whole<'map, M>(&'map M);
 
 impl<M: Surroundings> Surroundings for Whole<'_, M> {

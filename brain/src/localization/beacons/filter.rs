@@ -1,4 +1,4 @@
-//! Carries pose, wheels' errors and beacons on from hop to hop: an extended Kalman filter of a few dozen numbers.
+//! An extended Kalman filter over the pose, the errors of the wheels and the positions of the beacons.
 
 use super::hop::{BEACONS_MAX, Hop};
 use super::located_range::LocatedRange;
@@ -8,28 +8,28 @@ use super::weight::weight;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Numbers that say what is wrong with the wheels: bend of a straight way in radians a metre, error of the scale of turns,
-/// error of the way, both relative.
+/// Parameters of the wheels' errors: curvature of a straight path in radians a metre, scale error of turns, scale error of
+/// distances, both relative.
 pub(super) const WHEELS: usize = 3;
-/// Their deviations before anything is known: 0.6 degrees a metre, 3 % and 2 %, twice what robots of this class have.
+/// Prior standard deviations: 0.6 degrees a metre, 3 % and 2 %, twice what robots of this class have.
 pub(super) const BEND_SIGMA: f64 = 0.0105;
 pub(super) const SCALE_SIGMA: f64 = 0.03;
 pub(super) const STRETCH_SIGMA: f64 = 0.02;
-/// How fast they wander, per square root of a metre: rugs, dirt on wheels.
+/// Random walk of the parameters, per square root of a metre: rugs, dirt on wheels.
 const WHEELS_WALK: [f64; WHEELS] = [2.0e-4, 5.0e-4, 5.0e-4];
 /// Numbers of the pose.
 const POSE: usize = 3;
-/// Place of the first beacon among the numbers.
+/// Index of the first beacon in the state.
 const BEACONS: usize = POSE + WHEELS;
-/// A beacon that was heard first later is guessed from so many ranges.
+/// A beacon that is heard first later is located from so many ranges.
 const LATE_RANGES: usize = 60;
-/// Deviation of such a guess, metres.
+/// Standard deviation of such a position, metres.
 const LATE_SIGMA_M: f64 = 0.6;
-/// Deviations of a place that somebody else gave, metres and radians.
+/// Standard deviations of a pose that another estimator gave, metres and radians.
 const PLACED_SIGMA_M: f64 = 0.03;
 const PLACED_SIGMA_RAD: f64 = 0.03;
 
-/// What the first look has found.
+/// Result of the batch initialization.
 #[derive(Debug)]
 pub(super) struct InitialState<'look> {
     pub(super) pose: Pose2,
@@ -46,7 +46,7 @@ pub(super) struct BeaconFilter {
     wheels: [f64; WHEELS],
     beacons: Vec<(u16, Point2)>,
     covariance: Vec<Vec<f64>>,
-    /// Ranges to beacons that are not among the known ones yet.
+    /// Ranges to beacons that are not located yet.
     late: Vec<(u16, MeasuredRange)>,
 }
 
@@ -61,7 +61,7 @@ impl BeaconFilter {
         }
     }
 
-    /// Forgets the beacons whose places are less sure than this, metres.
+    /// Drops the beacons whose positions have a larger standard deviation than this, metres.
     pub(super) fn forget_beyond(&mut self, sigma_m: f64) {
         let mut number = 0;
         while number < self.beacons.len() {
@@ -81,7 +81,7 @@ impl BeaconFilter {
         }
     }
 
-    /// Moves on by a hop and takes in what was heard along it.
+    /// Predicts the motion of a hop and updates with its ranges.
     pub(super) fn take(&mut self, hop: &Hop) {
         self.advance(hop);
         for range in &hop.ranges {
@@ -113,7 +113,7 @@ impl BeaconFilter {
             y_m: self.pose.y_m + dy,
             heading_rad: normalize_rad(self.pose.heading_rad + step.heading_rad),
         };
-        // How each number of the pose follows from heading, bend, scale and stretch before.
+        // Derivatives of the pose by the previous heading, curvature, scale and stretch.
         let (turn_x, turn_y) = (-dy, dx);
         let rows: [&[(usize, f64)]; POSE] = [
             &[
@@ -257,7 +257,7 @@ impl BeaconFilter {
         }
     }
 
-    /// Keeps a range to a beacon that is not known; it becomes known when its ranges tell where it is.
+    /// Stores a range to an unknown beacon, until its ranges locate it.
     fn keep(&mut self, beacon: u16, ranged: MeasuredRange) {
         if self.beacons.len() >= BEACONS_MAX {
             return;
@@ -278,7 +278,7 @@ impl BeaconFilter {
         }
     }
 
-    /// A new beacon: its place is wrong by what the robot's is, and by an error of its own.
+    /// Adds a beacon to the state. Its position has the error of the pose and an error of its own.
     fn welcome(&mut self, beacon: u16, place: Point2) {
         self.beacons.push((beacon, place));
         for row in &mut self.covariance {
@@ -295,7 +295,7 @@ impl BeaconFilter {
         }
     }
 
-    /// Somebody who knows better says where the robot is.
+    /// Another estimator gives the pose.
     pub(super) fn place_at(&mut self, pose: Pose2) {
         self.pose = pose;
         for number in 0..POSE {
@@ -324,14 +324,14 @@ impl BeaconFilter {
         }
     }
 
-    /// Deviation along the worst direction of the place whose numbers begin at `at`.
+    /// Standard deviation along the worst direction of the position at index `at`.
     fn widest_m(&self, at: usize) -> f64 {
         let (xx, yy, xy) = (self.at(at, at), self.at(at + 1, at + 1), self.at(at, at + 1));
         let half = 0.5 * (xx - yy);
         libm::sqrt((0.5 * (xx + yy) + libm::sqrt(half * half + xy * xy)).max(0.0))
     }
 
-    /// Number, place and deviation of each known beacon.
+    /// Number, position and standard deviation of each located beacon.
     pub(super) fn places(&self) -> Vec<(u16, Point2, f64)> {
         self.beacons
             .iter()
@@ -340,7 +340,7 @@ impl BeaconFilter {
             .collect()
     }
 
-    /// What a hop heard of the known beacons, for those who weigh places by it.
+    /// Ranges of a hop to located beacons, for the particle filter.
     pub(super) fn hear(&self, hop: &Hop, heard: &mut Vec<LocatedRange>) {
         heard.extend(hop.ranges.iter().filter_map(|range| {
             let number = self.beacons.iter().position(|beacon| beacon.0 == range.beacon)?;

@@ -1,8 +1,8 @@
-//! The first metres, solved at once: where the robot went, what is wrong with its wheels, and where the beacons are.
+//! Batch initialization: solves the first metres at once for the path, the errors of the wheels and the positions of the beacons.
 //!
-//! One least-squares problem (Gauss and Newton) over the poses at the ends of all hops so far, the wheels' errors and the
-//! beacons. It is tried every few metres until the answer is sure; a way that does not bend enough to tell a beacon from
-//! its mirror image has to be longer.
+//! It is a least-squares problem (Gauss-Newton) over the poses at the ends of all hops so far, the wheels and the beacons. It runs
+//! every few metres until the solution is certain. A straight path cannot tell a beacon from its mirror image, so it needs more
+//! hops.
 
 use super::filter::{BEND_SIGMA, BeaconFilter, InitialState, SCALE_SIGMA, STRETCH_SIGMA, WHEELS};
 use super::hop::Hop;
@@ -14,33 +14,33 @@ use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::gradual::{Pace, at_once};
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Way before the first try, and between two, metres.
+/// Distance before the first attempt, and between two, metres.
 const FIRST_M: f64 = 8.0;
 const AGAIN_M: f64 = 2.0;
-/// Hops after which it is better to begin anew: wheels bend a longer way too much for a first guess.
+/// After so many hops it starts again, because the wheels' errors bend a longer path too much for a first guess.
 const HOPS_MAX: usize = 250;
-/// Most that the start may be unsure, metres and radians: who has counted wheels for long knows nothing of where it is, and
-/// begins a frame of its own there.
+/// Greatest standard deviations of the start, metres and radians. After long odometry the start is unknown, so a new frame begins
+/// there.
 const START_SIGMA_MAX_M: f64 = 0.1;
 const START_SIGMA_MAX_RAD: f64 = 0.05;
-/// Ranges that a beacon must have given.
+/// Fewest ranges of a beacon.
 const RANGES_MIN: usize = 12;
-/// Beacons that it needs: with the wheels between two ranges, two tell where a robot is.
+/// Fewest beacons: with odometry between two ranges, two beacons determine the pose.
 const BEACONS_MIN: usize = 2;
-/// Most steps of Gauss and Newton, and the change at which they end.
+/// Most iterations of Gauss-Newton, and the step that ends them.
 const STEPS_MAX: u32 = 25;
 const DONE: f64 = 1e-3;
-/// A beacon's place must be as sure as this, metres; one that is not is got to know later.
+/// Greatest standard deviation of a beacon's position, metres. Less certain beacons are located later.
 const SURE_M: f64 = 0.5;
-/// Root of the mean squared deviation, large ones counted little, that a right answer has at most.
+/// Greatest weighted root mean square deviation of a correct solution.
 const FIT_MAX: f64 = 1.3;
-/// Least deviations of the start, metres and radians.
+/// Least standard deviations of the start, metres and radians.
 const START_SIGMA_M: f64 = 0.01;
 const START_SIGMA_RAD: f64 = 0.01;
 /// Unknowns of a pose.
 const POSE: usize = 3;
 
-/// All that was moved and heard since the first beacon was.
+/// All motion and ranges since the first beacon was heard.
 #[derive(Clone, Debug)]
 pub(super) struct BatchInitializer {
     start: PoseEstimate,
@@ -72,7 +72,7 @@ impl BatchInitializer {
         }
     }
 
-    /// Adds a hop; the answer, once there is a sure one.
+    /// Adds a hop. Returns the filter once there is a certain solution.
     pub(super) fn take(&mut self, hop: Hop) -> Option<BeaconFilter> {
         self.length_m += hop.length_m;
         self.hops.push(hop);
@@ -83,12 +83,12 @@ impl BatchInitializer {
         self.look()
     }
 
-    /// Whether the way has become too long and too bent for an answer: better to begin anew.
+    /// Whether the path is too long for a solution, so that it should start again.
     pub(super) fn is_hopeless(&self) -> bool {
         self.hops.len() >= HOPS_MAX
     }
 
-    /// The way by odometry.
+    /// The path by odometry.
     fn poses(&self, wheels: [f64; WHEELS]) -> Vec<Pose2> {
         let mut pose = self.start.pose;
         let mut poses = vec![pose];
@@ -147,7 +147,7 @@ impl BatchInitializer {
         })
     }
 
-    /// Number of the hop, and the range.
+    /// Index of the hop, and the range.
     fn ranges(&self) -> impl Iterator<Item = (usize, &crate::model::observation::BeaconRange)> {
         self.hops
             .iter()
@@ -155,7 +155,7 @@ impl BatchInitializer {
             .flat_map(|(number, hop)| hop.ranges.iter().map(move |range| (number, range)))
     }
 
-    /// One step: the change, the system that gave it, and how well the ranges fit before it.
+    /// One iteration: the step, the factor of its system, and the misfit of the ranges before it.
     fn step(&self, guess: &BatchState) -> Option<(Vec<f64>, Factor, f64)> {
         let common = POSE * guess.poses.len();
         let unknowns = common + WHEELS + 2 * guess.beacons.len();
@@ -276,12 +276,12 @@ impl BatchState {
     }
 }
 
-/// Adds a measurement that is off by so many standard deviations, with the derivatives of that by the unknowns.
+/// Adds a measurement that is off by so many standard deviations, with its derivatives by the unknowns.
 fn measure(system: &mut System, off: f64, derivatives: &[(usize, f64)]) {
     system.add_residual(derivatives, off, 1.0);
 }
 
-/// What a hop says of the poses before and after it.
+/// Adds the residuals of a hop.
 fn measure_hop(
     hop: &Hop,
     (from, to): (Pose2, Pose2),
@@ -314,7 +314,7 @@ fn measure_hop(
             (stretch, -per * hop.step.x_m),
         ],
     );
-    // Wheels do not slide aside: only the turn within the hop is unsure.
+    // Wheels do not slide sideways. Only the turn within the hop is uncertain.
     let side_m2 = 0.1 * hop.distance_variance_m2 + 0.1 * hop.turn_variance_rad2 * hop.length_m * hop.length_m;
     let per = 1.0 / libm::sqrt(side_m2 + 1e-6);
     measure(

@@ -1,12 +1,11 @@
-//! Where the robot is by its distances to radio beacons whose places nobody has told.
+//! Localization by ranges to radio beacons whose positions are unknown at first.
 //!
-//! Terms. *Hop*: the motion between two moments at which ranges are taken in. *First look*: the first metres, kept whole
-//! and solved at once for the way, the wheels' errors and the places of the beacons ([`initialization`]). *BeaconFilter*: what
-//! carries all of these on from there, hop by hop ([`filter`]). Until the first look has an answer the robot goes by its
-//! odometry.
+//! *Hop*: the motion between two moments at which ranges are used. *Initialization*: the first metres, solved as one batch for the
+//! path, the wheels' errors and the positions of the beacons ([`initialization`]). *Filter*: estimates all of these from there on,
+//! hop by hop ([`filter`]). Odometry gives the pose until the initialization has a solution.
 //!
-//! Ranges lie: walls lengthen them, and some come by a detour. So what is far off counts little, and what is measured
-//! twenty times at one place counts as little more than once.
+//! Ranges have large errors: walls lengthen them, and some take a detour. So outliers have little weight, and twenty ranges at one
+//! place count little more than one.
 
 mod filter;
 mod hop;
@@ -25,10 +24,10 @@ use hop::HopBuilder;
 use initialization::BatchInitializer;
 pub(super) use located_range::LocatedRange;
 
-/// Wheels that hang for so long hang because somebody carries the robot, seconds.
+/// A wheel that hangs for so long means that somebody carries the robot, seconds.
 const CARRIED_S: f64 = 1.0;
 
-/// Pose by beacons.
+/// Localization by beacons.
 #[derive(Clone, Debug)]
 pub(super) struct Beacons {
     gathering: HopBuilder,
@@ -43,7 +42,7 @@ enum BeaconStage {
     Silent,
     Initializing(Box<BatchInitializer>),
     Following(Box<BeaconFilter>),
-    /// Somebody carried the robot: where to is not known.
+    /// Somebody carried the robot to an unknown place.
     Carried,
 }
 
@@ -57,8 +56,8 @@ impl Beacons {
         }
     }
 
-    /// Takes in what the robot moved and heard; `before` is where it believes to be. Gives the estimate at the end of each
-    /// hop once the beacons are known.
+    /// Takes the motion and ranges of a step; `before` is the present estimate. Returns an estimate at the end of each hop once the
+    /// beacons are located.
     pub(super) fn follow(
         &mut self,
         observation: &Observation,
@@ -121,17 +120,17 @@ impl Beacons {
         !matches!(self.stage, BeaconStage::Silent)
     }
 
-    /// Whether the way of the robot follows from beacons.
+    /// Whether beacons determine the pose.
     pub(super) fn is_following(&self) -> bool {
         matches!(self.stage, BeaconStage::Following(_))
     }
 
-    /// What the last hop heard of beacons whose places are known; empty between hops.
+    /// Ranges of the last hop to located beacons; empty between hops.
     pub(super) fn heard(&self) -> &[LocatedRange] {
         &self.heard
     }
 
-    /// Somebody who knows better says where the robot is.
+    /// Another estimator gives the pose.
     pub(super) fn place_at(&mut self, pose: Pose2) {
         match &mut self.stage {
             BeaconStage::Following(follower) => follower.place_at(pose),
@@ -140,7 +139,7 @@ impl Beacons {
         }
     }
 
-    /// Numbers and places of the beacons that are known, and how sure they are, metres.
+    /// Number, position and standard deviation in metres of each located beacon.
     #[cfg(test)]
     pub(super) fn places(&self) -> Vec<(u16, crate::model::geometry::Point2, f64)> {
         match &self.stage {

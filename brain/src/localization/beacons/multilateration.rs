@@ -1,19 +1,19 @@
-//! A first guess of a beacon's place, from ranges along a way that is roughly known.
+//! Multilateration: locates a beacon from ranges along an approximate path.
 
 use super::weight::weight;
 use crate::model::geometry::Point2;
 
-/// Directions from the nearest place on the way in which the beacon is tried.
+/// Directions from the closest point of the path that are tried.
 const DIRECTIONS: u32 = 72;
 /// Distances that are tried, relative to the shortest range, metres.
 const OFF_M: [f64; 5] = [-0.6, -0.3, 0.0, 0.3, 0.6];
-/// Deviation of a range from a way that is only roughly known, metres.
+/// Standard deviation of a range from an approximate path, metres.
 const ROUGH_SIGMA_M: f64 = 0.5;
-/// A guess this far from the best one is another one: metres, and a share of the shortest range, because far away a short
-/// way tells the distance well and the direction badly.
+/// A position this far from the best one is an alternative: metres, and a share of the shortest range, because a short path far
+/// away gives a good distance and a bad direction.
 const OTHER_M: f64 = 1.5;
 const OTHER_SHARE: f64 = 0.8;
-/// Another guess must fit worse by this factor.
+/// An alternative must fit worse by this factor.
 const WORSE: f64 = 1.4;
 
 /// A range and where it was measured.
@@ -23,7 +23,7 @@ pub(super) struct MeasuredRange {
     pub(super) range_m: f64,
 }
 
-/// The place that fits best, if no other fits nearly as well: along a straight way the mirrored one does.
+/// The position that fits best, if no alternative fits nearly as well. Along a straight path the mirrored one does.
 pub(super) fn guess(ranges: &[MeasuredRange]) -> Option<Point2> {
     let nearest = ranges
         .iter()
@@ -52,7 +52,7 @@ pub(super) fn guess(ranges: &[MeasuredRange]) -> Option<Point2> {
     alone.then_some(best)
 }
 
-/// Mean of the squared deviations, large ones counted little.
+/// Weighted mean of the squared deviations.
 pub(super) fn misfit(ranges: &[MeasuredRange], place: Point2) -> f64 {
     let sum: f64 = ranges
         .iter()
@@ -75,7 +75,7 @@ mod tests {
         (0..60)
             .map(|number| {
                 let from = way(0.1 * f64::from(number));
-                // Every tenth comes by a detour.
+                // Every tenth range takes a detour.
                 let detour_m = if number % 10 == 0 { 2.0 } else { 0.0 };
                 MeasuredRange {
                     from,

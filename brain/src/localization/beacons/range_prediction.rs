@@ -1,4 +1,4 @@
-//! A beacon as it is measured from a hop.
+//! Predicts the range to a beacon.
 
 use crate::model::geometry::{Point2, Pose2};
 
@@ -17,7 +17,7 @@ impl RangePrediction {
         let (dx, dy) = (from.x_m - beacon.x_m, from.y_m - beacon.y_m);
         let away_m = libm::sqrt(dx * dx + dy * dy).max(0.05);
         let (by_x, by_y) = (dx / away_m, dy / away_m);
-        // The middle moves at a right angle to its direction from the pose when the pose turns.
+        // When the pose turns, the middle moves at a right angle to its direction from the pose.
         let (ox, oy) = (from.x_m - pose.x_m, from.y_m - pose.y_m);
         Self {
             away_m,

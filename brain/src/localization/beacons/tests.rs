@@ -1,4 +1,4 @@
-//! A robot with bad wheels and no gyro drives about between beacons.
+//! A robot with bad wheels and no gyro drives between beacons.
 
 use super::super::Localization;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
@@ -14,14 +14,14 @@ const BEACONS: [Point2; 4] = [
     Point2 { x_m: -0.4, y_m: 4.6 },
 ];
 
-/// The real robot: drives until it meets the border of a room of 6 x 4 m, then turns by a random angle.
+/// The true robot: drives until it reaches the border of a room of 6 x 4 m, then turns by a random angle.
 struct BeaconRobot {
     pose: Pose2,
     random: Random,
     turn_left_rad: f64,
     view: Observation,
     steps: usize,
-    /// Added to each range to the first beacon, metres: a wall in the way.
+    /// Added to each range to the first beacon, metres: a wall in the path.
     delay_m: f64,
 }
 
@@ -67,7 +67,7 @@ impl BeaconRobot {
         (0.0, turn_rad)
     }
 
-    /// The wheels count a bend of 0.4 degrees a metre that was not driven, turns 2 % too small, and slip.
+    /// The wheels count a curvature of 0.4 degrees a metre that was not driven, count turns 2 % too small, and slip.
     fn count(&mut self, distance_m: f64, turn_rad: f64) {
         let slip_rad = 0.009 * distance_m.abs().sqrt() * self.random.normal();
         let counted_rad = 0.98 * turn_rad + 0.007 * distance_m + slip_rad;

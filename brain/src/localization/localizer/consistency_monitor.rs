@@ -1,8 +1,8 @@
-//! Whether a robot on its first run can be where it believes to be.
+//! Checks whether a robot on its first run can be where line SLAM places it.
 //!
-//! Its map of some minutes ago bears witness. A wall that is seen a few centimetres or decimetres off is drift, which the survey
-//! mends. What is seen or touched in the midst of floor on which nothing stood, and a body in the midst of what was solid, for
-//! metres of way, mean that the robot is elsewhere: somebody has moved it without lifting it, or its wheels turned on something.
+//! The reference is the robot's own map of a few minutes ago. A wall that is a few centimetres or decimetres off is drift, which
+//! line SLAM corrects. Obstacles in the middle of floor that was free, and a body inside what was solid, for metres of driving,
+//! mean that the robot is elsewhere: somebody moved it without lifting it, or its wheels turned on something.
 
 use super::{LEARN_US, Localization};
 use crate::localization::MapCorrection;
@@ -15,26 +15,28 @@ use crate::model::geometry::Point2;
 use crate::model::observation::{Contacts, Observation};
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Way between two looks, metres.
+/// Distance between two checks, metres.
 const STEP_M: f64 = 0.1;
-/// What is seen in known floor this far from anything solid is not there, metres, and so many deviations of the pose more: that a
-/// survey is off by that is no secret.
+/// An obstacle in known floor contradicts the map when it is this far from anything solid, metres, plus this many standard
+/// deviations of the pose. Line SLAM may be off by less.
 const ELSEWHERE_M: f64 = 0.35;
 const SIGMAS: f64 = 2.0;
-/// Floor is known around what is denied as far as this, metres. A wall that is met from the front for the first time may have been
-/// looked past before: the floor up to it is known then, the wall and what is behind it are not (a first run of home 17 took that
-/// for another place).
+/// The floor must be known this far around an obstacle that contradicts the map, metres. A beam may have passed a wall that the
+/// robot later sees from the front: then the floor before the wall is known, the wall and what is behind it are not (this happened
+/// in a first run of home 17).
 const MIDST_M: f64 = 0.15;
-/// Looks over which the share of denied ones is averaged, of those that tell anything: two and a half metres along a wall.
+/// Number of checks over which the share of contradictions is averaged, without those where nothing is known: two and a half metres
+/// along a wall.
 const AVERAGED_CHECKS: f64 = 25.0;
-/// Above this share the robot is elsewhere. In first runs of generated homes that nobody disturbed it stayed below 0.1.
+/// Above this share the robot is elsewhere. In undisturbed first runs of generated homes it stayed below 0.1.
 const CONTRADICTED_ABOVE: f64 = 0.2;
-/// Above this share something is wrong: the present map is no witness, and what was drawn since is withdrawn if it turns out to be.
+/// Above this share something is wrong. The present map is no reference, and is rolled back to this moment if the robot turns out
+/// to be elsewhere.
 const DOUBTED_ABOVE: f64 = 0.1;
-/// What was drawn so long before that is withdrawn, too, microseconds: not each place tells at once.
+/// The rollback begins this much earlier, microseconds, because not every place shows a contradiction at once.
 const BEFORE_US: u64 = 20_000_000;
 
-/// The map of some minutes ago, and how often what was seen since denies it.
+/// The map of a few minutes ago, and the share of recent checks that contradict it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ConsistencyMonitor {
     reference_map: Option<Box<ReferenceMap>>,
@@ -47,7 +49,7 @@ pub(super) struct ConsistencyMonitor {
 }
 
 impl ConsistencyMonitor {
-    /// Takes in what is seen where the robot believes to be.
+    /// Checks what the sensors show at the estimated pose.
     pub(super) fn observe(
         &mut self,
         (observation, advance): (&Observation, Advance),
@@ -74,8 +76,8 @@ impl ConsistencyMonitor {
         }
     }
 
-    /// Keeps the map as it is now, now and then and when it was drawn again, while nothing speaks against it. One in which the robot
-    /// could not look for itself is no witness: a survey that it ended would leave the robot with nothing.
+    /// Takes the present map as the reference, periodically and after each redraw, while nothing contradicts the map. A map in
+    /// which the robot could not relocalize is no reference, because the robot would be left with nothing.
     pub(super) fn keep(&mut self, map: &Map, time_us: u64) {
         let is_due = time_us >= self.kept_us.saturating_add(LEARN_US) || map.redrawn() != self.redrawn;
         if is_due && self.contradicted <= DOUBTED_ABOVE {
@@ -84,7 +86,7 @@ impl ConsistencyMonitor {
         }
     }
 
-    /// The map that is denied, and since when: what was drawn later is in the wrong place.
+    /// The contradicted map, and the time since which the robot drew in the wrong place.
     pub(super) fn take_contradicted(&mut self) -> Option<(Box<ReferenceMap>, u64)> {
         if self.contradicted <= CONTRADICTED_ABOVE {
             return None;
@@ -96,8 +98,8 @@ impl ConsistencyMonitor {
 }
 
 impl Localization {
-    /// A survey that the robot's own map denies is over: the robot looks for itself in that map, and takes back what it has drawn
-    /// since.
+    /// When the robot's own map contradicts the pose, line SLAM ends. The robot relocalizes in that map, and what it has drawn
+    /// since is rolled back.
     pub(super) fn check_consistency(
         &mut self,
         map: &Map,
@@ -115,7 +117,7 @@ impl Localization {
         Some(MapCorrection::RollBack { since_us, keyframes })
     }
 
-    /// Takes in what is seen where the robot believes to be, for a robot on its first run.
+    /// Checks what the sensors show against the map, for a robot on its first run.
     pub(crate) fn check_against_map(
         &mut self,
         observation: &Observation,
@@ -133,7 +135,7 @@ impl Localization {
     }
 }
 
-/// Solid points in the frame of the robot: what infrared shows, and where the bumper has just closed.
+/// Solid points in the frame of the robot: infrared readings, and the front when the bumper has just closed.
 fn solid_in_base((observation, touches): (&Observation, bool), config: &BrainConfig) -> Vec<Point2> {
     let layout = &config.sensors.proximity;
     let seen = layout.sensors().iter().zip(&observation.proximity);
@@ -155,7 +157,7 @@ fn solid_in_base((observation, touches): (&Observation, bool), config: &BrainCon
     solid
 }
 
-/// Share of what is seen that the map denies, 0..=1; `None` where it says nothing of it.
+/// Share of the points that contradict the map, 0..=1; `None` where the map knows nothing.
 fn contradicted(
     reference_map: &ReferenceMap,
     (estimate, solid): (&PoseEstimate, &[Point2]),
@@ -176,7 +178,7 @@ fn contradicted(
     (known > 0).then(|| f64::from(contradicted) / f64::from(known))
 }
 
-/// Whether it is known what lies on all sides of this place.
+/// Whether the floor on all sides of this point is known.
 fn is_in_midst(reference_map: &ReferenceMap, at: Point2) -> bool {
     let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
     sides.iter().all(|(x, y)| {
@@ -197,7 +199,7 @@ mod tests {
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
 
-    /// Looks of a robot that drives about in the flat and believes to be as far off the truth as `believed_off` says.
+    /// Checks of a robot that drives through the flat with a pose that is off by `believed_off`. Returns the greatest share.
     fn contradicted(home: &Map, believed_off: Pose2, steps: u32) -> f64 {
         let mut truth = SimulatedRobot::new(home, START);
         let mut monitor = ConsistencyMonitor::default();
@@ -300,11 +302,11 @@ mod tests {
             assert_eq!(localization.explained().is_some(), lost, "compares with the map");
             noticed += u32::from(lost);
         }
-        // Walls that run as others do are taken for them: not each of them tells.
+        // Walls that run alike are confused, so not every start shows a contradiction.
         assert!(noticed >= 1, "{noticed} of three");
     }
 
-    /// What is known of the flat when so many steps of the first robot were drawn, which is as sure of its place as `sigma_m` says.
+    /// Draws so many steps of a robot whose pose has this standard deviation. Returns the number of known cells.
     fn drawn(map: &mut Map, (truth, sigma_m): (&mut SimulatedRobot<'_>, f64), steps: u32) -> usize {
         for _ in 0..steps {
             let view = truth.step().clone();

@@ -1,7 +1,7 @@
-//! What docking tells of the robot's place, and its place of the dock.
+//! What docking tells about the robot's pose, and the pose about the dock.
 //!
-//! A dock of which nobody but a person has said where it is tells the robot's place by and large; a robot that is sure of its place
-//! tells where the dock is.
+//! A dock whose position only a person has given tells the robot's pose roughly. A robot that is sure of its pose tells where the
+//! dock is.
 
 use super::estimator::{Estimator, KnownMap};
 use super::{Localization, START_SIGMA_M, START_SIGMA_RAD};
@@ -12,14 +12,14 @@ use crate::mapping::{DockPlace, Map};
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
 
-/// How well a pose is known that a person has pointed out, metres and radians.
+/// Standard deviations of a pose that a person has pointed out, metres and radians.
 const ROUGH_SIGMA_M: f64 = 0.3;
 const ROUGH_SIGMA_RAD: f64 = 0.4;
-/// A pose that is as sure as this may lead others, metres.
+/// A pose with a smaller standard deviation than this may be used as a reference, metres.
 const CONFIRMED_M: f64 = 0.15;
 
 impl Localization {
-    /// A person says that the robot stands at `pose` in `map`, by eye. Until its sensors have confirmed that it counts as unsure.
+    /// A person says that the robot is at `pose` in `map`, by eye. The pose counts as unsure until the sensors have confirmed it.
     pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
         self.place_at(pose);
         self.start_monte_carlo(map, config, seed);
@@ -42,15 +42,14 @@ impl Localization {
         }
     }
 
-    /// The dock is known to be elsewhere.
+    /// The dock has another position.
     pub fn put_dock(&mut self, dock: DockPlace) {
         if let Some(known) = self.estimator.known_map_mut() {
             known.reference_map.put_dock(dock);
         }
     }
 
-    /// Whether the pose is so sure that others may be led by it: what the sensors show confirms it, or walls that were followed
-    /// from the beginning do.
+    /// Whether the pose may be used as a reference: the sensors confirm it, or line SLAM has tracked it from the start.
     #[must_use]
     pub fn is_confirmed(&self) -> bool {
         let is_narrow = self.drift.sigma_m <= CONFIRMED_M;
@@ -62,7 +61,7 @@ impl Localization {
             }
     }
 
-    /// Whether the dock's contacts closed at the last observation: a robot that wakes on its dock has felt nothing yet.
+    /// Whether the dock's contacts closed at the last observation. A robot that wakes on its dock has not docked.
     #[must_use]
     pub fn has_just_docked(&self) -> bool {
         self.has_just_docked
@@ -74,7 +73,7 @@ impl Localization {
         self.was_docked
     }
 
-    /// How a robot that stands on its dock begins to compare with the map that it has made, with what it has learnt of its gyro.
+    /// How a robot on its dock starts to localize in the map that it has made, with what it has learned of its gyro.
     #[must_use]
     pub fn tracking_on_dock(&self) -> TrackingCheckpoint {
         let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
@@ -87,8 +86,8 @@ impl Localization {
         }
     }
 
-    /// Whether what is seen may be drawn where the robot believes to be. One that was told by eye where it stands must have found
-    /// its place first.
+    /// Whether the robot may draw what it sees at its estimated pose. After a person has given the pose by eye, the sensors must
+    /// confirm it first.
     #[must_use]
     pub fn may_draw(&self) -> bool {
         let is_told = |known: &KnownMap| known.tracker.unconfirmed_beams() > 0;

@@ -10,18 +10,18 @@ use crate::model::config::BrainConfig;
 use crate::model::pose_estimate::PoseEstimate;
 
 /// What corrects odometry. Radio beacons run beside it: they correct odometry unless a known map does, and Monte Carlo localization
-/// weighs their ranges.
+/// uses their ranges.
 #[derive(Debug)]
 pub(in crate::localization) enum Estimator {
-    /// Nothing does: the robot has no proximity sensors, or its map is no good.
+    /// Nothing does: the robot has no proximity sensors, or its map is not good enough.
     Odometry,
     /// Line SLAM in a home that is not known yet.
     LineSlam(Box<FirstRun>),
-    /// A particle filter in a known map.
+    /// Monte Carlo localization in a known map.
     MonteCarlo(Box<KnownMap>),
 }
 
-/// The estimator that has the last word on the pose.
+/// The estimator that determines the pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum EstimatorKind {
     Odometry,
@@ -30,14 +30,14 @@ pub(super) enum EstimatorKind {
     Beacons,
 }
 
-/// Line SLAM and what checks its map.
+/// Line SLAM and the monitor of its map.
 #[derive(Debug)]
 pub(in crate::localization) struct FirstRun {
     pub(in crate::localization) slam: LineSlam,
     pub(super) monitor: ConsistencyMonitor,
 }
 
-/// A filter and the map against which it compares.
+/// The localizer and the map against which it compares.
 #[derive(Clone, Debug)]
 pub(in crate::localization) struct KnownMap {
     pub(in crate::localization) tracker: Tracker,
@@ -80,7 +80,7 @@ impl Estimator {
 }
 
 impl Localization {
-    /// The estimator that has the last word on the pose now.
+    /// The estimator that determines the pose now.
     pub(super) fn active_estimator(&self) -> EstimatorKind {
         match &self.estimator {
             Estimator::MonteCarlo(_) => EstimatorKind::MonteCarlo,
@@ -90,9 +90,9 @@ impl Localization {
         }
     }
 
-    /// From now on [`Self::refine`] compares with `map` as it is now, for a robot whose pose is known as well as
-    /// [`Self::estimate`] says. Equal seeds give equal poses. What is drawn into the map later is not taken up before the
-    /// next call. Odometry alone goes on for a robot without proximity sensors, and in a map that odometry alone has drawn.
+    /// From now on [`Self::refine`] localizes in a copy of `map`, starting from [`Self::estimate`]. Equal seeds give equal poses.
+    /// The copy takes over later changes only by [`Self::learn`] or the next call. A robot without proximity sensors continues with
+    /// odometry alone, and so does one whose map was drawn by odometry alone.
     pub fn start_monte_carlo(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
         self.estimator = Estimator::Odometry;
         if config.sensors.proximity.sensors().is_empty() || !ReferenceMap::is_trustworthy(map) {
@@ -115,8 +115,8 @@ impl Localization {
         }));
     }
 
-    /// From now on [`Self::refine`] finds out how the walls run in a home of which nothing is known yet, beginning where the
-    /// robot is. Odometry alone goes on for a robot without proximity sensors.
+    /// From now on [`Self::refine`] runs line SLAM in a home of which nothing is known yet, starting at the present pose. A robot
+    /// without proximity sensors continues with odometry alone.
     pub fn start_line_slam(&mut self, config: &BrainConfig) {
         let layout = config.sensors.proximity;
         self.estimator = if layout.sensors().is_empty() {
@@ -129,12 +129,12 @@ impl Localization {
         };
     }
 
-    /// Nothing but odometry and beacons goes on.
+    /// Continues with odometry and beacons alone.
     pub(super) fn leave_map(&mut self) {
         self.estimator = Estimator::Odometry;
     }
 
-    /// Adopts an estimate of the filter, and what it has learned of the gyro.
+    /// Adopts an estimate of the particle filter, and what the filter has learned of the gyro.
     pub(super) fn adopt_tracked(&mut self, estimate: PoseEstimate) {
         let gyro = self.estimator.known_map().and_then(|known| known.tracker.gyro());
         self.adopt(estimate);

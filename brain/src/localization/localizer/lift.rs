@@ -1,12 +1,12 @@
-//! Whether somebody lifts a robot on its first run, as its wheels show it.
+//! Detects from the wheels whether somebody lifts a robot that runs line SLAM.
 
 use crate::model::advance::Advance;
 use crate::model::observation::Observation;
 
-/// A wheel that hangs for so long hangs because somebody holds the robot, seconds.
+/// A wheel that hangs for so long means that somebody holds the robot, seconds.
 const LIFTED_S: f64 = 1.0;
 
-/// The wheels of a robot that may be lifted.
+/// State of the wheels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) enum Lift {
     /// All wheels are on the floor.
@@ -14,12 +14,12 @@ pub(super) enum Lift {
     OnFloor,
     /// A wheel has been hanging for so long.
     Hanging { time_s: f64 },
-    /// Somebody has just put it down, and the estimator does not know it yet.
+    /// Somebody has just put the robot down, and the estimator does not know it yet.
     PutDown,
 }
 
 impl Lift {
-    /// Takes in whether a wheel hangs.
+    /// Takes whether a wheel hangs.
     pub(super) fn update(&mut self, observation: &Observation, advance: Advance) {
         let hanging_s = match *self {
             Self::Hanging { time_s } => time_s,
@@ -36,7 +36,7 @@ impl Lift {
         };
     }
 
-    /// Whether it was put down since this was last asked.
+    /// Whether the robot was put down since the last call.
     pub(super) fn take_put_down(&mut self) -> bool {
         let is_put_down = *self == Self::PutDown;
         if is_put_down {

@@ -1,4 +1,4 @@
-//! Joins the estimators to one pose.
+//! Combines the estimators to one pose.
 
 mod consistency_monitor;
 mod docked;
@@ -25,19 +25,19 @@ use crate::model::pose_estimate::PoseEstimate;
 use estimator::{Estimator, EstimatorKind, KnownMap};
 use lift::Lift;
 
-/// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
+/// Standard deviations of a pose on the dock, metres and radians: the dock is wider than the robot's contacts.
 const START_SIGMA_M: f64 = 0.02;
 const START_SIGMA_RAD: f64 = 0.03;
-/// Widest deviation that is taken up, metres and radians.
+/// Greatest standard deviation that is accepted, metres and radians.
 const SIGMA_MAX: f64 = 1.0;
-/// A place nearer than this to the present one is no news for the filter, metres and radians.
+/// A given pose that is closer than this to the present one does not reset the filter, metres and radians.
 const PLACED_M: f64 = 0.05;
 const PLACED_RAD: f64 = 0.05;
 
-/// A gyro that was silent for so long is not there, microseconds.
+/// A gyro that was silent for so long counts as missing, microseconds.
 const GYRO_GONE_US: u64 = 10_000_000;
 
-/// A deviation from outside, or at least this one; what is not a number is wide.
+/// Bounds a standard deviation from outside. NaN becomes the greatest one.
 fn finite(sigma: f64, least: f64) -> f64 {
     if sigma.is_finite() {
         sigma.clamp(least, SIGMA_MAX)
@@ -46,14 +46,14 @@ fn finite(sigma: f64, least: f64) -> f64 {
     }
 }
 
-/// A robot whose place is less sure than this does not learn how strongly beacons are received there, metres.
+/// A robot with a larger standard deviation than this does not learn RSSI fingerprints, metres.
 const HEARD_SIGMA_M: f64 = 0.3;
 
-/// What was unknown is taken into the map that the filter compares with this often, microseconds,
+/// The reference map takes over new parts this often, microseconds,
 const LEARN_US: u64 = 120_000_000;
-/// as long as the map explains so much of what the sensors show.
+/// while the map explains at least this share of the sensor readings.
 const LEARN_EXPLAINED: f64 = 0.75;
-/// Pose estimate.
+/// The pose estimate.
 #[derive(Debug)]
 pub struct Localization {
     pub(super) odometry: Odometry,
@@ -63,9 +63,9 @@ pub struct Localization {
     pub(super) estimator: Estimator,
     pub(super) beacons: Beacons,
     fingerprints: RssiFingerprints,
-    /// When the first observation came.
+    /// Time of the first observation.
     began_us: Option<u64>,
-    /// When a gyro spoke last.
+    /// Time of the last gyro reading.
     gyro_us: Option<u64>,
     was_docked: bool,
     was_off_dock: bool,
@@ -75,7 +75,7 @@ pub struct Localization {
 }
 
 impl Localization {
-    /// At the origin of the map, for wheels `track_m` apart that turn at most `rim_max_m_per_s` fast.
+    /// Starts at the origin of the map. The wheels are `track_m` apart and turn at most `rim_max_m_per_s` fast.
     #[must_use]
     pub fn new(track_m: f64, rim_max_m_per_s: f64) -> Self {
         Self {
@@ -96,7 +96,7 @@ impl Localization {
         }
     }
 
-    /// Takes in an observation and says how far the robot moved since the last one.
+    /// Takes an observation and returns the motion since the last one.
     pub fn update(&mut self, observation: &Observation) -> Advance {
         let advance = self.odometry.update(observation);
         if observation.gyro_heading_rad.is_some() {
@@ -107,9 +107,9 @@ impl Localization {
         advance
     }
 
-    /// Takes up what has become known of the home since: a tracked robot compares with it, too, and one that was carried away
-    /// in the midst of a survey looks for itself in the map that it has made, if that is any good. Says what the map must take
-    /// back.
+    /// Uses what has become known of the home since. Monte Carlo localization takes over new parts of the map. A robot that was
+    /// carried away during line SLAM relocalizes in the map that it has made, if that is good enough. Returns a correction of the
+    /// map.
     pub fn learn(&mut self, map: &Map, config: &BrainConfig, time_us: u64) -> Option<MapCorrection> {
         match &mut self.estimator {
             Estimator::Odometry => None,
@@ -130,7 +130,7 @@ impl Localization {
         }
     }
 
-    /// What must survive a restart of a robot that is tracked.
+    /// What must survive a restart during Monte Carlo localization.
     #[must_use]
     pub fn checkpoint(&self) -> Option<TrackingCheckpoint> {
         let tracker = &self.estimator.known_map()?.tracker;
@@ -145,7 +145,7 @@ impl Localization {
         })
     }
 
-    /// Takes up what [`Self::checkpoint`] said before a restart, after [`Self::start_monte_carlo`] and at the same pose.
+    /// Restores [`Self::checkpoint`] after a restart, after [`Self::start_monte_carlo`] and at the same pose.
     pub fn resume_tracking(&mut self, before: TrackingCheckpoint) {
         self.odometry
             .resume_gyro(before.gyro_scale, before.gyro_bias_rad_per_s);
@@ -165,8 +165,7 @@ impl Localization {
         }
     }
 
-    /// Compares what was perceived with the map, and corrects [`Self::pose`]. Unless [`Self::start_monte_carlo`] was asked for there is
-    /// no map; then only ranges to beacons count. Says with which poses the map should be drawn again.
+    /// Corrects [`Self::pose`] with the active estimator. Returns the poses with which the map should be redrawn.
     pub fn refine(&mut self, observation: &Observation, advance: Advance) -> Option<MapCorrection> {
         self.fingerprints.listen(observation, advance);
         self.find_place(observation, advance);
@@ -179,7 +178,7 @@ impl Localization {
         Some(MapCorrection::Redraw { keyframes })
     }
 
-    /// Whether what is received here may be learnt as that of the place where the robot believes to be.
+    /// Whether RSSI fingerprints may be learned at the estimated pose.
     fn is_placed(&self) -> bool {
         let is_followed = match &self.estimator {
             Estimator::MonteCarlo(known) => known.tracker.is_settled(),
@@ -218,7 +217,7 @@ impl Localization {
         tracker.hear(self.beacons.heard());
         tracker.receive(&self.fingerprints);
         tracker.step_search(reference_map);
-        // Where the dock is not known better than the robot knows its own place, that one stays.
+        // The dock corrects the pose only where it is known better than the pose.
         let place = reference_map.dock();
         let is_better = !place.is_told() && (place.is_sure() || !tracker.is_confirmed());
         if docks
@@ -264,8 +263,8 @@ impl Localization {
         };
     }
 
-    /// How turns are counted. It asks whether there is a gyro and not whether this advance has a turn of it: the first advance after a
-    /// start has none, and what was learned of the gyro before counts from the first step on.
+    /// The calibration of turns. It asks whether there is a gyro and not whether this advance has a turn of it: the first advance
+    /// after a start has none, and what was learned of the gyro before counts from the first step on.
     fn turn_counting(&self, now_us: u64) -> TurnCalibration {
         if !self.has_gyro(now_us) {
             return TurnCalibration {
@@ -281,8 +280,8 @@ impl Localization {
         }
     }
 
-    /// Whether anything but its wheels tells the robot where it is heading: a gyro, beacons, or a map that it can compare
-    /// with. Without, it is lost within minutes, and what it draws is no map.
+    /// Whether anything besides the wheels determines the heading: a gyro, beacons or a known map. Without, the robot is lost
+    /// within minutes and its map is useless.
     #[must_use]
     pub fn knows_heading(&self, now_us: u64) -> bool {
         self.has_gyro(now_us)
@@ -292,14 +291,14 @@ impl Localization {
             )
     }
 
-    /// Deviation of the gyro's scale, relative, while the robot surveys a home that it does not know; `None` = it has no gyro,
-    /// or compares with a map, which tells the scale by itself.
+    /// Standard deviation of the gyro's scale, relative, during line SLAM; `None` = no gyro, or a known map that determines the
+    /// scale by itself.
     pub(crate) fn surveyed_gyro_scale_sigma(&self, now_us: u64) -> Option<f64> {
         let surveys = self.estimator.is_line_slam() && self.has_gyro(now_us);
         surveys.then(|| self.odometry.calibration.scale_sigma())
     }
 
-    /// Deviation of the gyro's bias, rad/s; `None` = it has no gyro.
+    /// Standard deviation of the gyro's bias, rad/s; `None` = no gyro.
     pub(crate) fn gyro_bias_sigma_rad_per_s(&self, now_us: u64) -> Option<f64> {
         self.has_gyro(now_us)
             .then(|| self.odometry.calibration.bias_sigma_rad_per_s())
@@ -310,7 +309,7 @@ impl Localization {
             .is_some_and(|gyro_us| now_us < gyro_us.saturating_add(GYRO_GONE_US))
     }
 
-    /// A robot with next to no sensors lets go of the map when nothing tells its heading.
+    /// A robot with almost no sensors gives up the map when nothing determines its heading.
     fn leave_hopeless_map(&mut self, now_us: u64) {
         let blind = self
             .estimator
@@ -323,7 +322,7 @@ impl Localization {
         }
     }
 
-    /// Pose in the map and how sure it is. A robot that only counts its wheels is never lost: it has no map to be lost in.
+    /// Pose in the map and its uncertainty. A robot with odometry alone is never lost, because it has no map to be lost in.
     #[must_use]
     pub fn estimate(&self) -> PoseEstimate {
         PoseEstimate {
@@ -338,25 +337,25 @@ impl Localization {
         }
     }
 
-    /// How well the map explains what the sensors show, 0..1; `None` without a map to compare with.
+    /// Share of the sensor readings that the map explains, 0..1; `None` without a known map.
     #[must_use]
     pub fn explained(&self) -> Option<f64> {
         self.estimator.known_map().map(|known| known.tracker.explained())
     }
 
-    /// Way back in metres that no way forward has made good, 0..=0.15: ground that nothing has seen.
+    /// Reversed distance in metres that the robot has not driven forward again, 0..=0.15: no sensor has seen that floor.
     #[must_use]
     pub fn backed_m(&self) -> f64 {
         self.reverse_budget.backed_m()
     }
 
-    /// Way in metres for which backing may still be commanded before the robot has driven forward again.
+    /// Distance in metres by which the robot may still reverse before it must drive forward.
     #[must_use]
     pub fn reverse_left_m(&self) -> f64 {
         self.reverse_budget.left_m()
     }
 
-    /// Takes up what [`Self::backed_m`] said before a restart.
+    /// Restores [`Self::backed_m`] after a restart.
     pub fn resume_backed(&mut self, backed_m: f64) {
         self.reverse_budget = ReverseBudget::resumed(backed_m);
     }
@@ -367,12 +366,12 @@ impl Localization {
         self.map_from_odom * self.odometry.odom_from_base()
     }
 
-    /// Sets the transform that a better estimator has found.
+    /// Sets the transform that an estimator has found.
     pub fn correct(&mut self, map_from_odom: Pose2) {
         self.map_from_odom = map_from_odom;
     }
 
-    /// Takes up what the filter found; the gyro learns from it.
+    /// Adopts an estimate, and calibrates the gyro with it.
     fn adopt(&mut self, estimate: PoseEstimate) {
         let correction_rad = normalize_rad(estimate.pose.heading_rad - self.pose().heading_rad);
         let found = Drift {
@@ -381,7 +380,7 @@ impl Localization {
         };
         let calibration = &mut self.odometry.calibration;
         if estimate.lost {
-            // Guesses jump about; where odometry has carried the last pose that was believed is as good as any of them.
+            // The estimate of a lost robot jumps, so odometry from the last known pose is as good.
             calibration.interrupt();
         } else {
             calibration.correct(correction_rad, estimate.sigma_rad * estimate.sigma_rad);
@@ -390,7 +389,7 @@ impl Localization {
         self.drift = found;
     }
 
-    /// Declares that the robot now stands at `pose` in the map.
+    /// Declares that the robot is at `pose` in the map.
     pub fn place_at(&mut self, pose: Pose2) {
         let before = self.pose();
         self.put_at(pose);

@@ -1,4 +1,4 @@
-//! A robot that turns out to be somewhere else in its home looks for itself in the map.
+//! Relocalizes a robot that turns out to be somewhere else.
 
 use super::{Localization, SIGMA_MAX};
 use crate::localization::reference_map::ReferenceMap;
@@ -16,7 +16,7 @@ impl Localization {
         self.drift.sigma_m = SIGMA_MAX;
     }
 
-    /// The robot is somewhere in this terrain.
+    /// The robot is somewhere in this map.
     pub(super) fn lose_in_map(&mut self, reference_map: ReferenceMap, config: &BrainConfig, seed: u64) {
         let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
         tracker.lose(self.pose());

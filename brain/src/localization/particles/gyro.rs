@@ -1,6 +1,6 @@
-//! What a guess holds of the gyro besides its pose: a heading that is wrong after a turn is the fault of the scale, and after
-//! a long way that of the bias. Guesses that are right about both fit the walls turn after turn, so both are learnt with
-//! the pose, and as sure as the guesses agree.
+//! Calibration of the gyro by the particles. Each particle has its own scale and bias. A wrong heading after a turn comes from the
+//! scale, and after a long path from the bias. Particles with the right values fit the walls turn after turn, so the filter
+//! estimates both with the pose.
 
 use super::ParticleFilter;
 use crate::localization::calibration::BIAS_DRIFT_RAD2_PER_S3;
@@ -8,35 +8,35 @@ use crate::localization::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use crate::model::advance::Advance;
 use crate::model::random::Random;
 
-/// How the scale wanders, relative per square root of a radian that was turned: no gyro has the same scale at all rates, and guesses that
-/// agreed too soon go on learning.
+/// Random walk of the scale, relative per square root of a radian turned. No gyro has the same scale at all rates, and particles
+/// that agree too soon continue to learn.
 const SCALE_WALK: f64 = 2.0e-4;
-/// When guesses are drawn anew, so much of their deviations is drawn anew, too: copies of one guess would all have its scale
-/// (J. Liu and M. West 2001: the kernel keeps mean and variance).
+/// Share of the deviations that resampling draws again, because all copies of one particle would have the same scale (J. Liu and M.
+/// West 2001: the kernel keeps mean and variance).
 const REDRAWN: f64 = 0.05;
-/// Least deviations that drawing anew keeps up, relative and radians per second.
+/// Least standard deviations after resampling, relative and radians per second.
 const SCALE_SIGMA_MIN: f64 = 3.0e-4;
 const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 5.0e-5;
 
-/// Guesses of a robot that has never rested are drawn as if a rest had told the bias this well, radians per second: some of them would turn
-/// until a strange home fits.
+/// Greatest standard deviation of the bias with which particles start, radians per second, for a robot without any zero-velocity
+/// update. With a larger one some particles would turn until a wrong home fits.
 const BIAS_SIGMA_DRAWN_MAX_RAD_PER_S: f64 = 5.0e-4;
 
-/// Least variance that a long rest is believed to have, square radians per square second: few guesses would be left, and with them few
-/// places.
+/// Least variance of a zero-velocity update, square radians per square second. A smaller one would leave few particles and so few
+/// positions.
 const MEASURED_VARIANCE_MIN: f64 = 2.5e-8;
 
-/// What the gyro showed while the robot moved.
+/// What the gyro measured during a motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::localization) struct GyroCount {
     shown_rad: f64,
     time_s: f64,
-    /// What odometry made of it.
+    /// The same as odometry counted it.
     counted_rad: f64,
 }
 
 impl GyroCount {
-    /// Adds a move that odometry counted with this belief. A robot that stands does not count what the gyro shows.
+    /// Adds a motion that odometry counted with this calibration. Odometry ignores the gyro while the robot is at rest.
     pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroEstimate) {
         let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !advance.stands()) else {
             return;
@@ -47,7 +47,7 @@ impl GyroCount {
     }
 }
 
-/// The gyro as one guess has it.
+/// The gyro as one particle models it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ParticleGyro {
     scale: f64,
@@ -55,7 +55,7 @@ pub(super) struct ParticleGyro {
 }
 
 impl ParticleGyro {
-    /// A guess as good as the belief.
+    /// Draws a particle's gyro from the estimate.
     pub(super) fn drawn(belief: GyroEstimate, random: &mut Random) -> Self {
         Self {
             scale: belief.scale + belief.scale_sigma * random.normal(),
@@ -64,8 +64,7 @@ impl ParticleGyro {
         }
     }
 
-    /// By how much the robot turned more than odometry counted, if the guess is right. Bias and scale wander
-    /// meanwhile.
+    /// Turn in addition to what odometry counted, if this particle is right. Bias and scale do a random walk meanwhile.
     pub(super) fn turned_more_rad(&mut self, count: GyroCount, random: &mut Random) -> f64 {
         if count.time_s <= 0.0 {
             return 0.0;
@@ -75,13 +74,13 @@ impl ParticleGyro {
         (count.shown_rad - self.bias_rad_per_s * count.time_s) * (1.0 + self.scale) - count.counted_rad
     }
 
-    /// Likelihood of what a rest has told; 1 at best.
+    /// Likelihood of a zero-velocity update; 1 at best.
     pub(super) fn likelihood(&self, measured: BiasMeasurement) -> f64 {
         let off = measured.rad_per_s - self.bias_rad_per_s;
         libm::exp(-0.5 * off * off / measured.variance_rad2_per_s2.max(MEASURED_VARIANCE_MIN))
     }
 
-    /// The same once more, for guesses of which some are copies.
+    /// A variation of it for resampling.
     pub(super) fn redrawn(self, belief: GyroEstimate, random: &mut Random) -> Self {
         let kept = libm::sqrt(1.0 - REDRAWN * REDRAWN);
         let about = |value: f64, mean: f64, sigma: f64, chance: f64| {
@@ -105,7 +104,7 @@ impl ParticleGyro {
 }
 
 impl ParticleFilter {
-    /// All guesses take over this belief of the gyro's bias, and keep their scales.
+    /// All particles draw a bias from this estimate and keep their scales.
     pub(in crate::localization) fn draw_bias(&mut self, belief: GyroEstimate) {
         for particle in &mut self.particles {
             particle.gyro = ParticleGyro {
@@ -116,7 +115,7 @@ impl ParticleFilter {
     }
 }
 
-/// What guesses of these weights believe together.
+/// Weighted mean and deviation of the particles' values.
 pub(super) fn belief(guesses: impl Iterator<Item = (f64, ParticleGyro)> + Clone) -> GyroEstimate {
     let sum: f64 = guesses.clone().map(|(weight, _)| weight).sum();
     let mean = |of: &dyn Fn(ParticleGyro) -> f64| {
@@ -152,7 +151,7 @@ mod tests {
         bias_sigma_rad_per_s: 5.0e-4,
     };
 
-    /// What odometry counts with this belief when the gyro shows a turn.
+    /// What odometry counts with this estimate when the gyro measures a turn.
     fn counted(shown_rad: f64, time_s: f64, belief: GyroEstimate) -> Advance {
         let turn_rad = (shown_rad - belief.bias_rad_per_s * time_s) * (1.0 + belief.scale);
         Advance {
@@ -170,7 +169,7 @@ mod tests {
         let mut other = BELIEF;
         for _ in 0..5 {
             count.add(counted(0.5, 2.0, other), other);
-            // A rest has told another bias meanwhile.
+            // A zero-velocity update has changed the bias meanwhile.
             other.bias_rad_per_s += 0.001;
         }
         let mut guess = ParticleGyro {
@@ -247,7 +246,7 @@ mod tests {
             *weight *= guess.likelihood(measured);
         }
         let after = belief(all.iter().copied());
-        // Rest and belief are equally sure.
+        // The measurement and the estimate are equally sure.
         assert!(about(after.bias_rad_per_s, 0.0025), "{after:?}");
         assert!(
             about(after.bias_sigma_rad_per_s, 5.0e-4 / 2.0_f64.sqrt()),

@@ -1,4 +1,4 @@
-//! How likely the infrared levels are at a place of the map: distances where something is seen, and free beams where not.
+//! Beam model: how likely the infrared readings are at a pose in the map.
 
 use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Reflectance, Reflectances, UNMAPPED, bell};
 use super::surroundings::Surroundings;
@@ -7,37 +7,37 @@ use crate::model::geometry::Point2;
 
 /// Levels below this are noise of the conversion, 0..1.
 const LEVEL_MIN: f64 = 0.02;
-/// Likelihood of something seen where nothing is known yet: it speaks neither for the place nor against it.
+/// Likelihood of a reading in unknown space. It is neutral.
 const UNKNOWN: f64 = 0.5;
-/// Likelihood that nothing is seen where the map has something: drop-outs, black surfaces, what was carried away.
+/// Likelihood of no reading where the map has an obstacle: drop-outs, black surfaces, removed furniture.
 const UNSEEN: f64 = 0.08;
-/// Band around the end of the range in which it is open whether something is seen, metres.
+/// Band around the end of the range in which a reading is uncertain, metres.
 const RANGE_BAND_M: f64 = 0.02;
-/// A beam meets what is this near, metres.
+/// A beam hits an obstacle that is this close, metres.
 const MEET_M: f64 = 0.003;
 /// Smallest step along a beam, metres.
 const STEP_MIN_M: f64 = 0.012;
 /// Most steps along a beam.
 const STEPS_MAX: usize = 12;
 
-/// One sensor and what it shows.
+/// One sensor and its reading.
 #[derive(Clone, Copy, Debug, Default)]
 struct Beam {
-    /// The sensor's place in the body's frame, metres.
+    /// Position of the sensor in the body's frame, metres.
     x_m: f64,
     y_m: f64,
-    /// Its direction there.
+    /// Direction of the sensor in the body's frame.
     cos: f64,
     sin: f64,
     seen: Option<BeamReading>,
 }
 
-/// Something that a sensor sees.
+/// A reading of a sensor that sees something.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum BeamReading {
-    /// At a distance.
+    /// A distance.
     At(Range),
-    /// Within the range; the sensor has only one line.
+    /// Something within the range, by a sensor with one threshold only.
     Near,
 }
 
@@ -48,23 +48,23 @@ pub(super) struct BeamModel {
     count: usize,
     range_m: f64,
     spread: f64,
-    /// Nothing farther from the centre than this can be met by any beam, metres.
+    /// No beam reaches obstacles farther from the centre than this, metres.
     reach_m: f64,
     /// Farthest sensor from the centre, metres.
     mount_m: f64,
 }
 
-/// How a place fits what the sensors show.
+/// How well the map explains the beams at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::localization) struct BeamScore {
-    /// BeamModel for which map or sensor has something.
+    /// Beams for which the map or the sensor has an obstacle.
     pub(in crate::localization) informative: u32,
-    /// Those of them for which both have the same.
+    /// Informative beams for which both agree.
     pub(in crate::localization) consistent: u32,
 }
 
 impl BeamScore {
-    /// Both together.
+    /// Sum of both.
     pub(in crate::localization) fn and(self, other: Self) -> Self {
         Self {
             informative: self.informative.saturating_add(other.informative),
@@ -107,7 +107,7 @@ impl BeamModel {
         }
     }
 
-    /// Likelihood of all levels at a place; 1 at best.
+    /// Likelihood of all levels at a pose; 1 at best.
     pub(super) fn likelihood(
         &self,
         map: &impl Surroundings,
@@ -134,7 +134,7 @@ impl BeamModel {
         })
     }
 
-    /// Which beams the map explains at a place.
+    /// Counts the beams that the map explains at a pose.
     pub(super) fn score(&self, map: &impl Surroundings, place: &BodyPose) -> BeamScore {
         let mut score = BeamScore::default();
         for beam in self.beams.get(..self.count).unwrap_or_default() {
@@ -180,7 +180,7 @@ impl BeamModel {
             }
             (Some(BeamReading::Near), None) => UNMAPPED,
             (Some(BeamReading::At(range)), Some(expected_m)) => surface.likelihood(range, expected_m),
-            // The map's nearest thing may lie just beyond the range.
+            // The nearest obstacle in the map may be just beyond the range.
             (Some(BeamReading::At(range)), None) => {
                 let off = (self.range_m + 2.0 * RANGE_BAND_M - range.seen_m) * range.per_sigma;
                 UNMAPPED + (1.0 - UNMAPPED) * bell(off * off)
@@ -188,7 +188,7 @@ impl BeamModel {
         }
     }
 
-    /// Distance from the sensor to what its cone meets in the map.
+    /// Expected distance from the sensor to the first obstacle in its cone.
     fn cast(&self, map: &impl Surroundings, place: &BodyPose, beam: &Beam) -> Option<f64> {
         let start = place.point(beam.x_m, beam.y_m);
         let (dx, dy) = place.direction(beam.cos, beam.sin);
@@ -211,7 +211,7 @@ impl BeamModel {
     }
 }
 
-/// Whether what a beam shows lies where nothing is known, with nothing known in front of it.
+/// Whether a beam ends in unknown space with no known obstacle in front.
 fn looks_into_unknown(
     map: &impl Surroundings,
     place: &BodyPose,
@@ -233,7 +233,7 @@ fn looks_into_unknown(
 }
 
 fn seen(level: f64, response: &ProximityResponse) -> Option<BeamReading> {
-    // Written so that NaN is nothing.
+    // Written so that NaN is no reading.
     let shows = level > LEVEL_MIN && response.half_level_m > 0.0;
     if !shows {
         return None;
@@ -243,7 +243,7 @@ fn seen(level: f64, response: &ProximityResponse) -> Option<BeamReading> {
     }
     let beyond = libm::sqrt((1.0 / level - 1.0).max(0.0));
     let distance_m = response.skin_m + response.half_level_m * beyond;
-    // Derivative of the distance by the reflection; near the rim the level saturates and tells little.
+    // Derivative of the distance by the reflectance. Close to the rim the level saturates.
     let by_reflection_m = 0.5 * response.half_level_m * (1.0 + beyond * beyond) / beyond.max(0.5);
     let level_sigma_m = by_reflection_m * REFLECTION_SIGMA;
     let sigma_m = libm::sqrt(level_sigma_m * level_sigma_m + PLACE_SIGMA_M * PLACE_SIGMA_M);
@@ -254,13 +254,13 @@ fn seen(level: f64, response: &ProximityResponse) -> Option<BeamReading> {
     }))
 }
 
-/// A pose with what each sensor needs of it.
+/// A pose with everything that the sensor models need.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyPose {
     pub(super) centre: Point2,
     pub(super) cos: f64,
     pub(super) sin: f64,
-    /// From the centre to the nearest solid thing, metres.
+    /// Distance from the centre to the nearest obstacle, metres.
     pub(super) clearance_m: f64,
 }
 

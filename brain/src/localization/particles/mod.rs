@@ -1,9 +1,9 @@
-//! A particle filter in a map: many guesses of the pose move as odometry says, each with errors of its own, and those that
-//! fit what the sensors show multiply.
+//! Monte Carlo localization: a particle filter over the pose in a known map. Particles move by odometry, each with errors of its
+//! own, and those that explain the sensors multiply.
 //!
-//! Terms. *BodyPose*: a pose with its cosine, sine and clearance. *BeamScore*: how many beams the map explains at a place.
-//! *Tempered*: a likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent:
-//! a dark cupboard is dark for all of its length.
+//! *BodyPose*: a pose with its cosine, sine and clearance. *BeamScore*: how many beams the map explains at a pose. *Tempered*: a
+//! likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent: a dark cupboard is dark
+//! along its whole length.
 
 mod filter_mode;
 mod gyro;
@@ -29,72 +29,72 @@ use surface::Reflectances;
 pub(super) use surroundings::Surroundings;
 use touch::{Touch, body_likelihood};
 
-/// Fewest guesses while the robot knows where it is.
+/// Fewest particles while the pose is known.
 const TRACKING_MIN: usize = 220;
-/// Most of them.
+/// Most particles while the pose is known.
 const TRACKING_MAX: usize = 400;
-/// Guesses around each place where a lost robot may be.
+/// Particles around each candidate pose of a lost robot.
 const EACH: usize = 100;
-/// Guesses are drawn anew when the effective share of them falls below this.
+/// Particles are resampled when the effective share falls below this.
 const RESAMPLE_SHARE: f64 = 0.5;
-/// Edge of the bins whose number tells how many guesses are needed, metres.
+/// Edge of the bins for KLD sampling, metres.
 const BIN_M: f64 = 0.1;
 /// The same in heading, radians.
 const BIN_RAD: f64 = 0.17;
-/// Guesses so near to each other are one cluster, metres and radians.
+/// Particles this close to each other are one cluster, metres and radians.
 const CLUSTER_M: f64 = 0.5;
 const CLUSTER_RAD: f64 = 0.5;
-/// Bound of the error that too few guesses make (D. Fox 2003: KLD sampling), with quantile 2.33 of the normal distribution.
+/// Error bound of KLD sampling (D. Fox 2003), with quantile 2.33 of the normal distribution.
 const KLD_ERROR: f64 = 0.05;
 const KLD_QUANTILE: f64 = 2.33;
-/// Slip along the way, metres per square root of a metre.
+/// Slip, metres per square root of a metre.
 const SLIP_M_PER_SQRT_M: f64 = 0.012;
-/// What each move adds besides, metres and radians: cells, samples that are not of this moment. Guesses hold their headings: one that
-/// walls have told in one corner of a room is what a lane across the room is driven by.
+/// Noise that each motion adds, metres and radians, for cells and for samples of other moments. Particles keep their headings: a
+/// heading that walls gave in one corner of a room guides a lane across the room.
 const JITTER_M: f64 = 0.002;
 const JITTER_RAD: f64 = 0.0005;
-/// The same while the robot looks for its place: what walls have told so far may be wrong, and guesses must not hold on to it.
+/// The same while the filter searches: headings from walls may be wrong, and particles must not keep them.
 const SEARCHING_JITTER_RAD: f64 = 0.002;
-/// A few guesses turn by this much at each move, radians: all of them may hold a heading that is wrong.
+/// Share of particles that turn by this much at each motion, radians: all particles may have a wrong heading.
 const SURPRISE_SHARE: f64 = 0.002;
 const SURPRISE_RAD: f64 = 0.03;
-/// PoseSpread of the way's factor among robots, and how it wanders on rugs, per square root of a metre.
+/// Spread of the distance factor among robots, and its random walk on rugs, per square root of a metre.
 const DISTANCE_FACTOR_SIGMA: f64 = 0.01;
 const DISTANCE_FACTOR_WALK: f64 = 0.002;
-/// Least and greatest factor that is believed.
+/// Least and greatest accepted factor.
 const DISTANCE_FACTORS: (f64, f64) = (0.9, 1.1);
 
-/// One guess.
+/// One particle.
 #[derive(Clone, Copy, Debug)]
 struct Particle {
     pose: Pose2,
-    /// True way by counted way: wheels, slip on rugs.
+    /// True distance divided by counted distance: wheel size, slip on rugs.
     distance_factor: f64,
     gyro: ParticleGyro,
     surfaces: Reflectances,
     weight: f64,
 }
 
-/// What the robot moved since the guesses were weighed last.
+/// Motion since the last weighing.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct MotionDelta {
     /// From the last pose to this one.
     pub(super) step: Pose2,
-    /// Way, backwards counted too, metres.
+    /// Distance driven, also backwards, metres.
     pub(super) distance_m: f64,
     /// Variance of the turn, square radians.
     pub(super) turn_variance: f64,
     pub(super) gyro: GyroCount,
 }
 
-/// What the robot noticed since the guesses were weighed last, besides what its infrared sensors show.
+/// Measurements since the last weighing, besides the infrared readings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Measurements<'noticed> {
-    /// Contacts and edges of the floor that begin now.
+    /// Contacts and cliffs that begin now.
     pub(super) contacts: Contacts,
     pub(super) edges: Cliffs,
     pub(super) heard: &'noticed [LocatedRange],
-    /// What rests have told of the gyro.
+    /// Result of zero-velocity updates.
     pub(super) measured_bias: Option<BiasMeasurement>,
 }
 
@@ -105,7 +105,7 @@ pub(super) struct PoseSpread {
     pub(super) sigma_rad: f64,
 }
 
-/// The guesses.
+/// The particle filter.
 #[derive(Clone, Debug)]
 pub(super) struct ParticleFilter {
     particles: Vec<Particle>,
@@ -115,13 +115,13 @@ pub(super) struct ParticleFilter {
     radius_m: f64,
     layout: SensorLayout,
     beams: BeamModel,
-    /// With what new guesses begin.
+    /// Prior of the gyro for new particles.
     gyro: GyroEstimate,
     mode: FilterMode,
 }
 
 impl ParticleFilter {
-    /// All guesses at the origin.
+    /// All particles are at the origin.
     pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
         let mut filter = Self {
             particles: Vec::new(),
@@ -144,13 +144,12 @@ impl ParticleFilter {
         filter
     }
 
-    /// New guesses begin with this belief.
+    /// Sets the prior of the gyro for new particles.
     pub(super) fn set_gyro_prior(&mut self, belief: GyroEstimate) {
         self.gyro = belief;
     }
 
-    /// From now on guesses are moved and weighed so. Those that begin to hold what they learn know no more of the gyro than was
-    /// told.
+    /// Sets the mode. When the filter begins to hold, the particles take the prior of the gyro again.
     pub(super) fn set_mode(&mut self, mode: FilterMode) {
         if mode == FilterMode::Holding && self.mode == FilterMode::Searching {
             for particle in &mut self.particles {
@@ -161,14 +160,14 @@ impl ParticleFilter {
         self.mode = mode;
     }
 
-    /// What the guesses believe of the gyro, if they have learnt anything of it.
+    /// Estimate of the gyro, if the particles have learned one.
     pub(super) fn gyro(&self) -> Option<GyroEstimate> {
         let guesses = self.particles.iter();
         let guesses = guesses.map(|particle| (particle.weight, particle.gyro));
         (self.mode == FilterMode::Holding).then(|| gyro::belief(guesses))
     }
 
-    /// All guesses around one pose.
+    /// Draws all particles around one pose.
     pub(super) fn gather(&mut self, around: Pose2, spread: PoseSpread) {
         self.particles.clear();
         for _ in 0..TRACKING_MAX {
@@ -177,7 +176,7 @@ impl ParticleFilter {
         }
     }
 
-    /// Guesses around several poses.
+    /// Draws particles around several poses.
     pub(super) fn scatter(&mut self, around: &[Pose2], spread: PoseSpread) {
         self.particles.clear();
         for pose in around {
@@ -188,7 +187,7 @@ impl ParticleFilter {
         }
     }
 
-    /// Gives every third guess another place around a pose.
+    /// Draws every third particle again around a pose.
     pub(super) fn widen(&mut self, around: Pose2, spread: PoseSpread) {
         for index in (0..self.particles.len()).step_by(3) {
             let drawn = self.draw(around, spread);
@@ -216,7 +215,7 @@ impl ParticleFilter {
         }
     }
 
-    /// Moves every guess.
+    /// Predicts: moves every particle.
     pub(super) fn follow(&mut self, motion: MotionDelta) {
         let root_m = libm::sqrt(motion.distance_m);
         let along_m = SLIP_M_PER_SQRT_M * root_m + JITTER_M;
@@ -247,7 +246,7 @@ impl ParticleFilter {
         }
     }
 
-    /// Weighs every guess by what the sensors show, and draws new ones where few are left that fit.
+    /// Weighs every particle by the measurements, and resamples when few particles fit.
     pub(super) fn weigh(
         &mut self,
         map: &impl Surroundings,
@@ -292,12 +291,12 @@ impl ParticleFilter {
             0.0
         };
         for particle in &mut self.particles {
-            // All guesses are impossible: none of them is better than another.
+            // All particles are impossible, so none is better than another.
             particle.weight = if scale > 0.0 { particle.weight * scale } else { 1.0 };
         }
     }
 
-    /// Share of the guesses that matter; weights have the mean 1.
+    /// Effective share of the particles. Weights have the mean 1.
     fn effective_share(&self) -> f64 {
         let squares: f64 = self
             .particles
@@ -307,7 +306,7 @@ impl ParticleFilter {
         self.particles.len() as f64 / squares.max(1e-9)
     }
 
-    /// Draws as many guesses as their spread asks for, each with the chance of its weight (systematic resampling).
+    /// Systematic resampling with as many particles as their spread needs.
     fn resample(&mut self) {
         let wanted = self.wanted();
         let gyro = self.gyro();
@@ -335,7 +334,7 @@ impl ParticleFilter {
         }
     }
 
-    /// Number of guesses for the bins that hold guesses of some weight.
+    /// Number of particles for the occupied bins (KLD sampling).
     fn wanted(&mut self) -> usize {
         self.bins.clear();
         for particle in self.particles.iter().filter(|particle| particle.weight > 0.1) {
@@ -351,12 +350,12 @@ impl ParticleFilter {
         (wanted as usize).clamp(TRACKING_MIN, most)
     }
 
-    /// Mean of the guesses and their spread.
+    /// Mean of the particles and their spread.
     pub(super) fn estimate(&self) -> PoseEstimate {
         mean(&self.particles)
     }
 
-    /// Mean and spread of the greatest cluster of guesses, and its share of all weight.
+    /// Mean and spread of the largest cluster, and its share of the total weight.
     pub(super) fn cluster(&mut self) -> (PoseEstimate, f64) {
         let Some(centre) = self.densest() else {
             return (self.estimate(), 0.0);
@@ -373,7 +372,7 @@ impl ParticleFilter {
         (mean(&self.spare), share)
     }
 
-    /// A guess in the fullest bin.
+    /// A particle in the fullest bin.
     fn densest(&self) -> Option<Pose2> {
         let mut binned: Vec<(u64, usize)> = self
             .particles
@@ -398,13 +397,13 @@ impl ParticleFilter {
         self.particles.get(*index).map(|particle| particle.pose)
     }
 
-    /// How well the beams of the last weighing fit at a pose.
+    /// Score of the last weighing's beams at a pose.
     pub(super) fn score(&self, map: &impl Surroundings, pose: Pose2) -> BeamScore {
         self.beams.score(map, &place(map, pose))
     }
 }
 
-/// Likelihood of ranges to beacons at a place, with the heavy tails of Student's t: 1 at best.
+/// Likelihood of ranges to beacons at a position, with the heavy tails of Student's t; 1 at best.
 fn heard_likelihood(heard: &[LocatedRange], centre: Point2) -> f64 {
     heard.iter().fold(1.0, |likelihood, range| {
         let off = (range.range_m - range.at.distance_m(centre)) / range.sigma_m;
@@ -413,7 +412,7 @@ fn heard_likelihood(heard: &[LocatedRange], centre: Point2) -> f64 {
     })
 }
 
-/// To the power of 1/2, or of 3/8 where surfaces are not known again; by roots because they are cheap.
+/// To the power of 1/2, or of 3/8 where reflectances are not remembered. Roots are cheap.
 fn tempered(likelihood: f64, mode: FilterMode) -> f64 {
     let root = libm::sqrt(likelihood);
     match mode {
@@ -428,7 +427,7 @@ fn bin(pose: Pose2, factor: f64) -> u64 {
     number(pose.x_m, BIN_M) << 40 | number(pose.y_m, BIN_M) << 20 | number(pose.heading_rad, BIN_RAD)
 }
 
-/// A turn that nobody counted.
+/// A turn that odometry did not count.
 fn surprise_rad(random: &mut Random) -> f64 {
     if random.between(0.0, 1.0) < SURPRISE_SHARE {
         SURPRISE_RAD * random.normal()
@@ -437,7 +436,7 @@ fn surprise_rad(random: &mut Random) -> f64 {
     }
 }
 
-/// Weighted mean of guesses and their spread.
+/// Weighted mean of the particles and their spread.
 fn mean(particles: &[Particle]) -> PoseEstimate {
     let Some(first) = particles.first() else {
         return PoseEstimate::default();

@@ -1,4 +1,4 @@
-//! How likely contacts, cliffs and the mere presence of the body are at a place of the map.
+//! Likelihood of contacts, cliffs and the body itself at a pose in the map.
 
 use super::filter_mode::FilterMode;
 use super::infrared::BodyPose;
@@ -7,15 +7,15 @@ use crate::model::config::SensorLayout;
 use crate::model::geometry::Point2;
 use crate::model::observation::{Cliffs, Contacts};
 
-/// The body may be this deep in what the map has as solid before it counts: half a cell and the bumper's travel, metres.
+/// The body may overlap an obstacle by this much without a penalty: half a cell and the bumper's travel, metres.
 const INSIDE_FREE_M: f64 = 0.015;
-/// Over this depth more the body's presence becomes implausible, metres.
+/// Over this additional overlap the pose becomes implausible, metres.
 const INSIDE_BAND_M: f64 = 0.03;
-/// Likelihood of a body deep in a wall: furniture moves, maps err.
+/// Likelihood of a body deep inside a wall: furniture moves, maps are wrong.
 const INSIDE: f64 = 0.005;
-/// What a closing bumper says of a place: deviation of the gap between rim and wall in metres, and likelihood of a contact with
-/// what the map does not have. Where the robot is known to be, they are those of maps that robots draw: wrong by 3 to 4 cm, and
-/// without many a leg. Where it looks for itself, a touch must tell places apart.
+/// Model of a contact: standard deviation of the gap between rim and wall in metres, and likelihood of a contact with something
+/// that is not in the map. While the filter holds, the values are those of maps that robots draw, which are wrong by 3 to 4 cm and
+/// lack many legs. While it searches, a contact must tell poses apart.
 const HOLDING: ContactModel = ContactModel {
     sigma_m: 0.025,
     unmapped: 0.3,
@@ -24,18 +24,18 @@ const SEARCHING: ContactModel = ContactModel {
     sigma_m: 0.015,
     unmapped: 0.08,
 };
-/// How well a contact fits a wall that lies on the other side of the robot.
+/// Factor for a contact with a wall on the other side of the robot.
 const CONTACT_ASIDE: f64 = 0.2;
-/// The nearest point of a wall is this uncertain in direction, radians: corners, and cells for walls.
+/// Uncertainty of the direction to the nearest wall, radians: corners and cells.
 const ASIDE_RAD: f64 = 0.35;
-/// Deviation of the place of an edge under a cliff sensor, metres.
+/// Standard deviation of the position of a cliff edge, metres.
 const EDGE_SIGMA_M: f64 = 0.02;
-/// Likelihood of an edge where the map has none, and the reverse.
+/// Likelihood of a cliff where the map has none, and the reverse.
 const EDGE_UNMAPPED: f64 = 0.1;
-/// Step for the direction towards the nearest thing, metres.
+/// Step for the gradient of the clearance, metres.
 const SLOPE_STEP_M: f64 = 0.02;
 
-/// How much a closing bumper tells.
+/// Parameters of a contact.
 #[derive(Clone, Copy, Debug)]
 struct ContactModel {
     sigma_m: f64,
@@ -47,11 +47,11 @@ struct ContactModel {
 pub(super) struct Touch {
     pub(super) mode: FilterMode,
     pub(super) contacts: Contacts,
-    /// Cliffs that were seen first now.
+    /// Cliffs that begin now.
     pub(super) edges: Cliffs,
 }
 
-/// Likelihood that the body stands where it would touch or overlap this much; 1 at best.
+/// Likelihood of a body with this gap between its rim and the nearest obstacle; 1 at best.
 pub(super) fn body_likelihood(rim_gap_m: f64) -> f64 {
     let depth = (-rim_gap_m - INSIDE_FREE_M) / INSIDE_BAND_M;
     if depth <= 0.0 {
@@ -66,7 +66,7 @@ impl Touch {
         self.contacts.any() || self.edges.any()
     }
 
-    /// Likelihood of contacts and edges at a place; 1 at best.
+    /// Likelihood of contacts and cliffs at a pose; 1 at best.
     pub(super) fn likelihood(
         &self,
         map: &impl Surroundings,
@@ -121,7 +121,7 @@ impl Touch {
     }
 }
 
-/// Unit vector towards the nearest solid thing; ahead in x where there is none.
+/// Unit vector towards the nearest obstacle; along x where there is none.
 fn towards(map: &impl Surroundings, at: Point2) -> (f64, f64) {
     let clear = |x_m: f64, y_m: f64| {
         map.clearance_m(Point2 {

@@ -1,16 +1,16 @@
-//! RssiFingerprints, gathered on short ways: packets fade one by one, their mean does not.
+//! Averages signal strengths over short paths: packets fade one by one, their mean does not.
 
 use super::mean_rssi::{BEACONS_MAX, MeanRssi};
 use crate::model::advance::Advance;
 use crate::model::observation::{BeaconSignal, Observation};
 
-/// A mean is made after this way, metres: fading differs from one to the next, the shadow of walls hardly.
+/// Distance over which a mean is taken, metres: fading differs from one to the next, the shadow of walls hardly.
 const AVERAGING_M: f64 = 0.3;
-/// Powers outside of this are no powers of a receiver, dBm.
+/// Range of plausible receiver powers, dBm.
 const LEAST_DBM: f64 = -130.0;
 const MOST_DBM: f64 = 0.0;
 
-/// Means that are being made.
+/// Means in progress.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RssiAverager {
     distance_m: f64,
@@ -25,7 +25,8 @@ struct RssiSum {
 }
 
 impl RssiAverager {
-    /// Adds a step, and puts the means into `levels` when the way is long enough. A robot that hangs hears what is elsewhere.
+    /// Adds a step, and puts the means into `levels` at the end of each distance. A robot in the air receives signals of another
+    /// place.
     pub(super) fn take(&mut self, observation: &Observation, advance: Advance, levels: &mut Vec<MeanRssi>) {
         if observation.wheel_drop {
             *self = Self::default();

@@ -1,24 +1,24 @@
-//! Mean strength of each beacon on each piece of floor.
+//! Mean signal strength of each beacon in each cell of the floor.
 
 use std::collections::BTreeMap;
 
 use super::mean_rssi::MeanRssi;
 use crate::model::geometry::Point2;
 
-/// Edge of a piece of floor, metres.
+/// Edge of a cell, metres.
 const CELL_M: f64 = 0.5;
-/// Pieces on each side that speak for a place, and how far what was received in one speaks, metres: shadows of walls are a metre or
+/// Neighbouring cells on each side that contribute to a position, and the width of their weight: shadows of walls are a metre or
 /// two wide.
 const AROUND: i32 = 2;
 const REACH_M: f64 = 0.6;
-/// A place is known when what speaks for it weighs as much as this, in means of a piece right there.
+/// A position is known when its weights sum up to at least this, in means of the cell itself.
 const KNOWN: f64 = 0.5;
-/// Means that a piece counts at most: the home changes, and the last ones count.
+/// Greatest number of means that a cell counts: the home changes, and the last means count most.
 const COUNT_MAX: f64 = 12.0;
-/// Means of a piece that weigh as much as any more: what a piece is worth for its neighbours does not grow further.
+/// Greatest number of means by which a cell contributes to its neighbours.
 const WORTH_MAX: f64 = 3.0;
 
-/// RssiFingerprints by beacon and piece.
+/// Signal strengths by beacon and cell.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct FingerprintMap {
     pieces: BTreeMap<(u16, i32, i32), FingerprintCell>,
@@ -40,7 +40,7 @@ impl FingerprintMap {
         }
     }
 
-    /// With which strength a beacon is received at a place; `None` where too little was received of it around.
+    /// Expected strength of a beacon at a position; `None` where too few means are known.
     pub(super) fn expected_dbm(&self, beacon: u16, at: Point2) -> Option<f64> {
         let (middle_x, middle_y) = piece(at)?;
         let (mut weight, mut sum) = (0.0, 0.0);
@@ -56,13 +56,13 @@ impl FingerprintMap {
         (weight >= KNOWN).then(|| sum / weight)
     }
 
-    /// Nothing was received yet.
+    /// No signal was received yet.
     pub(super) fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
 }
 
-/// The piece under a place, if that is in any home.
+/// The cell of a position, if that is in any home.
 fn piece(at: Point2) -> Option<(i32, i32)> {
     let number = |value_m: f64| {
         let number = libm::floor(value_m / CELL_M);

@@ -1,9 +1,9 @@
-//! How strongly a beacon is received.
+//! Mean signal strength of a beacon.
 
 /// Beacons that are remembered.
 pub(super) const BEACONS_MAX: u16 = 32;
 
-/// Mean strength of a beacon on a short way.
+/// Mean signal strength of a beacon over a short path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::localization) struct MeanRssi {
     pub(in crate::localization) beacon: u16,

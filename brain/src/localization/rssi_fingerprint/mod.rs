@@ -1,10 +1,11 @@
-//! How strongly radio beacons are received where: what tells a robot that was carried away which part of the home it may be in.
+//! RSSI fingerprints: how strongly radio beacons are received where. They tell a robot that was carried away in which part of the
+//! home it may be.
 //!
-//! A strength is no distance. Walls and shadowing change it by 4 to 6 dB, which at the path loss of a home is half of any distance
-//! that one would make of it, and all of it stays the same at a place however long one listens. So no distance is made. While
-//! the robot knows its place it keeps the mean strength of each beacon for each piece of floor ([`FingerprintMap`]), in which walls,
-//! power and exponent are contained; a lost robot compares with that what it has received lately ([`FingerprintMatcher`]). Nothing is known of
-//! where beacons are, and no heading and no place of a robot that is not lost ever follows from strengths.
+//! A signal strength is no distance. Walls and shadowing change it by 4 to 6 dB. At the path loss of a home that is half of any
+//! distance computed from it, and the error stays the same at a place however long the robot listens. While its pose is known, the
+//! robot keeps the mean strength of each beacon for each cell of the floor ([`FingerprintMap`]), which contains walls, power and
+//! exponent. A lost robot compares what it has received lately with that ([`FingerprintMatcher`]). Positions of beacons stay
+//! unknown. No heading follows from signal strengths, and no position of a robot that is not lost.
 
 mod averager;
 mod map;
@@ -24,7 +25,7 @@ use crate::model::geometry::Point2;
 use crate::model::observation::Observation;
 use averager::RssiAverager;
 
-/// What is received now, and what was learnt of the home.
+/// Present signal strengths, and the fingerprints of the home.
 #[derive(Clone, Debug, Default)]
 pub(super) struct RssiFingerprints {
     gathering: RssiAverager,
@@ -33,30 +34,30 @@ pub(super) struct RssiFingerprints {
 }
 
 impl RssiFingerprints {
-    /// Takes in what was received on a step; [`Self::fresh`] tells whether a short way ended with it.
+    /// Takes the signals of a step; [`Self::fresh`] has the means when a short path ended with it.
     pub(super) fn listen(&mut self, observation: &Observation, advance: Advance) {
         self.fresh.clear();
         self.gathering.take(observation, advance, &mut self.fresh);
     }
 
-    /// Means of the way that has just ended; empty between.
+    /// Means of the short path that has just ended; empty between.
     pub(super) fn fresh(&self) -> &[MeanRssi] {
         &self.fresh
     }
 
-    /// What is fresh was received here, by a robot that knows it.
+    /// Learns the fresh means at this position.
     pub(super) fn learn(&mut self, at: Point2) {
         if !self.fresh.is_empty() {
             Arc::make_mut(&mut self.map).learn(at, &self.fresh);
         }
     }
 
-    /// Nothing was learnt yet.
+    /// Nothing was learned yet.
     pub(super) fn is_empty(&self) -> bool {
         self.map.is_empty()
     }
 
-    /// What was learnt of the home.
+    /// The fingerprints of the home.
     pub(super) fn map(&self) -> Arc<FingerprintMap> {
         Arc::clone(&self.map)
     }

@@ -1,4 +1,4 @@
-//! A robot between two rooms that it cannot tell apart by what it sees.
+//! A robot in two rooms that its infrared sensors cannot tell apart.
 
 use super::super::Localization;
 use super::super::known_home::{START, SimulatedRobot, TRACK_M, config, take};
@@ -7,11 +7,11 @@ use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{BeaconSignal, BeaconStrength, Observation};
 use crate::model::random::Random;
 
-/// How far the second room is from the first, metres.
+/// Distance between the two rooms, metres.
 const APART_M: f64 = 4.0;
 const BEACONS: [Point2; 2] = [Point2 { x_m: 0.5, y_m: 3.0 }, Point2 { x_m: 7.0, y_m: 0.5 }];
 
-/// Two equal rooms with a column each, shut off from each other.
+/// Two equal rooms with a column each, without a connection.
 fn twins() -> Map {
     let solid = |x_m: f64, y_m: f64| {
         let in_room = |x_m: f64| {
@@ -34,7 +34,7 @@ fn twins() -> Map {
     map
 }
 
-/// What the robot receives: 20 dB less for ten times as far, and packets that fade.
+/// Received strengths: 20 dB less for ten times the distance, and packets that fade.
 fn receive(view: &Observation, at: Point2, random: &mut Random) -> Observation {
     let strength = |(number, beacon): (usize, &Point2)| {
         let away_m = beacon.distance_m(at).max(0.3);
@@ -56,7 +56,7 @@ fn in_second(pose: Pose2) -> Pose2 {
     }
 }
 
-/// Drives about in both rooms, is carried to the second one, and drives on; by how much it is wrong there unless it is lost, metres.
+/// Drives in both rooms, is carried to the second one, and drives on. Returns the error there in metres, unless the robot is lost.
 fn off_after_lifting_m(hears: impl Fn(&Observation, Point2, &mut Random) -> Observation) -> Option<f64> {
     let map = twins();
     let mut random = Random::new(5);

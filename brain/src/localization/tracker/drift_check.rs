@@ -1,7 +1,7 @@
-//! Before a robot is lost that nobody has carried away: do its last metres fit where it believes to be, or close by?
+//! Checks a doubtful pose before the robot counts as lost: do the last metres match the map at the estimate, or close by?
 //!
-//! A map that a robot has drawn lacks many a leg, and is bent by some centimetres. Among things that it lacks it explains as little
-//! as in a wrong place, but the way there, of some metres, fits nowhere better.
+//! A map that a robot has drawn lacks many legs and is distorted by some centimetres. Among obstacles that it lacks it explains as
+//! little as at a wrong pose, but the last metres match nowhere better.
 
 use super::{SEARCH_FROM_M, SEARCHED, Tracker};
 use crate::localization::candidates::{found_near, near_if_as_good};
@@ -9,13 +9,13 @@ use crate::localization::confidence::Confidence;
 use crate::localization::particles::Surroundings;
 use crate::model::geometry::Pose2;
 
-/// Guesses that are this near to where the trail fits stay as they are, metres and radians.
+/// Particles this close to the matching pose stay as they are, metres and radians.
 const STAY_M: f64 = 0.15;
 const STAY_RAD: f64 = 0.1;
 
 impl Tracker {
-    /// The map explains too little of what is seen at `pose`. The robot goes on while its last metres are laid over the map; then it is where
-    /// they fit, if that is close by, or lost.
+    /// The map explains too little at `pose`. The robot drives on while its last metres are matched against the map. Then it is at
+    /// the match, if that is close, or lost.
     pub(super) fn doubt(&mut self, map: &impl Surroundings, pose: Pose2) {
         let may_stay = !self.competes && self.unconfirmed == 0 && self.history.length_m() >= SEARCH_FROM_M;
         if self.global_localizer.is_none() && may_stay {
@@ -37,7 +37,7 @@ impl Tracker {
         self.confidence = Confidence::default();
     }
 
-    /// Nobody has carried it away, but it is not where it believed to be.
+    /// Nobody has carried the robot away, but it is not at its estimate.
     pub(super) fn lose_by_drift(&mut self, pose: Pose2) {
         self.lose(pose);
         self.has_drifted = true;
@@ -51,7 +51,7 @@ mod tests {
     use crate::localization::particles::BeamScore;
     use crate::model::geometry::Pose2;
 
-    /// Drives for so many seconds; gives for how many steps the robot took itself for lost.
+    /// Drives for so many seconds. Returns for how many steps the robot was lost.
     fn drive(truth: &mut SimulatedRobot<'_>, localization: &mut Localization, seconds: u32) -> u32 {
         let mut lost = 0;
         for _ in 0..50 * seconds {
@@ -62,8 +62,8 @@ mod tests {
         lost
     }
 
-    /// A robot that believes to be `off` the place where it is, and comes among things that its map lacks after a minute: how long
-    /// it takes itself for lost in the half minute after, in steps, and how far off it is in the end.
+    /// A robot whose estimate is off by `off` comes among obstacles that its map lacks after a minute. Returns the number of lost
+    /// steps in the next half minute, and the final error.
     fn lost_and_off_m(off: Pose2) -> (u32, f64) {
         let map = flat();
         let mut truth = SimulatedRobot::new(&map, START);
