@@ -27,7 +27,7 @@ impl<'step> Parts<'step> {
             estimate: localization.estimate(),
             map: self.map,
             is_tracked: localization.explained().is_some(),
-            gyro_scale_sigma: localization.surveyed_gyro_scale_sigma(observation.time_us),
+            gyro_scale_sigma: localization.slam_gyro_scale_sigma(observation.time_us),
             gyro_bias_sigma_rad_per_s: localization.gyro_bias_sigma_rad_per_s(observation.time_us),
             way_back_m: localization.reverse_left_m(),
             beams: self.beams,

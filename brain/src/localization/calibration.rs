@@ -124,7 +124,7 @@ impl Calibration {
     }
 
     /// Scale error, relative, and bias, rad/s.
-    pub(super) fn found(&self) -> (f64, f64) {
+    pub(super) fn scale_and_bias(&self) -> (f64, f64) {
         (self.scale, self.bias_rad_per_s)
     }
 
@@ -144,12 +144,12 @@ impl Calibration {
     }
 
     /// Zero-velocity update: takes the turn rate at rest. Returns it as a measurement of the bias.
-    pub(super) fn rest(&mut self, rested: StationaryInterval) -> BiasMeasurement {
+    pub(super) fn update_at_rest(&mut self, interval: StationaryInterval) -> BiasMeasurement {
         let [ss, sb, bb] = self.covariance;
-        let swing_rad_per_s = SWING_RAD / rested.time_s;
+        let swing_rad_per_s = SWING_RAD / interval.time_s;
         let noise =
-            WALK_RAD_PER_SQRT_S * WALK_RAD_PER_SQRT_S / rested.time_s + swing_rad_per_s * swing_rad_per_s;
-        let off_rad_per_s = rested.rad_per_s - self.bias_rad_per_s;
+            WALK_RAD_PER_SQRT_S * WALK_RAD_PER_SQRT_S / interval.time_s + swing_rad_per_s * swing_rad_per_s;
+        let off_rad_per_s = interval.rad_per_s - self.bias_rad_per_s;
         let variance = bb + noise;
         let surprise = off_rad_per_s * off_rad_per_s / (REST_GATE * REST_GATE * variance);
         // A robot that slides along an obstacle turns slowly, too, while its wheels rest.
@@ -159,7 +159,7 @@ impl Calibration {
         self.move_by(gain_scale * off_rad_per_s, gain_bias * off_rad_per_s);
         self.covariance = [ss - gain_scale * sb, sb - gain_scale * bb, bb - gain_bias * bb];
         BiasMeasurement {
-            rad_per_s: rested.rad_per_s,
+            rad_per_s: interval.rad_per_s,
             variance_rad2_per_s2: variance * doubt - bb,
         }
     }
@@ -260,7 +260,7 @@ mod tests {
     use crate::localization::gyro_estimate::BiasMeasurement;
     use crate::model::learnt::GyroLearnt;
 
-    fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasMeasurement {
+    fn measurement(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasMeasurement {
         BiasMeasurement {
             rad_per_s,
             variance_rad2_per_s2: sigma_rad_per_s * sigma_rad_per_s,
@@ -268,18 +268,18 @@ mod tests {
     }
 
     #[test]
-    fn two_rests_tell_more_than_one_and_the_surer_one_the_most() {
-        let both = told(1e-3, 1e-4).and(told(2e-3, 1e-4));
+    fn measurements_combine_by_their_variances() {
+        let both = measurement(1e-3, 1e-4).and(measurement(2e-3, 1e-4));
         assert!((both.rad_per_s - 1.5e-3).abs() < 1e-12, "{both:?}");
         assert!((both.variance_rad2_per_s2 - 5e-9).abs() < 1e-18, "{both:?}");
-        let both = told(1e-3, 1e-4).and(told(2e-3, 1e-2));
+        let both = measurement(1e-3, 1e-4).and(measurement(2e-3, 1e-2));
         assert!((both.rad_per_s - 1e-3).abs() < 1e-6, "{both:?}");
     }
 
     fn rests(calibration: &mut Calibration, times: u32, rad_per_s: f64) {
         for _ in 0..times {
             calibration.covariance[2] += 100.0 * super::BIAS_DRIFT_RAD2_PER_S3;
-            calibration.rest(StationaryInterval {
+            calibration.update_at_rest(StationaryInterval {
                 rad_per_s,
                 time_s: 2.0,
             });
@@ -287,22 +287,22 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_is_turned_slowly_at_rest_does_not_unlearn_the_bias() {
+    fn a_slow_turn_at_rest_does_not_change_the_bias() {
         let mut calibration = Calibration::default();
         rests(&mut calibration, 3, 0.001);
-        let (_, learnt) = calibration.found();
+        let (_, learnt) = calibration.scale_and_bias();
         assert!((learnt - 0.001).abs() < 1e-4, "{learnt}");
         rests(&mut calibration, 1, 0.02);
-        let (_, after) = calibration.found();
+        let (_, after) = calibration.scale_and_bias();
         assert!((after - learnt).abs() < 2e-4, "{after} after {learnt}");
         // A bias that has really changed is learned all the same.
         rests(&mut calibration, 20, 0.004);
-        let (_, changed) = calibration.found();
+        let (_, changed) = calibration.scale_and_bias();
         assert!((changed - 0.004).abs() < 5e-4, "{changed}");
     }
 
     #[test]
-    fn a_bias_that_walls_have_told_goes_when_rests_deny_it() {
+    fn a_wrong_bias_from_walls_is_corrected_by_rests() {
         let mut calibration = Calibration::default();
         rests(&mut calibration, 3, 0.001);
         for _ in 0..60 {
@@ -313,15 +313,15 @@ mod tests {
                 variance_rad2: 0.002,
             });
         }
-        let (_, told) = calibration.found();
-        assert!(told > 0.0014, "{told}");
+        let (_, wrong) = calibration.scale_and_bias();
+        assert!(wrong > 0.0014, "{wrong}");
         rests(&mut calibration, 20, 0.001);
-        let (_, denied) = calibration.found();
-        assert!((denied - 0.001).abs() < 2e-4, "{denied}");
+        let (_, corrected) = calibration.scale_and_bias();
+        assert!((corrected - 0.001).abs() < 2e-4, "{corrected}");
     }
 
     #[test]
-    fn what_was_learnt_is_the_beginning_and_a_little_less_sure() {
+    fn a_resumed_calibration_is_a_little_less_sure() {
         let fresh = Calibration::default();
         assert_eq!(fresh.learnt(), None, "nothing is known");
         let mut before = fresh;
@@ -329,7 +329,7 @@ mod tests {
         before.move_by(0.0, 0.001);
         let learnt = before.learnt().expect("it is well known");
         let after = Calibration::resumed(learnt);
-        assert_eq!(after.found(), before.found());
+        assert_eq!(after.scale_and_bias(), before.scale_and_bias());
         assert!(after.scale_sigma() > before.scale_sigma());
         assert!((RESUMED_SIGMA..LEARNT_SIGMA).contains(&after.scale_sigma()));
         for scale_sigma in [0.5, f64::NAN] {
@@ -345,11 +345,11 @@ mod tests {
     }
 
     #[test]
-    fn the_scale_is_learnt_from_turns_and_the_bias_from_ways() {
+    fn turns_calibrate_the_scale_and_straight_paths_the_bias() {
         let mut calibration = Calibration::default();
         for number in 0..40 {
             let counted_rad = if number % 2 == 0 { 6.0 } else { 0.0 };
-            let (scale, bias) = calibration.found();
+            let (scale, bias) = calibration.scale_and_bias();
             let gained_rad = counted_rad * (1.0 + 0.01 - scale) - 20.0 * (0.002 - bias);
             calibration.learn(HeadingGain {
                 time_s: 20.0,
@@ -358,7 +358,7 @@ mod tests {
                 variance_rad2: 1e-4,
             });
         }
-        let (scale, bias) = calibration.found();
+        let (scale, bias) = calibration.scale_and_bias();
         assert!((scale - 0.01).abs() < 5e-4, "{scale}");
         assert!((bias - 0.002).abs() < 5e-5, "{bias}");
     }

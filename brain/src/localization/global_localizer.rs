@@ -11,7 +11,7 @@ use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
 /// Poses that are tried in one step: a millisecond on a desktop core.
-const PLACES_A_STEP: usize = 300;
+const POSITIONS_PER_STEP: usize = 300;
 /// Directions that are tried.
 const DIRECTIONS: u32 = 72;
 /// Most points of each kind.
@@ -38,7 +38,7 @@ const BODY_COST: f64 = 2.0;
 const OPEN_COST: f64 = 0.7;
 
 /// Solid points by which a pose may fall behind the required score before it is rejected.
-const HOPE: f64 = 4.0;
+const SLACK: f64 = 4.0;
 
 /// Tolerance of a point: a constant, and a share of its distance from the robot, because directions are coarse and odometry bends.
 #[derive(Clone, Copy, Debug)]
@@ -80,13 +80,13 @@ pub(super) struct GlobalLocalizer {
     /// Number of solid points.
     solid: usize,
     radius_m: f64,
-    places: Vec<Point2>,
+    positions: Vec<Point2>,
     stage: SearchStage,
     /// Least score of a coarse candidate, in solid points.
     least: f64,
     found: Vec<PoseCandidate>,
     /// Signal strengths along the history.
-    hearing: Option<FingerprintMatcher>,
+    rssi: Option<FingerprintMatcher>,
     /// Motion since the search began.
     moved: Pose2,
 }
@@ -98,7 +98,7 @@ enum SearchStage {
     Coarse {
         direction: u32,
         turned: Vec<Probe>,
-        place: usize,
+        position: usize,
     },
     /// Refines the candidates from this one on.
     Refine {
@@ -119,24 +119,24 @@ impl GlobalLocalizer {
             fine: probes(history, FINE),
             solid,
             radius_m,
-            places: map.places(),
+            positions: map.positions(),
             stage: coarse_stage(&coarse, 0),
             coarse,
             least: COARSE_SHARE * solid as f64,
             found: Vec::new(),
-            hearing: None,
+            rssi: None,
             moved: Pose2::IDENTITY,
         })
     }
 
     /// The same search with signal strengths.
-    pub(super) fn hearing(self, hearing: Option<FingerprintMatcher>) -> Self {
-        Self { hearing, ..self }
+    pub(super) fn with_rssi(self, rssi: Option<FingerprintMatcher>) -> Self {
+        Self { rssi, ..self }
     }
 
     /// Cost of a pose that does not explain the signal strengths.
     fn cost(&self, pose: Pose2) -> f64 {
-        self.hearing.as_ref().map_or(0.0, |hearing| hearing.cost(pose))
+        self.rssi.as_ref().map_or(0.0, |rssi| rssi.cost(pose))
     }
 
     /// The robot has moved on.
@@ -150,8 +150,8 @@ impl GlobalLocalizer {
             SearchStage::Coarse {
                 direction,
                 turned,
-                place,
-            } => self.stage = self.try_places(map, direction, (turned, place)),
+                position,
+            } => self.stage = self.try_positions(map, direction, (turned, position)),
             SearchStage::Refine { next } => {
                 if let Some(start) = self.found.get(next).map(|candidate| candidate.pose) {
                     let history = (self.radius_m, self.solid);
@@ -170,7 +170,7 @@ impl GlobalLocalizer {
     }
 
     /// All candidate poses of the robot now, the best one first; `None` while the search goes on.
-    pub(super) fn places(&self) -> Option<Vec<PoseCandidate>> {
+    pub(super) fn candidates(&self) -> Option<Vec<PoseCandidate>> {
         let moved = |candidate: &PoseCandidate| PoseCandidate {
             pose: candidate.pose * self.moved,
             ..*candidate
@@ -179,22 +179,22 @@ impl GlobalLocalizer {
     }
 
     /// Tries some more positions, and returns the next stage.
-    fn try_places(
+    fn try_positions(
         &mut self,
         map: &impl Surroundings,
         direction: u32,
-        (turned, place): (Vec<Probe>, usize),
+        (turned, position): (Vec<Probe>, usize),
     ) -> SearchStage {
         let solid = self.solid as f64;
-        let tried = self.places.iter().skip(place).take(PLACES_A_STEP);
-        for place in tried {
+        let tried = self.positions.iter().skip(position).take(POSITIONS_PER_STEP);
+        for position in tried {
             let history = (self.radius_m, self.solid, self.least);
-            let Some(score) = score(map, &turned, *place, history) else {
+            let Some(score) = score(map, &turned, *position, history) else {
                 continue;
             };
             let pose = Pose2 {
-                x_m: place.x_m,
-                y_m: place.y_m,
+                x_m: position.x_m,
+                y_m: position.y_m,
                 heading_rad: direction_rad(direction),
             };
             let score = score - self.cost(pose);
@@ -204,12 +204,12 @@ impl GlobalLocalizer {
             self.least = self.least.max(COARSE_OF_BEST * score * solid);
             self.found.push(PoseCandidate { pose, score });
         }
-        let place = place + PLACES_A_STEP;
-        if place < self.places.len() {
+        let position = position + POSITIONS_PER_STEP;
+        if position < self.positions.len() {
             return SearchStage::Coarse {
                 direction,
                 turned,
-                place,
+                position,
             };
         }
         if direction + 1 < DIRECTIONS {
@@ -225,7 +225,7 @@ fn coarse_stage(coarse: &[Probe], direction: u32) -> SearchStage {
     SearchStage::Coarse {
         direction,
         turned: turned(coarse, direction_rad(direction)),
-        place: 0,
+        position: 0,
     }
 }
 
@@ -311,20 +311,20 @@ fn turned(probes: &[Probe], heading_rad: f64) -> Vec<Probe> {
         .collect()
 }
 
-/// Score of rotated points at a position; `None` when it does not reach `least`, or falls too far behind it on the way.
+/// Score of rotated points at a position; `None` when it does not reach `least`, or falls too far behind it before the last point.
 fn score(
     map: &impl Surroundings,
     probes: &[Probe],
-    place: Point2,
+    position: Point2,
     (radius_m, solid, least): (f64, usize, f64),
 ) -> Option<f64> {
     let mut score = solid as f64;
     let per_probe = (solid as f64 - least) / probes.len().max(1) as f64;
-    let mut allowed = HOPE;
+    let mut allowed = SLACK;
     for probe in probes {
         let clear_m = map.clearance_m(Point2 {
-            x_m: place.x_m + probe.at.x_m,
-            y_m: place.y_m + probe.at.y_m,
+            x_m: position.x_m + probe.at.x_m,
+            y_m: position.y_m + probe.at.y_m,
         });
         score -= match probe.kind {
             PointKind::Solid => (clear_m.abs() / probe.tolerance_m).min(1.0),

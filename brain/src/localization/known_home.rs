@@ -143,11 +143,11 @@ impl<'map> SimulatedRobot<'map> {
             left: touches,
             right: touches,
         };
-        self.look();
+        self.sense();
         &self.view
     }
 
-    fn look(&mut self) {
+    fn sense(&mut self) {
         let layout = config().sensors.proximity;
         for (number, sensor) in layout.sensors().iter().enumerate() {
             let beam = self.pose * *sensor;
@@ -192,7 +192,7 @@ pub(super) fn take(localization: &mut Localization, view: &Observation) {
 }
 
 #[test]
-fn in_a_known_home_the_pose_stays_right_where_odometry_drifts_away() {
+fn in_a_known_home_the_pose_does_not_drift() {
     let map = flat();
     let mut truth = SimulatedRobot::new(&map, START);
     let mut localization = placed(&map, START);
@@ -219,7 +219,7 @@ fn in_a_known_home_the_pose_stays_right_where_odometry_drifts_away() {
 }
 
 #[test]
-fn in_an_unknown_home_the_walls_keep_the_pose_and_the_map_is_drawn_again_with_better_ones() {
+fn in_an_unknown_home_line_slam_keeps_the_pose_and_redraws_the_map() {
     let home = flat();
     let mut truth = SimulatedRobot::new(&home, START);
     let mut localization = Localization::new(TRACK_M, 0.5);
@@ -271,7 +271,7 @@ fn take_and_draw(localization: &mut Localization, map: &mut Map, view: &Observat
 }
 
 #[test]
-fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
+fn an_unknown_room_of_a_known_home_is_learned() {
     let home = flat();
     let mut half = home.knowledge().clone();
     for index in 0..half.values().len() {
@@ -325,7 +325,7 @@ fn lifted_in_first_run(home: &Map) -> (Localization, Map, Observation) {
 }
 
 #[test]
-fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it_has_made() {
+fn a_robot_carried_away_in_its_first_run_relocalizes_in_its_own_map() {
     let home = flat();
     let mut offs_m = Vec::new();
     for (x_m, y_m, heading_rad) in [(4.6, 0.8, -2.0), (1.2, 2.0, 1.0), (2.8, 0.6, 3.0)] {
@@ -366,7 +366,7 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
 }
 
 #[test]
-fn a_robot_that_was_carried_away_knows_it_and_finds_itself() {
+fn a_kidnapped_robot_is_lost_and_relocalizes() {
     let map = flat();
     let mut truth = SimulatedRobot::new(&map, START);
     let mut localization = placed(&map, START);
@@ -401,7 +401,7 @@ fn a_robot_that_was_carried_away_knows_it_and_finds_itself() {
 }
 
 #[test]
-fn a_robot_that_starts_at_a_wrong_place_notices_it() {
+fn a_wrong_initial_pose_is_noticed() {
     let map = flat();
     let mut truth = SimulatedRobot::new(&map, START);
     let wrong = Pose2 {
@@ -418,7 +418,7 @@ fn a_robot_that_starts_at_a_wrong_place_notices_it() {
 }
 
 #[test]
-fn two_that_take_up_the_same_checkpoint_go_on_alike_to_the_last_bit() {
+fn equal_checkpoints_continue_bit_identically() {
     let map = flat();
     let mut truth = SimulatedRobot::new(&map, START);
     let mut before = placed(&map, START);
@@ -465,7 +465,7 @@ fn nothing_from_outside_upsets_the_filter() {
 }
 
 #[test]
-fn a_map_that_odometry_alone_has_drawn_is_not_compared_with() {
+fn a_map_drawn_by_odometry_alone_is_not_used() {
     let home = flat();
     let mut truth = SimulatedRobot::new(&home, START);
     let mut odometry = Localization::new(TRACK_M, 0.5);

@@ -36,7 +36,7 @@ fn sought(floors: &[StoredMap], minutes: u32) -> (StoreyFinding, Point2) {
 }
 
 #[test]
-fn of_a_flat_and_its_mirror_image_the_right_one_is_found_and_the_place_on_it() {
+fn a_flat_is_told_from_its_mirror_image() {
     let own = flat().stored();
     let (finding, there) = sought(&[mirrored(&own), own], 6);
     let StoreyFinding::Found(place) = finding else {
@@ -48,7 +48,7 @@ fn of_a_flat_and_its_mirror_image_the_right_one_is_found_and_the_place_on_it() {
 }
 
 #[test]
-fn neither_of_two_floors_that_are_alike_is_found_and_none_that_is_another_home() {
+fn storeys_that_are_alike_or_of_another_home_are_not_found() {
     let own = flat().stored();
     assert_eq!(sought(&[own.clone(), own.clone()], 6).0, StoreyFinding::Unclear);
     assert_eq!(sought(&[mirrored(&own)], 6).0, StoreyFinding::Unclear);

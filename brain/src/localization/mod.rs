@@ -17,6 +17,7 @@ mod gyro_estimate;
 mod known_home;
 #[cfg(test)]
 mod known_storeys;
+mod lift;
 mod line_slam;
 mod localizer;
 mod map_correction;

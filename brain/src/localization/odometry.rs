@@ -15,7 +15,7 @@ pub(super) struct Odometry {
     rim_max_m_per_s: f64,
     odom_from_base: Pose2,
     last: Option<Totals>,
-    rest: StationaryDetector,
+    stationary: StationaryDetector,
     /// Bias by the zero-velocity update that the last observation ended.
     bias: Option<BiasMeasurement>,
     pub(super) calibration: Calibration,
@@ -33,7 +33,7 @@ impl Odometry {
             rim_max_m_per_s,
             odom_from_base: Pose2::IDENTITY,
             last: None,
-            rest: StationaryDetector::default(),
+            stationary: StationaryDetector::default(),
             bias: None,
             calibration: Calibration::default(),
         }
@@ -45,7 +45,7 @@ impl Odometry {
 
     /// Scale error of the gyro, relative, and its bias in rad/s.
     pub(super) fn gyro(&self) -> (f64, f64) {
-        self.calibration.found()
+        self.calibration.scale_and_bias()
     }
 
     /// Restores [`Self::gyro`] after a restart.
@@ -70,7 +70,7 @@ impl Odometry {
             gyro_rad: observation.gyro_heading_rad,
         };
         if let Some(last) = self.last {
-            self.watch_rest(last, now);
+            self.update_stationary(last, now);
         }
         let advance = self
             .last
@@ -85,14 +85,14 @@ impl Odometry {
         advance
     }
 
-    fn watch_rest(&mut self, last: Totals, now: Totals) {
+    fn update_stationary(&mut self, last: Totals, now: Totals) {
         let ended = if last.wheels_agree_with(now) {
             None
         } else {
-            self.rest.end(last)
+            self.stationary.end(last)
         };
-        let rested = ended.or(self.rest.observe(now));
-        self.bias = rested.map(|rested| self.calibration.rest(rested));
+        let interval = ended.or(self.stationary.observe(now));
+        self.bias = interval.map(|interval| self.calibration.update_at_rest(interval));
     }
 
     fn advance(&self, last: Totals, now: Totals) -> Advance {
@@ -120,7 +120,7 @@ impl Odometry {
 
     fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
         let seen_rad = now.gyro_rad? - last.gyro_rad?;
-        if self.rest.stands_still(now, seen_rad, time_s) {
+        if self.stationary.is_stationary(now, seen_rad, time_s) {
             return Some(0.0);
         }
         let turn_rad = self.calibration.corrected_rad(seen_rad, time_s);
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_at_rest_does_not_turn_by_its_gyros_bias_however_often_it_reports() {
+    fn bias_does_not_turn_a_robot_at_rest_however_often_it_reports() {
         let step_rad = 0.01_f64.to_radians();
         let mut odometry = Odometry::new(0.2, 0.5);
         let mut seen = Vec::new();
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn jumps_of_the_totals_are_not_ways() {
+    fn jumps_of_the_totals_are_not_motion() {
         let mut odometry = Odometry::new(0.2, 0.5);
         odometry.update(&at(0, 0.0, 0.0));
         odometry.update(&at(20_000, -57.0, 3.0));

@@ -108,10 +108,10 @@ impl Surroundings for ReferenceMap {
         known.is_some_and(|kind| *kind != CellKnowledge::Unknown)
     }
 
-    fn places(&self) -> Vec<Point2> {
+    fn positions(&self) -> Vec<Point2> {
         let knowledge = &self.knowledge;
         let origin = knowledge.origin();
-        let mut places = Vec::new();
+        let mut positions = Vec::new();
         for row in (0..knowledge.height()).step_by(PLACE_CELLS) {
             for column in (0..knowledge.width()).step_by(PLACE_CELLS) {
                 let cell = Cell {
@@ -121,11 +121,11 @@ impl Surroundings for ReferenceMap {
                 if knowledge.get(cell) == Some(&CellKnowledge::Free)
                     && self.distance.cell_m(cell) >= PLACE_CLEAR_M
                 {
-                    places.push(cell.middle());
+                    positions.push(cell.middle());
                 }
             }
         }
-        places
+        positions
     }
 }
 
@@ -154,7 +154,7 @@ mod tests {
     use crate::model::geometry::Point2;
 
     #[test]
-    fn the_end_of_the_floor_is_as_far_on_both_sides() {
+    fn the_distance_to_a_cliff_edge_is_symmetric() {
         let mut knowledge = Raster::filled(Cell { x: 0, y: 0 }, 40, 40, CellKnowledge::Free);
         for y in 0..40 {
             for x in 20..40 {

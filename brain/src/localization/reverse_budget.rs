@@ -68,7 +68,7 @@ mod tests {
     }
 
     #[test]
-    fn backing_uses_it_up_and_driving_forward_makes_it_good() {
+    fn reversing_uses_the_budget_and_driving_forward_restores_it() {
         check(&[], 0.12);
         check(&[-0.05, -0.04], 0.03);
         check(&[-0.05, 0.02, -0.04], 0.05);
@@ -77,13 +77,13 @@ mod tests {
     }
 
     #[test]
-    fn no_way_forward_earns_more_than_the_bound() {
+    fn driving_forward_never_exceeds_the_bound() {
         check(&[7.0, -0.1], 0.02);
         check(&[-7.0, 0.1], 0.07);
     }
 
     #[test]
-    fn what_is_not_a_number_leaves_no_way_back() {
+    fn nan_leaves_no_budget() {
         assert_eq!(ReverseBudget::resumed(f64::NAN).left_m(), 0.0);
         assert_eq!(ReverseBudget::resumed(f64::INFINITY).left_m(), 0.0);
         assert_eq!(ReverseBudget::resumed(-1.0), ReverseBudget::default());

@@ -10,11 +10,11 @@ use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{Contacts, Observation};
 
 /// Distance that is remembered, metres: odometry bends a longer path too much.
-const TRAIL_M: f64 = 14.0;
+const HISTORY_M: f64 = 14.0;
 /// Distance between two samples, metres.
-const NOTE_M: f64 = 0.08;
+const SAMPLE_M: f64 = 0.08;
 /// Turn between two samples, radians.
-const NOTE_RAD: f64 = 0.35;
+const SAMPLE_RAD: f64 = 0.35;
 /// A beam without a reading is free up to this share of its range.
 const OPEN_SHARE: f64 = 0.75;
 /// Levels below this are no reading, 0..1.
@@ -51,9 +51,9 @@ struct ReceivedRssi {
 pub(super) struct ScanHistory {
     history_from_base: Pose2,
     distance_m: f64,
-    noted_at_m: f64,
+    sampled_at_m: f64,
     turned_rad: f64,
-    notes: VecDeque<ScanPoint>,
+    points: VecDeque<ScanPoint>,
     received: VecDeque<ReceivedRssi>,
 }
 
@@ -73,17 +73,17 @@ impl ScanHistory {
 
     /// Length of the history in metres.
     pub(super) fn length_m(&self) -> f64 {
-        self.notes
+        self.points
             .front()
             .map_or(0.0, |oldest| self.distance_m - oldest.distance_m)
     }
 
     /// Samples the sensors, as often as the robot has moved enough.
-    pub(super) fn note(&mut self, observation: &Observation, layout: &ProximityLayout) {
-        if self.distance_m - self.noted_at_m < NOTE_M && self.turned_rad < NOTE_RAD {
+    pub(super) fn sample(&mut self, observation: &Observation, layout: &ProximityLayout) {
+        if self.distance_m - self.sampled_at_m < SAMPLE_M && self.turned_rad < SAMPLE_RAD {
             return;
         }
-        self.noted_at_m = self.distance_m;
+        self.sampled_at_m = self.distance_m;
         self.turned_rad = 0.0;
         self.put(Point2::ORIGIN, PointKind::Body);
         for (sensor, level) in layout.sensors().iter().zip(&observation.proximity) {
@@ -100,11 +100,11 @@ impl ScanHistory {
             self.put(at, kind);
         }
         while self
-            .notes
+            .points
             .front()
-            .is_some_and(|oldest| self.distance_m - oldest.distance_m > TRAIL_M)
+            .is_some_and(|oldest| self.distance_m - oldest.distance_m > HISTORY_M)
         {
-            self.notes.pop_front();
+            self.points.pop_front();
         }
     }
 
@@ -120,7 +120,7 @@ impl ScanHistory {
         while self
             .received
             .front()
-            .is_some_and(|oldest| distance_m - oldest.distance_m > TRAIL_M)
+            .is_some_and(|oldest| distance_m - oldest.distance_m > HISTORY_M)
         {
             self.received.pop_front();
         }
@@ -148,7 +148,7 @@ impl ScanHistory {
     }
 
     fn put(&mut self, in_base: Point2, kind: PointKind) {
-        self.notes.push_back(ScanPoint {
+        self.points.push_back(ScanPoint {
             at: self.history_from_base.transform(in_base),
             kind,
             distance_m: self.distance_m,
@@ -158,11 +158,11 @@ impl ScanHistory {
     /// Points of one kind in the present frame of the robot, about `most` at most, evenly picked.
     pub(super) fn points(&self, kind: PointKind, most: usize) -> Vec<Point2> {
         let base_from_history = self.history_from_base.inverse();
-        let of_kind = || self.notes.iter().filter(|note| note.kind == kind);
+        let of_kind = || self.points.iter().filter(|point| point.kind == kind);
         let every = of_kind().count() / most.max(1) + 1;
         of_kind()
             .step_by(every)
-            .map(|note| base_from_history.transform(note.at))
+            .map(|point| base_from_history.transform(point.at))
             .collect()
     }
 }

@@ -231,12 +231,12 @@ mod tests {
     }
 
     #[test]
-    fn the_solution_makes_all_residuals_least() {
-        makes_all_residuals_least(Summation::InOrder);
-        makes_all_residuals_least(Summation::Interleaved);
+    fn the_solution_minimizes_the_residuals() {
+        minimizes_the_residuals(Summation::InOrder);
+        minimizes_the_residuals(Summation::Interleaved);
     }
 
-    fn makes_all_residuals_least(summation: Summation) {
+    fn minimizes_the_residuals(summation: Summation) {
         let mut random = Random::new(7);
         let count = 30;
         // A chain, and every fifth unknown observed by all before it.
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_unknown_is_as_sure_as_all_that_leads_to_it() {
+    fn the_deviation_of_the_last_unknown_is_marginal() {
         let mut system = System::new(vec![0, 0], Summation::Interleaved);
         system.add_residual(&[(0, 1.0)], -3.0, 1.0 / 16.0);
         system.add_residual(&[(0, -1.0), (1, 1.0)], -2.0, 1.0 / 9.0);
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_determined_has_no_solution() {
+    fn an_underdetermined_system_has_no_solution() {
         let mut system = System::new(vec![0, 0], Summation::Interleaved);
         system.add_residual(&[(0, 1.0), (1, 1.0)], 1.0, 1.0);
         assert!(solved(system).is_none());

@@ -41,7 +41,7 @@ fn seconds(from_us: u64, to: Totals) -> f64 {
 
 impl StationaryDetector {
     /// Whether the wheels have been at rest for longer than the swinging, and nobody turns the robot.
-    pub(super) fn stands_still(&self, now: Totals, seen_rad: f64, time_s: f64) -> bool {
+    pub(super) fn is_stationary(&self, now: Totals, seen_rad: f64, time_s: f64) -> bool {
         let rests = self
             .rest
             .is_some_and(|rest| rest.since.wheels_agree_with(now) && seconds(rest.began_us, now) > SETTLE_S);
@@ -80,8 +80,8 @@ fn rested(since: Totals, now: Totals) -> Option<StationaryInterval> {
     let time_s = seconds(since.time_us, now);
     let rad_per_s = (now.gyro_rad? - since.gyro_rad?) / time_s;
     // Written so that NaN is not used.
-    let is_told = time_s >= REST_MIN_S && rad_per_s.abs() <= CARRIED_RAD_PER_S;
-    is_told.then_some(StationaryInterval { rad_per_s, time_s })
+    let is_usable = time_s >= REST_MIN_S && rad_per_s.abs() <= CARRIED_RAD_PER_S;
+    is_usable.then_some(StationaryInterval { rad_per_s, time_s })
 }
 
 #[cfg(test)]
@@ -97,7 +97,7 @@ mod tests {
         }
     }
 
-    fn told(
+    fn intervals(
         watch: &mut StationaryDetector,
         from_s: f64,
         steps: u32,
@@ -112,9 +112,9 @@ mod tests {
     }
 
     #[test]
-    fn a_long_rest_is_told_in_pieces_and_a_person_who_turns_the_robot_is_none() {
+    fn a_long_rest_gives_several_intervals_and_a_turn_by_hand_gives_none() {
         let mut watch = StationaryDetector::default();
-        let pieces = told(&mut watch, 0.0, 500, 0.001);
+        let pieces = intervals(&mut watch, 0.0, 500, 0.001);
         assert_eq!(pieces.len(), 4, "{pieces:?}");
         assert!(
             pieces
@@ -122,13 +122,13 @@ mod tests {
                 .all(|piece| (piece.rad_per_s - 0.001).abs() < 1e-6 && piece.time_s >= 2.0),
             "{pieces:?}"
         );
-        assert_eq!(told(&mut watch, 10.0, 500, 0.5), []);
+        assert_eq!(intervals(&mut watch, 10.0, 500, 0.5), []);
     }
 
     #[test]
-    fn a_short_rest_is_told_when_it_ends() {
+    fn a_short_rest_gives_an_interval_when_it_ends() {
         let mut watch = StationaryDetector::default();
-        assert_eq!(told(&mut watch, 0.0, 51, 0.002), []);
+        assert_eq!(intervals(&mut watch, 0.0, 51, 0.002), []);
         let rested = watch.end(at(1.0, 1.0, 0.002)).unwrap();
         assert!((rested.rad_per_s - 0.002).abs() < 1e-6, "{rested:?}");
         assert!((0.6..0.8).contains(&rested.time_s), "{rested:?}");

@@ -30,7 +30,7 @@ const PROVEN_SHARE: f64 = 0.8;
 /// The last metres must match the winner's map with this score,
 const WINNER_SCORE: f64 = 0.6;
 /// and the maps of the others with at most this share of it.
-const RIVAL_SHARE: f64 = 0.85;
+const OTHERS_SHARE: f64 = 0.85;
 /// Distance after an inconclusive second look until the next one, metres.
 const LOOK_AGAIN_M: f64 = 6.0;
 /// After this distance without a winner the robot asks a person, metres. The search continues
@@ -67,11 +67,11 @@ pub struct StoreyFinder {
     config: BrainConfig,
     seed: u64,
     /// Storeys whose maps are still loading, the last one first.
-    waiting: Vec<(u16, Gradual<ReferenceMap>)>,
+    loading: Vec<(u16, Gradual<ReferenceMap>)>,
     hypotheses: Vec<StoreyHypothesis>,
     /// Index of the hypothesis that searches in the next step. One searches per step, so steps take the same time with many
     /// storeys.
-    searches: usize,
+    next_search: usize,
     distance_m: f64,
     /// Searches of the second look, one for each hypothesis in order.
     second_look: Option<Vec<GlobalLocalizer>>,
@@ -109,9 +109,9 @@ impl StoreyFinder {
             odometry: Odometry::new(config.body.track_m, rim_max_m_per_s),
             config: *config,
             seed,
-            waiting: floors.map(ready).collect(),
+            loading: floors.map(ready).collect(),
             hypotheses: Vec::new(),
-            searches: 0,
+            next_search: 0,
             distance_m: 0.0,
             second_look: None,
             looks_from_m: 0.0,
@@ -126,8 +126,8 @@ impl StoreyFinder {
         if !self.can_see || self.distance_m > GIVE_UP_M {
             return StoreyFinding::Unclear;
         }
-        self.get_ready();
-        if observation.wheel_drop || !self.waiting.is_empty() {
+        self.load_maps();
+        if observation.wheel_drop || !self.loading.is_empty() {
             (self.distance_m, self.looks_from_m) = (0.0, 0.0);
         }
         self.distance_m += advance.distance_m.abs();
@@ -150,7 +150,7 @@ impl StoreyFinder {
         }
         self.winner = None;
         let proven = self.hypotheses.iter().position(StoreyHypothesis::is_proven);
-        let Some(proven) = proven.filter(|_| self.waiting.is_empty() && self.distance_m >= self.looks_from_m)
+        let Some(proven) = proven.filter(|_| self.loading.is_empty() && self.distance_m >= self.looks_from_m)
         else {
             self.second_look = None;
             self.step_search();
@@ -163,11 +163,11 @@ impl StoreyFinder {
         };
         looks.iter_mut().for_each(|look| look.follow(advance));
         let undone = self.hypotheses.iter().zip(looks.iter_mut());
-        if let Some((hypothesis, look)) = undone.into_iter().find(|(_, look)| look.places().is_none()) {
+        if let Some((hypothesis, look)) = undone.into_iter().find(|(_, look)| look.candidates().is_none()) {
             look.go_on(&hypothesis.reference_map);
             return None;
         }
-        let all: Vec<Vec<PoseCandidate>> = looks.iter().filter_map(GlobalLocalizer::places).collect();
+        let all: Vec<Vec<PoseCandidate>> = looks.iter().filter_map(GlobalLocalizer::candidates).collect();
         self.second_look = None;
         self.looks_from_m = self.distance_m + LOOK_AGAIN_M;
         let winner = self.hypotheses.get(proven)?;
@@ -177,15 +177,15 @@ impl StoreyFinder {
     }
 
     fn step_search(&mut self) {
-        if let Some(hypothesis) = self.hypotheses.get_mut(self.searches) {
+        if let Some(hypothesis) = self.hypotheses.get_mut(self.next_search) {
             hypothesis.tracker.step_search(&hypothesis.reference_map);
         }
-        self.searches = (self.searches + 1) % self.hypotheses.len().max(1);
+        self.next_search = (self.next_search + 1) % self.hypotheses.len().max(1);
     }
 
     /// Does one step of loading the maps.
-    fn get_ready(&mut self) {
-        let Some((floor, reference_map)) = self.waiting.last_mut() else {
+    fn load_maps(&mut self) {
+        let Some((floor, reference_map)) = self.loading.last_mut() else {
             return;
         };
         if let Poll::Ready(reference_map) = reference_map.go_on() {
@@ -198,7 +198,7 @@ impl StoreyFinder {
                 reference_map,
                 proven_m: 0.0,
             });
-            self.waiting.pop();
+            self.loading.pop();
         }
     }
 
@@ -248,7 +248,7 @@ impl StoreyHypothesis {
 
 /// Whether the candidates on storey `winner` confirm `pose`, and those on the others score clearly lower.
 fn is_clear(all: &[Vec<PoseCandidate>], winner: usize, pose: Pose2) -> bool {
-    let best = |places: &[PoseCandidate]| places.first().map_or(0.0, |best| best.score);
+    let best = |candidates: &[PoseCandidate]| candidates.first().map_or(0.0, |best| best.score);
     let Some(own) = all.get(winner) else {
         return false;
     };
@@ -257,5 +257,5 @@ fn is_clear(all: &[Vec<PoseCandidate>], winner: usize, pose: Pose2) -> bool {
         && best(own) >= WINNER_SCORE
         && others
             .into_iter()
-            .all(|(_, places)| best(places) <= RIVAL_SHARE * best(own))
+            .all(|(_, candidates)| best(candidates) <= OTHERS_SHARE * best(own))
 }

@@ -11,6 +11,7 @@ use super::confidence::{Confidence, Verdict};
 use super::drift::{WHEEL_TURN_SCALE, turn_variance};
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
+use super::lift::Lift;
 use super::odometry::Odometry;
 use super::particles::{
     BeamScore, FilterMode, Measurements, MotionDelta, ParticleFilter, PoseSpread, Surroundings,
@@ -35,10 +36,8 @@ const WEIGH_RAD: f64 = 0.15;
 /// A wrong scale has the same effect in all weighings of a turn. Particles draw independent errors, so theirs must be larger by
 /// this factor.
 const CORRELATED: f64 = 3.0;
-/// A wheel that hangs for so long means that somebody holds the robot, seconds.
-const LIFTED_S: f64 = 1.0;
 /// Distance between the place where people lift the robot and the place where they put it back.
-const PUT_BACK: PoseSpread = PoseSpread {
+const CARRIED_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.3,
     sigma_rad: 0.5,
 };
@@ -64,10 +63,10 @@ const LOST_SIGMA_M: f64 = 0.8;
 const SEARCH_FROM_M: f64 = 4.0;
 const SEARCH_EVERY_M: f64 = 2.5;
 /// The same with RSSI fingerprints, which exclude most of the poses that a few metres leave open.
-const HEARING_FROM_M: f64 = 2.5;
-const HEARING_EVERY_M: f64 = 1.5;
+const RSSI_SEARCH_FROM_M: f64 = 2.5;
+const RSSI_SEARCH_EVERY_M: f64 = 1.5;
 /// Spread of the particles around a candidate pose.
-const SEARCHED: PoseSpread = PoseSpread {
+const CANDIDATE_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.06,
     sigma_rad: 0.03,
 };
@@ -107,17 +106,17 @@ pub(super) struct Tracker {
     pending_turn_rad: f64,
     contacts_before: Contacts,
     cliffs_before: Cliffs,
-    hanging_s: f64,
+    lift: Lift,
     confidence: Confidence,
     lost: bool,
     /// The robot is lost because the map explains too little, and not because somebody lifted it.
     has_drifted: bool,
     weighings: u32,
     /// Ranges to beacons since the last weighing.
-    heard: Vec<LocatedRange>,
+    ranges: Vec<LocatedRange>,
     /// Bias by zero-velocity updates since the last weighing.
     measured_bias: Option<BiasMeasurement>,
-    stand: Standstill,
+    standstill: Standstill,
     history: ScanHistory,
     /// While the robot is lost: the RSSI fingerprints.
     fingerprints: Option<Arc<FingerprintMap>>,
@@ -144,14 +143,14 @@ impl Tracker {
             pending_turn_rad: 0.0,
             contacts_before: Contacts::default(),
             cliffs_before: Cliffs::default(),
-            hanging_s: 0.0,
+            lift: Lift::default(),
             confidence: Confidence::default(),
             lost: false,
             has_drifted: false,
             weighings: 0,
-            heard: Vec::new(),
+            ranges: Vec::new(),
             measured_bias: None,
-            stand: Standstill::default(),
+            standstill: Standstill::default(),
             history: ScanHistory::default(),
             fingerprints: None,
             search_in_m: 0.0,
@@ -185,7 +184,7 @@ impl Tracker {
         self.global_localizer = None;
         self.unconfirmed = 0;
         // A person who has placed it there does not carry it away.
-        self.hanging_s = 0.0;
+        self.lift = Lift::OnFloor;
         self.lost = false;
     }
 
@@ -207,7 +206,7 @@ impl Tracker {
 
     /// The robot may be anywhere. Until global localization finds it, the particles stay around `pose`.
     pub(super) fn lose(&mut self, pose: Pose2) {
-        self.filter.gather(pose, PUT_BACK);
+        self.filter.gather(pose, CARRIED_SPREAD);
         self.forget_motion();
         self.confidence = Confidence::none();
         self.search_in_m = (SEARCH_FROM_M - self.history.length_m()).max(0.0);
@@ -233,8 +232,8 @@ impl Tracker {
     }
 
     /// Takes ranges to beacons whose positions are known.
-    pub(super) fn hear(&mut self, heard: &[LocatedRange]) {
-        self.heard.extend_from_slice(heard);
+    pub(super) fn add_ranges(&mut self, ranges: &[LocatedRange]) {
+        self.ranges.extend_from_slice(ranges);
     }
 
     /// Takes signal strengths. They only restrict where a lost robot may be.
@@ -244,14 +243,14 @@ impl Tracker {
             self.fingerprints = None;
         } else if self.fingerprints.is_none() && !fingerprints.is_empty() {
             self.fingerprints = Some(fingerprints.map());
-            let from_m = (HEARING_FROM_M - self.history.length_m()).max(0.0);
+            let from_m = (RSSI_SEARCH_FROM_M - self.history.length_m()).max(0.0);
             self.search_in_m = self.search_in_m.min(from_m);
         }
     }
 
     /// Whether the pose is known and confirmed.
     pub(super) fn is_settled(&self) -> bool {
-        !self.lost && self.unconfirmed == 0 && self.hanging_s <= 0.0
+        !self.lost && self.unconfirmed == 0 && self.lift.hanging_s() <= 0.0
     }
 
     /// Does a step of the global localization of a lost robot, before each [`Self::follow`] or now and then.
@@ -283,25 +282,26 @@ impl Tracker {
         self.collect(advance, moved.gyro);
         let measured = [self.measured_bias, moved.measured_bias];
         self.measured_bias = measured.into_iter().flatten().reduce(BiasMeasurement::and);
-        if self.stand.ends_long(advance) {
+        if self.standstill.ends_long(advance) {
             self.filter.draw_bias(moved.gyro);
             self.measured_bias = None;
         }
         if let Some(search) = &mut self.global_localizer {
             search.follow(advance);
         }
-        let felt = self.felt(observation);
-        if self.was_lifted(observation, advance) {
+        let began = self.new_contacts(observation);
+        self.lift.update(observation, advance);
+        if self.lift.is_put_down() {
             self.history.forget();
             self.lose(pose);
             return Some(self.estimate());
         }
-        self.history.note(observation, &self.layout.proximity);
-        self.history.touch(felt.0, self.radius_m);
+        self.history.sample(observation, &self.layout.proximity);
+        self.history.touch(began.0, self.radius_m);
         let due = self.pending.distance_m >= WEIGH_M
             || self.pending_turn_rad >= WEIGH_RAD
-            || felt.0.any()
-            || felt.1.any();
+            || began.0.any()
+            || began.1.any();
         if !due || observation.wheel_drop {
             return None;
         }
@@ -317,21 +317,21 @@ impl Tracker {
         }
         self.filter.set_mode(mode);
         self.filter.follow(self.pending);
-        let heard = core::mem::take(&mut self.heard);
-        let felt = Measurements {
-            contacts: felt.0,
-            edges: felt.1,
-            heard: &heard,
+        let ranges = core::mem::take(&mut self.ranges);
+        let measurements = Measurements {
+            contacts: began.0,
+            edges: began.1,
+            ranges: &ranges,
             measured_bias: self.measured_bias.take(),
         };
         self.forget_motion();
         self.weighings = self.weighings.saturating_add(1);
         if self.lost {
             let map = &Whole(map);
-            self.filter.weigh(map, observation, &felt);
+            self.filter.weigh(map, observation, &measurements);
             Some(self.search(map, pose))
         } else {
-            self.filter.weigh(map, observation, &felt);
+            self.filter.weigh(map, observation, &measurements);
             Some(self.judge(map))
         }
     }
@@ -389,27 +389,31 @@ impl Tracker {
         let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
         if self.global_localizer.is_none() && self.search_in_m <= 0.0 {
             self.search_in_m = match self.fingerprints {
-                Some(_) => HEARING_EVERY_M,
+                Some(_) => RSSI_SEARCH_EVERY_M,
                 None => SEARCH_EVERY_M,
             };
-            let hearing = self.fingerprints.clone();
-            let hearing = hearing.map(|map| FingerprintMatcher::new(self.history.received(), map));
+            let matcher = self.fingerprints.clone();
+            let matcher = matcher.map(|map| FingerprintMatcher::new(self.history.received(), map));
             self.global_localizer = GlobalLocalizer::of(map, &self.history, self.radius_m)
-                .map(|search| Box::new(search.hearing(hearing)));
+                .map(|search| Box::new(search.with_rssi(matcher)));
         }
-        if let Some(places) = self.global_localizer.as_ref().and_then(|search| search.places()) {
+        if let Some(candidates) = self
+            .global_localizer
+            .as_ref()
+            .and_then(|search| search.candidates())
+        {
             self.global_localizer = None;
-            let places = if self.has_drifted {
-                near_if_as_good(places, carried)
+            let candidates = if self.has_drifted {
+                near_if_as_good(candidates, carried)
             } else {
-                places
+                candidates
             };
-            if gathered && self.confidence.is_found() && is_alone(&places, estimate.pose) {
+            if gathered && self.confidence.is_found() && is_alone(&candidates, estimate.pose) {
                 self.lost = false;
                 self.weighings = 0;
                 self.unconfirmed = CONFIRMATION_BEAMS;
-            } else if !gathered || !is_among(&places, estimate.pose) {
-                self.try_places(&places);
+            } else if !gathered || !is_among(&candidates, estimate.pose) {
+                self.scatter_around(&candidates);
             }
         }
         PoseEstimate {
@@ -418,12 +422,12 @@ impl Tracker {
         }
     }
 
-    fn try_places(&mut self, places: &[PoseCandidate]) {
-        if places.is_empty() {
+    fn scatter_around(&mut self, candidates: &[PoseCandidate]) {
+        if candidates.is_empty() {
             return;
         }
-        let poses: Vec<Pose2> = places.iter().map(|place| place.pose).collect();
-        self.filter.scatter(&poses, SEARCHED);
+        let poses: Vec<Pose2> = candidates.iter().map(|candidate| candidate.pose).collect();
+        self.filter.scatter(&poses, CANDIDATE_SPREAD);
         self.confidence = Confidence::none();
     }
 
@@ -435,7 +439,7 @@ impl Tracker {
     }
 
     /// Contacts and cliffs that begin now.
-    fn felt(&mut self, observation: &Observation) -> (Contacts, Cliffs) {
+    fn new_contacts(&mut self, observation: &Observation) -> (Contacts, Cliffs) {
         let (contacts, cliffs) = (observation.contacts, observation.cliffs);
         let first_contacts = if self.contacts_before.any() {
             Contacts::default()
@@ -451,17 +455,6 @@ impl Tracker {
         (first_contacts, first_cliffs)
     }
 
-    /// Whether somebody has just put the robot down.
-    fn was_lifted(&mut self, observation: &Observation, advance: Advance) -> bool {
-        if observation.wheel_drop {
-            self.hanging_s += advance.time_s;
-            return false;
-        }
-        let lifted = self.hanging_s >= LIFTED_S;
-        self.hanging_s = 0.0;
-        lifted
-    }
-
     fn collect(&mut self, advance: Advance, gyro: GyroEstimate) {
         self.pending.gyro.add(advance, gyro);
         self.pending.step = self.pending.step.after_arc(advance.distance_m, advance.turn_rad);
@@ -473,7 +466,7 @@ impl Tracker {
     }
 
     fn forget_motion(&mut self) {
-        self.heard.clear();
+        self.ranges.clear();
         self.pending = MotionDelta::default();
         self.pending_turn_rad = 0.0;
     }
@@ -495,7 +488,7 @@ impl<M: Surroundings> Surroundings for Whole<'_, M> {
         true
     }
 
-    fn places(&self) -> Vec<Point2> {
-        self.0.places()
+    fn positions(&self) -> Vec<Point2> {
+        self.0.positions()
     }
 }

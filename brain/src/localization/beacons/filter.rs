@@ -2,7 +2,7 @@
 
 use super::hop::{BEACONS_MAX, Hop};
 use super::located_range::LocatedRange;
-use super::multilateration::{MeasuredRange, guess};
+use super::multilateration::{MeasuredRange, locate_beacon};
 use super::range_prediction::RangePrediction;
 use super::weight::weight;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
@@ -31,10 +31,10 @@ const PLACED_SIGMA_RAD: f64 = 0.03;
 
 /// Result of the batch initialization.
 #[derive(Debug)]
-pub(super) struct InitialState<'look> {
+pub(super) struct InitialState<'batch> {
     pub(super) pose: Pose2,
     pub(super) wheels: [f64; WHEELS],
-    pub(super) beacons: &'look [(u16, Point2)],
+    pub(super) beacons: &'batch [(u16, Point2)],
     /// Of pose, wheels and beacons, in this order.
     pub(super) covariance: Vec<Vec<f64>>,
 }
@@ -203,14 +203,14 @@ impl BeaconFilter {
         let Some((_, place)) = self.beacons.get(beacon).copied() else {
             return;
         };
-        let sight = RangePrediction::new(self.pose, hop.middle(), place);
+        let predicted = RangePrediction::new(self.pose, hop.middle(), place);
         let at = BEACONS + 2 * beacon;
         let by = [
-            (0, sight.by_x),
-            (1, sight.by_y),
-            (2, sight.by_heading),
-            (at, -sight.by_x),
-            (at + 1, -sight.by_y),
+            (0, predicted.by_x),
+            (1, predicted.by_y),
+            (2, predicted.by_heading),
+            (at, -predicted.by_x),
+            (at + 1, -predicted.by_y),
         ];
         let gains: Vec<f64> = self
             .covariance
@@ -225,7 +225,7 @@ impl BeaconFilter {
             .iter()
             .map(|(place, by)| gains.get(*place).copied().unwrap_or(0.0) * by)
             .sum();
-        let off_m = range_m - sight.away_m;
+        let off_m = range_m - predicted.away_m;
         let noise_m2 = sigma_m * sigma_m;
         let trust = weight(off_m / libm::sqrt(own_m2 + noise_m2));
         let variance_m2 = own_m2 + noise_m2 / trust;
@@ -273,13 +273,13 @@ impl BeaconFilter {
             return;
         }
         self.late.retain(|late| late.0 != beacon);
-        if let Some(place) = guess(&of_it) {
-            self.welcome(beacon, place);
+        if let Some(place) = locate_beacon(&of_it) {
+            self.add_beacon(beacon, place);
         }
     }
 
     /// Adds a beacon to the state. Its position has the error of the pose and an error of its own.
-    fn welcome(&mut self, beacon: u16, place: Point2) {
+    fn add_beacon(&mut self, beacon: u16, place: Point2) {
         self.beacons.push((beacon, place));
         for row in &mut self.covariance {
             let (x, y) = (row.first().copied(), row.get(1).copied());
@@ -341,8 +341,8 @@ impl BeaconFilter {
     }
 
     /// Ranges of a hop to located beacons, for the particle filter.
-    pub(super) fn hear(&self, hop: &Hop, heard: &mut Vec<LocatedRange>) {
-        heard.extend(hop.ranges.iter().filter_map(|range| {
+    pub(super) fn locate_ranges(&self, hop: &Hop, located_ranges: &mut Vec<LocatedRange>) {
+        located_ranges.extend(hop.ranges.iter().filter_map(|range| {
             let number = self.beacons.iter().position(|beacon| beacon.0 == range.beacon)?;
             let place_sigma_m = self.widest_m(BEACONS + 2 * number);
             Some(LocatedRange {

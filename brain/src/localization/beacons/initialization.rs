@@ -6,7 +6,7 @@
 
 use super::filter::{BEND_SIGMA, BeaconFilter, InitialState, SCALE_SIGMA, STRETCH_SIGMA, WHEELS};
 use super::hop::Hop;
-use super::multilateration::{MeasuredRange, guess};
+use super::multilateration::{MeasuredRange, locate_beacon};
 use super::range_prediction::RangePrediction;
 use super::weight::weight;
 use crate::localization::skyline::{Factor, Solution, Summation, System};
@@ -28,7 +28,7 @@ const RANGES_MIN: usize = 12;
 /// Fewest beacons: with odometry between two ranges, two beacons determine the pose.
 const BEACONS_MIN: usize = 2;
 /// Most iterations of Gauss-Newton, and the step that ends them.
-const STEPS_MAX: u32 = 25;
+const ITERATIONS_MAX: u32 = 25;
 const DONE: f64 = 1e-3;
 /// Greatest standard deviation of a beacon's position, metres. Less certain beacons are located later.
 const SURE_M: f64 = 0.5;
@@ -80,7 +80,7 @@ impl BatchInitializer {
             return None;
         }
         self.next_m = self.length_m + AGAIN_M;
-        self.look()
+        self.solve()
     }
 
     /// Whether the path is too long for a solution, so that it should start again.
@@ -99,23 +99,23 @@ impl BatchInitializer {
         poses
     }
 
-    fn look(&self) -> Option<BeaconFilter> {
-        let mut guess = self.first_guess()?;
+    fn solve(&self) -> Option<BeaconFilter> {
+        let mut state = self.initial_state()?;
         let mut fit = f64::INFINITY;
-        for _ in 0..STEPS_MAX {
-            let (change, factor, misfit) = self.step(&guess)?;
-            guess.add(&change);
+        for _ in 0..ITERATIONS_MAX {
+            let (change, factor, misfit) = self.step(&state)?;
+            state.add(&change);
             fit = misfit;
             if change.iter().all(|change| change.abs() < DONE) {
-                return self.answer(&guess, &factor, fit);
+                return self.answer(&state, &factor, fit);
             }
         }
-        let (_, factor, misfit) = self.step(&guess)?;
+        let (_, factor, misfit) = self.step(&state)?;
         fit = fit.min(misfit);
-        self.answer(&guess, &factor, fit)
+        self.answer(&state, &factor, fit)
     }
 
-    fn first_guess(&self) -> Option<BatchState> {
+    fn initial_state(&self) -> Option<BatchState> {
         let poses = self.poses([0.0; WHEELS]);
         let mut numbers: Vec<u16> = self.ranges().map(|(_, range)| range.beacon).collect();
         numbers.sort_unstable();
@@ -137,7 +137,7 @@ impl BatchInitializer {
                 if ranges.len() < RANGES_MIN {
                     return None;
                 }
-                Some((number, guess(&ranges)?))
+                Some((number, locate_beacon(&ranges)?))
             })
             .collect();
         (beacons.len() >= BEACONS_MIN).then_some(BatchState {
@@ -156,9 +156,9 @@ impl BatchInitializer {
     }
 
     /// One iteration: the step, the factor of its system, and the misfit of the ranges before it.
-    fn step(&self, guess: &BatchState) -> Option<(Vec<f64>, Factor, f64)> {
-        let common = POSE * guess.poses.len();
-        let unknowns = common + WHEELS + 2 * guess.beacons.len();
+    fn step(&self, state: &BatchState) -> Option<(Vec<f64>, Factor, f64)> {
+        let common = POSE * state.poses.len();
+        let unknowns = common + WHEELS + 2 * state.beacons.len();
         let first = (0..unknowns).map(|row| {
             if row < common {
                 (row / POSE).saturating_sub(1) * POSE
@@ -167,25 +167,25 @@ impl BatchInitializer {
             }
         });
         let mut system = System::new(first.collect(), Summation::InOrder);
-        self.measure_start(guess, &mut system, common);
+        self.measure_start(state, &mut system, common);
         for (number, hop) in self.hops.iter().enumerate() {
-            let (from, to) = (guess.poses.get(number)?, guess.poses.get(number + 1)?);
+            let (from, to) = (state.poses.get(number)?, state.poses.get(number + 1)?);
             measure_hop(
                 hop,
                 (*from, *to),
-                (guess.wheels, POSE * number, common),
+                (state.wheels, POSE * number, common),
                 &mut system,
             );
         }
         let (mut misfit, mut count) = (0.0, 0_u32);
         for (number, range) in self.ranges() {
-            let Some(beacon) = guess.beacons.iter().position(|known| known.0 == range.beacon) else {
+            let Some(beacon) = state.beacons.iter().position(|known| known.0 == range.beacon) else {
                 continue;
             };
-            let place = guess.beacons.get(beacon)?.1;
-            let pose = *guess.poses.get(number + 1)?;
-            let sight = RangePrediction::new(pose, self.hops.get(number)?.middle(), place);
-            let off = (sight.away_m - range.range_m) / range.sigma_m;
+            let place = state.beacons.get(beacon)?.1;
+            let pose = *state.poses.get(number + 1)?;
+            let predicted = RangePrediction::new(pose, self.hops.get(number)?.middle(), place);
+            let off = (predicted.away_m - range.range_m) / range.sigma_m;
             let weight = weight(off);
             misfit += weight * off * off;
             count += 1;
@@ -196,11 +196,11 @@ impl BatchInitializer {
                 &mut system,
                 libm::sqrt(weight) * off,
                 &[
-                    (at, per * sight.by_x),
-                    (at + 1, per * sight.by_y),
-                    (at + 2, per * sight.by_heading),
-                    (beacon_at, -per * sight.by_x),
-                    (beacon_at + 1, -per * sight.by_y),
+                    (at, per * predicted.by_x),
+                    (at + 1, per * predicted.by_y),
+                    (at + 2, per * predicted.by_heading),
+                    (beacon_at, -per * predicted.by_x),
+                    (beacon_at + 1, -per * predicted.by_y),
                 ],
             );
         }
@@ -208,28 +208,28 @@ impl BatchInitializer {
         Some((values, factor, libm::sqrt(misfit / f64::from(count.max(1)))))
     }
 
-    fn measure_start(&self, guess: &BatchState, system: &mut System, common: usize) {
+    fn measure_start(&self, state: &BatchState, system: &mut System, common: usize) {
         let (start, sigma) = (self.start.pose, self.start.sigma_m.max(START_SIGMA_M));
-        let now = guess.poses.first().copied().unwrap_or(start);
+        let now = state.poses.first().copied().unwrap_or(start);
         measure(system, (now.x_m - start.x_m) / sigma, &[(0, 1.0 / sigma)]);
         measure(system, (now.y_m - start.y_m) / sigma, &[(1, 1.0 / sigma)]);
         let sigma_rad = self.start.sigma_rad.max(START_SIGMA_RAD);
         let off_rad = normalize_rad(now.heading_rad - start.heading_rad);
         measure(system, off_rad / sigma_rad, &[(2, 1.0 / sigma_rad)]);
         let sigmas = [BEND_SIGMA, SCALE_SIGMA, STRETCH_SIGMA];
-        for (number, (value, sigma)) in guess.wheels.iter().zip(sigmas).enumerate() {
+        for (number, (value, sigma)) in state.wheels.iter().zip(sigmas).enumerate() {
             measure(system, value / sigma, &[(common + number, 1.0 / sigma)]);
         }
     }
 
-    fn answer(&self, guess: &BatchState, factor: &Factor, fit: f64) -> Option<BeaconFilter> {
+    fn answer(&self, state: &BatchState, factor: &Factor, fit: f64) -> Option<BeaconFilter> {
         // Written so that NaN does not fit.
         let fits = fit <= FIT_MAX;
         if !fits {
             return None;
         }
-        let common = POSE * guess.poses.len();
-        let unknowns = common + WHEELS + 2 * guess.beacons.len();
+        let common = POSE * state.poses.len();
+        let unknowns = common + WHEELS + 2 * state.beacons.len();
         let kept: Vec<usize> = (common - POSE..unknowns).collect();
         let covariance: Option<Vec<Vec<f64>>> = kept
             .iter()
@@ -243,9 +243,9 @@ impl BatchInitializer {
             })
             .collect();
         let mut follower = BeaconFilter::begin(InitialState {
-            pose: *guess.poses.last()?,
-            wheels: guess.wheels,
-            beacons: &guess.beacons,
+            pose: *state.poses.last()?,
+            wheels: state.wheels,
+            beacons: &state.beacons,
             covariance: covariance?,
         });
         follower.forget_beyond(SURE_M);

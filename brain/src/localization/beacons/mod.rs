@@ -15,6 +15,7 @@ mod multilateration;
 mod range_prediction;
 mod weight;
 
+use super::lift::Lift;
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
 use crate::model::observation::Observation;
@@ -24,16 +25,13 @@ use hop::HopBuilder;
 use initialization::BatchInitializer;
 pub(super) use located_range::LocatedRange;
 
-/// A wheel that hangs for so long means that somebody carries the robot, seconds.
-const CARRIED_S: f64 = 1.0;
-
 /// Localization by beacons.
 #[derive(Clone, Debug)]
 pub(super) struct Beacons {
     gathering: HopBuilder,
     stage: BeaconStage,
-    hanging_s: f64,
-    heard: Vec<LocatedRange>,
+    lift: Lift,
+    located_ranges: Vec<LocatedRange>,
 }
 
 #[derive(Clone, Debug)]
@@ -51,8 +49,8 @@ impl Beacons {
         Self {
             gathering: HopBuilder::default(),
             stage: BeaconStage::Silent,
-            hanging_s: 0.0,
-            heard: Vec::new(),
+            lift: Lift::default(),
+            located_ranges: Vec::new(),
         }
     }
 
@@ -64,7 +62,7 @@ impl Beacons {
         advance: Advance,
         before: PoseEstimate,
     ) -> Option<PoseEstimate> {
-        self.heard.clear();
+        self.located_ranges.clear();
         if self.was_carried(observation, advance) {
             return None;
         }
@@ -77,10 +75,10 @@ impl Beacons {
                 }
                 None
             }
-            BeaconStage::Initializing(look) => {
-                let Some(found) = look.take(hop) else {
-                    if look.is_hopeless() {
-                        **look = BatchInitializer::new(before);
+            BeaconStage::Initializing(batch) => {
+                let Some(found) = batch.take(hop) else {
+                    if batch.is_hopeless() {
+                        **batch = BatchInitializer::new(before);
                     }
                     return None;
                 };
@@ -90,19 +88,18 @@ impl Beacons {
             }
             BeaconStage::Following(follower) => {
                 follower.take(&hop);
-                follower.hear(&hop, &mut self.heard);
+                follower.locate_ranges(&hop, &mut self.located_ranges);
                 Some(follower.estimate())
             }
         }
     }
 
     fn was_carried(&mut self, observation: &Observation, advance: Advance) -> bool {
+        self.lift.update(observation, advance);
         if observation.wheel_drop {
-            self.hanging_s += advance.time_s;
             return true;
         }
-        let carried = self.hanging_s >= CARRIED_S;
-        self.hanging_s = 0.0;
+        let carried = self.lift.is_put_down();
         if carried {
             self.gathering = HopBuilder::default();
             self.stage = match core::mem::replace(&mut self.stage, BeaconStage::Silent) {
@@ -126,8 +123,8 @@ impl Beacons {
     }
 
     /// Ranges of the last hop to located beacons; empty between hops.
-    pub(super) fn heard(&self) -> &[LocatedRange] {
-        &self.heard
+    pub(super) fn located_ranges(&self) -> &[LocatedRange] {
+        &self.located_ranges
     }
 
     /// Another estimator gives the pose.

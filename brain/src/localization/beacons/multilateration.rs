@@ -24,7 +24,7 @@ pub(super) struct MeasuredRange {
 }
 
 /// The position that fits best, if no alternative fits nearly as well. Along a straight path the mirrored one does.
-pub(super) fn guess(ranges: &[MeasuredRange]) -> Option<Point2> {
+pub(super) fn locate_beacon(ranges: &[MeasuredRange]) -> Option<Point2> {
     let nearest = ranges
         .iter()
         .min_by(|one, other| one.range_m.total_cmp(&other.range_m))?;
@@ -66,15 +66,15 @@ pub(super) fn misfit(ranges: &[MeasuredRange], place: Point2) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{MeasuredRange, guess};
+    use super::{MeasuredRange, locate_beacon};
     use crate::model::geometry::Point2;
 
     const BEACON: Point2 = Point2 { x_m: 4.0, y_m: 3.0 };
 
-    fn ranges(way: impl Fn(f64) -> Point2) -> Vec<MeasuredRange> {
+    fn ranges(path: impl Fn(f64) -> Point2) -> Vec<MeasuredRange> {
         (0..60)
             .map(|number| {
-                let from = way(0.1 * f64::from(number));
+                let from = path(0.1 * f64::from(number));
                 // Every tenth range takes a detour.
                 let detour_m = if number % 10 == 0 { 2.0 } else { 0.0 };
                 MeasuredRange {
@@ -86,17 +86,17 @@ mod tests {
     }
 
     #[test]
-    fn a_way_with_a_bend_tells_the_place_and_a_straight_one_does_not() {
+    fn a_bent_path_locates_a_beacon_and_a_straight_one_does_not() {
         let bent = ranges(|distance_m| Point2 {
             x_m: distance_m.min(3.0),
             y_m: (distance_m - 3.0).max(0.0),
         });
-        let found = guess(&bent).unwrap();
+        let found = locate_beacon(&bent).unwrap();
         assert!(found.distance_m(BEACON) < 0.6, "{found:?}");
         let straight = ranges(|distance_m| Point2 {
             x_m: distance_m,
             y_m: 0.0,
         });
-        assert_eq!(guess(&straight), None);
+        assert_eq!(locate_beacon(&straight), None);
     }
 }

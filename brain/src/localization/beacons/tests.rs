@@ -113,7 +113,7 @@ fn take(localization: &mut Localization, view: &Observation) {
 }
 
 #[test]
-fn ranges_give_a_robot_without_gyro_its_place_and_heading() {
+fn ranges_give_a_robot_without_gyro_its_pose() {
     for seed in 1..=4 {
         let mut truth = BeaconRobot::new(seed);
         let mut localization = placed(truth.pose);
@@ -156,7 +156,7 @@ fn ranges_give_a_robot_without_gyro_its_place_and_heading() {
 }
 
 #[test]
-fn a_wall_before_one_beacon_does_not_push_the_robot_away() {
+fn a_wall_in_the_path_of_one_beacon_does_not_shift_the_pose() {
     let mut truth = BeaconRobot::new(9);
     let mut localization = placed(truth.pose);
     for _ in 0..20 * 60 * 8 {
@@ -172,7 +172,7 @@ fn a_wall_before_one_beacon_does_not_push_the_robot_away() {
 }
 
 #[test]
-fn a_robot_that_hears_nothing_goes_by_its_wheels() {
+fn without_beacons_the_pose_is_odometry() {
     let mut truth = BeaconRobot::new(2);
     let (mut localization, mut odometry) = (placed(truth.pose), placed(truth.pose));
     for _ in 0..5_000 {
@@ -185,7 +185,7 @@ fn a_robot_that_hears_nothing_goes_by_its_wheels() {
 }
 
 #[test]
-fn nothing_from_outside_upsets_it() {
+fn the_pose_stays_finite_with_any_input() {
     let mut localization = placed(Pose2::IDENTITY);
     let mut random = Random::new(3);
     let odd = [f64::NAN, f64::INFINITY, -1.0, 0.0, 0.5, 1e300];

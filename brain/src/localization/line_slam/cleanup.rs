@@ -46,10 +46,10 @@ fn reject_outliers(graph: &mut Graph) {
 
 /// Measures the ends of each landmark and counts its observations again, with the present poses.
 fn measure(graph: &mut Graph) {
-    graph.forget_ends();
+    graph.reset_extents();
     let observations = core::mem::take(&mut graph.observations);
     for observation in &observations {
-        graph.reach(observation);
+        graph.extend_landmark(observation);
     }
     graph.observations = observations;
 }

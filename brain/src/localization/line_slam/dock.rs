@@ -43,12 +43,12 @@ impl DockWatch {
 impl LineSlam {
     /// The robot has just docked at `odom`. The first docking gives the dock's pose, each later one the robot's.
     pub(super) fn arrive_at_dock(&mut self, (time_us, odom): (u64, Pose2), turns: TurnCalibration) {
-        let stand = LocalSubmap {
+        let docking = LocalSubmap {
             time_us,
             odom,
             segments: Vec::new(),
         };
-        self.step_to(&stand, turns);
+        self.step_to(&docking, turns);
         let first = self.graph.docked.first().copied();
         if let Some(dock) = first.and_then(|first| self.graph.nodes.get(first)) {
             let dock = dock.pose;
@@ -131,9 +131,9 @@ mod tests {
     use core::f64::consts::FRAC_PI_2;
 
     #[test]
-    fn contacts_that_part_and_close_again_are_one_stand() {
+    fn contacts_that_open_and_close_again_are_one_docking() {
         let mut watch = DockWatch::default();
-        let ways = [
+        let motions = [
             (0.0, true),
             (-0.02, false),
             (0.02, true),
@@ -141,13 +141,13 @@ mod tests {
             (0.3, true),
             (0.0, true),
         ];
-        let arrivals = ways.map(|(distance_m, docked)| watch.arrives(distance_m, docked));
+        let arrivals = motions.map(|(distance_m, docked)| watch.arrives(distance_m, docked));
         assert_eq!(arrivals, [true, false, false, false, true, false]);
     }
 
     /// One lap with drift, with and without dockings at both ends.
     #[test]
-    fn a_lap_that_ends_on_the_dock_closes() {
+    fn a_lap_that_ends_on_the_dock_closes_the_loop() {
         let mut sums_m = [0.0; 2];
         for seed in 1..60 {
             for (sum_m, docked) in sums_m.iter_mut().zip([vec![], vec![0, 32]]) {
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[test]
-    fn a_survey_that_comes_home_most_of_a_metre_off_is_closed() {
+    fn a_loop_that_is_almost_a_metre_open_is_closed_at_the_dock() {
         for seed in 1..20 {
             let (open_m, closed_m) = (
                 off_after_a_lap(0.8, vec![], seed),
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dock_that_somebody_has_moved_bends_the_home_little() {
+    fn a_moved_dock_bends_the_map_little() {
         for (later, most_m) in [(4, 0.1), (16, 0.05)] {
             let mut mean_m = 0.0;
             for seed in 1..60 {
@@ -208,13 +208,13 @@ mod tests {
 
     /// A lap of 4 by 3 m without any wall in sight, with a gyro that counts too much, from the dock to the dock.
     #[test]
-    fn a_robot_that_comes_back_to_its_dock_is_there_again_and_its_way_is_drawn_anew() {
+    fn docking_again_corrects_the_pose_and_the_scale() {
         let turns = TurnCalibration {
             scale: 0.0,
             scale_sigma: 0.01,
             bias_sigma_rad_per_s: 1e-4,
         };
-        let mut survey = LineSlam::new(
+        let mut slam = LineSlam::new(
             SensorLayout::default().proximity,
             Pose2::IDENTITY,
             Pose2::IDENTITY,
@@ -238,7 +238,7 @@ mod tests {
                 wheel_turn_rad: turn_rad,
                 gyro_turn_rad: Some(turn_rad),
             };
-            if let Some(fix) = survey.follow(odom, (advance, turns), &view) {
+            if let Some(fix) = slam.follow(odom, (advance, turns), &view) {
                 pose = fix.map_from_odom * odom;
             } else {
                 pose = pose.after_arc(distance_m, turn_rad);
@@ -265,10 +265,10 @@ mod tests {
             "{after:?}"
         );
         assert!(after.heading_rad.abs() < 0.03, "{after:?}");
-        let (scale, _) = survey.graph.turn_errors.found().unwrap();
+        let (scale, _) = slam.graph.turn_errors.estimated_scale().unwrap();
         assert!(
             (scale + 0.01).abs() < 0.004,
-            "the stand tells the scale, too: {scale}"
+            "docking gives the scale, too: {scale}"
         );
     }
 }

@@ -10,9 +10,9 @@ use super::graph::{Graph, LineLandmark, LineObservation};
 use std::collections::BTreeMap;
 
 /// Landmarks are compared in stretches of this length, metres.
-const PIECE_M: f64 = 0.1;
+const STRETCH_M: f64 = 0.1;
 /// Most stretches of one segment. A submap is shorter than that.
-const LENGTH_MAX: i32 = 30;
+const STRETCHES_MAX: i32 = 30;
 /// Landmarks that are closer in front of each other than this are merged by the cleanup, metres.
 const BEFORE_M: f64 = 0.05;
 /// Landmarks that are farther apart than this are different walls, metres. No sensor sees farther.
@@ -60,14 +60,14 @@ pub(super) fn duplicates(graph: &Graph) -> Vec<DuplicateLandmark> {
         let seen = seen_from(graph, landmark, observations);
         for (front, (other, observations)) in landmarks() {
             if front != back && is_close_before(other, landmark) {
-                let pieces = hidden_pieces(graph, (landmark, &seen), observations);
-                if f64::from(pieces) * PIECE_M >= ALONG_M {
-                    duplicates.push((pieces, in_time(graph, (back, front))));
+                let stretches = hidden_stretches(graph, (landmark, &seen), observations);
+                if f64::from(stretches) * STRETCH_M >= ALONG_M {
+                    duplicates.push((stretches, in_time(graph, (back, front))));
                 }
             }
         }
     }
-    duplicates.sort_by_key(|(pieces, _)| core::cmp::Reverse(*pieces));
+    duplicates.sort_by_key(|(stretches, _)| core::cmp::Reverse(*stretches));
     let mut chosen: Vec<DuplicateLandmark> = Vec::new();
     for (_, duplicate) in duplicates {
         let is_free = |landmark: usize| chosen.iter().all(|other| other.later != landmark);
@@ -109,32 +109,33 @@ fn seen_from(
     observations: &[&LineObservation],
 ) -> BTreeMap<i32, f64> {
     let mut seen = BTreeMap::new();
-    for piece in observations
+    for stretch in observations
         .iter()
         .filter_map(|observation| ObservedStretch::of(graph, observation, landmark))
     {
-        for place in piece.low..piece.high {
-            let from_m: &mut f64 = seen.entry(place).or_insert(piece.from_m);
-            *from_m = from_m.max(piece.from_m);
+        for place in stretch.low..stretch.high {
+            let from_m: &mut f64 = seen.entry(place).or_insert(stretch.from_m);
+            *from_m = from_m.max(stretch.from_m);
         }
     }
     seen
 }
 
 /// Number of stretches of a landmark that were seen although these observations lie in front of them.
-fn hidden_pieces(
+fn hidden_stretches(
     graph: &Graph,
     (landmark, seen): (&LineLandmark, &BTreeMap<i32, f64>),
     observations: &[&LineObservation],
 ) -> i32 {
     let mut hidden: Vec<i32> = Vec::new();
-    for piece in observations
+    for stretch in observations
         .iter()
         .filter_map(|observation| ObservedStretch::of(graph, observation, landmark))
     {
-        let is_between = |from_m: f64| piece.off_m > BEFORE_M && piece.off_m < from_m + BODY_M;
-        hidden
-            .extend((piece.low..piece.high).filter(|place| seen.get(place).copied().is_some_and(is_between)));
+        let is_between = |from_m: f64| stretch.off_m > BEFORE_M && stretch.off_m < from_m + BODY_M;
+        hidden.extend(
+            (stretch.low..stretch.high).filter(|place| seen.get(place).copied().is_some_and(is_between)),
+        );
     }
     hidden.sort_unstable();
     hidden.dedup();
@@ -145,13 +146,13 @@ impl ObservedStretch {
     fn of(graph: &Graph, observation: &LineObservation, landmark: &LineLandmark) -> Option<Self> {
         let pose = graph.nodes.get(observation.node)?.pose;
         let (off_m, along_m) = landmark.project(pose.transform(observation.segment.middle));
-        let low = libm::round((along_m - observation.segment.half_m) / PIECE_M) as i32;
-        let length = libm::round(2.0 * observation.segment.half_m / PIECE_M) as i32;
+        let low = libm::round((along_m - observation.segment.half_m) / STRETCH_M) as i32;
+        let length = libm::round(2.0 * observation.segment.half_m / STRETCH_M) as i32;
         Some(Self {
             off_m,
             from_m: landmark.project(pose.position()).0,
             low,
-            high: low.saturating_add(length.min(LENGTH_MAX)),
+            high: low.saturating_add(length.min(STRETCHES_MAX)),
         })
     }
 }
@@ -336,14 +337,14 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_room_that_was_entered_a_second_time_with_an_error_becomes_one() {
+    fn a_room_entered_twice_with_drift_is_merged() {
         for seed in 1..20 {
             for drift in [drift(0.25, -0.2), drift(-0.35, 0.38)] {
                 let (since, truth) = seen_twice(drift, 0.25, seed);
                 let before_m = rmse_m(&since, &truth);
                 let fitted = fitted(&since).0;
                 assert!(fitted.has_merged, "seed {seed}, {drift:?}");
-                let graph = fitted.with_news_of(&since);
+                let graph = fitted.extended_with(&since);
                 assert_eq!(graph.landmarks.len(), LANDMARKS, "seed {seed}, {drift:?}");
                 let after_m = rmse_m(&graph, &truth);
                 assert!(
@@ -355,7 +356,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn what_was_moved_is_not_taken_for_the_drift_of_the_robot() {
+    fn moved_furniture_is_not_taken_for_drift() {
         for seed in 1..20 {
             let (mut since, truth) = room(seed);
             let before_m = rmse_m(&since, &truth);
@@ -373,7 +374,7 @@ pub(super) mod tests {
             );
             let fitted = fitted(&since).0;
             assert!(!fitted.has_merged, "seed {seed}");
-            let graph = fitted.with_news_of(&since);
+            let graph = fitted.extended_with(&since);
             assert!(
                 graph.landmarks.len() == LANDMARKS + 1 && graph.landmarks[LANDMARKS].is_distinct,
                 "seed {seed}"
@@ -384,7 +385,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn walls_one_before_the_other_are_two_when_the_robot_passed_between_or_beside() {
+    fn walls_behind_each_other_without_contradiction_are_no_duplicates() {
         let (mut since, _) = room(1);
         // The robot was 30 cm from the first wall. A screen half a metre in front of the wall is behind the robot.
         see_before(&mut since, 0.5, |observation| {

@@ -336,7 +336,7 @@ impl Graph {
     }
 
     /// Resets the ends and the observation counts of all landmarks.
-    pub(super) fn forget_ends(&mut self) {
+    pub(super) fn reset_extents(&mut self) {
         for landmark in &mut self.landmarks {
             (landmark.low_m, landmark.high_m, landmark.observation_count) =
                 (f64::INFINITY, f64::NEG_INFINITY, 0);
@@ -345,7 +345,7 @@ impl Graph {
     }
 
     /// Extends the landmark of an observation to the ends of that observation.
-    pub(super) fn reach(&mut self, observation: &LineObservation) {
+    pub(super) fn extend_landmark(&mut self, observation: &LineObservation) {
         let (Some(node), Some(landmark)) = (
             self.nodes.get(observation.node),
             self.landmarks.get_mut(observation.landmark),
@@ -478,7 +478,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_wall_that_is_mistaken_for_another_does_not_bend_the_home() {
+    fn a_wrong_association_does_not_bend_the_map() {
         for seed in 1..60 {
             let (mut graph, truth) = laps(0.0, seed);
             assert!(optimized(&mut graph));
@@ -493,7 +493,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn right_angles_hold_the_heading_of_a_robot_that_passes_every_wall_once() {
+    fn right_angles_keep_the_heading_when_every_wall_is_seen_once() {
         let mut off = [0.0; 2];
         for seed in 1..20 {
             for (off, manhattan_rad) in off.iter_mut().zip([None, Some(0.0)]) {
@@ -512,7 +512,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_place_is_before_a_wall_or_behind_it() {
+    fn points_project_in_front_of_a_landmark_or_behind_it() {
         let (graph, _) = laps(0.7, 1);
         let landmark = graph.landmarks[0];
         let before = direction(landmark.normal_rad);

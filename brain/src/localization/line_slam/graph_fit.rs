@@ -7,7 +7,7 @@
 use super::cleanup::clean_up;
 use super::duplicate_landmarks::{MergeHypothesis, duplicates};
 use super::graph::{Graph, LineObservation};
-use super::manhattan::{align_to_manhattan, directed};
+use super::manhattan::{align, align_to_manhattan};
 use super::optimization::{CaptureRange, optimize};
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::gradual::{Gradual, Pace};
@@ -146,7 +146,7 @@ pub(super) struct FittedGraph {
 
 impl FittedGraph {
     /// The optimized graph with all nodes, landmarks and observations that were added to `since` after the start.
-    pub(super) fn with_news_of(mut self, since: &Graph) -> Graph {
+    pub(super) fn extended_with(mut self, since: &Graph) -> Graph {
         let known = self.graph.nodes.len();
         for node in since.nodes.iter().skip(known) {
             let mut node = *node;
@@ -160,7 +160,7 @@ impl FittedGraph {
             let mut landmark = *landmark;
             landmark.anchor = self.moved.transform(landmark.anchor);
             landmark.normal_rad = normalize_rad(landmark.normal_rad + self.moved.heading_rad);
-            directed(&mut landmark, self.graph.manhattan_rad);
+            align(&mut landmark, self.graph.manhattan_rad);
             landmark.observation_count = 0;
             self.merged_into.push(Some(self.graph.landmarks.len()));
             self.graph.landmarks.push(landmark);
@@ -171,7 +171,7 @@ impl FittedGraph {
                     landmark,
                     ..*observation
                 };
-                self.graph.reach(&observation);
+                self.graph.extend_landmark(&observation);
                 self.graph.observations.push(observation);
             }
         }
@@ -202,7 +202,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_fit_takes_several_steps_and_what_came_meanwhile_moves_along() {
+    fn optimization_takes_several_steps_and_moves_later_nodes_along() {
         for seed in 1..20 {
             let (since, truth) = laps(0.2, seed);
             let mut began = since.clone();
@@ -210,7 +210,7 @@ pub(super) mod tests {
             began.observations.truncate(50);
             let (fitted, steps) = fitted(&began);
             assert!(steps >= 4, "{steps} steps");
-            let graph = fitted.with_news_of(&since);
+            let graph = fitted.extended_with(&since);
             assert_eq!(graph.nodes.len(), since.nodes.len());
             for (before, after) in graph.nodes.windows(2).zip(since.nodes.windows(2)).skip(49) {
                 let (made, was) = (
@@ -228,7 +228,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn marks_that_came_meanwhile_follow_their_walls_and_new_walls_come_after_the_old_ones() {
+    fn later_observations_follow_their_landmarks_and_new_landmarks_come_last() {
         let (mut began, _) = laps(0.0, 3);
         // Nothing lies on the first landmark, so the other indices move down by one.
         began.observations.retain(|observation| observation.landmark != 0);
@@ -245,7 +245,7 @@ pub(super) mod tests {
                 ..observation
             });
         }
-        let graph = fitted(&began).0.with_news_of(&since);
+        let graph = fitted(&began).0.extended_with(&since);
         assert_eq!(graph.landmarks.len(), 4);
         let news: Vec<usize> = graph
             .observations
@@ -268,7 +268,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn walls_with_which_nothing_fits_as_one_are_not_tried_again() {
+    fn duplicates_without_a_solution_are_not_tried_again() {
         let drift = Point2 { x_m: 0.25, y_m: -0.2 };
         let (graph, _) = seen_twice(drift, 0.25, 1);
         let mut fit = GraphFit::of(&graph).expect("a graph with nodes");

@@ -251,7 +251,7 @@ mod tests {
     };
 
     /// Readings of seven sensors between a wall at x = 1 and one at y = `left_m`, both infinitely long.
-    fn look(pose: Pose2, left_m: f64, points: &mut Vec<RangePoint>) {
+    fn sense(pose: Pose2, left_m: f64, points: &mut Vec<RangePoint>) {
         let cone = RESPONSE.half_angle_rad.tan();
         for number in -3..=3 {
             let heading_rad = f64::from(number) * FRAC_PI_6;
@@ -284,13 +284,13 @@ mod tests {
                 y_m: 0.0,
                 heading_rad,
             };
-            look(pose, left_m, &mut points);
+            sense(pose, left_m, &mut points);
         }
         points
     }
 
     #[test]
-    fn a_robot_that_drives_at_a_wall_askew_sees_where_it_is() {
+    fn a_wall_approached_at_an_angle_is_located() {
         let points = driven((0.65, 15), 0.35, 9.0);
         let found = extract_segments(&points, &RESPONSE);
         assert_eq!(found.len(), 1, "{found:?}");
@@ -302,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_is_two_strokes() {
+    fn a_corner_gives_two_segments() {
         let points = driven((0.2, 60), 0.0, 0.25);
         let mut found = extract_segments(&points, &RESPONSE);
         found.sort_by(|one, other| one.normal_rad.abs().total_cmp(&other.normal_rad.abs()));
@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stroke_is_the_less_sure_the_more_its_glimpses_scatter() {
+    fn scatter_of_the_points_raises_the_deviations_of_a_segment() {
         let sure = |noise_m: f64| {
             let mut random = crate::model::random::Random::new(4);
             let mut points = driven((0.65, 15), 0.35, 9.0);
@@ -330,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn scattered_things_and_nothing_are_no_strokes() {
+    fn scattered_points_give_no_segment() {
         assert_eq!(extract_segments(&[], &RESPONSE), []);
         let points: Vec<RangePoint> = (0..40)
             .map(|number| RangePoint {

@@ -90,7 +90,7 @@ impl SubmapBuilder {
         let is_spinning = self.spin.is_whole_turn();
         if !is_spinning && (self.step_m >= STEP_M || self.step_rad >= STEP_RAD) {
             (self.step_m, self.step_rad) = (0.0, 0.0);
-            self.look(odom, observation, layout);
+            self.sample(odom, observation, layout);
         }
         let is_cut = is_spinning && !self.points.is_empty();
         let over = is_cut
@@ -127,7 +127,7 @@ impl SubmapBuilder {
         })
     }
 
-    fn look(&mut self, odom: Pose2, observation: &Observation, layout: &ProximityLayout) {
+    fn sample(&mut self, odom: Pose2, observation: &Observation, layout: &ProximityLayout) {
         for (sensor, level) in layout.sensors().iter().zip(&observation.proximity) {
             let level = f64::from(*level);
             let seen = layout.response.distance_m(level).filter(|_| level >= LEVEL_MIN);
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_turns_part_the_wall_before_from_the_wall_after_and_show_by_how_much_the_gyro_is_off() {
+    fn whole_turns_separate_submaps_and_show_the_scale_error() {
         let mut ride = Ride::default();
         ride.drive(50);
         ride.turn(3.0);
@@ -225,7 +225,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_parts_nothing() {
+    fn a_turn_at_a_corner_does_not_end_the_submap() {
         let mut ride = Ride::default();
         ride.drive(20);
         ride.turn(0.25);

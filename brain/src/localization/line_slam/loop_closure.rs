@@ -26,7 +26,7 @@ fn turn(truth: &mut SimulatedRobot<'_>, localization: &mut Localization) {
 }
 
 #[test]
-fn a_lap_that_comes_back_to_its_first_wall_is_closed_by_it() {
+fn a_lap_that_returns_to_its_first_wall_closes_the_loop() {
     let home = flat();
     let start = Pose2 {
         x_m: 0.7,

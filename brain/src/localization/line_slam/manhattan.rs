@@ -19,14 +19,14 @@ const NEAR_RAD: f64 = 0.12;
 
 /// Detects the four directions from the present observations and aligns the landmarks with them.
 pub(super) fn align_to_manhattan(graph: &mut Graph) {
-    graph.manhattan_rad = found(graph);
+    graph.manhattan_rad = detected(graph);
     for landmark in &mut graph.landmarks {
-        directed(landmark, graph.manhattan_rad);
+        align(landmark, graph.manhattan_rad);
     }
 }
 
 /// Aligns a landmark with its quarter, if the home has right angles and the landmark is close to one.
-pub(super) fn directed(landmark: &mut LineLandmark, manhattan_rad: Option<f64>) {
+pub(super) fn align(landmark: &mut LineLandmark, manhattan_rad: Option<f64>) {
     landmark.quarter =
         manhattan_rad.and_then(|manhattan_rad| quarter(manhattan_rad, landmark.normal_rad, 0.0));
     if let (Some(quarter), Some(manhattan_rad)) = (landmark.quarter, manhattan_rad) {
@@ -49,7 +49,7 @@ pub(super) fn quarter(manhattan_rad: f64, normal_rad: f64, sigma_rad: f64) -> Op
     (off_rad.abs() <= NEAR_RAD + sigma_rad.min(NEAR_RAD)).then(|| (nearest as i64).rem_euclid(4) as u8)
 }
 
-fn found(graph: &Graph) -> Option<f64> {
+fn detected(graph: &Graph) -> Option<f64> {
     if graph.observations.len() < OBSERVATIONS_MIN {
         return None;
     }
@@ -179,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_at_60_degrees_never_count_as_square() {
+    fn walls_at_60_degrees_are_never_aligned() {
         for seed in 1..40 {
             let mut graph = Graph::default();
             let is_manhattan = laps(&six(0.1 * seed as f64), &mut graph, (20, seed));
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_at_right_angles_share_their_directions_however_the_home_is_turned() {
+    fn walls_at_right_angles_share_directions_at_any_rotation() {
         for seed in 1..40 {
             let turned_rad = 0.1 * seed as f64;
             let mut graph = Graph::default();
@@ -197,7 +197,7 @@ mod tests {
             assert_eq!(
                 is_manhattan.iter().position(|is| *is),
                 Some(5),
-                "the sixth segment tells"
+                "the sixth segment decides"
             );
             let manhattan_rad = graph.manhattan_rad.expect("is square");
             let quarters = (manhattan_rad - turned_rad) / FRAC_PI_2;
@@ -213,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn slanted_walls_that_are_found_later_end_it_and_a_few_do_not() {
+    fn many_slanted_walls_end_the_alignment_and_a_few_do_not() {
         for seed in 1..40 {
             let mut graph = Graph::default();
             laps(&four(0.3), &mut graph, (10, seed));

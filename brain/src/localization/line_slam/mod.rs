@@ -213,7 +213,7 @@ impl LineSlam {
         if arrives {
             self.arrive_at_dock((observation.time_us, odom), turns);
         }
-        let is_fitted = self.fit_on();
+        let is_fitted = self.continue_fit();
         self.has_new_scale |= is_fitted;
         if submap.is_none() && !arrives && !is_fitted {
             return None;
@@ -236,7 +236,7 @@ impl LineSlam {
         if !is_between_steps || !core::mem::take(&mut self.has_new_scale) {
             return None;
         }
-        self.graph.turn_errors.found()
+        self.graph.turn_errors.estimated_scale()
     }
 
     /// Adds the first node at the start. A later estimate of the scale also corrects the turns before the first wall was seen.
@@ -267,7 +267,7 @@ impl LineSlam {
         self.associate_segments(&submap.segments);
         if turned_rad.abs() > CALIBRATION_TURN_RAD {
             let off_rad = normalize_rad(self.belief.pose.heading_rad - expected_rad);
-            self.graph.turn_errors.guess(off_rad / turned_rad);
+            self.graph.turn_errors.correct_scale(off_rad / turned_rad);
             self.has_urgent_constraint = true;
         }
         if let Some(node) = self.graph.nodes.get_mut(self.here) {
@@ -308,7 +308,7 @@ impl LineSlam {
     }
 
     /// Starts an optimization when enough is new, and continues it. Returns whether a result was adopted.
-    fn fit_on(&mut self) -> bool {
+    fn continue_fit(&mut self) -> bool {
         let Some(fit) = &mut self.fit else {
             self.begin_fit();
             return false;
@@ -319,7 +319,7 @@ impl LineSlam {
         self.fit = None;
         let is_taken_up = fitted.is_some();
         if let Some(fitted) = fitted {
-            self.take_up(fitted);
+            self.adopt(fitted);
         }
         is_taken_up
     }
@@ -336,10 +336,10 @@ impl LineSlam {
         }
     }
 
-    fn take_up(&mut self, fitted: FittedGraph) {
+    fn adopt(&mut self, fitted: FittedGraph) {
         let moved = fitted.moved;
         let has_merged = fitted.has_merged;
-        self.graph = fitted.with_news_of(&self.graph);
+        self.graph = fitted.extended_with(&self.graph);
         self.belief.pose = moved * self.belief.pose;
         self.observations_fitted = self.observations_fitted.min(self.graph.observations.len());
         self.outdated = self
@@ -417,7 +417,7 @@ mod tests {
     }
 
     #[test]
-    fn turns_that_were_counted_with_a_wrong_scale_are_counted_anew() {
+    fn turns_can_be_counted_again_with_another_scale() {
         for heading_rad in [0.0, 1.3, -2.0] {
             let began = Pose2 {
                 x_m: 3.0,

@@ -108,12 +108,12 @@ impl TurnErrors {
 
     /// Corrects the scale by this share before the next optimization. Without it, whole turns with many deviations of error would
     /// look like outliers.
-    pub(super) fn guess(&mut self, share: f64) {
+    pub(super) fn correct_scale(&mut self, share: f64) {
         self.scale += share * (1.0 + self.scale);
     }
 
     /// The estimated scale and its standard deviation.
-    pub(super) fn found(&self) -> Option<(f64, f64)> {
+    pub(super) fn estimated_scale(&self) -> Option<(f64, f64)> {
         self.scale_sigma.map(|sigma| (self.scale, sigma))
     }
 
@@ -227,12 +227,12 @@ mod tests {
     }
 
     #[test]
-    fn a_scale_with_which_all_turns_are_counted_is_found_as_well_as_is_said() {
+    fn the_scale_of_turns_is_estimated_within_its_deviation() {
         let (mut sum, mut squares) = (0.0, 0.0);
         for seed in 1..40 {
             let mut graph = miscounted(0.02, 0.0, seed);
             assert!(optimized(&mut graph));
-            let (scale, sigma) = graph.turn_errors.found().unwrap();
+            let (scale, sigma) = graph.turn_errors.estimated_scale().unwrap();
             assert!((0.001..0.008).contains(&sigma), "{sigma}");
             sum += scale / 39.0;
             let off = (scale - (1.0 / 1.02 - 1.0)) / sigma;
@@ -246,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bias_that_rests_have_left_is_found_for_each_spell() {
+    fn a_remaining_bias_is_estimated_for_each_epoch() {
         let mut biases = Vec::new();
         for seed in 1..40 {
             let mut graph = miscounted(0.0, 2e-3, seed);

@@ -24,7 +24,7 @@ const SIGMAS: f64 = 2.0;
 /// The floor must be known this far around an obstacle that contradicts the map, metres. A beam may have passed a wall that the
 /// robot later sees from the front: then the floor before the wall is known, the wall and what is behind it are not (this happened
 /// in a first run of home 17).
-const MIDST_M: f64 = 0.15;
+const SURROUNDINGS_M: f64 = 0.15;
 /// Number of checks over which the share of contradictions is averaged, without those where nothing is known: two and a half metres
 /// along a wall.
 const AVERAGED_CHECKS: f64 = 25.0;
@@ -34,18 +34,18 @@ const CONTRADICTED_ABOVE: f64 = 0.2;
 /// to be elsewhere.
 const DOUBTED_ABOVE: f64 = 0.1;
 /// The rollback begins this much earlier, microseconds, because not every place shows a contradiction at once.
-const BEFORE_US: u64 = 20_000_000;
+const ROLLBACK_LEAD_US: u64 = 20_000_000;
 
 /// The map of a few minutes ago, and the share of recent checks that contradict it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ConsistencyMonitor {
     reference_map: Option<Box<ReferenceMap>>,
-    kept_us: u64,
+    updated_us: u64,
     redrawn: u32,
     distance_m: f64,
     contacts_before: Contacts,
     contradicted: f64,
-    good_us: u64,
+    consistent_us: u64,
 }
 
 impl ConsistencyMonitor {
@@ -72,16 +72,16 @@ impl ConsistencyMonitor {
             self.contradicted += (contradicted - self.contradicted) / AVERAGED_CHECKS;
         }
         if self.contradicted <= DOUBTED_ABOVE {
-            self.good_us = observation.time_us;
+            self.consistent_us = observation.time_us;
         }
     }
 
     /// Takes the present map as the reference, periodically and after each redraw, while nothing contradicts the map. A map in
     /// which the robot could not relocalize is no reference, because the robot would be left with nothing.
-    pub(super) fn keep(&mut self, map: &Map, time_us: u64) {
-        let is_due = time_us >= self.kept_us.saturating_add(LEARN_US) || map.redrawn() != self.redrawn;
+    pub(super) fn update_reference(&mut self, map: &Map, time_us: u64) {
+        let is_due = time_us >= self.updated_us.saturating_add(LEARN_US) || map.redrawn() != self.redrawn;
         if is_due && self.contradicted <= DOUBTED_ABOVE {
-            (self.kept_us, self.redrawn) = (time_us, map.redrawn());
+            (self.updated_us, self.redrawn) = (time_us, map.redrawn());
             self.reference_map = ReferenceMap::is_trustworthy(map).then(|| Box::new(ReferenceMap::of(map)));
         }
     }
@@ -91,7 +91,7 @@ impl ConsistencyMonitor {
         if self.contradicted <= CONTRADICTED_ABOVE {
             return None;
         }
-        let since_us = self.good_us.saturating_sub(BEFORE_US);
+        let since_us = self.consistent_us.saturating_sub(ROLLBACK_LEAD_US);
         let reference_map = core::mem::take(self).reference_map?;
         Some((reference_map, since_us))
     }
@@ -108,7 +108,7 @@ impl Localization {
     ) -> Option<MapCorrection> {
         let first_run = self.estimator.first_run_mut()?;
         let Some((reference_map, since_us)) = first_run.monitor.take_contradicted() else {
-            first_run.monitor.keep(map, time_us);
+            first_run.monitor.update_reference(map, time_us);
             return None;
         };
         let mut keyframes = first_run.slam.keyframes();
@@ -172,19 +172,19 @@ fn contradicted(
         if reference_map.is_known(at) {
             known += 1;
             contradicted +=
-                u32::from(reference_map.clearance_m(at) > far_m && is_in_midst(reference_map, at));
+                u32::from(reference_map.clearance_m(at) > far_m && is_surrounded_by_known(reference_map, at));
         }
     }
     (known > 0).then(|| f64::from(contradicted) / f64::from(known))
 }
 
 /// Whether the floor on all sides of this point is known.
-fn is_in_midst(reference_map: &ReferenceMap, at: Point2) -> bool {
+fn is_surrounded_by_known(reference_map: &ReferenceMap, at: Point2) -> bool {
     let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
     sides.iter().all(|(x, y)| {
         reference_map.is_known(Point2 {
-            x_m: at.x_m + MIDST_M * x,
-            y_m: at.y_m + MIDST_M * y,
+            x_m: at.x_m + SURROUNDINGS_M * x,
+            y_m: at.y_m + SURROUNDINGS_M * y,
         })
     })
 }
@@ -203,7 +203,7 @@ mod tests {
     fn contradicted(home: &Map, believed_off: Pose2, steps: u32) -> f64 {
         let mut truth = SimulatedRobot::new(home, START);
         let mut monitor = ConsistencyMonitor::default();
-        monitor.keep(home, LEARN_US);
+        monitor.update_reference(home, LEARN_US);
         let mut greatest: f64 = 0.0;
         for _ in 0..steps {
             let before = truth.pose;
@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_that_is_met_where_what_is_known_ends_is_not_denied() {
+    fn a_wall_at_the_border_of_known_space_is_no_contradiction() {
         let mut knowledge = Raster::filled(Cell { x: 0, y: 0 }, 160, 160, CellKnowledge::Unknown);
         for index in 0..80 * 160 {
             knowledge.values_mut()[index] = CellKnowledge::Free;
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn what_drift_shows_is_not_denied_and_another_place_is() {
+    fn drift_is_no_contradiction_and_another_place_is() {
         let home = flat();
         let off = |x_m: f64, y_m: f64, heading_rad: f64| Pose2 {
             x_m,
@@ -287,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn a_survey_that_the_map_denies_ends_and_the_robot_is_lost_in_that_map() {
+    fn line_slam_that_contradicts_its_map_ends_with_a_lost_robot() {
         let home = flat();
         let at = |x_m: f64, y_m: f64| Pose2 { x_m, y_m, ..START };
         let mut noticed = 0;
@@ -298,7 +298,7 @@ mod tests {
             localization.start_line_slam(&config());
             localization.learn(&home, &config(), LEARN_US);
             let lost = (0..50 * 240).any(|_| step(&mut localization, &mut truth, &home));
-            assert!(!lost || begins != START, "it is where it believes to be");
+            assert!(!lost || begins != START, "its pose is right");
             assert_eq!(localization.explained().is_some(), lost, "compares with the map");
             noticed += u32::from(lost);
         }
@@ -332,19 +332,19 @@ mod tests {
     }
 
     #[test]
-    fn a_map_in_which_the_robot_could_not_find_itself_is_no_witness() {
+    fn a_map_in_which_the_robot_could_not_relocalize_is_no_reference() {
         let home = flat();
         for (sigma_m, is_trusted) in [(0.02, true), (0.4, false)] {
             let mut map = Map::new(config().body, config().sensors);
             drawn(&mut map, (&mut SimulatedRobot::new(&home, START), sigma_m), 6_000);
             let mut monitor = ConsistencyMonitor::default();
-            monitor.keep(&map, LEARN_US);
+            monitor.update_reference(&map, LEARN_US);
             assert_eq!(monitor.reference_map.is_some(), is_trusted, "{sigma_m} m");
         }
     }
 
     #[test]
-    fn what_is_withdrawn_was_never_seen() {
+    fn a_rollback_removes_what_was_seen_since() {
         let home = flat();
         let mut truth = SimulatedRobot::new(&home, START);
         let mut map = Map::new(config().body, config().sensors);

@@ -30,7 +30,7 @@ impl Localization {
     }
 
     pub(super) fn begin_roughly_at(&mut self, pose: Pose2) {
-        self.put_at(pose);
+        self.set_pose(pose);
         self.odometry.calibration.interrupt();
         self.drift = Drift {
             sigma_m: ROUGH_SIGMA_M,

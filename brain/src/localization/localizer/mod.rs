@@ -4,12 +4,12 @@ mod consistency_monitor;
 mod docked;
 mod estimator;
 mod gyro_knowledge;
-mod lift;
 mod relocalization;
 
 use super::TrackingCheckpoint;
 use super::beacons::Beacons;
 use super::drift::{Drift, WHEEL_TURN_SCALE};
+use super::lift::Lift;
 use super::line_slam::TurnCalibration;
 use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
@@ -23,7 +23,6 @@ use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 use estimator::{Estimator, EstimatorKind, KnownMap};
-use lift::Lift;
 
 /// Standard deviations of a pose on the dock, metres and radians: the dock is wider than the robot's contacts.
 const START_SIGMA_M: f64 = 0.02;
@@ -47,7 +46,7 @@ fn finite(sigma: f64, least: f64) -> f64 {
 }
 
 /// A robot with a larger standard deviation than this does not learn RSSI fingerprints, metres.
-const HEARD_SIGMA_M: f64 = 0.3;
+const RSSI_SIGMA_M: f64 = 0.3;
 
 /// The reference map takes over new parts this often, microseconds,
 const LEARN_US: u64 = 120_000_000;
@@ -168,8 +167,8 @@ impl Localization {
     /// Corrects [`Self::pose`] with the active estimator. Returns the poses with which the map should be redrawn.
     pub fn refine(&mut self, observation: &Observation, advance: Advance) -> Option<MapCorrection> {
         self.fingerprints.listen(observation, advance);
-        self.find_place(observation, advance);
-        if self.is_placed() {
+        self.update_pose(observation, advance);
+        if self.may_learn_rssi() {
             let at = self.pose().position();
             self.fingerprints.learn(at);
         }
@@ -179,34 +178,34 @@ impl Localization {
     }
 
     /// Whether RSSI fingerprints may be learned at the estimated pose.
-    fn is_placed(&self) -> bool {
+    fn may_learn_rssi(&self) -> bool {
         let is_followed = match &self.estimator {
             Estimator::MonteCarlo(known) => known.tracker.is_settled(),
-            Estimator::LineSlam(_) => self.lift != Lift::PutDown,
+            Estimator::LineSlam(_) => !self.lift.is_put_down(),
             Estimator::Odometry => false,
         };
-        is_followed && self.drift.sigma_m <= HEARD_SIGMA_M
+        is_followed && self.drift.sigma_m <= RSSI_SIGMA_M
     }
 
-    fn find_place(&mut self, observation: &Observation, advance: Advance) {
+    fn update_pose(&mut self, observation: &Observation, advance: Advance) {
         let by_beacons = self.beacons.follow(observation, advance, self.estimate());
-        self.leave_hopeless_map(observation.time_us);
+        self.leave_useless_map(observation.time_us);
         let moved = MotionUpdate::of(&self.odometry, advance, self.pose());
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
         self.was_off_dock |= !observation.docked;
         self.has_just_docked = docks && self.was_off_dock;
         match (self.active_estimator(), by_beacons) {
-            (EstimatorKind::MonteCarlo, _) => self.follow_map(observation, moved, docks),
+            (EstimatorKind::MonteCarlo, _) => self.follow_monte_carlo(observation, moved, docks),
             (_, Some(estimate)) => self.adopt(estimate),
             (EstimatorKind::Beacons, None) => {}
             (EstimatorKind::LineSlam | EstimatorKind::Odometry, None) => {
-                self.follow_walls(observation, advance);
+                self.follow_line_slam(observation, advance);
             }
         }
     }
 
-    fn follow_map(&mut self, observation: &Observation, moved: MotionUpdate, docks: bool) {
+    fn follow_monte_carlo(&mut self, observation: &Observation, moved: MotionUpdate, docks: bool) {
         let Some(KnownMap {
             tracker,
             reference_map,
@@ -214,7 +213,7 @@ impl Localization {
         else {
             return;
         };
-        tracker.hear(self.beacons.heard());
+        tracker.add_ranges(self.beacons.located_ranges());
         tracker.receive(&self.fingerprints);
         tracker.step_search(reference_map);
         // The dock corrects the pose only where it is known better than the pose.
@@ -227,7 +226,7 @@ impl Localization {
             tracker.place_at(dock, START_SIGMA_M, START_SIGMA_RAD);
             self.odometry.calibration.interrupt();
             self.beacons.place_at(dock);
-            self.put_at(dock);
+            self.set_pose(dock);
         } else if docks
             && tracker.is_lost()
             && let Some(dock) = place.pose()
@@ -238,12 +237,12 @@ impl Localization {
         }
     }
 
-    fn follow_walls(&mut self, observation: &Observation, advance: Advance) {
+    fn follow_line_slam(&mut self, observation: &Observation, advance: Advance) {
         self.lift.update(observation, advance);
         if observation.wheel_drop {
             return;
         }
-        let turns = self.turn_counting(observation.time_us);
+        let turns = self.turn_calibration(observation.time_us);
         let odom = self.odometry.odom_from_base();
         let Some(first_run) = self.estimator.first_run_mut() else {
             return;
@@ -265,7 +264,7 @@ impl Localization {
 
     /// The calibration of turns. It asks whether there is a gyro and not whether this advance has a turn of it: the first advance
     /// after a start has none, and what was learned of the gyro before counts from the first step on.
-    fn turn_counting(&self, now_us: u64) -> TurnCalibration {
+    fn turn_calibration(&self, now_us: u64) -> TurnCalibration {
         if !self.has_gyro(now_us) {
             return TurnCalibration {
                 scale: 0.0,
@@ -293,9 +292,9 @@ impl Localization {
 
     /// Standard deviation of the gyro's scale, relative, during line SLAM; `None` = no gyro, or a known map that determines the
     /// scale by itself.
-    pub(crate) fn surveyed_gyro_scale_sigma(&self, now_us: u64) -> Option<f64> {
-        let surveys = self.estimator.is_line_slam() && self.has_gyro(now_us);
-        surveys.then(|| self.odometry.calibration.scale_sigma())
+    pub(crate) fn slam_gyro_scale_sigma(&self, now_us: u64) -> Option<f64> {
+        let is_slam = self.estimator.is_line_slam() && self.has_gyro(now_us);
+        is_slam.then(|| self.odometry.calibration.scale_sigma())
     }
 
     /// Standard deviation of the gyro's bias, rad/s; `None` = no gyro.
@@ -310,7 +309,7 @@ impl Localization {
     }
 
     /// A robot with almost no sensors gives up the map when nothing determines its heading.
-    fn leave_hopeless_map(&mut self, now_us: u64) {
+    fn leave_useless_map(&mut self, now_us: u64) {
         let blind = self
             .estimator
             .known_map()
@@ -384,7 +383,7 @@ impl Localization {
             calibration.interrupt();
         } else {
             calibration.correct(correction_rad, estimate.sigma_rad * estimate.sigma_rad);
-            self.put_at(estimate.pose);
+            self.set_pose(estimate.pose);
         }
         self.drift = found;
     }
@@ -392,7 +391,7 @@ impl Localization {
     /// Declares that the robot is at `pose` in the map.
     pub fn place_at(&mut self, pose: Pose2) {
         let before = self.pose();
-        self.put_at(pose);
+        self.set_pose(pose);
         let odom = self.odometry.odom_from_base();
         if let Some(first_run) = self.estimator.first_run_mut() {
             first_run.slam.begin_at(pose, odom);
@@ -409,7 +408,7 @@ impl Localization {
         }
     }
 
-    fn put_at(&mut self, pose: Pose2) {
+    fn set_pose(&mut self, pose: Pose2) {
         self.correct(pose * self.odometry.odom_from_base().inverse());
         self.drift = Drift::default();
     }
@@ -422,7 +421,7 @@ mod tests {
     use crate::model::observation::Observation;
 
     #[test]
-    fn a_placed_robot_goes_on_from_there() {
+    fn odometry_continues_from_a_given_pose() {
         let mut localization = Localization::new(0.23, 0.5);
         localization.update(&Observation {
             time_us: 0,

@@ -116,17 +116,17 @@ impl ParticleFilter {
 }
 
 /// Weighted mean and deviation of the particles' values.
-pub(super) fn belief(guesses: impl Iterator<Item = (f64, ParticleGyro)> + Clone) -> GyroEstimate {
-    let sum: f64 = guesses.clone().map(|(weight, _)| weight).sum();
+pub(super) fn belief(gyros: impl Iterator<Item = (f64, ParticleGyro)> + Clone) -> GyroEstimate {
+    let sum: f64 = gyros.clone().map(|(weight, _)| weight).sum();
     let mean = |of: &dyn Fn(ParticleGyro) -> f64| {
-        let weighted = guesses.clone().map(|(weight, guess)| weight * of(guess));
+        let weighted = gyros.clone().map(|(weight, gyro)| weight * of(gyro));
         weighted.sum::<f64>() / sum.max(1e-300)
     };
-    let scale = mean(&|guess| guess.scale);
-    let bias_rad_per_s = mean(&|guess| guess.bias_rad_per_s);
-    let scale_variance = mean(&|guess| (guess.scale - scale) * (guess.scale - scale));
-    let bias_variance = mean(&|guess| {
-        let off = guess.bias_rad_per_s - bias_rad_per_s;
+    let scale = mean(&|gyro| gyro.scale);
+    let bias_rad_per_s = mean(&|gyro| gyro.bias_rad_per_s);
+    let scale_variance = mean(&|gyro| (gyro.scale - scale) * (gyro.scale - scale));
+    let bias_variance = mean(&|gyro| {
+        let off = gyro.bias_rad_per_s - bias_rad_per_s;
         off * off
     });
     GyroEstimate {
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_guess_turns_by_what_the_gyro_showed_and_not_by_what_others_made_of_it() {
+    fn a_particle_turns_by_the_raw_gyro_and_its_own_calibration() {
         let mut count = GyroCount::default();
         let mut other = BELIEF;
         for _ in 0..5 {
@@ -172,11 +172,11 @@ mod tests {
             // A zero-velocity update has changed the bias meanwhile.
             other.bias_rad_per_s += 0.001;
         }
-        let mut guess = ParticleGyro {
+        let mut gyro = ParticleGyro {
             scale: -0.02,
             bias_rad_per_s: -0.003,
         };
-        let more_rad = guess.turned_more_rad(count, &mut Random::new(1));
+        let more_rad = gyro.turned_more_rad(count, &mut Random::new(1));
         let turned_rad = (2.5 + 0.003 * 10.0) * 0.98;
         assert!(
             (count.counted_rad + more_rad - turned_rad).abs() < 5e-3,
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_stands_or_counts_its_wheels_only_has_no_error_of_a_gyro() {
+    fn without_gyro_or_motion_there_is_no_gyro_error() {
         let mut count = GyroCount::default();
         let standing = Advance {
             time_s: 5.0,
@@ -199,11 +199,11 @@ mod tests {
         count.add(standing, BELIEF);
         count.add(by_wheels, BELIEF);
         let mut random = Random::new(1);
-        let mut guess = ParticleGyro::drawn(BELIEF, &mut random);
-        assert_eq!(guess.turned_more_rad(count, &mut random), 0.0);
+        let mut gyro = ParticleGyro::drawn(BELIEF, &mut random);
+        assert_eq!(gyro.turned_more_rad(count, &mut random), 0.0);
     }
 
-    fn guesses(random: &mut Random) -> Vec<(f64, ParticleGyro)> {
+    fn gyros(random: &mut Random) -> Vec<(f64, ParticleGyro)> {
         (0..20_000)
             .map(|_| (1.0, ParticleGyro::drawn(BELIEF, random)))
             .collect()
@@ -214,16 +214,16 @@ mod tests {
     }
 
     #[test]
-    fn guesses_that_are_drawn_anew_again_and_again_believe_the_same() {
+    fn repeated_resampling_keeps_mean_and_deviation() {
         let mut random = Random::new(3);
-        let mut all = guesses(&mut random);
+        let mut gyros = gyros(&mut random);
         for _ in 0..50 {
-            let before = belief(all.iter().copied());
-            for (_, guess) in &mut all {
-                *guess = guess.redrawn(before, &mut random);
+            let before = belief(gyros.iter().copied());
+            for (_, gyro) in &mut gyros {
+                *gyro = gyro.redrawn(before, &mut random);
             }
         }
-        let after = belief(all.iter().copied());
+        let after = belief(gyros.iter().copied());
         assert!(
             about(after.scale, BELIEF.scale) && about(after.scale_sigma, BELIEF.scale_sigma),
             "{after:?}"
@@ -236,16 +236,16 @@ mod tests {
     }
 
     #[test]
-    fn a_rest_pulls_the_bias_as_far_as_it_is_sure() {
-        let mut all = guesses(&mut Random::new(4));
+    fn a_zero_velocity_update_counts_by_its_variance() {
+        let mut gyros = gyros(&mut Random::new(4));
         let measured = BiasMeasurement {
             rad_per_s: 0.003,
             variance_rad2_per_s2: 2.5e-7,
         };
-        for (weight, guess) in &mut all {
-            *weight *= guess.likelihood(measured);
+        for (weight, gyro) in &mut gyros {
+            *weight *= gyro.likelihood(measured);
         }
-        let after = belief(all.iter().copied());
+        let after = belief(gyros.iter().copied());
         // The measurement and the estimate are equally sure.
         assert!(about(after.bias_rad_per_s, 0.0025), "{after:?}");
         assert!(

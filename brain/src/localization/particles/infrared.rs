@@ -100,7 +100,7 @@ impl BeamModel {
     }
 
     /// Takes the levels of an observation.
-    pub(super) fn look(&mut self, levels: &[f32], response: &ProximityResponse) {
+    pub(super) fn read(&mut self, levels: &[f32], response: &ProximityResponse) {
         self.count = self.count.min(levels.len());
         for (beam, level) in self.beams.iter_mut().zip(levels) {
             beam.seen = seen(f64::from(*level), response);

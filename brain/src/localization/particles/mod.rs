@@ -34,7 +34,7 @@ const TRACKING_MIN: usize = 220;
 /// Most particles while the pose is known.
 const TRACKING_MAX: usize = 400;
 /// Particles around each candidate pose of a lost robot.
-const EACH: usize = 100;
+const PARTICLES_PER_CANDIDATE: usize = 100;
 /// Particles are resampled when the effective share falls below this.
 const RESAMPLE_SHARE: f64 = 0.5;
 /// Edge of the bins for KLD sampling, metres.
@@ -56,8 +56,8 @@ const JITTER_RAD: f64 = 0.0005;
 /// The same while the filter searches: headings from walls may be wrong, and particles must not keep them.
 const SEARCHING_JITTER_RAD: f64 = 0.002;
 /// Share of particles that turn by this much at each motion, radians: all particles may have a wrong heading.
-const SURPRISE_SHARE: f64 = 0.002;
-const SURPRISE_RAD: f64 = 0.03;
+const UNCOUNTED_TURN_SHARE: f64 = 0.002;
+const UNCOUNTED_TURN_RAD: f64 = 0.03;
 /// Spread of the distance factor among robots, and its random walk on rugs, per square root of a metre.
 const DISTANCE_FACTOR_SIGMA: f64 = 0.01;
 const DISTANCE_FACTOR_WALK: f64 = 0.002;
@@ -93,7 +93,7 @@ pub(super) struct Measurements<'noticed> {
     /// Contacts and cliffs that begin now.
     pub(super) contacts: Contacts,
     pub(super) edges: Cliffs,
-    pub(super) heard: &'noticed [LocatedRange],
+    pub(super) ranges: &'noticed [LocatedRange],
     /// Result of zero-velocity updates.
     pub(super) measured_bias: Option<BiasMeasurement>,
 }
@@ -162,9 +162,9 @@ impl ParticleFilter {
 
     /// Estimate of the gyro, if the particles have learned one.
     pub(super) fn gyro(&self) -> Option<GyroEstimate> {
-        let guesses = self.particles.iter();
-        let guesses = guesses.map(|particle| (particle.weight, particle.gyro));
-        (self.mode == FilterMode::Holding).then(|| gyro::belief(guesses))
+        let particles = self.particles.iter();
+        let particles = particles.map(|particle| (particle.weight, particle.gyro));
+        (self.mode == FilterMode::Holding).then(|| gyro::belief(particles))
     }
 
     /// Draws all particles around one pose.
@@ -180,7 +180,7 @@ impl ParticleFilter {
     pub(super) fn scatter(&mut self, around: &[Pose2], spread: PoseSpread) {
         self.particles.clear();
         for pose in around {
-            for _ in 0..EACH {
+            for _ in 0..PARTICLES_PER_CANDIDATE {
                 let particle = self.draw(*pose, spread);
                 self.particles.push(particle);
             }
@@ -231,7 +231,7 @@ impl ParticleFilter {
                 FilterMode::Searching => 0.0,
                 FilterMode::Holding => {
                     particle.gyro.turned_more_rad(motion.gyro, &mut self.random)
-                        + surprise_rad(&mut self.random)
+                        + uncounted_turn_rad(&mut self.random)
                 }
             };
             let (low, high) = DISTANCE_FACTORS;
@@ -254,7 +254,7 @@ impl ParticleFilter {
         measured: &Measurements<'_>,
     ) {
         self.beams
-            .look(&observation.proximity, &self.layout.proximity.response);
+            .read(&observation.proximity, &self.layout.proximity.response);
         let touch = Touch {
             mode: self.mode,
             contacts: measured.contacts,
@@ -266,7 +266,7 @@ impl ParticleFilter {
             let infrared = self.beams.likelihood(map, &place, &mut particle.surfaces);
             let mut likelihood = tempered(infrared, self.mode);
             likelihood *= body_likelihood(place.clearance_m - self.radius_m);
-            if touch.tells() {
+            if touch.is_informative() {
                 likelihood *= touch.likelihood(map, &place, (self.radius_m, &self.layout));
             }
             if let Some(measured_bias) = measured
@@ -275,7 +275,7 @@ impl ParticleFilter {
             {
                 likelihood *= particle.gyro.likelihood(measured_bias);
             }
-            particle.weight *= likelihood * heard_likelihood(measured.heard, place.centre);
+            particle.weight *= likelihood * ranges_likelihood(measured.ranges, place.centre);
             sum += particle.weight;
         }
         self.normalize(sum);
@@ -308,16 +308,16 @@ impl ParticleFilter {
 
     /// Systematic resampling with as many particles as their spread needs.
     fn resample(&mut self) {
-        let wanted = self.wanted();
+        let needed = self.needed();
         let gyro = self.gyro();
         let count = self.particles.len();
-        let step = count as f64 / wanted as f64;
+        let step = count as f64 / needed as f64;
         let mut pointer = self.random.between(0.0, step);
         let mut passed = 0.0;
         self.spare.clear();
         for particle in &self.particles {
             passed += particle.weight;
-            while pointer < passed && self.spare.len() < wanted {
+            while pointer < passed && self.spare.len() < needed {
                 self.spare.push(Particle {
                     weight: 1.0,
                     gyro: match gyro {
@@ -335,7 +335,7 @@ impl ParticleFilter {
     }
 
     /// Number of particles for the occupied bins (KLD sampling).
-    fn wanted(&mut self) -> usize {
+    fn needed(&mut self) -> usize {
         self.bins.clear();
         for particle in self.particles.iter().filter(|particle| particle.weight > 0.1) {
             self.bins.push(bin(particle.pose, 1.0));
@@ -345,9 +345,9 @@ impl ParticleFilter {
         let more = self.bins.len().saturating_sub(1).max(1) as f64;
         let shrink = 2.0 / (9.0 * more);
         let root = 1.0 - shrink + libm::sqrt(shrink) * KLD_QUANTILE;
-        let wanted = more / (2.0 * KLD_ERROR) * root * root * root;
+        let needed = more / (2.0 * KLD_ERROR) * root * root * root;
         let most = self.particles.len().max(TRACKING_MAX);
-        (wanted as usize).clamp(TRACKING_MIN, most)
+        (needed as usize).clamp(TRACKING_MIN, most)
     }
 
     /// Mean of the particles and their spread.
@@ -404,8 +404,8 @@ impl ParticleFilter {
 }
 
 /// Likelihood of ranges to beacons at a position, with the heavy tails of Student's t; 1 at best.
-fn heard_likelihood(heard: &[LocatedRange], centre: Point2) -> f64 {
-    heard.iter().fold(1.0, |likelihood, range| {
+fn ranges_likelihood(ranges: &[LocatedRange], centre: Point2) -> f64 {
+    ranges.iter().fold(1.0, |likelihood, range| {
         let off = (range.range_m - range.at.distance_m(centre)) / range.sigma_m;
         let body = 1.0 + off * off / 3.0;
         likelihood / (body * body)
@@ -428,9 +428,9 @@ fn bin(pose: Pose2, factor: f64) -> u64 {
 }
 
 /// A turn that odometry did not count.
-fn surprise_rad(random: &mut Random) -> f64 {
-    if random.between(0.0, 1.0) < SURPRISE_SHARE {
-        SURPRISE_RAD * random.normal()
+fn uncounted_turn_rad(random: &mut Random) -> f64 {
+    if random.between(0.0, 1.0) < UNCOUNTED_TURN_SHARE {
+        UNCOUNTED_TURN_RAD * random.normal()
     } else {
         0.0
     }

@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn along_one_wall_only_a_change_of_the_distance_is_a_surprise() {
+    fn along_one_wall_only_a_change_of_distance_is_unlikely() {
         let first = Reflectance::default().likelihood(range(0.02), EXPECTED_M);
         assert!(after_dark_wall(0.02) > 0.95 && first < 0.85, "{first}");
         // A wall at the expected distance that was dark until now is as surprising as one that is twice as far off.
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn another_surface_is_a_new_one() {
+    fn another_surface_starts_unknown() {
         let mut surfaces = Reflectances::default();
         surfaces.surfaces[0].likelihood(range(0.03), EXPECTED_M);
         let learnt = surfaces.surfaces[0];
@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_wall_of_the_map_teaches_nothing_of_its_surface() {
+    fn an_unmapped_obstacle_teaches_nothing_about_the_surface() {
         let mut surface = Reflectance::default();
         let likelihood = surface.likelihood(range(-0.3), EXPECTED_M);
         assert!(likelihood < 0.2, "{likelihood}");

@@ -14,5 +14,5 @@ pub(in crate::localization) trait Surroundings {
     fn is_known(&self, at: Point2) -> bool;
 
     /// Positions spread evenly over the floor where the robot can be.
-    fn places(&self) -> Vec<Point2>;
+    fn positions(&self) -> Vec<Point2>;
 }

@@ -62,7 +62,7 @@ pub(super) fn body_likelihood(rim_gap_m: f64) -> f64 {
 }
 
 impl Touch {
-    pub(super) fn tells(&self) -> bool {
+    pub(super) fn is_informative(&self) -> bool {
         self.contacts.any() || self.edges.any()
     }
 

@@ -9,19 +9,19 @@ use crate::model::geometry::Point2;
 const CELL_M: f64 = 0.5;
 /// Neighbouring cells on each side that contribute to a position, and the width of their weight: shadows of walls are a metre or
 /// two wide.
-const AROUND: i32 = 2;
+const NEIGHBOURS: i32 = 2;
 const REACH_M: f64 = 0.6;
 /// A position is known when its weights sum up to at least this, in means of the cell itself.
 const KNOWN: f64 = 0.5;
 /// Greatest number of means that a cell counts: the home changes, and the last means count most.
 const COUNT_MAX: f64 = 12.0;
 /// Greatest number of means by which a cell contributes to its neighbours.
-const WORTH_MAX: f64 = 3.0;
+const CONTRIBUTION_MAX: f64 = 3.0;
 
 /// Signal strengths by beacon and cell.
 #[derive(Clone, Debug, Default)]
 pub(in super::super) struct FingerprintMap {
-    pieces: BTreeMap<(u16, i32, i32), FingerprintCell>,
+    cells: BTreeMap<(u16, i32, i32), FingerprintCell>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,25 +32,25 @@ struct FingerprintCell {
 
 impl FingerprintMap {
     pub(super) fn learn(&mut self, at: Point2, levels: &[MeanRssi]) {
-        let Some((x, y)) = piece(at) else { return };
+        let Some((x, y)) = cell(at) else { return };
         for level in levels {
-            let piece = self.pieces.entry((level.beacon, x, y)).or_default();
-            piece.count = (piece.count + 1.0).min(COUNT_MAX);
-            piece.dbm += (level.dbm - piece.dbm) / piece.count;
+            let cell = self.cells.entry((level.beacon, x, y)).or_default();
+            cell.count = (cell.count + 1.0).min(COUNT_MAX);
+            cell.dbm += (level.dbm - cell.dbm) / cell.count;
         }
     }
 
     /// Expected strength of a beacon at a position; `None` where too few means are known.
     pub(super) fn expected_dbm(&self, beacon: u16, at: Point2) -> Option<f64> {
-        let (middle_x, middle_y) = piece(at)?;
+        let (middle_x, middle_y) = cell(at)?;
         let (mut weight, mut sum) = (0.0, 0.0);
-        for x in middle_x - AROUND..=middle_x + AROUND {
-            let row = (beacon, x, middle_y - AROUND)..=(beacon, x, middle_y + AROUND);
-            for ((_, _, y), piece) in self.pieces.range(row) {
+        for x in middle_x - NEIGHBOURS..=middle_x + NEIGHBOURS {
+            let row = (beacon, x, middle_y - NEIGHBOURS)..=(beacon, x, middle_y + NEIGHBOURS);
+            for ((_, _, y), cell) in self.cells.range(row) {
                 let off_m = centre(x, *y).distance_m(at) / REACH_M;
-                let worth = piece.count.min(WORTH_MAX) * libm::exp(-0.5 * off_m * off_m);
-                weight += worth;
-                sum += worth * piece.dbm;
+                let contribution = cell.count.min(CONTRIBUTION_MAX) * libm::exp(-0.5 * off_m * off_m);
+                weight += contribution;
+                sum += contribution * cell.dbm;
             }
         }
         (weight >= KNOWN).then(|| sum / weight)
@@ -58,12 +58,12 @@ impl FingerprintMap {
 
     /// No signal was received yet.
     pub(super) fn is_empty(&self) -> bool {
-        self.pieces.is_empty()
+        self.cells.is_empty()
     }
 }
 
 /// The cell of a position, if that is in any home.
-fn piece(at: Point2) -> Option<(i32, i32)> {
+fn cell(at: Point2) -> Option<(i32, i32)> {
     let number = |value_m: f64| {
         let number = libm::floor(value_m / CELL_M);
         (number.abs() < 10_000.0).then_some(number as i32)
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_received_speaks_for_its_surroundings_only() {
+    fn a_fingerprint_covers_its_neighbourhood_only() {
         let mut map = FingerprintMap::default();
         assert!(map.is_empty());
         for number in 0..20 {
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_ones_count() {
+    fn the_last_means_count_most() {
         let mut map = FingerprintMap::default();
         for dbm in [-80.0, -60.0] {
             for _ in 0..60 {

@@ -90,7 +90,7 @@ fn off_after_lifting_m(hears: impl Fn(&Observation, Point2, &mut Random) -> Obse
 }
 
 #[test]
-fn strengths_tell_rooms_apart_that_look_the_same() {
+fn signal_strengths_tell_equal_rooms_apart() {
     let by_sight = off_after_lifting_m(|view, _, _| view.clone());
     assert!(
         by_sight.is_none_or(|off_m| off_m > 1.0),
@@ -101,7 +101,7 @@ fn strengths_tell_rooms_apart_that_look_the_same() {
 }
 
 #[test]
-fn strengths_give_no_heading_and_no_place() {
+fn signal_strengths_give_no_pose() {
     let map = twins();
     let mut random = Random::new(7);
     let mut truth = SimulatedRobot::new(&map, START);

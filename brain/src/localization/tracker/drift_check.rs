@@ -3,7 +3,7 @@
 //! A map that a robot has drawn lacks many legs and is distorted by some centimetres. Among obstacles that it lacks it explains as
 //! little as at a wrong pose, but the last metres match nowhere better.
 
-use super::{SEARCH_FROM_M, SEARCHED, Tracker};
+use super::{CANDIDATE_SPREAD, SEARCH_FROM_M, Tracker};
 use crate::localization::candidates::{found_near, near_if_as_good};
 use crate::localization::confidence::Confidence;
 use crate::localization::particles::Surroundings;
@@ -24,15 +24,17 @@ impl Tracker {
         let Some(search) = &self.global_localizer else {
             return self.lose_by_drift(pose);
         };
-        let Some(places) = search.places() else { return };
+        let Some(candidates) = search.candidates() else {
+            return;
+        };
         self.global_localizer = None;
-        let Some(place) = found_near(&near_if_as_good(places, pose), pose) else {
+        let Some(match_pose) = found_near(&near_if_as_good(candidates, pose), pose) else {
             return self.lose_by_drift(pose);
         };
-        let off = pose.inverse() * place;
+        let off = pose.inverse() * match_pose;
         if off.position().distance_m(Pose2::IDENTITY.position()) > STAY_M || off.heading_rad.abs() > STAY_RAD
         {
-            self.filter.scatter(&[place], SEARCHED);
+            self.filter.scatter(&[match_pose], CANDIDATE_SPREAD);
         }
         self.confidence = Confidence::default();
     }
@@ -92,14 +94,14 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_is_right_is_not_lost_for_what_its_map_does_not_explain() {
+    fn a_robot_with_a_right_pose_is_not_lost_among_unmapped_obstacles() {
         let (lost, off_m) = lost_and_off_m(Pose2::IDENTITY);
         assert_eq!(lost, 0);
         assert!(off_m < 0.06, "{off_m} m");
     }
 
     #[test]
-    fn a_robot_that_is_elsewhere_takes_itself_for_lost() {
+    fn a_robot_with_a_wrong_pose_is_lost() {
         let (lost, _) = lost_and_off_m(shifted(2.0, 1.4));
         assert!(lost > 0);
     }

@@ -1,4 +1,4 @@
-//! Detects from the wheels whether somebody lifts a robot that runs line SLAM.
+//! Detects from the wheels whether somebody lifts the robot.
 
 use crate::model::advance::Advance;
 use crate::model::observation::Observation;
@@ -14,17 +14,14 @@ pub(super) enum Lift {
     OnFloor,
     /// A wheel has been hanging for so long.
     Hanging { time_s: f64 },
-    /// Somebody has just put the robot down, and the estimator does not know it yet.
+    /// Somebody has just put the robot down.
     PutDown,
 }
 
 impl Lift {
     /// Takes whether a wheel hangs.
     pub(super) fn update(&mut self, observation: &Observation, advance: Advance) {
-        let hanging_s = match *self {
-            Self::Hanging { time_s } => time_s,
-            Self::OnFloor | Self::PutDown => 0.0,
-        };
+        let hanging_s = self.hanging_s();
         *self = if observation.wheel_drop {
             Self::Hanging {
                 time_s: hanging_s + advance.time_s,
@@ -36,9 +33,22 @@ impl Lift {
         };
     }
 
+    /// Time for which a wheel has been hanging, seconds.
+    pub(super) fn hanging_s(self) -> f64 {
+        match self {
+            Self::Hanging { time_s } => time_s,
+            Self::OnFloor | Self::PutDown => 0.0,
+        }
+    }
+
+    /// Whether somebody has just put the robot down.
+    pub(super) fn is_put_down(self) -> bool {
+        self == Self::PutDown
+    }
+
     /// Whether the robot was put down since the last call.
     pub(super) fn take_put_down(&mut self) -> bool {
-        let is_put_down = *self == Self::PutDown;
+        let is_put_down = self.is_put_down();
         if is_put_down {
             *self = Self::OnFloor;
         }
