@@ -139,6 +139,14 @@ impl GlobalLocalizer {
         self.rssi.as_ref().map_or(0.0, |rssi| rssi.cost(pose))
     }
 
+    fn scoring(&self, least: f64) -> Scoring {
+        Scoring {
+            radius_m: self.radius_m,
+            solid: self.solid as f64,
+            least,
+        }
+    }
+
     /// The robot has moved on.
     pub(super) fn follow(&mut self, advance: Advance) {
         self.moved = self.moved.after_arc(advance.distance_m, advance.turn_rad);
@@ -154,8 +162,8 @@ impl GlobalLocalizer {
             } => self.stage = self.try_positions(map, direction, (turned, position)),
             SearchStage::Refine { next } => {
                 if let Some(start) = self.found.get(next).map(|candidate| candidate.pose) {
-                    let history = (self.radius_m, self.solid);
-                    let mut best = refined(map, &self.fine, history, start);
+                    let scoring = self.scoring(f64::NEG_INFINITY);
+                    let mut best = refined(map, &self.fine, scoring, start);
                     best.score -= self.cost(best.pose);
                     if let Some(candidate) = self.found.get_mut(next) {
                         *candidate = best;
@@ -188,8 +196,8 @@ impl GlobalLocalizer {
         let solid = self.solid as f64;
         let tried = self.positions.iter().skip(position).take(POSITIONS_PER_STEP);
         for position in tried {
-            let history = (self.radius_m, self.solid, self.least);
-            let Some(score) = score(map, &turned, *position, history) else {
+            let scoring = self.scoring(self.least);
+            let Some(score) = score(map, &turned, *position, scoring) else {
                 continue;
             };
             let pose = Pose2 {
@@ -311,15 +319,25 @@ fn turned(probes: &[Probe], heading_rad: f64) -> Vec<Probe> {
         .collect()
 }
 
+/// What a score depends on besides points and position.
+#[derive(Clone, Copy, Debug)]
+struct Scoring {
+    radius_m: f64,
+    /// Number of solid points.
+    solid: f64,
+    /// Least score, in solid points.
+    least: f64,
+}
+
 /// Score of rotated points at a position; `None` when it does not reach `least`, or falls too far behind it before the last point.
-fn score(
-    map: &impl Surroundings,
-    probes: &[Probe],
-    position: Point2,
-    (radius_m, solid, least): (f64, usize, f64),
-) -> Option<f64> {
-    let mut score = solid as f64;
-    let per_probe = (solid as f64 - least) / probes.len().max(1) as f64;
+fn score(map: &impl Surroundings, probes: &[Probe], position: Point2, scoring: Scoring) -> Option<f64> {
+    let Scoring {
+        radius_m,
+        solid,
+        least,
+    } = scoring;
+    let mut score = solid;
+    let per_probe = (solid - least) / probes.len().max(1) as f64;
     let mut allowed = SLACK;
     for probe in probes {
         let clear_m = map.clearance_m(Point2 {
@@ -332,31 +350,20 @@ fn score(
             PointKind::Open => OPEN_COST * (-clear_m / probe.tolerance_m).clamp(0.0, 1.0),
         };
         allowed += per_probe;
-        if score + allowed < solid as f64 {
+        if score + allowed < solid {
             return None;
         }
     }
     if score < least {
         return None;
     }
-    Some(score / solid as f64)
+    Some(score / solid)
 }
 
 /// Refines a candidate by hill climbing with ever smaller steps.
-fn refined(
-    map: &impl Surroundings,
-    probes: &[Probe],
-    (radius_m, solid): (f64, usize),
-    start: Pose2,
-) -> PoseCandidate {
+fn refined(map: &impl Surroundings, probes: &[Probe], scoring: Scoring, start: Pose2) -> PoseCandidate {
     let rate = |pose: Pose2| {
-        score(
-            map,
-            &turned(probes, pose.heading_rad),
-            pose.position(),
-            (radius_m, solid, f64::NEG_INFINITY),
-        )
-        .unwrap_or(f64::NEG_INFINITY)
+        score(map, &turned(probes, pose.heading_rad), pose.position(), scoring).unwrap_or(f64::NEG_INFINITY)
     };
     let mut best = PoseCandidate {
         pose: start,

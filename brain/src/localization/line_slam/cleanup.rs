@@ -104,8 +104,8 @@ fn are_mergeable(one: &LineLandmark, other: &LineLandmark) -> bool {
     }
     let end = |along_m: f64| one.project(other.at(along_m));
     let ends = [end(other.low_m), end(other.high_m)];
-    let is_near = ends.iter().all(|(off_m, _)| off_m.abs() <= MERGE_M);
-    let low_m = ends[0].1.min(ends[1].1);
-    let high_m = ends[0].1.max(ends[1].1);
+    let is_near = ends.iter().all(|end| end.off_m.abs() <= MERGE_M);
+    let low_m = ends[0].along_m.min(ends[1].along_m);
+    let high_m = ends[0].along_m.max(ends[1].along_m);
     is_near && (low_m - one.high_m).max(one.low_m - high_m) <= MERGE_GAP_M
 }

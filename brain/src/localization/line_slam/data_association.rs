@@ -1,6 +1,6 @@
 //! Data association: which line segments belong to which landmarks.
 
-use super::graph::{LineLandmark, LineObservation, direction};
+use super::graph::{LineLandmark, LineObservation, Projection, direction};
 use super::line_segment::LineSegment;
 use super::manhattan::quarter;
 use super::{LineSlam, NODES_MAX};
@@ -55,7 +55,7 @@ impl LineSlam {
             segment,
         });
         if let Some(landmark) = self.graph.landmarks.get_mut(landmark) {
-            let (_, along_m) = landmark.project(self.belief.pose.transform(segment.middle));
+            let Projection { along_m, .. } = landmark.project(self.belief.pose.transform(segment.middle));
             landmark.low_m = landmark.low_m.min(along_m - segment.half_m);
             landmark.high_m = landmark.high_m.max(along_m + segment.half_m);
             landmark.observation_count += 1;
@@ -106,7 +106,7 @@ impl LineSlam {
         );
         let pose = self.belief.pose;
         let at = pose.transform(segment.middle);
-        let (off_m, _) = landmark.project(at);
+        let Projection { off_m, .. } = landmark.project(at);
         let normal = direction(landmark.normal_rad);
         let arm = normal.y_m * (at.x_m - pose.x_m) - normal.x_m * (at.y_m - pose.y_m);
         self.belief.measure(
@@ -148,7 +148,7 @@ impl LineSlam {
         if turned_rad.abs() > GATE_RAD {
             return None;
         }
-        let (off_m, along_m) = landmark.project(pose.transform(segment.middle));
+        let Projection { off_m, along_m } = landmark.project(pose.transform(segment.middle));
         let beyond_m = (landmark.low_m - along_m).max(along_m - landmark.high_m) - segment.half_m;
         let normal = direction(landmark.normal_rad);
         let variance_m2 = self.belief.variance_along_m2(normal)

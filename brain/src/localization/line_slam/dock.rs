@@ -42,7 +42,7 @@ impl DockWatch {
 
 impl LineSlam {
     /// The robot has just docked at `odom`. The first docking gives the dock's pose, each later one the robot's.
-    pub(super) fn arrive_at_dock(&mut self, (time_us, odom): (u64, Pose2), turns: TurnCalibration) {
+    pub(super) fn arrive_at_dock(&mut self, time_us: u64, odom: Pose2, turns: TurnCalibration) {
         let docking = LocalSubmap {
             time_us,
             odom,
@@ -123,7 +123,7 @@ mod tests {
     use super::DockWatch;
     use crate::localization::line_slam::graph::tests::{laps, rmse_m};
     use crate::localization::line_slam::optimization::optimized;
-    use crate::localization::line_slam::{LineSlam, TurnCalibration};
+    use crate::localization::line_slam::{LineSlam, OdometryStep, TurnCalibration};
     use crate::model::advance::Advance;
     use crate::model::config::SensorLayout;
     use crate::model::geometry::Pose2;
@@ -238,7 +238,7 @@ mod tests {
                 wheel_turn_rad: turn_rad,
                 gyro_turn_rad: Some(turn_rad),
             };
-            if let Some(fix) = slam.follow(odom, (advance, turns), &view) {
+            if let Some(fix) = slam.follow(OdometryStep { odom, advance }, turns, &view) {
                 pose = fix.map_from_odom * odom;
             } else {
                 pose = pose.after_arc(distance_m, turn_rad);
@@ -265,7 +265,7 @@ mod tests {
             "{after:?}"
         );
         assert!(after.heading_rad.abs() < 0.03, "{after:?}");
-        let (scale, _) = slam.graph.turn_errors.estimated_scale().unwrap();
+        let scale = slam.graph.turn_errors.estimated_scale().unwrap().scale;
         assert!(
             (scale + 0.01).abs() < 0.004,
             "docking gives the scale, too: {scale}"

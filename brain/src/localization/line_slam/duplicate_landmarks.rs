@@ -6,7 +6,7 @@
 //! decides: merge both, optimize the graph ([`super::graph_fit`]), and keep the merge when the graph stays consistent.
 
 use super::cleanup::{OUTLIER_M, face_the_same_way, merge};
-use super::graph::{Graph, LineLandmark, LineObservation};
+use super::graph::{Graph, LineLandmark, LineObservation, Projection};
 use std::collections::BTreeMap;
 
 /// Landmarks are compared in stretches of this length, metres.
@@ -60,9 +60,9 @@ pub(super) fn duplicates(graph: &Graph) -> Vec<DuplicateLandmark> {
         let seen = seen_from(graph, landmark, observations);
         for (front, (other, observations)) in landmarks() {
             if front != back && is_close_before(other, landmark) {
-                let stretches = hidden_stretches(graph, (landmark, &seen), observations);
+                let stretches = hidden_stretches(graph, landmark, &seen, observations);
                 if f64::from(stretches) * STRETCH_M >= ALONG_M {
-                    duplicates.push((stretches, in_time(graph, (back, front))));
+                    duplicates.push((stretches, in_time(graph, back, front)));
                 }
             }
         }
@@ -98,8 +98,8 @@ fn is_close_before(front: &LineLandmark, back: &LineLandmark) -> bool {
         back.project(front.at(front.low_m)),
         back.project(front.at(front.high_m)),
     );
-    let is_before = low.0.max(high.0) > BEFORE_M && low.0.min(high.0) < BEFORE_MAX_M;
-    is_before && low.1.max(high.1) > back.low_m && low.1.min(high.1) < back.high_m
+    let is_before = low.off_m.max(high.off_m) > BEFORE_M && low.off_m.min(high.off_m) < BEFORE_MAX_M;
+    is_before && low.along_m.max(high.along_m) > back.low_m && low.along_m.min(high.along_m) < back.high_m
 }
 
 /// Greatest distance from which each stretch of a landmark was seen, metres.
@@ -124,7 +124,8 @@ fn seen_from(
 /// Number of stretches of a landmark that were seen although these observations lie in front of them.
 fn hidden_stretches(
     graph: &Graph,
-    (landmark, seen): (&LineLandmark, &BTreeMap<i32, f64>),
+    landmark: &LineLandmark,
+    seen: &BTreeMap<i32, f64>,
     observations: &[&LineObservation],
 ) -> i32 {
     let mut hidden: Vec<i32> = Vec::new();
@@ -145,19 +146,19 @@ fn hidden_stretches(
 impl ObservedStretch {
     fn of(graph: &Graph, observation: &LineObservation, landmark: &LineLandmark) -> Option<Self> {
         let pose = graph.nodes.get(observation.node)?.pose;
-        let (off_m, along_m) = landmark.project(pose.transform(observation.segment.middle));
+        let Projection { off_m, along_m } = landmark.project(pose.transform(observation.segment.middle));
         let low = libm::round((along_m - observation.segment.half_m) / STRETCH_M) as i32;
         let length = libm::round(2.0 * observation.segment.half_m / STRETCH_M) as i32;
         Some(Self {
             off_m,
-            from_m: landmark.project(pose.position()).0,
+            from_m: landmark.project(pose.position()).off_m,
             low,
             high: low.saturating_add(length.min(STRETCHES_MAX)),
         })
     }
 }
 
-fn in_time(graph: &Graph, (one, other): (usize, usize)) -> DuplicateLandmark {
+fn in_time(graph: &Graph, one: usize, other: usize) -> DuplicateLandmark {
     let first = |landmark: usize| {
         graph
             .landmarks

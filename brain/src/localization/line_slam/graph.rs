@@ -80,6 +80,15 @@ pub(super) fn direction(rad: f64) -> Point2 {
     Point2 { x_m: cos, y_m: sin }
 }
 
+/// A point in the frame of a landmark.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Projection {
+    /// Distance in front of the wall, metres.
+    pub(super) off_m: f64,
+    /// Position along the wall from the anchor, metres.
+    pub(super) along_m: f64,
+}
+
 impl LineLandmark {
     /// The point on the wall at this distance from the anchor, metres.
     pub(super) fn at(&self, along_m: f64) -> Point2 {
@@ -90,14 +99,14 @@ impl LineLandmark {
         }
     }
 
-    /// Distance of a point in front of the wall and position along it from the anchor, metres.
-    pub(super) fn project(&self, at: Point2) -> (f64, f64) {
+    /// A point relative to the wall.
+    pub(super) fn project(&self, at: Point2) -> Projection {
         let normal = direction(self.normal_rad);
         let (x_m, y_m) = (at.x_m - self.anchor.x_m, at.y_m - self.anchor.y_m);
-        (
-            normal.x_m * x_m + normal.y_m * y_m - self.offset_m,
-            normal.x_m * y_m - normal.y_m * x_m,
-        )
+        Projection {
+            off_m: normal.x_m * x_m + normal.y_m * y_m - self.offset_m,
+            along_m: normal.x_m * y_m - normal.y_m * x_m,
+        }
     }
 }
 
@@ -255,7 +264,7 @@ impl Graph {
             return;
         };
         let segment = observation.segment;
-        let (off_m, along_m) = landmark.project(node.pose.transform(segment.middle));
+        let Projection { off_m, along_m } = landmark.project(node.pose.transform(segment.middle));
         let off_rad = normalize_rad(node.pose.heading_rad + segment.normal_rad - landmark.normal_rad);
         let (variance_m2, variance_rad2) = (
             segment.sigma_m * segment.sigma_m,
@@ -329,7 +338,7 @@ impl Graph {
             (Some(node), Some(landmark)) => {
                 landmark
                     .project(node.pose.transform(observation.segment.middle))
-                    .0
+                    .off_m
             }
             _ => 0.0,
         }
@@ -352,7 +361,7 @@ impl Graph {
         ) else {
             return;
         };
-        let (_, along_m) = landmark.project(node.pose.transform(observation.segment.middle));
+        let Projection { along_m, .. } = landmark.project(node.pose.transform(observation.segment.middle));
         landmark.low_m = landmark.low_m.min(along_m - observation.segment.half_m);
         landmark.high_m = landmark.high_m.max(along_m + observation.segment.half_m);
         landmark.first = landmark.first.min(observation.node);
@@ -520,7 +529,7 @@ pub(super) mod tests {
             x_m: landmark.anchor.x_m + distance_m * before.x_m,
             y_m: landmark.anchor.y_m + distance_m * before.y_m,
         };
-        assert!((landmark.project(at(0.2)).0 - 0.2).abs() < 1e-9);
-        assert!((landmark.project(at(-0.1)).0 + 0.1).abs() < 1e-9);
+        assert!((landmark.project(at(0.2)).off_m - 0.2).abs() < 1e-9);
+        assert!((landmark.project(at(-0.1)).off_m + 0.1).abs() < 1e-9);
     }
 }

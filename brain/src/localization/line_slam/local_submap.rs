@@ -1,5 +1,6 @@
 //! Divides the path into submaps: short stretches along walls.
 
+use super::OdometryStep;
 use super::line_segment::{LineSegment, RangePoint, extract_segments};
 use crate::model::advance::Advance;
 use crate::model::config::ProximityLayout;
@@ -75,10 +76,11 @@ impl SubmapBuilder {
     /// Takes the pose by odometry and the sensor readings there. Returns the submap that ends here.
     pub(super) fn follow(
         &mut self,
-        (odom, advance): (Pose2, Advance),
+        step: OdometryStep,
         observation: &Observation,
         layout: &ProximityLayout,
     ) -> Option<LocalSubmap> {
+        let OdometryStep { odom, advance } = step;
         let distance_m = advance.distance_m.abs();
         self.step_m += distance_m;
         self.step_rad += advance.turn_rad.abs();
@@ -144,7 +146,7 @@ impl SubmapBuilder {
 
 #[cfg(test)]
 mod tests {
-    use super::{LocalSubmap, SubmapBuilder};
+    use super::{LocalSubmap, OdometryStep, SubmapBuilder};
     use crate::model::advance::Advance;
     use crate::model::config::{ProximityLayout, ProximityResponse};
     use crate::model::geometry::{Pose2, normalize_rad};
@@ -193,8 +195,11 @@ mod tests {
                 turn_rad: turn_rad * (1.0 + ERROR),
                 ..Advance::default()
             };
-            self.submaps
-                .extend(self.log.follow((self.odom, advance), &observation, &layout));
+            let step = OdometryStep {
+                odom: self.odom,
+                advance,
+            };
+            self.submaps.extend(self.log.follow(step, &observation, &layout));
         }
 
         fn drive(&mut self, centimetres: u32) {

@@ -28,7 +28,7 @@ use graph::{Graph, Node};
 use graph_fit::FittedGraph;
 use kalman::{Belief, StepVariance};
 use local_submap::{LocalSubmap, SubmapBuilder};
-pub(super) use turns::TurnCalibration;
+pub(super) use turns::{ScaleEstimate, TurnCalibration};
 use turns::{TurnErrors, Turns};
 
 use crate::mapping::Keyframe;
@@ -60,13 +60,20 @@ const REDRAW_US: u64 = 60_000_000;
 /// and after this share of the time since the start: redrawing takes longer the more there is.
 const REDRAW_SHARE: u64 = 5;
 
+/// An advance of odometry and the pose at its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OdometryStep {
+    pub(super) odom: Pose2,
+    pub(super) advance: Advance,
+}
+
 /// A correction of the pose.
 #[derive(Clone, Debug)]
 pub(super) struct PoseFix {
     pub(super) map_from_odom: Pose2,
     /// Scale error of the turns, relative, and its standard deviation, when an optimization has estimated it. It is applied between
     /// two steps, so that all turns of one step have the same scale. Whole turns with a mixed scale would give a wrong estimate.
-    pub(super) scale: Option<(f64, f64)>,
+    pub(super) scale: Option<ScaleEstimate>,
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
 }
@@ -198,20 +205,21 @@ impl LineSlam {
     /// Takes the pose by odometry and the sensor readings. Returns a correction now and then.
     pub(super) fn follow(
         &mut self,
-        odom: Pose2,
-        (advance, turns): (Advance, TurnCalibration),
+        step: OdometryStep,
+        turns: TurnCalibration,
         observation: &Observation,
     ) -> Option<PoseFix> {
+        let OdometryStep { odom, advance } = step;
         self.begin(observation.time_us, turns);
         self.pending.add(advance, odom);
-        let submap = self.log.follow((odom, advance), observation, &self.layout);
+        let submap = self.log.follow(step, observation, &self.layout);
         let submap = submap.filter(|submap| !submap.segments.is_empty());
         if let Some(submap) = &submap {
             self.take(submap, turns);
         }
         let arrives = self.dock.arrives(advance.distance_m, observation.docked);
         if arrives {
-            self.arrive_at_dock((observation.time_us, odom), turns);
+            self.arrive_at_dock(observation.time_us, odom, turns);
         }
         let is_fitted = self.continue_fit();
         self.has_new_scale |= is_fitted;
@@ -231,7 +239,7 @@ impl LineSlam {
     }
 
     /// The scale that an optimization has estimated since the last call, at a moment between two steps.
-    fn new_scale(&mut self) -> Option<(f64, f64)> {
+    fn new_scale(&mut self) -> Option<ScaleEstimate> {
         let is_between_steps = self.pending.time_s == 0.0;
         if !is_between_steps || !core::mem::take(&mut self.has_new_scale) {
             return None;

@@ -24,6 +24,15 @@ const SURER_SHARE: f64 = 0.5;
 const SCALE_SIGMA_MIN: f64 = 1e-4;
 const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 1e-5;
 
+/// An estimate of the scale error of the turns.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::localization) struct ScaleEstimate {
+    /// Relative error.
+    pub(in crate::localization) scale: f64,
+    /// Its standard deviation.
+    pub(in crate::localization) sigma: f64,
+}
+
 /// The turns of a step.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Turns {
@@ -112,9 +121,10 @@ impl TurnErrors {
         self.scale += share * (1.0 + self.scale);
     }
 
-    /// The estimated scale and its standard deviation.
-    pub(super) fn estimated_scale(&self) -> Option<(f64, f64)> {
-        self.scale_sigma.map(|sigma| (self.scale, sigma))
+    /// The estimated scale; `None` before the first optimization.
+    pub(super) fn estimated_scale(&self) -> Option<ScaleEstimate> {
+        let scale = self.scale;
+        self.scale_sigma.map(|sigma| ScaleEstimate { scale, sigma })
     }
 
     /// The epoch of a new node.
@@ -189,7 +199,7 @@ impl TurnErrors {
 
 #[cfg(test)]
 mod tests {
-    use super::{BiasEpoch, TurnCalibration, TurnErrors};
+    use super::{BiasEpoch, ScaleEstimate, TurnCalibration, TurnErrors};
     use crate::localization::line_slam::graph::Graph;
     use crate::localization::line_slam::graph::tests::laps;
     use crate::localization::line_slam::optimization::optimized;
@@ -232,7 +242,7 @@ mod tests {
         for seed in 1..40 {
             let mut graph = miscounted(0.02, 0.0, seed);
             assert!(optimized(&mut graph));
-            let (scale, sigma) = graph.turn_errors.estimated_scale().unwrap();
+            let ScaleEstimate { scale, sigma } = graph.turn_errors.estimated_scale().unwrap();
             assert!((0.001..0.008).contains(&sigma), "{sigma}");
             sum += scale / 39.0;
             let off = (scale - (1.0 / 1.02 - 1.0)) / sigma;

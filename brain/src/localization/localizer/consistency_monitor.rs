@@ -66,9 +66,9 @@ impl ConsistencyMonitor {
             return;
         }
         self.distance_m = 0.0;
-        let solid = solid_in_base((observation, touches), config);
+        let solid = solid_in_base(observation, touches, config);
         let far_m = ELSEWHERE_M + SIGMAS * estimate.sigma_m;
-        if let Some(contradicted) = contradicted(reference_map, (estimate, &solid), far_m) {
+        if let Some(contradicted) = contradicted(reference_map, estimate, &solid, far_m) {
             self.contradicted += (contradicted - self.contradicted) / AVERAGED_CHECKS;
         }
         if self.contradicted <= DOUBTED_ABOVE {
@@ -136,7 +136,7 @@ impl Localization {
 }
 
 /// Solid points in the frame of the robot: infrared readings, and the front when the bumper has just closed.
-fn solid_in_base((observation, touches): (&Observation, bool), config: &BrainConfig) -> Vec<Point2> {
+fn solid_in_base(observation: &Observation, touches: bool, config: &BrainConfig) -> Vec<Point2> {
     let layout = &config.sensors.proximity;
     let seen = layout.sensors().iter().zip(&observation.proximity);
     let mut solid: Vec<Point2> = seen
@@ -160,7 +160,8 @@ fn solid_in_base((observation, touches): (&Observation, bool), config: &BrainCon
 /// Share of the points that contradict the map, 0..=1; `None` where the map knows nothing.
 fn contradicted(
     reference_map: &ReferenceMap,
-    (estimate, solid): (&PoseEstimate, &[Point2]),
+    estimate: &PoseEstimate,
+    solid: &[Point2],
     far_m: f64,
 ) -> Option<f64> {
     let here = estimate.pose.position();
@@ -242,7 +243,7 @@ mod tests {
                 ..PoseEstimate::default()
             };
             let solid = Point2 { x_m: 0.2, y_m: 0.0 };
-            super::contradicted(&reference_map, (&estimate, &[solid]), super::ELSEWHERE_M)
+            super::contradicted(&reference_map, &estimate, &[solid], super::ELSEWHERE_M)
         };
         assert_eq!(below(1.99), Some(0.0), "in the last cells that are known");
         assert_eq!(below(1.5), Some(1.0), "in the midst of floor");

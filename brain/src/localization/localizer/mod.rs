@@ -10,7 +10,7 @@ use super::TrackingCheckpoint;
 use super::beacons::Beacons;
 use super::drift::{Drift, WHEEL_TURN_SCALE};
 use super::lift::Lift;
-use super::line_slam::TurnCalibration;
+use super::line_slam::{OdometryStep, ScaleEstimate, TurnCalibration};
 use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
 use super::reverse_budget::ReverseBudget;
@@ -243,15 +243,18 @@ impl Localization {
             return;
         }
         let turns = self.turn_calibration(observation.time_us);
-        let odom = self.odometry.odom_from_base();
+        let step = OdometryStep {
+            odom: self.odometry.odom_from_base(),
+            advance,
+        };
         let Some(first_run) = self.estimator.first_run_mut() else {
             return;
         };
-        let Some(fix) = first_run.slam.follow(odom, (advance, turns), observation) else {
+        let Some(fix) = first_run.slam.follow(step, turns, observation) else {
             return;
         };
         if advance.gyro_turn_rad.is_some()
-            && let Some((scale, sigma)) = fix.scale
+            && let Some(ScaleEstimate { scale, sigma }) = fix.scale
         {
             self.odometry.calibration.set_scale(scale, sigma);
         }

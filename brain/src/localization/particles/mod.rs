@@ -27,7 +27,7 @@ pub(super) use infrared::BeamScore;
 use infrared::{BeamModel, BodyPose};
 use surface::Reflectances;
 pub(super) use surroundings::Surroundings;
-use touch::{Touch, body_likelihood};
+use touch::{BodyModel, Touch, body_likelihood};
 
 /// Fewest particles while the pose is known.
 const TRACKING_MIN: usize = 220;
@@ -260,6 +260,10 @@ impl ParticleFilter {
             contacts: measured.contacts,
             edges: measured.edges,
         };
+        let body = BodyModel {
+            radius_m: self.radius_m,
+            layout: &self.layout,
+        };
         let mut sum = 0.0;
         for particle in &mut self.particles {
             let place = place(map, particle.pose);
@@ -267,7 +271,7 @@ impl ParticleFilter {
             let mut likelihood = tempered(infrared, self.mode);
             likelihood *= body_likelihood(place.clearance_m - self.radius_m);
             if touch.is_informative() {
-                likelihood *= touch.likelihood(map, &place, (self.radius_m, &self.layout));
+                likelihood *= touch.likelihood(map, &place, body);
             }
             if let Some(measured_bias) = measured
                 .measured_bias

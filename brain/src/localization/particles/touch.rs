@@ -42,6 +42,13 @@ struct ContactModel {
     unmapped: f64,
 }
 
+/// The body and its sensors.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BodyModel<'layout> {
+    pub(super) radius_m: f64,
+    pub(super) layout: &'layout SensorLayout,
+}
+
 /// What the body felt.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
@@ -67,18 +74,13 @@ impl Touch {
     }
 
     /// Likelihood of contacts and cliffs at a pose; 1 at best.
-    pub(super) fn likelihood(
-        &self,
-        map: &impl Surroundings,
-        place: &BodyPose,
-        (radius_m, layout): (f64, &SensorLayout),
-    ) -> f64 {
+    pub(super) fn likelihood(&self, map: &impl Surroundings, place: &BodyPose, body: BodyModel<'_>) -> f64 {
         let mut likelihood = 1.0;
         if self.contacts.any() {
-            likelihood *= self.contact(map, place, (radius_m, layout));
+            likelihood *= self.contact(map, place, body);
         }
         if self.edges.any()
-            && let Some(mounts) = layout.cliffs
+            && let Some(mounts) = body.layout.cliffs
         {
             let seen = [self.edges.left, self.edges.middle, self.edges.right];
             for (mount, seen) in mounts.into_iter().zip(seen) {
@@ -90,26 +92,21 @@ impl Touch {
         likelihood
     }
 
-    fn contact(
-        &self,
-        map: &impl Surroundings,
-        place: &BodyPose,
-        (radius_m, layout): (f64, &SensorLayout),
-    ) -> f64 {
+    fn contact(&self, map: &impl Surroundings, place: &BodyPose, body: BodyModel<'_>) -> f64 {
         let bump = match self.mode {
             FilterMode::Holding => HOLDING,
             FilterMode::Searching => SEARCHING,
         };
-        let off = (place.clearance_m - radius_m) / bump.sigma_m;
+        let off = (place.clearance_m - body.radius_m) / bump.sigma_m;
         if off.abs() > 5.0 {
             return bump.unmapped;
         }
-        let body = 1.0 + 0.25 * off * off;
+        let tail = 1.0 + 0.25 * off * off;
         let (dx, dy) = towards(map, place.centre);
         let forward = place.cos * dx + place.sin * dy;
         let left = place.cos * dy - place.sin * dx;
         let bearing_rad = libm::atan2(left, forward);
-        let bumper = layout.bumper;
+        let bumper = body.layout.bumper;
         let (low_rad, high_rad) = match (self.contacts.left, self.contacts.right) {
             (true, true) => (-bumper.overlap_rad, bumper.overlap_rad),
             (true, false) => (0.0, bumper.half_arc_rad),
@@ -117,7 +114,7 @@ impl Touch {
         };
         let beside_rad = (low_rad - bearing_rad).max(bearing_rad - high_rad).max(0.0);
         let side = (1.0 - beside_rad / ASIDE_RAD).max(CONTACT_ASIDE);
-        bump.unmapped + (1.0 - bump.unmapped) * side / (body * body)
+        bump.unmapped + (1.0 - bump.unmapped) * side / (tail * tail)
     }
 }
 
