@@ -4,24 +4,24 @@
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary::{
-    DRIVE, STATE, read_drive, read_state, write_drive, write_sealed_state, write_state,
+    DRIVE, STATE, read_drive, read_state, write_drive, write_state, write_state_with_crc,
 };
+use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::PACKET_BYTES_MAX;
 use rvac_protocol::message::{BinaryKinds, Capabilities, Description, Limits, Name, ResetCause};
-use rvac_protocol::seal::{Direction, seal, to_hex};
 use rvac_protocol::session::{HostSession, RobotIdentity, RobotSession};
 use rvac_protocol::text::{Form, ReportPacket, read_command, read_report, write_command, write_report};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
 
 /// A command that can be read can be written, and reads back as the same.
 pub(crate) fn command_text(input: &[u8]) {
-    for form in [Form::Sealed, Form::Hand { now: Tick(7) }] {
+    for form in [Form::Checked, Form::Hand { now: Tick(7) }] {
         let Ok(command) = read_command(input, form) else {
             continue;
         };
         let mut buffer = PacketBuffer::new();
         assert_eq!(write_command(&command, &mut buffer), Ok(()));
-        assert_eq!(read_command(buffer.as_bytes(), Form::Sealed), Ok(command));
+        assert_eq!(read_command(buffer.as_bytes(), Form::Checked), Ok(command));
     }
 }
 
@@ -55,7 +55,7 @@ pub(crate) fn binary(input: &[u8]) {
         assert_eq!(*kind, STATE);
         assert_eq!(read_state(body), Ok(state));
         let mut buffer = PacketBuffer::new();
-        assert_eq!(write_sealed_state(&state, 1, &mut buffer), Ok(()));
+        assert_eq!(write_state_with_crc(&state, 1, &mut buffer), Ok(()));
         let inside = buffer
             .as_bytes()
             .split_last()
@@ -65,13 +65,13 @@ pub(crate) fn binary(input: &[u8]) {
     }
 }
 
-/// Both ends take any bytes, as they come and sealed as if by their peer, and still hear the packet after the next
+/// Both ends take any bytes, as they come and with the CRC of a peer, and still understand the packet after the next
 /// separator.
 pub(crate) fn sessions(input: &[u8]) {
     let mut robot = RobotSession::new(identity(), Tick(0));
     let mut host = HostSession::new(BinaryKinds::ALL, Tick(0));
     let mut buffer = PacketBuffer::new();
-    for (index, byte) in sealed_too(input).into_iter().enumerate() {
+    for (index, byte) in with_crcs(input).into_iter().enumerate() {
         let now = Tick(index as u32 * 3);
         let _event = robot.receive(byte, now);
         let _event = host.receive(byte, now);
@@ -89,8 +89,8 @@ pub(crate) fn sessions(input: &[u8]) {
     assert_eq!(robot.counters().accepted, before.accepted.wrapping_add(1));
 }
 
-/// The input as it is, and each of its pieces with a right seal for either end.
-fn sealed_too(input: &[u8]) -> Vec<u8> {
+/// The input as it is, and each of its pieces with a right CRC for either end.
+fn with_crcs(input: &[u8]) -> Vec<u8> {
     let mut stream = input.to_vec();
     for piece in input
         .split(|byte| *byte == 0x1F)
@@ -100,7 +100,7 @@ fn sealed_too(input: &[u8]) -> Vec<u8> {
             stream.push(0x1F);
             stream.extend_from_slice(piece);
             stream.push(b'*');
-            stream.extend(to_hex(seal(direction, 0, piece)));
+            stream.extend(to_hex(packet_crc(direction, 0, piece)));
         }
     }
     stream

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-/// Characters of a seal in text, its `*` included.
-const TEXT_SEAL: usize = 9;
-/// Bytes of a seal in a binary packet.
-const BINARY_SEAL: usize = 4;
+/// Characters of a CRC in text, its `*` included.
+const TEXT_CRC: usize = 9;
+/// Bytes of a CRC in a binary packet.
+const BINARY_CRC: usize = 4;
 
 /// Pieces of golden packets: texts, and bodies of binary packets.
 pub(crate) fn pieces() -> Vec<Vec<u8>> {
@@ -22,7 +22,7 @@ pub(crate) fn pieces() -> Vec<Vec<u8>> {
             if let Some(line) = vector["line"].as_str() {
                 pieces.extend(
                     line.split('\x1f')
-                        .map(|packet| packet.as_bytes()[..packet.len() - TEXT_SEAL].to_vec()),
+                        .map(|packet| packet.as_bytes()[..packet.len() - TEXT_CRC].to_vec()),
                 );
             }
             if let Some(text) = vector["text"].as_str() {
@@ -31,8 +31,8 @@ pub(crate) fn pieces() -> Vec<Vec<u8>> {
             for key in ["binary_line_hex", "stream_hex"] {
                 if let Some(digits) = vector[key].as_str() {
                     let packet = from_hex(digits);
-                    if packet.len() > BINARY_SEAL {
-                        pieces.push(packet[1..packet.len() - BINARY_SEAL].to_vec());
+                    if packet.len() > BINARY_CRC {
+                        pieces.push(packet[1..packet.len() - BINARY_CRC].to_vec());
                     }
                     pieces.push(packet);
                 }

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_sim::run::{RunSettings, household, start_cleaning};
-use rvac_sim::{GyroFitted, Household, Record, Scene, SceneSettings};
+use rvac_sim::{CalibrationChoice, GyroFitted, Household, Scene, SceneSettings};
 
 pub use table::Table;
 pub use watched::{JOB_S, Watched, free_place, is_home, recorded, usual};
@@ -92,7 +92,7 @@ fn scene_with(robot: &str, home: PathBuf, noise: &str) -> Scene {
         robot: robot.to_owned(),
         noise: noise.to_owned(),
         firmware: None,
-        record: Record::Complete,
+        record: CalibrationChoice::Complete,
         gyro: GyroFitted::default(),
     })
     .expect("the project's homes suit the project's robot")

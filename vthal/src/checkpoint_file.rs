@@ -8,7 +8,7 @@ use std::io;
 use std::path::Path;
 
 use rvac_api::RunRecord;
-use rvac_protocol::seal::{Digest, Direction};
+use rvac_protocol::crc::{Digest, Direction};
 use serde::{Deserialize, Serialize};
 use vthal_core::Checkpoint;
 
@@ -128,7 +128,7 @@ fn load_one(path: &Path, now: &BootTime) -> Option<Found> {
 fn digest(body: &[u8]) -> u32 {
     let mut digest = Digest::start(Direction::HostToRobot, 0);
     digest.extend(body);
-    digest.seal()
+    digest.crc()
 }
 
 #[cfg(test)]

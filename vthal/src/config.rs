@@ -8,15 +8,14 @@ use toml::Spanned;
 
 use crate::imu::{Axis, ImuSettings, Roots};
 use crate::radio::{BEACONS_MAX, BeaconName, RadioForm, RadioSettings};
-use crate::service::MAKE;
 
 /// A valid configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// Serial device of the robot.
     pub serial: PathBuf,
-    /// Bits per second.
-    pub baud: u32,
+    /// Bits per second; `None` = what the make of the robot speaks.
+    pub baud: Option<u32>,
     /// Path of the Unix socket.
     pub socket: PathBuf,
     /// Clients at the same time.
@@ -284,10 +283,11 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
     let serial = flags.serial.or(file.link.serial);
     let socket = flags.socket.or(file.socket.path);
     let state = flags.state.or(file.state.dir);
-    let baud = source.in_range(file.link.baud, MAKE.opening.baud, 1_200..=4_000_000)?;
+    let named = file.link.baud.is_some();
+    let baud = source.in_range(file.link.baud, 0, 1_200..=4_000_000)?;
     Ok(Config {
         serial: serial.ok_or(missing("serial device", "--serial PATH", "link.serial"))?,
-        baud: flags.baud.unwrap_or(baud),
+        baud: flags.baud.or(named.then_some(baud)),
         socket: socket.ok_or(missing("socket path", "--socket PATH", "socket.path"))?,
         clients_max: source.in_range(file.socket.clients_max, 128, 1..=1024)? as usize,
         expert: file.socket.expert.unwrap_or(false),
@@ -429,6 +429,7 @@ mod tests {
             .fold(String::new(), |all, line| all + line + "\n");
         let config = parse(&written_out).expect("valid");
         let mut defaults = parse("").expect("valid");
+        defaults.baud = Some(230_400);
         defaults.seed = Some(1);
         defaults.description = Some("/usr/share/librervac/robots/samsung-sr8730/robot.toml".into());
         assert_eq!(defaults.strategy, None, "what suits the robot");

@@ -24,6 +24,7 @@ use crate::outbox::Class;
 use crate::radio::RadioEvent;
 use crate::recording::RecorderHandle;
 use crate::run_thread::RunHandle;
+use crate::serial::LineOrder;
 use crate::socket;
 
 /// Longest wait for the wheels to stand when the daemon ends.
@@ -41,7 +42,7 @@ pub(crate) struct Wiring {
     /// For tasks that the loop starts.
     pub event_sender: Sender<Event>,
     /// Bytes for the robot.
-    pub to_robot: Sender<Vec<u8>>,
+    pub to_robot: Sender<LineOrder>,
     /// Recordings, if wanted.
     pub recorder: Option<RecorderHandle>,
     /// Checkpoints.
@@ -268,7 +269,7 @@ impl Daemon {
     fn perform(&mut self) {
         if !self.outputs.link.is_empty() {
             let bytes = std::mem::take(&mut self.outputs.link);
-            let congested = self.wiring.to_robot.try_send(bytes).is_err();
+            let congested = self.wiring.to_robot.try_send(LineOrder::Send(bytes)).is_err();
             if congested && !self.congested {
                 tracing::warn!(
                     part = "link",
@@ -276,6 +277,9 @@ impl Daemon {
                 );
             }
             self.congested = congested;
+        }
+        if self.outputs.next_rate && self.wiring.to_robot.try_send(LineOrder::NextRate).is_err() {
+            tracing::warn!(part = "link", "the serial line is too busy to try another rate");
         }
         for delivery in self.outputs.deliveries.drain(..) {
             deliver(&self.core, &mut self.clients, &delivery);

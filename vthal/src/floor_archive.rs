@@ -6,7 +6,7 @@
 
 use brain::RoomName;
 use rvac_api::ARCHIVE_BYTES_MAX;
-use rvac_protocol::seal::crc32c;
+use rvac_protocol::crc::crc32c;
 use vthal_core::stored_map;
 
 const MAGIC: &[u8; 8] = b"RVACFLRS";

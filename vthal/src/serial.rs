@@ -34,30 +34,53 @@ pub(crate) struct SerialSettings {
 /// The line to the robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct RobotLine {
-    /// The device.
-    pub settings: SerialSettings,
+    /// Path of the device; may appear later.
+    pub path: PathBuf,
+    /// Rates that are tried in turn, bits per second.
+    pub rates_baud: Vec<u32>,
     /// What the make of the robot asks for before the first byte.
     pub opening: Opening,
 }
 
+/// For the task that serves the line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum LineOrder {
+    /// Bytes for the robot.
+    Send(Vec<u8>),
+    /// No robot answers: another rate.
+    NextRate,
+}
+
 /// Serves the device until the daemon's event queue closes: opens it, passes bytes both ways, and begins again when it is
 /// lost. Each outage is reported once.
-pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot: Receiver<Vec<u8>>) {
+pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot: Receiver<LineOrder>) {
+    let mut rates = robot.rates_baud.iter().copied().cycle();
+    let mut settings = SerialSettings {
+        path: robot.path.clone(),
+        baud: rates.next().unwrap_or_default(),
+    };
     let mut pause = PAUSE_MIN;
     let mut told = false;
     loop {
-        let event = match open_to_robot(&robot).await {
+        let event = match open_to_robot(&settings, robot.opening).await {
             Ok(line) => {
                 told = false;
+                drain(&mut to_robot);
                 if events.send(Event::Serial(SerialEvent::Opened)).await.is_err() {
                     return;
                 }
-                drain(&mut to_robot);
-                let (reason, read_any) = pass_bytes(&line.port, &events, &mut to_robot).await;
+                let (end, read_any) = pass_bytes(&line.port, &events, &mut to_robot).await;
                 if read_any {
                     pause = PAUSE_MIN;
                 }
-                Some(SerialEvent::Closed(reason))
+                Some(SerialEvent::Closed(match end {
+                    LineEnd::Lost(reason) => reason,
+                    LineEnd::NextRate => {
+                        let baud = settings.baud;
+                        settings.baud = rates.next().unwrap_or(baud);
+                        LinkLoss::NoAnswer { baud }
+                    }
+                }))
             }
             Err(_) if told => None,
             Err(error) => {
@@ -76,14 +99,12 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot:
 }
 
 /// Opens the device and wakes the robot at its other end, if it needs that.
-async fn open_to_robot(robot: &RobotLine) -> Result<Line, OpenError> {
-    let line = open(&robot.settings)?;
-    wake(&line.port, robot.opening)
-        .await
-        .map_err(|error| OpenError::Open {
-            path: robot.settings.path.clone(),
-            error,
-        })?;
+async fn open_to_robot(settings: &SerialSettings, opening: Opening) -> Result<Line, OpenError> {
+    let line = open(settings)?;
+    wake(&line.port, opening).await.map_err(|error| OpenError::Open {
+        path: settings.path.clone(),
+        error,
+    })?;
     Ok(line)
 }
 
@@ -101,7 +122,7 @@ async fn wake(port: &SerialPort, opening: Opening) -> io::Result<()> {
 }
 
 /// Bytes for a robot that was lost must not reach the next one.
-fn drain(to_robot: &mut Receiver<Vec<u8>>) {
+fn drain(to_robot: &mut Receiver<LineOrder>) {
     while to_robot.try_recv().is_ok() {}
 }
 
@@ -149,23 +170,31 @@ pub(crate) enum OpenError {
     InUse(PathBuf),
 }
 
+/// Why bytes pass no longer.
+enum LineEnd {
+    /// The line is lost.
+    Lost(LinkLoss),
+    /// It is to be opened at another rate.
+    NextRate,
+}
+
 async fn pass_bytes(
     port: &SerialPort,
     events: &Sender<Event>,
-    to_robot: &mut Receiver<Vec<u8>>,
-) -> (LinkLoss, bool) {
+    to_robot: &mut Receiver<LineOrder>,
+) -> (LineEnd, bool) {
     let mut buffer = [0; READ_SIZE];
     let mut pending = Vec::new();
     let mut read_any = false;
     loop {
         tokio::select! {
             read = port.read(&mut buffer) => match read {
-                Ok(0) => return (LinkLoss::HungUp, read_any),
+                Ok(0) => return (LineEnd::Lost(LinkLoss::HungUp), read_any),
                 Ok(count) => {
                     read_any = true;
                     let bytes = buffer.get(..count).unwrap_or_default().to_vec();
                     if events.send(Event::Serial(SerialEvent::Bytes(bytes))).await.is_err() {
-                        return (LinkLoss::HungUp, read_any);
+                        return (LineEnd::Lost(LinkLoss::HungUp), read_any);
                     }
                 }
                 Err(error) => return (loss_of(&error), read_any),
@@ -174,15 +203,22 @@ async fn pass_bytes(
                 Ok(count) => { pending.drain(..count); }
                 Err(error) => return (loss_of(&error), read_any),
             },
-            Some(bytes) = to_robot.recv(), if pending.len() < PENDING_MAX => pending.extend_from_slice(&bytes),
+            Some(order) = to_robot.recv(), if pending.len() < PENDING_MAX => match order {
+                LineOrder::Send(bytes) => pending.extend_from_slice(&bytes),
+                LineOrder::NextRate => return (LineEnd::NextRate, read_any),
+            },
         }
     }
 }
 
 /// A pseudo terminal whose other end closes gives EIO, an adapter that is pulled ENXIO or ENODEV.
-fn loss_of(error: &io::Error) -> LinkLoss {
-    match error.raw_os_error().map(rustix::io::Errno::from_raw_os_error) {
-        Some(rustix::io::Errno::IO | rustix::io::Errno::NXIO | rustix::io::Errno::NODEV) => LinkLoss::HungUp,
-        _ => LinkLoss::Failed(error.to_string()),
-    }
+fn loss_of(error: &io::Error) -> LineEnd {
+    LineEnd::Lost(
+        match error.raw_os_error().map(rustix::io::Errno::from_raw_os_error) {
+            Some(rustix::io::Errno::IO | rustix::io::Errno::NXIO | rustix::io::Errno::NODEV) => {
+                LinkLoss::HungUp
+            }
+            _ => LinkLoss::Failed(error.to_string()),
+        },
+    )
 }

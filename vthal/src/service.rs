@@ -25,13 +25,13 @@ use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
 use crate::run_folder::RunFolder;
 use crate::schedule_file;
-use crate::serial::{self, RobotLine, SerialSettings};
+use crate::serial::{self, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
 use crate::{checkpoint_thread, imu, logging, radio, run_thread};
 
 /// Make of the robot that this daemon serves.
-pub(crate) const MAKE: Make = cordlib::MAKE;
+const MAKE: Make = cordlib::MAKE;
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
@@ -119,9 +119,10 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     watch_signals(&event_sender)?;
     spawn_local(socket::serve(listener, event_sender.clone()));
     let robot = RobotLine {
-        settings: SerialSettings {
-            path: config.serial.clone(),
-            baud: config.baud,
+        path: config.serial.clone(),
+        rates_baud: match config.baud {
+            Some(baud) => vec![baud],
+            None => MAKE.opening.rates_baud.to_vec(),
         },
         opening: MAKE.opening,
     };

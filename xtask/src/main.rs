@@ -31,7 +31,7 @@ struct Arguments {
 enum Command {
     /// Builds everything, starts a simulated robot with the whole software, and prints the address of its panel.
     Demo(demo::Arguments),
-    /// Runs every check and test of the project.
+    /// Runs the checks and tests of the project; with --all every one of them.
     Test(test::Arguments),
     /// Builds the firmware of a robot and tells what it takes.
     Firmware(firmware::Arguments),
@@ -60,9 +60,8 @@ fn main() -> ExitCode {
         Command::Tidy(arguments) => tidy::run_with(&arguments),
         Command::Codegen(arguments) => codegen::run(&arguments),
         Command::BookPictures => book_pictures::run(),
-        Command::Panel => {
-            panel::build().map(|folder| process::say(&format!("the panel is in {}", folder.display())))
-        }
+        Command::Panel => panel::build(panel::Page::Release)
+            .map(|folder| process::say(&format!("the panel is in {}", folder.display()))),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -41,8 +41,8 @@ pub(super) struct GyroRest {
 impl GyroRest {
     /// Whether the robot shall stand still now. It is kept waiting only on a way ahead; what comes in between ends a rest, and
     /// that is taken anew as soon as the robot is on its way again.
-    pub(super) fn follow(&mut self, now_us: u64, is_ahead: bool, pace: RestPace) -> bool {
-        let RestPace { every_us, rest_us } = pace;
+    pub(super) fn follow(&mut self, now_us: u64, is_ahead: bool, budget: RestPace) -> bool {
+        let RestPace { every_us, rest_us } = budget;
         if !is_ahead {
             self.until_us = None;
             return false;

@@ -7,7 +7,7 @@ use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::model::config::BrainConfig;
 use crate::model::energy::{EnergyModel, time_to_return_s};
 use crate::model::geometry::Pose2;
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
@@ -54,9 +54,9 @@ pub(crate) fn estimate(
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
     let radius_m = config.body.radius_m + KEEP_OFF_M;
-    let pace = &mut Pace::at_once();
+    let budget = &mut StepBudget::unlimited();
     let frame = LaneFrame::along(map.wall_direction_rad().unwrap_or(0.0));
-    let ground = at_once(reachable(&knowledge, &frame, (radius_m, &[]), pace));
+    let ground = at_once(reachable(&knowledge, &frame, (radius_m, &[]), budget));
     let mut sum = Sum::at(start);
     let whole = order.is_for_whole_home().then_some(None);
     for part in whole.into_iter().chain(order.parts().iter().map(Some)) {
@@ -142,8 +142,13 @@ fn part_of(
         start: frame.pose(start),
         settings: *settings,
     };
-    let plan = at_once(plan_area(ground, (course, |_| false), from, &mut Pace::at_once()));
-    let plan = plan.in_map(&frame);
+    let plan = at_once(plan_area(
+        ground,
+        (course, |_| false),
+        from,
+        &mut StepBudget::unlimited(),
+    ));
+    let plan = plan.in_map(frame);
     let end = plan.pieces.last().map_or(start, |last| last.at(1.0));
     let passes = map.annotations().passes_over(order, part);
     let (kept, kept_low) = kept((map, &|cell| wanted.course(cell).is_some()), settings, passes);

@@ -8,7 +8,7 @@ use core::task::Poll;
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::action::Motion;
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::{Gradual, Pace};
+use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{
@@ -233,11 +233,11 @@ impl Basis {
 
     /// The way with the first of these gaps with which there is one.
     async fn first_way(self, keep_off_m: &'static [f64]) -> Option<Vec<Piece>> {
-        let pace = &mut Pace::in_steps();
+        let budget = &mut StepBudget::limited();
         for gap_m in keep_off_m {
             let around = (self.body_m + gap_m, self.blocked.as_slice());
-            let ground = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, pace).await;
-            if let Some(pieces) = plan_way(&ground, (self.start, &self.goals), pace).await {
+            let ground = reachable(&self.knowledge, &LaneFrame::OF_MAP, around, budget).await;
+            if let Some(pieces) = plan_way(&ground, (self.start, &self.goals), budget).await {
                 return Some(pieces);
             }
         }

@@ -7,7 +7,7 @@
 use super::particles::Surroundings;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, Map, Raster, StoredMap};
 use crate::model::geometry::Point2;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Cells between two candidate positions: 15 cm.
 const PLACE_CELLS: usize = 6;
@@ -38,10 +38,10 @@ impl ReferenceMap {
     }
 
     /// Loads a stored map in steps.
-    pub(super) async fn of_stored(home: StoredMap, pace: &mut Pace) -> Self {
-        let knowledge = home.knowledge_in_steps(pace).await;
+    pub(super) async fn of_stored(home: StoredMap, budget: &mut StepBudget) -> Self {
+        let knowledge = home.knowledge_in_steps(budget).await;
         Self {
-            distance: DistanceField::in_steps(&knowledge, pace).await,
+            distance: DistanceField::in_steps(&knowledge, budget).await,
             knowledge,
             dock: home.dock_place(),
         }

@@ -1,7 +1,7 @@
 //! Cholesky solver for symmetric positive definite systems in skyline storage. The rows of such systems begin late: a chain of
 //! poses and, below it, the things that many poses observe. The Cholesky factor begins no earlier in any row.
 
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Work of an entry besides the multiplications.
 const ENTRY_WORK: usize = 10;
@@ -132,31 +132,31 @@ impl System {
     }
 
     /// Solves it; `None` when the residuals do not determine all unknowns.
-    pub(super) async fn solve(self, pace: &mut Pace) -> Option<Solution> {
+    pub(super) async fn solve(self, budget: &mut StepBudget) -> Option<Solution> {
         let mut matrix = self.matrix;
         for row in 0..self.right.len() {
             for column in *matrix.first.get(row)?..=row {
                 let multiplications = matrix.factor_entry(row, column)?;
-                pace.spend(multiplications + ENTRY_WORK).await;
+                budget.spend(multiplications + ENTRY_WORK).await;
             }
         }
         let factor = Factor { matrix };
-        let values = factor.solve(self.right, pace).await?;
+        let values = factor.solve(self.right, budget).await?;
         Some(Solution { values, factor })
     }
 }
 
 impl Factor {
     /// The solution for a right side.
-    pub(super) async fn solve(&self, right: Vec<f64>, pace: &mut Pace) -> Option<Vec<f64>> {
+    pub(super) async fn solve(&self, right: Vec<f64>, budget: &mut StepBudget) -> Option<Vec<f64>> {
         let mut values = right;
         for row in 0..values.len() {
             let length = self.substitute_forward(row, &mut values)?;
-            pace.spend(length + ENTRY_WORK).await;
+            budget.spend(length + ENTRY_WORK).await;
         }
         for row in (0..values.len()).rev() {
             let length = self.substitute_back(row, &mut values)?;
-            pace.spend(length + ENTRY_WORK).await;
+            budget.spend(length + ENTRY_WORK).await;
         }
         Some(values)
     }
@@ -210,17 +210,17 @@ fn interleaved_dot(one: &[f64], other: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Solution, Summation, System};
-    use crate::model::gradual::{Gradual, Pace, at_once};
+    use crate::model::gradual::{Gradual, StepBudget, at_once};
     use crate::model::random::Random;
     use core::task::Poll;
 
     fn solved(system: System) -> Option<Solution> {
-        at_once(system.solve(&mut Pace::at_once()))
+        at_once(system.solve(&mut StepBudget::unlimited()))
     }
 
     /// The solution in steps of so much work, and the number of steps.
     fn solved_in_steps(system: System, step: usize) -> (Option<Solution>, u32) {
-        let mut solving = Gradual::new(async move { system.solve(&mut Pace::of(step)).await });
+        let mut solving = Gradual::new(async move { system.solve(&mut StepBudget::of(step)).await });
         let mut steps = 1;
         loop {
             match solving.go_on() {
@@ -301,7 +301,7 @@ mod tests {
         assert!((values[4] - 6.0).abs() < 1e-9, "{values:?}");
         let mut unit = vec![0.0; 11];
         unit[10] = 1.0;
-        let column = at_once(factor.solve(unit, &mut Pace::at_once())).unwrap();
+        let column = at_once(factor.solve(unit, &mut StepBudget::unlimited())).unwrap();
         assert!(column[10] > 0.0, "a variance");
     }
 }

@@ -18,7 +18,7 @@ use crate::mapping::StoredMap;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
-use crate::model::gradual::{Gradual, Pace};
+use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::observation::Observation;
 
 /// Distance for which a hypothesis must explain the observations, metres,
@@ -102,7 +102,8 @@ impl StoreyFinder {
             config.speeds.max_m_per_s + 0.5 * config.body.track_m * config.speeds.turn_max_rad_per_s;
         let ready = |(floor, home): (u16, &StoredMap)| {
             let home = home.clone();
-            let reference_map = async move { ReferenceMap::of_stored(home, &mut Pace::in_steps()).await };
+            let reference_map =
+                async move { ReferenceMap::of_stored(home, &mut StepBudget::limited()).await };
             (floor, Gradual::new(reference_map))
         };
         Self {

@@ -3,7 +3,7 @@
 use super::distance::{DistanceField, grown, window};
 use super::layers::{CellBox, Layers};
 use super::{Cell, CellKnowledge, Raster};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Work of finding a cell among the tiles.
 const LOOK_UP_WORK: usize = 6;
@@ -26,7 +26,7 @@ impl Default for Derived {
 
 impl Derived {
     /// Everything that `layers` tell.
-    pub(super) async fn anew(layers: &mut Layers, pace: &mut Pace) -> Self {
+    pub(super) async fn anew(layers: &mut Layers, budget: &mut StepBudget) -> Self {
         layers.take_dirty();
         let mut derived = Self::default();
         derived.cover(layers);
@@ -35,9 +35,9 @@ impl Derived {
             if let Some(place) = derived.knowledge.values_mut().get_mut(index) {
                 *place = layers.at(cell).knowledge();
             }
-            pace.spend(LOOK_UP_WORK).await;
+            budget.spend(LOOK_UP_WORK).await;
         }
-        derived.distance = DistanceField::in_steps(&derived.knowledge, pace).await;
+        derived.distance = DistanceField::in_steps(&derived.knowledge, budget).await;
         derived
     }
 

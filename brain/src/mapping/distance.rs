@@ -6,7 +6,7 @@
 use super::layers::CellBox;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 
 /// Cells up to which distances are exact.
 pub(super) const FAR_CELLS: i32 = 32;
@@ -38,21 +38,21 @@ impl DistanceField {
     /// The field of the occupied cells of `knowledge`.
     #[must_use]
     pub fn new(knowledge: &Raster<CellKnowledge>) -> Self {
-        at_once(Self::in_steps(knowledge, &mut Pace::at_once()))
+        at_once(Self::in_steps(knowledge, &mut StepBudget::unlimited()))
     }
 
     /// As [`Self::new`], in steps.
-    pub(crate) async fn in_steps(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Self {
+    pub(crate) async fn in_steps(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Self {
         let mut millimetres =
             Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), FAR_MM);
         if let Some(all) = window(knowledge) {
             let is_occupied = |cell: Cell| knowledge.get(cell) == Some(&CellKnowledge::Occupied);
-            let outward = squared_cells(all, is_occupied, pace).await;
-            let inward = squared_cells(all, |cell| !is_occupied(cell), pace).await;
+            let outward = squared_cells(all, is_occupied, budget).await;
+            let inward = squared_cells(all, |cell| !is_occupied(cell), budget).await;
             let squared = outward.iter().zip(&inward);
             for (value, (out, inside)) in millimetres.values_mut().iter_mut().zip(squared) {
                 *value = signed_mm(*out, *inside);
-                pace.spend(1).await;
+                budget.spend(1).await;
             }
         }
         Self { millimetres }
@@ -143,9 +143,9 @@ impl DistanceField {
                 .get(cell)
                 .is_some_and(|kind| *kind == CellKnowledge::Occupied)
         };
-        let pace = &mut Pace::at_once();
-        let outward = at_once(squared_cells(source, is_occupied, pace));
-        let inward = at_once(squared_cells(source, |cell| !is_occupied(cell), pace));
+        let budget = &mut StepBudget::unlimited();
+        let outward = at_once(squared_cells(source, is_occupied, budget));
+        let inward = at_once(squared_cells(source, |cell| !is_occupied(cell), budget));
         let (width, _) = source.size();
         for y in target.low.y..=target.high.y {
             for x in target.low.x..=target.high.x {
@@ -228,10 +228,10 @@ pub(super) fn grown<T: Clone>(raster: &Raster<T>, window: CellBox, empty: T) -> 
 pub(super) async fn squared_cells(
     window: CellBox,
     is_source: impl Fn(Cell) -> bool,
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> Vec<f32> {
     let (width, height) = window.size();
-    let mut cells = column_distances(window, is_source, pace).await;
+    let mut cells = column_distances(window, is_source, budget).await;
     let mut row = vec![0.0_f32; width];
     let mut envelope = Envelope::with_capacity(width);
     debug_assert_eq!(cells.len(), width * height, "one value for each cell");
@@ -240,13 +240,17 @@ pub(super) async fn squared_cells(
             *squared = value * value;
         }
         envelope.transform(&row, values);
-        pace.spend(ENVELOPE_WORK * width).await;
+        budget.spend(ENVELOPE_WORK * width).await;
     }
     cells
 }
 
 /// Distance in cells to the nearest source of the same column, cut off one beyond [`FAR_CELLS`].
-async fn column_distances(window: CellBox, is_source: impl Fn(Cell) -> bool, pace: &mut Pace) -> Vec<f32> {
+async fn column_distances(
+    window: CellBox,
+    is_source: impl Fn(Cell) -> bool,
+    budget: &mut StepBudget,
+) -> Vec<f32> {
     const NONE: f32 = FAR_CELLS as f32 + 1.0;
     let (width, height) = window.size();
     let mut cells = Vec::with_capacity(width * height);
@@ -260,7 +264,7 @@ async fn column_distances(window: CellBox, is_source: impl Fn(Cell) -> bool, pac
             };
             cells.push(value);
         }
-        pace.spend(COLUMN_WORK * width).await;
+        budget.spend(COLUMN_WORK * width).await;
     }
     for row in (0..height.saturating_sub(1)).rev() {
         for index in row * width..(row + 1) * width {
@@ -269,7 +273,7 @@ async fn column_distances(window: CellBox, is_source: impl Fn(Cell) -> bool, pac
                 cells[index] = above;
             }
         }
-        pace.spend(width).await;
+        budget.spend(width).await;
     }
     cells
 }

@@ -6,7 +6,7 @@ use super::cell::neighbours;
 use super::raster::CELLS;
 use super::{CELL_M, Cell, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Cells of one door lie within this many cells of each other.
 const DOOR_GAP_CELLS: i32 = 8;
@@ -25,11 +25,11 @@ pub struct Door {
 }
 
 /// Where cells of two rooms lie beside each other.
-pub(super) async fn doors(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec<Door> {
+pub(super) async fn doors(labels: &Raster<u16>, squared: &[f32], budget: &mut StepBudget) -> Vec<Door> {
     let mut borders: BTreeMap<[u16; 2], Vec<(Cell, f32)>> = BTreeMap::new();
     for (index, label) in labels.values().iter().enumerate() {
         if index % CELLS == 0 {
-            pace.spend(DOOR_WORK * CELLS).await;
+            budget.spend(DOOR_WORK * CELLS).await;
         }
         if *label == 0 {
             continue;

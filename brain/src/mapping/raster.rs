@@ -2,7 +2,7 @@
 
 use super::Cell;
 
-/// Cells that are looked at between two looks at the pace.
+/// Cells that are looked at between two looks at the budget.
 pub(super) const CELLS: usize = 128;
 
 /// Values of the cells of a rectangle whose lower left cell is `origin`; rows from low to high y.

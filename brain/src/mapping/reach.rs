@@ -5,7 +5,7 @@ use super::distance::{squared_cells, window};
 use super::flood_fill::FloodFill;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 
 /// The start is looked for in this many cells around a point that the body itself cannot be on.
 const START_CELLS: i32 = 12;
@@ -18,7 +18,11 @@ pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f
         return reached;
     };
     let is_free = |cell: Cell| knowledge.get(cell) == Some(&CellKnowledge::Free);
-    let squared = at_once(squared_cells(all, |cell| !is_free(cell), &mut Pace::at_once()));
+    let squared = at_once(squared_cells(
+        all,
+        |cell| !is_free(cell),
+        &mut StepBudget::unlimited(),
+    ));
     let clearance = clearance_m / CELL_M;
     let least = (clearance * clearance) as f32;
     let is_passable = |place: usize| {

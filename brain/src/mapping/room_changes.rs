@@ -10,7 +10,7 @@ use super::room_cut::{PartSide, nearest_cut};
 use super::{Cell, Raster};
 use crate::model::cut_line::CutLine;
 use crate::model::geometry::Point2;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::model::reason::Reason;
 
 /// Most changes of a home's rooms, and most splits that were taken back and may be made again under their identities.
@@ -155,12 +155,12 @@ impl RoomChanges {
     }
 
     /// The rooms that are found, with all changes made in them. Every cell of a room stays in a room.
-    pub(super) async fn made_in(&self, found: &Raster<u16>, pace: &mut Pace) -> Raster<u16> {
+    pub(super) async fn made_in(&self, found: &Raster<u16>, budget: &mut StepBudget) -> Raster<u16> {
         let mut labels = found.clone();
         for change in self.made.values() {
             match change {
-                RoomChange::Split(split) => split.make(&mut labels, pace).await,
-                RoomChange::Join(join) => join.make(&mut labels, pace).await,
+                RoomChange::Split(split) => split.make(&mut labels, budget).await,
+                RoomChange::Join(join) => join.make(&mut labels, budget).await,
             }
         }
         labels
@@ -170,8 +170,8 @@ impl RoomChanges {
 impl RoomSplit {
     /// Cuts its room, or the one under its line if that has another identity now. A line that does not reach from border to
     /// border any more divides what is nearest to its sides; one that misses all rooms waits until there is one again.
-    async fn make(&self, labels: &mut Raster<u16>, pace: &mut Pace) {
-        pace.spend(CELL_WORK * labels.values().len()).await;
+    async fn make(&self, labels: &mut Raster<u16>, budget: &mut StepBudget) {
+        budget.spend(CELL_WORK * labels.values().len()).await;
         let cut = nearest_cut(labels, Some(self.room), &self.line)
             .or_else(|| nearest_cut(labels, None, &self.line));
         for cell in cut.iter().flat_map(|cut| cut.side(self.side)) {
@@ -183,8 +183,8 @@ impl RoomSplit {
 }
 
 impl RoomJoin {
-    async fn make(&self, labels: &mut Raster<u16>, pace: &mut Pace) {
-        pace.spend(CELL_WORK * labels.values().len()).await;
+    async fn make(&self, labels: &mut Raster<u16>, budget: &mut StepBudget) {
+        budget.spend(CELL_WORK * labels.values().len()).await;
         let now = [(self.kept, self.at[0]), (self.lost, self.at[1])].map(|(room, at)| {
             let is_there = labels.values().contains(&room);
             let there = labels.get(Cell::under(at)).copied().unwrap_or(0);

@@ -15,7 +15,7 @@ use super::raster::CELLS;
 use super::room_changes::RoomChanges;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 
 /// Half of the widest passage that still divides two rooms, metres.
 const DOOR_HALF_M: f64 = 0.55;
@@ -127,32 +127,32 @@ impl Rooms {
     #[must_use]
     pub fn renewed(&self, knowledge: &Raster<CellKnowledge>) -> Self {
         let unchanged = RoomChanges::default();
-        at_once(self.renewed_in_steps((knowledge, &unchanged), &mut Pace::at_once()))
+        at_once(self.renewed_in_steps((knowledge, &unchanged), &mut StepBudget::unlimited()))
     }
 
     /// As [`Self::renewed`], and changed as people want them, step by step.
     pub(super) async fn renewed_in_steps(
         &self,
         (knowledge, changes): (&Raster<CellKnowledge>, &RoomChanges),
-        pace: &mut Pace,
+        budget: &mut StepBudget,
     ) -> Self {
         let Some(all) = window(knowledge) else {
             return self.clone();
         };
-        let space = space(knowledge, pace).await;
+        let space = space(knowledge, budget).await;
         let is_border = |cell| space.get(cell) != Some(&true);
-        let squared = squared_cells(all, is_border, pace).await;
-        let labels = labels_of_pools(&squared, &space, pace).await;
-        let (names, next) = self.names(&labels, pace).await;
-        let found = renamed(labels, &names, pace).await;
+        let squared = squared_cells(all, is_border, budget).await;
+        let labels = labels_of_pools(&squared, &space, budget).await;
+        let (names, next) = self.names(&labels, budget).await;
+        let found = renamed(labels, &names, budget).await;
         let changed = if changes.is_empty() {
             None
         } else {
-            Some(changes.made_in(&found, pace).await)
+            Some(changes.made_in(&found, budget).await)
         };
         let labels = changed.as_ref().unwrap_or(&found);
-        let rooms = measured(labels, &squared, pace).await;
-        let doors = doors(labels, &squared, pace).await;
+        let rooms = measured(labels, &squared, budget).await;
+        let doors = doors(labels, &squared, budget).await;
         Self {
             found: Arc::new(found),
             changed,
@@ -163,11 +163,11 @@ impl Rooms {
     }
 
     /// An identity for each new label, by the cells shared with rooms of old; and the next free one.
-    async fn names(&self, labels: &Raster<u16>, pace: &mut Pace) -> (BTreeMap<u16, u16>, u16) {
+    async fn names(&self, labels: &Raster<u16>, budget: &mut StepBudget) -> (BTreeMap<u16, u16>, u16) {
         let mut shared: BTreeMap<(u16, u16), u32> = BTreeMap::new();
         for (index, label) in labels.values().iter().enumerate() {
             if index % CELLS == 0 {
-                pace.spend(NAME_WORK * CELLS).await;
+                budget.spend(NAME_WORK * CELLS).await;
             }
             if *label == 0 {
                 continue;
@@ -196,7 +196,7 @@ impl Rooms {
 }
 
 /// Free cells, and furniture that stands in them.
-async fn space(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Raster<bool> {
+async fn space(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Raster<bool> {
     let mut space = Raster::filled(knowledge.origin(), knowledge.width(), knowledge.height(), false);
     for (place, kind) in space.values_mut().iter_mut().zip(knowledge.values()) {
         *place = *kind == CellKnowledge::Free;
@@ -205,10 +205,10 @@ async fn space(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Raster<boo
     let mut seen = space.clone();
     for index in 0..seen.values().len() {
         if index % CELLS == 0 {
-            pace.spend(CELLS).await;
+            budget.spend(CELLS).await;
         }
         if seen.values().get(index) == Some(&false) {
-            let island = island(&mut seen, index, pace).await;
+            let island = island(&mut seen, index, budget).await;
             if island.len() <= furniture_max && !touches_border(&space, &island) {
                 for cell in island {
                     if let Some(place) = space.get_mut(cell) {
@@ -222,7 +222,7 @@ async fn space(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Raster<boo
 }
 
 /// The connected cells that were not seen yet; they are seen afterwards.
-async fn island(seen: &mut Raster<bool>, index: usize, pace: &mut Pace) -> Vec<Cell> {
+async fn island(seen: &mut Raster<bool>, index: usize, budget: &mut StepBudget) -> Vec<Cell> {
     let mut cells = vec![seen.cell(index)];
     if let Some(place) = seen.values_mut().get_mut(index) {
         *place = true;
@@ -231,7 +231,7 @@ async fn island(seen: &mut Raster<bool>, index: usize, pace: &mut Pace) -> Vec<C
     while let Some(cell) = cells.get(next).copied() {
         next += 1;
         if next % CELLS == 0 {
-            pace.spend(VISIT_WORK * CELLS).await;
+            budget.spend(VISIT_WORK * CELLS).await;
         }
         for neighbour in neighbours(cell) {
             if let Some(place) = seen.get_mut(neighbour)
@@ -281,12 +281,12 @@ impl<'relief> Pools<'relief> {
         }
     }
 
-    async fn fill(&mut self, space: &Raster<bool>, pace: &mut Pace) {
+    async fn fill(&mut self, space: &Raster<bool>, budget: &mut StepBudget) {
         // Squared distances are whole numbers, and not many: each has a list of its own.
         let mut levels: Vec<Vec<u32>> = Vec::new();
         for (index, squared) in self.squared.iter().enumerate() {
             if index % CELLS == 0 {
-                pace.spend(VISIT_WORK * CELLS).await;
+                budget.spend(VISIT_WORK * CELLS).await;
             }
             if space.values().get(index) == Some(&true) {
                 let level = *squared as usize;
@@ -302,7 +302,7 @@ impl<'relief> Pools<'relief> {
             for index in some {
                 self.flood(*index, space);
             }
-            pace.spend(FLOOD_WORK * some.len()).await;
+            budget.spend(FLOOD_WORK * some.len()).await;
         }
     }
 
@@ -412,12 +412,12 @@ impl<'relief> Pools<'relief> {
     }
 
     /// A label for each cell of a pool that is large enough for a room; 0 for the others.
-    async fn labels(&mut self, space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
+    async fn labels(&mut self, space: &Raster<bool>, budget: &mut StepBudget) -> Raster<u16> {
         let mut labels = Raster::filled(space.origin(), space.width(), space.height(), 0_u16);
         let mut known: BTreeMap<u32, u16> = BTreeMap::new();
         for index in 0..self.pool_of.len() {
             if index % CELLS == 0 {
-                pace.spend(NAME_WORK * CELLS).await;
+                budget.spend(NAME_WORK * CELLS).await;
             }
             let Some(root) = self.pool_at(index) else {
                 continue;
@@ -437,27 +437,31 @@ impl<'relief> Pools<'relief> {
 }
 
 /// As [`Pools::labels`]. The pools are given back before anything else is looked for: they take most of the memory.
-async fn labels_of_pools(squared: &[f32], space: &Raster<bool>, pace: &mut Pace) -> Raster<u16> {
+async fn labels_of_pools(squared: &[f32], space: &Raster<bool>, budget: &mut StepBudget) -> Raster<u16> {
     let mut pools = Pools::new(squared);
-    pools.fill(space, pace).await;
-    pools.labels(space, pace).await
+    pools.fill(space, budget).await;
+    pools.labels(space, budget).await
 }
 
-async fn renamed(mut labels: Raster<u16>, names: &BTreeMap<u16, u16>, pace: &mut Pace) -> Raster<u16> {
+async fn renamed(
+    mut labels: Raster<u16>,
+    names: &BTreeMap<u16, u16>,
+    budget: &mut StepBudget,
+) -> Raster<u16> {
     for some in labels.values_mut().chunks_mut(CELLS) {
         for label in some.iter_mut().filter(|label| **label > 0) {
             *label = names.get(label).copied().unwrap_or(0);
         }
-        pace.spend(NAME_WORK * some.len()).await;
+        budget.spend(NAME_WORK * some.len()).await;
     }
     labels
 }
 
-async fn measured(labels: &Raster<u16>, squared: &[f32], pace: &mut Pace) -> Vec<Room> {
+async fn measured(labels: &Raster<u16>, squared: &[f32], budget: &mut StepBudget) -> Vec<Room> {
     let mut found: BTreeMap<u16, (u32, usize, f32)> = BTreeMap::new();
     for (index, label) in labels.values().iter().enumerate() {
         if index % CELLS == 0 {
-            pace.spend(NAME_WORK * CELLS).await;
+            budget.spend(NAME_WORK * CELLS).await;
         }
         if *label == 0 {
             continue;

@@ -10,7 +10,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::cell::neighbours;
 use super::{CELL_M, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Width of the lines, metres: walls on a map are some two cells thick.
 const LINE_M: f64 = 2.0 * CELL_M;
@@ -50,8 +50,11 @@ impl DirectionAt {
 }
 
 /// Direction of the walls in radians, above -pi/4 and up to pi/4; `None` when the home does not show one.
-pub(crate) async fn wall_direction_rad(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Option<f64> {
-    let surface = surface(knowledge, pace).await;
+pub(crate) async fn wall_direction_rad(
+    knowledge: &Raster<CellKnowledge>,
+    budget: &mut StepBudget,
+) -> Option<f64> {
+    let surface = surface(knowledge, budget).await;
     if surface.len() < CELLS_MIN {
         return None;
     }
@@ -60,7 +63,7 @@ pub(crate) async fn wall_direction_rad(knowledge: &Raster<CellKnowledge>, pace: 
     for step in 0..DIRECTIONS {
         let direction_rad = f64::from(step) * FRAC_PI_2 / f64::from(DIRECTIONS);
         looks.push((lines.energy(&surface, direction_rad), direction_rad));
-        pace.spend(COUNT_WORK * surface.len()).await;
+        budget.spend(COUNT_WORK * surface.len()).await;
     }
     looks.sort_unstable_by_key(|look| look.0);
     let (median, _) = *looks.get(looks.len() / 2)?;
@@ -75,7 +78,7 @@ pub(crate) async fn wall_direction_rad(knowledge: &Raster<CellKnowledge>, pace: 
         if energy > best.0 {
             best = (energy, direction_rad);
         }
-        pace.spend(COUNT_WORK * surface.len()).await;
+        budget.spend(COUNT_WORK * surface.len()).await;
     }
     Some(folded_rad(best.1))
 }
@@ -91,11 +94,11 @@ fn folded_rad(direction_rad: f64) -> f64 {
 }
 
 /// Middles of occupied cells beside free ones, evenly thinned out.
-async fn surface(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Vec<Point2> {
+async fn surface(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Vec<Point2> {
     let mut surface = Vec::new();
     for (index, kind) in knowledge.values().iter().enumerate() {
         if index % knowledge.width() == 0 {
-            pace.spend(LOOK_WORK * knowledge.width()).await;
+            budget.spend(LOOK_WORK * knowledge.width()).await;
         }
         if *kind != CellKnowledge::Occupied {
             continue;
@@ -167,7 +170,7 @@ mod tests {
     use super::{DirectionAt, folded_rad, wall_direction_rad};
     use crate::mapping::{Cell, CellKnowledge, Raster};
     use crate::model::geometry::{Point2, Pose2};
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
 
     /// A map of what lies inside of a shape, with a border two cells thick.
     fn map(is_inside: impl Fn(Point2) -> bool) -> Raster<CellKnowledge> {
@@ -190,7 +193,7 @@ mod tests {
     }
 
     fn direction_deg(knowledge: &Raster<CellKnowledge>) -> Option<f64> {
-        at_once(wall_direction_rad(knowledge, &mut Pace::at_once())).map(f64::to_degrees)
+        at_once(wall_direction_rad(knowledge, &mut StepBudget::unlimited())).map(f64::to_degrees)
     }
 
     /// An L of two rooms, turned.

@@ -1,7 +1,7 @@
 //! Long computations in steps of bounded work, so that no command waits for one.
 //!
 //! A long computation is an `async` function, because the compiler turns that into something that can be left in the middle
-//! and taken up again. There is no executor, no thread and no clock in it: it counts its own work in a [`Pace`] and pauses
+//! and taken up again. There is no executor, no thread and no clock in it: it counts its own work in a [`StepBudget`] and pauses
 //! when a step's share is done, so equal inputs pause at equal places on every machine. Pauses change nothing in the result.
 
 use core::fmt;
@@ -12,21 +12,21 @@ use core::task::{Context, Poll, Waker};
 /// Work of one step, in cells looked at and things that take as long: some millisecond of a desktop's core.
 const STEP_WORK: usize = 600_000;
 
-/// How much work is done before the next pause.
+/// How much work may be done before the next pause.
 #[derive(Debug)]
-pub(crate) struct Pace {
+pub(crate) struct StepBudget {
     left: usize,
     step: usize,
 }
 
-impl Pace {
+impl StepBudget {
     /// Pauses after each step's work.
-    pub(crate) const fn in_steps() -> Self {
+    pub(crate) const fn limited() -> Self {
         Self::of(STEP_WORK)
     }
 
     /// Never pauses.
-    pub(crate) const fn at_once() -> Self {
+    pub(crate) const fn unlimited() -> Self {
         Self::of(usize::MAX)
     }
 
@@ -64,7 +64,7 @@ pub(crate) struct Gradual<T> {
 }
 
 impl<T> Gradual<T> {
-    /// Begins it; nothing is done yet. It must await nothing but [`Pace::spend`].
+    /// Begins it; nothing is done yet. It must await nothing but [`StepBudget::spend`].
     pub(crate) fn new(computation: impl Future<Output = T> + Send + 'static) -> Self {
         Self {
             rest: Box::pin(computation),
@@ -97,24 +97,27 @@ pub(crate) fn at_once<T>(computation: impl Future<Output = T>) -> T {
 mod tests {
     use core::task::Poll;
 
-    use super::{Gradual, Pace, at_once};
+    use super::{Gradual, StepBudget, at_once};
 
-    async fn sum(numbers: u64, mut pace: Pace) -> u64 {
+    async fn sum(numbers: u64, mut budget: StepBudget) -> u64 {
         let mut sum = 0;
         for number in 0..numbers {
             sum += number;
-            pace.spend(1).await;
+            budget.spend(1).await;
         }
         sum
     }
 
     #[test]
     fn it_pauses_after_each_steps_work_and_ends_with_the_same_result() {
-        let mut gradual = Gradual::new(sum(25, Pace::of(10)));
+        let mut gradual = Gradual::new(sum(25, StepBudget::of(10)));
         assert_eq!(gradual.go_on(), Poll::Pending);
         assert_eq!(gradual.go_on(), Poll::Pending);
         assert_eq!(gradual.go_on(), Poll::Ready(300));
-        assert_eq!(at_once(sum(25, Pace::of(10))), 300);
-        assert_eq!(Gradual::new(sum(25, Pace::at_once())).go_on(), Poll::Ready(300));
+        assert_eq!(at_once(sum(25, StepBudget::of(10))), 300);
+        assert_eq!(
+            Gradual::new(sum(25, StepBudget::unlimited())).go_on(),
+            Poll::Ready(300)
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::mapping::{Cell, FloodFill, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// A robot can set out to free cells this far from where it stands.
 const SET_OUT_M: f64 = 0.4;
@@ -11,7 +11,7 @@ const CLOSE_WORK: usize = 1;
 const FILL_WORK: usize = 6;
 const MEASURE_WORK: usize = 6;
 const VISIT_WORK: usize = 4;
-/// Cells that are visited between two looks at the pace.
+/// Cells that are visited between two looks at the budget.
 const VISITS: usize = 64;
 
 /// Axis of a lane.
@@ -51,7 +51,7 @@ pub(crate) struct Ground {
 }
 
 impl Ground {
-    pub(crate) async fn new(reachable: &Raster<bool>, reach: usize, pace: &mut Pace) -> Self {
+    pub(crate) async fn new(reachable: &Raster<bool>, reach: usize, budget: &mut StepBudget) -> Self {
         let margin = reach + 2;
         let (width, height) = (reachable.width() + 2 * margin, reachable.height() + 2 * margin);
         let mut ground = Self {
@@ -74,8 +74,8 @@ impl Ground {
                 target.copy_from_slice(values);
             }
         }
-        pace.spend(width * height / 4).await;
-        ground.open_floor(pace).await;
+        budget.spend(width * height / 4).await;
+        ground.open_floor(budget).await;
         ground
     }
 
@@ -88,21 +88,21 @@ impl Ground {
     }
 
     /// Closes open floor that need not be swept.
-    pub(crate) async fn close(&mut self, is_done: impl Fn(Cell) -> bool, pace: &mut Pace) {
+    pub(crate) async fn close(&mut self, is_done: impl Fn(Cell) -> bool, budget: &mut StepBudget) {
         for row in 0..self.height {
             for index in row * self.width..(row + 1) * self.width {
                 self.open[index] = self.open[index] && !is_done(self.cell(index));
             }
-            pace.spend(CLOSE_WORK * self.width).await;
+            budget.spend(CLOSE_WORK * self.width).await;
         }
     }
 
     /// Opens all floor within reach of free cells.
-    async fn open_floor(&mut self, pace: &mut Pace) {
+    async fn open_floor(&mut self, budget: &mut StepBudget) {
         let disc = self.disc();
         for index in 0..self.free.len() {
             if index.is_multiple_of(self.width) {
-                pace.spend(self.width).await;
+                budget.spend(self.width).await;
             }
             if !self.free[index] {
                 continue;
@@ -120,7 +120,7 @@ impl Ground {
                 let centre = self.shifted(index, *row);
                 self.open[centre - half..=centre + half].fill(true);
             }
-            pace.spend(FILL_WORK * disc.len()).await;
+            budget.spend(FILL_WORK * disc.len()).await;
         }
     }
 
@@ -170,18 +170,18 @@ impl Ground {
 
     /// The free cell from which a robot at a point sets out: the nearest one of the largest ground if that is within its
     /// reach, else the nearest of all. A robot that has just met something often stands beside a splinter of free cells.
-    pub(crate) async fn origin_near(&self, point: Point2, pace: &mut Pace) -> Option<usize> {
+    pub(crate) async fn origin_near(&self, point: Point2, budget: &mut StepBudget) -> Option<usize> {
         let mut fill = FloodFill::over(self.free.len());
         let mut nearest: Option<(f64, usize)> = None;
         let mut largest: Option<(usize, f64, usize)> = None;
         for seed in 0..self.free.len() {
             if seed.is_multiple_of(self.width) {
-                pace.spend(self.width).await;
+                budget.spend(self.width).await;
             }
             if fill.has_reached(seed) || !self.free[seed] {
                 continue;
             }
-            let (size, distance_m, cell) = self.component(seed, &mut fill, (point, &mut *pace)).await;
+            let (size, distance_m, cell) = self.component(seed, &mut fill, (point, &mut *budget)).await;
             if nearest.is_none_or(|(least_m, _)| distance_m < least_m) {
                 nearest = Some((distance_m, cell));
             }
@@ -197,14 +197,14 @@ impl Ground {
         &self,
         seed: usize,
         fill: &mut FloodFill,
-        (point, pace): (Point2, &mut Pace),
+        (point, budget): (Point2, &mut StepBudget),
     ) -> (usize, f64, usize) {
         fill.reach(seed);
         let (mut size, mut best) = (0, (f64::INFINITY, seed));
         while let Some(index) = self.go_on(fill) {
             size += 1;
             if size % VISITS == 0 {
-                pace.spend(MEASURE_WORK * VISITS).await;
+                budget.spend(MEASURE_WORK * VISITS).await;
             }
             let distance_m = self.point(index).distance_m(point);
             if distance_m < best.0 {
@@ -215,22 +215,22 @@ impl Ground {
     }
 
     /// Closes all ground that cannot be reached from a free cell, and the floor that only such ground could sweep.
-    pub(crate) async fn keep_connected(&mut self, from: usize, pace: &mut Pace) {
+    pub(crate) async fn keep_connected(&mut self, from: usize, budget: &mut StepBudget) {
         let mut fill = FloodFill::over(self.free.len());
         fill.reach(from);
         while !fill.is_done() {
             for _ in 0..VISITS {
                 self.go_on(&mut fill);
             }
-            pace.spend(VISIT_WORK * VISITS).await;
+            budget.spend(VISIT_WORK * VISITS).await;
         }
         let reached = fill.into_reached();
         if reached != self.free {
             self.free = reached;
             self.open.fill(false);
-            self.open_floor(pace).await;
+            self.open_floor(budget).await;
         }
-        self.measure_clearance(pace).await;
+        self.measure_clearance(budget).await;
     }
 
     /// Goes on over free cells.
@@ -239,7 +239,7 @@ impl Ground {
     }
 
     /// Two sweeps over the cells: from above and the left, then from below and the right.
-    async fn measure_clearance(&mut self, pace: &mut Pace) {
+    async fn measure_clearance(&mut self, budget: &mut StepBudget) {
         let width = self.width;
         self.clearance = self
             .free
@@ -249,7 +249,7 @@ impl Ground {
         let clearance = &mut self.clearance;
         for index in width + 1..clearance.len().saturating_sub(width + 1) {
             if index.is_multiple_of(width) {
-                pace.spend(VISIT_WORK * width).await;
+                budget.spend(VISIT_WORK * width).await;
             }
             if clearance[index] > 0 {
                 let before = [index - 1, index - width - 1, index - width, index - width + 1];
@@ -259,7 +259,7 @@ impl Ground {
         }
         for index in (width + 1..clearance.len().saturating_sub(width + 1)).rev() {
             if index.is_multiple_of(width) {
-                pace.spend(VISIT_WORK * width).await;
+                budget.spend(VISIT_WORK * width).await;
             }
             if clearance[index] > 0 {
                 let after = [index + 1, index + width + 1, index + width, index + width - 1];

@@ -5,7 +5,7 @@ use super::router::Router;
 use super::{Piece, smoothing};
 use crate::mapping::Raster;
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// A place that may be gone to, and what it is worth to go to another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,14 +21,14 @@ pub(crate) struct Goal {
 pub(crate) async fn plan_way(
     reachable: &Raster<bool>,
     (start, goals): (Pose2, &[Goal]),
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> Option<Vec<Piece>> {
-    let mut ground = Ground::new(reachable, 1, pace).await;
-    let origin = ground.origin_near(start.position(), pace).await?;
-    ground.keep_connected(origin, pace).await;
-    let router = Router::new(&ground, pace).await;
+    let mut ground = Ground::new(reachable, 1, budget).await;
+    let origin = ground.origin_near(start.position(), budget).await?;
+    ground.keep_connected(origin, budget).await;
+    let router = Router::new(&ground, budget).await;
     let mut spread = router.spread();
-    router.explore(origin, (&mut spread, pace), |_| false).await;
+    router.explore(origin, (&mut spread, budget), |_| false).await;
     let cell = goals
         .iter()
         .filter_map(|goal| {
@@ -43,7 +43,7 @@ pub(crate) async fn plan_way(
         .into_iter()
         .map(|cell| ground.point(cell))
         .collect();
-    Some(smoothing::pieces((&corners, 0), start.heading_rad, (&ground, pace)).await)
+    Some(smoothing::pieces((&corners, 0), start.heading_rad, (&ground, budget)).await)
 }
 
 #[cfg(test)]
@@ -51,7 +51,7 @@ mod tests {
     use super::{Goal, Piece};
     use crate::mapping::{Cell, Raster};
     use crate::model::geometry::{Point2, Pose2};
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
 
     /// Two rooms of 2 m, side by side, with a door in the middle of the wall between them.
     fn rooms() -> Raster<bool> {
@@ -78,7 +78,11 @@ mod tests {
     }
 
     fn way(goals: &[Goal]) -> Option<Vec<Piece>> {
-        at_once(super::plan_way(&rooms(), (start(), goals), &mut Pace::at_once()))
+        at_once(super::plan_way(
+            &rooms(),
+            (start(), goals),
+            &mut StepBudget::unlimited(),
+        ))
     }
 
     fn end(goals: &[Goal]) -> Option<Point2> {

@@ -3,7 +3,7 @@
 use super::lane_frame::LaneFrame;
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Work of looking at a cell, and of a row of a disc.
 const LOOK_WORK: usize = 3;
@@ -17,10 +17,10 @@ pub(crate) async fn reachable(
     knowledge: &Raster<CellKnowledge>,
     frame: &LaneFrame,
     (radius_m, blocked): (f64, &[Point2]),
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> Raster<bool> {
     let inner = Inner::of(knowledge);
-    let mut reachable = floor_in(frame, &inner, pace).await;
+    let mut reachable = floor_in(frame, &inner, budget).await;
     // From the middle of a cell to the border of the next one is half a cell.
     let radius = radius_m / CELL_M + 0.5;
     for row in 0..knowledge.height() {
@@ -31,10 +31,10 @@ pub(crate) async fn reachable(
                     &mut reachable,
                     (frame.point(knowledge.cell(index).middle()), radius),
                 );
-                pace.spend(FILL_WORK * 2 * radius as usize).await;
+                budget.spend(FILL_WORK * 2 * radius as usize).await;
             }
         }
-        pace.spend(LOOK_WORK * inner.width).await;
+        budget.spend(LOOK_WORK * inner.width).await;
     }
     for point in blocked {
         let cell = Cell::under(frame.point(*point));
@@ -132,7 +132,7 @@ impl Inner {
 }
 
 /// The inner floor in the cells of a frame.
-async fn floor_in(frame: &LaneFrame, inner: &Inner, pace: &mut Pace) -> Raster<bool> {
+async fn floor_in(frame: &LaneFrame, inner: &Inner, budget: &mut StepBudget) -> Raster<bool> {
     if *frame == LaneFrame::OF_MAP {
         let height = inner.is_inner.len().checked_div(inner.width).unwrap_or(0);
         let mut floor = Raster::filled(inner.origin, inner.width, height, false);
@@ -149,7 +149,7 @@ async fn floor_in(frame: &LaneFrame, inner: &Inner, pace: &mut Pace) -> Raster<b
         for index in row * floor.width()..(row + 1) * floor.width() {
             floor.values_mut()[index] = inner.contains(frame.cell_in_map(floor.cell(index)));
         }
-        pace.spend(LOOK_WORK * floor.width()).await;
+        budget.spend(LOOK_WORK * floor.width()).await;
     }
     floor
 }
@@ -220,7 +220,7 @@ impl Disc {
 mod tests {
     use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
     use crate::model::geometry::Point2;
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
     use crate::navigation::lane_frame::LaneFrame;
 
     fn reachable(knowledge: &Raster<CellKnowledge>, radius_m: f64, blocked: &[Point2]) -> Raster<bool> {
@@ -228,7 +228,7 @@ mod tests {
             knowledge,
             &LaneFrame::OF_MAP,
             (radius_m, blocked),
-            &mut Pace::at_once(),
+            &mut StepBudget::unlimited(),
         ))
     }
 
@@ -262,7 +262,7 @@ mod tests {
             &knowledge,
             &frame,
             (0.175, &[met]),
-            &mut Pace::at_once(),
+            &mut StepBudget::unlimited(),
         ));
         let mut count = 0;
         for index in (0..free.values().len()).filter(|index| free.values()[*index]) {

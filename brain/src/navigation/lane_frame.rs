@@ -5,7 +5,7 @@
 
 use crate::mapping::{Cell, CellKnowledge, Raster, wall_direction_rad};
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Walls that stand this little askew are planned for as if they did not, radians: the cells of the map are those of the plan then.
 const STRAIGHT_RAD: f64 = 0.012;
@@ -41,8 +41,8 @@ impl LaneFrame {
     }
 
     /// Along the walls of what is known; the map's own when those show no direction.
-    pub(crate) async fn of_walls(knowledge: &Raster<CellKnowledge>, pace: &mut Pace) -> Self {
-        Self::along(wall_direction_rad(knowledge, pace).await.unwrap_or(0.0))
+    pub(crate) async fn of_walls(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Self {
+        Self::along(wall_direction_rad(knowledge, budget).await.unwrap_or(0.0))
     }
 
     /// A point of the map in this frame.

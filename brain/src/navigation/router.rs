@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use super::bucket_queue::{LONGEST, Queue};
 use super::configuration_space::Ground;
 use crate::mapping::CELL_M;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Cells along the edge of a block of the coarse graph.
 const BLOCK: usize = 4;
@@ -16,7 +16,7 @@ const DIAGONAL: u32 = LONGEST;
 const LOOK_WORK: usize = 2;
 const DOORS_WORK: usize = 100;
 const LEAVE_WORK: usize = 22;
-/// Blocks that are left between two looks at the pace.
+/// Blocks that are left between two looks at the budget.
 const LEAVES: usize = 32;
 /// No block.
 const NONE: u32 = u32::MAX;
@@ -41,7 +41,7 @@ pub(crate) struct Spread {
 }
 
 impl<'ground> Router<'ground> {
-    pub(crate) async fn new(ground: &'ground Ground, pace: &mut Pace) -> Self {
+    pub(crate) async fn new(ground: &'ground Ground, budget: &mut StepBudget) -> Self {
         let columns = ground.width / BLOCK + 1;
         let mut router = Self {
             ground,
@@ -54,7 +54,7 @@ impl<'ground> Router<'ground> {
         let mut best = vec![u32::MAX; router.anchors.len()];
         for index in 0..ground.free.len() {
             if index.is_multiple_of(ground.width) {
-                pace.spend(LOOK_WORK * ground.width).await;
+                budget.spend(LOOK_WORK * ground.width).await;
             }
             if !ground.free[index] {
                 continue;
@@ -76,7 +76,7 @@ impl<'ground> Router<'ground> {
             router.doors.push(doors);
             router.sights.push(sights);
             let is_ground = router.anchors[block] != NONE;
-            pace.spend(if is_ground { DOORS_WORK } else { LOOK_WORK }).await;
+            budget.spend(if is_ground { DOORS_WORK } else { LOOK_WORK }).await;
         }
         router
     }
@@ -125,7 +125,7 @@ impl<'ground> Router<'ground> {
     pub(crate) async fn explore(
         &self,
         from: usize,
-        (spread, pace): (&mut Spread, &mut Pace),
+        (spread, budget): (&mut Spread, &mut StepBudget),
         mut enough: impl FnMut(usize) -> bool,
     ) {
         spread.reset();
@@ -142,7 +142,7 @@ impl<'ground> Router<'ground> {
             }
             left += 1;
             if left % LEAVES == 0 {
-                pace.spend(LEAVE_WORK * LEAVES).await;
+                budget.spend(LEAVE_WORK * LEAVES).await;
             }
             self.leave(block, cost, (spread, &mut queue));
         }

@@ -4,7 +4,7 @@
 use super::configuration_space::Ground;
 use super::heading::heading_rad;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Longest part of a straight that an arc takes at a corner.
 const CUT_MAX_M: f64 = 0.15;
@@ -45,7 +45,7 @@ impl Piece {
 pub(crate) async fn pieces(
     (corners, of_rings): (&[Point2], usize),
     heading_now_rad: f64,
-    (ground, pace): (&Ground, &mut Pace),
+    (ground, budget): (&Ground, &mut StepBudget),
 ) -> Vec<Piece> {
     let mut maker = Maker {
         pieces: Vec::with_capacity(2 * corners.len()),
@@ -78,7 +78,7 @@ pub(crate) async fn pieces(
             let radius_m = cut_m / libm::tan(0.5 * turn_rad.abs());
             maker.add(radius_m * turn_rad.abs(), turn_rad);
         }
-        pace.spend(CORNER_WORK).await;
+        budget.spend(CORNER_WORK).await;
     }
     maker.pieces
 }

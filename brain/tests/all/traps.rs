@@ -39,6 +39,7 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
 
     #[test]
+    #[ignore = "campaign: many rooms drawn at random; cargo xtask test --all"]
     fn a_robot_that_is_shut_in_says_so_and_stops(
         (width_m, depth_m) in (0.4..1.15_f64, 0.4..1.9_f64),
         heading_rad in -3.1..3.1_f64,

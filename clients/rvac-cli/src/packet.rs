@@ -4,8 +4,8 @@ use std::io::{Read as _, Write as _, stdin, stdout};
 use std::process::ExitCode;
 
 use anyhow::{Context as _, bail};
+use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::{PACKET_BYTES_MAX, SEPARATOR, SEPARATOR_2016};
-use rvac_protocol::seal::{Direction, seal, to_hex};
 
 use crate::arguments::{DirectionName, PacketJob, PacketOptions, PacketVerb};
 use crate::show::{Shown, Verdict, Viewer};
@@ -32,7 +32,7 @@ fn seal_all(options: &PacketOptions) -> anyhow::Result<ExitCode> {
                 packet.len() + SEAL_BYTES
             );
         }
-        let digits = to_hex(seal(direction(options), options.session, &packet));
+        let digits = to_hex(packet_crc(direction(options), options.session, &packet));
         let mut line = packet;
         line.push(b'*');
         line.extend_from_slice(&digits);

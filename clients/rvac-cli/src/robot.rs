@@ -386,7 +386,7 @@ impl Robot {
             HostEvent::Unanswered(sequence) => self.heard.unanswered = Some(sequence),
             HostEvent::Report(_)
             | HostEvent::Answered { .. }
-            | HostEvent::EdgesLost { .. }
+            | HostEvent::EventsLost { .. }
             | HostEvent::Closed(_)
             | HostEvent::Silent
             | HostEvent::Incompatible { .. } => {}

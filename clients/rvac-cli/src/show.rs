@@ -2,9 +2,9 @@
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary;
+use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::{Framed, Framer, Poison, SEPARATOR};
 use rvac_protocol::message::{Command, Refusal, Report};
-use rvac_protocol::seal::{Direction, seal, to_hex};
 use rvac_protocol::text::{Form, ReportPacket, read_command, read_report, write_command, write_report};
 use rvac_units::Tick;
 
@@ -146,21 +146,21 @@ impl Viewer {
 
 fn look(framed: Framed<'_>, direction: Direction, session: u16) -> Shown {
     match framed {
-        Framed::Sealed(text) => text_packet(text, Verdict::Sealed, direction),
-        Framed::Open(text) => text_packet(text, Verdict::Unsealed, direction),
-        Framed::Missealed { text, seal: found } => {
-            let verdict = if found == seal(direction, 0, text) {
+        Framed::Checked(text) => text_packet(text, Verdict::Sealed, direction),
+        Framed::Unchecked(text) => text_packet(text, Verdict::Unsealed, direction),
+        Framed::BadCrc { text, crc: found } => {
+            let verdict = if found == packet_crc(direction, 0, text) {
                 Verdict::SealedBeforeSession
             } else {
                 Verdict::WrongSeal {
                     found: Some(found),
-                    expected: Some(seal(direction, session, text)),
+                    expected: Some(packet_crc(direction, session, text)),
                 }
             };
             text_packet(text, verdict, direction)
         }
         Framed::Binary { kind, body } => binary_packet(kind, body),
-        Framed::BinaryMissealed => {
+        Framed::BinaryBadCrc => {
             let verdict = Verdict::WrongSeal {
                 found: None,
                 expected: None,
@@ -210,7 +210,7 @@ fn command_meaning(text: &[u8], verdict: Verdict) -> Result<String, Refusal> {
     let form = if verdict == Verdict::Unsealed {
         Form::Hand { now: Tick(0) }
     } else {
-        Form::Sealed
+        Form::Checked
     };
     read_command(text, form)
         .map(|command| format!("{command:?}"))

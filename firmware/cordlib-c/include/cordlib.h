@@ -38,33 +38,36 @@ void set_callback_cliff_emitters(void (*callback)(int32_t on));
 /* Feeds the hardware watchdog. Called only when clock, loop and communication are alive. */
 void set_callback_feed_watchdog(void (*callback)(void));
 
-/* Names the device and the firmware's version, each at most 24 bytes of UTF-8, ended by NUL. Returns 1, or 0 if a name is
- * NULL or no UTF-8. The names are copied. */
+/* Names the device and the firmware's version, each at most 24 bytes of UTF-8, ended by NUL. Returns 1, or 0 if a name
+ * is NULL or no UTF-8. The names are copied. */
 int32_t cord_set_names(const char *device, const char *firmware);
 
 /* Sets the highest speed in m/s and turn rate in rad/s. Returns 1, or 0 for a value that is not above 0 or not finite. */
 int32_t cord_set_limits(double speed, double turn);
 
-/* Sets the distance between the wheels (m), the way of the rim per encoder count (m), the duty below which a wheel does
- * not turn (0..1) and the speed at full duty (m/s). Returns 1, or 0 for a value out of range. */
-int32_t cord_set_wheels(double track, double count_way, double dead_band, double speed_at_full);
+/* Sets the distance between the wheels (m), the distance of the rim per encoder count (m), the duty below which a
+ * wheel does not turn (0..1) and the speed at full duty (m/s). Returns 1, or 0 for a value out of range. */
+int32_t cord_set_wheels(double track, double distance_per_count, double dead_band, double speed_at_full);
 
 /* Declares how many of a part the machine has: "bumpers" (0..2), "cliffs" (0..3, from the left), "wheel-drops" (0..2),
- * "gyro", "buttons" (0..8), "leds" (0..16), "beeper", "brush-main", "brush-sides", "vacuum", "currents", "battery" (0..1).
- * What is not declared is absent. Wheels with encoders are always there. Returns 1, or 0 for another name or number. */
+ * "gyro", "buttons" (0..8), "leds" (0..16), "beeper", "brush-main", "brush-sides", "vacuum", "currents", "battery"
+ * (0..1). What is not declared is absent. Wheels with encoders are always present. Returns 1, or 0 for another name or
+ * number. */
 int32_t cord_declare(const char *part, int32_t count);
 
-/* Tells how often the chip has started, and how many resets in a row there were of late. Three keep the robot still. */
+/* Sets how often the chip has started, and the number of consecutive recent resets. Three of them inhibit motion. */
 void cord_set_resets(uint32_t boot_count, uint8_t recent_resets);
 
-/* Calls the setup callback, switches all motors off and starts anew, as after a reset. Returns 1, or 0 when called from
- * inside a callback of the main loop. */
+/* Calls the setup callback, switches all motors off and starts again, as after a reset. Returns 1, or 0 when called
+ * from inside a callback of the main loop. */
 int32_t cord_init(void);
 
-/* Calls the step callback, then does one pass of the main loop. Returns 1, or 0 before cord_init and inside of callbacks. */
+/* Calls the step callback, then does one pass of the main loop. Returns 1, or 0 before cord_init and inside of
+ * callbacks. */
 int32_t cord_step(void);
 
-/* Initialises and runs the main loop until cord_event_exit is called from one of its callbacks, on a robot for ever. */
+/* Initialises and runs the main loop until cord_event_exit is called from one of its callbacks; on a robot without
+ * end. */
 void cord_event_init(void);
 
 /* Ends cord_event_init after the present pass, with all motors off. */
@@ -74,16 +77,16 @@ void cord_event_exit(void);
  * callback it switches the motors off without the latch. */
 void cord_hardware_fault(void);
 
-/* Seconds since reset, from the callback of set_callback_get_time, else from the one for milliseconds, else 0. A callback
- * that returns NaN or an infinity counts as 0. */
+/* Seconds since reset, from the callback of set_callback_get_time, else from the one for milliseconds, else 0. A
+ * callback that returns NaN or an infinity counts as 0. */
 double hw_get_time(void);
 
 /* Milliseconds since reset, modulo 2^32, from the callback of set_callback_get_time_ms, else from the one for seconds,
  * else 0. */
 uint32_t hw_get_time_ms(void);
 
-/* Puts one received byte into the input queue. Returns 1, or 0 if the queue was full: then the byte is lost, which the
- * main loop learns. */
+/* Puts one received byte into the input queue. Returns 1, or 0 if the queue was full: then the byte is lost, and the
+ * main loop is informed. */
 int32_t cord_connection_input_put(uint8_t byte);
 
 /* The receiver saw a byte with a wrong stop bit. Returns as cord_connection_input_put. */
@@ -106,7 +109,7 @@ void cord_event_bumper(double angle, int32_t pressed);
  * 2 right. NaN counts as dark, which is no floor. */
 void cord_event_cliff(int32_t sensor, double level);
 
-/* A wheel hangs (1) or stands (0): wheel 0 left, 1 right. */
+/* A wheel hangs (1) or is on the floor (0): wheel 0 left, 1 right. */
 void cord_event_wheel_drop(int32_t wheel, int32_t hanging);
 
 /* Totals of the wheel encoders, forward positive, wrapping. */
@@ -119,7 +122,7 @@ void cord_event_button(int32_t button, int32_t down);
 void cord_event_dock(int32_t closed);
 
 /* Heading since reset in radians, counter-clockwise positive, and rate in rad/s. A NaN in either means that the gyro
- * gives nothing now. */
+ * has no reading now. */
 void cord_event_gyro(double heading, double rate);
 
 /* Motor currents in amperes. A NaN in any means that there are no readings. */
@@ -149,7 +152,7 @@ void cord_event_battery(double voltage, double current, double temperature);
 /* A number is out of range, not finite, or a name is not known. */
 #define CORD_RANGE 1
 
-/* Something inhibits; cord_inhibits tells what. */
+/* Something inhibits; cord_inhibits shows what. */
 #define CORD_INHIBITED 2
 
 /* The machine has no such part. */
@@ -164,11 +167,12 @@ void cord_event_battery(double voltage, double current, double temperature);
 /* Not initialised, or called from inside a callback of the main loop. */
 #define CORD_NOT_NOW 6
 
-/* Sets the speeds of the left and right rim in m/s for the next 250 ms. Repeat it to go on. Returns CORD_OK or why not. */
+/* Sets the speeds of the left and right rim in m/s for the next 250 ms. Repeat it to continue. Returns CORD_OK or why
+ * not. */
 int32_t cord_set_speed_goal(double left, double right);
 
-/* Sets the duty of a cleaning motor or wheel (CORD_MOTOR_...), -1..1, for the next 250 ms; brushes and suction run 2 s.
- * Returns CORD_OK or why not. */
+/* Sets the duty of a cleaning motor or wheel (CORD_MOTOR_...), -1..1, for the next 250 ms; brushes and suction run 2
+ * s. Returns CORD_OK or why not. */
 int32_t cord_set_motor_goal(int32_t motor, double throttle);
 
 /* Allows motion; on the dock only with undock = 1. Returns CORD_OK or why not. */
@@ -180,15 +184,15 @@ int32_t cord_stop(void);
 /* Clears a latched inhibit by its name on the wire, for example "bumper-stuck". Returns CORD_OK or why not. */
 int32_t cord_clear(const char *inhibit);
 
-/* Queues a tone of a pitch in Hz (0 = pause), a duration in seconds (0.001..10) and a volume (0..1). Returns CORD_OK or
- * why not. */
+/* Queues a tone of a pitch in Hz (0 = pause), a duration in seconds (0.001..10) and a volume (0..1). Returns CORD_OK
+ * or why not. */
 int32_t cord_beep(double pitch, double duration, double volume);
 
 /* Sets a light: pattern 0 off, 1 on, 2 blinking once a second; brightness 0..1. Returns CORD_OK or why not. */
 int32_t cord_led(int32_t led, int32_t pattern, double brightness);
 
-/* What keeps the robot from moving, as the bits of the wire: bit 0 not-armed, 3 bumper, 5 cliff, 8 wheel-drop ... All bits
- * are set while that cannot be told. */
+/* Everything that inhibits motion, as the bits of the wire: bit 0 not-armed, 3 bumper, 5 cliff, 8 wheel-drop ... All
+ * bits are set while that is not known. */
 uint32_t cord_inhibits(void);
 
 #ifdef __cplusplus

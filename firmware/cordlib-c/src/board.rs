@@ -1,4 +1,4 @@
-//! The board that callbacks and pushed inputs make up.
+//! The board, made of callbacks and pushed inputs.
 
 use cord::board::{
     Absent, Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
@@ -134,7 +134,7 @@ impl BumperSwitches for Foreign {
     }
 }
 
-/// Receivers that were not declared show a floor, so that cordlib's rule, which knows the type only, lets them be.
+/// Receivers that were not declared read as floor: cordlib's rule depends on the type only and would stop for them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CliffView {
     pub(crate) emitters: Emitters,
@@ -193,7 +193,7 @@ impl CurrentSense for Foreign {
     }
 }
 
-/// A battery that is only measured: charging is not offered to firmware in C.
+/// A battery that is measured only: the C interface has no charging.
 impl Charger for Foreign {
     const PRESENT: bool = true;
     const CHARGES: bool = false;

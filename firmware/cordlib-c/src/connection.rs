@@ -4,8 +4,8 @@ use cord::board::Received;
 
 use crate::inputs::{QUEUE_BYTES, inputs};
 
-/// Puts one received byte into the input queue. Returns 1, or 0 if the queue was full: then the byte is lost, which the
-/// main loop learns.
+/// Puts one received byte into the input queue. Returns 1, or 0 if the queue was full: then the byte is lost, and the
+/// main loop is informed.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_connection_input_put(byte: u8) -> i32 {
     put(Received::Byte(byte))

@@ -1,4 +1,4 @@
-//! What the robot's inputs show. Pushed by the firmware, read by the main loop.
+//! State of the robot's inputs. Pushed by the firmware, read by the main loop.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -82,7 +82,7 @@ pub extern "C" fn cord_event_cliff(sensor: i32, level: f64) {
     }
 }
 
-/// A wheel hangs (1) or stands (0): wheel 0 left, 1 right.
+/// A wheel hangs (1) or is on the floor (0): wheel 0 left, 1 right.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_event_wheel_drop(wheel: i32, hanging: i32) {
     let mut inputs = inputs();
@@ -123,7 +123,7 @@ pub extern "C" fn cord_event_dock(closed: i32) {
 }
 
 /// Heading since reset in radians, counter-clockwise positive, and rate in rad/s. A NaN in either means that the gyro
-/// gives nothing now.
+/// has no reading now.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_event_gyro(heading: f64, rate: f64) {
     let known = heading.is_finite() && rate.is_finite();

@@ -1,11 +1,11 @@
 //! C interface of cordlib.
 //!
-//! One robot for each process, as on a microcontroller. The firmware sets callbacks for its outputs and its clock, tells
-//! what the machine has, and pushes what its inputs show with `cord_event_...`. Continuous values are `double`; a NaN is
-//! taken for the safe value or refused, and a callback that is not set is not called.
+//! One robot per process, as on a microcontroller. The firmware sets callbacks for its outputs and its clock, declares
+//! the parts of the machine, and pushes the state of its inputs with `cord_event_...`. Continuous values are `double`.
+//! A NaN counts as the safe value or is refused. A callback that is not set is not called.
 //!
-//! Inputs and both byte queues may be used from any thread and from inside callbacks. The main loop may not be entered
-//! from inside a callback of its own: `cord_step` refuses that.
+//! Inputs and both byte queues may be used from any thread and from inside callbacks. The main loop must not be entered
+//! from inside one of its callbacks: `cord_step` refuses that.
 
 pub mod board;
 pub mod callbacks;

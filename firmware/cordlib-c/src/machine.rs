@@ -1,4 +1,4 @@
-//! What the machine is: names, geometry, and which parts it has. Told before cord_init.
+//! Description of the machine: names, geometry and parts. Set before cord_init.
 
 use std::ffi::{CStr, c_char};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
@@ -7,9 +7,9 @@ use cord::Parameters;
 use rvac_protocol::message::{Capabilities, Limits};
 use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
-/// The machine as told so far.
+/// The machine as described so far.
 #[derive(Debug)]
-pub(crate) struct Machine {
+pub(crate) struct MachineDescription {
     pub(crate) boot_count: u32,
     pub(crate) recent_resets: u8,
     pub(crate) cliffs: u8,
@@ -17,7 +17,7 @@ pub(crate) struct Machine {
     fitted: Capabilities,
 }
 
-/// A small round robot, until the firmware tells better.
+/// A small round robot, until the firmware describes its own.
 const SMALL_ROUND_ROBOT: Limits = Limits {
     speed_max: Speed(350_000),
     turn_max: AngularSpeed(1_500_000),
@@ -27,8 +27,8 @@ const SMALL_ROUND_ROBOT: Limits = Limits {
     swath: Length(300_000),
 };
 
-static MACHINE: LazyLock<Mutex<Machine>> = LazyLock::new(|| {
-    Mutex::new(Machine {
+static MACHINE: LazyLock<Mutex<MachineDescription>> = LazyLock::new(|| {
+    Mutex::new(MachineDescription {
         boot_count: 0,
         recent_resets: 0,
         cliffs: 0,
@@ -41,7 +41,7 @@ static MACHINE: LazyLock<Mutex<Machine>> = LazyLock::new(|| {
 });
 
 /// A part that can be declared.
-type Declaration = fn(&mut Machine, u8);
+type Declaration = fn(&mut MachineDescription, u8);
 
 const PARTS: [(&str, u8, Declaration); 12] = [
     ("bumpers", 2, |machine, count| machine.fitted.bumpers = count),
@@ -70,11 +70,11 @@ const PARTS: [(&str, u8, Declaration); 12] = [
 ];
 
 /// The machine. Never hold this while a callback runs.
-pub(crate) fn machine() -> MutexGuard<'static, Machine> {
+pub(crate) fn machine() -> MutexGuard<'static, MachineDescription> {
     MACHINE.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Machine {
+impl MachineDescription {
     /// All of it, for the main loop.
     pub(crate) const fn parameters(&self) -> Parameters {
         let mut parameters = self.parameters;
@@ -83,20 +83,20 @@ impl Machine {
     }
 }
 
-/// Names the device and the firmware's version, each at most 24 bytes of UTF-8, ended by NUL. Returns 1, or 0 if a name is
-/// NULL or no UTF-8. The names are copied.
+/// Names the device and the firmware's version, each at most 24 bytes of UTF-8, ended by NUL. Returns 1, or 0 if a name
+/// is NULL or no UTF-8. The names are copied.
 ///
 /// # Safety
 /// Both pointers are NULL or point to strings ended by NUL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cord_set_names(device: *const c_char, firmware: *const c_char) -> i32 {
-    // SAFETY: the caller vouches for both pointers, and NULL is sorted out by `name`.
+    // SAFETY: the caller guarantees both pointers, and `name` handles NULL.
     let names = unsafe { (name(device), name(firmware)) };
     let (Some(device), Some(firmware)) = names else {
         return 0;
     };
     let mut machine = machine();
-    // Names live as long as the process, as the constants of a firmware do; they are set once.
+    // Names live as long as the process, like constants of a firmware; they are set once.
     machine.parameters.device = String::leak(device);
     machine.parameters.firmware = String::leak(firmware);
     1
@@ -112,42 +112,48 @@ pub extern "C" fn cord_set_limits(speed: f64, turn: f64) -> i32 {
     let mut limits = machine.parameters.limits;
     limits.speed_max = Speed::from_m_per_s(speed);
     limits.turn_max = AngularSpeed::from_rad_per_s(turn);
-    let told = machine.parameters;
+    let described = machine.parameters;
     machine.parameters = Parameters {
-        wheel: told.wheel,
-        guard: told.guard,
-        ..Parameters::for_machine(told.device, told.firmware, limits)
+        wheel: described.wheel,
+        guard: described.guard,
+        ..Parameters::for_machine(described.device, described.firmware, limits)
     };
     1
 }
 
-/// Sets the distance between the wheels (m), the way of the rim per encoder count (m), the duty below which a wheel does
-/// not turn (0..1) and the speed at full duty (m/s). Returns 1, or 0 for a value out of range.
+/// Sets the distance between the wheels (m), the distance of the rim per encoder count (m), the duty below which a
+/// wheel does not turn (0..1) and the speed at full duty (m/s). Returns 1, or 0 for a value out of range.
 #[unsafe(no_mangle)]
-pub extern "C" fn cord_set_wheels(track: f64, count_way: f64, dead_band: f64, speed_at_full: f64) -> i32 {
-    if !all_positive(&[track, count_way, speed_at_full])
+pub extern "C" fn cord_set_wheels(
+    track: f64,
+    distance_per_count: f64,
+    dead_band: f64,
+    speed_at_full: f64,
+) -> i32 {
+    if !all_positive(&[track, distance_per_count, speed_at_full])
         || !(0.0..1.0).contains(&dead_band)
-        || count_way > 1.0
+        || distance_per_count > 1.0
     {
         return 0;
     }
     let mut machine = machine();
     machine.parameters.limits.track = Length::from_m(track);
-    machine.parameters.limits.count_nm = (count_way * 1e9) as u32;
+    machine.parameters.limits.count_nm = (distance_per_count * 1e9) as u32;
     machine.parameters.wheel.dead_band = Throttle::saturating_from_millionths((dead_band * 1e6) as i32);
     machine.parameters.wheel.speed_at_full = Speed::from_m_per_s(speed_at_full);
     1
 }
 
 /// Declares how many of a part the machine has: "bumpers" (0..2), "cliffs" (0..3, from the left), "wheel-drops" (0..2),
-/// "gyro", "buttons" (0..8), "leds" (0..16), "beeper", "brush-main", "brush-sides", "vacuum", "currents", "battery" (0..1).
-/// What is not declared is absent. Wheels with encoders are always there. Returns 1, or 0 for another name or number.
+/// "gyro", "buttons" (0..8), "leds" (0..16), "beeper", "brush-main", "brush-sides", "vacuum", "currents", "battery"
+/// (0..1). What is not declared is absent. Wheels with encoders are always present. Returns 1, or 0 for another name or
+/// number.
 ///
 /// # Safety
 /// `part` is NULL or points to a string ended by NUL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn cord_declare(part: *const c_char, count: i32) -> i32 {
-    // SAFETY: the caller vouches for the pointer.
+    // SAFETY: the caller guarantees the pointer.
     let Some(part) = (unsafe { name(part) }) else {
         return 0;
     };
@@ -161,7 +167,7 @@ pub unsafe extern "C" fn cord_declare(part: *const c_char, count: i32) -> i32 {
     }
 }
 
-/// Tells how often the chip has started, and how many resets in a row there were of late. Three keep the robot still.
+/// Sets how often the chip has started, and the number of consecutive recent resets. Three of them inhibit motion.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_set_resets(boot_count: u32, recent_resets: u8) {
     let mut machine = machine();
@@ -175,7 +181,7 @@ unsafe fn name(text: *const c_char) -> Option<String> {
     if text.is_null() {
         return None;
     }
-    // SAFETY: not NULL, and ended by NUL as the caller vouches.
+    // SAFETY: not NULL, and ended by NUL as the caller guarantees.
     let text = unsafe { CStr::from_ptr(text) };
     text.to_str().ok().map(str::to_owned)
 }

@@ -1,4 +1,5 @@
-//! The main loop. `cord_event_init` runs it for ever, as in 2016; `cord_init` and `cord_step` leave it to the caller.
+//! The main loop. `cord_event_init` runs it without end, as in 2016; with `cord_init` and `cord_step` the caller runs
+//! it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
@@ -16,7 +17,8 @@ static CORD: Mutex<Option<Cord<Foreign>>> = Mutex::new(None);
 static LEAVING: AtomicBool = AtomicBool::new(false);
 static STEPPING: AtomicBool = AtomicBool::new(false);
 
-/// The robot, or `None` while it is not initialised, or while a callback of the main loop runs, which must not call back.
+/// The robot; `None` before it is initialised and while a callback of the main loop runs, because callbacks must not
+/// re-enter it.
 pub(crate) fn with_cord<T>(action: impl FnOnce(&mut Cord<Foreign>) -> T) -> Option<T> {
     free().and_then(|mut cord| cord.as_mut().map(action))
 }
@@ -59,8 +61,8 @@ fn board() -> Board<Foreign> {
     }
 }
 
-/// Calls the setup callback, switches all motors off and starts anew, as after a reset. Returns 1, or 0 when called from
-/// inside a callback of the main loop.
+/// Calls the setup callback, switches all motors off and starts again, as after a reset. Returns 1, or 0 when called
+/// from inside a callback of the main loop.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_init() -> i32 {
     if let Some(setup) = callbacks().setup {
@@ -74,7 +76,8 @@ pub extern "C" fn cord_init() -> i32 {
     1
 }
 
-/// Calls the step callback, then does one pass of the main loop. Returns 1, or 0 before cord_init and inside of callbacks.
+/// Calls the step callback, then does one pass of the main loop. Returns 1, or 0 before cord_init and inside of
+/// callbacks.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_step() -> i32 {
     if STEPPING.swap(true, Ordering::Acquire) {
@@ -88,7 +91,8 @@ pub extern "C" fn cord_step() -> i32 {
     i32::from(stepped)
 }
 
-/// Initialises and runs the main loop until cord_event_exit is called from one of its callbacks, on a robot for ever.
+/// Initialises and runs the main loop until cord_event_exit is called from one of its callbacks; on a robot without
+/// end.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_event_init() {
     LEAVING.store(false, Ordering::Relaxed);

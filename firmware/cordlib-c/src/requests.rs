@@ -1,4 +1,4 @@
-//! Wishes of the firmware itself. They meet the same limits and the same gate as commands from the wire.
+//! Commands of the firmware itself. The same limits and the same permit apply as for commands from the wire.
 
 use std::ffi::{CStr, c_char};
 
@@ -14,7 +14,7 @@ use crate::main_loop::with_cord;
 pub const CORD_OK: i32 = 0;
 /// A number is out of range, not finite, or a name is not known.
 pub const CORD_RANGE: i32 = 1;
-/// Something inhibits; cord_inhibits tells what.
+/// Something inhibits; cord_inhibits shows what.
 pub const CORD_INHIBITED: i32 = 2;
 /// The machine has no such part.
 pub const CORD_ABSENT: i32 = 3;
@@ -40,7 +40,8 @@ fn request(command: &Command) -> i32 {
     }
 }
 
-/// Sets the speeds of the left and right rim in m/s for the next 250 ms. Repeat it to go on. Returns CORD_OK or why not.
+/// Sets the speeds of the left and right rim in m/s for the next 250 ms. Repeat it to continue. Returns CORD_OK or why
+/// not.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_set_speed_goal(left: f64, right: f64) -> i32 {
     if !left.is_finite() || !right.is_finite() {
@@ -56,8 +57,8 @@ pub extern "C" fn cord_set_speed_goal(left: f64, right: f64) -> i32 {
     }))
 }
 
-/// Sets the duty of a cleaning motor or wheel (CORD_MOTOR_...), -1..1, for the next 250 ms; brushes and suction run 2 s.
-/// Returns CORD_OK or why not.
+/// Sets the duty of a cleaning motor or wheel (CORD_MOTOR_...), -1..1, for the next 250 ms; brushes and suction run 2
+/// s. Returns CORD_OK or why not.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_set_motor_goal(motor: i32, throttle: f64) -> i32 {
     let motor = match motor {
@@ -115,8 +116,8 @@ pub unsafe extern "C" fn cord_clear(inhibit: *const c_char) -> i32 {
     }
 }
 
-/// Queues a tone of a pitch in Hz (0 = pause), a duration in seconds (0.001..10) and a volume (0..1). Returns CORD_OK or
-/// why not.
+/// Queues a tone of a pitch in Hz (0 = pause), a duration in seconds (0.001..10) and a volume (0..1). Returns CORD_OK
+/// or why not.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_beep(pitch: f64, duration: f64, volume: f64) -> i32 {
     let audible = pitch == 0.0 || (20.0..=20_000.0).contains(&pitch);
@@ -148,8 +149,8 @@ pub extern "C" fn cord_led(led: i32, pattern: i32, brightness: f64) -> i32 {
     }))
 }
 
-/// What keeps the robot from moving, as the bits of the wire: bit 0 not-armed, 3 bumper, 5 cliff, 8 wheel-drop ... All bits
-/// are set while that cannot be told.
+/// Everything that inhibits motion, as the bits of the wire: bit 0 not-armed, 3 bumper, 5 cliff, 8 wheel-drop ... All
+/// bits are set while that is not known.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_inhibits() -> u32 {
     with_cord(|cord| cord.inhibits().bits()).unwrap_or(u32::MAX)

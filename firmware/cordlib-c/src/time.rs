@@ -1,9 +1,9 @@
-//! Time, from whichever callback there is.
+//! Time, from either clock callback.
 
 use crate::callbacks::callbacks;
 
-/// Seconds since reset, from the callback of set_callback_get_time, else from the one for milliseconds, else 0. A callback
-/// that returns NaN or an infinity counts as 0.
+/// Seconds since reset, from the callback of set_callback_get_time, else from the one for milliseconds, else 0. A
+/// callback that returns NaN or an infinity counts as 0.
 #[unsafe(no_mangle)]
 pub extern "C" fn hw_get_time() -> f64 {
     let all = callbacks();

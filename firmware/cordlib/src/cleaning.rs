@@ -1,8 +1,8 @@
 //! Brushes and suction: leases, the start rule S29, and the brush half of S11.
 //!
-//! S29: they start only with both wheels down and the bumper free. S1: they go on for 2 s after their last command.
-//! S10: whatever forbids them makes them forget their command, so that they never start again by themselves.
-//! S11: a blocked main brush turns backwards for 0.5 s once; blocked again within 10 s it is given up, latched.
+//! S29: they start only with both wheels down and the bumper free. S1: they run on for 2 s after their last command.
+//! S10: an inhibit also clears their command, so that they never restart by themselves.
+//! S11: a blocked main brush reverses once for 0.5 s. If it blocks again within 10 s it is switched off and latched.
 
 use rvac_protocol::message::{Motor, MotorCommand, Refusal};
 use rvac_units::{Current, Throttle, Tick};
@@ -10,9 +10,9 @@ use rvac_units::{Current, Throttle, Tick};
 use crate::board::{Board, CleaningMotor, Parts};
 use crate::limit::within;
 use crate::motion::CONTROL_MS;
-use crate::permit::Standing;
+use crate::permit::MotionPermit;
 use crate::reflex::{Load, StallRule};
-use crate::timing::Until;
+use crate::timing::Deadline;
 
 const GRACE_MS: u32 = 2_000;
 const REVERSE_MS: u32 = 500;
@@ -20,11 +20,11 @@ const TRIED_MS: u32 = 10_000;
 /// From rest to full in 0.2 s.
 const SLEW_PER_PERIOD: i32 = 50_000;
 
-/// One motor's wish.
+/// Request and state of one motor.
 #[derive(Clone, Copy, Debug, Default)]
-struct Wish {
+struct CleanerMotor {
     duty: Throttle,
-    lease: Until,
+    lease: Deadline,
     asked: Throttle,
     applied: Throttle,
 }
@@ -36,20 +36,20 @@ pub(crate) enum BrushLoad {
     Free,
     /// Blocked for the first time: it reverses.
     Reversing,
-    /// Blocked again: give up.
+    /// Blocked again: it is to be switched off.
     Blocked,
 }
 
 /// All cleaning motors.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Cleaning {
-    main: Wish,
-    sides: Wish,
-    vacuum: Wish,
+    main: CleanerMotor,
+    sides: CleanerMotor,
+    vacuum: CleanerMotor,
     stall: StallRule,
     pulses: u32,
-    reversing: Until,
-    tried: Until,
+    reversing: Deadline,
+    tried: Deadline,
 }
 
 impl Cleaning {
@@ -60,11 +60,11 @@ impl Cleaning {
     pub(crate) fn command(
         &mut self,
         command: &MotorCommand,
-        standing: &Standing,
+        permit: &MotionPermit,
         now: Tick,
     ) -> Result<(), Refusal> {
         let duty = command.throttle;
-        let wish = match command.motor {
+        let motor = match command.motor {
             Motor::BrushMain => &mut self.main,
             Motor::BrushSides => &mut self.sides,
             Motor::Vacuum => &mut self.vacuum,
@@ -72,36 +72,36 @@ impl Cleaning {
                 return Err(Refusal::Absent);
             }
         };
-        let starts = wish.applied == Throttle::ZERO && duty != Throttle::ZERO;
-        let forbidden = !standing.armed || standing.permit_cleaner(duty) != duty;
-        if forbidden || (starts && standing.touches()) {
+        let starts = motor.applied == Throttle::ZERO && duty != Throttle::ZERO;
+        let forbidden = !permit.armed || permit.restrict_cleaner(duty) != duty;
+        if forbidden || (starts && permit.has_contact()) {
             return Err(Refusal::Inhibited);
         }
-        wish.duty = duty;
-        wish.lease = Until::at(now.after(GRACE_MS));
+        motor.duty = duty;
+        motor.lease = Deadline::at(now.after(GRACE_MS));
         Ok(())
     }
 
-    /// Forgets all wishes.
+    /// Forgets all requests.
     pub(crate) fn forget(&mut self) {
-        for wish in self.wishes() {
-            wish.duty = Throttle::ZERO;
-            wish.asked = Throttle::ZERO;
-            wish.lease = Until::default();
+        for motor in self.motors() {
+            motor.duty = Throttle::ZERO;
+            motor.asked = Throttle::ZERO;
+            motor.lease = Deadline::default();
         }
-        self.reversing = Until::default();
+        self.reversing = Deadline::default();
     }
 
     /// Whether any motor is on.
     pub(crate) fn is_running(&self) -> bool {
         [self.main, self.sides, self.vacuum]
             .iter()
-            .any(|wish| wish.applied != Throttle::ZERO)
+            .any(|motor| motor.applied != Throttle::ZERO)
     }
 
     /// Motors that are on: bit 0 main brush, 1 side brushes, 2 suction.
     pub(crate) fn running(&self) -> u8 {
-        let bit = |wish: &Wish, value: u8| if wish.applied == Throttle::ZERO { 0 } else { value };
+        let bit = |motor: &CleanerMotor, value: u8| if motor.applied == Throttle::ZERO { 0 } else { value };
         bit(&self.main, 1) | bit(&self.sides, 2) | bit(&self.vacuum, 4)
     }
 
@@ -112,9 +112,9 @@ impl Cleaning {
         current: Option<(Current, Current)>,
         now: Tick,
     ) -> BrushLoad {
-        for wish in self.wishes() {
-            if wish.lease.has_come(now) {
-                wish.duty = Throttle::ZERO;
+        for motor in self.motors() {
+            if motor.lease.has_come(now) {
+                motor.duty = Throttle::ZERO;
             }
         }
         self.tried.has_come(now);
@@ -132,37 +132,37 @@ impl Cleaning {
     }
 
     /// Sends what is permitted to the board, where it differs from what is there.
-    pub(crate) fn apply<P: Parts>(&mut self, board: &mut Board<P>, standing: &Standing) {
-        if standing.permit_cleaner(Throttle::FULL) == Throttle::ZERO {
+    pub(crate) fn apply<P: Parts>(&mut self, board: &mut Board<P>, permit: &MotionPermit) {
+        if permit.restrict_cleaner(Throttle::FULL) == Throttle::ZERO {
             self.forget();
         }
-        self.main.apply(&mut board.brush_main, standing);
-        self.sides.apply(&mut board.brush_sides, standing);
-        self.vacuum.apply(&mut board.vacuum, standing);
+        self.main.apply(&mut board.brush_main, permit);
+        self.sides.apply(&mut board.brush_sides, permit);
+        self.vacuum.apply(&mut board.vacuum, permit);
     }
 
-    /// Tells the board again what is permitted, changed or not.
-    pub(crate) fn renew<P: Parts>(&self, board: &mut Board<P>, standing: &Standing) {
-        board.brush_main.set(standing.permit_cleaner(self.main.asked));
-        board.brush_sides.set(standing.permit_cleaner(self.sides.asked));
-        board.vacuum.set(standing.permit_cleaner(self.vacuum.asked));
+    /// Writes the permitted duties to the board again, changed or not.
+    pub(crate) fn renew<P: Parts>(&self, board: &mut Board<P>, permit: &MotionPermit) {
+        board.brush_main.set(permit.restrict_cleaner(self.main.asked));
+        board.brush_sides.set(permit.restrict_cleaner(self.sides.asked));
+        board.vacuum.set(permit.restrict_cleaner(self.vacuum.asked));
     }
 
-    /// The board was switched off behind our back, by the one stop path.
+    /// `stop_all` has switched the motors off directly.
     pub(crate) fn stopped(&mut self) {
         self.forget();
-        for wish in self.wishes() {
-            wish.applied = Throttle::ZERO;
+        for motor in self.motors() {
+            motor.applied = Throttle::ZERO;
         }
     }
 
-    /// The brush was cleared: it has its one reverse try again.
+    /// A person has freed the brush: it may reverse once again.
     pub(crate) const fn forgive(&mut self) {
         self.stall.restart();
-        self.tried = Until::NEVER;
+        self.tried = Deadline::NONE;
     }
 
-    fn wishes(&mut self) -> [&mut Wish; 3] {
+    fn motors(&mut self) -> [&mut CleanerMotor; 3] {
         [&mut self.main, &mut self.sides, &mut self.vacuum]
     }
 
@@ -190,13 +190,13 @@ impl Cleaning {
         if self.tried.is_running() {
             return BrushLoad::Blocked;
         }
-        self.reversing = Until::at(now.after(REVERSE_MS));
-        self.tried = Until::at(now.after(TRIED_MS));
+        self.reversing = Deadline::at(now.after(REVERSE_MS));
+        self.tried = Deadline::at(now.after(TRIED_MS));
         BrushLoad::Reversing
     }
 }
 
-impl Wish {
+impl CleanerMotor {
     /// One step towards the goal. A reversal never rests at 0, which would be a stop and a new start (S29); the brush has
     /// stopped by itself when it is reversed.
     fn ramp(&mut self, goal: i32) {
@@ -216,8 +216,8 @@ impl Wish {
         self.asked = Throttle::saturating_from_millionths(next);
     }
 
-    fn apply<M: CleaningMotor>(&mut self, motor: &mut M, standing: &Standing) {
-        let permitted = standing.permit_cleaner(self.asked);
+    fn apply<M: CleaningMotor>(&mut self, motor: &mut M, permit: &MotionPermit) {
+        let permitted = permit.restrict_cleaner(self.asked);
         if permitted != self.applied {
             motor.set(permitted);
             self.applied = permitted;

@@ -12,29 +12,29 @@ use crate::board::{
 };
 use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
+use crate::dock_escape::DockEscape;
 use crate::floor::FloorWatch;
 use crate::journal::Journal;
-use crate::leaving::Leaving;
 use crate::lights::LightPatterns;
 use crate::motion::{Motion, Period};
 use crate::parameters::Parameters;
-use crate::permit::Standing;
+use crate::permit::MotionPermit;
 use crate::probing::Probing;
 use crate::reflex::Reflexes;
 use crate::report::Reporter;
 use crate::senses::Senses;
 use crate::sound::Sound;
-use crate::timing::{Held, LongClock};
-use crate::transmitter::Transmitter;
+use crate::timing::{HoldTimer, LongClock};
+use crate::transmitter::PacketSender;
 use crate::watch::{Supervisor, Watch};
 
-/// Bytes taken from the link in one pass, so that a flood cannot hold up the reflexes. At 230,400 baud 23 arrive in a
-/// millisecond.
+/// Most bytes taken from the link in one pass, so that a flood cannot delay the reflexes. At 230,400 baud 23 bytes arrive
+/// in a millisecond.
 const BYTES_PER_PASS: usize = 64;
 /// A `move` under a session ends when no packet has come for this long (S1).
 const MOVE_SILENCE_MS: u32 = 1_000;
 
-/// The firmware of one robot: everything between the parts of the board and the wire.
+/// The firmware of one robot: everything between the board's parts and the wire.
 #[derive(Debug)]
 pub struct Cord<P: Parts> {
     pub(crate) board: Board<P>,
@@ -47,7 +47,7 @@ pub struct Cord<P: Parts> {
     pub(crate) lights: LightPatterns,
     pub(crate) journal: Journal,
     pub(crate) reporter: Reporter,
-    pub(crate) transmitter: Transmitter,
+    pub(crate) transmitter: PacketSender,
     pub(crate) senses: Senses,
     pub(crate) clock: LongClock,
     pub(crate) heard: Tick,
@@ -55,28 +55,28 @@ pub struct Cord<P: Parts> {
     pub(crate) charger: ChargeController,
     pub(crate) charge_output: ChargeOutput,
     pub(crate) probing: Probing,
-    pub(crate) leaving: Leaving,
-    /// Nothing moves.
-    pub(crate) rest: Held,
+    pub(crate) dock_escape: DockEscape,
+    /// How long nothing has moved.
+    pub(crate) rest: HoldTimer,
     accepted: u32,
     floor: FloorWatch,
     watch: Watch,
     applied: (WheelDrive, WheelDrive),
-    /// Outputs are told to the board again, changed or not.
+    /// The outputs are to be written to the board again, changed or not.
     renew: bool,
-    /// There was a pass.
+    /// There was a pass already.
     stepped: bool,
 }
 
 impl<P: Parts> Cord<P> {
-    /// Takes the board over. All motors are switched off; motion is inhibited until the host arms (S4).
+    /// Takes over the board. All motors are switched off, and motion is inhibited until the host arms (S4).
     #[must_use]
     pub fn new(mut board: Board<P>, mut parameters: Parameters) -> Self {
         board.all_off();
         let now = board.clock.tick();
         let fitted = fitted::<P>(&parameters);
         if !fitted.encoders {
-            // Counts without a calibrated way mean nothing.
+            // Without a calibrated distance per count the encoder counts are meaningless.
             parameters.limits.count_nm = 0;
         }
         let session = RobotSession::new(identity(&mut board, &parameters, fitted), now);
@@ -91,7 +91,7 @@ impl<P: Parts> Cord<P> {
             lights: LightPatterns::new(now),
             journal: Journal::default(),
             reporter: Reporter::new(&reflexes, now),
-            transmitter: Transmitter::default(),
+            transmitter: PacketSender::default(),
             senses: Senses {
                 now,
                 counts,
@@ -101,7 +101,7 @@ impl<P: Parts> Cord<P> {
             heard: now,
             fitted,
             probing: Probing::starting_at(now),
-            leaving: Leaving::starting_at(now),
+            dock_escape: DockEscape::starting_at(now),
             charger: ChargeController::new(parameters.pack),
             charge_output: ChargeOutput::default(),
             accepted: 0,
@@ -109,7 +109,7 @@ impl<P: Parts> Cord<P> {
             applied: (WheelDrive::Brake, WheelDrive::Brake),
             renew: false,
             stepped: false,
-            rest: Held::default(),
+            rest: HoldTimer::default(),
             board,
             parameters,
             session,
@@ -122,8 +122,8 @@ impl<P: Parts> Cord<P> {
     /// as the board can, at least every 5 ms for the reaction times of SAFETY.md; a simulator calls it once for each
     /// simulated millisecond.
     ///
-    /// Time is counted in milliseconds, so a pass within the millisecond of the last one takes in what the link has received
-    /// and is over, unless a bumper or a wheel drop switch has changed: that is not left to the next millisecond.
+    /// Time is counted in milliseconds. A second pass within the same millisecond only reads the link, unless a bumper or a
+    /// wheel drop switch has changed: the reflexes react to those without waiting for the next millisecond.
     pub fn step(&mut self) {
         if self.is_within_last_millisecond() {
             let now = self.senses.now;
@@ -136,11 +136,11 @@ impl<P: Parts> Cord<P> {
         let now = self.senses.now;
         self.clock.advance(now);
         self.reflexes.age(&mut self.board.reset, now);
-        self.feel(now);
-        self.listen(now);
+        self.run_reflexes(now);
+        self.poll_link(now);
         self.control(now);
         self.power(now);
-        self.leave_shorted_dock(now);
+        self.escape_shorted_dock(now);
         self.apply();
         self.sound.play(&mut self.board.beeper, now);
         self.lights.blink(&mut self.board.lights, now);
@@ -150,11 +150,11 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    fn feel(&mut self, now: Tick) {
+    fn run_reflexes(&mut self, now: Tick) {
         let count_nm = self.parameters.limits.count_nm;
         let ending = self.motion.expire(self.senses.counts, count_nm, now);
         self.end(ending);
-        let findings = self.reflexes.feel(&self.senses, &self.motion.status());
+        let findings = self.reflexes.check_contacts(&self.senses, &self.motion.status());
         self.react(&findings, now);
     }
 
@@ -165,8 +165,8 @@ impl<P: Parts> Cord<P> {
             && self.board.wheel_drops.hanging() == self.senses.wheel_drops
     }
 
-    /// Takes bytes from the link and carries out what they say, then what the session itself has to say.
-    fn listen(&mut self, now: Tick) {
+    /// Reads bytes from the link, executes the commands in them, then lets the session's own timers run.
+    fn poll_link(&mut self, now: Tick) {
         self.take_bytes(now);
         if let Some(event) = self.session.poll(now) {
             self.dispatch(&event, now);
@@ -225,35 +225,35 @@ impl<P: Parts> Cord<P> {
             elapsed_ms,
             parameters: &self.parameters,
             gyro: self.senses.gyro,
-            standing: self.standing(),
+            permit: self.motion_permit(),
         };
         let ending = self.motion.control(&period);
         self.end(ending);
     }
 
-    /// A `move` has no lease of its own: it lives as long as the link.
+    /// A `move` has no lease of its own: it ends when the link falls silent.
     fn watch_link(&mut self, now: Tick) {
         let accepted = self.session.counters().accepted;
         if accepted != self.accepted {
             self.accepted = accepted;
             self.heard = now;
         }
-        let sealed = self.session.mode() == rvac_protocol::session::Mode::Sealed;
-        if sealed && self.motion.is_following() && now.since(self.heard) >= MOVE_SILENCE_MS {
+        let checked = self.session.mode() == rvac_protocol::session::Mode::Checked;
+        if checked && self.motion.is_following() && now.since(self.heard) >= MOVE_SILENCE_MS {
             self.reflexes.host.lose_link();
         }
     }
 
-    /// The way out to the motors: what no longer suits is forgotten, and only what the gate lets through is applied.
+    /// Drives the motors. Motion that is no longer permitted is dropped, and [`MotionPermit`] limits the rest.
     fn apply(&mut self) {
-        let mut standing = self.standing();
-        if !self.motion.suits(&standing, &self.parameters) {
+        let mut permit = self.motion_permit();
+        if !self.motion.suits(&permit, &self.parameters) {
             let ending = self.motion.brake();
             self.end(ending);
-            standing = self.standing();
+            permit = self.motion_permit();
         }
         let (left, right) = self.motion.asked();
-        let permitted = standing.permit(left, right);
+        let permitted = permit.restrict(left, right);
         let renew = core::mem::take(&mut self.renew);
         if permitted != (WheelDrive::Brake, WheelDrive::Brake) || self.cleaning.is_running() {
             self.cut_charger();
@@ -265,14 +265,14 @@ impl<P: Parts> Cord<P> {
         }
         if renew {
             self.renew_charger();
-            self.cleaning.renew(&mut self.board, &standing);
+            self.cleaning.renew(&mut self.board, &permit);
         }
-        self.cleaning.apply(&mut self.board, &standing);
+        self.cleaning.apply(&mut self.board, &permit);
         self.watch.check_in(Supervisor::Loop);
     }
 
     fn report(&mut self, now: Tick) {
-        self.note_edges(now);
+        self.queue_events(now);
         self.fill_transmitter(now);
         let sent = self.transmitter.serve(&mut self.board.link);
         self.reporter
@@ -281,8 +281,8 @@ impl<P: Parts> Cord<P> {
         self.watch.check_in(Supervisor::Comms);
     }
 
-    /// Everything off at once, and everything that was asked forgotten. The one way to stop, for reflexes, `stop`, buttons
-    /// and faults alike.
+    /// Switches everything off at once and forgets all requests. Reflexes, `stop`, buttons and faults all stop the robot
+    /// through this function.
     pub(crate) fn stop_all(&mut self, end: MoveEnd) {
         self.board.motors_off();
         self.applied = (WheelDrive::Brake, WheelDrive::Brake);
@@ -293,7 +293,7 @@ impl<P: Parts> Cord<P> {
         self.end(ending);
     }
 
-    /// The board's own checks found a fault: everything off, latched under its name.
+    /// The board's own checks found a fault: everything off, and the fault is latched under its name.
     pub fn hardware_fault(&mut self, fault: HardwareFault) {
         self.reflexes.latch(match fault {
             HardwareFault::Clock => Inhibit::Clock,
@@ -309,12 +309,12 @@ impl<P: Parts> Cord<P> {
         self.journal.note(level, line, "");
     }
 
-    /// What is allowed now, and why not more.
+    /// Which motion is allowed now, and what inhibits the rest.
     #[must_use]
-    pub fn standing(&self) -> Standing {
-        Standing {
-            leaving: self.leaving.is_backing(),
-            ..self.reflexes.standing(self.motion.is_fresh())
+    pub fn motion_permit(&self) -> MotionPermit {
+        MotionPermit {
+            escaping_dock: self.dock_escape.is_backing(),
+            ..self.reflexes.motion_permit(self.motion.is_fresh())
         }
     }
 
@@ -330,7 +330,7 @@ impl<P: Parts> Cord<P> {
         self.reflexes.host.is_armed()
     }
 
-    /// Whether a lease (or a `move` with a living link) covers wheel motion now.
+    /// Whether a lease (or a `move` with a live link) covers wheel motion now.
     #[must_use]
     pub fn is_fresh(&self) -> bool {
         self.motion.is_fresh()
@@ -370,12 +370,12 @@ impl<P: Parts> Cord<P> {
         self.clock.advance(now)
     }
 
-    /// The board, for example to see what its parts were told.
+    /// The board, for example to see what was written to its parts.
     pub const fn board(&self) -> &Board<P> {
         &self.board
     }
 
-    /// As [`Self::board`], to change it: a simulator puts readings into the parts between two steps.
+    /// The board, to be changed: a simulator sets readings of the parts between two steps.
     pub const fn board_mut(&mut self) -> &mut Board<P> {
         &mut self.board
     }
@@ -386,7 +386,7 @@ impl<P: Parts> Cord<P> {
     }
 }
 
-/// What the machine has: no more than its board's types can have.
+/// The parts of this machine: what the parameters list, as far as the board's types support it.
 fn fitted<P: Parts>(parameters: &Parameters) -> Capabilities {
     let can = Board::<P>::capabilities();
     let Some(has) = parameters.fitted else {

@@ -1,5 +1,5 @@
-//! What the host's commands do. They arrive checked: well-formed, sealed, fresh. Here they meet the machine's limits and
-//! what inhibits.
+//! Executes the host's commands. The session has checked their form, CRC and freshness. Here the machine's limits and the
+//! inhibits apply.
 
 use rvac_protocol::message::{
     Beep, Command, Drive, Inhibit, Led, LogLevel, Motor, MotorCommand, Move, MoveEnd, Parameter, Probe,
@@ -10,18 +10,18 @@ use rvac_units::Tick;
 
 use crate::board::Parts;
 use crate::cord::Cord;
-use crate::motion::{Ending, Pace, Path, Side, suits_drive, suits_path};
-use crate::permit::Standing;
+use crate::motion::{Ending, MoveLimits, Path, WheelSide, suits_drive, suits_path};
+use crate::permit::MotionPermit;
 
 /// Largest turn of one `move`, in radians: ten turns.
 const MOVE_TURN_MAX: i32 = 63;
 /// Speed of a `move` that a person types.
-const HAND_PACE: Pace = Pace {
+const HAND_PACE: MoveLimits = MoveLimits {
     speed_um_per_s: HAND_SPEED_MAX.0,
     turn_urad_per_s: HAND_TURN_MAX.0,
 };
 
-type Answer = Result<(), Refusal>;
+type CommandResult = Result<(), Refusal>;
 
 impl<P: Parts> Cord<P> {
     /// Carries out one event of the session.
@@ -43,7 +43,7 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Leases of another session mean nothing.
+    /// Leases of another session are void.
     fn void_leases(&mut self) {
         if self.motion.is_active() {
             self.reflexes.host.lose_link();
@@ -52,7 +52,7 @@ impl<P: Parts> Cord<P> {
         self.probing.end(&mut self.board.probe);
     }
 
-    /// Carries out a command of the host and answers it as the wire wants it.
+    /// Executes a command of the host and answers it as the protocol requires.
     fn obey(&mut self, command: &Command, now: Tick) {
         let answer = self.carry_out(command, now);
         let Some(sequence) = command.sequence() else {
@@ -64,18 +64,18 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Carries out a wish of the board's own firmware (a button that starts spot cleaning, say). It meets the same limits
-    /// and the same gate as one from the wire, and the newest motion rules (S27).
+    /// Executes a command of the board's own firmware, for example of a button that starts spot cleaning. The same limits
+    /// and the same permit apply as for a command from the wire, and the newest motion wins (S27).
     ///
     /// # Errors
-    /// The named reason for which it is refused. `Hello`, `Hand`, `Describe`, `Ping` and `Seen` belong to the wire:
+    /// The reason why it is refused. `Hello`, `Hand`, `Describe`, `Ping` and `Seen` belong to the wire:
     /// `Unknown`.
     pub fn request(&mut self, command: &Command) -> Result<(), Refusal> {
         let now = self.senses.now;
         self.carry_out(command, now)
     }
 
-    pub(crate) fn carry_out(&mut self, command: &Command, now: Tick) -> Answer {
+    pub(crate) fn carry_out(&mut self, command: &Command, now: Tick) -> CommandResult {
         match command {
             Command::Info => self.reporter.want_info(),
             Command::State => self.reporter.want_state(),
@@ -101,13 +101,13 @@ impl<P: Parts> Cord<P> {
     }
 
     /// What a fresh motion command meets: it is the sign of life that ends `link-lost`.
-    fn standing_for_command(&self) -> Standing {
-        let mut standing = self.standing();
-        standing.inhibits.remove(Inhibit::LinkLost);
-        standing
+    fn permit_for_command(&self) -> MotionPermit {
+        let mut permit = self.motion_permit();
+        permit.inhibits.remove(Inhibit::LinkLost);
+        permit
     }
 
-    fn drive(&mut self, drive: &Drive, now: Tick) -> Answer {
+    fn drive(&mut self, drive: &Drive, now: Tick) -> CommandResult {
         if !self.fitted.encoders {
             return Err(Refusal::Absent);
         }
@@ -115,8 +115,8 @@ impl<P: Parts> Cord<P> {
         if drive.speed.magnitude() > limits.speed_max.0 || drive.turn.magnitude() > limits.turn_max.0 {
             return Err(Refusal::Range);
         }
-        let standing = self.standing_for_command();
-        if !standing.armed || !suits_drive(drive, &standing, &self.parameters) {
+        let permit = self.permit_for_command();
+        if !permit.armed || !suits_drive(drive, &permit, &self.parameters) {
             return Err(Refusal::Inhibited);
         }
         self.reflexes.host.hear();
@@ -125,19 +125,19 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn motor(&mut self, command: &MotorCommand, now: Tick) -> Answer {
+    fn motor(&mut self, command: &MotorCommand, now: Tick) -> CommandResult {
         let side = match command.motor {
-            Motor::WheelLeft => Side::Left,
-            Motor::WheelRight => Side::Right,
+            Motor::WheelLeft => WheelSide::Left,
+            Motor::WheelRight => WheelSide::Right,
             _ => return self.cleaner(command, now),
         };
-        let standing = self.standing_for_command();
+        let permit = self.permit_for_command();
         let sign = command.throttle.millionths();
         let (left, right) = match side {
-            Side::Left => (sign, 0),
-            Side::Right => (0, sign),
+            WheelSide::Left => (sign, 0),
+            WheelSide::Right => (0, sign),
         };
-        if !standing.armed || !standing.allows_direction(left, right) {
+        if !permit.armed || !permit.allows_direction(left, right) {
             return Err(Refusal::Inhibited);
         }
         self.reflexes.host.hear();
@@ -147,7 +147,7 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn cleaner(&mut self, command: &MotorCommand, now: Tick) -> Answer {
+    fn cleaner(&mut self, command: &MotorCommand, now: Tick) -> CommandResult {
         let is_fitted = match command.motor {
             Motor::BrushMain => self.fitted.brush_main,
             Motor::BrushSides => self.fitted.brush_sides,
@@ -157,11 +157,11 @@ impl<P: Parts> Cord<P> {
         if !is_fitted {
             return Err(Refusal::Absent);
         }
-        let standing = self.standing_for_command();
-        self.cleaning.command(command, &standing, now)
+        let permit = self.permit_for_command();
+        self.cleaning.command(command, &permit, now)
     }
 
-    fn follow(&mut self, movement: &Move, now: Tick) -> Answer {
+    fn follow(&mut self, movement: &Move, now: Tick) -> CommandResult {
         if !self.fitted.encoders {
             return Err(Refusal::Absent);
         }
@@ -175,13 +175,13 @@ impl<P: Parts> Cord<P> {
         let motion = &self.parameters.motion;
         let pace = match self.session.mode() {
             Mode::Hand => HAND_PACE,
-            Mode::Sealed => Pace {
+            Mode::Checked => MoveLimits {
                 speed_um_per_s: motion.move_speed.0,
                 turn_urad_per_s: motion.move_turn.0,
             },
         };
-        let standing = self.standing_for_command();
-        if !standing.armed {
+        let permit = self.permit_for_command();
+        if !permit.armed {
             return Err(Refusal::Inhibited);
         }
         let start = (now, self.senses.gyro);
@@ -191,7 +191,7 @@ impl<P: Parts> Cord<P> {
             self.end(Some(Ending::Move(MoveEnd::Done)));
             return Ok(());
         };
-        if !suits_path(&path, &standing) {
+        if !suits_path(&path, &permit) {
             return Err(Refusal::Inhibited);
         }
         self.reflexes.host.hear();
@@ -207,7 +207,7 @@ impl<P: Parts> Cord<P> {
         self.stop_all(MoveEnd::Inhibited);
     }
 
-    fn beep(&mut self, beep: Beep) -> Answer {
+    fn beep(&mut self, beep: Beep) -> CommandResult {
         if !self.fitted.beeper {
             return Err(Refusal::Absent);
         }
@@ -218,29 +218,29 @@ impl<P: Parts> Cord<P> {
         Err(Refusal::Busy)
     }
 
-    fn light(&mut self, led: &Led) -> Answer {
+    fn light(&mut self, led: &Led) -> CommandResult {
         let is_there = led.led < self.fitted.leds && self.lights.set(&mut self.board.lights, led);
         if is_there { Ok(()) } else { Err(Refusal::Absent) }
     }
 
-    fn arm(&mut self) -> Answer {
+    fn arm(&mut self) -> CommandResult {
         if self.reflexes.dock.inhibits() {
             return Err(Refusal::Inhibited);
         }
         self.arm_anew()?;
-        // What an earlier undock command allowed ends here: back on the contacts is an arrival (S19).
+        // An earlier undock command ends here: closing the contacts again is an arrival (S19).
         self.reflexes.dock.stay();
         Ok(())
     }
 
-    fn undock(&mut self) -> Answer {
+    fn undock(&mut self) -> CommandResult {
         self.arm_anew()?;
         self.reflexes.dock.undock();
         Ok(())
     }
 
-    /// Motion is allowed from here on; what was asked before is forgotten (S19).
-    fn arm_anew(&mut self) -> Answer {
+    /// Allows motion from now on and forgets earlier requests (S19).
+    fn arm_anew(&mut self) -> CommandResult {
         if self.inhibits().contains(Inhibit::ButtonStop) && self.reflexes.any_button() {
             return Err(Refusal::CauseRemains);
         }
@@ -251,8 +251,8 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    /// Charging is asked for or forbidden on the dock only; coming to it anew is a question of its own.
-    fn charge(&mut self, wanted: bool) -> Answer {
+    /// Starts or forbids charging. Valid on the dock only: each new docking begins with the default.
+    fn charge(&mut self, wanted: bool) -> CommandResult {
         if !self.fitted.charger {
             return Err(Refusal::Absent);
         }
@@ -264,8 +264,8 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    /// One look while the robot must be armed before it moves, or looks under a lease.
-    fn probe(&mut self, probe: &Probe, now: Tick) -> Answer {
+    /// One reading without a lease, which needs a robot that cannot move, or repeated readings under a lease.
+    fn probe(&mut self, probe: &Probe, now: Tick) -> CommandResult {
         if !self.fitted.probe {
             return Err(Refusal::Absent);
         }
@@ -275,7 +275,7 @@ impl<P: Parts> Cord<P> {
         self.probing.begin(&mut self.board.probe, probe, now)
     }
 
-    fn clear(&mut self, inhibit: Inhibit) -> Answer {
+    fn clear(&mut self, inhibit: Inhibit) -> CommandResult {
         if matches!(inhibit, Inhibit::ChargerFault | Inhibit::ChargerShorted) {
             let cleared = !self.inhibits().contains(inhibit) || self.charger.clear();
             self.reflexes.charger_fault = self.charger.status().fault;
@@ -294,7 +294,7 @@ impl<P: Parts> Cord<P> {
         Ok(())
     }
 
-    fn set(&mut self, parameter: Parameter, value: i32, now: Tick) -> Answer {
+    fn set(&mut self, parameter: Parameter, value: i32, now: Tick) -> CommandResult {
         let (least, most) = parameter.range();
         if value != 0 && !(least..=most).contains(&value) {
             return Err(Refusal::Range);

@@ -1,14 +1,14 @@
-//! Floor or no floor: evaluation and self-test of the cliff sensors (S9).
+//! Evaluation and self-test of the cliff sensors (S9).
 //!
-//! Once in 0.9 s the emitters go dark for 2 ms and each receiver's ambient level is noted. A floor is a level that lies
-//! above that by the machine's threshold. So a receiver that is stuck at any level, or drowned in sunlight, stops seeing
-//! a floor at the next test, within one second, and is treated as a cliff.
+//! Every 0.9 s the emitters go dark for 2 ms, and each receiver's ambient level is read. A lit level that exceeds the
+//! ambient level by the machine's threshold is floor. A receiver that is stuck at any level, or saturated by sunlight,
+//! therefore stops seeing floor at the next test, within one second, and counts as a cliff.
 
 use rvac_protocol::message::Cliffs;
 use rvac_units::Tick;
 
 use crate::board::{CliffLevels, CliffSensors, Emitters};
-use crate::timing::Until;
+use crate::timing::Deadline;
 
 /// Pause between two self-tests; with the test itself it stays below the 1 s of S9.
 const TEST_PERIOD_MS: u32 = 900;
@@ -16,7 +16,7 @@ const TEST_PERIOD_MS: u32 = 900;
 const SETTLE_MS: u32 = 2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+enum EmitterPhase {
     Lit,
     Dark,
     Relighting,
@@ -27,8 +27,8 @@ enum Phase {
 pub(crate) struct FloorWatch {
     fitted: bool,
     floor_level_min: u16,
-    phase: Phase,
-    phase_end: Until,
+    phase: EmitterPhase,
+    phase_end: Deadline,
     ambient: CliffLevels,
     lit: CliffLevels,
     no_floor: Cliffs,
@@ -36,15 +36,15 @@ pub(crate) struct FloorWatch {
 }
 
 impl FloorWatch {
-    /// Starts with a self-test, so that no level is believed before its ambient part is known. Sensors whose threshold is
-    /// not calibrated are not fitted: `floor_level_min` is `None`.
+    /// Starts with a self-test, so that no level is used before its ambient part is known. `floor_level_min` is `None` if
+    /// the threshold is not calibrated; the sensors then count as not fitted.
     pub(crate) fn new<C: CliffSensors>(sensors: &mut C, now: Tick, floor_level_min: Option<u16>) -> Self {
         sensors.set_emitters(Emitters::Off);
         Self {
             fitted: floor_level_min.is_some() && C::FITTED != Cliffs::default(),
             floor_level_min: floor_level_min.unwrap_or(u16::MAX).max(1),
-            phase: Phase::Dark,
-            phase_end: Until::at(now.after(SETTLE_MS)),
+            phase: EmitterPhase::Dark,
+            phase_end: Deadline::at(now.after(SETTLE_MS)),
             ambient: CliffLevels::default(),
             lit: CliffLevels::default(),
             no_floor: Cliffs::default(),
@@ -57,44 +57,44 @@ impl FloorWatch {
         self.no_floor
     }
 
-    /// Sensors that saw light without their emitter and no difference with it.
+    /// Sensors that see as much light without their emitter as with it.
     pub(crate) const fn blinded(&self) -> Cliffs {
         self.blinded
     }
 
-    /// One look. Between darkening and the end of relighting the previous judgement stands.
+    /// Runs in every pass. From darkening to the end of relighting the last result stays.
     pub(crate) fn update<C: CliffSensors>(&mut self, sensors: &mut C, now: Tick) {
         if !self.fitted {
             return;
         }
         let phase_over = self.phase_end.has_come(now);
         match self.phase {
-            Phase::Lit if phase_over => {
+            EmitterPhase::Lit if phase_over => {
                 sensors.set_emitters(Emitters::Off);
-                self.enter(Phase::Dark, now.after(SETTLE_MS));
+                self.enter(EmitterPhase::Dark, now.after(SETTLE_MS));
             }
-            Phase::Dark if phase_over => {
+            EmitterPhase::Dark if phase_over => {
                 self.ambient = sensors.levels();
                 sensors.set_emitters(Emitters::On);
-                self.enter(Phase::Relighting, now.after(SETTLE_MS));
+                self.enter(EmitterPhase::Relighting, now.after(SETTLE_MS));
             }
-            Phase::Relighting if phase_over => {
+            EmitterPhase::Relighting if phase_over => {
                 self.judge(sensors.levels(), C::FITTED);
                 self.blinded = self.lit_without_emitter(C::FITTED);
-                self.enter(Phase::Lit, now.after(TEST_PERIOD_MS));
+                self.enter(EmitterPhase::Lit, now.after(TEST_PERIOD_MS));
             }
-            Phase::Lit => self.judge(sensors.levels(), C::FITTED),
-            Phase::Dark | Phase::Relighting => {}
+            EmitterPhase::Lit => self.judge(sensors.levels(), C::FITTED),
+            EmitterPhase::Dark | EmitterPhase::Relighting => {}
         }
     }
 
-    fn enter(&mut self, phase: Phase, end: Tick) {
+    fn enter(&mut self, phase: EmitterPhase, end: Tick) {
         self.phase = phase;
-        self.phase_end = Until::at(end);
+        self.phase_end = Deadline::at(end);
     }
 
     fn judge(&mut self, lit: CliffLevels, fitted: Cliffs) {
-        if self.lit == lit && self.phase == Phase::Lit {
+        if self.lit == lit && self.phase == EmitterPhase::Lit {
             return;
         }
         self.lit = lit;

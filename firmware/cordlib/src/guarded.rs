@@ -2,8 +2,8 @@
 
 use rvac_protocol::message::{Inhibit, Inhibits};
 
-/// A permission. Its two patterns differ in every bit: no single flip, nor any but all eight at once, makes a refusal of
-/// it into a permission; what is neither counts as refused.
+/// A permission. Its two patterns differ in every bit, and any other pattern counts as refused: only a flip of all eight
+/// bits at once turns a refusal into a permission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Permission(u8);
 
@@ -26,7 +26,7 @@ impl Default for Permission {
     }
 }
 
-/// A set of inhibits that is kept twice, once as its complement: a member is out only when both say so.
+/// A set of inhibits that is stored twice, once as its complement. A member is absent only if both copies agree.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Latches {
     set: u32,

@@ -8,7 +8,7 @@ const LINES: usize = 8;
 
 /// One line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Line {
+pub(crate) struct LogLine {
     pub(crate) level: LogLevel,
     pub(crate) what: &'static str,
     pub(crate) which: &'static str,
@@ -17,7 +17,7 @@ pub(crate) struct Line {
 /// The ring.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Journal {
-    lines: Deque<Line, LINES>,
+    lines: Deque<LogLine, LINES>,
     lost: u32,
 }
 
@@ -29,10 +29,10 @@ impl Journal {
             self.lost = self.lost.saturating_add(1);
         }
         // Never full here: room was made just now.
-        self.lines.push_back(Line { level, what, which }).ok();
+        self.lines.push_back(LogLine { level, what, which }).ok();
     }
 
-    /// The oldest line, with a word on lines that were lost before it.
+    /// The oldest line, with the number of lines that were lost before it.
     pub(crate) fn take(&mut self) -> Option<(LogLevel, LogText)> {
         let line = self.lines.pop_front()?;
         let mut text = LogText::new();

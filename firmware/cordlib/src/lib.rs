@@ -1,8 +1,8 @@
 //! What the firmware of every robot shares: the main loop, the reflexes, motion control, telemetry.
 //!
-//! A board supplies its parts (see [`board`]), constructs a [`Cord`] and calls [`Cord::step`] for ever. Memory is fixed,
-//! there is no heap, no floating point but in [`Cord::time_s`], and no path that panics. `cargo run -p cordlib
-//! --example size` prints what it costs.
+//! A board supplies its parts (see [`board`]), constructs a [`Cord`] and calls [`Cord::step`] for ever. Memory is fixed.
+//! There is no heap, no floating point except in [`Cord::time_s`], and no path that panics. `cargo run -p cordlib
+//! --example size` prints flash and memory use.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -12,10 +12,10 @@ pub mod charge;
 mod cleaning;
 mod cord;
 mod dispatch;
+mod dock_escape;
 mod floor;
 mod guarded;
 mod journal;
-mod leaving;
 mod lights;
 mod limit;
 mod motion;
@@ -37,4 +37,4 @@ pub use cord::Cord;
 pub use parameters::{
     GuardParameters, LoadParameters, MotionParameters, PackParameters, Parameters, WheelParameters,
 };
-pub use permit::Standing;
+pub use permit::MotionPermit;

@@ -1,7 +1,7 @@
-//! Limits that cannot panic.
+//! Clamping that cannot panic.
 
-/// `value`, but no less than `least` and no more than `most`. `Ord::clamp` panics when the two are the wrong way round, as
-/// a nonsensical parameter of a board could make them; here `most` wins.
+/// Clamps `value` between `least` and `most`. `Ord::clamp` panics if `least` exceeds `most`, which a nonsensical board
+/// parameter could cause; here `most` wins.
 pub(crate) fn within<T: Ord>(value: T, least: T, most: T) -> T {
     value.max(least).min(most)
 }

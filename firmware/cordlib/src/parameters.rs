@@ -10,10 +10,10 @@ pub struct Parameters {
     pub device: &'static str,
     /// Version of the board's firmware; at most 24 bytes.
     pub firmware: &'static str,
-    /// What is really fitted and calibrated, where a board's types serve several machines; `None` = all that the types
-    /// name. What a machine has but nobody has calibrated yet is not fitted: the host is told that it is absent, and its
-    /// readings are not believed. Without encoders `drive` and `move` are refused, while `motor` runs a wheel with an open
-    /// loop; a press of any button stops even where no button is fitted.
+    /// What is fitted and calibrated, where a board's types serve several machines; `None` = everything that the types
+    /// name. A part that is not calibrated yet is not fitted: it is reported as absent, and its readings are ignored.
+    /// Without encoders `drive` and `move` are refused, while `motor` drives a wheel in open loop. A press of any button
+    /// stops the robot even if no button is fitted.
     pub fitted: Option<Capabilities>,
     /// Geometry and limits, as they go to the host.
     pub limits: Limits,
@@ -43,7 +43,7 @@ pub struct WheelParameters {
 /// Ramps of the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MotionParameters {
-    /// Acceleration along the way, in µm/s².
+    /// Acceleration along the path, in µm/s².
     pub acceleration_um_per_s2: i32,
     /// Angular acceleration, in µrad/s².
     pub turn_acceleration_urad_per_s2: i32,
@@ -64,21 +64,21 @@ pub struct GuardParameters {
     pub floor_level_min: u16,
 }
 
-/// The battery pack: NiMH cells in series, and what takes from it.
+/// The battery pack: NiMH cells in series, and their loads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PackParameters {
     /// Cells in series, 1..=20.
     pub cells: u8,
-    /// What a new pack holds, in mAh.
+    /// Nominal capacity, in mAh.
     pub capacity_mah: u16,
     /// Highest mean current into the pack, in mA.
     pub current_max_ma: u16,
     /// Resistance of the pack, in milliohm.
     pub resistance_mohm: u16,
-    /// What the electronics take all the time, in mA, where a full pack on the dock is to be kept full against it; 0 =
-    /// it is not.
+    /// Standby current of the electronics, in mA, which maintenance charging makes up for on the dock; 0 = no maintenance
+    /// charging.
     pub drain_ma: u16,
-    /// What the machine takes by its parts.
+    /// Load currents of the parts.
     pub loads: LoadParameters,
 }
 

@@ -1,8 +1,8 @@
-//! The one gate between every wish and the motors.
+//! The single gate between all requests and the motors.
 //!
-//! Wheels never move unless the host has armed, a lease is fresh, and nothing inhibits. [`Standing::permit`] is applied
-//! to the wheel outputs and [`Standing::permit_cleaner`] to brushes and suction on every pass, after all other code has
-//! had its say, so that no mistake elsewhere can turn a motor.
+//! Wheels never move unless the host has armed, a lease is fresh, and nothing inhibits. On every pass, after all other
+//! code, [`MotionPermit::restrict`] is applied to the wheel outputs and [`MotionPermit::restrict_cleaner`] to brushes and
+//! suction. No error elsewhere can therefore turn a motor.
 
 use rvac_protocol::message::{Bumpers, Inhibit, Inhibits};
 use rvac_units::Throttle;
@@ -12,54 +12,55 @@ use crate::board::WheelDrive;
 /// Speed limit while a cliff is seen (S8), in µm/s.
 pub(crate) const CLIFF_SPEED_MAX_UM_PER_S: i32 = 100_000;
 
-/// Inhibits that forbid no motion: they tell the host what the robot needs (S16, S18).
-const TELLING: Inhibits =
+/// Inhibits that forbid no motion: they inform the host (S16, S18).
+const ADVISORY: Inhibits =
     Inhibits::from_bits(bit(Inhibit::BatteryLow) | bit(Inhibit::ChargerFault) | bit(Inhibit::ChargerShorted));
 
-/// Inhibits that leave a way out: motion away from the bumper (S6), slow reverse from a cliff (S8, S9).
-const WAY_OUT: Inhibits =
+/// Inhibits with a permitted escape: motion away from the bumper (S6), slow reverse from a cliff (S8, S9).
+const ESCAPABLE: Inhibits =
     Inhibits::from_bits(bit(Inhibit::Bumper) | bit(Inhibit::Cliff) | bit(Inhibit::CliffSensorFault));
 
-/// Inhibits that leave the wheels some or all of their motion: a weak pack (S16) still carries the robot to its dock.
-const WHEELS_GO_ON: Inhibits =
-    Inhibits::from_bits(WAY_OUT.bits() | TELLING.bits() | bit(Inhibit::BatteryWeak));
+/// Inhibits under which the wheels may still move: a weak pack (S16) carries the robot to its dock.
+const WHEELS_MAY_RUN: Inhibits =
+    Inhibits::from_bits(ESCAPABLE.bits() | ADVISORY.bits() | bit(Inhibit::BatteryWeak));
 
-/// Inhibits that do not hold a robot on a dock that charges it against its will.
-const LEAVING_GOES_ON: Inhibits = Inhibits::from_bits(
+/// Inhibits under which the robot may still back off a dock whose current it cannot switch off.
+const DOCK_ESCAPE_MAY_RUN: Inhibits = Inhibits::from_bits(
     bit(Inhibit::BatteryHot)
         | bit(Inhibit::BatteryOverheated)
         | bit(Inhibit::Thermistor)
         | bit(Inhibit::BatteryEmpty),
 );
 
-/// Inhibits that leave brushes and suction running: the way out above, the seconds of grace after a lost link (S1), and
-/// a robot that does not get on (S15).
-const CLEANING_GOES_ON: Inhibits =
-    Inhibits::from_bits(WAY_OUT.bits() | TELLING.bits() | bit(Inhibit::LinkLost) | bit(Inhibit::NotMoving));
+/// Inhibits under which brushes and suction may run: the escapes above, the 2 s of grace after a lost link (S1), and a
+/// robot that makes no progress (S15).
+const CLEANERS_MAY_RUN: Inhibits = Inhibits::from_bits(
+    ESCAPABLE.bits() | ADVISORY.bits() | bit(Inhibit::LinkLost) | bit(Inhibit::NotMoving),
+);
 
 const fn bit(inhibit: Inhibit) -> u32 {
     1 << inhibit as u32
 }
 
-/// What is allowed now, and why not more.
+/// Which motion is allowed now, and what inhibits the rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Standing {
+pub struct MotionPermit {
     /// The host has armed motion.
     pub armed: bool,
-    /// A lease (or a `move` with a living link) covers wheel motion.
+    /// A lease (or a `move` with a live link) covers wheel motion.
     pub fresh: bool,
     /// Everything that inhibits.
     pub inhibits: Inhibits,
     /// Bumper zones that are pressed, as S6 sees them (release debounced).
     pub bumpers: Bumpers,
-    /// The robot backs off a dock whose current nothing else can stop (S18): a hot or empty pack does not hold it there.
-    pub leaving: bool,
+    /// The robot backs off a dock whose current nothing else can stop (S18). A hot or empty pack does not prevent that.
+    pub escaping_dock: bool,
 }
 
-impl Standing {
-    /// What the wheels may do of what is asked.
+impl MotionPermit {
+    /// The part of a wheel request that is permitted.
     #[must_use]
-    pub const fn permit(&self, left: WheelDrive, right: WheelDrive) -> (WheelDrive, WheelDrive) {
+    pub const fn restrict(&self, left: WheelDrive, right: WheelDrive) -> (WheelDrive, WheelDrive) {
         let asked = (left.duty().millionths(), right.duty().millionths());
         if !self.armed || !self.fresh || !self.allows_direction(asked.0, asked.1) {
             (WheelDrive::Brake, WheelDrive::Brake)
@@ -70,30 +71,30 @@ impl Standing {
         }
     }
 
-    /// What a brush or the suction may do of what is asked. Its own lease is kept where the wish comes from.
+    /// The part of a request for brush or suction that is permitted. `cleaning` keeps the lease of the request.
     #[must_use]
-    pub const fn permit_cleaner(&self, duty: Throttle) -> Throttle {
-        if self.armed && self.inhibits.without(CLEANING_GOES_ON).is_empty() {
+    pub const fn restrict_cleaner(&self, duty: Throttle) -> Throttle {
+        if self.armed && self.inhibits.without(CLEANERS_MAY_RUN).is_empty() {
             duty
         } else {
             Throttle::ZERO
         }
     }
 
-    /// Whether the inhibits let the wheels turn this way. Only the signs of the two numbers matter; standing still is
-    /// always allowed.
+    /// Whether the inhibits let the wheels turn in these directions. Only the signs of the two numbers matter; standing
+    /// still is always allowed.
     #[must_use]
     pub const fn allows_direction(&self, left: i32, right: i32) -> bool {
         if left == 0 && right == 0 {
             return true;
         }
-        let held = self.inhibits.without(WHEELS_GO_ON);
-        let held = if self.leaving {
-            held.without(LEAVING_GOES_ON)
+        let blocking = self.inhibits.without(WHEELS_MAY_RUN);
+        let blocking = if self.escaping_dock {
+            blocking.without(DOCK_ESCAPE_MAY_RUN)
         } else {
-            held
+            blocking
         };
-        if !held.is_empty() {
+        if !blocking.is_empty() {
             return false;
         }
         if self.sees_cliff() && (left > 0 || right > 0) {
@@ -102,9 +103,9 @@ impl Standing {
         !self.inhibits.contains(Inhibit::Bumper) || self.is_away(left, right)
     }
 
-    /// Whether a bumper zone is pressed or a wheel hangs: nothing with blades starts then (S29).
+    /// Whether a bumper zone is pressed or a wheel hangs: brushes and suction do not start then (S29).
     #[must_use]
-    pub const fn touches(&self) -> bool {
+    pub const fn has_contact(&self) -> bool {
         self.inhibits.contains(Inhibit::Bumper) || self.inhibits.contains(Inhibit::WheelDrop)
     }
 
@@ -120,7 +121,7 @@ impl Standing {
         self.sees_cliff() || self.inhibits.contains(Inhibit::Bumper)
     }
 
-    /// Backwards leads away from any press. A turn on the spot leads away when it swings the pressed side back.
+    /// Reversing leads away from any contact. A turn on the spot leads away if it swings the pressed side back.
     const fn is_away(&self, left: i32, right: i32) -> bool {
         let backwards = left <= 0 && right <= 0;
         let turns_right = left >= 0 && right <= 0;
@@ -131,8 +132,8 @@ impl Standing {
     }
 }
 
-/// A turn on the spot away from an obstacle must not creep forward: the wheel that turns forward gets no more than the
-/// other one, whose duty is `other`, gets backward.
+/// Keeps a turn on the spot away from an obstacle from creeping forward: the wheel that turns forward gets at most the
+/// backward duty of the other wheel, `other`.
 const fn no_more_than(drive: WheelDrive, other: i32) -> WheelDrive {
     let duty = drive.duty().millionths();
     if duty > other.saturating_neg() && duty > 0 {

@@ -1,14 +1,14 @@
-//! The battery in the main loop: what the charger is told, what follows from what it finds, and what the host is told.
+//! The battery in the main loop: inputs and outputs of the charge controller, and the reports to the host.
 
 use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, Inhibit, LogLevel};
 use rvac_units::{Current, Temperature, Throttle, Tick, Voltage};
 
 use crate::board::{ChargeDrive, Charger, Parts};
-use crate::charge::{ChargeContext, ChargeOutput, Motors};
+use crate::charge::{ChargeContext, ChargeOutput, MotorActivity};
 use crate::cord::Cord;
 use crate::reflex::PackView;
 
-/// Faults after which no current may flow, whatever the charger thinks.
+/// Faults after which no current may flow, whatever the charge controller decides.
 const FORBIDDING: [Inhibit; 3] = [Inhibit::Clock, Inhibit::Memory, Inhibit::InternalFault];
 
 impl<P: Parts> Cord<P> {
@@ -48,7 +48,7 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// On the dock and not about to leave; no motor driven, asked for or turning.
+    /// Docked and not about to leave; whether any motor is driven, requested or turning; the load.
     fn charge_context(&self) -> ChargeContext {
         let wheels = self.applied_wheels();
         let driven = wheels != (Throttle::ZERO, Throttle::ZERO);
@@ -69,12 +69,16 @@ impl<P: Parts> Cord<P> {
             .fold(0, |sum: i32, (_, ma)| sum.saturating_add(i32::from(ma)));
         ChargeContext {
             docked: self.reflexes.dock.inhibits(),
-            motors: if idle { Motors::Idle } else { Motors::Running },
+            motors: if idle {
+                MotorActivity::Idle
+            } else {
+                MotorActivity::Running
+            },
             load_ma,
         }
     }
 
-    /// The switch is off before any motor is driven, whatever the charger's own pass has decided.
+    /// Opens the charger's switch before any motor is driven, whatever the charge controller has decided.
     pub(crate) fn cut_charger(&mut self) {
         let output = self.charger.cut();
         self.switch_charger(output);
@@ -90,25 +94,25 @@ impl<P: Parts> Cord<P> {
         self.charge_output = output;
     }
 
-    /// Tells the board again, changed or not.
+    /// Writes the charger's drive to the board again, changed or not.
     pub(crate) fn renew_charger(&mut self) {
         self.board.charger.drive(self.charge_output.drive);
     }
 
-    /// What the switch of the charger was told last.
+    /// The last drive of the charger's switch.
     #[must_use]
     pub const fn charge_drive(&self) -> ChargeDrive {
         self.charge_output.drive
     }
 
-    /// Voltage and current of the pack; `None` where they are not measured, or not at this moment.
+    /// Voltage and current of the pack; `None` while they are not measured.
     pub(crate) fn pack(&self) -> Option<(Voltage, Current)> {
         let (pack_mv, current_ma) = self.charger.pack().filter(|_| self.fitted.battery)?;
         Some((Voltage(pack_mv), Current(current_ma)))
     }
 
-    /// The battery for telemetry; `None` where it is not measured, or not at this moment, or while its charge is not
-    /// known yet: nobody is told that a pack is empty before that was measured.
+    /// The battery for telemetry; `None` while it is not measured or its charge is not known yet, so that no pack is
+    /// reported as empty before it was measured.
     pub(crate) fn battery(&self) -> Option<Battery> {
         let (voltage, current) = self.pack()?;
         let tenths = self

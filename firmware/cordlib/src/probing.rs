@@ -1,24 +1,22 @@
 //! Raw readings on request: one answer, or a stream under a lease that ends by itself.
 
 use heapless::Vec;
-use rvac_protocol::message::{
-    PROBE_BYTES, Probe as ProbeCommand, ProbeTarget, Probed, ProbedContent, Refusal, SerialProbe,
-};
+use rvac_protocol::message::{PROBE_BYTES, Probe, ProbeTarget, Probed, ProbedContent, Refusal, SerialProbe};
 use rvac_units::Tick;
 
-use crate::board::Probe;
-use crate::timing::{Periodic, Until};
+use crate::board::PinProbe;
+use crate::timing::{Deadline, Periodic};
 
 /// Pause between two answers under a lease.
 const PERIOD_MS: u32 = 50;
 /// Bytes of a serial port wait this long for others to share their packet.
 const GATHER_MS: u32 = 20;
 
-/// What is looked at.
+/// The readings that are being reported.
 #[derive(Clone, Debug)]
 pub(crate) struct Probing {
     target: Option<ProbeTarget>,
-    lease: Until,
+    lease: Deadline,
     next: Periodic,
     gathered: Vec<u8, PROBE_BYTES>,
     gathered_at: Tick,
@@ -30,7 +28,7 @@ impl Probing {
     pub(crate) const fn starting_at(now: Tick) -> Self {
         Self {
             target: None,
-            lease: Until::NEVER,
+            lease: Deadline::NONE,
             next: Periodic::starting_at(now),
             gathered: Vec::new(),
             gathered_at: now,
@@ -38,14 +36,14 @@ impl Probing {
         }
     }
 
-    /// Begins to look, or goes on if it is the same.
+    /// Begins readings, or extends the lease if the target is the same.
     ///
     /// # Errors
-    /// What the board says to the serial port.
-    pub(crate) fn begin<P: Probe>(
+    /// As the board refuses the serial port.
+    pub(crate) fn begin<P: PinProbe>(
         &mut self,
         board: &mut P,
-        command: &ProbeCommand,
+        command: &Probe,
         now: Tick,
     ) -> Result<(), Refusal> {
         let goes_on = self.lease.is_running() && self.target == Some(command.target);
@@ -58,25 +56,25 @@ impl Probing {
         }
         self.target = Some(command.target);
         self.lease = match command.lease_ms {
-            0 => Until::NEVER,
-            lease_ms => Until::at(now.after(u32::from(lease_ms))),
+            0 => Deadline::NONE,
+            lease_ms => Deadline::at(now.after(u32::from(lease_ms))),
         };
         Ok(())
     }
 
-    /// Ends it, for a lease that is over or a session that is.
-    pub(crate) fn end<P: Probe>(&mut self, board: &mut P) {
+    /// Ends the readings, when their lease or the session is over.
+    pub(crate) fn end<P: PinProbe>(&mut self, board: &mut P) {
         if let Some(ProbeTarget::Serial { .. }) = self.target {
             board.close_serial();
         }
         self.target = None;
-        self.lease = Until::NEVER;
+        self.lease = Deadline::NONE;
         self.gathered.clear();
         self.at = 0;
     }
 
-    /// Takes what the serial port has received, and ends what is over.
-    pub(crate) fn gather<P: Probe>(&mut self, board: &mut P, now: Tick) {
+    /// Collects received bytes of the serial port, and ends readings whose lease is over.
+    pub(crate) fn gather<P: PinProbe>(&mut self, board: &mut P, now: Tick) {
         if self.target.is_none() {
             return;
         }
@@ -97,7 +95,7 @@ impl Probing {
     }
 
     /// The answer that is due.
-    pub(crate) fn take<P: Probe>(&mut self, board: &mut P, now: Tick) -> Option<Probed> {
+    pub(crate) fn take<P: PinProbe>(&mut self, board: &mut P, now: Tick) -> Option<Probed> {
         let target = self.target?;
         let content = match target {
             ProbeTarget::Serial { .. } => {
@@ -119,7 +117,7 @@ impl Probing {
         Some(Probed { tick: now, content })
     }
 
-    fn take_serial<P: Probe>(&mut self, board: &mut P) -> SerialProbe {
+    fn take_serial<P: PinProbe>(&mut self, board: &mut P) -> SerialProbe {
         let bytes = core::mem::take(&mut self.gathered);
         let at = self.at;
         self.at = at.wrapping_add(u32::try_from(bytes.len()).unwrap_or(0));

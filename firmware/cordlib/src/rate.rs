@@ -1,16 +1,16 @@
-//! Frequencies and bandwidths: events counted over a measured span, so that a late second does not double the figure.
+//! Frequencies and bandwidths: counts over a measured time, so that a late second does not distort the figure.
 
 use rvac_units::Tick;
 
 /// Counts events.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rate {
+pub(crate) struct RateCounter {
     count: u32,
     since: Tick,
     per_second: u32,
 }
 
-impl Rate {
+impl RateCounter {
     /// Counts from `now` on.
     pub(crate) const fn starting_at(now: Tick) -> Self {
         Self {

@@ -1,6 +1,6 @@
-//! What follows from findings: of the reflexes, of motion that ended, of motors that were overloaded.
+//! Reactions to findings of the reflexes, to motion that ended and to overloaded motors.
 
-use rvac_protocol::message::{EdgeKind, Inhibit, LogLevel, Motor, MoveEnd};
+use rvac_protocol::message::{Event, Inhibit, LogLevel, Motor, MoveEnd};
 use rvac_units::Tick;
 
 use crate::board::Parts;
@@ -8,12 +8,12 @@ use crate::cord::Cord;
 use crate::motion::Ending;
 use crate::reflex::{DockChange, Findings};
 
-/// A press is believed some 10 ms after the finger came down, more if the contact bounces: what moved then may have come to
-/// its end by itself since, and the person meant it all the same.
+/// Debouncing reports a press 10 ms after the finger came down, or later if the contact bounces. Motion may have ended in
+/// that time; the press still counts as one during motion.
 const PRESS_MS: u32 = 30;
 
 impl<P: Parts> Cord<P> {
-    /// Carries out what the contact rules found.
+    /// Acts on the findings of the contact rules.
     pub(crate) fn react(&mut self, findings: &Findings, now: Tick) {
         match findings.dock {
             Some(DockChange::Arrived | DockChange::TakenOff) => {
@@ -31,7 +31,7 @@ impl<P: Parts> Cord<P> {
         let changed = findings.buttons.pressed | findings.buttons.released;
         for button in (0..8).filter(|number| changed & (1 << number) != 0) {
             let pressed = findings.buttons.pressed & (1 << button) != 0;
-            self.session.queue_edge(EdgeKind::Button { button, pressed }, now);
+            self.session.queue_event(Event::Button { button, pressed }, now);
         }
     }
 
@@ -49,7 +49,7 @@ impl<P: Parts> Cord<P> {
         match ending {
             Some(Ending::Move(end)) => {
                 let now = self.senses.now;
-                self.session.queue_edge(EdgeKind::MoveFinished(end), now);
+                self.session.queue_event(Event::MoveFinished(end), now);
             }
             Some(Ending::LeaseLost) => self.reflexes.host.lose_link(),
             None => {}
@@ -59,7 +59,7 @@ impl<P: Parts> Cord<P> {
     /// Reports a wheel that was switched off for its load.
     pub(crate) fn note_stall(&mut self, motor: Motor) {
         let now = self.senses.now;
-        self.session.queue_edge(EdgeKind::Stall(motor), now);
+        self.session.queue_event(Event::Stall(motor), now);
         self.journal.note(LogLevel::Error, "overload of", motor.name());
     }
 

@@ -1,14 +1,12 @@
-//! Telemetry: `state` and `info` at their periods, edges when something changes, log lines when there are any.
+//! Telemetry: `state` and `info` at their periods, events when something changes, log lines when there are any.
 
-use rvac_protocol::message::{
-    Bumpers, Cliffs, EdgeKind, Info, Inhibits, LogLevel, Report, State, WheelDrops,
-};
+use rvac_protocol::message::{Bumpers, Cliffs, Event, Info, Inhibits, LogLevel, Report, State, WheelDrops};
 use rvac_protocol::session::Mode;
 use rvac_units::Tick;
 
 use crate::board::{DockBeams, DustBox, Parts, ProximitySensors};
 use crate::cord::{Cord, name};
-use crate::rate::Rate;
+use crate::rate::RateCounter;
 use crate::reflex::Reflexes;
 use crate::senses::shown;
 use crate::timing::Periodic;
@@ -19,29 +17,29 @@ const RATE_PERIOD_MS: u32 = 1_000;
 /// Version of this crate, for `info`.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// What the host was told last, what is due, and the counters of the loop.
+/// What was reported last, what is due, and the counters of the loop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reporter {
-    pub(crate) bytes_in: Rate,
-    pub(crate) bytes_out: Rate,
-    steps: Rate,
+    pub(crate) bytes_in: RateCounter,
+    pub(crate) bytes_out: RateCounter,
+    steps: RateCounter,
     rates: Periodic,
-    state: Schedule,
-    info: Schedule,
-    told: Told,
+    state: ReportSchedule,
+    info: ReportSchedule,
+    reported: ReportedFacts,
 }
 
-/// One kind of report: its period (0 = never unasked) and whether one waits for the link.
+/// One kind of report: its period (0 = only on request) and whether one waits for the link.
 #[derive(Clone, Copy, Debug)]
-struct Schedule {
+struct ReportSchedule {
     period_ms: u32,
     next: Periodic,
     waits: bool,
 }
 
-/// The facts whose changes are edges.
+/// The facts whose changes are reported as events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Told {
+struct ReportedFacts {
     bumpers: Bumpers,
     cliffs: Cliffs,
     wheel_drops: WheelDrops,
@@ -49,7 +47,7 @@ struct Told {
     inhibits: Inhibits,
 }
 
-impl Schedule {
+impl ReportSchedule {
     const fn every(period_ms: u32, now: Tick) -> Self {
         Self {
             period_ms,
@@ -69,7 +67,7 @@ impl Schedule {
     }
 }
 
-impl Told {
+impl ReportedFacts {
     fn of(reflexes: &Reflexes) -> Self {
         Self {
             bumpers: reflexes.bumpers(),
@@ -82,16 +80,16 @@ impl Told {
 }
 
 impl Reporter {
-    /// Nothing is due yet; what is so at reset is no edge.
+    /// Nothing is due yet. The state at reset is no event.
     pub(crate) fn new(reflexes: &Reflexes, now: Tick) -> Self {
         Self {
-            bytes_in: Rate::starting_at(now),
-            bytes_out: Rate::starting_at(now),
-            steps: Rate::starting_at(now),
+            bytes_in: RateCounter::starting_at(now),
+            bytes_out: RateCounter::starting_at(now),
+            steps: RateCounter::starting_at(now),
             rates: Periodic::starting_at(now.after(RATE_PERIOD_MS)),
-            state: Schedule::every(STATE_PERIOD_MS, now),
-            info: Schedule::every(INFO_PERIOD_MS, now),
-            told: Told::of(reflexes),
+            state: ReportSchedule::every(STATE_PERIOD_MS, now),
+            info: ReportSchedule::every(INFO_PERIOD_MS, now),
+            reported: ReportedFacts::of(reflexes),
         }
     }
 
@@ -107,20 +105,20 @@ impl Reporter {
 
     /// Changes the pause between `state` reports; 0 = only when asked.
     pub(crate) const fn set_state_period(&mut self, period_ms: u32, now: Tick) {
-        self.state = Schedule::every(period_ms, now);
+        self.state = ReportSchedule::every(period_ms, now);
     }
 
     /// Changes the pause between `info` reports; 0 = only when asked.
     pub(crate) const fn set_info_period(&mut self, period_ms: u32, now: Tick) {
-        self.info = Schedule::every(period_ms, now);
+        self.info = ReportSchedule::every(period_ms, now);
     }
 
-    /// Counts a pass that had nothing to say.
+    /// Counts a pass that reports nothing.
     pub(crate) const fn count_pass(&mut self) {
         self.steps.add(1);
     }
 
-    /// Counts a pass and notes what is due. A person at a terminal gets no telemetry unasked.
+    /// Counts a pass and notes what is due. In hand mode there is no unrequested `state`.
     fn tick(&mut self, mode: Mode, now: Tick) {
         self.steps.add(1);
         if self.rates.is_due(now, RATE_PERIOD_MS) {
@@ -129,38 +127,38 @@ impl Reporter {
             self.bytes_out.take(now);
         }
         self.info.update(now);
-        if mode == Mode::Sealed {
+        if mode == Mode::Checked {
             self.state.update(now);
         }
     }
 }
 
 impl<P: Parts> Cord<P> {
-    /// Queues an edge for every fact that differs from what the host was told.
-    pub(crate) fn note_edges(&mut self, now: Tick) {
-        let told = self.reporter.told;
-        let facts = Told::of(&self.reflexes);
-        if facts == told {
+    /// Queues an event for every fact that has changed since it was reported.
+    pub(crate) fn queue_events(&mut self, now: Tick) {
+        let reported = self.reporter.reported;
+        let facts = ReportedFacts::of(&self.reflexes);
+        if facts == reported {
             return;
         }
-        self.reporter.told = facts;
-        let edges = [
-            (facts.bumpers != told.bumpers, EdgeKind::Bump(facts.bumpers)),
-            (facts.cliffs != told.cliffs, EdgeKind::Cliff(facts.cliffs)),
+        self.reporter.reported = facts;
+        let changes = [
+            (facts.bumpers != reported.bumpers, Event::Bump(facts.bumpers)),
+            (facts.cliffs != reported.cliffs, Event::Cliff(facts.cliffs)),
             (
-                facts.wheel_drops != told.wheel_drops,
-                EdgeKind::Lift(facts.wheel_drops),
+                facts.wheel_drops != reported.wheel_drops,
+                Event::Lift(facts.wheel_drops),
             ),
-            (facts.docked != told.docked, EdgeKind::Docked(facts.docked)),
+            (facts.docked != reported.docked, Event::Docked(facts.docked)),
             (
-                facts.inhibits != told.inhibits,
-                EdgeKind::Inhibits(facts.inhibits),
+                facts.inhibits != reported.inhibits,
+                Event::Inhibits(facts.inhibits),
             ),
         ];
-        for (_, kind) in edges.into_iter().filter(|(changed, _)| *changed) {
-            self.session.queue_edge(kind, now);
+        for (_, kind) in changes.into_iter().filter(|(changed, _)| *changed) {
+            self.session.queue_event(kind, now);
         }
-        let new = Inhibits::from_bits(facts.inhibits.bits() & !told.inhibits.bits());
+        let new = Inhibits::from_bits(facts.inhibits.bits() & !reported.inhibits.bits());
         for inhibit in new.iter().filter(|inhibit| inhibit.is_latched()) {
             self.journal.note(LogLevel::Error, "latched", inhibit.name());
         }
@@ -218,7 +216,7 @@ impl<P: Parts> Cord<P> {
             proximity: shown(self.fitted.proximity > 0, self.board.proximity.closeness()),
             dock: shown(self.fitted.dock_receivers > 0, self.board.dock_beams.symbols()),
             buttons: self.reflexes.buttons(),
-            // The wire has no word for a machine without this switch: its box is never missed.
+            // The wire cannot express a machine without this switch: its box counts as inserted.
             dust_box: self.board.dust_box.inserted().unwrap_or(true),
             currents: self.senses.currents.unwrap_or_default(),
             battery_voltage,

@@ -1,4 +1,4 @@
-//! One look at the board's inputs, taken at the start of every pass.
+//! All inputs of the board, read once at the start of every pass.
 
 use rvac_protocol::message::{Bumpers, Capabilities, Cliffs, Currents, Gyro, WheelDrops};
 use rvac_units::Tick;
@@ -9,7 +9,7 @@ use crate::board::{
 };
 use crate::floor::FloorWatch;
 
-/// Inputs of one pass. Contacts are raw; the rules debounce them, each in its own way.
+/// Inputs of one pass. Contacts are raw: each rule debounces them with its own times.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Senses {
     pub(crate) now: Tick,
@@ -30,7 +30,7 @@ pub(crate) struct Senses {
 }
 
 impl Senses {
-    /// Reads everything the rules need. What is not fitted, or not calibrated yet, shows nothing.
+    /// Reads everything the rules need. Parts that are not fitted or not calibrated read as their default.
     pub(crate) fn read<P: Parts>(
         board: &mut Board<P>,
         floor: &mut FloorWatch,
@@ -58,7 +58,7 @@ impl Senses {
     }
 }
 
-/// The reading of a part that is fitted; of any other nothing is believed.
+/// The reading of a part if it is fitted, else the default.
 pub(crate) fn shown<T: Default>(fitted: bool, reading: T) -> T {
     if fitted { reading } else { T::default() }
 }

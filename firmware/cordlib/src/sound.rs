@@ -5,7 +5,7 @@ use rvac_protocol::message::Beep;
 use rvac_units::Tick;
 
 use crate::board::Beeper;
-use crate::timing::Until;
+use crate::timing::Deadline;
 
 /// Tones that can wait.
 const QUEUE: usize = 8;
@@ -14,7 +14,7 @@ const QUEUE: usize = 8;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sound {
     waiting: Deque<Beep, QUEUE>,
-    playing: Until,
+    playing: Deadline,
 }
 
 impl Sound {
@@ -26,7 +26,7 @@ impl Sound {
     /// Forgets all tones; the board was silenced.
     pub(crate) fn clear(&mut self) {
         self.waiting.clear();
-        self.playing = Until::default();
+        self.playing = Deadline::default();
     }
 
     /// Starts and ends tones.
@@ -41,7 +41,7 @@ impl Sound {
             } else {
                 beeper.silence();
             }
-            self.playing = Until::at(now.after(u32::from(next.duration_ms)));
+            self.playing = Deadline::at(now.after(u32::from(next.duration_ms)));
         } else if ended {
             beeper.silence();
         }

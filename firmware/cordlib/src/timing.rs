@@ -1,11 +1,11 @@
-//! Time on a millisecond clock that wraps: periods, holds, debouncing, and the 64-bit extension.
+//! Time on a millisecond clock that wraps: periods, hold timers, debouncing, and a 64-bit extension.
 //!
-//! Nothing here compares absolute times or asks whether a time is divisible by something: only differences survive the
-//! wrap after 49.7 days, and only deadlines survive a slow pass of the loop.
+//! Nothing here compares absolute times or takes a time modulo something. Only differences survive the wrap after 49.7
+//! days, and only deadlines survive a slow pass of the loop.
 
 use rvac_units::Tick;
 
-/// Something that is due at a fixed pace. A late pass runs it once, and missed turns are dropped.
+/// Something that is due at a fixed period. A late pass runs it once; missed periods are dropped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Periodic {
     next: Tick,
@@ -17,8 +17,8 @@ impl Periodic {
         Self { next: first }
     }
 
-    /// Whether it is due now; if so the next turn is `period_ms` after the planned one, or after now when that has
-    /// passed too.
+    /// Whether it is due now. If so, the next time is `period_ms` after the planned one, or after now if that has passed
+    /// as well.
     pub(crate) const fn is_due(&mut self, now: Tick, period_ms: u32) -> bool {
         if !now.reached(self.next) {
             return false;
@@ -33,14 +33,14 @@ impl Periodic {
     }
 }
 
-/// How long a condition has held without a break.
+/// Measures how long a condition has held without interruption.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Held {
+pub(crate) struct HoldTimer {
     since: Option<Tick>,
 }
 
-impl Held {
-    /// Notes the condition and returns whether it has held for `span_ms`.
+impl HoldTimer {
+    /// Takes the condition now; returns whether it has held for `span_ms`.
     pub(crate) fn for_at_least(&mut self, condition: bool, now: Tick, span_ms: u32) -> bool {
         if !condition {
             self.since = None;
@@ -49,7 +49,7 @@ impl Held {
         now.since(*self.since.get_or_insert(now)) >= span_ms
     }
 
-    /// Forgets how long it held.
+    /// Starts measuring anew.
     pub(crate) const fn restart(&mut self) {
         self.since = None;
     }
@@ -59,7 +59,7 @@ impl Held {
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Debounced<const SET_MS: u32, const CLEAR_MS: u32> {
     active: bool,
-    differs: Held,
+    differs: HoldTimer,
 }
 
 impl<const SET_MS: u32, const CLEAR_MS: u32> Debounced<SET_MS, CLEAR_MS> {
@@ -79,15 +79,15 @@ impl<const SET_MS: u32, const CLEAR_MS: u32> Debounced<SET_MS, CLEAR_MS> {
     }
 }
 
-/// A deadline that forgets itself when it has come, so that it cannot come back to life half a wrap later.
+/// A deadline that clears itself when it has passed. Otherwise it would lie ahead again half a wrap later.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Until {
+pub(crate) struct Deadline {
     end: Option<Tick>,
 }
 
-impl Until {
+impl Deadline {
     /// Not running.
-    pub(crate) const NEVER: Self = Self { end: None };
+    pub(crate) const NONE: Self = Self { end: None };
 
     /// Runs until `end`.
     pub(crate) const fn at(end: Tick) -> Self {
@@ -99,7 +99,7 @@ impl Until {
         self.end.is_some()
     }
 
-    /// Whether it has come just now: true once.
+    /// Whether it has passed; true once.
     pub(crate) fn has_come(&mut self, now: Tick) -> bool {
         let come = self.end.is_some_and(|end| now.reached(end));
         if come {
@@ -109,7 +109,7 @@ impl Until {
     }
 }
 
-/// Extends the 32-bit clock. It must be shown the clock at least once in 49.7 days, which the main loop does.
+/// Extends the 32-bit clock to 64 bits. It must be advanced at least once in 49.7 days, which the main loop does.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LongClock {
     last: Tick,
@@ -139,7 +139,7 @@ mod tests {
 
     use std::vec::Vec;
 
-    use super::{Debounced, Held, LongClock, Periodic, Until};
+    use super::{Deadline, Debounced, HoldTimer, LongClock, Periodic};
     use rvac_units::Tick;
 
     const BEFORE_WRAP: Tick = Tick(u32::MAX - 4);
@@ -158,12 +158,12 @@ mod tests {
 
     #[test]
     fn a_hold_is_broken_by_one_false_sample() {
-        let mut held = Held::default();
-        assert!(!held.for_at_least(true, BEFORE_WRAP, 10));
-        assert!(held.for_at_least(true, BEFORE_WRAP.after(10), 10));
-        assert!(!held.for_at_least(false, BEFORE_WRAP.after(11), 10));
-        assert!(!held.for_at_least(true, BEFORE_WRAP.after(12), 10));
-        assert!(!held.for_at_least(true, BEFORE_WRAP.after(21), 10));
+        let mut hold = HoldTimer::default();
+        assert!(!hold.for_at_least(true, BEFORE_WRAP, 10));
+        assert!(hold.for_at_least(true, BEFORE_WRAP.after(10), 10));
+        assert!(!hold.for_at_least(false, BEFORE_WRAP.after(11), 10));
+        assert!(!hold.for_at_least(true, BEFORE_WRAP.after(12), 10));
+        assert!(!hold.for_at_least(true, BEFORE_WRAP.after(21), 10));
     }
 
     #[test]
@@ -179,11 +179,11 @@ mod tests {
 
     #[test]
     fn a_deadline_comes_once() {
-        let mut until = Until::at(BEFORE_WRAP.after(10));
-        assert!(!until.has_come(BEFORE_WRAP.after(9)));
-        assert!(until.has_come(BEFORE_WRAP.after(10)));
-        assert!(!until.is_running());
-        assert!(!until.has_come(BEFORE_WRAP.after(10 + (1 << 31) + 5)));
+        let mut deadline = Deadline::at(BEFORE_WRAP.after(10));
+        assert!(!deadline.has_come(BEFORE_WRAP.after(9)));
+        assert!(deadline.has_come(BEFORE_WRAP.after(10)));
+        assert!(!deadline.is_running());
+        assert!(!deadline.has_come(BEFORE_WRAP.after(10 + (1 << 31) + 5)));
     }
 
     #[test]

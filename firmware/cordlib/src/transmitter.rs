@@ -1,18 +1,18 @@
-//! The way out: one packet at a time, handed to the board whole, whatever the pace of its queue. The next packet is made
-//! only when the last byte of this one is gone, so that packets never melt and telemetry is fresh when it leaves.
+//! Sends one packet at a time through the board's transmit queue, however slowly that drains. The next packet is written
+//! only when the last byte of this one has been taken, so that packets never mix and telemetry is fresh when it leaves.
 
 use rvac_protocol::PacketBuffer;
 
 use crate::board::Link;
 
-/// The packet under way.
+/// The packet that is being sent.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Transmitter {
+pub(crate) struct PacketSender {
     packet: PacketBuffer,
     sent: usize,
 }
 
-impl Transmitter {
+impl PacketSender {
     /// Where to write the next packet, if the last one is gone.
     pub(crate) fn next(&mut self) -> Option<&mut PacketBuffer> {
         if self.sent < self.packet.as_bytes().len() {

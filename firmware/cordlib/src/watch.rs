@@ -1,5 +1,5 @@
-//! S5: the watchdog is fed only when every supervisor has checked in since it was fed last. A stopped clock, a stage that
-//! is skipped, or a loop that hangs lets it bite.
+//! S5: the watchdog is fed only when every supervised stage has checked in since the last feed. A stopped clock, a skipped
+//! stage or a hanging loop lets it reset the chip.
 
 use rvac_units::Tick;
 
@@ -37,7 +37,7 @@ impl Watch {
         self.present |= supervisor as u8;
     }
 
-    /// Whether all are there; then they must all check in anew.
+    /// Whether all have checked in; if so, they must all check in again.
     pub(crate) fn is_complete(&mut self, now: Tick) -> bool {
         if now != self.last {
             self.last = now;

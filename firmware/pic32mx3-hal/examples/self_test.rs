@@ -1,6 +1,6 @@
 //! Tests every word of RAM in place while an interrupt of level 5 comes every 12.5 us and uses memory, too, and calculates the
 //! CRC-32C of its own image. Says on UART 1 (RF3, 115200 baud): words tested, words found bad, bytes and CRC of the program and
-//! of boot flash, words of the seal, most bytes of stack used.
+//! of boot flash, check words, most bytes of stack used.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 
 mod board;
@@ -10,9 +10,9 @@ use embedded_io::Write;
 use pic32mx3_hal::gpio::{Level, Port};
 use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
 use pic32mx3_hal::timer::Prescaler;
-use pic32mx3_hal::{Peripherals, entry, image_seal, interrupt, memory, reset, stack};
+use pic32mx3_hal::{Peripherals, entry, image_crc, interrupt, memory, reset, stack};
 
-image_seal!([0x5EA1_5EA1, 0xFFFF_FFFF]);
+image_crc!([0x5EA1_5EA1, 0xFFFF_FFFF]);
 
 static TABLE: HandlerCell<vector::TIMER_2, [u32; 32]> = HandlerCell::empty();
 
@@ -80,7 +80,7 @@ fn main() -> ! {
     let (program, boot) = (memory::image::program(), memory::image::boot());
     write!(text, "{tested} {bad} {} {:08x} ", program.len(), crc_32c(program)).ok();
     write!(text, "{} {:08x} ", boot.len(), crc_32c(boot)).ok();
-    for word in memory::image::seal() {
+    for word in memory::image::check_words() {
         write!(text, "{word:08x} ").ok();
     }
     writeln!(text, "{}", stack::used_most()).ok();

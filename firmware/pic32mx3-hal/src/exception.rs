@@ -9,7 +9,7 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 /// What broke, from Cause.ExcCode (section 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ExceptionKind {
     /// An interrupt without a handler.
     UnhandledInterrupt,
     /// Load or fetch from an unaligned or forbidden address.
@@ -59,20 +59,20 @@ pub struct Exception {
 impl Exception {
     /// What kind it is.
     #[must_use]
-    pub const fn kind(&self) -> Kind {
+    pub const fn kind(&self) -> ExceptionKind {
         match (self.cause >> 2) & 0x1F {
-            0 => Kind::UnhandledInterrupt,
-            4 => Kind::AddressOfLoad,
-            5 => Kind::AddressOfStore,
-            6 => Kind::BusErrorOfFetch,
-            7 => Kind::BusErrorOfData,
-            8 => Kind::SystemCall,
-            9 => Kind::Breakpoint,
-            10 => Kind::ReservedInstruction,
-            11 => Kind::CoprocessorUnusable,
-            12 => Kind::Overflow,
-            13 => Kind::Trap,
-            code => Kind::Other(code as u8),
+            0 => ExceptionKind::UnhandledInterrupt,
+            4 => ExceptionKind::AddressOfLoad,
+            5 => ExceptionKind::AddressOfStore,
+            6 => ExceptionKind::BusErrorOfFetch,
+            7 => ExceptionKind::BusErrorOfData,
+            8 => ExceptionKind::SystemCall,
+            9 => ExceptionKind::Breakpoint,
+            10 => ExceptionKind::ReservedInstruction,
+            11 => ExceptionKind::CoprocessorUnusable,
+            12 => ExceptionKind::Overflow,
+            13 => ExceptionKind::Trap,
+            code => ExceptionKind::Other(code as u8),
         }
     }
 
@@ -181,14 +181,14 @@ fn run_hook(_exception: &Exception) -> ! {
 
 #[cfg(test)]
 mod tests {
-    use super::{Exception, Kind};
+    use super::{Exception, ExceptionKind};
 
     #[test]
     fn kinds_are_those_of_the_cause() {
         let kind = |cause| Exception::from_words([cause, 0, 0, 0, 0, 0]).kind();
-        assert_eq!(kind(0x8000_001C), Kind::BusErrorOfData);
-        assert_eq!(kind(0x0000_0034), Kind::Trap);
-        assert_eq!(kind(0x0000_1800), Kind::UnhandledInterrupt);
-        assert_eq!(kind(0x0000_007C), Kind::Other(31));
+        assert_eq!(kind(0x8000_001C), ExceptionKind::BusErrorOfData);
+        assert_eq!(kind(0x0000_0034), ExceptionKind::Trap);
+        assert_eq!(kind(0x0000_1800), ExceptionKind::UnhandledInterrupt);
+        assert_eq!(kind(0x0000_007C), ExceptionKind::Other(31));
     }
 }

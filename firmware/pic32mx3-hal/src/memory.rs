@@ -63,7 +63,7 @@ fn within(offset: u32, size: u32) -> bool {
 pub mod image {
     use super::access;
 
-    /// Program flash from its start to the seal: vectors, code, constants, initial values of variables.
+    /// Program flash from its start to the check words: vectors, code, constants, initial values of variables.
     #[must_use]
     pub fn program() -> &'static [u8] {
         access::program()
@@ -75,22 +75,22 @@ pub mod image {
         access::boot()
     }
 
-    /// The words of [`image_seal!`](crate::image_seal!), as they are in flash now, which whoever writes the image file may
+    /// The words of [`image_crc!`](crate::image_crc!), as they are in flash now, which whoever writes the image file may
     /// have changed since the program was compiled. Empty without that macro.
     #[must_use]
-    pub fn seal() -> &'static [u32] {
-        access::seal()
+    pub fn check_words() -> &'static [u32] {
+        access::check_words()
     }
 
-    /// Keeps words behind the image for a check of it: `image_seal!([0xFFFF_FFFF; 3]);`. Once in a program.
+    /// Keeps words behind the image for a check of it: `image_crc!([0xFFFF_FFFF; 3]);`. Once in a program.
     #[macro_export]
-    macro_rules! image_seal {
+    macro_rules! image_crc {
         ($words:expr) => {
             const _: () = {
                 const WORDS: &[u32] = &$words;
-                #[cfg_attr(target_arch = "mips", unsafe(link_section = ".image_seal"))]
+                #[cfg_attr(target_arch = "mips", unsafe(link_section = ".image_crc"))]
                 #[used]
-                static SEAL: [u32; WORDS.len()] = $words;
+                static CHECK_WORDS: [u32; WORDS.len()] = $words;
             };
         };
     }
@@ -129,14 +129,14 @@ mod access {
         static __vectors: u8;
         static __boot_flash: u8;
         static __reset_end: u8;
-        static __image_seal: u32;
+        static __image_crc: u32;
         static __image_end: u32;
     }
 
     pub(super) fn program() -> &'static [u8] {
         let start = &raw const __vectors;
-        let length = (&raw const __image_seal).addr() - start.addr();
-        // SAFETY: the linker puts the seal behind the rest, both in program flash, whose content is constant: the module
+        let length = (&raw const __image_crc).addr() - start.addr();
+        // SAFETY: the linker puts the check words behind the rest, both in program flash, whose content is constant: the module
         // `flash` writes to the data pages only.
         unsafe { slice::from_raw_parts(start, length) }
     }
@@ -150,8 +150,8 @@ mod access {
         unsafe { slice::from_raw_parts(start, length) }
     }
 
-    pub(super) fn seal() -> &'static [u32] {
-        let start = &raw const __image_seal;
+    pub(super) fn check_words() -> &'static [u32] {
+        let start = &raw const __image_crc;
         let words = ((&raw const __image_end).addr() - start.addr()) / size_of::<u32>();
         // SAFETY: as for `program`; the linker script aligns it.
         unsafe { slice::from_raw_parts(start, words) }
@@ -176,7 +176,7 @@ mod access {
         &[]
     }
 
-    pub(super) fn seal() -> &'static [u32] {
+    pub(super) fn check_words() -> &'static [u32] {
         &[]
     }
 }

@@ -9,8 +9,8 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use cordlib::board::{
     Absent, Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
     CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
-    Encoders, HeadingSensor, Lights, Link, Parts, Probe, ProximitySensors, Received, ResetRecord, Watchdog,
-    WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
+    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord,
+    Watchdog, WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use cordlib::{Cord, Parameters};
 use rvac_protocol::message::{
@@ -37,41 +37,41 @@ fn bit(number: u32) -> bool {
 
 /// Every part.
 #[derive(Clone, Copy, Debug)]
-struct Cell;
+struct ProbeBoard;
 
-impl Parts for Cell {
-    type Clock = Cell;
-    type Link = Cell;
-    type Wheels = Cell;
-    type Reset = Cell;
-    type Watchdog = Cell;
-    type Encoders = Cell;
-    type Bumpers = Cell;
-    type Cliffs = Cell;
-    type WheelDrops = Cell;
-    type Proximity = Cell;
-    type Gyro = Cell;
-    type Currents = Cell;
-    type BrushMain = Cell;
-    type BrushSides = Cell;
-    type Vacuum = Cell;
-    type Charger = Cell;
-    type DockContacts = Cell;
-    type DockBeams = Cell;
+impl Parts for ProbeBoard {
+    type Clock = ProbeBoard;
+    type Link = ProbeBoard;
+    type Wheels = ProbeBoard;
+    type Reset = ProbeBoard;
+    type Watchdog = ProbeBoard;
+    type Encoders = ProbeBoard;
+    type Bumpers = ProbeBoard;
+    type Cliffs = ProbeBoard;
+    type WheelDrops = ProbeBoard;
+    type Proximity = ProbeBoard;
+    type Gyro = ProbeBoard;
+    type Currents = ProbeBoard;
+    type BrushMain = ProbeBoard;
+    type BrushSides = ProbeBoard;
+    type Vacuum = ProbeBoard;
+    type Charger = ProbeBoard;
+    type DockContacts = ProbeBoard;
+    type DockBeams = ProbeBoard;
     type DustBox = Absent;
-    type Beeper = Cell;
-    type Lights = Cell;
-    type Buttons = Cell;
-    type Probe = Cell;
+    type Beeper = ProbeBoard;
+    type Lights = ProbeBoard;
+    type Buttons = ProbeBoard;
+    type Probe = ProbeBoard;
 }
 
-impl Clock for Cell {
+impl Clock for ProbeBoard {
     fn tick(&mut self) -> Tick {
         Tick(read())
     }
 }
 
-impl Link for Cell {
+impl Link for ProbeBoard {
     fn receive(&mut self) -> Option<Received> {
         bit(8).then(|| Received::Byte(read() as u8))
     }
@@ -82,14 +82,14 @@ impl Link for Cell {
     }
 }
 
-impl WheelMotors for Cell {
+impl WheelMotors for ProbeBoard {
     fn drive(&mut self, left: WheelDrive, right: WheelDrive) {
         write(left.duty().millionths() as u32);
         write(right.duty().millionths() as u32);
     }
 }
 
-impl ResetRecord for Cell {
+impl ResetRecord for ProbeBoard {
     fn cause(&mut self) -> ResetCause {
         ResetCause::Unknown
     }
@@ -107,13 +107,13 @@ impl ResetRecord for Cell {
     }
 }
 
-impl Watchdog for Cell {
+impl Watchdog for ProbeBoard {
     fn feed(&mut self) {
         write(1);
     }
 }
 
-impl Encoders for Cell {
+impl Encoders for ProbeBoard {
     const PRESENT: bool = true;
 
     fn counts(&mut self) -> WheelCounts {
@@ -124,7 +124,7 @@ impl Encoders for Cell {
     }
 }
 
-impl BumperSwitches for Cell {
+impl BumperSwitches for ProbeBoard {
     const ZONES: u8 = 2;
 
     fn pressed(&mut self) -> Bumpers {
@@ -135,7 +135,7 @@ impl BumperSwitches for Cell {
     }
 }
 
-impl CliffSensors for Cell {
+impl CliffSensors for ProbeBoard {
     const FITTED: Cliffs = Cliffs {
         left: true,
         middle: true,
@@ -155,7 +155,7 @@ impl CliffSensors for Cell {
     }
 }
 
-impl WheelDropSwitches for Cell {
+impl WheelDropSwitches for ProbeBoard {
     const SWITCHES: u8 = 2;
 
     fn hanging(&mut self) -> WheelDrops {
@@ -166,7 +166,7 @@ impl WheelDropSwitches for Cell {
     }
 }
 
-impl ProximitySensors for Cell {
+impl ProximitySensors for ProbeBoard {
     const COUNT: u8 = 7;
 
     fn closeness(&mut self) -> [u8; PROXIMITY_SENSORS] {
@@ -174,7 +174,7 @@ impl ProximitySensors for Cell {
     }
 }
 
-impl HeadingSensor for Cell {
+impl HeadingSensor for ProbeBoard {
     const PRESENT: bool = true;
 
     fn heading(&mut self) -> Option<Gyro> {
@@ -185,7 +185,7 @@ impl HeadingSensor for Cell {
     }
 }
 
-impl CurrentSense for Cell {
+impl CurrentSense for ProbeBoard {
     const PRESENT: bool = true;
 
     fn currents(&mut self) -> Option<Currents> {
@@ -197,7 +197,7 @@ impl CurrentSense for Cell {
     }
 }
 
-impl CleaningMotor for Cell {
+impl CleaningMotor for ProbeBoard {
     const PRESENT: bool = true;
 
     fn set(&mut self, duty: Throttle) {
@@ -205,7 +205,7 @@ impl CleaningMotor for Cell {
     }
 }
 
-impl Charger for Cell {
+impl Charger for ProbeBoard {
     const PRESENT: bool = true;
     const CHARGES: bool = true;
 
@@ -232,7 +232,7 @@ impl Charger for Cell {
     }
 }
 
-impl Probe for Cell {
+impl PinProbe for ProbeBoard {
     const PRESENT: bool = true;
 
     fn analog(&mut self) -> [u16; PROBE_CHANNELS] {
@@ -279,13 +279,13 @@ impl Probe for Cell {
     }
 }
 
-impl DockContacts for Cell {
+impl DockContacts for ProbeBoard {
     fn closed(&mut self) -> bool {
         bit(5)
     }
 }
 
-impl DockBeams for Cell {
+impl DockBeams for ProbeBoard {
     const COUNT: u8 = 4;
 
     fn symbols(&mut self) -> DockReceivers {
@@ -293,13 +293,13 @@ impl DockBeams for Cell {
     }
 }
 
-impl DustBox for Cell {
+impl DustBox for ProbeBoard {
     fn inserted(&mut self) -> Option<bool> {
         Some(bit(6))
     }
 }
 
-impl Beeper for Cell {
+impl Beeper for ProbeBoard {
     const PRESENT: bool = true;
 
     fn sound(&mut self, pitch: Frequency, volume: Ratio) {
@@ -311,7 +311,7 @@ impl Beeper for Cell {
     }
 }
 
-impl Lights for Cell {
+impl Lights for ProbeBoard {
     const COUNT: u8 = 8;
 
     fn set(&mut self, light: u8, brightness: Ratio) {
@@ -319,7 +319,7 @@ impl Lights for Cell {
     }
 }
 
-impl Buttons for Cell {
+impl Buttons for ProbeBoard {
     const COUNT: u8 = 3;
 
     fn down(&mut self) -> u8 {
@@ -327,38 +327,38 @@ impl Buttons for Cell {
     }
 }
 
-fn board() -> Board<Cell> {
+fn board() -> Board<ProbeBoard> {
     Board {
-        clock: Cell,
-        link: Cell,
-        wheels: Cell,
-        reset: Cell,
-        watchdog: Cell,
-        encoders: Cell,
-        bumpers: Cell,
-        cliffs: Cell,
-        wheel_drops: Cell,
-        proximity: Cell,
-        gyro: Cell,
-        currents: Cell,
-        brush_main: Cell,
-        brush_sides: Cell,
-        vacuum: Cell,
-        charger: Cell,
-        dock_contacts: Cell,
-        dock_beams: Cell,
+        clock: ProbeBoard,
+        link: ProbeBoard,
+        wheels: ProbeBoard,
+        reset: ProbeBoard,
+        watchdog: ProbeBoard,
+        encoders: ProbeBoard,
+        bumpers: ProbeBoard,
+        cliffs: ProbeBoard,
+        wheel_drops: ProbeBoard,
+        proximity: ProbeBoard,
+        gyro: ProbeBoard,
+        currents: ProbeBoard,
+        brush_main: ProbeBoard,
+        brush_sides: ProbeBoard,
+        vacuum: ProbeBoard,
+        charger: ProbeBoard,
+        dock_contacts: ProbeBoard,
+        dock_beams: ProbeBoard,
         dust_box: Absent,
-        beeper: Cell,
-        lights: Cell,
-        buttons: Cell,
-        probe: Cell,
+        beeper: ProbeBoard,
+        lights: ProbeBoard,
+        buttons: ProbeBoard,
+        probe: ProbeBoard,
     }
 }
 
 /// Size of the robot's whole state on this target, where the measuring tool can read it.
 #[unsafe(no_mangle)]
 #[used]
-static CORD_BYTES: u32 = size_of::<Cord<Cell>>() as u32;
+static CORD_BYTES: u32 = size_of::<Cord<ProbeBoard>>() as u32;
 
 /// Entry of the linked image.
 #[unsafe(no_mangle)]

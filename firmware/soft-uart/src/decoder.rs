@@ -1,19 +1,18 @@
 //! Bytes from the times of edges, at a known rate.
 //!
-//! Words used here: a *frame* has ten bits: start (position 0, low), eight data bits, lowest first (1 to 8), stop (9,
-//! high). A *boundary* is where a bit begins. The *anchor* is the last edge that was believed: times are measured from it
-//! and not from the start of the frame, so that a difference between the two clocks only adds up over bits of the same
-//! level.
+//! Terms: a *frame* has ten bits: start (position 0, low), eight data bits, lowest first (1 to 8), stop (9, high). A
+//! *boundary* is where a bit begins. The *anchor* is the last accepted edge. Times are measured from it and not from
+//! the start of the frame, so that a difference between the two clocks only accumulates over bits of the same level.
 
 use crate::baud::BitTime;
 use crate::edge::{Edge, Level};
 
-/// What the line brought.
+/// Something received.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Received {
     /// A byte that arrived well.
     Byte(u8),
-    /// A byte whose stop bit was low. What its data bits were is not worth knowing.
+    /// A byte whose stop bit was low. Its data bits are not usable.
     FramingError,
     /// The line was low for a whole frame: the other side is unpowered, restarts, or calls for attention.
     Break,
@@ -25,44 +24,44 @@ pub enum Received {
 const STOP: u32 = 9;
 /// Boundaries of a frame, the one behind the stop bit included.
 const BOUNDARIES: usize = 11;
-/// A pulse shorter than this share of a bit is noise: 2/5. A true pulse of one bit whose first edge was noticed a quarter
-/// of a bit late, from a sender 2.5 % fast, still has 0.72 bits.
+/// A pulse shorter than this share of a bit is noise: 2/5. A true pulse of one bit whose first edge was noticed a
+/// quarter of a bit late, from a sender 2.5 % fast, still has 0.72 bits.
 const NOISE_NUMERATOR: u32 = 2;
 const NOISE_DENOMINATOR: u32 = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+enum DecoderPhase {
     /// A falling edge begins a frame.
     Idle,
     /// After a wrong stop bit: only a line that became high again can be idle.
     AwaitHigh,
-    Frame(Frame),
+    Frame(DecodedFrame),
 }
 
-/// A frame under way.
+/// A frame being received.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Frame {
-    /// When the last edge was.
+struct DecodedFrame {
+    /// Time of the last edge.
     anchor: u32,
-    /// Which boundary it was at.
+    /// Boundary of the last edge.
     position: u32,
     /// Bit n is the level at position n if no edge follows. An edge inverts all bits from its boundary on.
     bits: u32,
-    /// The middle of the stop bit, reckoned from the anchor. Here the frame ends.
+    /// The middle of the stop bit, measured from the anchor. Here the frame ends.
     end: u32,
 }
 
-/// What is known of the line.
+/// Knowledge about the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Signal {
+enum LineState {
     /// Nothing: before the first edge, and after edges were lost.
     Unknown,
-    /// Its level; all edges so far were believed.
+    /// Its level; all edges so far were accepted.
     Level(Level),
-    /// This edge came. It is believed once it has stood long enough.
+    /// This edge came. It is accepted once the level has been stable for long enough.
     Edge(Edge),
-    /// This edge came, and at this moment, soon after it, the line went back. One of the two pulses around that moment is
-    /// noise; what comes next shows which.
+    /// This edge came, and at this moment, soon after it, the line went back. One of the two pulses around that moment
+    /// is noise; the next edge shows which.
     Back(Edge, u32),
 }
 
@@ -77,8 +76,8 @@ pub struct Decoder {
     noise: u32,
     /// From each boundary to the middle of the stop bit, in counts.
     ends: [u32; BOUNDARIES],
-    signal: Signal,
-    phase: Phase,
+    signal: LineState,
+    phase: DecoderPhase,
 }
 
 impl Decoder {
@@ -92,8 +91,8 @@ impl Decoder {
             bits_per_count: ((1_u64 << 40) / u64::from(parts)).min(u64::from(u32::MAX)) as u32,
             noise: bit.counts() * NOISE_NUMERATOR / NOISE_DENOMINATOR,
             ends: core::array::from_fn(|boundary| (parts * halves(boundary)) >> 9),
-            signal: Signal::Unknown,
-            phase: Phase::Idle,
+            signal: LineState::Unknown,
+            phase: DecoderPhase::Idle,
         }
     }
 
@@ -105,7 +104,7 @@ impl Decoder {
         }
     }
 
-    /// Tells the time, after every edge before `now` was given. A byte whose stop bit is half over goes to `sink`.
+    /// Sets the time, after all edges before `now` were given. A byte whose stop bit is half over goes to `sink`.
     #[inline(always)]
     pub fn poll(&mut self, now: u32, sink: &mut impl FnMut(Received)) {
         if let Some(received) = self.take_time(now) {
@@ -113,7 +112,7 @@ impl Decoder {
         }
     }
 
-    /// Tells that edges were lost: the frame under way is given up, the next falling edge begins a new one.
+    /// Edges were lost: the present frame is dropped, and the next falling edge begins a new one.
     #[inline(always)]
     pub fn overrun(&mut self, sink: &mut impl FnMut(Received)) {
         self.forget();
@@ -121,39 +120,39 @@ impl Decoder {
     }
 
     pub(crate) fn forget(&mut self) {
-        self.signal = Signal::Unknown;
-        self.phase = Phase::Idle;
+        self.signal = LineState::Unknown;
+        self.phase = DecoderPhase::Idle;
     }
 
     pub(crate) fn take_edge(&mut self, edge: Edge) -> Option<Received> {
-        if let Signal::Edge(pending) = self.signal {
+        if let LineState::Edge(pending) = self.signal {
             if edge.level == pending.level {
                 // Two edges came so close that the interrupt saw only the level after both.
                 return None;
             }
             if since(pending.at, edge.at) < self.noise {
-                self.signal = Signal::Back(pending, edge.at);
+                self.signal = LineState::Back(pending, edge.at);
                 return None;
             }
             self.believe(pending);
         } else if !self.is_news(edge) {
             return None;
         }
-        self.signal = Signal::Edge(edge);
+        self.signal = LineState::Edge(edge);
         self.finish_before(edge.at)
     }
 
-    /// Whether the edge begins something when no edge is waiting to be believed, or a pulse to be judged.
+    /// Whether the edge begins something while no edge or pulse is pending.
     fn is_news(&mut self, edge: Edge) -> bool {
         match self.signal {
-            Signal::Unknown => true,
-            Signal::Level(level) | Signal::Edge(Edge { level, .. }) => edge.level != level,
-            Signal::Back(pending, _) if edge.level != pending.level => false,
+            LineState::Unknown => true,
+            LineState::Level(level) | LineState::Edge(Edge { level, .. }) => edge.level != level,
+            LineState::Back(pending, _) if edge.level != pending.level => false,
             // The line went there, back, and there again: the shorter of the two pulses was noise.
-            Signal::Back(pending, back) => {
+            LineState::Back(pending, back) => {
                 let is_second_shorter = since(back, edge.at) < since(pending.at, back);
                 if is_second_shorter {
-                    self.signal = Signal::Edge(pending);
+                    self.signal = LineState::Edge(pending);
                 }
                 !is_second_shorter
             }
@@ -162,29 +161,29 @@ impl Decoder {
 
     pub(crate) fn take_time(&mut self, now: u32) -> Option<Received> {
         match self.signal {
-            Signal::Edge(pending) => {
+            LineState::Edge(pending) => {
                 if since(pending.at, now) < self.noise {
                     return None;
                 }
-                self.signal = Signal::Level(pending.level);
+                self.signal = LineState::Level(pending.level);
                 self.believe(pending);
             }
-            Signal::Back(pending, back) => {
+            LineState::Back(pending, back) => {
                 if since(back, now) < self.noise {
                     return None;
                 }
-                self.signal = Signal::Level(pending.level.inverted());
+                self.signal = LineState::Level(pending.level.inverted());
             }
-            Signal::Unknown | Signal::Level(_) => {}
+            LineState::Unknown | LineState::Level(_) => {}
         }
         self.finish_before(now)
     }
 
-    /// Takes an edge for true. A frame that ends before it has been ended when the edge came.
+    /// Accepts an edge. A frame that ends before it was ended when the edge came.
     #[inline(always)]
     fn believe(&mut self, edge: Edge) {
         match (&mut self.phase, edge.level) {
-            (Phase::Frame(frame), level) => {
+            (DecoderPhase::Frame(frame), level) => {
                 let counts = since(frame.anchor, edge.at) + self.half;
                 let bits = (u64::from(counts) * u64::from(self.bits_per_count)) >> 32;
                 let boundary = (frame.position + bits as u32).min(STOP + 1);
@@ -195,28 +194,28 @@ impl Decoder {
                     let rest = self.ends.get(boundary as usize).copied().unwrap_or(0);
                     frame.end = edge.at.wrapping_add(rest);
                 } else if boundary == 0 && level == Level::High {
-                    // A start bit of less than half a bit is none.
-                    self.phase = Phase::Idle;
+                    // A start bit of less than half a bit is noise.
+                    self.phase = DecoderPhase::Idle;
                 }
             }
-            (Phase::Idle, Level::Low) => {
+            (DecoderPhase::Idle, Level::Low) => {
                 let [whole, ..] = self.ends;
-                self.phase = Phase::Frame(Frame {
+                self.phase = DecoderPhase::Frame(DecodedFrame {
                     anchor: edge.at,
                     position: 0,
                     bits: 0,
                     end: edge.at.wrapping_add(whole),
                 });
             }
-            (Phase::AwaitHigh, Level::High) => self.phase = Phase::Idle,
-            (Phase::Idle, Level::High) | (Phase::AwaitHigh, Level::Low) => {}
+            (DecoderPhase::AwaitHigh, Level::High) => self.phase = DecoderPhase::Idle,
+            (DecoderPhase::Idle, Level::High) | (DecoderPhase::AwaitHigh, Level::Low) => {}
         }
     }
 
-    /// Ends the frame under way when its end lies at or before `now`.
+    /// Ends the present frame if its end lies at or before `now`.
     #[inline(always)]
     fn finish_before(&mut self, now: u32) -> Option<Received> {
-        let Phase::Frame(frame) = &self.phase else {
+        let DecoderPhase::Frame(frame) = &self.phase else {
             return None;
         };
         if (now.wrapping_sub(frame.end) as i32) < 0 {
@@ -224,11 +223,11 @@ impl Decoder {
         }
         let data = (frame.bits >> 1) as u8;
         let (received, phase) = if frame.bits & (1 << STOP) != 0 {
-            (Received::Byte(data), Phase::Idle)
+            (Received::Byte(data), DecoderPhase::Idle)
         } else if data == 0 {
-            (Received::Break, Phase::AwaitHigh)
+            (Received::Break, DecoderPhase::AwaitHigh)
         } else {
-            (Received::FramingError, Phase::AwaitHigh)
+            (Received::FramingError, DecoderPhase::AwaitHigh)
         };
         self.phase = phase;
         Some(received)

@@ -65,7 +65,7 @@ pub use baud::{Baud, BitTime};
 pub use decoder::{Decoder, Received};
 pub use edge::{Edge, Level};
 pub use meter::RateMeter;
-pub use receiver::{Receiver, Trust};
+pub use receiver::{RateTrust, Receiver};
 pub use ring::{ByteRing, EdgeRing, Queued};
 pub use sampler::Sampler;
 pub use transmitter::{Due, Transmitter};

@@ -18,7 +18,7 @@ const CANDIDATE_BYTES: u8 = 32;
 
 /// How much the receiver believes in its rate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trust {
+pub enum RateTrust {
     /// No rate is known; nothing but `U` is understood.
     Listening,
     /// Bytes arrive well.
@@ -81,11 +81,11 @@ impl Receiver {
 
     /// How much that rate is believed.
     #[must_use]
-    pub fn trust(&self) -> Trust {
+    pub fn trust(&self) -> RateTrust {
         match self.rate() {
-            None => Trust::Listening,
-            Some(baud) if self.doubt >= DOUBTFUL => Trust::Doubtful(baud),
-            Some(baud) => Trust::Locked(baud),
+            None => RateTrust::Listening,
+            Some(baud) if self.doubt >= DOUBTFUL => RateTrust::Doubtful(baud),
+            Some(baud) => RateTrust::Locked(baud),
         }
     }
 

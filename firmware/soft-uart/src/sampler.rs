@@ -13,15 +13,15 @@ const SAMPLES: u8 = 3;
 const STOP: u8 = 9;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
+enum SamplerPhase {
     Idle,
     AwaitHigh,
-    Frame(Frame),
+    Frame(SampledFrame),
 }
 
 /// The bit at `position` is read after `wait` more samples; `bits` holds those before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Frame {
+struct SampledFrame {
     wait: u8,
     position: u8,
     bits: u16,
@@ -30,7 +30,7 @@ struct Frame {
 /// Decodes samples taken at three times the bit rate. Small enough for the interrupt that takes them.
 #[derive(Clone, Debug)]
 pub struct Sampler {
-    phase: Phase,
+    phase: SamplerPhase,
 }
 
 impl Sampler {
@@ -41,7 +41,7 @@ impl Sampler {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            phase: Phase::AwaitHigh,
+            phase: SamplerPhase::AwaitHigh,
         }
     }
 
@@ -49,27 +49,27 @@ impl Sampler {
     #[inline]
     pub fn sample(&mut self, level: Level) -> Option<Received> {
         match (self.phase, level) {
-            (Phase::Idle, Level::Low) => {
-                self.phase = Phase::Frame(Frame {
+            (SamplerPhase::Idle, Level::Low) => {
+                self.phase = SamplerPhase::Frame(SampledFrame {
                     wait: 0,
                     position: 0,
                     bits: 0,
                 });
                 None
             }
-            (Phase::AwaitHigh, Level::High) => {
-                self.phase = Phase::Idle;
+            (SamplerPhase::AwaitHigh, Level::High) => {
+                self.phase = SamplerPhase::Idle;
                 None
             }
-            (Phase::Idle | Phase::AwaitHigh, _) => None,
-            (Phase::Frame(frame), level) => self.in_frame(level, frame),
+            (SamplerPhase::Idle | SamplerPhase::AwaitHigh, _) => None,
+            (SamplerPhase::Frame(frame), level) => self.in_frame(level, frame),
         }
     }
 
-    fn in_frame(&mut self, level: Level, frame: Frame) -> Option<Received> {
-        let Frame { wait, position, bits } = frame;
+    fn in_frame(&mut self, level: Level, frame: SampledFrame) -> Option<Received> {
+        let SampledFrame { wait, position, bits } = frame;
         if let Some(wait) = wait.checked_sub(1) {
-            self.phase = Phase::Frame(Frame { wait, ..frame });
+            self.phase = SamplerPhase::Frame(SampledFrame { wait, ..frame });
             return None;
         }
         if position == STOP {
@@ -78,9 +78,9 @@ impl Sampler {
         let bits = bits | ((level.bit() as u16) << position);
         self.phase = if position == 0 && level == Level::High {
             // A low that does not last to the middle of the start bit is noise.
-            Phase::Idle
+            SamplerPhase::Idle
         } else {
-            Phase::Frame(Frame {
+            SamplerPhase::Frame(SampledFrame {
                 wait: SAMPLES - 1,
                 position: position + 1,
                 bits,
@@ -92,11 +92,11 @@ impl Sampler {
     fn end(&mut self, stop: Level, data: u8) -> Received {
         match stop {
             Level::High => {
-                self.phase = Phase::Idle;
+                self.phase = SamplerPhase::Idle;
                 Received::Byte(data)
             }
             Level::Low => {
-                self.phase = Phase::AwaitHigh;
+                self.phase = SamplerPhase::AwaitHigh;
                 if data == 0 {
                     Received::Break
                 } else {

@@ -1,6 +1,6 @@
-//! What is known of this very robot: the values that its owner measured, and assumptions where one is better than nothing.
+//! Calibration of this robot: the values that its owner has measured, and assumed values where an assumption is safe.
 //!
-//! Values come in groups: a part is offered when all that it needs is known, and absent else.
+//! Values are used in groups: a part is available only if all values that it needs are known.
 
 use crate::generated::calibration::{COUNT, Calibrated, ENTRIES};
 use crate::logic::beam::BeamCodes;
@@ -9,7 +9,7 @@ use crate::logic::dock_code::LeadingOnes;
 use crate::logic::gyro_frame::FrameKind;
 use crate::logic::ladder::Ladder;
 use crate::logic::proximity::ProximityScale;
-use crate::logic::quadrature::Order;
+use crate::logic::quadrature::PhaseOrder;
 
 /// Bytes of a record: header, values, check value.
 pub const RECORD_BYTES: usize = 8 + 4 * COUNT + 4;
@@ -21,17 +21,17 @@ pub struct Calibration {
     fault: Option<RecordFault>,
 }
 
-/// What speed control of the wheels needs.
+/// Values for speed control of the wheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WheelCalibration {
-    /// Way of one count, in nanometres.
-    pub count_way_nm: u32,
+    /// Distance of the rim per encoder count, in nanometres.
+    pub distance_per_count_nm: u32,
     /// Distance between the wheels, in micrometres.
     pub track_um: i32,
     /// Lines of the left wheel.
-    pub left: Order,
+    pub left: PhaseOrder,
     /// Lines of the right wheel.
-    pub right: Order,
+    pub right: PhaseOrder,
     /// Duty below which no wheel turns, in thousandths.
     pub dead_band_permille: i32,
     /// Speed of the rims at full duty, in mm/s.
@@ -49,16 +49,16 @@ pub struct CurrentCalibration {
     pub scale_ua: i32,
 }
 
-/// How the floor is told from a drop.
+/// How floor is distinguished from a drop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CliffCalibration {
     /// Rise of a level from a drop to the darkest floor, halved.
     pub floor_level: u16,
-    /// What the levels are compared with.
+    /// Reference of the levels.
     pub emitters: CliffEmitters,
 }
 
-/// What is known of the emitters of the cliff sensors.
+/// Wiring of the cliff sensors' emitters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CliffEmitters {
     /// LED_UNKNOWNS (RG0) switches them: a level is compared with the dark one before it.
@@ -67,7 +67,7 @@ pub enum CliffEmitters {
     AlwaysLit(u16),
 }
 
-/// Where the gyro module is and how it speaks.
+/// Port and protocol of the gyro module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GyroCalibration {
     /// UART 1 or 2.
@@ -79,7 +79,7 @@ pub struct GyroCalibration {
 }
 
 impl Calibration {
-    /// From the record in flash. A record that cannot be used leaves everything unknown that has no assumed value.
+    /// From the record in flash. If the record cannot be used, only assumed values are known.
     #[must_use]
     pub fn from_record(record: &[u8]) -> Self {
         let ranges = ENTRIES.map(|entry| (entry.low, entry.high));
@@ -92,19 +92,19 @@ impl Calibration {
         }
     }
 
-    /// Why no record is used, if so.
+    /// Why the record is not used, if so.
     #[must_use]
     pub const fn fault(&self) -> Option<RecordFault> {
         self.fault
     }
 
-    /// A value that was measured.
+    /// A measured value.
     #[must_use]
     pub fn measured(&self, which: Calibrated) -> Option<i32> {
         self.values.get(which.index()).copied().flatten()
     }
 
-    /// A value that was measured, or assumed.
+    /// A measured or assumed value.
     #[must_use]
     pub fn known(&self, which: Calibrated) -> Option<i32> {
         let assumed = ENTRIES.get(which.index()).and_then(|entry| entry.assumed);
@@ -116,10 +116,10 @@ impl Calibration {
     pub fn wheels(&self) -> Option<WheelCalibration> {
         let order = |which| {
             self.measured(which)
-                .map(|value| Order::from_calibration(Some(value)))
+                .map(|value| PhaseOrder::from_calibration(Some(value)))
         };
         Some(WheelCalibration {
-            count_way_nm: u32::try_from(self.measured(Calibrated::WheelCountWay)?).ok()?,
+            distance_per_count_nm: u32::try_from(self.measured(Calibrated::WheelDistancePerCount)?).ok()?,
             track_um: self.measured(Calibrated::WheelTrack)?,
             left: order(Calibrated::WheelLeftOrder)?,
             right: order(Calibrated::WheelRightOrder)?,
@@ -140,7 +140,7 @@ impl Calibration {
         })
     }
 
-    /// Whether the main brush gives pulses when it turns, often enough to see a standstill in the 300 ms of S11.
+    /// Whether the main brush gives pulses often enough to detect a standstill within the 300 ms of S11.
     #[must_use]
     pub fn brush_gives_pulses(&self) -> bool {
         const PULSES_PER_S_MIN: i32 = 20;
@@ -181,7 +181,7 @@ impl Calibration {
         ProximityScale::new(none, self.measured(Calibrated::ProximityTouching)?)
     }
 
-    /// Whether the charger may be used: its power stage was tried on a bench, and pack and divider are known.
+    /// Whether the charger may be used: its power stage was tested on a bench, and pack and divider are known.
     #[must_use]
     pub fn allows_charging(&self) -> bool {
         self.measured(Calibrated::ChargeStageChecked) == Some(1)
@@ -225,7 +225,7 @@ mod tests {
     use super::{Calibration, CliffEmitters};
     use crate::generated::calibration::{COUNT, Calibrated, ENTRIES};
     use crate::logic::calibration_record::{MAGIC, RecordFault, UNKNOWN, VERSION};
-    use rvac_protocol::seal::crc32c;
+    use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
     fn record(values: &[i32; COUNT]) -> Vec<u8> {
@@ -269,7 +269,7 @@ mod tests {
     fn each_missing_value_takes_its_part_away() {
         let missing = |which| highest_but(&[(which, UNKNOWN)]);
         for which in [
-            Calibrated::WheelCountWay,
+            Calibrated::WheelDistancePerCount,
             Calibrated::WheelTrack,
             Calibrated::WheelLeftOrder,
             Calibrated::WheelRightOrder,
@@ -322,7 +322,7 @@ mod tests {
     #[test]
     fn names_and_places_of_the_record_agree() {
         for (place, entry) in ENTRIES.iter().enumerate() {
-            assert_eq!(entry.value.index(), place, "{}", entry.name);
+            assert_eq!(entry.value.index(), place, "{:?}", entry.value);
             assert!(entry.low <= entry.high);
         }
     }

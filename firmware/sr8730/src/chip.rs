@@ -1,20 +1,21 @@
-//! What the chip runs: start-up before memory has values, the program, and what happens when it breaks.
+//! Entry points of the chip: start-up before memory is initialised, the program, and the handlers for panics and
+//! exceptions.
 
 use core::arch::global_asm;
 use core::panic::PanicInfo;
 
 use pic32mx3_hal::configuration::{Configuration, PrimaryOscillator};
-use pic32mx3_hal::exception::{Exception, Kind};
-use pic32mx3_hal::{Peripherals, configuration, entry, exception_hook, image_seal, reset};
+use pic32mx3_hal::exception::{Exception, ExceptionKind};
+use pic32mx3_hal::{Peripherals, configuration, entry, exception_hook, image_crc, reset};
 
 use sr8730::board::off;
 use sr8730::generated::pins;
-use sr8730::logic::image_check::UNSEALED;
-use sr8730::logic::reset_log::Trouble;
-use sr8730::robot::{self, Robot};
+use sr8730::logic::image_check::NO_CRC;
+use sr8730::logic::reset_log::FatalCause;
+use sr8730::robot::{self, RobotProgram};
 
-/// 8 MHz crystal, 80 MHz for processor and peripherals, clock monitor, and a watchdog of 128 ms that runs from the first
-/// instruction on and that no flipped bit can stop.
+/// 8 MHz crystal, 80 MHz for processor and peripherals, clock monitor, and a watchdog of 128 ms that runs from the
+/// first instruction and cannot be stopped by a flipped bit.
 const CONFIGURATION: Configuration = Configuration::new()
     .primary_oscillator(PrimaryOscillator::HighSpeed, 8_000_000)
     .pll_to_80_mhz()
@@ -22,27 +23,27 @@ const CONFIGURATION: Configuration = Configuration::new()
     .watchdog_period_ms(128)
     .watchdog_always();
 configuration!(CONFIGURATION);
-image_seal!(UNSEALED);
+image_crc!(NO_CRC);
 entry!(main);
 exception_hook!(on_exception);
 
 fn main() -> ! {
     match Peripherals::take() {
-        Some(chip) => Robot::new(chip).run(),
+        Some(chip) => RobotProgram::new(chip).run(),
         None => reset::software_reset(),
     }
 }
 
 fn on_exception(exception: &Exception) -> ! {
-    robot::give_up(match exception.kind() {
-        Kind::UnhandledInterrupt => Trouble::StrayInterrupt,
-        _ => Trouble::Exception,
+    robot::fail_safe_reset(match exception.kind() {
+        ExceptionKind::UnhandledInterrupt => FatalCause::StrayInterrupt,
+        _ => FatalCause::Exception,
     })
 }
 
 #[panic_handler]
 fn on_panic(_: &PanicInfo<'_>) -> ! {
-    robot::give_up(Trouble::Panic)
+    robot::fail_safe_reset(FatalCause::Panic)
 }
 
 global_asm!(
@@ -58,11 +59,12 @@ global_asm!(
     runs = sym sr8730::board::link::RUNS,
 );
 
-// Before any variable has its value: the levels of all outputs, then a march over memory (S21). It runs in registers only,
-// because it overwrites all that it tests, the stack included; what a reset shall not clear is left out.
+// Before variables are initialised: the levels of all outputs, then a march test of memory (S21). It runs in registers
+// only, because it overwrites all memory that it tests, the stack included. Memory that survives a reset is left out.
 //
-// Up with 0 written; up reading 0 writing 1; up reading 1 writing 0; down reading 0 writing 1; down reading 1 writing 0; reading 0
-// (March C-). A cell that does not hold its value ends the start here, with all outputs safe: the watchdog tries again.
+// Up with 0 written; up reading 0 writing 1; up reading 1 writing 0; down reading 0 writing 1; down reading 1 writing
+// 0; reading 0 (March C-). A faulty cell stops the start here, with all outputs safe, until the watchdog resets the
+// chip.
 global_asm!(
     ".set push",
     ".set noreorder",
@@ -142,7 +144,7 @@ global_asm!(
     options(raw)
 );
 
-/// Called by the code above, first of all: every output gets its safe level, then its direction.
+/// Called first by the code above: sets every output to its safe level, then sets its direction.
 #[unsafe(no_mangle)]
 extern "C" fn sr8730_safe_outputs() {
     for start in pins::START {

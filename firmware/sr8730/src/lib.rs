@@ -1,7 +1,7 @@
 //! The board of the Samsung Navibot SR8730.
 //!
-//! [`logic`] holds what can be decided without a chip, [`calibration`] what is known of this very robot, [`board`] the parts
-//! on their pins, and [`robot`] all of it together with cordlib. The program is `main.rs`.
+//! [`logic`] holds everything that can be decided without the chip, [`calibration`] the measured values of this robot,
+//! [`board`] the parts on their pins, and [`robot`] puts it together with cordlib. The program is `main.rs`.
 #![no_std]
 #![deny(unsafe_code)]
 #![deny(missing_docs)]

@@ -1,4 +1,4 @@
-//! The program of the robot. On anything but the robot's chip it only says where it belongs.
+//! The robot's program. On any other machine it only prints how to build it for the chip.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 #![cfg_attr(target_arch = "mips", feature(asm_experimental_arch))]
 

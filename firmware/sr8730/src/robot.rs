@@ -14,24 +14,24 @@ use crate::calibration::{Calibration, RECORD_BYTES};
 use crate::generated::calibration::Calibrated;
 use crate::generated::machine;
 use crate::logic::calibration_record::RecordFault;
-use crate::logic::image_check::Verdict;
-use crate::logic::reset_log::Trouble;
+use crate::logic::image_check::ImageState;
+use crate::logic::reset_log::FatalCause;
 
 const FIRMWARE: &str = concat!("sr8730-", env!("CARGO_PKG_VERSION"));
 
-/// The robot, put together.
+/// The whole robot.
 #[derive(Debug)]
-pub struct Robot {
+pub struct RobotProgram {
     cord: Cord<Sr8730>,
     checks: SelfChecks,
 }
 
-impl Robot {
-    /// From the chip, as the start-up code has left it: all outputs off.
+impl RobotProgram {
+    /// Builds the robot from the chip as the start-up code leaves it: all outputs off.
     #[must_use]
     pub fn new(chip: Peripherals) -> Self {
         let starts = Starts::take();
-        let trouble = starts.trouble();
+        let fatal_cause = starts.fatal_cause();
         let calibration = Calibration::from_record(&record(&chip.data_flash));
         let (board, mut checks) = wiring::assemble(chip, &calibration, starts);
         let verdict = checks.image_at_start();
@@ -39,13 +39,13 @@ impl Robot {
             cord: Cord::new(board, parameters(&calibration)),
             checks,
         };
-        robot.report_start(trouble, calibration.fault(), verdict);
+        robot.report_start(fatal_cause, calibration.fault(), verdict);
         robot
     }
 
-    fn report_start(&mut self, trouble: Trouble, record: Option<RecordFault>, verdict: Verdict) {
-        if trouble != Trouble::None {
-            self.cord.log(LogLevel::Error, trouble.words());
+    fn report_start(&mut self, fatal_cause: FatalCause, record: Option<RecordFault>, verdict: ImageState) {
+        if fatal_cause != FatalCause::None {
+            self.cord.log(LogLevel::Error, fatal_cause.words());
         }
         let record = match record {
             None => None,
@@ -58,9 +58,9 @@ impl Robot {
             self.cord.log(LogLevel::Warn, words);
         }
         match verdict {
-            Verdict::Whole => {}
-            Verdict::Damaged => self.fail(HardwareFault::Memory, "image in flash is damaged"),
-            Verdict::Unsealed => self.fail(HardwareFault::Internal, "image carries no check value"),
+            ImageState::Whole => {}
+            ImageState::Damaged => self.fail(HardwareFault::Memory, "image in flash is damaged"),
+            ImageState::Unchecked => self.fail(HardwareFault::Internal, "image carries no check value"),
         }
     }
 
@@ -69,7 +69,7 @@ impl Robot {
         self.cord.hardware_fault(fault);
     }
 
-    /// The main loop. Interrupts go on here.
+    /// Enables interrupts and runs the main loop.
     pub fn run(mut self) -> ! {
         interrupt::start();
         loop {
@@ -88,12 +88,12 @@ impl Robot {
         match self.checks.service() {
             None => {}
             Some(Finding::Clock) => self.cord.hardware_fault(HardwareFault::Clock),
-            Some(Finding::Broken(trouble)) => give_up(trouble),
+            Some(Finding::Broken(fatal_cause)) => fail_safe_reset(fatal_cause),
         }
         self.cord.step();
         match service(self.cord.board_mut()) {
             Service::Well => {}
-            Service::DamagedVariable => give_up(Trouble::Variable),
+            Service::DamagedVariable => fail_safe_reset(FatalCause::Variable),
         }
     }
 }
@@ -107,14 +107,14 @@ fn record(flash: &DataFlash) -> [u8; RECORD_BYTES] {
     record
 }
 
-/// Everything off, noted for the next run, and a reset, which makes every pin an input.
-pub fn give_up(trouble: Trouble) -> ! {
+/// Switches everything off, notes the cause for the next start, and resets the chip, which makes every pin an input.
+pub fn fail_safe_reset(fatal_cause: FatalCause) -> ! {
     crate::board::off::everything();
-    resets::note(trouble);
+    resets::note(fatal_cause);
     reset::software_reset()
 }
 
-/// What cordlib must know of this machine. What nobody has measured on this robot is not fitted.
+/// The parameters of this robot for cordlib. Parts that are not calibrated are not fitted.
 #[must_use]
 pub fn parameters(calibration: &Calibration) -> Parameters {
     let wheels = calibration.wheels();
@@ -122,7 +122,7 @@ pub fn parameters(calibration: &Calibration) -> Parameters {
         speed_max: Speed(machine::SPEED_MAX_UM_PER_S),
         turn_max: AngularSpeed(machine::TURN_MAX_URAD_PER_S),
         track: Length(wheels.map_or(0, |known| known.track_um)),
-        count_nm: wheels.map_or(0, |known| known.count_way_nm),
+        count_nm: wheels.map_or(0, |known| known.distance_per_count_nm),
         radius: Length(machine::RADIUS_UM),
         swath: Length(machine::SWATH_UM),
     };
@@ -142,7 +142,7 @@ pub fn parameters(calibration: &Calibration) -> Parameters {
     parameters
 }
 
-/// What the host is told to be there.
+/// The capabilities that are reported to the host.
 fn fitted(calibration: &Calibration) -> Capabilities {
     let all = cordlib::board::Board::<Sr8730>::capabilities();
     let count = |known: bool, count: u8| if known { count } else { 0 };
@@ -153,7 +153,7 @@ fn fitted(calibration: &Calibration) -> Capabilities {
         proximity: count(calibration.proximity().is_some(), all.proximity),
         dock_receivers: count(calibration.beams().is_some(), all.dock_receivers),
         buttons: count(calibration.ladder().is_some(), all.buttons),
-        // The ninth is a line whose purpose an owner has to find out; who has done so needs it no more.
+        // The ninth light is a line of unknown purpose. It is hidden once its purpose is calibrated.
         leds: all.leds - u8::from(calibration.cliffs().is_some()),
         currents: calibration.currents().is_some(),
         charger: calibration.allows_charging(),
@@ -167,7 +167,7 @@ mod tests {
     use crate::calibration::Calibration;
     use crate::generated::calibration::{COUNT, ENTRIES};
     use crate::logic::calibration_record::{MAGIC, VERSION};
-    use rvac_protocol::seal::crc32c;
+    use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
     fn measured() -> Calibration {

@@ -15,12 +15,12 @@ pub enum ReceivedByte {
 /// for a high line before it looks for the next start.
 #[derive(Clone, Debug, Default)]
 pub struct UartReceiver {
-    state: State,
+    state: UartState,
     shift: u8,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum State {
+enum UartState {
     #[default]
     Idle,
     Data(u8),
@@ -32,39 +32,39 @@ impl UartReceiver {
     /// Whether the receiver waits for a start bit.
     #[must_use]
     pub fn is_idle(&self) -> bool {
-        self.state == State::Idle
+        self.state == UartState::Idle
     }
 
     /// Takes the level of the line during one bit.
     #[inline]
     pub fn bit(&mut self, high: bool) -> Option<ReceivedByte> {
         match self.state {
-            State::Idle => {
+            UartState::Idle => {
                 if !high {
-                    self.state = State::Data(0);
+                    self.state = UartState::Data(0);
                 }
                 None
             }
-            State::Data(count) => {
+            UartState::Data(count) => {
                 self.shift = self.shift >> 1 | u8::from(high) << 7;
                 self.state = if count == 7 {
-                    State::Stop
+                    UartState::Stop
                 } else {
-                    State::Data(count + 1)
+                    UartState::Data(count + 1)
                 };
                 None
             }
-            State::Stop if high => {
-                self.state = State::Idle;
+            UartState::Stop if high => {
+                self.state = UartState::Idle;
                 Some(ReceivedByte::Byte(self.shift))
             }
-            State::Stop => {
-                self.state = State::WaitForHigh;
+            UartState::Stop => {
+                self.state = UartState::WaitForHigh;
                 Some(ReceivedByte::FramingError)
             }
-            State::WaitForHigh => {
+            UartState::WaitForHigh => {
                 if high {
-                    self.state = State::Idle;
+                    self.state = UartState::Idle;
                 }
                 None
             }

@@ -2,14 +2,14 @@
 
 use rvac_channel::{Channel, FaultRates, ReceivedByte, switched_on};
 use rvac_protocol::PacketBuffer;
-use rvac_protocol::message::{BinaryKinds, Command, Drive, EdgeKind, Report, Sequence, State};
-use rvac_protocol::quality::Verdict;
+use rvac_protocol::message::{BinaryKinds, Command, Drive, Event, Report, Sequence, State};
+use rvac_protocol::quality::LinkVerdict;
 use rvac_protocol::session::{HostEvent, HostSession, RobotEvent, RobotSession};
 use rvac_units::{AngularSpeed, Speed, Tick};
 
 /// Milliseconds between two commands that must arrive.
 const ARM_MS: u32 = 170;
-/// Milliseconds between two edges.
+/// Milliseconds between two events.
 const EDGE_MS: u32 = 230;
 /// Speed that the host asks for; anything else would be a wrong actuation.
 const SPEED: Speed = Speed(123_000);
@@ -23,8 +23,8 @@ struct Link {
     now: Tick,
     /// Numbers of the commands that must arrive, as sent and as carried out.
     armed: (Vec<Sequence>, Vec<Sequence>),
-    /// Buttons of the edges, as they happened and as delivered.
-    edges: (Vec<u8>, Vec<u8>),
+    /// Buttons of the events, as they happened and as delivered.
+    events: (Vec<u8>, Vec<u8>),
     drives: u32,
     sessions: u32,
 }
@@ -39,7 +39,7 @@ impl Link {
             to_host: Channel::new(seed + 1, rates),
             now,
             armed: (Vec::new(), Vec::new()),
-            edges: (Vec::new(), Vec::new()),
+            events: (Vec::new(), Vec::new()),
             drives: 0,
             sessions: 0,
         }
@@ -101,13 +101,13 @@ impl Link {
     }
 
     fn happen(&mut self) {
-        let button = self.edges.0.len() as u8;
-        self.edges.0.push(button);
-        let kind = EdgeKind::Button {
+        let button = self.events.0.len() as u8;
+        self.events.0.push(button);
+        let kind = Event::Button {
             button,
             pressed: true,
         };
-        self.robot.queue_edge(kind, self.now);
+        self.robot.queue_event(kind, self.now);
     }
 
     fn carry_to_robot(&mut self, buffer: &PacketBuffer) {
@@ -164,10 +164,10 @@ impl Link {
                     None
                 }
             };
-            if let Some(HostEvent::Report(Report::Edge(edge))) = event
-                && let EdgeKind::Button { button, .. } = edge.kind
+            if let Some(HostEvent::Report(Report::Event(event))) = event
+                && let Event::Button { button, .. } = event.kind
             {
-                self.edges.1.push(button);
+                self.events.1.push(button);
             }
         }
     }
@@ -185,8 +185,8 @@ fn run(rates: FaultRates) -> Link {
 fn a_clean_line_is_good_and_loses_nothing() {
     let link = run(FaultRates::NONE);
     assert_eq!(link.armed.0, link.armed.1);
-    assert_eq!(link.edges.0, link.edges.1);
-    assert_eq!(link.host.quality().verdict, Verdict::Good);
+    assert_eq!(link.events.0, link.events.1);
+    assert_eq!(link.host.quality().verdict, LinkVerdict::Good);
     assert_eq!(link.sessions, 1);
     assert!(link.drives > 590, "{} drives", link.drives);
 }
@@ -206,9 +206,13 @@ fn a_noisy_line_slows_down_and_confuses_nobody() {
     let missing = link.armed.0.len() - carried_out.len();
     assert!(missing <= 1, "{missing} commands did not arrive");
     assert!(link.armed.0.starts_with(&carried_out), "each once, and no other");
-    assert!(link.edges.0.starts_with(&link.edges.1));
-    assert!(link.edges.0.len() - link.edges.1.len() <= 2, "{:?}", link.edges);
-    assert_ne!(link.host.quality().verdict, Verdict::Good);
+    assert!(link.events.0.starts_with(&link.events.1));
+    assert!(
+        link.events.0.len() - link.events.1.len() <= 2,
+        "{:?}",
+        link.events
+    );
+    assert_ne!(link.host.quality().verdict, LinkVerdict::Good);
     assert!(link.drives > 400, "{} drives", link.drives);
 }
 

@@ -1,17 +1,17 @@
 //! The binary forms of `state` and `drive`: same meaning as the text, an eighth of the bytes.
 //!
-//! A packet is its kind byte, the body below, and the seal of both, little endian. All integers are little endian. The
-//! bytes 0x1D, 0x1E and 0x1F are stuffed on the line; here they stand as they are.
+//! A packet is its kind byte, the body below, and the CRC of both, little endian. All integers are little endian. The
+//! bytes 0x1D, 0x1E and 0x1F are stuffed on the line; here they are unstuffed.
 
 use heapless::Vec;
 use rvac_units::{Angle, AngularSpeed, Current, Speed, Tick, Voltage};
 
 use crate::buffer::{EncodeError, PacketBuffer};
+use crate::crc::Direction;
 use crate::message::{
     Bumpers, ChargeState, Cliffs, Currents, Drive, Gyro, Inhibits, MotionPhase, Refusal, Sequence, State,
     WheelDrops,
 };
-use crate::seal::Direction;
 use crate::span::{self, Span};
 
 /// Kind byte of `drive`.
@@ -32,7 +32,7 @@ pub(crate) type Packet = Vec<u8, { STATE_BYTES + 1 }>;
 /// [`Refusal::Syntax`] for a wrong length, [`Refusal::Range`] for a number that text would not allow either.
 #[inline]
 pub fn read_drive(body: &[u8]) -> Result<Drive, Refusal> {
-    let mut reader = Reader::new::<DRIVE_BYTES>(body)?;
+    let mut reader = BodyReader::new::<DRIVE_BYTES>(body)?;
     Ok(Drive {
         speed: Speed(within(reader.i32(), span::SPEED)?),
         turn: AngularSpeed(within(reader.i32(), span::TURN)?),
@@ -42,7 +42,7 @@ pub fn read_drive(body: &[u8]) -> Result<Drive, Refusal> {
     })
 }
 
-/// Kind and body of a `drive`; `None` if a number is outside of what the wire allows.
+/// Kind and body of a `drive`; `None` if a number is out of range.
 #[must_use]
 pub fn write_drive(drive: &Drive) -> Option<[u8; DRIVE_BYTES + 1]> {
     within(drive.speed.0, span::SPEED).ok()?;
@@ -58,20 +58,28 @@ pub fn write_drive(drive: &Drive) -> Option<[u8; DRIVE_BYTES + 1]> {
     ])
 }
 
-/// Appends a `drive`, sealed for `session`, and a separator.
+/// Appends a `drive` with its CRC for `session`, and a separator.
 ///
 /// # Errors
-/// [`EncodeError::Range`] if a number is outside of what the wire allows; the buffer is as before then.
-pub fn write_sealed_drive(drive: &Drive, session: u16, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+/// [`EncodeError::Range`] if a number is out of range; the buffer is then unchanged.
+pub fn write_drive_with_crc(
+    drive: &Drive,
+    session: u16,
+    buffer: &mut PacketBuffer,
+) -> Result<(), EncodeError> {
     let packet = write_drive(drive).ok_or(EncodeError::Range)?;
     buffer.push_binary(&packet, Direction::HostToRobot, session)
 }
 
-/// Appends a `state`, sealed for `session`, and a separator.
+/// Appends a `state` with its CRC for `session`, and a separator.
 ///
 /// # Errors
 /// [`EncodeError::TooLong`] if the buffer is full.
-pub fn write_sealed_state(state: &State, session: u16, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
+pub fn write_state_with_crc(
+    state: &State,
+    session: u16,
+    buffer: &mut PacketBuffer,
+) -> Result<(), EncodeError> {
     buffer.push_binary(&write_state(state), Direction::RobotToHost, session)
 }
 
@@ -139,7 +147,7 @@ pub fn write_state(state: &State) -> Vec<u8, { STATE_BYTES + 1 }> {
 /// [`Refusal::Syntax`] for a wrong length, [`Refusal::Unknown`] for a charge or motion code of a newer robot,
 /// [`Refusal::Range`] for a current that the text would not allow either.
 pub fn read_state(body: &[u8]) -> Result<State, Refusal> {
-    let mut reader = Reader::new::<STATE_BYTES>(body)?;
+    let mut reader = BodyReader::new::<STATE_BYTES>(body)?;
     let tick = Tick(reader.u32());
     let count_left = reader.i32();
     let count_right = reader.i32();
@@ -230,11 +238,11 @@ fn motion_from_code(code: u8) -> Result<MotionPhase, Refusal> {
 }
 
 /// Reads fixed parts one after another from a body whose length was checked once.
-struct Reader<'a> {
+struct BodyReader<'a> {
     rest: &'a [u8],
 }
 
-impl<'a> Reader<'a> {
+impl<'a> BodyReader<'a> {
     fn new<const LENGTH: usize>(body: &'a [u8]) -> Result<Self, Refusal> {
         if body.len() == LENGTH {
             Ok(Self { rest: body })

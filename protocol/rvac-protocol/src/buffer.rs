@@ -1,14 +1,15 @@
-//! Outgoing bytes: one report or command, sealed and separated.
+//! Outgoing bytes: one report or command with its CRC and separator.
 
 use heapless::Vec;
 
-use crate::frame::{PACKET_BYTES_MAX, SEPARATOR, SEPARATOR_2016, STUFFED_BIT, STUFFING, TEXT_SEAL_BYTES};
-use crate::seal::{Direction, seal, to_hex};
+use crate::crc::{Direction, packet_crc, to_hex};
+use crate::frame::{PACKET_BYTES_MAX, SEPARATOR, SEPARATOR_2016, STUFFED_BIT, STUFFING, TEXT_CRC_BYTES};
 
 /// Capacity of a [`PacketBuffer`]: an `info` report travels as three packets, each with its separator.
 pub const PACKET_BUFFER_BYTES: usize = 576;
 
-/// What is to be sent next: whole packets with their separators. Send all of it or none, so that two packets never melt.
+/// The bytes to send next: whole packets with their separators. Send all of them or none, so that two packets never
+/// mix.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PacketBuffer {
     bytes: Vec<u8, PACKET_BUFFER_BYTES>,
@@ -19,7 +20,7 @@ pub struct PacketBuffer {
 pub enum EncodeError {
     /// The packet does not fit its limit of 256 bytes.
     TooLong,
-    /// A number is outside of what the wire allows.
+    /// A number is out of range.
     Range,
 }
 
@@ -36,7 +37,7 @@ impl PacketBuffer {
         &self.bytes
     }
 
-    /// Forgets the content.
+    /// Clears the content.
     pub fn clear(&mut self) {
         self.bytes.clear();
     }
@@ -59,32 +60,32 @@ impl PacketBuffer {
         self.bytes.truncate(length);
     }
 
-    /// Seals the text that begins at `start` and ends the packet.
-    pub(crate) fn seal_text(
+    /// Appends the CRC of the text that begins at `start`, and a separator.
+    pub(crate) fn append_crc(
         &mut self,
         start: usize,
         direction: Direction,
         session: u16,
     ) -> Result<(), EncodeError> {
         let text = self.bytes.get(start..).unwrap_or_default();
-        if text.len() + TEXT_SEAL_BYTES > PACKET_BYTES_MAX {
+        if text.len() + TEXT_CRC_BYTES > PACKET_BYTES_MAX {
             return Err(EncodeError::TooLong);
         }
-        let digits = to_hex(seal(direction, session, text));
+        let digits = to_hex(packet_crc(direction, session, text));
         self.push(b'*')?;
         self.extend(&digits)?;
         self.push(SEPARATOR)
     }
 
-    /// Appends a binary packet: `packet` (kind and body) and its seal, stuffed, and a separator.
+    /// Appends a binary packet: `packet` (kind and body) and its CRC, stuffed, and a separator.
     pub(crate) fn push_binary(
         &mut self,
         packet: &[u8],
         direction: Direction,
         session: u16,
     ) -> Result<(), EncodeError> {
-        let seal = seal(direction, session, packet).to_le_bytes();
-        for byte in packet.iter().chain(&seal) {
+        let crc = packet_crc(direction, session, packet).to_le_bytes();
+        for byte in packet.iter().chain(&crc) {
             self.push_stuffed(*byte)?;
         }
         self.push(SEPARATOR)

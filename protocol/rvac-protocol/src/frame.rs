@@ -3,14 +3,14 @@
 //! A *separator* (0x1F, or 0x1E from tools of 2016) ends a packet. A *poisoned* packet is one that cannot be whole any
 //! more: a forbidden control byte, a framing error, too many bytes; everything up to the next separator is dropped with
 //! it. Work per byte is bounded: the digest follows some bytes behind the input, because the last bytes of a packet are
-//! its seal, and nobody knows that they are the last until the separator comes.
+//! its CRC, and nobody knows that they are the last until the separator comes.
 //!
 //! Most bytes are *plain*: inside of a packet, nothing to do but to keep them. They take the short way through
 //! [`Framer::push`]; every sixteenth takes the long way and brings the digest on.
 
-use crate::seal::{Digest, Direction, from_hex};
+use crate::crc::{Digest, Direction, from_hex};
 
-/// Most bytes of a packet, its seal included, its separator not. Binary packets are counted unstuffed.
+/// Most bytes of a packet, its CRC included, its separator not. Binary packets are counted unstuffed.
 pub const PACKET_BYTES_MAX: usize = 256;
 /// Ends a packet: Unit Separator.
 pub const SEPARATOR: u8 = 0x1F;
@@ -24,9 +24,9 @@ pub const STUFFED_BIT: u8 = 0x20;
 pub const BINARY_KIND_MIN: u8 = 0x80;
 
 /// `*` and eight digits.
-pub(crate) const TEXT_SEAL_BYTES: usize = 9;
-/// The seal of a binary packet, little endian.
-const BINARY_SEAL_BYTES: usize = 4;
+pub(crate) const TEXT_CRC_BYTES: usize = 9;
+/// The CRC of a binary packet, little endian.
+const BINARY_CRC_BYTES: usize = 4;
 /// Bytes that the digest takes at a time.
 const DIGEST_STEP: usize = 16;
 /// The first byte that is never special inside of a packet.
@@ -35,31 +35,31 @@ const PLAIN_FROM: u8 = 0x20;
 /// What a separator ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Framed<'a> {
-    /// Text without a seal.
-    Open(&'a [u8]),
-    /// Text with the right seal, which is cut off.
-    Sealed(&'a [u8]),
-    /// Text with a seal that is not the session's.
-    Missealed {
-        /// The text without the seal.
+    /// Text without a CRC.
+    Unchecked(&'a [u8]),
+    /// Text with the right CRC, which is cut off.
+    Checked(&'a [u8]),
+    /// Text whose CRC is not that of the session.
+    BadCrc {
+        /// The text without the CRC.
         text: &'a [u8],
-        /// The seal it came with.
-        seal: u32,
+        /// The CRC it came with.
+        crc: u32,
     },
-    /// A binary packet with the right seal.
+    /// A binary packet with the right CRC.
     Binary {
         /// What it is, 0x80 or above.
         kind: u8,
-        /// Unstuffed, without kind and seal.
+        /// Unstuffed, without kind and CRC.
         body: &'a [u8],
     },
-    /// A binary packet with a wrong seal or too short for one.
-    BinaryMissealed,
+    /// A binary packet with a wrong CRC or too short for one.
+    BinaryBadCrc,
     /// A poisoned packet.
     Poisoned(Poison),
 }
 
-/// Why a packet cannot be whole.
+/// Why a packet is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Poison {
     /// More than [`PACKET_BYTES_MAX`] bytes.
@@ -73,28 +73,28 @@ pub enum Poison {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
+enum PacketForm {
     Text,
     Binary,
     BinaryStuffing,
     Poisoned(Poison),
 }
 
-/// Cuts a stream into packets and checks their seals on the way.
+/// Splits a stream into packets and checks their CRCs.
 #[derive(Clone, Debug)]
 pub struct Framer {
     buffer: [u8; PACKET_BYTES_MAX],
     length: usize,
     digested: usize,
-    /// The length up to which plain bytes are only kept; 0 where every byte must be looked at.
+    /// The length up to which plain bytes are only stored; 0 where every byte must be examined.
     plain_until: usize,
-    /// Bytes below this are plain, besides those from [`PLAIN_FROM`] on: none in a text, all but the three special ones in
-    /// a binary packet.
+    /// Bytes below this are plain, besides those from [`PLAIN_FROM`] on: none in a text, all but the three special ones
+    /// in a binary packet.
     plain_below: u8,
     digest: Digest,
     start: Digest,
     direction: Direction,
-    form: Form,
+    form: PacketForm,
 }
 
 impl Framer {
@@ -111,11 +111,12 @@ impl Framer {
             digest: start,
             start,
             direction,
-            form: Form::Text,
+            form: PacketForm::Text,
         }
     }
 
-    /// From the next packet on seals are those of `session`; a packet that has begun is still measured by the old one.
+    /// CRCs are those of `session` from the next packet on; a packet that has begun is still checked with the old
+    /// session.
     pub fn set_session(&mut self, session: u16) {
         self.start = Digest::start(self.direction, session);
         if self.length == 0 {
@@ -123,7 +124,7 @@ impl Framer {
         }
     }
 
-    /// Takes one byte. Separators give what they end; empty packets give nothing.
+    /// Takes one byte. A separator returns the packet that it ends; empty packets return nothing.
     #[inline]
     pub fn push(&mut self, byte: u8) -> Option<Framed<'_>> {
         let plain = byte >= PLAIN_FROM || byte < self.plain_below;
@@ -143,27 +144,27 @@ impl Framer {
             return self.finish();
         }
         match self.form {
-            Form::Text if self.length == 0 && byte >= BINARY_KIND_MIN => {
-                self.form = Form::Binary;
+            PacketForm::Text if self.length == 0 && byte >= BINARY_KIND_MIN => {
+                self.form = PacketForm::Binary;
                 self.plain_below = STUFFING;
                 self.take(byte);
             }
-            Form::Text if byte < PLAIN_FROM => self.poison(Poison::ControlByte),
-            Form::Binary if byte == STUFFING => {
-                self.form = Form::BinaryStuffing;
+            PacketForm::Text if byte < PLAIN_FROM => self.poison(Poison::ControlByte),
+            PacketForm::Binary if byte == STUFFING => {
+                self.form = PacketForm::BinaryStuffing;
                 self.plain_until = 0;
             }
-            Form::Text | Form::Binary => self.take(byte),
-            Form::BinaryStuffing => self.unstuff(byte),
-            Form::Poisoned(_) => {}
+            PacketForm::Text | PacketForm::Binary => self.take(byte),
+            PacketForm::BinaryStuffing => self.unstuff(byte),
+            PacketForm::Poisoned(_) => {}
         }
         None
     }
 
     /// Drops everything up to the next separator.
     pub fn poison(&mut self, poison: Poison) {
-        if !matches!(self.form, Form::Poisoned(_)) {
-            self.form = Form::Poisoned(poison);
+        if !matches!(self.form, PacketForm::Poisoned(_)) {
+            self.form = PacketForm::Poisoned(poison);
             self.plain_until = 0;
         }
     }
@@ -171,20 +172,20 @@ impl Framer {
     /// Whether a packet has begun.
     #[must_use]
     pub fn is_inside_packet(&self) -> bool {
-        self.length != 0 || self.form != Form::Text
+        self.length != 0 || self.form != PacketForm::Text
     }
 
     fn unstuff(&mut self, byte: u8) {
         let original = byte ^ STUFFED_BIT;
         if matches!(original, STUFFING | SEPARATOR | SEPARATOR_2016) {
-            self.form = Form::Binary;
+            self.form = PacketForm::Binary;
             self.take(original);
         } else {
             self.poison(Poison::ControlByte);
         }
     }
 
-    /// Keeps a byte and brings the digest on when the next step is surely not the seal.
+    /// Stores a byte and advances the digest when the next step cannot be part of the CRC.
     fn take(&mut self, byte: u8) {
         let Some(slot) = self.buffer.get_mut(self.length) else {
             self.poison(Poison::TooLong);
@@ -192,16 +193,16 @@ impl Framer {
         };
         *slot = byte;
         self.length += 1;
-        let seal_bytes = if self.form == Form::Binary {
-            BINARY_SEAL_BYTES
+        let crc_bytes = if self.form == PacketForm::Binary {
+            BINARY_CRC_BYTES
         } else {
-            TEXT_SEAL_BYTES
+            TEXT_CRC_BYTES
         };
         let step_end = self.digested + DIGEST_STEP;
-        if self.length >= step_end + seal_bytes {
+        if self.length >= step_end + crc_bytes {
             self.catch_up(step_end);
         }
-        self.plain_until = self.digested + DIGEST_STEP + seal_bytes - 1;
+        self.plain_until = self.digested + DIGEST_STEP + crc_bytes - 1;
     }
 
     /// Takes the bytes up to `end` into the digest.
@@ -217,14 +218,14 @@ impl Framer {
         let form = self.form;
         let length = self.length;
         match form {
-            Form::Text if length == 0 => None,
-            Form::Text => Some(self.finish_text(length)),
-            Form::Binary => Some(self.finish_binary(length)),
-            Form::BinaryStuffing => {
+            PacketForm::Text if length == 0 => None,
+            PacketForm::Text => Some(self.finish_text(length)),
+            PacketForm::Binary => Some(self.finish_binary(length)),
+            PacketForm::BinaryStuffing => {
                 self.restart();
                 Some(Framed::Poisoned(Poison::ControlByte))
             }
-            Form::Poisoned(poison) => {
+            PacketForm::Poisoned(poison) => {
                 self.restart();
                 Some(Framed::Poisoned(poison))
             }
@@ -232,40 +233,40 @@ impl Framer {
     }
 
     fn finish_text(&mut self, length: usize) -> Framed<'_> {
-        let seal = self.text_seal(length);
-        let text_length = if seal.is_some() {
-            length - TEXT_SEAL_BYTES
+        let crc = self.text_crc(length);
+        let text_length = if crc.is_some() {
+            length - TEXT_CRC_BYTES
         } else {
             length
         };
-        if seal.is_some() {
+        if crc.is_some() {
             self.catch_up(text_length);
         }
-        let right = self.digest.seal();
+        let right = self.digest.crc();
         self.restart();
         let text = self.buffer.get(..text_length).unwrap_or_default();
-        match seal {
-            None => Framed::Open(text),
-            Some(seal) if seal == right => Framed::Sealed(text),
-            Some(seal) => Framed::Missealed { text, seal },
+        match crc {
+            None => Framed::Unchecked(text),
+            Some(crc) if crc == right => Framed::Checked(text),
+            Some(crc) => Framed::BadCrc { text, crc },
         }
     }
 
     fn finish_binary(&mut self, length: usize) -> Framed<'_> {
-        let body_end = length.saturating_sub(BINARY_SEAL_BYTES);
+        let body_end = length.saturating_sub(BINARY_CRC_BYTES);
         self.catch_up(body_end);
-        let right = self.digest.seal();
+        let right = self.digest.crc();
         self.restart();
         let packet = self.buffer.get(..body_end).unwrap_or_default();
-        let seal = self.buffer.get(body_end..length).unwrap_or_default();
+        let crc = self.buffer.get(body_end..length).unwrap_or_default();
         match packet {
-            [kind, body @ ..] if seal == right.to_le_bytes() => Framed::Binary { kind: *kind, body },
-            _ => Framed::BinaryMissealed,
+            [kind, body @ ..] if crc == right.to_le_bytes() => Framed::Binary { kind: *kind, body },
+            _ => Framed::BinaryBadCrc,
         }
     }
 
-    fn text_seal(&self, length: usize) -> Option<u32> {
-        let tail = self.buffer.get(..length)?.last_chunk::<TEXT_SEAL_BYTES>()?;
+    fn text_crc(&self, length: usize) -> Option<u32> {
+        let tail = self.buffer.get(..length)?.last_chunk::<TEXT_CRC_BYTES>()?;
         match tail {
             [b'*', digits @ ..] => from_hex(*digits),
             _ => None,
@@ -278,6 +279,6 @@ impl Framer {
         self.plain_until = 0;
         self.plain_below = 0;
         self.digest = self.start;
-        self.form = Form::Text;
+        self.form = PacketForm::Text;
     }
 }

@@ -1,18 +1,18 @@
 //! The wire between a robot's microcontroller and its Linux board. `protocol/SPEC.md` is the normative text.
 //!
-//! From the line upwards: [`frame`] cuts bytes into packets, [`seal`] tells the whole ones from the broken, `text` and
-//! `binary` turn them into the closed types of [`message`] and back, [`session`] holds the conversation, [`quality`] judges
-//! the line. No allocation, no recursion, no clock, no panic on any input; work per byte is constant.
+//! From the line upwards: [`frame`] splits bytes into packets, [`crc`] detects damaged ones, `text` and `binary`
+//! convert them to the closed types of [`message`] and back, [`session`] keeps the state of each end, [`quality`]
+//! measures the line. No allocation, no recursion, no clock, no panic on any input; work per byte is constant.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod binary;
 mod buffer;
+pub mod crc;
 pub mod frame;
 pub mod message;
 pub mod quality;
-pub mod seal;
 pub mod session;
 pub mod span;
 pub mod text;

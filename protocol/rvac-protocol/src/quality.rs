@@ -1,10 +1,10 @@
-//! How good the link is, and what that means for speed.
+//! Quality of the link, and the speed that it allows.
 
 use rvac_units::Tick;
 
-/// What the quality of the link allows.
+/// The speed that the quality of the link allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Verdict {
+pub enum LinkVerdict {
     /// At most 1 % of the packets of the last 5 s were bad: full speed.
     #[default]
     Good,
@@ -23,8 +23,8 @@ pub struct LinkQuality {
     pub bad: u32,
     /// Newest round trip of a numbered command in ms.
     pub round_trip_ms: Option<u32>,
-    /// What this allows: the worse of both directions.
-    pub verdict: Verdict,
+    /// The worse of both directions.
+    pub verdict: LinkVerdict,
 }
 
 /// Length of the window in slices.
@@ -34,7 +34,7 @@ const SLICE_MS: u32 = 1_000;
 
 /// Good and bad packets of the last five seconds, in one direction.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Window {
+pub(crate) struct QualityWindow {
     slices: [Slice; SLICES],
     newest: usize,
     newest_since: Tick,
@@ -46,7 +46,7 @@ struct Slice {
     bad: u32,
 }
 
-impl Window {
+impl QualityWindow {
     pub(crate) fn record(&mut self, good: u32, bad: u32, now: Tick) {
         self.turn(now);
         if let Some(slice) = self.slices.get_mut(self.newest) {
@@ -55,7 +55,7 @@ impl Window {
         }
     }
 
-    /// Lets slices grow old.
+    /// Drops old slices.
     pub(crate) fn turn(&mut self, now: Tick) {
         let passed = now.since(self.newest_since) / SLICE_MS;
         for _ in 0..passed.min(SLICES as u32) {
@@ -74,16 +74,16 @@ impl Window {
             .fold((0, 0), |(good, bad), slice| (good + slice.good, bad + slice.bad))
     }
 
-    pub(crate) fn verdict(&self) -> Verdict {
+    pub(crate) fn verdict(&self) -> LinkVerdict {
         let (good, bad) = self.totals();
         let all = u64::from(good) + u64::from(bad);
         let bad = u64::from(bad);
         if bad * 10 > all {
-            Verdict::Bad
+            LinkVerdict::Bad
         } else if bad * 100 > all {
-            Verdict::Poor
+            LinkVerdict::Poor
         } else {
-            Verdict::Good
+            LinkVerdict::Good
         }
     }
 }
@@ -92,27 +92,27 @@ impl Window {
 mod tests {
     use rvac_units::Tick;
 
-    use super::{Verdict, Window};
+    use super::{LinkVerdict, QualityWindow};
 
     #[track_caller]
-    fn check(good: u32, bad: u32, expected: Verdict) {
-        let mut window = Window::default();
+    fn check(good: u32, bad: u32, expected: LinkVerdict) {
+        let mut window = QualityWindow::default();
         window.record(good, bad, Tick(10));
         assert_eq!(window.verdict(), expected, "{bad} bad of {}", good + bad);
     }
 
     #[test]
     fn limits_are_one_and_ten_percent() {
-        check(0, 0, Verdict::Good);
-        check(99, 1, Verdict::Good);
-        check(98, 2, Verdict::Poor);
-        check(90, 10, Verdict::Poor);
-        check(89, 11, Verdict::Bad);
+        check(0, 0, LinkVerdict::Good);
+        check(99, 1, LinkVerdict::Good);
+        check(98, 2, LinkVerdict::Poor);
+        check(90, 10, LinkVerdict::Poor);
+        check(89, 11, LinkVerdict::Bad);
     }
 
     #[test]
     fn what_is_older_than_five_seconds_does_not_count() {
-        let mut window = Window::default();
+        let mut window = QualityWindow::default();
         let start = Tick(u32::MAX - 2_000);
         window.turn(start);
         window.record(0, 50, start);

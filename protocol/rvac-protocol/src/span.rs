@@ -1,6 +1,6 @@
 //! Resolution and range of every number on the wire, written once for both forms.
 
-/// How a number is spelt and what it may be. The integer is counted in the unit of its type (for example micrometres per
+/// Spelling and range of a number. The integer is counted in the unit of its type (for example micrometres per
 /// second); the text shows it as a decimal of the SI unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
@@ -26,7 +26,7 @@ impl Span {
     /// The nearest allowed value. For measurements only; commands are refused instead.
     #[must_use]
     pub fn saturate(self, value: i64) -> i64 {
-        // Not `clamp`, which would bring a panic into the firmware for a span upside down.
+        // Not `clamp`, which would add a panic to the firmware for a span whose ends are swapped.
         value.max(self.min).min(self.max)
     }
 }
@@ -51,13 +51,13 @@ pub const MOVE_RADIUS: Span = Span::new(6, -10_000_000, 10_000_000);
 pub const PITCH: Span = Span::new(0, 0, 20_000);
 /// Length of a tone, s.
 pub const DURATION: Span = Span::new(3, 1, 10_000);
-/// A part of a whole.
+/// A ratio.
 pub const RATIO: Span = Span::new(6, 0, 1_000_000);
 /// Number of a light.
 pub const LED: Span = Span::new(0, 0, 15);
 /// Any `u8`.
 pub const BYTE: Span = Span::new(0, 0, u8::MAX as i64);
-/// Any `u16`: numbers of commands and edges, sessions.
+/// Any `u16`: numbers of commands and events, sessions.
 pub const WORD: Span = Span::new(0, 0, u16::MAX as i64);
 /// Any `u32`: ticks in ms, totals.
 pub const TOTAL: Span = Span::new(0, 0, u32::MAX as i64);
@@ -65,7 +65,7 @@ pub const TOTAL: Span = Span::new(0, 0, u32::MAX as i64);
 pub const COUNT: Span = Span::new(0, i32::MIN as i64, i32::MAX as i64);
 /// Lengths, angles and rates of reports: any `i32` in millionths of the SI unit.
 pub const MICRO: Span = Span::new(6, i32::MIN as i64, i32::MAX as i64);
-/// Way per encoder count, m: any `u32` of nanometres.
+/// Distance per encoder count, m: any `u32` of nanometres.
 pub const NANO: Span = Span::new(9, 0, u32::MAX as i64);
 /// Current, A.
 pub const CURRENT: Span = Span::new(3, -32_767, 32_767);

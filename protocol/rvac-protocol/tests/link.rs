@@ -4,12 +4,12 @@ mod pair;
 
 use pair::{Pair, identity};
 use rvac_protocol::message::{
-    BinaryKinds, Bumpers, Command, CommandName, CommandNames, Drive, EdgeKind, Info, Inhibit, Move, Name,
+    BinaryKinds, Bumpers, Command, CommandName, CommandNames, Drive, Event, Info, Inhibit, Move, Name,
     Parameter, Refusal, Report, Sequence,
 };
-use rvac_protocol::quality::Verdict;
+use rvac_protocol::quality::LinkVerdict;
 use rvac_protocol::session::{HostEvent, Mode, RobotEvent, SendError, SessionEnd};
-use rvac_protocol::text::write_sealed_command;
+use rvac_protocol::text::write_command_with_crc;
 use rvac_protocol::{PacketBuffer, message::LinkCounters};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
 
@@ -40,11 +40,11 @@ fn arms(pair: &Pair) -> usize {
         .count()
 }
 
-fn edges(pair: &Pair) -> Vec<EdgeKind> {
+fn events(pair: &Pair) -> Vec<Event> {
     pair.host_events
         .iter()
         .filter_map(|event| match event {
-            HostEvent::Report(Report::Edge(edge)) => Some(edge.kind),
+            HostEvent::Report(Report::Event(event)) => Some(event.kind),
             _ => None,
         })
         .collect()
@@ -63,7 +63,7 @@ fn refusals(pair: &Pair) -> Vec<Refusal> {
 #[test]
 fn a_session_opens_and_the_robot_describes_itself() {
     let pair = Pair::open(BinaryKinds::ALL);
-    assert_eq!(pair.robot.mode(), Mode::Sealed);
+    assert_eq!(pair.robot.mode(), Mode::Checked);
     assert_eq!(pair.robot.session(), pair.host.session());
     let described = pair
         .host_events
@@ -193,37 +193,36 @@ fn edges_arrive_once_and_in_order_over_a_bad_line() {
         }
     });
     let kinds: Vec<_> = (0..10_u8)
-        .map(|button| EdgeKind::Button {
+        .map(|button| Event::Button {
             button,
             pressed: true,
         })
         .collect();
     for kind in &kinds {
-        pair.robot.queue_edge(*kind, pair.now);
+        pair.robot.queue_event(*kind, pair.now);
         pair.run_ms(7);
     }
     pair.run_ms(1_900);
-    assert_eq!(edges(&pair), kinds);
+    assert_eq!(events(&pair), kinds);
 }
 
 #[test]
 fn an_overflow_of_edges_is_told() {
     let mut pair = Pair::open(BinaryKinds::NONE);
     for _ in 0..20 {
-        pair.robot
-            .queue_edge(EdgeKind::Bump(Bumpers::default()), pair.now);
+        pair.robot.queue_event(Event::Bump(Bumpers::default()), pair.now);
     }
     pair.run_ms(1_000);
     let lost: u16 = pair
         .host_events
         .iter()
         .filter_map(|event| match event {
-            HostEvent::EdgesLost { count } => Some(*count),
+            HostEvent::EventsLost { count } => Some(*count),
             _ => None,
         })
         .sum();
     assert_eq!(lost, 4);
-    assert_eq!(edges(&pair).len(), 16);
+    assert_eq!(events(&pair).len(), 16);
 }
 
 #[test]
@@ -264,7 +263,7 @@ fn a_reset_of_the_robot_is_noticed_and_old_packets_do_not_pass() {
     pair.inject(&of_old_session);
     pair.run_ms(50);
     assert_eq!(arms(&pair), 0);
-    assert_eq!(pair.robot.counters().bad_seal, 1);
+    assert_eq!(pair.robot.counters().bad_crc, 1);
 }
 
 #[test]
@@ -286,14 +285,14 @@ fn three_bad_packets_end_the_binary_form_on_both_sides() {
 
 #[test]
 fn stop_is_obeyed_in_any_form_and_mode() {
-    let mut sealed_elsewhere = PacketBuffer::new();
-    write_sealed_command(&Command::Stop, 4_711, &mut sealed_elsewhere).unwrap();
+    let mut of_another_session = PacketBuffer::new();
+    write_command_with_crc(&Command::Stop, 4_711, &mut of_another_session).unwrap();
     let forms: [&[u8]; 5] = [
         b"stop\x1f",
         b"{\"c\":\"stop\"}\x1e",
         b"{\"x\":[1,{}],\"c\":\"stop\",\"n\":\"?\"}*00000000\x1f",
         b"{\"c\":\"stop\"}*5b1d6f0a{\"c\":\x1f",
-        sealed_elsewhere.as_bytes(),
+        of_another_session.as_bytes(),
     ];
     for form in forms {
         let mut pair = Pair::open(BinaryKinds::ALL);
@@ -374,14 +373,14 @@ fn a_typed_motor_command_of_2016_works_and_its_prefixes_do_not() {
 }
 
 #[test]
-fn unsealed_packets_are_refused_in_sealed_mode_and_hand_gives_it_up() {
+fn packets_without_crc_are_refused_in_checked_mode_and_hand_leaves_it() {
     let mut pair = Pair::open(BinaryKinds::NONE);
     pair.inject(b"{\"c\":\"info\"}\x1f");
     pair.run_ms(3);
     assert_eq!(pair.commands(), []);
-    assert_eq!(refusals(&pair), [Refusal::Unsealed]);
+    assert_eq!(refusals(&pair), [Refusal::NoCrc]);
     let mut buffer = PacketBuffer::new();
-    write_sealed_command(&Command::Hand, pair.robot.session(), &mut buffer).unwrap();
+    write_command_with_crc(&Command::Hand, pair.robot.session(), &mut buffer).unwrap();
     pair.inject(buffer.as_bytes());
     pair.inject(b"{\"c\":\"info\"}\x1f");
     pair.run_ms(1);
@@ -418,7 +417,7 @@ fn info_arrives_whole_although_it_takes_three_packets() {
 fn bad_packets_lower_the_verdict_and_time_heals_it() {
     let mut pair = Pair::open(BinaryKinds::NONE);
     pair.run_ms(4_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Good);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Good);
     assert_eq!(pair.host.quality().round_trip_ms, Some(0));
     let mut count = 0;
     pair.to_host = Box::new(move |bytes| {
@@ -428,7 +427,7 @@ fn bad_packets_lower_the_verdict_and_time_heals_it() {
         }
     });
     pair.run_ms(2_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Poor);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Poor);
     let mut count = 0;
     pair.to_host = Box::new(move |bytes| {
         count += 1;
@@ -437,10 +436,10 @@ fn bad_packets_lower_the_verdict_and_time_heals_it() {
         }
     });
     pair.run_ms(3_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Bad);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Bad);
     pair.to_host = Box::new(|_| {});
     pair.run_ms(6_000);
-    assert_eq!(pair.host.quality().verdict, Verdict::Good);
+    assert_eq!(pair.host.quality().verdict, LinkVerdict::Good);
 }
 
 #[test]
@@ -448,12 +447,12 @@ fn a_robot_without_a_common_version_still_stops() {
     let mut pair = Pair::new(BinaryKinds::NONE);
     pair.to_host = Box::new(|bytes| bytes.clear());
     let hello = br#"{"c":"hello","min":9,"max":12,"bin":""}"#;
-    let seal = rvac_protocol::seal::seal(rvac_protocol::seal::Direction::HostToRobot, 0, hello);
+    let crc = rvac_protocol::crc::packet_crc(rvac_protocol::crc::Direction::HostToRobot, 0, hello);
     pair.to_robot = Box::new(move |bytes| {
         if bytes.starts_with(b"U") {
             *bytes = hello.to_vec();
             bytes.push(b'*');
-            bytes.extend(rvac_protocol::seal::to_hex(seal));
+            bytes.extend(rvac_protocol::crc::to_hex(crc));
             bytes.push(0x1F);
         }
     });
@@ -471,17 +470,20 @@ fn a_command_that_is_longer_than_the_robot_takes_is_not_sent() {
             let separator = bytes
                 .iter()
                 .rposition(|byte| *byte == b'*')
-                .expect("the hello is sealed");
+                .expect("the hello has a CRC");
             bytes.truncate(separator);
             bytes.splice(at..at + 12, *br#""packet":40"#);
             let begin = bytes
                 .iter()
                 .position(|byte| *byte == b'{')
                 .expect("the hello is an object");
-            let seal =
-                rvac_protocol::seal::seal(rvac_protocol::seal::Direction::RobotToHost, 0, &bytes[begin..]);
+            let crc = rvac_protocol::crc::packet_crc(
+                rvac_protocol::crc::Direction::RobotToHost,
+                0,
+                &bytes[begin..],
+            );
             bytes.push(b'*');
-            bytes.extend(rvac_protocol::seal::to_hex(seal));
+            bytes.extend(rvac_protocol::crc::to_hex(crc));
             bytes.push(0x1F);
         }
     });

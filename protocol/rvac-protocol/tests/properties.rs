@@ -3,16 +3,16 @@
 use proptest::prelude::{Just, Strategy, any, prop, prop_assert_eq, prop_oneof, proptest};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary::{read_drive, read_state, write_drive, write_state};
+use rvac_protocol::crc::Direction;
 use rvac_protocol::frame::{Framed, Framer};
 use rvac_protocol::message::{
     Beep, Bumpers, ButtonProbe, ChargeState, Cliffs, Command, Currents, Drive, EncoderProbe, Gyro, Inhibits,
     LogLevel, LogText, MotionPhase, Motor, MotorCommand, Move, PROBE_BYTES, PROBE_CHANNELS, PROBE_PORTS,
     Probe, ProbeTarget, Probed, ProbedContent, Report, Sequence, SerialProbe, State, WheelDrops,
 };
-use rvac_protocol::seal::Direction;
 use rvac_protocol::text::{
-    Form, ReportPacket, read_command, read_report, write_command, write_report, write_sealed_command,
-    write_sealed_report,
+    Form, ReportPacket, read_command, read_report, write_command, write_command_with_crc, write_report,
+    write_report_with_crc,
 };
 use rvac_units::{Angle, AngularSpeed, Current, Frequency, Length, Ratio, Speed, Throttle, Tick, Voltage};
 
@@ -253,7 +253,7 @@ proptest! {
     fn commands_come_back(command in command()) {
         let mut buffer = PacketBuffer::new();
         prop_assert_eq!(write_command(&command, &mut buffer), Ok(()));
-        prop_assert_eq!(read_command(buffer.as_bytes(), Form::Sealed), Ok(command));
+        prop_assert_eq!(read_command(buffer.as_bytes(), Form::Checked), Ok(command));
     }
 
     #[test]
@@ -267,7 +267,7 @@ proptest! {
     #[test]
     fn raw_readings_come_back_and_fit_a_packet(probed in probed()) {
         let mut buffer = PacketBuffer::new();
-        prop_assert_eq!(write_sealed_report(&Report::Probed(probed.clone()), 1, &mut buffer), Ok(()));
+        prop_assert_eq!(write_report_with_crc(&Report::Probed(probed.clone()), 1, &mut buffer), Ok(()));
         buffer.clear();
         prop_assert_eq!(write_report(&Report::Probed(probed.clone()), &mut buffer), Ok(()));
         prop_assert_eq!(report_of(buffer.as_bytes()), Report::Probed(probed));
@@ -307,11 +307,11 @@ proptest! {
         }
         framer.push(0x1F);
         let mut buffer = PacketBuffer::new();
-        write_sealed_command(&command, 0, &mut buffer).expect("drawn from the range");
+        write_command_with_crc(&command, 0, &mut buffer).expect("drawn from the range");
         let mut read = Vec::new();
         for byte in buffer.as_bytes() {
-            if let Some(Framed::Sealed(text)) = framer.push(*byte) {
-                read.push(read_command(text, Form::Sealed));
+            if let Some(Framed::Checked(text)) = framer.push(*byte) {
+                read.push(read_command(text, Form::Checked));
             }
         }
         prop_assert_eq!(read, [Ok(command)]);
@@ -320,7 +320,7 @@ proptest! {
     #[test]
     fn what_we_take_for_json_is_json(text in r#"[\{\}\[\],:"\\ 0-9a-z.eE+-]{0,40}"#) {
         let packet = format!("{{\"c\":\"info\",\"x\":{text}}}");
-        if read_command(packet.as_bytes(), Form::Sealed).is_ok() {
+        if read_command(packet.as_bytes(), Form::Checked).is_ok() {
             let read = serde_json::from_str::<serde_json::Value>(&packet);
             // Numbers that no 64-bit float holds are JSON, too.
             assert!(read.is_ok() || read.is_err_and(|error| error.to_string().contains("out of range")), "{packet}");

@@ -7,11 +7,11 @@ use std::collections::BTreeSet;
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary;
+use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::{Framed, Framer, PACKET_BYTES_MAX, Poison};
 use rvac_protocol::message::{Command, CommandName, Info, Refusal, Report, State};
-use rvac_protocol::seal::{Direction, seal, to_hex};
 use rvac_protocol::text::{
-    Form, InfoPart, ReportPacket, read_command, read_report, write_sealed_command, write_sealed_report,
+    Form, InfoPart, ReportPacket, read_command, read_report, write_command_with_crc, write_report_with_crc,
 };
 use rvac_units::Tick;
 use serde_json::{Value, json};
@@ -56,14 +56,14 @@ fn line(vector: &Value) -> Vec<u8> {
     [text(vector, "line").as_bytes(), b"\x1f"].concat()
 }
 
-/// Texts of the sealed packets on the line.
-fn sealed_texts(line: &[u8], direction: Direction, session: u16) -> Vec<Vec<u8>> {
+/// Texts of the packets with a CRC on the line.
+fn checked_texts(line: &[u8], direction: Direction, session: u16) -> Vec<Vec<u8>> {
     let mut framer = Framer::new(direction);
     framer.set_session(session);
     let mut texts = Vec::new();
     for byte in line {
         match framer.push(*byte) {
-            Some(Framed::Sealed(text)) => texts.push(text.to_vec()),
+            Some(Framed::Checked(text)) => texts.push(text.to_vec()),
             Some(other) => panic!("{other:?} in {}", line.escape_ascii()),
             None => {}
         }
@@ -87,15 +87,15 @@ fn binary_body(line: &[u8], direction: Direction, session: u16) -> (u8, Vec<u8>)
 }
 
 #[test]
-fn seals() {
+fn crcs() {
     for vector in vectors("seals") {
         let direction = match text(&vector, "direction") {
             ">" => Direction::HostToRobot,
             "<" => Direction::RobotToHost,
             other => panic!("direction {other}"),
         };
-        let seal = seal(direction, session(&vector), text(&vector, "packet").as_bytes());
-        assert_eq!(to_hex(seal), text(&vector, "seal").as_bytes(), "{vector}");
+        let crc = packet_crc(direction, session(&vector), text(&vector, "packet").as_bytes());
+        assert_eq!(to_hex(crc), text(&vector, "seal").as_bytes(), "{vector}");
     }
 }
 
@@ -103,12 +103,12 @@ fn seals() {
 fn commands() {
     let mut seen = BTreeSet::new();
     for vector in vectors("commands") {
-        let texts = sealed_texts(&line(&vector), Direction::HostToRobot, session(&vector));
+        let texts = checked_texts(&line(&vector), Direction::HostToRobot, session(&vector));
         let command =
-            read_command(&texts[0], Form::Sealed).unwrap_or_else(|refused| panic!("{refused:?}: {vector}"));
+            read_command(&texts[0], Form::Checked).unwrap_or_else(|refused| panic!("{refused:?}: {vector}"));
         assert_eq!(meaning::command(&command), vector["meaning"]);
         let mut buffer = PacketBuffer::new();
-        write_sealed_command(&command, session(&vector), &mut buffer).unwrap();
+        write_command_with_crc(&command, session(&vector), &mut buffer).unwrap();
         assert_eq!(buffer.as_bytes(), line(&vector), "{vector}");
         seen.insert(command.name().name());
         if let Command::Drive(drive) = command {
@@ -116,7 +116,7 @@ fn commands() {
             let (kind, body) = binary_body(&on_line, Direction::HostToRobot, session(&vector));
             assert_eq!((kind, binary::read_drive(&body)), (binary::DRIVE, Ok(drive)));
             buffer.clear();
-            binary::write_sealed_drive(&drive, session(&vector), &mut buffer).unwrap();
+            binary::write_drive_with_crc(&drive, session(&vector), &mut buffer).unwrap();
             assert_eq!(buffer.as_bytes(), [on_line.as_slice(), b"\x1f"].concat());
         }
     }
@@ -155,11 +155,11 @@ fn gather(texts: &[Vec<u8>]) -> Report {
 fn reports() {
     let mut refusals = BTreeSet::new();
     for vector in vectors("reports") {
-        let texts = sealed_texts(&line(&vector), Direction::RobotToHost, session(&vector));
+        let texts = checked_texts(&line(&vector), Direction::RobotToHost, session(&vector));
         let report = gather(&texts);
         assert_eq!(meaning::report(&report), vector["meaning"]);
         let mut buffer = PacketBuffer::new();
-        write_sealed_report(&report, session(&vector), &mut buffer).unwrap();
+        write_report_with_crc(&report, session(&vector), &mut buffer).unwrap();
         assert_eq!(buffer.as_bytes(), line(&vector), "{vector}");
         match report {
             Report::State(state) => check_binary_state(&state, &vector),
@@ -176,7 +176,7 @@ fn check_binary_state(state: &State, vector: &Value) {
     let (kind, body) = binary_body(&on_line, Direction::RobotToHost, session(vector));
     assert_eq!((kind, binary::read_state(&body)), (binary::STATE, Ok(*state)));
     let mut buffer = PacketBuffer::new();
-    binary::write_sealed_state(state, session(vector), &mut buffer).expect("a state fits");
+    binary::write_state_with_crc(state, session(vector), &mut buffer).expect("a state fits");
     assert_eq!(buffer.as_bytes(), [on_line.as_slice(), b"\x1f"].concat());
 }
 
@@ -197,7 +197,7 @@ fn the_longest_packets_fit() {
 
 fn form(vector: &Value) -> Form {
     match text(vector, "mode") {
-        "sealed" => Form::Sealed,
+        "sealed" => Form::Checked,
         "hand" => Form::Hand {
             now: Tick(vector["tick_ms"].as_u64().unwrap_or(0) as u32),
         },
@@ -230,11 +230,11 @@ fn tolerated() {
 
 fn framed(framed: &Framed<'_>) -> Value {
     match framed {
-        Framed::Open(text) => json!({"open": hex(text)}),
-        Framed::Sealed(text) => json!({"sealed": hex(text)}),
-        Framed::Missealed { text, .. } => json!({"missealed": hex(text)}),
+        Framed::Unchecked(text) => json!({"open": hex(text)}),
+        Framed::Checked(text) => json!({"sealed": hex(text)}),
+        Framed::BadCrc { text, .. } => json!({"missealed": hex(text)}),
         Framed::Binary { kind, body } => json!({"binary": kind, "body": hex(body)}),
-        Framed::BinaryMissealed => json!("binary-missealed"),
+        Framed::BinaryBadCrc => json!("binary-missealed"),
         Framed::Poisoned(poison) => json!({"poisoned": poison_name(*poison)}),
     }
 }
@@ -261,7 +261,7 @@ fn framing() {
     }
 }
 
-/// Every packet that the specification shows can be said, and the sealed one is a golden packet.
+/// Every packet that the specification shows is understood, and the one with a CRC is a golden packet.
 #[test]
 fn examples_of_the_specification() {
     let path = format!("{}/../SPEC.md", env!("CARGO_MANIFEST_DIR"));
@@ -276,23 +276,23 @@ fn examples_of_the_specification() {
         examples.len()
     );
     for example in examples {
-        let command = read_command(example.as_bytes(), Form::Sealed);
+        let command = read_command(example.as_bytes(), Form::Checked);
         let report = read_report(example.as_bytes());
         assert!(
             command.is_ok() || report.is_ok(),
             "{example}: {command:?}, {report:?}"
         );
     }
-    let sealed: Vec<_> = specification
+    let with_crc: Vec<_> = specification
         .lines()
         .filter_map(|line| line.strip_prefix("    {"))
         .collect();
-    assert_eq!(sealed.len(), 1);
+    assert_eq!(with_crc.len(), 1);
     let golden = vectors("commands");
     assert!(
         golden
             .iter()
-            .any(|vector| text(vector, "line").strip_prefix('{') == Some(sealed[0])),
-        "{sealed:?}"
+            .any(|vector| text(vector, "line").strip_prefix('{') == Some(with_crc[0])),
+        "{with_crc:?}"
     );
 }

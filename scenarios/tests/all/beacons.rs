@@ -1,14 +1,17 @@
-//! A flat of two rooms that are alike to a robot, turned by half a turn, on a virtual clock: what it sees cannot tell them apart
-//! after somebody has carried it, and how strongly it receives radio beacons can.
+//! Radio beacons on a virtual clock. A flat of two rooms is alike to a robot, turned by half a turn: what it sees cannot tell them
+//! apart after somebody has carried it, and how strongly it receives beacons can. And a robot that has no gyro keeps its place by
+//! how far beacons are.
 
 use std::sync::Arc;
 
+use brain::PoseEstimate;
 use brain::command::StrategyName;
 use home::{Home, Noise, Pose, RobotModel};
 use robot::RobotSettings;
 use rvac_api::RequestBody;
 use rvac_sim::run::{core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
+use scenarios::{cleaning, relax};
 
 const SEED: u64 = 6;
 const MINUTE_MS: u64 = 60_000;
@@ -52,15 +55,21 @@ fn off_after_lifting_m(scene: &Scene, mut household: Household) -> Option<f64> {
     household.pass_ms(3_000);
     household.ask(RequestBody::Resume);
     household.pass_ms(1_000);
-    let estimate = |household: &Household| {
-        let brain = household.host().and_then(Host::brain).expect("a brain");
-        brain.estimate()
-    };
     household.pass_until(WAIT_S, |household| !estimate(household).lost)?;
+    Some(off_m(scene, &household))
+}
+
+fn estimate(household: &Household) -> PoseEstimate {
+    let brain = household.host().and_then(Host::brain).expect("a brain");
+    brain.estimate()
+}
+
+/// By how much the robot is wrong about its place, metres.
+fn off_m(scene: &Scene, household: &Household) -> f64 {
     let truth = household.robot().world().truth().pose;
     let in_map = scene.home().start().inverse().then(truth);
-    let pose = estimate(&household).pose;
-    Some(Pose::new(pose.x_m, pose.y_m, pose.heading_rad).distance_m(in_map))
+    let pose = estimate(household).pose;
+    Pose::new(pose.x_m, pose.y_m, pose.heading_rad).distance_m(in_map)
 }
 
 #[test]
@@ -74,4 +83,40 @@ fn strengths_of_beacons_tell_rooms_apart_that_look_the_same() {
     let beacons = scene.beacons(SEED, BEACONS).by_strength();
     let by_strength = off_after_lifting_m(&scene, household(&scene).with_beacons(beacons));
     assert!(by_strength.is_some_and(|off_m| off_m < 0.25), "{by_strength:?}");
+}
+
+/// Drivings by chance, and how long each takes.
+const DRIVINGS: [u64; 4] = [1, 2, 3, 4];
+const DRIVEN_MS: u64 = 6 * MINUTE_MS;
+/// How often its place is compared with the true one.
+const LOOK_MS: u64 = 1_000;
+/// Metres by which a place by beacons is off in the last minute, at most; by wheels alone it is off by more in one of these drivings.
+const OFF_MAX_M: f64 = 1.0;
+
+/// By how much a Relax that bounces about is wrong about its place, metres: the median of the last minute.
+fn off_in_the_last_minute_m(scene: &Scene, seed: u64, beacons: usize) -> f64 {
+    let mut household = cleaning(scene, seed).with_beacons(scene.beacons(seed, beacons));
+    household.pass_ms(DRIVEN_MS - MINUTE_MS);
+    let mut all_off_m: Vec<f64> = (0..MINUTE_MS / LOOK_MS)
+        .map(|_| {
+            household.pass_ms(LOOK_MS);
+            off_m(scene, &household)
+        })
+        .collect();
+    all_off_m.sort_by(f64::total_cmp);
+    all_off_m[all_off_m.len() / 2]
+}
+
+#[test]
+fn a_relax_without_gyro_keeps_its_place_by_how_far_beacons_are() {
+    let scene = relax("two-room-flat");
+    let worst_m = |beacons| {
+        let all_off_m = DRIVINGS.map(|seed| off_in_the_last_minute_m(&scene, seed, beacons));
+        all_off_m.into_iter().fold(0.0, f64::max)
+    };
+    let (heard_m, alone_m) = (worst_m(BEACONS), worst_m(0));
+    assert!(
+        heard_m < OFF_MAX_M && alone_m > OFF_MAX_M,
+        "{heard_m} m off, {alone_m} m without beacons"
+    );
 }

@@ -2,7 +2,7 @@
 
 use brain::command::StrategyName;
 use monitor::Bridges;
-use rvac_sim::faults::{Campaign, TrialSettings};
+use rvac_sim::faults::{FaultCampaign, TrialSettings};
 use rvac_sim::run::{RunSettings, household, run};
 use rvac_sim::{Firmware, Host, Household};
 use scenarios::{generated, scene, settings};
@@ -78,7 +78,7 @@ fn a_run_in_a_known_home_repeats_itself() {
 #[test]
 fn a_trial_full_of_faults_repeats_itself() {
     let model = home::RobotModel::by_name("sr8730").unwrap();
-    let campaign = Campaign::load(model, Firmware::HostBuilt).unwrap();
+    let campaign = FaultCampaign::load(model, Firmware::HostBuilt).unwrap();
     for seed in [4, 7] {
         let settings = TrialSettings {
             seed,

@@ -7,6 +7,7 @@ use scenarios::{generated, settings};
 /// The lap along the walls of this home leads into a corner between stairs. Three edges in five seconds latch the firmware (S8), and
 /// then a person must come: with these seeds it did within ten minutes before every job knew of that rule.
 #[test]
+#[ignore = "campaign: whole runs; cargo xtask test --all"]
 fn a_lap_among_stairs_is_no_trap() {
     for seed in [4, 5, 6] {
         let mut household = household(&generated(33), &settings(seed, 0));

@@ -31,6 +31,7 @@ fn warned(household: &Household) -> bool {
 }
 
 #[test]
+#[ignore = "campaign: whole runs; cargo xtask test --all"]
 fn hair_around_the_brush_is_told_until_somebody_says_that_it_is_gone() {
     let mut household = at_work();
     household.pass_ms(LEARNS_MS);
@@ -78,6 +79,7 @@ fn hair_around_the_brush_is_told_until_somebody_says_that_it_is_gone() {
 }
 
 #[test]
+#[ignore = "campaign: whole runs; cargo xtask test --all"]
 fn a_clean_robot_is_not_told_to_be_cleaned() {
     let mut household = at_work();
     household.pass_ms(3 * LEARNS_MS);

@@ -2,7 +2,7 @@
 
 use brain::BehaviorState;
 use brain::command::StrategyName;
-use home::DockBeams;
+use home::BeamStrengths;
 use rvac_sim::run::{household, start_cleaning};
 use rvac_sim::{Host, Household};
 use scenarios::{off_the_dock, scene, settings};
@@ -53,9 +53,9 @@ fn it_goes_to_the_dock_whose_beams_it_has_heard() {
 #[test]
 fn it_stays_where_it_is_when_no_dock_was_heard() {
     let mut household = put_down(1);
-    household.robot_mut().world_mut().set_dock_beams(DockBeams {
+    household.robot_mut().world_mut().set_dock_beams(BeamStrengths {
         lost: 1.0,
-        ..DockBeams::default()
+        ..BeamStrengths::default()
     });
     assert_eq!(cleaned(&mut household), BehaviorState::Idle);
 }

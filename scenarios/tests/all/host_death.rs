@@ -9,7 +9,7 @@ use scenarios::{cleaning, scene};
 /// S1: the lease of the last command and the reaction time.
 const OFF_MS: u64 = 300;
 /// S1: the way after the last command.
-const WAY_M: f64 = 0.10;
+const DISTANCE_M: f64 = 0.10;
 /// By then friction and the shorted motors have ended all motion.
 const REST_MS: u64 = 1_000;
 const STANDING_M_PER_S: f64 = 0.001;
@@ -29,8 +29,8 @@ fn kill(household: &mut Household) -> u64 {
         }
     }
     let truth = household.robot().world().truth();
-    let way_m = truth.path_m - before_m;
-    assert!(way_m <= WAY_M, "rolled {way_m} m");
+    let distance_m = truth.path_m - before_m;
+    assert!(distance_m <= DISTANCE_M, "rolled {distance_m} m");
     assert!(
         truth.speed_m_per_s.abs() < STANDING_M_PER_S,
         "still moves after {REST_MS} ms"

@@ -2,12 +2,12 @@
 
 use monitor::{Bridges, Rule};
 use rvac_sim::Firmware;
-use rvac_sim::faults::{Campaign, TrialSettings};
+use rvac_sim::faults::{FaultCampaign, TrialSettings};
 
 #[test]
 fn bridges_that_do_not_brake_are_found_out() {
     let model = home::RobotModel::by_name("sr8730").unwrap();
-    let campaign = Campaign::load(model, Firmware::HostBuilt).unwrap();
+    let campaign = FaultCampaign::load(model, Firmware::HostBuilt).unwrap();
     let outcome = |bridges| {
         campaign.trial(TrialSettings {
             seed: 3,

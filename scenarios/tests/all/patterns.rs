@@ -4,13 +4,13 @@ use brain::command::StrategyName;
 use brain::{Cell, Map};
 use rvac_api::{CleaningPattern, RequestBody, RoomSettings};
 use rvac_sim::run::{RunEnd, RunSettings, household, run_until};
-use rvac_sim::{Host, Household, Report};
+use rvac_sim::{Host, Household, RunReport};
 use scenarios::{scene, settings};
 
 const MINUTE_MS: u64 = 60_000;
 
 /// A job in the furnished room, which the robot knows.
-fn swept_by(pattern: CleaningPattern) -> Report {
+fn swept_by(pattern: CleaningPattern) -> RunReport {
     let settings = RunSettings {
         strategy: StrategyName::Systematic,
         pattern: Some(pattern),

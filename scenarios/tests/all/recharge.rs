@@ -21,6 +21,7 @@ fn until(is_so: impl Fn(&Brain) -> bool, at_most_s: u64, household: &mut Househo
 }
 
 #[test]
+#[ignore = "campaign: hours on the charger; cargo xtask test --all"]
 fn a_pack_is_charged_in_its_own_time_and_the_job_goes_on() {
     for seed in [1, 2, 3] {
         let mut household = household(&generated(28), &settings(seed, 0)).with_known_map();

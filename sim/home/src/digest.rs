@@ -1,16 +1,16 @@
-//! A running digest of what happened, to tell whether two runs were the same.
+//! A running hash of a simulation, to check whether two runs were the same.
 
 /// FNV-1a over bytes, 64 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Digest(u64);
+pub struct Fnv1a(u64);
 
-impl Default for Digest {
+impl Default for Fnv1a {
     fn default() -> Self {
         Self(0xcbf2_9ce4_8422_2325)
     }
 }
 
-impl Digest {
+impl Fnv1a {
     /// Takes a byte.
     pub const fn byte(&mut self, byte: u8) {
         self.0 = (self.0 ^ byte as u64).wrapping_mul(0x0100_0000_01b3);
@@ -23,7 +23,7 @@ impl Digest {
         }
     }
 
-    /// What stands for everything that was taken.
+    /// The hash of all bytes taken.
     #[must_use]
     pub const fn value(self) -> u64 {
         self.0
@@ -32,12 +32,12 @@ impl Digest {
 
 #[cfg(test)]
 mod tests {
-    use super::Digest;
+    use super::Fnv1a;
 
     #[test]
     fn order_matters() {
         let of = |bytes: &[u8]| {
-            let mut digest = Digest::default();
+            let mut digest = Fnv1a::default();
             bytes.iter().for_each(|byte| digest.byte(*byte));
             digest.value()
         };

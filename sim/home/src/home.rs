@@ -161,7 +161,7 @@ impl Home {
         self.dock
     }
 
-    /// Where the robot starts when nobody says otherwise: on the dock if the file has one, else at the roomiest place.
+    /// Default start of the robot: on the dock if the file has one, else at the roomiest place.
     #[must_use]
     pub const fn start(&self) -> Pose {
         self.start
@@ -174,8 +174,8 @@ impl Home {
         free as f64 * self.grid.cell_area_m2()
     }
 
-    /// Area that a disc of the swath's width can sweep from poses that the body can reach from the start, square metres.
-    /// Doors that are ever open count as open.
+    /// Area that a disc of the swath's width can sweep from poses that the body can reach from the start, square
+    /// metres. Doors that are ever open count as open.
     #[must_use]
     pub fn reachable_area_m2(&self) -> f64 {
         f64::from(self.reachable_cells) * self.grid.cell_area_m2()
@@ -203,8 +203,8 @@ impl Home {
         self.connected_share
     }
 
-    /// Whether the way from the start to the dock, or to most of the floor, is wide enough for the body, once all doors that
-    /// are ever open have been opened and all people have left.
+    /// Whether the path from the start to the dock, or to most of the floor, is wide enough for the body, once all
+    /// doors that are ever open have been opened and all people have left.
     #[must_use]
     pub const fn can_leave(&self) -> bool {
         self.can_leave
@@ -249,7 +249,7 @@ fn without_black(draft: &Draft, mut grid: Grid) -> Grid {
 }
 
 /// Region, dock and start that belong together.
-struct Place {
+struct Placement {
     region: u32,
     dock: Option<Pose>,
     start: Pose,
@@ -264,7 +264,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn place(&self, wish: DockWish) -> Result<Place, HomeError> {
+    fn place(&self, wish: DockWish) -> Result<Placement, HomeError> {
         let biggest = self.regions.biggest().ok_or_else(|| self.no_place())?;
         let radius_m = self.model.body.radius_m;
         let docks = DockSearch {
@@ -282,7 +282,7 @@ impl Search<'_> {
             Some(dock) if on_dock => docked_pose(dock, radius_m),
             _ => self.roomiest(region),
         };
-        Ok(Place { region, dock, start })
+        Ok(Placement { region, dock, start })
     }
 
     /// The region in front of the dock.

@@ -1,13 +1,13 @@
 //! Simulated homes: floor plans, furniture, dirt, and a robot's physics, sensors, dock and battery in them.
 //!
-//! A [`RobotModel`] comes from `robots/<name>/robot.toml`, a [`Home`] from a map file, and a [`World`] is one robot in one
-//! home. [`World::step`] advances one millisecond: it takes what the firmware puts on its pins ([`Actuation`]) and leaves
-//! what the firmware can read ([`Sensors`]) beside what is really so ([`Truth`]). There is no clock, no global state and no
+//! A [`RobotModel`] comes from `robots/<name>/robot.toml`, a [`Home`] from a map file, and a [`World`] is one robot in
+//! one home. [`World::step`] advances one millisecond: it takes the firmware's outputs ([`Actuation`]) and provides the
+//! firmware's inputs ([`Sensors`]) and the ground truth ([`Truth`]). There is no clock, no global state and no
 //! randomness except the seed: the same calls give the same bits.
 //!
 //! [`generate`] draws homes from numbers, [`traps`] the places in which robots get stuck.
 //!
-//! What it does not do: three dimensions, pushed furniture, sound.
+//! Not simulated: three dimensions, pushed furniture, sound.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -24,19 +24,19 @@ mod pose;
 pub mod traps;
 mod world;
 
-pub use digest::Digest;
+pub use digest::Fnv1a;
 pub use home::Home;
 pub use linux_board::{Beacons, BoardGyro, Measured};
 pub use load::HomeError;
 pub use model::{
-    Battery, Body, Bumper, Cleaners, CliffMount, Confidence, Drive, Gyro, Lidar, ModelError, Proximity,
-    ReceiverMount, RobotModel, WheelMotor, robot_names,
+    BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, Confidence, DriveModel, GyroModel,
+    LidarModel, ModelError, ProximityModel, ReceiverMount, RobotModel, WheelMotor, robot_names,
 };
 pub use noise::{Noise, NoiseError};
 pub use pcg::Pcg;
 pub use plan::{Cell, Grid};
 pub use pose::{Pose, wrap_angle};
 pub use world::{
-    Actuation, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, DockBeams, GyroReading, LidarScan, OddCell, Pack,
-    PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World,
+    Actuation, BeamStrengths, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, OddCell,
+    Pack, PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World,
 };

@@ -1,4 +1,4 @@
-//! How far the simulated parts are from perfect.
+//! Noise and errors of the simulated parts.
 
 mod named;
 
@@ -12,13 +12,13 @@ pub use named::NoiseError;
 /// 0.02 degrees per square root of a second with 0.5 % scale error, infrared 5 % noise, 20 % albedo, 1 % drop-outs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Noise {
-    /// Error of the way per encoder count, both wheels alike, relative.
+    /// Error of the distance per encoder count, both wheels alike, relative.
     pub encoder_scale: f64,
     /// Heading that unequal wheels add, radians per metre.
     pub asymmetry_rad_per_m: f64,
     /// Error of the effective track, relative.
     pub turn_scale: f64,
-    /// Slip along the way, metres per square root of a metre.
+    /// Slip along the path, metres per square root of a metre.
     pub slip_m_per_sqrt_m: f64,
     /// Slip in heading, radians per square root of a metre.
     pub slip_rad_per_sqrt_m: f64,
@@ -40,7 +40,7 @@ pub struct Noise {
     pub infrared_albedo: f64,
     /// Share of infrared samples that read nothing.
     pub infrared_dropout: f64,
-    /// How far a rug's nap turns the robot over what the home says of that rug.
+    /// Factor on the turn that a rug's nap causes.
     pub rug_drift: f64,
     /// Noise of analog battery and current readings, relative.
     pub analog: f64,
@@ -87,8 +87,8 @@ impl Noise {
         Self::NOMINAL
     }
 
-    /// Twice nominal, with three times the infrared noise and rugs that turn the robot three times as much: worn wheels, dark
-    /// and bright furniture (40 % albedo), thick carpets.
+    /// Twice nominal, with three times the infrared noise and rugs that turn the robot three times as much: worn
+    /// wheels, dark and bright furniture (40 % albedo), thick carpets.
     #[must_use]
     pub const fn bad() -> Self {
         Self {

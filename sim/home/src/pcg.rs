@@ -1,5 +1,5 @@
-//! The simulator's random numbers: PCG-XSH-RR 64/32 (O'Neill 2014), written out here so that a seed means the same run
-//! for ever, whatever a library changes.
+//! The simulator's random numbers: PCG-XSH-RR 64/32 (O'Neill 2014), implemented here so that a seed always means the
+//! same run, independent of library versions.
 
 /// A stream of random numbers.
 #[derive(Clone, Debug)]

@@ -1,8 +1,8 @@
-//! What stands against motion, and for how long.
+//! Causes that forbid motion, and how long they have lasted.
 
-use crate::charging::{ChargeStanding, Charging};
+use crate::charging::{ChargeTimes, Charging};
 
-/// What the firmware could read from its pins in this millisecond, and the one thing no pin shows.
+/// Inputs of the firmware's pins in this millisecond, and ground truth that no pin shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pins {
     /// A bumper switch is closed.
@@ -23,7 +23,7 @@ pub struct Pins {
     pub charging: Charging,
 }
 
-/// What the motors get, in millionths of full drive, forward positive.
+/// Drives of the motors, in millionths of full drive, forward positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Drives {
     /// Left and right wheel.
@@ -57,17 +57,17 @@ impl Drives {
     }
 }
 
-/// Milliseconds for which each cause has stood without a gap; 0 = it does not stand.
+/// Milliseconds for which each cause has lasted without a gap; 0 = absent.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Standing {
+pub(crate) struct CauseTimes {
     pub(crate) bumper_ms: u32,
-    /// Pressed off the dock, by which it may be pressed for ever.
+    /// Pressed off the dock, which may press it permanently.
     pub(crate) bumper_stuck_ms: u32,
     /// Pressed while the wheels push backward.
     pub(crate) bumper_backing_ms: u32,
     pub(crate) cliff_ms: u32,
     pub(crate) wheel_drop_ms: u32,
-    /// Since a wheel drop that stood long enough to count.
+    /// Since a wheel drop that lasted long enough to count.
     pub(crate) grounded_ms: u32,
     /// Any motor is driven.
     pub(crate) motors_run: bool,
@@ -77,7 +77,7 @@ pub(crate) struct Standing {
     /// Each wheel: driven hard while its encoder stands still.
     pub(crate) stalled_ms: [u32; 2],
     pub(crate) fallen: bool,
-    pub(crate) charge: ChargeStanding,
+    pub(crate) charge: ChargeTimes,
     /// Cleaners were off in the millisecond before.
     pub(crate) cleaners_start: bool,
     cleaners_were_on: bool,
@@ -93,7 +93,7 @@ const DOCK_CLEAR_MS: u32 = 300;
 /// Long enough ago for every rule.
 const LONG_AGO_MS: u32 = 1_000_000;
 
-impl Default for Standing {
+impl Default for CauseTimes {
     fn default() -> Self {
         Self {
             bumper_ms: 0,
@@ -108,7 +108,7 @@ impl Default for Standing {
             button_ms: 0,
             stalled_ms: [0; 2],
             fallen: false,
-            charge: ChargeStanding::default(),
+            charge: ChargeTimes::default(),
             cleaners_start: false,
             cleaners_were_on: false,
             counts: [0; 2],
@@ -116,8 +116,8 @@ impl Default for Standing {
     }
 }
 
-impl Standing {
-    /// What a firmware that has just started cannot know: how long something had stood before.
+impl CauseTimes {
+    /// A firmware that has just started cannot know how long a cause had lasted before.
     pub(crate) fn reset(&mut self) {
         self.bumper_stuck_ms = 0;
         self.bumper_backing_ms = 0;

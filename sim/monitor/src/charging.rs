@@ -1,11 +1,12 @@
-//! The charger, judged by what is really so in the pack (S18).
+//! Checks the charger against the true state of the pack (S18).
 
 use crate::verdict;
 
-/// Charger and pack as they really are, faults of sensors left out.
+/// True state of charger and pack, without sensor faults.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Charging {
-    /// The firmware drives the charging switch: closed at any time in the last 20 ms, which is an envelope of its pulses.
+    /// The firmware drives the charging switch: closed at any time in the last 20 ms, which is an envelope of its
+    /// pulses.
     pub driven: bool,
     /// A supply is on the contacts.
     pub supplied: bool,
@@ -17,9 +18,9 @@ pub struct Charging {
     pub temperature_dc: i32,
 }
 
-/// Milliseconds for which each cause has stood while the switch was driven.
+/// Milliseconds for which each cause has lasted while the switch was driven.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct ChargeStanding {
+pub(crate) struct ChargeTimes {
     pub(crate) unsupplied_ms: u32,
     pub(crate) driving_ms: u32,
     pub(crate) temperature_ms: u32,
@@ -30,12 +31,12 @@ pub(crate) struct ChargeStanding {
     rest_ms: u32,
     /// Current flows though the switch is not driven.
     leak_ms: u32,
-    /// Left of the time in which a robot may back off such a dock by itself.
+    /// Remaining time in which a robot may back off such a dock by itself.
     leaving_ms: u32,
 }
 
-/// No pack may be charged hotter or colder than this, tenths of a degree. The firmware stops at 50 degrees and does not start
-/// below 0 by its own sensor, which may be wrong by 3 degrees.
+/// No pack may be charged hotter or colder than this, tenths of a degree. The firmware stops at 50 degrees and does not
+/// start below 0 by its own sensor, which may be wrong by 3 degrees.
 const HOT_DC: i32 = 550;
 const COLD_DC: i32 = -50;
 /// 1.75 V a cell of twelve: the firmware stops at 1.70, by a divider of 1 %.
@@ -45,19 +46,19 @@ const CURRENT_MAX_MA: i32 = 1_400;
 /// A rest of half an hour ends a charge.
 const REST_MS: u32 = 30 * 60_000;
 
-/// Current through a switch that nobody drives.
+/// Current through a switch that is not driven.
 const LEAK_MA: i32 = 150;
 /// S18: after a second of it a robot may back off the dock by itself, three times with their pauses.
 const LEAK_MS: u32 = 1_000;
 const LEAVING_MS: u32 = 20_000;
 
-impl ChargeStanding {
-    /// Whether a robot may leave the dock though nobody asked it to: nothing else ends the current.
+impl ChargeTimes {
+    /// Whether a robot may leave the dock without a command: nothing else ends the current.
     pub(crate) const fn may_leave(&self) -> bool {
         self.leaving_ms > 0
     }
 
-    /// What is so for the next `elapsed_ms`.
+    /// Takes the state for the next `elapsed_ms`.
     pub(crate) fn update(&mut self, charging: &Charging, motors_run: bool, elapsed_ms: u32) {
         let driven = charging.driven;
         let stand = |standing_ms: &mut u32, cause: bool| {
@@ -96,17 +97,17 @@ impl ChargeStanding {
     }
 }
 
-/// Judges a charger alone, in steps of any length: for campaigns of thousands of charges.
+/// Checks a charger alone, in steps of any length: for campaigns of thousands of charges.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChargeMonitor {
-    standing: ChargeStanding,
+    standing: ChargeTimes,
     broken: u32,
     count: u32,
     longest_ms: u32,
 }
 
 impl ChargeMonitor {
-    /// Judges what was so for `elapsed_ms`, in which no motor ran.
+    /// Checks the state of the last `elapsed_ms`, in which no motor ran.
     pub fn judge(&mut self, charging: &Charging, elapsed_ms: u32) {
         self.standing.update(charging, false, elapsed_ms);
         self.longest_ms = self.longest_ms.max(self.standing.charged_ms);

@@ -1,15 +1,14 @@
-//! The global safety monitor: a judge that watches every millisecond of every simulation.
+//! The safety monitor: an independent check of every millisecond of every simulation.
 //!
-//! It holds the firmware to one sentence: a motor may be driven only while the host has armed motion, a fresh command
-//! covers it, and nothing physical stands against it. It takes no word of the firmware for it. What was commanded it reads
-//! from the bytes on the wire ([`wire`], [`said`]), what stands against it from the pins ([`Pins`]), what the motors do
-//! from the bridges ([`Drives`]).
+//! It checks one requirement: a motor may be driven only while the host has armed motion, a fresh command covers it,
+//! and no physical cause forbids it. It does not rely on the firmware. It reads commands from the bytes on the wire
+//! ([`wire`], [`said`]), causes from the pins ([`Pins`]), and the motors from the bridges ([`Drives`]).
 //!
-//! *Standing* is how long a cause has been there without a gap. A *rule* is one line of SAFETY.md with its reaction time;
-//! a *violation* is one beginning of a breach of it, however long it lasts.
+//! *Cause times* are how long each cause has lasted without a gap. A *rule* is one line of SAFETY.md with its reaction time;
+//! a *violation* is the beginning of a breach, however long it lasts.
 //!
-//! It judges the firmware on simulated pins (`sim/robot`) and the emulated microcontroller (`sim/pic32`) alike, so it knows
-//! neither.
+//! It checks both the firmware on simulated pins (`sim/robot`) and the emulated microcontroller (`sim/pic32`), and
+//! depends on neither.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -24,28 +23,28 @@ pub use causes::{Drives, Pins};
 pub use charging::{ChargeMonitor, Charging};
 pub use verdict::{Rule, Violation};
 
-use causes::Standing;
-use permission::Permission;
+use causes::CauseTimes;
+use permission::HostPermission;
 use rvac_protocol::message::ResetCause;
 
-/// Wheel bridges of a simulated robot: sound ones, or a broken machine to see whether the monitor notices.
+/// Wheel bridges of a simulated robot: good ones, or faulty ones to test the monitor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Bridges {
-    /// They do what they are told.
+    /// They follow the command.
     #[default]
     Sound,
-    /// They go on with the last duty when they are told to brake.
+    /// They keep the last duty when commanded to brake.
     DeafToBrake,
 }
 
 /// How many violations are kept in full; all are counted.
 const KEPT_MAX: usize = 32;
 
-/// The judge.
+/// The monitor.
 #[derive(Clone, Debug)]
 pub struct Monitor {
-    permission: Permission,
-    standing: Standing,
+    permission: HostPermission,
+    standing: CauseTimes,
     /// Rules that are broken right now, bit by rule.
     broken: u32,
     kept: Vec<Violation>,
@@ -59,12 +58,12 @@ impl Default for Monitor {
 }
 
 impl Monitor {
-    /// A judge who sees the robot's first power-on.
+    /// A monitor at the robot's first power-on.
     #[must_use]
     pub fn new() -> Self {
         Self {
-            permission: Permission::default(),
-            standing: Standing::default(),
+            permission: HostPermission::default(),
+            standing: CauseTimes::default(),
             broken: 0,
             kept: Vec::new(),
             count: 0,
@@ -87,13 +86,13 @@ impl Monitor {
         self.standing.reset();
     }
 
-    /// The firmware's millisecond clock begins to count at `now_ms` at the latest: a firmware that checks its memories first
-    /// may start it later than the reset. The age of what it is told is counted by it.
+    /// The firmware's millisecond clock begins to count at `now_ms` at the latest: a firmware that checks its memories
+    /// first may start it later than the reset. The age of commands is measured with it.
     pub fn clock_started(&mut self, now_ms: u64) {
         self.permission.clock_started(now_ms);
     }
 
-    /// Judges one millisecond: what the pins showed before the firmware's pass and what the motors got after it.
+    /// Checks one millisecond: the pins before the firmware's pass and the motors after it.
     pub fn judge(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
         self.standing.update(pins, drives);
         self.permission.update(now_ms, &self.standing);
@@ -119,7 +118,7 @@ impl Monitor {
         self.count
     }
 
-    /// Whether a rule is broken in this very millisecond.
+    /// Whether a rule is broken in this millisecond.
     #[must_use]
     pub const fn is_broken(&self) -> bool {
         self.broken != 0

@@ -1,8 +1,8 @@
-//! What the host has allowed, by the bytes on the wire.
+//! Motion that the host has allowed, by the bytes on the wire.
 
 use rvac_protocol::message::ResetCause;
 
-use super::causes::Standing;
+use super::causes::CauseTimes;
 use super::said::{Heard, Said, read_heard, read_said};
 use super::wire::Splitter;
 
@@ -22,12 +22,13 @@ const HAND_LEASE_MS: u64 = 500;
 const BUTTON_HELD_MS: u32 = 20;
 /// Being off the dock for this long ends what an undock command allowed.
 const UNDOCKED_MS: u32 = 3_000;
-/// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after 65,536.
+/// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after
+/// 65,536.
 const ANSWER_MS: u64 = 1_000;
 /// S4: three resets within this time latch.
 const RESET_WINDOW_MS: u64 = 60_000;
 
-/// Whether motion is armed, and what takes that away.
+/// Whether motion is armed, and what revokes that.
 #[derive(Clone, Copy, Debug, Default)]
 struct Arming {
     armed: bool,
@@ -40,21 +41,21 @@ struct Arming {
     number: Option<u16>,
 }
 
-/// What the host has allowed.
+/// Permissions given by the host.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Permission {
+pub(crate) struct HostPermission {
     to_robot: Splitter,
     from_robot: Splitter,
     session: u16,
-    /// Session in which the packet under way began.
+    /// Session in which the present packet began.
     packet_session: u16,
-    /// Newest valid sealed packet of the session; `None` = hand mode since the reset or by command.
-    sealed_ms: Option<u64>,
+    /// Newest valid packet with a CRC of the session; `None` = hand mode since the reset or by command.
+    checked_ms: Option<u64>,
     reset_ms: u64,
     /// The firmware's clock began to count between the reset and this.
     clock_ms: u64,
     arming: Arming,
-    /// What a refused `arm` falls back to.
+    /// State to which a refused `arm` returns.
     before: Arming,
     newest_motion: Option<u16>,
     wheels_until_ms: u64,
@@ -65,9 +66,9 @@ pub(crate) struct Permission {
     button_while_running: bool,
 }
 
-impl Permission {
+impl HostPermission {
     pub(crate) fn heard(&mut self, now_ms: u64, byte: Option<u8>) {
-        // A packet belongs to the session in which it began, even if silence ends that while it is under way.
+        // A packet belongs to the session in which it began, even if silence ends that meanwhile.
         if self.to_robot.is_between_packets() {
             self.packet_session = self.session;
         }
@@ -79,26 +80,27 @@ impl Permission {
         else {
             return;
         };
-        if heard.sealed {
-            self.sealed_ms = Some(now_ms);
+        if heard.checked {
+            self.checked_ms = Some(now_ms);
         } else if !self.hand(now_ms) && heard.word != Heard::Stop {
             return;
         }
-        self.obey(now_ms, heard.word, heard.sealed);
+        self.obey(now_ms, heard.word, heard.checked);
     }
 
     fn hand(&self, now_ms: u64) -> bool {
-        self.sealed_ms.is_none_or(|sealed| now_ms > sealed + SILENCE_MS)
+        self.checked_ms
+            .is_none_or(|checked| now_ms > checked + SILENCE_MS)
     }
 
-    fn obey(&mut self, now_ms: u64, word: Heard, sealed: bool) {
+    fn obey(&mut self, now_ms: u64, word: Heard, checked: bool) {
         match word {
             Heard::Stop => self.arming.stop_ms = Some(now_ms + STOP_GRACE_MS),
-            Heard::Hand => self.sealed_ms = None,
+            Heard::Hand => self.checked_ms = None,
             Heard::Arm { number, undock } => self.arm(now_ms, number, undock),
             Heard::Clear => self.resets_ms = [None; 3],
             Heard::Wheels { lease_ms, mark } if self.is_fresh(now_ms, mark) => {
-                let lease_ms = if sealed {
+                let lease_ms = if checked {
                     lease_ms
                 } else {
                     lease_ms.min(HAND_LEASE_MS)
@@ -172,7 +174,7 @@ impl Permission {
 
     pub(crate) fn reset(&mut self, now_ms: u64, cause: ResetCause) {
         self.session = 0;
-        self.sealed_ms = None;
+        self.checked_ms = None;
         self.reset_ms = now_ms;
         self.clock_ms = now_ms;
         self.arming = Arming::default();
@@ -194,7 +196,7 @@ impl Permission {
         self.clock_ms = now_ms;
     }
 
-    pub(crate) fn update(&mut self, now_ms: u64, standing: &Standing) {
+    pub(crate) fn update(&mut self, now_ms: u64, standing: &CauseTimes) {
         if standing.button_ms == 1 {
             self.button_while_running = self.motors_ran;
         }

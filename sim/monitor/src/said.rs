@@ -1,17 +1,17 @@
-//! The few words of both directions that decide whether motors may run.
+//! The few messages of both directions that decide whether motors may run.
 
 use serde_json::Value;
 
-use super::wire::{Direction, Seal, unseal, unseal_binary};
+use super::wire::{CrcCheck, WireDirection, checked_binary, split_crc};
 
-/// A packet to the robot whose seal is right or absent.
+/// A packet to the robot whose CRC is right or absent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HeardPacket {
     pub(crate) word: Heard,
-    pub(crate) sealed: bool,
+    pub(crate) checked: bool,
 }
 
-/// A word to the robot.
+/// A message to the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Heard {
     Stop,
@@ -35,45 +35,45 @@ pub(crate) enum Heard {
     Other,
 }
 
-/// Number and view of a motion command.
+/// Number and tick of a motion command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mark {
     pub(crate) number: Option<u16>,
     pub(crate) tick: Option<u32>,
 }
 
-/// A word of the robot.
+/// A message of the robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Said {
-    /// The session number that holds from now on.
+    /// The session number from now on.
     Session(u16),
     /// The command with this number was refused.
     Refused(u16),
 }
 
-/// A `move` has no lease; it may take as long as its way takes at a crawl, and some seconds.
+/// A `move` has no lease; it may take as long as its path takes at the lowest speed, plus some seconds.
 const MOVE_SLOWEST_M_PER_S: f64 = 0.02;
 const MOVE_EXTRA_MS: u64 = 5_000;
 const LEASE_DEFAULT_MS: u64 = 250;
 const LEASE_MAX_MS: u64 = 1_000;
 
-/// Reads a packet to the robot; `None` when its seal is wrong or it is no packet at all.
+/// Reads a packet to the robot; `None` when its CRC is wrong or it is no packet at all.
 pub(crate) fn read_heard(packet: &[u8], session: u16) -> Option<HeardPacket> {
     if packet[0] >= 0x80 {
-        let body = unseal_binary(packet, Direction::ToRobot, session)?;
+        let body = checked_binary(packet, WireDirection::ToRobot, session)?;
         return Some(HeardPacket {
             word: word_of_binary(&body),
-            sealed: true,
+            checked: true,
         });
     }
-    let (json, seal) = unseal(packet, Direction::ToRobot, session);
-    if seal == Seal::Wrong {
+    let (json, crc) = split_crc(packet, WireDirection::ToRobot, session);
+    if crc == CrcCheck::Wrong {
         return None;
     }
     let object: Value = serde_json::from_slice(json).ok()?;
     Some(HeardPacket {
         word: word_of(&object),
-        sealed: seal == Seal::Right,
+        checked: crc == CrcCheck::Right,
     })
 }
 
@@ -148,14 +148,14 @@ fn number_of(object: &Value, key: &str) -> Option<u16> {
     object[key].as_u64().and_then(|number| number.try_into().ok())
 }
 
-/// Reads a packet of the robot, if it is one that decides something.
+/// Reads a packet of the robot, if it is relevant.
 pub(crate) fn read_said(packet: &[u8], session: u16) -> Option<Said> {
     let hello = packet.starts_with(br#"{"c":"hello""#);
     if !hello && !packet.starts_with(br#"{"a":"#) {
         return None;
     }
-    // The hello that opens a session may be sealed with the old number or with the one it gives.
-    let (json, _) = unseal(packet, Direction::FromRobot, session);
+    // The hello that opens a session may have the CRC of the old session or of the one that it opens.
+    let (json, _) = split_crc(packet, WireDirection::FromRobot, session);
     let object: Value = serde_json::from_slice(json).ok()?;
     if hello {
         return number_of(&object, "session").map(Said::Session);

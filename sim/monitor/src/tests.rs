@@ -2,7 +2,7 @@
 
 use rvac_protocol::message::ResetCause;
 
-use super::wire::{Direction, seal_over};
+use super::wire::{WireDirection, packet_crc};
 use super::{Charging, Drives, Monitor, Pins, Rule};
 
 const SESSION: u16 = 0x1234;
@@ -52,8 +52,8 @@ impl Scene {
     }
 
     fn host(&mut self, json: &str) {
-        let seal = seal_over(json.as_bytes(), Direction::ToRobot, SESSION);
-        for byte in format!("{json}*{seal:08X}\u{1F}").bytes() {
+        let crc = packet_crc(json.as_bytes(), WireDirection::ToRobot, SESSION);
+        for byte in format!("{json}*{crc:08X}\u{1F}").bytes() {
             self.monitor.heard(self.now_ms, Some(byte));
         }
     }
@@ -141,7 +141,7 @@ fn nothing_runs_before_arm_after_stop_or_after_a_reset() {
     assert_eq!(
         scene.pass_driven(21, FORWARD),
         [Rule::NotArmed],
-        "an unsealed stop counts in any mode"
+        "a stop without CRC counts in any mode"
     );
 }
 
@@ -169,7 +169,7 @@ fn a_refusal_with_the_number_of_an_arm_of_long_ago_is_of_another_packet() {
 }
 
 #[test]
-fn what_is_old_stale_or_wrongly_sealed_covers_nothing() {
+fn what_is_old_stale_or_has_a_wrong_crc_covers_nothing() {
     for json in [
         r#"{"c":"drive","v":0.2,"w":0,"ttl":250,"n":0,"t":100}"#,
         r#"{"c":"drive","v":0.2,"w":0,"ttl":250,"n":5,"t":9000}"#,
@@ -328,19 +328,19 @@ fn a_fall_is_a_violation_whatever_the_motors_do() {
 }
 
 #[test]
-fn hand_mode_ends_with_a_sealed_packet_and_comes_back_after_silence() {
-    let unsealed = b"{\"c\":\"drive\",\"v\":0.05,\"w\":0,\"ttl\":250}\x1f";
+fn hand_mode_ends_with_a_checked_packet_and_comes_back_after_silence() {
+    let without_crc = b"{\"c\":\"drive\",\"v\":0.05,\"w\":0,\"ttl\":250}\x1f";
     let mut scene = Scene::armed();
-    for byte in unsealed {
+    for byte in without_crc {
         scene.monitor.heard(scene.now_ms, Some(*byte));
     }
     assert_eq!(
         scene.pass(1, FORWARD),
         [Rule::WheelsWithoutLease],
-        "sealed mode refuses it"
+        "checked mode refuses it"
     );
     scene.pass(2100, OFF);
-    for byte in unsealed {
+    for byte in without_crc {
         scene.monitor.heard(scene.now_ms, Some(*byte));
     }
     assert_eq!(scene.pass(10, FORWARD).len(), 1, "hand mode takes it");
@@ -352,8 +352,8 @@ fn a_binary_drive_covers_its_lease() {
     let body = [
         0x81, 0x40, 0x0D, 0x03, 0, 0x1F, 0, 0, 0, 250, 0, 7, 0, 100, 0, 0, 0,
     ];
-    let seal = seal_over(&body, Direction::ToRobot, SESSION).to_le_bytes();
-    for byte in body.into_iter().chain(seal) {
+    let crc = packet_crc(&body, WireDirection::ToRobot, SESSION).to_le_bytes();
+    for byte in body.into_iter().chain(crc) {
         if matches!(byte, 0x1D..=0x1F) {
             scene.monitor.heard(scene.now_ms, Some(0x1D));
             scene.monitor.heard(scene.now_ms, Some(byte ^ 0x20));

@@ -1,10 +1,10 @@
-//! The rules, as far as they can be judged from outside.
+//! The rules, as far as they can be checked from outside.
 
-use super::causes::{Drives, Pins, Standing};
-use super::charging::ChargeStanding;
-use super::permission::Permission;
+use super::causes::{CauseTimes, Drives, Pins};
+use super::charging::ChargeTimes;
+use super::permission::HostPermission;
 
-/// A line of SAFETY.md that the monitor judges.
+/// A line of SAFETY.md that the monitor checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Rule {
@@ -75,7 +75,7 @@ impl Rule {
         Self::ChargeTime,
     ];
 
-    /// Rule number and a word.
+    /// Rule number and a name.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -110,9 +110,9 @@ pub struct Violation {
     pub rule: Rule,
     /// Simulated millisecond.
     pub time_ms: u64,
-    /// What the pins showed.
+    /// The pins.
     pub pins: Pins,
-    /// What the motors got.
+    /// The drives of the motors.
     pub drives: Drives,
 }
 
@@ -171,7 +171,7 @@ const GROUNDED_MS: u32 = 1_000;
 const STALL_MS: u32 = 300;
 const DOCKED_MS: u32 = 20;
 const BUTTON_MS: u32 = 50;
-/// A cause that comes in the same millisecond as a start cannot stop it; one that stood for the reaction time can.
+/// A cause in the same millisecond as a start cannot prevent it; one that has lasted for the reaction time can.
 const START_MS: u32 = 20;
 /// A pass of the firmware's loop and the debouncing of the judge's own clock.
 const MARGIN_MS: u32 = 2;
@@ -181,7 +181,7 @@ const CHARGE_SLOW_MS: u32 = 2_000;
 const CHARGE_CURRENT_MS: u32 = 200;
 const CHARGE_TIME_MS: u32 = 12_960_000;
 
-fn charger_verdicts(standing: &ChargeStanding) -> [(Rule, bool); 6] {
+fn charger_verdicts(standing: &ChargeTimes) -> [(Rule, bool); 6] {
     [
         (Rule::ChargeUnsupplied, standing.unsupplied_ms > CHARGE_MS),
         (Rule::ChargeDriving, standing.driving_ms > CHARGE_MS),
@@ -193,7 +193,12 @@ fn charger_verdicts(standing: &ChargeStanding) -> [(Rule, bool); 6] {
 }
 
 /// The rules that are broken now, bit by rule.
-pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, drives: &Drives) -> u32 {
+pub(crate) fn broken(
+    now_ms: u64,
+    permission: &HostPermission,
+    standing: &CauseTimes,
+    drives: &Drives,
+) -> u32 {
     let wheels = drives.wheels_on();
     let cleaners = drives.cleaners_on();
     let any = wheels || cleaners;
@@ -243,7 +248,7 @@ pub(crate) fn broken(now_ms: u64, permission: &Permission, standing: &Standing, 
 }
 
 /// The rules that the charger breaks now, bit by rule.
-pub(crate) fn broken_by_charger(standing: &ChargeStanding) -> u32 {
+pub(crate) fn broken_by_charger(standing: &ChargeTimes) -> u32 {
     bits(charger_verdicts(standing))
 }
 

@@ -1,11 +1,11 @@
-//! A second reading of the wire, written from `protocol/SPEC.md` and not from the firmware's code.
+//! An independent implementation of the wire, written from `protocol/SPEC.md` and not from the firmware's code.
 //!
-//! It cuts the byte stream into packets, checks seals with its own CRC-32C, and reads the few words that decide whether
-//! motors may run. It lets through rather more than the firmware does (it does not check every key), so that it can only
-//! blame the firmware for acting on something that nobody said.
+//! It splits the byte stream into packets, checks their CRCs with its own CRC-32C, and reads the few messages that
+//! decide whether motors may run. It accepts slightly more than the firmware does (it does not check every key), so
+//! that it only reports a firmware that acts on something that was never sent.
 
 const PACKET_MAX: usize = 256;
-const SEAL_LEN: usize = 9;
+const CRC_LEN: usize = 9;
 
 /// Splits a byte stream into packets. A forbidden byte, a framing error or too many bytes spoil the packet they are in.
 #[derive(Clone, Debug, Default)]
@@ -44,14 +44,14 @@ impl Splitter {
     }
 }
 
-/// Direction of a packet, as the byte that its seal covers.
+/// Direction of a packet, as the byte that the CRC covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Direction {
+pub(crate) enum WireDirection {
     ToRobot,
     FromRobot,
 }
 
-impl Direction {
+impl WireDirection {
     fn byte(self) -> u8 {
         match self {
             Self::ToRobot => b'>',
@@ -60,28 +60,28 @@ impl Direction {
     }
 }
 
-/// How a text packet was sealed.
+/// Whether the CRC of a text packet fits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Seal {
-    /// No seal at all.
+pub(crate) enum CrcCheck {
+    /// No CRC at all.
     Absent,
-    /// A seal that fits.
+    /// A CRC that fits.
     Right,
-    /// A seal that does not fit: nothing in the packet counts.
+    /// A CRC that does not fit: nothing in the packet counts.
     Wrong,
 }
 
-/// The JSON bytes of a text packet and the state of its seal.
-pub(crate) fn unseal(packet: &[u8], direction: Direction, session: u16) -> (&[u8], Seal) {
-    let Some((json, seal)) = packet
+/// The JSON bytes of a text packet and whether its CRC fits.
+pub(crate) fn split_crc(packet: &[u8], direction: WireDirection, session: u16) -> (&[u8], CrcCheck) {
+    let Some((json, crc)) = packet
         .len()
-        .checked_sub(SEAL_LEN)
+        .checked_sub(CRC_LEN)
         .map(|at| packet.split_at(at))
-        .filter(|(_, seal)| seal.first() == Some(&b'*'))
+        .filter(|(_, crc)| crc.first() == Some(&b'*'))
     else {
-        return (packet, Seal::Absent);
+        return (packet, CrcCheck::Absent);
     };
-    let given = seal[1..].iter().try_fold(0_u32, |sum, digit| {
+    let given = crc[1..].iter().try_fold(0_u32, |sum, digit| {
         let value = match digit {
             b'0'..=b'9' => digit - b'0',
             b'A'..=b'F' => digit - b'A' + 10,
@@ -89,18 +89,18 @@ pub(crate) fn unseal(packet: &[u8], direction: Direction, session: u16) -> (&[u8
         };
         Some(sum << 4 | u32::from(value))
     });
-    let right = given == Some(seal_over(json, direction, session));
-    (json, if right { Seal::Right } else { Seal::Wrong })
+    let right = given == Some(packet_crc(json, direction, session));
+    (json, if right { CrcCheck::Right } else { CrcCheck::Wrong })
 }
 
-/// Kind and body of a binary packet, unstuffed; `None` when its seal is wrong.
-pub(crate) fn unseal_binary(packet: &[u8], direction: Direction, session: u16) -> Option<Vec<u8>> {
+/// Kind and body of a binary packet, unstuffed; `None` when its CRC is wrong.
+pub(crate) fn checked_binary(packet: &[u8], direction: WireDirection, session: u16) -> Option<Vec<u8>> {
     let whole = unstuff(packet)?;
-    let (body, seal) = whole.split_last_chunk::<4>()?;
-    (u32::from_le_bytes(*seal) == seal_over(body, direction, session)).then(|| body.to_vec())
+    let (body, crc) = whole.split_last_chunk::<4>()?;
+    (u32::from_le_bytes(*crc) == packet_crc(body, direction, session)).then(|| body.to_vec())
 }
 
-/// 0x1D announces a byte whose bit 5 was turned over.
+/// 0x1D precedes a byte whose bit 5 is inverted.
 fn unstuff(packet: &[u8]) -> Option<Vec<u8>> {
     let mut bytes = packet.iter();
     let mut whole = Vec::with_capacity(packet.len());
@@ -115,7 +115,7 @@ fn unstuff(packet: &[u8]) -> Option<Vec<u8>> {
 }
 
 /// The CRC-32C over direction, session, body and its length.
-pub(crate) fn seal_over(body: &[u8], direction: Direction, session: u16) -> u32 {
+pub(crate) fn packet_crc(body: &[u8], direction: WireDirection, session: u16) -> u32 {
     let length = u16::try_from(body.len()).unwrap_or(u16::MAX);
     let head = [
         direction.byte(),
@@ -138,7 +138,7 @@ fn crc32c(crc: u32, bytes: &[u8]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Direction, Seal, Splitter, crc32c, seal_over, unseal};
+    use super::{CrcCheck, Splitter, WireDirection, crc32c, packet_crc, split_crc};
 
     #[test]
     fn the_check_value_of_castagnoli() {
@@ -162,19 +162,19 @@ mod tests {
     }
 
     #[test]
-    fn a_seal_belongs_to_direction_and_session() {
+    fn a_crc_belongs_to_direction_and_session() {
         let json = br#"{"c":"stop"}"#;
         let packet = [
             json.as_slice(),
-            format!("*{:08X}", seal_over(json, Direction::ToRobot, 7)).as_bytes(),
+            format!("*{:08X}", packet_crc(json, WireDirection::ToRobot, 7)).as_bytes(),
         ]
         .concat();
         assert_eq!(
-            unseal(&packet, Direction::ToRobot, 7),
-            (json.as_slice(), Seal::Right)
+            split_crc(&packet, WireDirection::ToRobot, 7),
+            (json.as_slice(), CrcCheck::Right)
         );
-        assert_eq!(unseal(&packet, Direction::ToRobot, 8).1, Seal::Wrong);
-        assert_eq!(unseal(&packet, Direction::FromRobot, 7).1, Seal::Wrong);
-        assert_eq!(unseal(json, Direction::ToRobot, 7).1, Seal::Absent);
+        assert_eq!(split_crc(&packet, WireDirection::ToRobot, 8).1, CrcCheck::Wrong);
+        assert_eq!(split_crc(&packet, WireDirection::FromRobot, 7).1, CrcCheck::Wrong);
+        assert_eq!(split_crc(json, WireDirection::ToRobot, 7).1, CrcCheck::Absent);
     }
 }

@@ -1,7 +1,7 @@
 //! Waits for a debugger of a program: `cargo run --release -p pic32 --example debug -- FILE.elf [PORT]`, then
 //! `gdb-multiarch FILE.elf -ex 'target remote :3333'`. Inputs of the chip are open, analog ones at ground.
 
-use pic32::gdb::{Chip, serve};
+use pic32::gdb::{DebugChip, serve};
 use pic32::image::Image;
 use pic32::machine::{Grounded, Machine};
 use std::error::Error;
@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "waiting for: gdb-multiarch {file} -ex 'target remote :{}'",
         listener.local_addr()?.port()
     );
-    serve(&listener, &mut Chip::new(&mut machine, &mut Grounded))?;
+    serve(&listener, &mut DebugChip::new(&mut machine, &mut Grounded))?;
     println!("the debugger left at cycle {}", machine.cycle());
     Ok(())
 }

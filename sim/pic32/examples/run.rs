@@ -8,7 +8,7 @@
 use pic32::image::Image;
 use pic32::machine::{Halt, LineRate, Machine, Outputs, Surroundings, Uart};
 use pic32::peripheral::Sent;
-use pic32::pins::{Level, Output, Pin};
+use pic32::pins::{Level, Pin, PinDriver};
 use pic32::trace::Vcd;
 use std::error::Error;
 use std::fs::File;
@@ -174,9 +174,9 @@ fn run(machine: &mut Machine, options: &mut Options) -> Result<Vec<(Pin, usize)>
 fn tell_pins(machine: &Machine, edges: &[(Pin, usize)]) {
     for pin in Pin::all() {
         let state = match machine.output(pin) {
-            Output::Floating => continue,
-            Output::High => "high",
-            Output::Low => "low",
+            PinDriver::Floating => continue,
+            PinDriver::High => "high",
+            PinDriver::Low => "low",
         };
         let share = 100.0 * machine.high_cycles(pin) as f64 / machine.cycle() as f64;
         let seen = edges.iter().find(|(watched, _)| *watched == pin);

@@ -30,12 +30,12 @@ impl Bus for Bare {
 
 /// A core with its memories.
 #[derive(Clone)]
-struct Chip {
+struct DebugChip {
     cpu: Cpu,
     memory: Memory,
 }
 
-impl Chip {
+impl DebugChip {
     fn new(image: &Image) -> Self {
         let mut memory = Memory::new(image);
         // As the firmware sets it up at 80 MHz.
@@ -86,14 +86,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bytes = std::fs::read(&program).map_err(|error| format!("{program}: {error}"))?;
     let image = Image::from_elf(&bytes)?;
 
-    let mut counted = Chip::new(&image);
+    let mut counted = DebugChip::new(&image);
     let mut instructions = 0;
     for _ in 0..COUNTED {
         instructions += counted.round(1)?;
     }
     let per_cycle = instructions as f64 / counted.cpu.cycle() as f64;
 
-    let mut chip = Chip::new(&image);
+    let mut chip = DebugChip::new(&image);
     let begin = processor_time();
     for _ in 0..rounds {
         chip.round(u64::MAX)?;

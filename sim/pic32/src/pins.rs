@@ -1,7 +1,7 @@
 //! The pins of the 100-pin package as the program names them: a port letter and a bit, "RG9".
 //!
 //! A *level* is what a voltmeter would see, an *output* is what the chip itself does to the pin. A pin that the chip
-//! leaves alone is *floating* for the chip, whatever the circuit around it does.
+//! does not drive is *floating* for the chip, whatever the circuit around it does.
 
 use std::fmt;
 use std::str::FromStr;
@@ -221,7 +221,7 @@ impl Level {
 
 /// What the chip itself does to a pin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Output {
+pub enum PinDriver {
     /// It drives the pin to the supply.
     High,
     /// It drives the pin to ground.
@@ -230,27 +230,27 @@ pub enum Output {
     Floating,
 }
 
-impl Output {
+impl PinDriver {
     /// Whether the chip drives the pin high: the question of everything that is switched on by a high level.
     pub const fn is_high(self) -> bool {
-        matches!(self, Output::High)
+        matches!(self, PinDriver::High)
     }
 
     /// The level that it gives the pin, if it drives it.
     pub const fn level(self) -> Option<Level> {
         match self {
-            Output::High => Some(Level::High),
-            Output::Low => Some(Level::Low),
-            Output::Floating => None,
+            PinDriver::High => Some(Level::High),
+            PinDriver::Low => Some(Level::Low),
+            PinDriver::Floating => None,
         }
     }
 }
 
-impl From<Level> for Output {
-    fn from(level: Level) -> Output {
+impl From<Level> for PinDriver {
+    fn from(level: Level) -> PinDriver {
         match level {
-            Level::Low => Output::Low,
-            Level::High => Output::High,
+            Level::Low => PinDriver::Low,
+            Level::High => PinDriver::High,
         }
     }
 }

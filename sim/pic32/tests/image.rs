@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::{Home, Noise, RobotModel, World};
-use pic32::board::serial::Rate;
-use pic32::board::{Blueprint, EmulatedRobot, EmulatedSettings, Motor, Record};
+use pic32::board::serial::HostRate;
+use pic32::board::{Blueprint, CalibrationChoice, EmulatedRobot, EmulatedSettings, MotorOutput};
 use pic32::image::Image;
 use pic32::machine::{Grounded, Halt, Machine};
 use pic32::pins::{Level, Pin};
@@ -67,7 +67,8 @@ fn robot() -> Option<EmulatedRobot> {
 }
 
 fn robot_with(image: Image, settings: &EmulatedSettings) -> EmulatedRobot {
-    let blueprint = Blueprint::sr8730(image, &Record::Complete).expect("the project's board is sound");
+    let blueprint =
+        Blueprint::sr8730(image, &CalibrationChoice::Complete).expect("the project's board is sound");
     let model = RobotModel::by_name("sr8730").expect("it comes with the project");
     let home = Arc::new(Home::from_floorplan("room", ROOM, &model).expect("a valid home"));
     let world = World::new(home, &model, &Noise::nominal(), 1, None);
@@ -150,7 +151,7 @@ fn what_a_register_switches_on_by_itself_does_not_stay_on() {
     for robot in [&mut sound, &mut damaged] {
         robot.machine_mut().write_register(OC4CON, HIGH_FOR_GOOD);
         pass_ms(robot, 3);
-        assert!(robot.duty(Motor::WheelRight) == 0.0);
+        assert!(robot.duty(MotorOutput::WheelRight) == 0.0);
     }
     // A sound robot starts anew; in one whose image is damaged everything is switched off in each millisecond anyway.
     let resets = [&sound, &damaged].map(|robot| robot.machine().reset_count());
@@ -225,7 +226,7 @@ fn the_sampled_line_loses_nothing_at_full_load() {
         let Some(image) = image_of("RVAC_FIRMWARE_SAMPLED", "sr8730-link-sampled.elf") else {
             return;
         };
-        let rate = Rate {
+        let rate = HostRate {
             baud: SAMPLED_BAUD,
             error_permille,
         };
@@ -236,7 +237,7 @@ fn the_sampled_line_loses_nothing_at_full_load() {
         let link = flood(&mut robot_with(image, &settings), 8_000)
             .expect("slow facts")
             .link;
-        let damaged = link.bad_seal + link.framing + link.overrun + link.malformed;
+        let damaged = link.bad_crc + link.framing + link.overrun + link.malformed;
         assert_eq!(damaged, 0, "{error_permille} permille: {link:?}");
         assert!(link.accepted > 500, "{error_permille} permille: {link:?}");
     }

@@ -5,17 +5,17 @@
 use std::process::ExitCode;
 use std::thread;
 
-use robot::charging::{Conditions, Tally, Trial};
+use robot::charging::{ChargeTally, ChargeTrial, Conditions};
 use rvac_protocol::message::ChargeEnd;
 
 /// Each stop alone is tried on so many times fewer charges than all together.
 const ALONE_SHARE: u64 = 25;
 /// The stops of the phase of full current.
 const STOPS: [ChargeEnd; 8] = [
-    ChargeEnd::Slope,
-    ChargeEnd::Drop,
-    ChargeEnd::Plateau,
-    ChargeEnd::Rise,
+    ChargeEnd::TemperatureSlope,
+    ChargeEnd::NegativeDeltaV,
+    ChargeEnd::ZeroDeltaV,
+    ChargeEnd::TemperatureRise,
     ChargeEnd::Hot,
     ChargeEnd::Voltage,
     ChargeEnd::Charge,
@@ -29,15 +29,16 @@ fn main() -> ExitCode {
         return ExitCode::FAILURE;
     };
     let has = |flag: &str| arguments.iter().any(|argument| argument == flag);
-    let everything = tally(Trial::Everything, first, last);
+    let everything = tally(ChargeTrial::Everything, first, last);
     let mut rows = vec![("all".to_owned(), everything.clone())];
     if !has("--everything-only") {
         let last = first + ((last - first) / ALONE_SHARE).max(1);
-        rows.extend(
-            STOPS
-                .into_iter()
-                .map(|stop| (stop.name().to_owned(), tally(Trial::Only(stop), first, last))),
-        );
+        rows.extend(STOPS.into_iter().map(|stop| {
+            (
+                stop.name().to_owned(),
+                tally(ChargeTrial::Only(stop), first, last),
+            )
+        }));
     }
     if has("--json") {
         let rows: Vec<String> = rows.iter().map(|(name, tally)| json(name, tally)).collect();
@@ -63,16 +64,16 @@ fn seeds(arguments: &[String]) -> Option<(u64, u64)> {
 }
 
 /// Seeds are shared out evenly, so the sum does not depend on how many threads there are.
-fn tally(trial: Trial, first: u64, last: u64) -> Tally {
+fn tally(trial: ChargeTrial, first: u64, last: u64) -> ChargeTally {
     let threads = thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;
     let workers: Vec<_> = (0..threads)
         .map(|worker| {
             thread::spawn(move || {
-                let mut tally = Tally::default();
+                let mut tally = ChargeTally::default();
                 for seed in (first + worker..last).step_by(threads as usize) {
                     let healthy = match trial {
-                        Trial::Everything => Conditions::drawn(seed).is_healthy(),
-                        Trial::Only(_) => true,
+                        ChargeTrial::Everything => Conditions::drawn(seed).is_healthy(),
+                        ChargeTrial::Only(_) => true,
                     };
                     tally.add(&trial.run(seed), healthy);
                 }
@@ -80,14 +81,14 @@ fn tally(trial: Trial, first: u64, last: u64) -> Tally {
             })
         })
         .collect();
-    let mut sum = Tally::default();
+    let mut sum = ChargeTally::default();
     for worker in workers {
         sum.merge(&worker.join().expect("a worker does not panic"));
     }
     sum
 }
 
-fn print(name: &str, tally: &Tally) {
+fn print(name: &str, tally: &ChargeTally) {
     println!(
         "{name}: {} charges, {} sound: {:.2} % of them above 85 %, least {:.1} %; hottest {:.1} C (seed {}), {} above 55 C; \
          longest {:.2} h (seed {}); violations {}{}; estimate off by {:.1} % on average",
@@ -115,7 +116,7 @@ fn print(name: &str, tally: &Tally) {
     println!("    {}", ends.join(", "));
 }
 
-fn json(name: &str, tally: &Tally) -> String {
+fn json(name: &str, tally: &ChargeTally) -> String {
     let ends: Vec<String> = tally
         .ends
         .iter()

@@ -1,8 +1,8 @@
-//! The firmware of a robot as a host process: cordlib on simulated pins, "one more board".
+//! The firmware of a robot as a host process: cordlib on a simulated board.
 //!
-//! [`SimulatedRobot`] joins a [`home::World`], a serial line paced in virtual time ([`Line`]) and cordlib. One
-//! [`SimulatedRobot::tick`] is one millisecond. It knows no clock, no thread and no device: the same calls give the same
-//! bits, at any speed. The [`monitor::Monitor`] judges every millisecond whether motors ran that must not.
+//! [`SimulatedRobot`] joins a [`home::World`], a serial line paced in virtual time ([`SerialLine`]) and cordlib. One
+//! [`SimulatedRobot::tick`] is one millisecond. It uses no clock, no thread and no device: the same calls give the same
+//! bits, at any speed. The [`monitor::Monitor`] checks in every millisecond whether a motor ran against the rules.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -13,8 +13,8 @@ mod parameters;
 mod power;
 mod robot;
 
-pub use board::{Outfit, Relax, Sr8730};
-pub use line::Line;
+pub use board::{Outfit, Relax, Sr8730Outfit};
+pub use line::SerialLine;
 pub use parameters::parameters_for;
 pub use power::ChargeSwitch;
 pub use robot::{RobotSettings, SimulatedRobot};

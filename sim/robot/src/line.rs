@@ -7,12 +7,12 @@ use rvac_channel::{Channel, FaultRates, ReceivedByte};
 /// Bits of a byte on the line: start, eight, stop.
 const FRAME_BITS: u32 = 10;
 const MS_PER_S: u32 = 1000;
-/// Bytes the sender's driver holds at most; what comes while it is full is the sender's to keep.
+/// Capacity of the sender's driver; while it is full the sender must keep its bytes.
 const QUEUE_MAX: usize = 4096;
 
 /// A line that carries `baud / 10` bytes a second and damages them as its rates say.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub struct SerialLine {
     queue: VecDeque<u8>,
     baud: u32,
     /// Bits that the line could have carried and has not, times 1000 so that a millisecond is a whole number.
@@ -26,7 +26,7 @@ pub struct Line {
     received: Vec<ReceivedByte>,
 }
 
-impl Line {
+impl SerialLine {
     /// A line without faults; the damage of later ones follows from `seed`.
     #[must_use]
     pub fn new(baud: u32, seed: u64) -> Self {
@@ -42,7 +42,7 @@ impl Line {
         }
     }
 
-    /// Sets how often what goes wrong from now on.
+    /// Sets the rates of faults from now on.
     pub fn set_rates(&mut self, rates: FaultRates) {
         self.channel.set_rates(rates);
         self.faulty = rates != FaultRates::NONE;
@@ -71,12 +71,12 @@ impl Line {
         taken
     }
 
-    /// Forgets what the sender's driver holds: the sender died or its terminal was closed.
+    /// Clears the sender's driver: the sender died or its terminal was closed.
     pub fn flush(&mut self) {
         self.queue.clear();
     }
 
-    /// Lets a millisecond pass and gives the frames that the receiver's hardware reports in it.
+    /// Advances one millisecond and returns the frames that the receiver's hardware reports in it.
     pub fn pass_ms(&mut self) -> &[ReceivedByte] {
         self.received.clear();
         self.cut_ms = self.cut_ms.saturating_sub(1);
@@ -109,23 +109,23 @@ impl Line {
 
 #[cfg(test)]
 mod tests {
-    use super::Line;
+    use super::SerialLine;
     use rvac_channel::{FaultRates, ReceivedByte};
 
-    fn arrivals(line: &mut Line, ms: usize) -> Vec<usize> {
+    fn arrivals(line: &mut SerialLine, ms: usize) -> Vec<usize> {
         (0..ms).map(|_| line.pass_ms().len()).collect()
     }
 
     #[test]
     fn bytes_take_their_time() {
-        let mut line = Line::new(38_400, 1);
+        let mut line = SerialLine::new(38_400, 1);
         assert_eq!(line.send(&[b'x'; 20]), 20);
         assert_eq!(arrivals(&mut line, 7), [3, 4, 4, 4, 4, 1, 0]);
     }
 
     #[test]
     fn a_held_line_delivers_later_and_a_cut_one_never() {
-        let mut line = Line::new(100_000, 1);
+        let mut line = SerialLine::new(100_000, 1);
         line.hold(3);
         line.send(b"abcde");
         assert_eq!(arrivals(&mut line, 5), [0, 0, 0, 5, 0]);
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn the_sender_keeps_what_does_not_fit() {
-        let mut line = Line::new(9_600, 1);
+        let mut line = SerialLine::new(9_600, 1);
         assert_eq!(line.send(&[b'x'; 5000]), 4096);
         assert_eq!(line.room(), 0);
         line.flush();
@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn rates_damage_the_bytes() {
-        let mut line = Line::new(230_400, 9);
+        let mut line = SerialLine::new(230_400, 9);
         line.set_rates(FaultRates {
             lost_byte: 0.5,
             ..FaultRates::NONE

@@ -7,7 +7,7 @@ use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
 const FIRMWARE: &str = concat!("sim-", env!("CARGO_PKG_VERSION"));
 
-/// What the firmware of the board `device` must know of this model.
+/// Parameters of this model for the firmware of the board `device`.
 #[must_use]
 pub fn parameters_for(device: &'static str, model: &RobotModel) -> Parameters {
     let limits = Limits {
@@ -26,7 +26,7 @@ pub fn parameters_for(device: &'static str, model: &RobotModel) -> Parameters {
     parameters
 }
 
-/// The battery, and what its robot takes from it.
+/// The battery and its loads.
 fn pack_of(model: &RobotModel) -> PackParameters {
     let milli = |value: f64| (value * 1e3) as u16;
     let (battery, cleaners) = (&model.battery, &model.cleaners);

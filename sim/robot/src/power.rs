@@ -5,7 +5,7 @@ use home::{Supply, World};
 
 use crate::board::PackPins;
 
-/// The home brings the battery up to date this often, and in this millisecond of the period.
+/// The home updates the battery at this period, and in this millisecond of it.
 const BATTERY_MS: u64 = 10;
 const BATTERY_PHASE_MS: u64 = 3;
 /// Drop over the shunt, volts for each ampere.
@@ -14,7 +14,7 @@ const SHUNT_OHM: f64 = 0.3;
 /// The switch of the charger, sound or broken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ChargeSwitch {
-    /// It does what it is told.
+    /// It follows the command.
     #[default]
     Sound,
     /// Its transistor conducts for good.
@@ -28,12 +28,12 @@ pub(crate) fn charge_a<O>(switch: ChargeSwitch, pins: &PackPins<O>, world: &Worl
         (ChargeSwitch::Sound, ChargeDrive::Off) => 0.0,
         (ChargeSwitch::Sound, ChargeDrive::Duty(duty)) => duty.as_f64(),
     };
-    // A dock whose supply the switch shorts into the pack gives what it can, asked or not.
+    // If the switch is shorted, the dock gives all the current it can, requested or not.
     let asked = switch == ChargeSwitch::Shorted || pins.request == DockRequest::Current;
     Supply::USUAL.current_a(duty, world.truth().battery_v, asked)
 }
 
-/// What the converter shows. The shunt lies in the way of the charge only: what the robot takes it does not see.
+/// Readings of the converter. The shunt lies in the charge path only, so the robot's load is not measured.
 pub(crate) fn readings(charge_a: f64, world: &World) -> ChargerReadings {
     let sensors = world.sensors();
     let through_a = if sensors.dock_contacts { charge_a } else { 0.0 };

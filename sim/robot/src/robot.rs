@@ -2,14 +2,14 @@
 
 use cordlib::Cord;
 use cordlib::board::{ChargeDrive, CliffLevels, DockRequest, Emitters, Received, WheelCounts, WheelDrive};
-use home::{Actuation, Bridge, Digest, RobotModel, Sensors, World};
+use home::{Actuation, Bridge, Fnv1a, RobotModel, Sensors, World};
 use monitor::{Bridges, Charging, Drives, Monitor, Pins};
 use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
-use crate::board::{self, OneLine, Outfit, Persistent, SimulatedParts, Sr8730, WATCHDOG_MS};
-use crate::line::Line;
+use crate::board::{self, OneLine, Outfit, PersistentMemory, SimulatedParts, Sr8730Outfit, WATCHDOG_MS};
+use crate::line::SerialLine;
 use crate::parameters::parameters_for;
 use crate::power::{self, ChargeSwitch};
 
@@ -36,13 +36,13 @@ impl Default for RobotSettings {
 
 /// cordlib on a simulated board in a simulated home, with a paced serial line and the safety monitor.
 #[derive(Debug)]
-pub struct SimulatedRobot<O: Outfit = Sr8730> {
+pub struct SimulatedRobot<O: Outfit = Sr8730Outfit> {
     cord: Cord<SimulatedParts<O>>,
     one_line: OneLine,
     model: RobotModel,
     world: World,
-    to_robot: Line,
-    to_host: Line,
+    to_robot: SerialLine,
+    to_host: SerialLine,
     monitor: Monitor,
     bridges: Bridges,
     driven: [WheelDrive; 2],
@@ -54,25 +54,28 @@ pub struct SimulatedRobot<O: Outfit = Sr8730> {
     resets: u32,
     cliff_settled_ms: u32,
     cliff_seen: bool,
-    digest: Digest,
+    digest: Fnv1a,
 }
 
-/// Time after a change of the emitters in which levels mean nothing.
+/// Time after a change of the emitters in which levels are not valid.
 const CLIFF_SETTLE_MS: u32 = 3;
 /// A lit receiver below this has no floor before it, out of 255: floors give about 180, drops about 10.
 const NO_FLOOR_LEVEL: u8 = 20;
 
 impl<O: Outfit> SimulatedRobot<O> {
-    /// Switches the robot on where `world` has put it.
+    /// Switches the robot on at its place in `world`.
     #[must_use]
     pub fn new(model: &RobotModel, world: World, settings: &RobotSettings) -> Self {
         Self {
-            cord: Cord::new(board::fresh(Persistent::first()), parameters_for(O::NAME, model)),
+            cord: Cord::new(
+                board::fresh(PersistentMemory::first()),
+                parameters_for(O::NAME, model),
+            ),
             one_line: OneLine::default(),
             model: model.clone(),
             world,
-            to_robot: Line::new(settings.baud, settings.seed),
-            to_host: Line::new(settings.baud, settings.seed.wrapping_add(1)),
+            to_robot: SerialLine::new(settings.baud, settings.seed),
+            to_host: SerialLine::new(settings.baud, settings.seed.wrapping_add(1)),
             monitor: Monitor::new(),
             bridges: settings.bridges,
             driven: [WheelDrive::Brake; 2],
@@ -83,7 +86,7 @@ impl<O: Outfit> SimulatedRobot<O> {
             resets: 0,
             cliff_settled_ms: 0,
             cliff_seen: false,
-            digest: Digest::default(),
+            digest: Fnv1a::default(),
         }
     }
 
@@ -93,7 +96,7 @@ impl<O: Outfit> SimulatedRobot<O> {
     }
 
     /// Advances one millisecond: the home, then the bytes on the line, then one pass of the firmware's loop, then the
-    /// judgement. What reaches the host's receiver is appended to `to_host`.
+    /// monitor. Bytes that reach the host's receiver are appended to `to_host`.
     pub fn tick(&mut self, to_host: &mut Vec<u8>) {
         self.now_ms += 1;
         self.charge_a = power::charge_a(self.charge_switch, &self.cord.board().charger, &self.world);
@@ -266,7 +269,8 @@ impl<O: Outfit> SimulatedRobot<O> {
         }
     }
 
-    /// Resets the microcontroller: all memory of the firmware and all bytes in its queues are lost, all outputs are off.
+    /// Resets the microcontroller: all memory of the firmware and all bytes in its queues are lost, all outputs are
+    /// off.
     pub fn reset(&mut self, cause: ResetCause) {
         let persistent = self.cord.board().reset.restarted(cause);
         self.cord = Cord::new(board::fresh(persistent), *self.cord.parameters());
@@ -278,7 +282,7 @@ impl<O: Outfit> SimulatedRobot<O> {
         self.read_pins();
     }
 
-    /// What the firmware holds against motion, by its own word.
+    /// Inhibits as the firmware reports them.
     #[must_use]
     pub fn inhibits(&self) -> Inhibits {
         self.cord.inhibits()
@@ -289,13 +293,13 @@ impl<O: Outfit> SimulatedRobot<O> {
         self.charge_switch = switch;
     }
 
-    /// Sets how often what goes wrong on the line, both ways.
+    /// Sets the rates of faults on the line, in both directions.
     pub fn set_line_rates(&mut self, rates: FaultRates) {
         self.to_robot.set_rates(rates);
         self.to_host.set_rates(rates);
     }
 
-    /// Both ways of the line wait for `ms`.
+    /// Both directions of the line wait for `ms`.
     pub fn hold_line(&mut self, ms: u32) {
         self.to_robot.hold(ms);
         self.to_host.hold(ms);
@@ -313,7 +317,7 @@ impl<O: Outfit> SimulatedRobot<O> {
         self.to_robot.room()
     }
 
-    /// The host died: what its driver still held is gone.
+    /// The host died: the bytes in its driver are lost.
     pub fn host_died(&mut self) {
         self.to_robot.flush();
     }
@@ -335,7 +339,7 @@ impl<O: Outfit> SimulatedRobot<O> {
         &self.model
     }
 
-    /// The judge.
+    /// The monitor.
     #[must_use]
     pub const fn monitor(&self) -> &Monitor {
         &self.monitor
@@ -359,7 +363,7 @@ impl<O: Outfit> SimulatedRobot<O> {
         self.driven.iter().any(|drive| drive.duty() != Throttle::ZERO)
     }
 
-    /// A number that stands for everything that happened: every byte on the wire and the true pose ten times a second.
+    /// A hash of everything that happened: every byte on the wire and the true pose ten times a second.
     #[must_use]
     pub fn state_hash(&self) -> u64 {
         self.digest.value()

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use home::{Home, Noise, RobotModel, World};
-use robot::charging::{Conditions, Tally, Trial};
+use robot::charging::{ChargeTally, ChargeTrial, Conditions};
 use robot::{ChargeSwitch, RobotSettings, SimulatedRobot};
 use rvac_protocol::message::{ChargeEnd, Inhibit};
 
@@ -75,11 +75,12 @@ fn a_robot_leaves_a_dock_whose_current_does_not_end() {
 }
 
 #[test]
+#[ignore = "campaign: many charges drawn at random; cargo xtask test --all"]
 fn a_sample_of_charges_over_packs_weather_and_trouble() {
-    let mut tally = Tally::default();
+    let mut tally = ChargeTally::default();
     for seed in 0..36 {
         let healthy = Conditions::drawn(seed).is_healthy();
-        tally.add(&Trial::Everything.run(seed), healthy);
+        tally.add(&ChargeTrial::Everything.run(seed), healthy);
     }
     assert!(tally.healthy >= 15);
     assert_eq!(
@@ -93,8 +94,8 @@ fn a_sample_of_charges_over_packs_weather_and_trouble() {
 #[test]
 fn a_thermistor_that_freezes_before_the_pack_warms_up_is_found_in_time() {
     // A worn pack that was full when only the drop of its voltage could still end the charge.
-    let mut tally = Tally::default();
-    tally.add(&Trial::Everything.run(1_439), false);
+    let mut tally = ChargeTally::default();
+    tally.add(&ChargeTrial::Everything.run(1_439), false);
     assert_eq!(
         tally.ends.keys().copied().collect::<Vec<_>>(),
         ["thermistor-frozen"]
@@ -104,12 +105,13 @@ fn a_thermistor_that_freezes_before_the_pack_warms_up_is_found_in_time() {
 }
 
 #[test]
+#[ignore = "campaign: many charges drawn at random; cargo xtask test --all"]
 fn no_stop_alone_lets_a_cell_reach_55_degrees_or_a_charge_go_on_for_ever() {
     let stops = [
-        ChargeEnd::Slope,
-        ChargeEnd::Drop,
-        ChargeEnd::Plateau,
-        ChargeEnd::Rise,
+        ChargeEnd::TemperatureSlope,
+        ChargeEnd::NegativeDeltaV,
+        ChargeEnd::ZeroDeltaV,
+        ChargeEnd::TemperatureRise,
         ChargeEnd::Hot,
         ChargeEnd::Voltage,
         ChargeEnd::Charge,
@@ -117,7 +119,7 @@ fn no_stop_alone_lets_a_cell_reach_55_degrees_or_a_charge_go_on_for_ever() {
     ];
     for stop in stops {
         for seed in 0..2 {
-            let outcome = Trial::Only(stop).run(seed);
+            let outcome = ChargeTrial::Only(stop).run(seed);
             assert!(
                 outcome.hottest_c < 55.0 && outcome.violations == 0,
                 "{stop:?}: {outcome:?}"

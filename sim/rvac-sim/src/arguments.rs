@@ -10,18 +10,18 @@ use rvac_api::CleaningPattern;
 use rvac_sim::baseline::{Origin, title};
 use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::{RadioSettings, ServeSettings};
-use rvac_sim::{GyroFitted, PoseSource, Record, SceneSettings};
+use rvac_sim::{CalibrationChoice, GyroFitted, PoseSource, SceneSettings};
 
 /// A simulated robot in a simulated home.
 #[derive(Debug, Parser)]
 #[command(version)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
-    pub(crate) command: Command,
+    pub(crate) command: SimCommand,
 }
 
 #[derive(Debug, Subcommand)]
-pub(crate) enum Command {
+pub(crate) enum SimCommand {
     /// Puts a robot behind a pseudoterminal, at the pace of the wall clock.
     Serve(ServeArguments),
     /// Runs robot and brain in memory at full speed and reports how well they clean.
@@ -76,9 +76,9 @@ impl SceneArguments {
             noise: self.noise.clone(),
             firmware: self.firmware.clone(),
             record: if self.uncalibrated {
-                Record::Absent
+                CalibrationChoice::Absent
             } else {
-                Record::Complete
+                CalibrationChoice::Complete
             },
             gyro: self.gyro.unwrap_or(if self.uncalibrated {
                 GyroFitted::Unknown(1)

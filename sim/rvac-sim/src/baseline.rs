@@ -1,4 +1,4 @@
-//! The run of `bounce` beside which the runs of a page are shown.
+//! The `bounce` run with which the runs of a page are compared.
 
 use std::path::{Path, PathBuf};
 
@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 use crate::page::LONGEST;
 use crate::run::{RunEnd, RunSettings, household, run_until};
 use crate::trace::KeptRun;
-use crate::{GyroFitted, Record, Scene, SceneSettings};
+use crate::{CalibrationChoice, GyroFitted, Scene, SceneSettings};
 
-/// In what a kept run was made: the same for a run of `bounce` that it can be compared with.
+/// The settings of a stored run; a comparable `bounce` run has the same.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
     /// Home, as it was named.
@@ -61,7 +61,7 @@ impl Origin {
             robot: self.robot.clone(),
             noise: self.noise.clone(),
             firmware: None,
-            record: Record::Complete,
+            record: CalibrationChoice::Complete,
             gyro: GyroFitted::Placeholder,
         }
     }
@@ -73,8 +73,8 @@ pub fn title(strategy: &str, noise: &str, seed: u64) -> String {
     format!("{strategy}, {noise} noise, seed {seed}")
 }
 
-/// Runs `bounce` for all kept runs that have no such run beside them, and keeps that in the same folder. `progress` is told
-/// shares of all of it.
+/// Runs `bounce` for all kept runs that have no such run beside them, and keeps that in the same folder. `progress` is
+/// told shares of all of it.
 ///
 /// # Errors
 /// As [`Origin::bounce`], and when a run cannot be written.

@@ -1,4 +1,4 @@
-//! How well the carpets in the robot's map agree with the rugs of the home.
+//! Agreement of the carpets in the robot's map with the rugs of the home.
 
 use brain::Point2;
 use brain::mapping::{Cell, FloorKind, Map};
@@ -7,7 +7,8 @@ use home::{Pose, World};
 /// Agreement of the carpets that were felt with the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CarpetQuality {
-    /// Share of the rug floor under the swath that the map has as carpet; `None` = the swath was on no rug, or nothing is measured.
+    /// Share of the rug floor under the swath that the map has as carpet; `None` = the swath was on no rug, or nothing
+    /// is measured.
     pub(crate) recall: Option<f64>,
     /// Share of the map's carpet that lies on a rug; `None` = it has none.
     pub(crate) precision: Option<f64>,
@@ -41,14 +42,14 @@ fn recall(map: &Map, world: &World, map_from_plan: Pose) -> Option<f64> {
 
 fn precision(map: &Map, world: &World, plan_from_map: Pose) -> Option<f64> {
     let grid = world.home().grid();
-    let (mut told, mut right) = (0_u32, 0_u32);
+    let (mut reported, mut right) = (0_u32, 0_u32);
     for (cell, _) in map.floor_kinds().filter(|(_, kind)| *kind == FloorKind::Carpet) {
         let at = cell.middle();
         let (x_m, y_m) = plan_from_map.point(at.x_m, at.y_m);
-        told += 1;
+        reported += 1;
         right += u32::from(grid.at(x_m, y_m) == home::Cell::Rug);
     }
-    share(right, told)
+    share(right, reported)
 }
 
 fn share(part: u32, whole: u32) -> Option<f64> {

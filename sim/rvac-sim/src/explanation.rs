@@ -1,10 +1,10 @@
-//! What a robot decided and why, for people who want to know why it stands where it does.
+//! The robot's decisions and their reasons, for people.
 
 use std::io::{self, Write};
 
 use rvac_api::LogEntry;
 
-/// Writes a log, an entry a line: seconds since the host's start, the part that speaks, and what it says.
+/// Writes a log, one entry per line: seconds since the host's start, the part, and its text.
 ///
 /// # Errors
 /// When `out` takes nothing.

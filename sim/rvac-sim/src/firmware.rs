@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use home::World;
-use pic32::board::serial::Rate;
-use pic32::board::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, GyroFitted, Record};
+use pic32::board::serial::HostRate;
+use pic32::board::{
+    Blueprint, BlueprintError, CalibrationChoice, EmulatedRobot, EmulatedSettings, GyroFitted,
+};
 use pic32::image::{Image, ImageError};
-use robot::{Outfit, Relax, RobotSettings, SimulatedRobot, Sr8730};
+use robot::{Outfit, Relax, RobotSettings, SimulatedRobot, Sr8730Outfit};
 
 use crate::Robot;
 
@@ -65,7 +67,7 @@ impl Firmware {
     ///
     /// # Errors
     /// One sentence that names the file, what is wrong with it and what to do.
-    pub fn load(path: Option<&Path>, record: &Record) -> Result<Self, FirmwareError> {
+    pub fn load(path: Option<&Path>, record: &CalibrationChoice) -> Result<Self, FirmwareError> {
         let Some(path) = path else {
             return Ok(Self::HostBuilt);
         };
@@ -81,8 +83,8 @@ impl Firmware {
     #[must_use]
     pub fn suits(&self, robot: &str) -> bool {
         match self {
-            Self::HostBuilt => [Sr8730::NAME, Relax::NAME].contains(&robot),
-            Self::Image(_) => robot == Sr8730::NAME,
+            Self::HostBuilt => [Sr8730Outfit::NAME, Relax::NAME].contains(&robot),
+            Self::Image(_) => robot == Sr8730Outfit::NAME,
         }
     }
 
@@ -109,7 +111,7 @@ impl Firmware {
             }
             Self::Image(blueprint) => {
                 let settings = EmulatedSettings {
-                    rate: Rate::exact(settings.baud),
+                    rate: HostRate::exact(settings.baud),
                     seed: settings.seed,
                     bridges: settings.bridges,
                     ..EmulatedSettings::default()

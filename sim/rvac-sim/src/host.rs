@@ -1,4 +1,4 @@
-//! The daemon's core without the daemon: it talks to the robot in memory.
+//! The daemon's core without the daemon, connected to the robot in memory.
 
 use brain::command::StrategyName;
 use brain::mapping::StoredMap;
@@ -25,11 +25,11 @@ pub struct Host {
     /// Bytes for the robot that its line has not taken yet.
     pending: Vec<u8>,
     checkpoint: Option<Checkpoint>,
-    /// Lines of its log, if somebody wants them.
+    /// Lines of its log, if enabled.
     log: Option<Vec<LogEntry>>,
-    /// What its core recorded and nobody took yet, if somebody wants it.
+    /// Records of its core that have not been taken, if enabled.
     records: Option<Vec<Record>>,
-    /// What its core takes of a processor, if somebody wants to know.
+    /// Processor time of its core, if enabled.
     cost: Option<HostCost>,
     born_us: u64,
     /// Its clock on the wall, if it has one.
@@ -40,7 +40,7 @@ pub struct Host {
     /// Runs that are over.
     runs: Vec<RunRecord>,
     floors: HostFloors,
-    /// Its disk takes what it is given, and never says so.
+    /// Its disk accepts writes but never confirms them.
     disk_is_mute: bool,
 }
 
@@ -106,18 +106,18 @@ impl Host {
         self.wall = Some(HostWall::showing(now_us, utc_s));
     }
 
-    /// From now on its disk takes what it is given, and never says so.
+    /// From now on its disk accepts writes but never confirms them.
     pub fn mute_disk(&mut self) {
         self.disk_is_mute = true;
     }
 
-    /// The floors of the home, as clients are told.
+    /// The floors of the home, as clients receive them.
     #[must_use]
     pub fn floors(&self) -> FloorsView {
         self.core.floors_view()
     }
 
-    /// All schedules, as clients are told.
+    /// All schedules, as clients receive them.
     #[must_use]
     pub fn schedules(&self) -> Schedules {
         self.core.schedules()
@@ -135,7 +135,7 @@ impl Host {
         self.learnt.clone()
     }
 
-    /// How the parts are, as clients are told.
+    /// Health of the parts, as clients receive it.
     #[must_use]
     pub fn health(&self) -> Vec<ComponentHealth> {
         self.core.component_health()
@@ -257,7 +257,7 @@ impl Host {
         &self.runs
     }
 
-    /// It is told to end in good order.
+    /// Shuts it down in good order.
     pub fn shut_down(&mut self, now_us: u64) {
         self.handle(now_us, Input::Shutdown);
     }
@@ -267,7 +267,7 @@ impl Host {
         self.cost.get_or_insert_default();
     }
 
-    /// What its core has taken of a processor since [`Self::measure_cost`]; `None` = nobody asked.
+    /// Processor time of its core since [`Self::measure_cost`]; `None` = not measured.
     #[must_use]
     pub const fn cost(&self) -> Option<HostCost> {
         self.cost

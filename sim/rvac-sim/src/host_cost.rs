@@ -1,8 +1,9 @@
-//! What the host's core takes of a processor.
+//! Processor time of the host's core.
 //!
-//! Processor time of this thread, as Linux counts it, so that other work on the machine matters little. A step is one call of
-//! the core with news from the robot or with a timer that is due: while it lasts the daemon answers nobody, and a lease of the
-//! firmware (120 ms) must not run out. The smallest boards that the daemon runs on are some 40 times slower than a desktop.
+//! Processor time of this thread, as Linux counts it, so that other work on the machine matters little. A step is one
+//! call of the core with news from the robot or with a timer that is due: while it lasts the daemon does not respond,
+//! and a lease of the firmware (120 ms) must not run out. The smallest boards that the daemon runs on are some 40 times
+//! slower than a desktop.
 
 use rustix::time::{ClockId, clock_gettime};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! The clock on the wall of a simulated host: it goes with the virtual clock.
+//! The wall clock of a simulated host: it follows the virtual clock.
 
 /// Microseconds of a second, the pause between two looks at it.
 const LOOK_US: u64 = 1_000_000;

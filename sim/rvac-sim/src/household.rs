@@ -6,11 +6,11 @@ use brain::mapping::StoredMap;
 use home::{Beacons, BoardGyro, Home, Pose};
 
 use crate::carpet_quality;
-use crate::figures::{Belief, Collector, Floor};
+use crate::figures::{Belief, Collector, MeasuredFloor};
 use crate::known_map::known_map;
 use crate::linux_board::LinuxBoard;
 use crate::map_quality::judge;
-use crate::report::{Driven, Report, StuckWatch};
+use crate::report::{Driven, RunReport, StuckWatch};
 use crate::trace::{Drawing, KeptRun, Trace};
 use crate::{Figures, Host, Robot};
 
@@ -31,10 +31,10 @@ pub struct Household {
     pose_source: PoseSource,
     /// A map that the host shall get when it knows its robot.
     known_home: Option<StoredMap>,
-    /// With that map it is told where in it the robot stands.
+    /// With that map the robot's pose in it is given.
     tells_place: bool,
     board: LinuxBoard,
-    /// What happened, if somebody wants to know.
+    /// The trace of the run, if enabled.
     trace: Option<Trace>,
 }
 
@@ -44,7 +44,7 @@ pub enum PoseSource {
     /// From the host itself, as on a robot.
     #[default]
     Own,
-    /// From the truth, with each report of the robot: shows what a planner can do apart from the estimator.
+    /// From the ground truth, with each report of the robot: shows the planner without errors of the estimator.
     Truth,
 }
 
@@ -57,7 +57,7 @@ impl Household {
     pub fn new(robot: Robot, host: Host) -> Self {
         let map_from_plan = robot.world().truth().pose.inverse();
         let home = robot.world().home();
-        let floor = Floor {
+        let floor = MeasuredFloor {
             reachable_m2: home.reachable_area_m2(),
             t0_s: home.t0_s(),
             cruise_m_per_s: robot.model().drive.cruise_m_per_s,
@@ -141,7 +141,7 @@ impl Household {
         self
     }
 
-    /// The same household with beacons that the Linux board's radio hears.
+    /// The same household with beacons for the Linux board's radio.
     #[must_use]
     pub fn with_beacons(mut self, beacons: Beacons) -> Self {
         self.board.beacons = Some(beacons);
@@ -208,7 +208,8 @@ impl Household {
         }
     }
 
-    /// Advances second by second until something is so; the seconds that it took, `None` if it is not so after `seconds_max`.
+    /// Advances second by second until something is so; the seconds that it took, `None` if it is not so after
+    /// `seconds_max`.
     pub fn pass_until(&mut self, seconds_max: u64, mut is_so: impl FnMut(&Self) -> bool) -> Option<u64> {
         (1..=seconds_max).find(|_| {
             self.pass_ms(1_000);
@@ -238,8 +239,8 @@ impl Household {
             let truth_in_map = self.map_from_plan.then(truth.pose);
             self.figures.sample(truth, truth_in_map, &belief);
             if truth.time_ms.is_multiple_of(TOLD_MS) && belief.state == Some(brain::BehaviorState::Cleaning) {
-                let told = host.brain().and_then(brain::Brain::swept_share);
-                self.figures.note_told(told, truth.swept_share);
+                let reported = host.brain().and_then(brain::Brain::swept_share);
+                self.figures.note_reported(reported, truth.swept_share);
             }
             if let Some(trace) = &mut self.trace {
                 let time_ms = truth.time_ms - self.figures.charging_ms();
@@ -281,7 +282,7 @@ impl Household {
         self.host.as_mut()
     }
 
-    /// Asks the host for something; without a host nobody hears it.
+    /// Sends a request to the host; without a host it is lost.
     pub fn ask(&mut self, body: rvac_api::RequestBody) {
         let now_us = self.now_us();
         if let Some(host) = &mut self.host {
@@ -315,11 +316,11 @@ impl Household {
 
     /// The figures so far.
     #[must_use]
-    pub fn report(&self) -> Report {
-        Report {
+    pub fn report(&self) -> RunReport {
+        RunReport {
             pose_rmse_m: self.figures.pose_rmse_m(),
             figures: Some(Box::new(self.all_figures())),
-            ..Report::of(&self.robot, &self.stuck)
+            ..RunReport::of(&self.robot, &self.stuck)
         }
     }
 }

@@ -1,9 +1,9 @@
-//! What the `rvac-sim` binary is made of.
+//! Library of the `rvac-sim` binary.
 //!
 //! A [`Robot`] runs the firmware that is built into this program, or an image in an emulated chip ([`Firmware`]). A
-//! [`Household`] is a robot and a host that run against each other in memory, on a virtual clock. [`run`]
-//! measures how well such a household cleans, [`faults`] breaks it in a thousand ways and lets the safety monitor watch,
-//! and [`serve`] puts the robot alone behind a pseudoterminal for a daemon of flesh and blood.
+//! [`Household`] is a robot and a host that run against each other in memory, on a virtual clock. [`run`] measures how
+//! well such a household cleans, [`faults`] injects random faults under the safety monitor, and [`serve`] puts the
+//! robot alone behind a pseudoterminal for a real daemon.
 #![forbid(unsafe_code)]
 
 pub mod baseline;
@@ -37,8 +37,8 @@ pub use firmware::{Firmware, FirmwareError};
 pub use host::Host;
 pub use host_cost::{HostCost, thread_processor_s};
 pub use household::{Household, PoseSource, TICK_US};
-pub use pic32::board::{GyroFitted, Record};
-pub use report::{Report, StuckWatch};
+pub use pic32::board::{CalibrationChoice, GyroFitted};
+pub use report::{RunReport, StuckWatch};
 pub use robot::Robot;
 pub use scene::{Scene, SceneError, SceneSettings};
 pub use sensors::sensor_layout;

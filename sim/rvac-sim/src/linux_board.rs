@@ -1,4 +1,4 @@
-//! What sits on the robot's Linux board besides the daemon: a gyro and a radio, where there are such.
+//! Sensors on the robot's Linux board besides the daemon: a gyro and a radio, if fitted.
 
 use home::{Beacons, BoardGyro};
 
@@ -15,7 +15,7 @@ pub(crate) struct LinuxBoard {
 }
 
 impl LinuxBoard {
-    /// One millisecond later: what the sensors have to say goes to the host.
+    /// Advances one millisecond and passes the sensors' readings to the host.
     pub(crate) fn pass_ms(&mut self, robot: &Robot, host: &mut Host, now_us: u64) {
         let (pose, now_ms) = (robot.world().truth().pose, robot.now_ms());
         if let Some(gyro) = &mut self.gyro {

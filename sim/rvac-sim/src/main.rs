@@ -11,19 +11,19 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::{Context, bail};
-use arguments::{Arguments, Command, FaultArguments, ReportArguments, RunArguments, ServeArguments};
+use arguments::{Arguments, FaultArguments, ReportArguments, RunArguments, ServeArguments, SimCommand};
 use brain::StoredMap;
 use clap::Parser;
 use home::RobotModel;
 use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
 use rvac_sim::baseline::add_missing;
-use rvac_sim::faults::{Campaign, Summary, trials};
+use rvac_sim::faults::{FaultCampaign, Summary, trials};
 use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::trace::KeptRun;
-use rvac_sim::{Firmware, Host, Household, Record, Report, Scene, SceneError, explain};
+use rvac_sim::{CalibrationChoice, Firmware, Host, Household, RunReport, Scene, SceneError, explain};
 use vthal_core::stored_map;
 
 /// Bad input; nothing was done.
@@ -31,14 +31,14 @@ const BAD_INPUT: u8 = 2;
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
-        Command::Serve(arguments) => serve_robot(&arguments),
-        Command::Run(arguments) => run_household(&arguments),
-        Command::Faults(arguments) => run_trials(&arguments),
-        Command::Homes(arguments) => write_homes(&arguments.folder),
-        Command::Report(arguments) => write_page(&arguments),
+        SimCommand::Serve(arguments) => serve_robot(&arguments),
+        SimCommand::Run(arguments) => run_household(&arguments),
+        SimCommand::Faults(arguments) => run_trials(&arguments),
+        SimCommand::Homes(arguments) => write_homes(&arguments.folder),
+        SimCommand::Report(arguments) => write_page(&arguments),
     };
     outcome.unwrap_or_else(|error| {
-        // When even standard error is gone there is nobody left to tell.
+        // If standard error is closed, nobody can be informed.
         writeln!(io::stderr(), "rvac-sim: {error:#}").ok();
         ExitCode::from(BAD_INPUT)
     })
@@ -87,7 +87,7 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     });
     progress.clear();
     let report = report?;
-    let report = Report {
+    let report = RunReport {
         wall_seconds: started.elapsed().as_secs_f64(),
         host_cost: household.host().and_then(Host::cost),
         ..report
@@ -167,11 +167,11 @@ fn write_page(arguments: &ReportArguments) -> anyhow::Result<ExitCode> {
 
 fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     let model = RobotModel::by_name(&arguments.robot)?;
-    let firmware = Firmware::load(arguments.firmware.as_deref(), &Record::Complete)?;
+    let firmware = Firmware::load(arguments.firmware.as_deref(), &CalibrationChoice::Complete)?;
     if !firmware.suits(&model.name) {
         bail!(SceneError::NoBoard(model.name));
     }
-    let campaign = Campaign::load(model, firmware)?;
+    let campaign = FaultCampaign::load(model, firmware)?;
     let seeds = arguments.seeds.clone();
     let count = seeds.end - seeds.start;
     let duration_ms = arguments.duration_ms();

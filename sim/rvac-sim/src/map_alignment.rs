@@ -1,4 +1,4 @@
-//! Lays a map over the plan as a whole, as its walls fit best: shifted and turned, never stretched or bent.
+//! Aligns a map with the plan by a rigid transform (shift and rotation) that fits the walls best.
 
 use brain::Point2;
 use home::{Home, Pose};

@@ -1,7 +1,7 @@
-//! How well the robot's map agrees with the plan of the home.
+//! Agreement of the robot's map with the plan of the home.
 //!
-//! A robot cannot know how the plan's axes run: its frame begins where it stood and as it stood, as well as it knew. So the map is
-//! judged twice, in that frame and *aligned*: laid over the plan as a whole, as its walls fit best.
+//! A robot cannot know the plan's axes: its frame starts at its own first pose. The map is therefore judged twice: in
+//! that frame, and *aligned* with the plan by the rigid transform that fits the walls best.
 
 use brain::Point2;
 use brain::mapping::{CELL_M, CellKnowledge, Map};
@@ -21,11 +21,11 @@ pub(crate) struct MapQuality {
 /// Agreement of a map that is laid over the plan in one way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Agreement {
-    /// Floor that the robot knows as free, over that and what it does not know of the reachable floor and what it wrongly
-    /// takes for free: 0..1. Floor that the body cannot come over may be known, but need not.
+    /// Floor that the robot knows as free, over that and what it does not know of the reachable floor and what it
+    /// wrongly takes for free: 0..1. Floor that the body cannot come over may be known, but need not.
     pub(crate) iou: f64,
-    /// Mean distance of the cells at which the robot's free floor ends at something solid from what is really solid there,
-    /// metres; `None` = it knows of no such cell.
+    /// Mean distance of the cells at which the robot's free floor ends at something solid from what is really solid
+    /// there, metres; `None` = it knows of no such cell.
     pub(crate) wall_error_m: Option<f64>,
 }
 

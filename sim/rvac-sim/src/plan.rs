@@ -1,4 +1,4 @@
-//! What clients of the simulator's socket see of the home: plan and truth in the map frame.
+//! The home for clients of the simulator's socket: plan and ground truth in the map frame.
 
 use home::{Home, Pose};
 use rvac_api::{SimulatedPlan, SimulatedTruth};

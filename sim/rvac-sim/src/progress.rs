@@ -24,7 +24,7 @@ impl Progress {
     pub(crate) fn show(&self, share: f64) {
         let permille = (share * 1000.0) as u32;
         if self.terminal && self.shown_permille.swap(permille, Ordering::Relaxed) != permille {
-            // Progress is a courtesy: that it cannot be shown is no reason to stop.
+            // A failure to show progress does not stop the run.
             write!(io::stderr(), "\r{} {:5.1} %", self.what, share * 100.0).ok();
         }
     }

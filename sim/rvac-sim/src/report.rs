@@ -1,4 +1,4 @@
-//! How well a run went.
+//! Figures of a run.
 
 use home::Truth;
 use serde::Serialize;
@@ -7,7 +7,7 @@ use crate::{Figures, HostCost, Robot};
 
 /// The figures of a run, as one JSON object.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Report {
+pub struct RunReport {
     /// Name of the home.
     pub home: String,
     /// All floor, square metres.
@@ -18,7 +18,7 @@ pub struct Report {
     pub covered: f64,
     /// Lower bound of the time: reachable area / (swath x cruise speed).
     pub t0_s: f64,
-    /// True way.
+    /// True path length.
     pub path_m: f64,
     /// Times the body came into contact with something.
     pub bumps: u32,
@@ -30,7 +30,8 @@ pub struct Report {
     pub foot_pushed_max_ms: u32,
     /// Violations of the safety rules.
     pub monitor_violations: u32,
-    /// Root mean square distance between believed and true place, ten samples a second; `null` where no host was watched.
+    /// Root mean square distance between believed and true place, ten samples a second; `null` where no host was
+    /// watched.
     pub pose_rmse_m: Option<f64>,
     /// Speed of covering, and how well the robot knew its place, where a host was watched.
     #[serde(flatten)]
@@ -44,7 +45,7 @@ pub struct Report {
     pub host_cost: Option<HostCost>,
 }
 
-impl Report {
+impl RunReport {
     /// The figures of `robot` up to now, without those that only others know.
     #[must_use]
     pub fn of(robot: &Robot, stuck: &StuckWatch) -> Self {
@@ -71,7 +72,7 @@ impl Report {
     }
 }
 
-impl std::fmt::Display for Report {
+impl std::fmt::Display for RunReport {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         writeln!(formatter, "home          {}", self.home)?;
         writeln!(
@@ -131,7 +132,7 @@ impl std::fmt::Display for Report {
     }
 }
 
-/// Notices a robot that wants to drive and does not get away.
+/// Detects a robot that tries to drive and makes no progress.
 #[derive(Clone, Debug, Default)]
 pub struct StuckWatch {
     anchor: Option<home::Pose>,

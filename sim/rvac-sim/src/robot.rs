@@ -1,5 +1,5 @@
-//! The robot of a scene: the firmware built for this machine on simulated pins, or the robot's own binary in an emulated
-//! chip. Everything above knows only this.
+//! The robot of a scene: the firmware built for this machine on simulated pins, or the robot's own binary in an
+//! emulated chip. All other modules use only this interface.
 
 use home::{RobotModel, World};
 use monitor::Monitor;

@@ -5,7 +5,7 @@ use robot::RobotSettings;
 use rvac_api::{CleaningPattern, JobOrder, RequestBody};
 use vthal_core::CoreConfig;
 
-use crate::{Host, Household, Report, Scene};
+use crate::{Host, Household, RunReport, Scene};
 
 /// What is run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,7 +137,7 @@ pub fn run(
     household: &mut Household,
     settings: &RunSettings,
     progress: impl FnMut(f64),
-) -> Result<Report, NoAnswer> {
+) -> Result<RunReport, NoAnswer> {
     run_until(household, (settings, RunEnd::Time), progress)
 }
 
@@ -152,7 +152,7 @@ pub fn run_until(
     household: &mut Household,
     (settings, end): (&RunSettings, RunEnd),
     mut progress: impl FnMut(f64),
-) -> Result<Report, NoAnswer> {
+) -> Result<RunReport, NoAnswer> {
     let is_answered = match settings.pattern {
         Some(_) => start_job(
             household,

@@ -1,4 +1,4 @@
-//! From names and files to a robot in a home.
+//! Builds a robot in a home from names and files.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 use home::generate::GeneratedHome;
 use home::traps::{Trap, TrapKind};
 use home::{Beacons, BoardGyro, Home, HomeError, ModelError, Noise, NoiseError, Pose, RobotModel, World};
-use pic32::board::{GyroFitted, Record};
+use pic32::board::{CalibrationChoice, GyroFitted};
 use robot::RobotSettings;
 
 use crate::{Firmware, FirmwareError, Robot};
@@ -23,7 +23,7 @@ pub struct SceneSettings {
     /// File of the firmware image; `None` = the firmware that is built in.
     pub firmware: Option<PathBuf>,
     /// The calibration record in the robot's flash, which only an image for the chip reads.
-    pub record: Record,
+    pub record: CalibrationChoice,
     /// The gyro module on the board of an emulated chip.
     pub gyro: GyroFitted,
 }
@@ -127,7 +127,7 @@ fn load_home(source: &Path, model: &RobotModel) -> Result<Home, SceneError> {
     }
 }
 
-/// Why there is no scene.
+/// Why a scene cannot be built.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// The home cannot be loaded.

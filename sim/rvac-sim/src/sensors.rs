@@ -1,4 +1,4 @@
-//! What the brain must know of a simulated robot's sensors: the wire tells only how many there are.
+//! Positions of a simulated robot's sensors for the brain: the wire reports only their numbers.
 
 use brain::{BumperLayout, Point2, ProximityLayout, ProximityResponse, SensorLayout};
 use home::RobotModel;

@@ -1,4 +1,4 @@
-//! What happened in a run, for pictures: samples of each second, bumps, the plan and the robot's map at the end.
+//! Record of a run, for pictures: samples of each second, bumps, the plan and the robot's map at the end.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::baseline::Origin;
 use crate::figures::Belief;
-use crate::{Host, Report};
+use crate::{Host, RunReport};
 
-/// The way of a run. All places are in the plan frame.
+/// The path of a run. All positions are in the plan frame.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Trace {
     /// Moments, one a second.
@@ -171,7 +171,7 @@ impl KeptRun {
     ///
     /// # Errors
     /// When the report cannot be written as JSON.
-    pub fn new(title: String, report: &Report, home: &Home) -> anyhow::Result<Self> {
+    pub fn new(title: String, report: &RunReport, home: &Home) -> anyhow::Result<Self> {
         Ok(Self {
             title,
             origin: None,

@@ -5,90 +5,90 @@ use rayon::prelude::*;
 use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
-use crate::stage::{Stage, StageError, Workshop};
-use crate::trial::{Outcome, Scene, Trial};
+use crate::testbed::{Fixture, Testbed, TestbedError};
+use crate::trial::{OperatingState, Trial, TrialOutcome};
 
-/// Robots of each scene: each with another phase between its core and its surroundings.
-const CAST: u64 = 8;
-/// An event comes within so many milliseconds of the scene: more than all periods of the firmware.
+/// Robots of each operating state: each with another phase between its core and its surroundings.
+const ROBOTS_PER_STATE: u64 = 8;
+/// An event comes within this many milliseconds: more than all periods of the firmware.
 const SPREAD_MS: u64 = 100;
 
-/// What came of one trial at all its phases.
+/// Result of one trial at all its phases.
 #[derive(Clone, Debug, Serialize)]
-pub struct Verdict {
+pub struct TrialSummary {
     /// Rule of SAFETY.md.
     pub rule: &'static str,
     /// What happened.
     pub what: &'static str,
     /// How often.
     pub phases: usize,
-    /// Longest reaction, ms; `None` = at least once nothing followed while anybody looked.
+    /// Longest reaction, ms; `None` = at least once there was no reaction within the observed time.
     pub worst_ms: Option<f64>,
     /// Mean reaction, ms.
     pub mean_ms: f64,
     /// Limit, ms.
     pub limit_ms: u64,
-    /// Times that it was too late, or the robot did not say what it had to.
+    /// Times that it was too late, or the robot did not report what it had to.
     pub broken: usize,
     /// Breaches that the monitor saw, in all phases together.
     pub violations: usize,
-    /// What the robot said at the end of the first broken one.
+    /// Inhibits that the robot reported at the end of the first broken one.
     pub said: Vec<&'static str>,
 }
 
-/// Robots in all scenes that the trials need.
+/// Robots in all operating states that the trials need.
 #[derive(Debug)]
-pub struct Theatre {
-    casts: Vec<(Scene, Vec<Stage>)>,
+pub struct Campaign {
+    robots: Vec<(OperatingState, Vec<Testbed>)>,
 }
 
-impl Theatre {
-    /// Brings robots into the scenes of `trials`.
+impl Campaign {
+    /// Brings robots into the operating states of `trials`.
     ///
     /// # Errors
-    /// When one does not get there.
-    pub fn open(workshop: &Workshop, trials: &[Trial], phases: usize) -> Result<Self, StageError> {
-        let size = CAST.min(phases as u64).max(1);
-        let wanted = |scene: &Scene| trials.iter().any(|trial| trial.scene == *scene);
-        let cast = |scene: Scene| -> Result<_, StageError> {
-            let stages = (0..size)
+    /// When one does not reach its state.
+    pub fn open(fixture: &Fixture, trials: &[Trial], phases: usize) -> Result<Self, TestbedError> {
+        let size = ROBOTS_PER_STATE.min(phases as u64).max(1);
+        let wanted = |scene: &OperatingState| trials.iter().any(|trial| trial.scene == *scene);
+        let cast = |scene: OperatingState| -> Result<_, TestbedError> {
+            let testbeds = (0..size)
                 .into_par_iter()
-                .map(|number| scene.set(workshop, number + 1, number * CYCLES_PER_MS / size))
+                .map(|number| scene.set(fixture, number + 1, number * CYCLES_PER_MS / size))
                 .collect::<Result<_, _>>()?;
-            Ok((scene, stages))
+            Ok((scene, testbeds))
         };
-        let casts = Scene::ALL.into_iter().filter(wanted).map(cast);
+        let robots = OperatingState::ALL.into_iter().filter(wanted).map(cast);
         Ok(Self {
-            casts: casts.collect::<Result<_, _>>()?,
+            robots: robots.collect::<Result<_, _>>()?,
         })
     }
 
-    /// Lets a trial happen at `phases` moments that `seed` chooses.
+    /// Runs a trial at `phases` moments chosen by `seed`.
     #[must_use]
-    pub fn judge(&self, trial: &Trial, phases: usize, seed: u64) -> Verdict {
+    pub fn judge(&self, trial: &Trial, phases: usize, seed: u64) -> TrialSummary {
         let mut random = home::Pcg::new(seed, 0);
-        let stages = self
-            .casts
+        let testbeds = self
+            .robots
             .iter()
             .find(|(scene, _)| *scene == trial.scene)
-            .map_or(&[][..], |(_, stages)| stages.as_slice());
+            .map_or(&[][..], |(_, testbeds)| testbeds.as_slice());
         let mut phase = || (random.unit() * (SPREAD_MS * CYCLES_PER_MS) as f64) as u64;
-        let moments: Vec<(&Stage, u64)> = stages
+        let moments: Vec<(&Testbed, u64)> = testbeds
             .iter()
             .cycle()
             .take(phases)
-            .map(|stage| (stage, phase()))
+            .map(|testbed| (testbed, phase()))
             .collect();
-        let outcomes: Vec<Outcome> = moments
+        let outcomes: Vec<TrialOutcome> = moments
             .into_par_iter()
-            .map(|(stage, phase)| trial.run(stage.clone(), phase))
+            .map(|(testbed, phase)| trial.run(testbed.clone(), phase))
             .collect();
-        Verdict::of(trial, &outcomes)
+        TrialSummary::of(trial, &outcomes)
     }
 }
 
-impl Verdict {
-    fn of(trial: &Trial, outcomes: &[Outcome]) -> Self {
+impl TrialSummary {
+    fn of(trial: &Trial, outcomes: &[TrialOutcome]) -> Self {
         let reactions: Option<Vec<f64>> = outcomes.iter().map(|outcome| outcome.reaction_ms).collect();
         let known: Vec<f64> = outcomes
             .iter()

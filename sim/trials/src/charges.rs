@@ -1,19 +1,19 @@
-//! The real firmware on its dock with packs of many kinds, and with trouble (S18). Each charge is watched for its first minutes
-//! only: the emulated chip is too slow for hours. Whole charges are the model's (`cargo run --release -p robot --example charges`),
-//! with the same charger.
+//! The real firmware on its dock with packs of many kinds, and with faults (S18). Each charge runs for its first
+//! minutes only: the emulated chip is too slow for hours. Whole charges are the model's (`cargo run --release -p robot
+//! --example charges`), with the same charger.
 
 use home::{Pack, PackMake, Pcg};
 use monitor::Bridges;
 use serde::Serialize;
 
-use crate::stage::{Stage, StageError, Workshop};
+use crate::testbed::{Fixture, Testbed, TestbedError};
 
 const PACKS: u64 = 0xC4A6;
 /// A charge begins within this time on the dock.
 const BEGINS_MS: u64 = 60_000;
-/// A charge without trouble is watched for so long.
+/// Observed time of a charge without a fault.
 const WATCH_MS: u64 = 60_000;
-/// Trouble begins so long after the charge.
+/// Time from the start of the charge to the fault.
 const CALM_MS: u64 = 2_000;
 /// Current that tells that a pack is being charged, ampere. The dock gives less before it was asked.
 const CHARGING_A: f64 = 0.1;
@@ -25,10 +25,10 @@ const SHORTED: u16 = 20;
 const IEC1_CLEAR: u32 = 0xBF88_1074;
 const CONVERTER_ENABLE: u32 = 1 << 1;
 
-/// What goes wrong while the pack is charged.
+/// Disturbance of a charge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Trouble {
+pub enum ChargeDisturbance {
     /// Nothing; a pack as they come.
     None,
     /// Nothing; a worn pack.
@@ -41,11 +41,11 @@ pub enum Trouble {
     Lifted,
     /// The charging switch conducts for good: the robot must drive off.
     SwitchShorted,
-    /// The converter's readings are not taken over any more.
+    /// The converter's readings stop.
     ConverterStopped,
 }
 
-impl Trouble {
+impl ChargeDisturbance {
     const ALL: [Self; 7] = [
         Self::None,
         Self::ThermistorOpen,
@@ -70,9 +70,9 @@ impl Trouble {
         }
     }
 
-    fn begin(self, stage: &mut Stage) {
-        let now = stage.robot().cycle();
-        let robot = stage.robot_mut();
+    fn begin(self, testbed: &mut Testbed) {
+        let now = testbed.robot().cycle();
+        let robot = testbed.robot_mut();
         match self {
             Self::None | Self::WornPack => {}
             Self::ThermistorOpen => robot.hold_analog(THERMISTOR, OPEN, (now, u64::MAX)),
@@ -84,20 +84,21 @@ impl Trouble {
     }
 }
 
-/// How a charge went.
+/// Result of a charge.
 #[derive(Clone, Debug, Serialize)]
-pub struct Charge {
+pub struct ChargeResult {
     /// Of the pack and of the moment.
     pub seed: u64,
-    /// What went wrong.
-    pub trouble: Trouble,
+    /// The disturbance.
+    #[serde(rename = "trouble")]
+    pub disturbance: ChargeDisturbance,
     /// Capacity of the pack, Ah.
     pub capacity_ah: f64,
     /// Whether the charge began at all: a pack with a failed cell may be refused.
     pub began: bool,
-    /// Highest current, ampere, before trouble came.
+    /// Highest current before the disturbance, ampere.
     pub highest_a: f64,
-    /// Time from the trouble to the last current, ms; `None` = it flows on, or there was no trouble.
+    /// Time from the disturbance to the last current, ms; `None` = it still flows, or there was no disturbance.
     pub ended_ms: Option<u64>,
     /// Hottest cell, degrees Celsius.
     pub hottest_c: f64,
@@ -105,16 +106,16 @@ pub struct Charge {
     pub violations: u32,
 }
 
-impl Charge {
-    /// Whether all is as it must be.
+impl ChargeResult {
+    /// Whether the result is as required.
     #[must_use]
     pub fn is_good(&self) -> bool {
-        let ended = match (self.trouble.limit_ms(), self.ended_ms) {
+        let ended = match (self.disturbance.limit_ms(), self.ended_ms) {
             (None, _) => true,
             (Some(_), None) => !self.began,
             (Some(limit_ms), Some(ended_ms)) => ended_ms <= limit_ms,
         };
-        let began = self.began || self.trouble == Trouble::WornPack;
+        let began = self.began || self.disturbance == ChargeDisturbance::WornPack;
         ended && began && self.violations == 0 && self.hottest_c < 55.0
     }
 }
@@ -123,22 +124,22 @@ impl Charge {
 ///
 /// # Errors
 /// When the robot does not answer.
-pub fn charge(workshop: &Workshop, seed: u64) -> Result<Charge, StageError> {
+pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError> {
     let mut random = Pcg::new(seed, PACKS);
-    let kinds = Trouble::ALL.len() as u64;
-    let trouble = Trouble::ALL
+    let kinds = ChargeDisturbance::ALL.len() as u64;
+    let disturbance = ChargeDisturbance::ALL
         .get((seed % kinds) as usize)
         .copied()
-        .unwrap_or(Trouble::None);
-    let make = match trouble {
-        Trouble::WornPack => PackMake::worn(&mut random),
+        .unwrap_or(ChargeDisturbance::None);
+    let make = match disturbance {
+        ChargeDisturbance::WornPack => PackMake::worn(&mut random),
         _ => PackMake::sound(&mut random),
     };
     let (left, ambient_c) = (0.1 + 0.6 * random.unit(), 9.0 + 25.0 * random.unit());
-    let mut stage = on_the_dock(workshop, seed, Pack::new(make, left, ambient_c))?;
-    let mut charge = Charge {
+    let mut testbed = on_the_dock(fixture, seed, Pack::new(make, left, ambient_c))?;
+    let mut charge = ChargeResult {
         seed,
-        trouble,
+        disturbance,
         capacity_ah: make.capacity_ah,
         began: false,
         highest_a: 0.0,
@@ -147,48 +148,48 @@ pub fn charge(workshop: &Workshop, seed: u64) -> Result<Charge, StageError> {
         violations: 0,
     };
     charge.began = (0..BEGINS_MS).any(|_| {
-        stage.tick();
-        current_a(&stage) > CHARGING_A
+        testbed.tick();
+        current_a(&testbed) > CHARGING_A
     });
-    let calm_ms = match trouble.limit_ms() {
+    let calm_ms = match disturbance.limit_ms() {
         Some(_) => CALM_MS + u64::from(random.below(1_000)),
         None => WATCH_MS,
     };
     for _ in 0..calm_ms {
-        stage.tick();
-        charge.highest_a = charge.highest_a.max(current_a(&stage));
+        testbed.tick();
+        charge.highest_a = charge.highest_a.max(current_a(&testbed));
     }
-    if let Some(limit_ms) = trouble.limit_ms().filter(|_| charge.began) {
-        trouble.begin(&mut stage);
-        charge.ended_ms = time_of_end(&mut stage, 2 * limit_ms);
+    if let Some(limit_ms) = disturbance.limit_ms().filter(|_| charge.began) {
+        disturbance.begin(&mut testbed);
+        charge.ended_ms = time_of_end(&mut testbed, 2 * limit_ms);
     }
-    charge.hottest_c = stage.robot().world().truth().battery_hottest_c;
-    charge.violations = stage.robot().monitor().count();
+    charge.hottest_c = testbed.robot().world().truth().battery_hottest_c;
+    charge.violations = testbed.robot().monitor().count();
     Ok(charge)
 }
 
-fn on_the_dock(workshop: &Workshop, seed: u64, pack: Pack) -> Result<Stage, StageError> {
-    let mut stage = workshop.stage(seed, Bridges::Sound, seed * 9_973);
-    let world = stage.robot_mut().world_mut();
+fn on_the_dock(fixture: &Fixture, seed: u64, pack: Pack) -> Result<Testbed, TestbedError> {
+    let mut testbed = fixture.testbed(seed, Bridges::Sound, seed * 9_973);
+    let world = testbed.robot_mut().world_mut();
     let dock = world.home().start();
     world.put_down_at(dock);
     world.set_pack(pack);
-    stage.connect()?;
-    Ok(stage)
+    testbed.connect()?;
+    Ok(testbed)
 }
 
 /// When the last current flowed within `watched_ms`, if it does not still flow.
-fn time_of_end(stage: &mut Stage, watched_ms: u64) -> Option<u64> {
+fn time_of_end(testbed: &mut Testbed, watched_ms: u64) -> Option<u64> {
     let mut last_ms = 0;
     for ms in 1..=watched_ms {
-        stage.tick();
-        if current_a(stage) > CHARGING_A {
+        testbed.tick();
+        if current_a(testbed) > CHARGING_A {
             last_ms = ms;
         }
     }
     (last_ms < watched_ms).then_some(last_ms)
 }
 
-fn current_a(stage: &Stage) -> f64 {
-    stage.robot().world().truth().battery_a
+fn current_a(testbed: &Testbed) -> f64 {
+    testbed.robot().world().truth().battery_a
 }

@@ -1,30 +1,30 @@
-//! How a program that tries a firmware ends.
+//! Exit code and error message of the programs that test a firmware.
 
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use crate::stage::StageError;
+use crate::testbed::TestbedError;
 
 /// Why a campaign has no result.
 #[derive(Debug, thiserror::Error)]
 pub enum CampaignError {
-    /// The robot does not get where the trials begin.
+    /// The robot does not reach the start of the trials.
     #[error(transparent)]
-    Stage(#[from] StageError),
+    Testbed(#[from] TestbedError),
     /// The result cannot be written.
     #[error("cannot write the result: {0}")]
     Output(#[from] io::Error),
 }
 
-/// Exit code of `program`, whose campaign gave `result`: whether all was as it must be. What was not is said on standard
-/// error; `otherwise` says it when the campaign has come to its end.
+/// Exit code of `program`, whose campaign gave `result`: whether all was as it must be. What was not is said on
+/// standard error; `otherwise` says it when the campaign has come to its end.
 pub fn conclude(program: &str, result: Result<bool, CampaignError>, otherwise: &str) -> ExitCode {
     let complaint = match result {
         Ok(true) => return ExitCode::SUCCESS,
         Ok(false) => otherwise.to_owned(),
         Err(error) => error.to_string(),
     };
-    // When even standard error is gone there is nobody left to tell.
+    // If standard error is closed, nobody can be informed.
     writeln!(io::stderr(), "{program}: {complaint}").ok();
     ExitCode::FAILURE
 }

@@ -1,8 +1,8 @@
-//! The robot's real firmware under faults, in the emulated chip: how fast each safety rule reacts, from an event at a pin to
-//! the motors' compare registers, at any phase of the firmware's loop and interrupts.
+//! The robot's real firmware under faults, in the emulated chip: how fast each safety rule reacts, from an event at a
+//! pin to the motors' compare registers, at any phase of the firmware's loop and interrupts.
 //!
-//! A [`Stage`] is a robot with its image and a host that speaks the protocol and nothing else. A [`Trial`] is a scene, an
-//! event at a known cycle, and what must follow within which time.
+//! A [`Testbed`] is a robot with its image and a host that only implements the protocol. A [`Trial`] is an operating
+//! state, an event at a known cycle, and the expected reaction with its time limit.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -11,11 +11,11 @@ mod catalog;
 pub mod charges;
 mod ending;
 pub mod flips;
-mod stage;
+mod testbed;
 mod trial;
 
-pub use campaign::{Theatre, Verdict};
+pub use campaign::{Campaign, TrialSummary};
 pub use catalog::trials;
 pub use ending::{CampaignError, conclude};
-pub use stage::{Stage, StageError, Workshop};
-pub use trial::{Aim, Outcome, Scene, Trial};
+pub use testbed::{Fixture, Testbed, TestbedError};
+pub use trial::{Expectation, OperatingState, Trial, TrialOutcome};

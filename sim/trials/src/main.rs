@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use serde::Serialize;
-use trials::{CampaignError, Theatre, Trial, Verdict, Workshop, conclude, trials};
+use trials::{Campaign, CampaignError, Fixture, Trial, TrialSummary, conclude, trials};
 
 /// Tries every safety rule on a firmware.
 #[derive(Debug, Parser)]
@@ -32,11 +32,11 @@ struct Arguments {
 }
 
 #[derive(Debug, Serialize)]
-struct Report {
+struct SafetyReport {
     phases: u32,
     broken: usize,
     violations: usize,
-    trials: Vec<Verdict>,
+    trials: Vec<TrialSummary>,
 }
 
 fn main() -> ExitCode {
@@ -52,8 +52,8 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
                 .any(|rule| rule.eq_ignore_ascii_case(trial.rule))
     };
     let chosen: Vec<Trial> = trials().into_iter().filter(wanted).collect();
-    let workshop = Workshop::open(&arguments.firmware)?;
-    let theatre = Theatre::open(&workshop, &chosen, arguments.phases as usize)?;
+    let fixture = Fixture::open(&arguments.firmware)?;
+    let campaign = Campaign::open(&fixture, &chosen, arguments.phases as usize)?;
     let mut out = io::stdout().lock();
     if !arguments.json {
         writeln!(
@@ -62,14 +62,14 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
             "rule", "fault", "worst ms", "mean ms", "limit"
         )?;
     }
-    let mut report = Report {
+    let mut report = SafetyReport {
         phases: arguments.phases,
         broken: 0,
         violations: 0,
         trials: Vec::new(),
     };
     for trial in &chosen {
-        let verdict = theatre.judge(trial, arguments.phases as usize, arguments.seed);
+        let verdict = campaign.judge(trial, arguments.phases as usize, arguments.seed);
         if !arguments.json {
             print(&mut out, &verdict)?;
         }
@@ -81,10 +81,10 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
         serde_json::to_writer(&mut out, &report).map_err(io::Error::from)?;
         writeln!(out)?;
     }
-    Ok(!report.trials.is_empty() && report.trials.iter().all(Verdict::is_kept))
+    Ok(!report.trials.is_empty() && report.trials.iter().all(TrialSummary::is_kept))
 }
 
-fn print(out: &mut impl Write, verdict: &Verdict) -> io::Result<()> {
+fn print(out: &mut impl Write, verdict: &TrialSummary) -> io::Result<()> {
     let worst = verdict
         .worst_ms
         .map_or_else(|| "never".to_owned(), |worst_ms| format!("{worst_ms:.2}"));

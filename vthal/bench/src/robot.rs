@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, EdgeKind, Inhibit, Limits, MotionPhase, Name, Report,
+    BinaryKinds, Capabilities, Command, Description, Event, Inhibit, Limits, MotionPhase, Name, Report,
     ResetCause, State,
 };
 use rvac_protocol::session::{Mode, RobotEvent, RobotIdentity, RobotSession};
@@ -52,7 +52,7 @@ impl SyntheticRobot {
 
     /// Whether a daemon has opened a session.
     pub fn is_sealed(&self) -> bool {
-        self.session.mode() == Mode::Sealed
+        self.session.mode() == Mode::Checked
     }
 
     /// Whether it is told to move now.
@@ -69,7 +69,7 @@ impl SyntheticRobot {
     /// Presses or lets go of a button.
     pub fn button(&mut self, button: u8, pressed: bool) {
         self.session
-            .queue_edge(EdgeKind::Button { button, pressed }, self.now());
+            .queue_event(Event::Button { button, pressed }, self.now());
     }
 
     /// Lives until `deadline` or until `done` says so, with telemetry at 50 Hz. Gives whether `done` said so.

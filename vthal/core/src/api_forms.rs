@@ -5,7 +5,8 @@
 use brain::{CleaningOrder, HomePart, NoGo, Pattern, PlaceShape, Zone};
 use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape};
 
-use crate::core::{orders, places, room_power};
+use crate::desk::home::{to_no_go as no_go_or_refusal, to_shape};
+use crate::desk::{room_power, words};
 
 /// An order but for its power, which clients tell in shares.
 #[must_use]
@@ -22,7 +23,7 @@ pub fn order(order: &CleaningOrder) -> JobOrder {
 /// The order of this form.
 #[must_use]
 pub fn to_order(order: &JobOrder) -> Option<CleaningOrder> {
-    orders::to_order(order).ok()
+    words::to_order(order).ok()
 }
 
 fn part(part: &HomePart) -> JobPart {
@@ -50,7 +51,7 @@ pub fn no_go(no_go: &NoGo) -> NoGoShape {
 /// What this form forbids.
 #[must_use]
 pub fn to_no_go(shape: &NoGoShape) -> Option<NoGo> {
-    orders::to_no_go(shape).ok()
+    no_go_or_refusal(shape).ok()
 }
 
 /// Where a place is.
@@ -65,7 +66,7 @@ pub fn place(shape: &PlaceShape) -> rvac_api::PlaceShape {
 /// The place of this form.
 #[must_use]
 pub fn to_place(shape: &rvac_api::PlaceShape) -> Option<PlaceShape> {
-    places::to_shape(shape).ok()
+    to_shape(shape).ok()
 }
 
 /// In which way floor is swept.

@@ -278,7 +278,7 @@ fn room(room: &Room, annotations: &Annotations) -> RoomView {
         x: room.middle.x_m,
         y: room.middle.y_m,
         name: annotations.name(room.id).map(|name| name.as_str().to_owned()),
-        settings: annotations.settings(room.id).map(crate::core::room_power::to_api),
+        settings: annotations.settings(room.id).map(crate::desk::room_power::to_api),
     }
 }
 

@@ -126,6 +126,11 @@ pub enum Input<'a> {
 pub enum LinkLoss {
     /// The other end hung up or the adapter was pulled.
     HungUp,
+    /// No robot answers at this rate, as [`crate::Outputs::next_rate`] said.
+    NoAnswer {
+        /// Bits per second.
+        baud: u32,
+    },
     /// Reading or writing failed.
     Failed(String),
 }

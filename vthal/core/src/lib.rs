@@ -5,38 +5,36 @@
 //! [`Input::Wake`]. It knows no clock, no sockets and no files, so the daemon, a test and the batch simulator run the
 //! same code.
 //!
-//! The parts, in the way of a telemetry report: [`device`] (the device model, what holds for every make, and the makes),
-//! [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link;
-//! beside it the `arbiter` (who may command), `buttons` (what a person means who presses them), `client_inputs` (sticks that clients tell), [`schedule`] (what starts by itself), `history` (what is kept of runs), `core::feed` (what clients are told, and how often) and [`Checkpoint`]
-//! (what survives a crash).
+//! The parts, in the order in which a telemetry report passes them: [`device`] (the device model, what holds for every make, and
+//! the makes), [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link.
+//! Beside it stand the desks of `desk`: each owns what it knows (who may command, what buttons mean, what clients follow, floors,
+//! [`schedule`]s, runs, loads of motors, learned values, what clients hear and how often). `core` holds them all, routes inputs and
+//! requests to them, and hands the facts of one to another. [`stored_map`] is the bytes of maps, [`api_forms`] are orders and places
+//! as clients and recordings write them. A [`Checkpoint`] is what survives a crash.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod api_forms;
-mod arbiter;
-mod buttons;
 mod checkpoint;
-mod client_inputs;
-mod clients;
 mod config;
 mod core;
+mod desk;
 pub mod device;
 mod diary;
-mod evidence;
+mod edges;
 mod floors;
 pub mod health;
 mod history;
 mod home_view;
 mod input;
-mod journal;
 pub mod learnt;
 mod mind;
 mod newest;
 pub mod observe;
 mod outputs;
 mod quest;
+mod refusal;
 pub mod schedule;
-mod scheduler;
 pub mod stored_map;
 mod stored_version;
 mod swept_sigma;

@@ -5,29 +5,30 @@
 
 mod floors;
 mod next_run;
+mod runs;
 
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
 use brain::{
-    Actions, BehaviorState, Body, Brain, Checkpoint, Command, LearntPart, MapCursor, ReadyHome, Reason,
-    Speeds,
+    Actions, BehaviorState, Body, Brain, Checkpoint, Command, Learnt, LearntPart, MapCursor, Reason, Speeds,
 };
-use floors::Carried;
 pub(crate) use floors::FloorNews;
+use floors::Hands;
 use next_run::{FloorOnItsWay, NextHome, NextRun};
+pub(crate) use runs::Recorder;
+use runs::Run;
 use rvac_api::HomeView;
 
 use crate::device::{Description, Part};
+use crate::edges::Edges;
 use crate::floors::Floors;
 use crate::home_view::{FeltFloors, home_view};
-use crate::observe::Observer;
+use crate::observe::{LinkView, Observer};
 use crate::quest::Quest;
-use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, RunStart, to_api};
+use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
 const CRUISE_M_PER_S: f64 = 0.25;
-/// A run ends when the robot has rested for this long.
-const REST_ENDS_RUN_US: u64 = 5_000_000;
 
 /// A brain for one robot.
 #[derive(Debug)]
@@ -36,6 +37,8 @@ pub(crate) struct Mind {
     config: BrainConfig,
     seed: u64,
     pub(crate) observer: Observer,
+    /// Of what the observer has seen.
+    edges: Edges,
     waiting: Vec<Command>,
     /// Brains before this one: part of the number of the map.
     map_base: u32,
@@ -51,43 +54,30 @@ pub(crate) struct Mind {
     floor: Option<u16>,
     /// The search for the floor: while it is not known, and while the robot is lost on one of several.
     quest: Option<Quest>,
-    carried: Carried,
+    hands: Hands,
     identity: (String, String),
     robot: rvac_api::RobotDescription,
     measures_currents: bool,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Run {
-    /// Since when the robot rests, if it does.
-    resting_since_us: Option<u64>,
-}
-
-/// What a step gives: actions, and records if they are wanted.
-pub(crate) struct Recorder<'a> {
-    /// `None` = no recording.
-    pub(crate) records: Option<&'a mut Vec<Record>>,
-}
-
-impl Recorder<'_> {
-    fn write(&mut self, record: impl FnOnce() -> Record) {
-        if let Some(records) = &mut self.records {
-            records.push(record());
-        }
-    }
-}
-
 impl Mind {
-    pub(crate) fn new(description: &Description, settings: &CoreConfig, floors: &Floors) -> Self {
+    /// A brain that begins with what a robot of this description has learnt.
+    pub(crate) fn new(
+        description: &Description,
+        learnt: Learnt,
+        settings: &CoreConfig,
+        floors: &Floors,
+    ) -> Self {
         let config = brain_config(description, settings);
         let seed = settings.seed;
         let mut brain = Brain::new(config, seed);
-        brain.begin_with(settings.learnt.of(&description.identity.device));
+        brain.begin_with(learnt);
         Self {
             brain,
             config,
             seed,
             observer: Observer::new(),
+            edges: Edges::default(),
             waiting: Vec::new(),
             map_base: 0,
             home_base: 0,
@@ -97,7 +87,7 @@ impl Mind {
             on_its_way: None,
             floor: floors.homes().next().is_none().then(|| floors.first()),
             quest: None,
-            carried: Carried::No,
+            hands: Hands::default(),
             identity: (
                 description.identity.device.clone(),
                 description.identity.firmware.clone(),
@@ -109,6 +99,17 @@ impl Mind {
 
     pub(crate) fn brain(&self) -> &Brain {
         &self.brain
+    }
+
+    /// Dates what the robot perceives, for the next step.
+    pub(crate) fn stamp(&mut self, now_us: u64, link: LinkView) {
+        self.observer.stamp(now_us, link);
+        self.edges.take(now_us, self.observer.observation());
+    }
+
+    /// What comes and goes of what the robot feels.
+    pub(crate) fn edges(&self) -> &Edges {
+        &self.edges
     }
 
     /// Begins anew in a home that is known.
@@ -195,15 +196,6 @@ impl Mind {
         self.brain.map().cursor()
     }
 
-    pub(crate) fn is_recorded(&self) -> bool {
-        self.run.is_some()
-    }
-
-    /// Number of the run that is recorded now.
-    pub(crate) fn recorded_run(&self) -> Option<u32> {
-        self.run.map(|_| self.runs)
-    }
-
     /// Gives `command` to the brain with its next step. The first one after rest begins a run, in which it is carried out; with a
     /// home that takes some steps.
     pub(crate) fn command(&mut self, now_us: u64, command: Command, recorder: &mut Recorder<'_>) {
@@ -279,11 +271,6 @@ impl Mind {
         }
     }
 
-    fn begins_run(&self, cause: RunCause) -> bool {
-        let rests = self.rests() && self.waiting.is_empty();
-        self.next.is_none() && (self.run.is_none() || (rests && cause == RunCause::Job))
-    }
-
     /// Whether [`Self::prepare`] has something to do.
     pub(crate) fn is_preparing(&self) -> bool {
         self.next.is_some() || self.on_its_way.is_some()
@@ -307,67 +294,6 @@ impl Mind {
             ..self.checkpoint_for_next_run()
         };
         self.begin_run(now_us, (cause, checkpoint, Some(ready)), recorder);
-    }
-
-    /// On a floor that is not known the map is one of nowhere.
-    fn checkpoint_for_next_run(&self) -> Checkpoint {
-        match self.floor {
-            Some(_) => self.brain.checkpoint_for_next_run(),
-            None => self.brain.checkpoint_without_home(),
-        }
-    }
-
-    /// Takes up what a daemon before this one was doing, on this floor.
-    pub(crate) fn resume(
-        &mut self,
-        now_us: u64,
-        (checkpoint, floor): (Checkpoint, Option<u16>),
-        recorder: &mut Recorder<'_>,
-    ) {
-        self.floor = floor;
-        let checkpoint = checkpoint.after(self.brain.learnt());
-        self.begin_run(
-            now_us,
-            (RunCause::ResumedAfterRestart, checkpoint, None),
-            recorder,
-        );
-    }
-
-    fn begin_run(
-        &mut self,
-        now_us: u64,
-        (cause, checkpoint, ready): (RunCause, Checkpoint, Option<ReadyHome>),
-        recorder: &mut Recorder<'_>,
-    ) {
-        self.map_base = self.map_number();
-        self.runs += 1;
-        // Any odd multiplier gives each run a seed of its own; this one is the golden ratio's.
-        let seed = self.seed ^ u64::from(self.runs).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.replace(Brain::new(self.config, seed));
-        match ready {
-            Some(home) => self.brain.restore_at(home, &checkpoint),
-            None => self.brain.restore(&checkpoint),
-        }
-        self.run = Some(Run {
-            resting_since_us: None,
-        });
-        recorder.write(|| {
-            Record::RunStarted(Box::new(RunStart {
-                time_us: now_us,
-                run: self.runs,
-                cause,
-                seed,
-                brain: self.config,
-                checkpoint,
-                device: self.identity.0.clone(),
-                firmware: self.identity.1.clone(),
-                robot: self.robot.clone(),
-            }))
-        });
-        // What this step says was said by the brain before.
-        if matches!(cause, RunCause::Job | RunCause::Manual) {
-            self.step_once(&[], recorder);
-        }
     }
 
     /// Whether what the brain knows is the home that is kept, so that people may change it.
@@ -430,27 +356,6 @@ impl Mind {
             BehaviorState::Idle | BehaviorState::Docked | BehaviorState::Disconnected
         );
         at_rest && !status.resumable
-    }
-
-    fn watch_rest(&mut self, recorder: &mut Recorder<'_>) {
-        let now_us = self.observer.observation().time_us;
-        let rests = self.rests();
-        let Some(run) = &mut self.run else { return };
-        match (rests, run.resting_since_us) {
-            (false, _) => run.resting_since_us = None,
-            (true, None) => run.resting_since_us = Some(now_us),
-            (true, Some(since_us)) if now_us >= since_us + REST_ENDS_RUN_US => {
-                self.end_run(now_us, RunEnd::Finished, recorder);
-            }
-            (true, Some(_)) => {}
-        }
-    }
-
-    /// Closes the running recording, if there is one.
-    pub(crate) fn end_run(&mut self, now_us: u64, end: RunEnd, recorder: &mut Recorder<'_>) {
-        if self.run.take().is_some() {
-            recorder.write(|| Record::RunEnded { time_us: now_us, end });
-        }
     }
 }
 

@@ -14,6 +14,8 @@ use crate::schedule::StoredBook;
 pub struct Outputs {
     /// Bytes for the robot, in order.
     pub link: Vec<u8>,
+    /// No robot answers: the line is to be opened again at the next rate of the make.
+    pub next_rate: bool,
     /// Updates for clients, in order.
     pub deliveries: Vec<Delivery>,
     /// Lines of the log. Followers of [`Topic::Log`] get them as deliveries besides.
@@ -244,6 +246,7 @@ impl Outputs {
     /// Empties everything and keeps the memory.
     pub fn clear(&mut self) {
         self.link.clear();
+        self.next_rate = false;
         self.deliveries.clear();
         self.log.clear();
         self.records.clear();

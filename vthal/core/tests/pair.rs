@@ -7,7 +7,7 @@ use rvac_api::{
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, EdgeKind, Gyro, Inhibit, Inhibits, Limits, Motor, Name,
+    BinaryKinds, Capabilities, Command, Description, Event, Gyro, Inhibit, Inhibits, Limits, Motor, Name,
     Report, ResetCause, State, WheelDrops,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
@@ -603,7 +603,7 @@ fn a_lifted_robot_is_not_started() {
 /// A button goes down or up, as events and reports tell it.
 fn turn(pair: &mut Pair, button: u8, pressed: bool) {
     let tick = Tick(pair.now_ms as u32);
-    pair.robot.queue_edge(EdgeKind::Button { button, pressed }, tick);
+    pair.robot.queue_event(Event::Button { button, pressed }, tick);
     pair.state.buttons ^= 1 << button;
 }
 

@@ -12,8 +12,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
 use rvac_api::{LogEntry, Request, RequestBody, RunResult, Schedules, Update};
+use rvac_protocol::crc::{Digest, Direction as SealDirection};
 use rvac_protocol::message::{self, BinaryKinds};
-use rvac_protocol::seal::{Digest, Direction as SealDirection};
 
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
 use vthal_core::stored_map;
@@ -836,7 +836,7 @@ fn age_checkpoint(path: &Path) {
     body[at] = if body[at] == b'0' { b'1' } else { b'0' };
     let mut digest = Digest::start(SealDirection::HostToRobot, 0);
     digest.extend(&body);
-    let mut whole = format!("vthal-checkpoint-1 {} {:08X}\n", body.len(), digest.seal()).into_bytes();
+    let mut whole = format!("vthal-checkpoint-1 {} {:08X}\n", body.len(), digest.crc()).into_bytes();
     whole.extend(body);
     fs::write(path, whole).expect("writes");
     fs::remove_file(path.with_extension("old")).ok();

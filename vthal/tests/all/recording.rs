@@ -94,10 +94,7 @@ fn records() -> Vec<Record> {
     let named = Status {
         strategy: Some("bounce".to_owned()),
         driver: Some("panel".to_owned()),
-        room: Some(RoomHere {
-            id: 3,
-            name: Some("Kitchen".to_owned()),
-        }),
+        room: Some(kitchen()),
         ..status.clone()
     };
     let full = Observation {
@@ -156,6 +153,13 @@ fn records() -> Vec<Record> {
     records.push(Record::Pose(POSE));
     records.extend([LogLevel::Debug, LogLevel::Info, LogLevel::Warn, LogLevel::Error].map(line));
     records
+}
+
+fn kitchen() -> RoomHere {
+    RoomHere {
+        id: 3,
+        name: Some("Kitchen".to_owned()),
+    }
 }
 
 /// The device table with every part.

@@ -3,6 +3,7 @@
 //! Words: a *service* is one child process (`rvac-sim`, `vthal`, `panel-server`); the *stack* is all of them; the
 //! *state folder* is a private folder with their sockets, logs and recordings.
 
+mod forecast;
 mod headless;
 mod preflight;
 mod report;
@@ -13,7 +14,8 @@ mod state;
 mod trace;
 
 use crate::firmware::{self, build::Options};
-use crate::{panel, process, workspace};
+use crate::panel::{self, Ahead, Page};
+use crate::{process, workspace};
 use stack::Stack;
 use state::State;
 use std::path::{Path, PathBuf};
@@ -82,14 +84,19 @@ impl Arguments {
 /// Checks the input, builds, starts everything, and stays until it is told to stop.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     preflight::arguments(arguments)?;
-    preflight::home(arguments)?;
-    let firmware = arguments.firmware()?;
+    forecast::tell(arguments);
     if arguments.headless {
+        preflight::home(arguments)?;
+        let firmware = arguments.firmware()?;
         workspace::build(&["rvac-sim", "vthal"], workspace::Profile::Dev)?;
         return headless::run(arguments, firmware.as_deref());
     }
+    let page = Ahead::begin(Page::Demo)?;
+    preflight::home(arguments)?;
+    let firmware = arguments.firmware()?;
     workspace::build(&["rvac-sim", "vthal", "panel-server"], workspace::Profile::Dev)?;
-    let assets = panel::build()?;
+    page.finish()?;
+    let assets = panel::build(Page::Demo)?;
     preflight::port(arguments.port)?;
     let state = State::create(arguments.state.as_deref())?;
     let mut stack = Stack::new(state)?;

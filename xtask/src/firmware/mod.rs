@@ -6,12 +6,12 @@ pub(crate) mod elf;
 mod flow;
 mod graph;
 mod hex;
+mod image_crc;
 mod instruction;
 mod record;
 mod report;
 #[cfg(test)]
 mod sample;
-mod seal;
 mod symbol_name;
 
 use crate::codegen::board::calibration::Calibration;
@@ -131,15 +131,15 @@ fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
     Ok(build(board(ROBOT)?, &options, None)?.elf)
 }
 
-/// Builds the firmware in a place; gives the bytes of the ELF file, sealed.
+/// Builds the firmware in a place; gives the bytes of the ELF file with its checksums.
 fn link(board: &Board, place: &Place, options: &Options) -> anyhow::Result<Vec<u8>> {
     let tools = toolchain::choose(&toolchain::MIPS)?;
     let path = build::build(board, &tools, place, options)?;
     let bytes = std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
     let program = Elf::read(&bytes).with_context(|| path.display().to_string())?;
-    match seal::sealed(bytes, &program).with_context(|| path.display().to_string())? {
+    match image_crc::with_crc(bytes, &program).with_context(|| path.display().to_string())? {
         (bytes, true) => Ok(bytes),
-        (_, false) => bail!("{} keeps no words for its seal (image_seal!)", path.display()),
+        (_, false) => bail!("{} keeps no words for its checksums (image_crc!)", path.display()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The calibration record: measured values as the firmware finds them in the last page of its flash.
 //!
-//! Little endian: magic u32, version u16, number of values u16, the values as i32 in the order of robot.toml (the least i32
-//! means unknown), CRC-32C of all before.
+//! Little endian: magic u32, version u16, number of values u16, the values as i32 in the order of robot.toml (the least
+//! i32 means unknown), CRC-32C of all before.
 
 use super::checksum::crc_32c;
 use super::elf::Segment;
@@ -98,6 +98,17 @@ mod tests {
         assert_eq!(&segment.bytes[8..16], [0, 0, 0, 0x80, 7, 0, 0, 0]);
         assert_eq!(segment.bytes.len(), 20);
         assert_eq!(bytes(&[i32::MIN, 7]).expect("short"), segment.bytes);
+    }
+
+    #[test]
+    fn a_former_name_stands_for_the_value() {
+        let values = VALUES.replacen("name = \"b\"", "name = \"b\"\nformer-name = \"c\"", 1);
+        let calibration = Calibration::parse(&values).expect("valid");
+        let of = |name: &str| {
+            let text = format!("robot = \"r\"\n[values]\n{name} = 7\n");
+            segment(&text, "r", &calibration).expect("known").bytes
+        };
+        assert_eq!(of("c"), of("b"));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Builds the panel: WebAssembly by whatever compiler this machine has for it, then packed into one folder of files.
 
 mod ahead;
+mod page;
 
 use crate::{process, toolchain, workspace};
 use anyhow::bail;
@@ -8,14 +9,12 @@ use std::path::PathBuf;
 use std::process::Command;
 
 pub(crate) use ahead::Ahead;
-
-/// The WebAssembly that cargo leaves, below the target folder of the panel.
-const WASM: &str = "wasm32-unknown-unknown/release/panel.wasm";
+pub(crate) use page::Page;
 
 /// Builds and packs the panel; gives the folder that the panel server serves.
-pub(crate) fn build() -> anyhow::Result<PathBuf> {
-    let wasm = compile()?;
-    let folder = workspace::target().join("panel");
+pub(crate) fn build(page: Page) -> anyhow::Result<PathBuf> {
+    let wasm = compile(page)?;
+    let folder = page.folder();
     let mut pack = workspace::cargo();
     pack.args([
         "run",
@@ -36,13 +35,21 @@ pub(crate) fn build() -> anyhow::Result<PathBuf> {
     Ok(folder)
 }
 
-fn compile() -> anyhow::Result<PathBuf> {
-    let (toolchain, mut cargo) = compilation()?;
+fn compile(page: Page) -> anyhow::Result<PathBuf> {
+    let (toolchain, mut cargo) = compilation(page)?;
+    let minutes = match page {
+        Page::Release => "about nine minutes",
+        Page::Demo => "about four minutes",
+    };
     process::run(
-        &format!("build the panel with {toolchain} (about four minutes the first time)"),
+        &format!("build the panel with {toolchain} ({minutes} the first time)"),
         &mut cargo,
     )?;
-    let wasm = folder().join(WASM);
+    let wasm = page
+        .target()
+        .join(toolchain::WEB.triple)
+        .join(page.profile())
+        .join("panel.wasm");
     if !wasm.is_file() {
         bail!(
             "the panel was built but {} is missing; is its program still called panel?",
@@ -52,24 +59,14 @@ fn compile() -> anyhow::Result<PathBuf> {
     Ok(wasm)
 }
 
-/// Where the compiler leaves the panel: a folder that no other build locks.
-fn folder() -> PathBuf {
-    workspace::target().join("panel-wasm")
-}
-
 /// The compiler's name and the command that compiles the panel.
-fn compilation() -> anyhow::Result<(String, Command)> {
+fn compilation(page: Page) -> anyhow::Result<(String, Command)> {
     let toolchain = toolchain::choose(&toolchain::WEB)?;
     let mut cargo = toolchain.cargo();
     cargo
-        .args([
-            "build",
-            "--release",
-            "--locked",
-            "--manifest-path",
-            "clients/panel/Cargo.toml",
-        ])
+        .args(["build", "--locked", "--profile", page.profile()])
+        .args(["--manifest-path", "clients/panel/Cargo.toml"])
         .args(["--target", toolchain::WEB.triple, "--target-dir"])
-        .arg(folder());
+        .arg(page.target());
     Ok((toolchain.name(), cargo))
 }

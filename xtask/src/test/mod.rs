@@ -1,22 +1,29 @@
-//! `cargo xtask test`: every check and test of the project in one command, stage after stage.
+//! `cargo xtask test`: the checks and tests of the project in one command, stage after stage; with `--all` every one of them.
 
+mod browser;
+mod campaigns;
+mod code;
 mod count;
+mod extent;
+mod processor;
+mod programs;
 mod robot;
 mod runner;
 mod stages;
 mod verdicts;
 
-use crate::panel::Ahead;
+use crate::panel::{Ahead, Page};
 use crate::process;
 use anyhow::bail;
 use count::Count;
+use extent::Extent;
 use stages::{STAGES, Stage};
 use std::time::{Duration, Instant};
 
 /// Arguments of `cargo xtask test`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// Stages to run; all when none is named.
+    /// Stages to run; when none is named, all that belong to what is asked for.
     stages: Vec<String>,
     /// Run only this stage; may be given several times.
     #[arg(long, value_name = "STAGE")]
@@ -24,12 +31,25 @@ pub(crate) struct Arguments {
     /// Print what the stage `attacks` saw as JSON, and nothing else.
     #[arg(long)]
     json: bool,
-    /// Print the names of the stages and what each does.
+    /// Print the names of the stages, which of them run without --all, and what each does.
     #[arg(long)]
     list: bool,
-    /// Many more seeds and corrupted packets.
+    /// Everything, as on the build machine: the campaigns of each stage, the emulated chip, the browser.
+    #[arg(long)]
+    all: bool,
+    /// As --all, with many more seeds and corrupted packets.
     #[arg(long)]
     long: bool,
+}
+
+impl Arguments {
+    fn extent(&self) -> Extent {
+        match self {
+            Self { long: true, .. } => Extent::Long,
+            Self { all: true, .. } => Extent::All,
+            _ => Extent::Short,
+        }
+    }
 }
 
 /// How a stage ended.
@@ -38,14 +58,13 @@ struct Outcome {
     count: Count,
     errors: Vec<anyhow::Error>,
     took: Duration,
+    processor: Duration,
 }
 
 /// Runs the stages; fails when one fails. The last line is `N passed, N failed`.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if arguments.list {
-        STAGES
-            .iter()
-            .for_each(|stage| process::print(&format!("{:10} {}", stage.name, stage.does)));
+        list();
         return Ok(());
     }
     let names: Vec<String> = arguments.stages.iter().chain(&arguments.only).cloned().collect();
@@ -53,14 +72,18 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         if names != ["attacks"] {
             bail!("--json is for one stage: cargo xtask test attacks --json");
         }
-        return stages::attacks_as_json();
+        return programs::attacks_as_json();
     }
-    let outcomes = run_all(&chosen(&names)?, arguments.long);
+    let extent = arguments.extent();
+    let outcomes = run_all(&chosen(&names, extent)?, extent);
     let mut total = Count::default();
     process::print("");
     for outcome in &outcomes {
         total.add(outcome.count);
         process::print(&row(outcome));
+    }
+    if outcomes.len() > 1 {
+        process::print(&together(&outcomes));
     }
     process::print(&total.to_string());
     if outcomes.len() > 1 {
@@ -75,9 +98,17 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn chosen(names: &[String]) -> anyhow::Result<Vec<&'static Stage>> {
+fn list() {
+    for stage in &STAGES {
+        process::print(&format!("{:10} {:6} {}", stage.name, stage.from, stage.does));
+    }
+    process::print("cargo xtask test runs what is short; with --all it runs everything, and more of each");
+}
+
+/// The stages of these names, or those that belong to the extent.
+fn chosen(names: &[String], extent: Extent) -> anyhow::Result<Vec<&'static Stage>> {
     if names.is_empty() {
-        return Ok(STAGES.iter().collect());
+        return Ok(STAGES.iter().filter(|stage| stage.from <= extent).collect());
     }
     let find = |name: &String| match STAGES.iter().find(|stage| stage.name == name) {
         Some(stage) => Ok(stage),
@@ -87,20 +118,20 @@ fn chosen(names: &[String]) -> anyhow::Result<Vec<&'static Stage>> {
 }
 
 /// Runs stage after stage. The panel that the browser needs is built beside the stages that measure no time.
-fn run_all(stages: &[&'static Stage], long: bool) -> Vec<Outcome> {
+fn run_all(stages: &[&'static Stage], extent: Extent) -> Vec<Outcome> {
     let browser_follows = stages.iter().any(|stage| stage.name == "browser");
     let mut ahead = None;
     let mut outcomes = Vec::new();
     for stage in stages {
         if stage.name == "panel" && browser_follows {
-            ahead = told(Ahead::begin());
+            ahead = told(Ahead::begin(Page::Release));
         }
         if stage.wants_the_machine
             && let Some(panel) = ahead.take()
         {
             told(panel.finish());
         }
-        outcomes.push(run_one(stage, long));
+        outcomes.push(run_one(stage, extent));
     }
     outcomes
 }
@@ -112,10 +143,12 @@ fn told<T>(result: anyhow::Result<T>) -> Option<T> {
         .ok()
 }
 
-fn run_one(stage: &'static Stage, long: bool) -> Outcome {
+/// Runs a stage. One of the campaigns that is named alone runs as it does among all.
+fn run_one(stage: &'static Stage, extent: Extent) -> Outcome {
     process::say(&format!("stage {}: {}", stage.name, stage.does));
     let begun = Instant::now();
-    let (count, errors) = match (stage.run)(long) {
+    let before = processor::of_ended_children();
+    let (count, errors) = match (stage.run)(extent.max(stage.from)) {
         Ok(count) => (count, Vec::new()),
         Err(runner::Failed { count, errors }) => (count.with_a_failure(), errors),
     };
@@ -125,6 +158,7 @@ fn run_one(stage: &'static Stage, long: bool) -> Outcome {
         count,
         errors,
         took: begun.elapsed(),
+        processor: processor::of_ended_children().saturating_sub(before),
     }
 }
 
@@ -137,9 +171,21 @@ fn complain_of(stage: &Stage, errors: &[anyhow::Error]) {
 fn row(outcome: &Outcome) -> String {
     let verdict = if outcome.errors.is_empty() { "ok" } else { "FAILED" };
     format!(
-        "{:10} {verdict:6} {:7.1} s  {}",
+        "{:10} {verdict:6} {}  {}",
         outcome.stage.name,
-        outcome.took.as_secs_f64(),
+        times(outcome.took, outcome.processor),
         outcome.count
     )
+}
+
+/// The seconds of all stages.
+fn together(outcomes: &[Outcome]) -> String {
+    let took = outcomes.iter().map(|outcome| outcome.took).sum();
+    let processor = outcomes.iter().map(|outcome| outcome.processor).sum();
+    format!("{:10} {:6} {}", "together", "", times(took, processor))
+}
+
+fn times(took: Duration, processor: Duration) -> String {
+    let (took, processor) = (took.as_secs_f64(), processor.as_secs_f64());
+    format!("{took:7.1} s, {processor:7.1} s of processor")
 }

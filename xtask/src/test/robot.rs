@@ -1,6 +1,7 @@
 //! Stages about the robot's own chip: its firmware, and the emulator that runs it.
 
-use super::runner::{Result, all, check, tests};
+use super::extent::Extent;
+use super::runner::{Result, all, cargo, check, tests};
 use crate::firmware::build::build_others;
 use crate::workspace::{self, Profile, program};
 use crate::{firmware, system};
@@ -10,19 +11,19 @@ use std::process::Command;
 /// Workspaces of firmware, whose parts are also tested on this machine.
 const FIRMWARE: [&str; 2] = ["firmware/pic32mx3-hal/Cargo.toml", "firmware/sr8730/Cargo.toml"];
 
-/// The firmware is built and measured, and what of it runs on this machine is tested.
-pub(super) fn of_firmware(_long: bool) -> Result {
-    let builds = [
-        robot_command(&["xtask", "firmware", "sr8730"]),
-        robot_command(&[
-            "xtask",
-            "firmware",
-            "sr8730",
-            "--once",
-            "--features",
-            "link-sampled",
-        ]),
-    ];
+/// The firmware is built and measured, and what of it runs on this machine is tested. With the campaigns a second build in another folder
+/// must give the same bytes, and the firmware for a board on which the link's input must be sampled keeps to its budgets, too.
+pub(super) fn of_firmware(extent: Extent) -> Result {
+    let firmware = |words: &[&str]| {
+        let mut command = cargo(&["xtask", "firmware", firmware::ROBOT]);
+        command.args(words);
+        command
+    };
+    let builds = if extent.has_campaigns() {
+        vec![firmware(&[]), firmware(&["--once", "--features", "link-sampled"])]
+    } else {
+        vec![firmware(&["--once"])]
+    };
     let lints = FIRMWARE
         .map(|manifest| on_this_machine("clippy", manifest, &["--all-targets", "--", "-D", "warnings"]));
     let tested =
@@ -31,12 +32,6 @@ pub(super) fn of_firmware(_long: bool) -> Result {
     let tested = tested.into_iter().map(|mut command| tests(&mut command));
     let builds = builds.into_iter().map(|mut command| check(&mut command));
     all(builds.chain(lints).chain(tested))
-}
-
-fn robot_command(words: &[&str]) -> Command {
-    let mut command = workspace::cargo();
-    command.args(words);
-    command
 }
 
 fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
@@ -51,7 +46,7 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 const BESIDE_OTHERS: [&str; 4] = ["gdb", "hal_examples", "image", "qemu"];
 
 /// The emulated chip beside qemu-user, and with the programs that are written for it.
-pub(super) fn of_emulator(_long: bool) -> Result {
+pub(super) fn of_emulator(_extent: Extent) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
     let elf = firmware::usual_elf()?;
     let sampled = firmware::sampled_elf()?;

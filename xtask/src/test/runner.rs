@@ -2,7 +2,7 @@
 
 use super::count::Count;
 use super::verdicts::Verdicts;
-use crate::process;
+use crate::{process, workspace};
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
 
@@ -26,6 +26,13 @@ impl From<anyhow::Error> for Failed {
 
 /// What a stage gives.
 pub(super) type Result = std::result::Result<Count, Failed>;
+
+/// A cargo with these words.
+pub(super) fn cargo(words: &[&str]) -> Command {
+    let mut command = workspace::cargo();
+    command.args(words);
+    command
+}
 
 /// Runs a command that is one check: it passes or fails as a whole.
 pub(super) fn check(command: &mut Command) -> Result {

@@ -64,8 +64,8 @@ impl Behavior {
             share: 1.0 - swept.share,
             way_m,
         };
-        let pace = (self.config.body.swath_m, self.config.speeds.cruise_m_per_s);
-        self.energy.model().are_crumbs(left, pace)
+        let budget = (self.config.body.swath_m, self.config.speeds.cruise_m_per_s);
+        self.energy.model().are_crumbs(left, budget)
     }
 
     /// Whether so little charge is left that the way home might become too long.

@@ -116,8 +116,8 @@ impl Behavior {
         if situation.observation.gyro_heading_rad.is_none() {
             return false;
         }
-        let pace = RestPace::of(situation.is_tracked);
-        job.gyro_rest.follow(self.facts.now_us, is_ahead, pace)
+        let budget = RestPace::of(situation.is_tracked);
+        job.gyro_rest.follow(self.facts.now_us, is_ahead, budget)
     }
 
     fn wait_for_arm(&mut self, mind: &mut Mind) -> Motion {

@@ -1,6 +1,6 @@
 //! The open floor as bits, so that a window across a lane is one word.
 
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, Ground};
 
 /// Work of looking at a cell.
@@ -15,7 +15,7 @@ pub(super) struct BitGrid {
 
 impl BitGrid {
     /// The open floor, with the cells across lanes of this axis side by side.
-    pub(super) async fn of_open(ground: &Ground, axis: Axis, pace: &mut Pace) -> Self {
+    pub(super) async fn of_open(ground: &Ground, axis: Axis, budget: &mut StepBudget) -> Self {
         let (lines, across) = match axis {
             Axis::X => (ground.width, ground.height),
             Axis::Y => (ground.height, ground.width),
@@ -33,7 +33,7 @@ impl BitGrid {
                     Axis::Y => bits.words[row * words_per_line + column / 64] |= 1 << (column % 64),
                 }
             }
-            pace.spend(LOOK_WORK * ground.width).await;
+            budget.spend(LOOK_WORK * ground.width).await;
         }
         bits
     }

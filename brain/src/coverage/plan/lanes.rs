@@ -11,7 +11,7 @@ use super::bit_grid::BitGrid;
 use super::settings::PlanSettings;
 use super::stretches::{Stretch, Stretches};
 use crate::mapping::CELL_M;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, Ground};
 
 /// Cells that one edge less of border is worth.
@@ -63,16 +63,20 @@ struct Candidate {
 }
 
 impl<'ground> Picker<'ground> {
-    pub(super) async fn new(ground: &'ground mut Ground, settings: &PlanSettings, pace: &mut Pace) -> Self {
+    pub(super) async fn new(
+        ground: &'ground mut Ground,
+        settings: &PlanSettings,
+        budget: &mut StepBudget,
+    ) -> Self {
         let cells = ground.free.len();
         let mut picker = Self {
             bits: [
-                BitGrid::of_open(ground, Axis::X, pace).await,
-                BitGrid::of_open(ground, Axis::Y, pace).await,
+                BitGrid::of_open(ground, Axis::X, budget).await,
+                BitGrid::of_open(ground, Axis::Y, budget).await,
             ],
             window: Window::new(ground.reach),
             gains: [vec![0; cells], vec![0; cells]],
-            stretches: Stretches::of(ground, pace).await,
+            stretches: Stretches::of(ground, budget).await,
             queue: BinaryHeap::new(),
             cell_s: CELL_M / settings.cruise_m_per_s,
             enter_s: ENTER_RAD / settings.turn_rad_per_s,
@@ -82,39 +86,42 @@ impl<'ground> Picker<'ground> {
         for number in 0..picker.stretches.all.len() {
             let stretch = picker.stretches.all[number];
             picker.weigh(stretch.axis, stretch.line, (stretch.first, stretch.last));
-            pace.spend(WEIGH_WORK * stretch.places()).await;
+            budget.spend(WEIGH_WORK * stretch.places()).await;
         }
         picker
     }
 
     /// The lanes of each round.
-    pub(super) async fn rounds(&mut self, pace: &mut Pace) -> Vec<Vec<Lane>> {
+    pub(super) async fn rounds(&mut self, budget: &mut StepBudget) -> Vec<Vec<Lane>> {
         let mut rounds = Vec::with_capacity(ROUND_SHARES.len());
         for share in ROUND_SHARES {
-            rounds.push(self.round(share, pace).await);
+            rounds.push(self.round(share, budget).await);
         }
         rounds
     }
 
-    async fn round(&mut self, share: f64, pace: &mut Pace) -> Vec<Lane> {
+    async fn round(&mut self, share: f64, budget: &mut StepBudget) -> Vec<Lane> {
         let full = (2 * self.ground.reach + 1) as f64 / self.cell_s;
         let least = share * full;
         self.queue.clear();
         for number in 0..self.stretches.all.len() {
             self.offer(number, least);
-            pace.spend(LOOK_WORK * self.stretches.all[number].places()).await;
+            budget
+                .spend(LOOK_WORK * self.stretches.all[number].places())
+                .await;
         }
         let mut lanes = Vec::new();
-        while let Some(candidate) = self.next(least, pace).await {
+        while let Some(candidate) = self.next(least, budget).await {
             let stretch = self.stretches.all[candidate.stretch];
-            lanes.push(self.take(&stretch, candidate.span, pace).await);
-            self.refresh(&stretch, candidate.span, (least, &mut *pace)).await;
+            lanes.push(self.take(&stretch, candidate.span, budget).await);
+            self.refresh(&stretch, candidate.span, (least, &mut *budget))
+                .await;
         }
         lanes
     }
 
     /// The best candidate whose figures are of now.
-    async fn next(&mut self, least: f64, pace: &mut Pace) -> Option<Candidate> {
+    async fn next(&mut self, least: f64, budget: &mut StepBudget) -> Option<Candidate> {
         while let Some(old) = self.queue.pop() {
             let stretch = &mut self.stretches.all[old.stretch];
             if old.version != stretch.version {
@@ -124,7 +131,7 @@ impl<'ground> Picker<'ground> {
                 return Some(old);
             }
             stretch.is_changed = false;
-            pace.spend(LOOK_WORK * stretch.places()).await;
+            budget.spend(LOOK_WORK * stretch.places()).await;
             let Some(now) = self.best_of(old.stretch, least) else {
                 continue;
             };
@@ -137,7 +144,12 @@ impl<'ground> Picker<'ground> {
     }
 
     /// Closes the floor that a lane sweeps.
-    async fn take(&mut self, stretch: &Stretch, (first, last): (usize, usize), pace: &mut Pace) -> Lane {
+    async fn take(
+        &mut self,
+        stretch: &Stretch,
+        (first, last): (usize, usize),
+        budget: &mut StepBudget,
+    ) -> Lane {
         let index = |along: usize| match stretch.axis {
             Axis::X => stretch.line * self.ground.width + along,
             Axis::Y => along * self.ground.width + stretch.line,
@@ -146,7 +158,7 @@ impl<'ground> Picker<'ground> {
         let mut swept = 0;
         for index in (from..=to).step_by(step) {
             swept += self.close_disc(index);
-            pace.spend(CLOSE_WORK).await;
+            budget.spend(CLOSE_WORK).await;
         }
         Lane { from, to, swept }
     }
@@ -176,20 +188,20 @@ impl<'ground> Picker<'ground> {
         &mut self,
         taken: &Stretch,
         (first, last): (usize, usize),
-        (least, pace): (f64, &mut Pace),
+        (least, budget): (f64, &mut StepBudget),
     ) {
         let reach = self.ground.reach;
         let around = 2 * reach + 2;
         let (low, high) = (first.saturating_sub(around), last + around);
         for line in taken.line.saturating_sub(around)..=taken.line + around {
             let work = self.renew((taken.axis, line), (low, high), Some(least));
-            pace.spend(work).await;
+            budget.spend(work).await;
         }
         let span = (taken.line.saturating_sub(around), taken.line + around);
         for line in low..=high {
             let is_beyond = line < first || line > last;
             let work = self.renew((taken.axis.other(), line), span, is_beyond.then_some(least));
-            pace.spend(work).await;
+            budget.spend(work).await;
         }
     }
 

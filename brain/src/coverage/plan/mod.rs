@@ -18,7 +18,7 @@ mod tour;
 
 use crate::mapping::{CELL_M, Cell, Raster};
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::room_settings::Pattern;
 pub use crate::navigation::Piece;
 use crate::navigation::configuration_space::Ground;
@@ -109,7 +109,12 @@ pub fn plan_pattern(
         settings: *settings,
     };
     let course = |_| Some(Course::from(pattern));
-    at_once(plan_area(reachable, (course, swept), from, &mut Pace::at_once()))
+    at_once(plan_area(
+        reachable,
+        (course, swept),
+        from,
+        &mut StepBudget::unlimited(),
+    ))
 }
 
 /// As [`plan_coverage`], but only floor that has a course is swept and counted; the way may lead over all that is reachable.
@@ -118,21 +123,21 @@ pub(crate) async fn plan_area(
     reachable: &Raster<bool>,
     (course, swept): (impl Fn(Cell) -> Option<Course>, impl Fn(Cell) -> bool),
     departure: Departure,
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> CoveragePlan {
     let Departure { start, settings } = &departure;
-    let mut ground = Ground::new(reachable, reach_cells(settings), pace).await;
-    let Some(origin) = ground.origin_near(start.position(), pace).await else {
+    let mut ground = Ground::new(reachable, reach_cells(settings), budget).await;
+    let Some(origin) = ground.origin_near(start.position(), budget).await else {
         return CoveragePlan::default();
     };
-    ground.keep_connected(origin, pace).await;
-    ground.close(|cell| course(cell).is_none(), pace).await;
+    ground.keep_connected(origin, budget).await;
+    ground.close(|cell| course(cell).is_none(), budget).await;
     let floor = ground.open_count();
-    let ring_floor = RingFloor::of(&ground, course, pace).await;
-    ground.close(swept, pace).await;
+    let ring_floor = RingFloor::of(&ground, course, budget).await;
+    ground.close(swept, budget).await;
     let open = ground.open_count();
     let rings = match &ring_floor {
-        Some(floor) => Some(ring_way(&ground, floor, (&departure, origin), pace).await),
+        Some(floor) => Some(ring_way(&ground, floor, (&departure, origin), budget).await),
         None => None,
     };
     let (mut corners, runs, (from, heading_rad)) = match rings {
@@ -142,20 +147,20 @@ pub(crate) async fn plan_area(
         }
         None => (Vec::new(), 0, (origin, start.heading_rad)),
     };
-    let mut picker = Picker::new(&mut ground, settings, pace).await;
-    let rounds = picker.rounds(pace).await;
-    let router = Router::new(&ground, pace).await;
+    let mut picker = Picker::new(&mut ground, settings, budget).await;
+    let rounds = picker.rounds(budget).await;
+    let router = Router::new(&ground, budget).await;
     let start_of_lanes = Pose2 {
         heading_rad,
         ..*start
     };
     let mut tour = Tour::new(&router, settings, start_of_lanes, from);
-    tour.drive(&rounds, pace).await;
+    tour.drive(&rounds, budget).await;
     // The lanes begin where the rings end.
     corners.pop();
     let of_rings = corners.len();
-    corners.extend(tour.corners(pace).await);
-    let pieces = smoothing::pieces((&corners, of_rings), start.heading_rad, (&ground, pace)).await;
+    corners.extend(tour.corners(budget).await);
+    let pieces = smoothing::pieces((&corners, of_rings), start.heading_rad, (&ground, budget)).await;
     CoveragePlan {
         time_s: pieces.iter().map(|piece| settings.time_s(piece)).sum(),
         corners,
@@ -171,12 +176,12 @@ pub(crate) async fn plan_area(
 pub(crate) async fn floor_in_reach(
     reachable: &Raster<bool>,
     departure: &Departure,
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> Raster<bool> {
-    let mut ground = Ground::new(reachable, reach_cells(&departure.settings), pace).await;
+    let mut ground = Ground::new(reachable, reach_cells(&departure.settings), budget).await;
     let mut floor = Raster::filled(ground.cell(0), ground.width, ground.height, false);
-    if let Some(origin) = ground.origin_near(departure.start.position(), pace).await {
-        ground.keep_connected(origin, pace).await;
+    if let Some(origin) = ground.origin_near(departure.start.position(), budget).await {
+        ground.keep_connected(origin, budget).await;
         floor.values_mut().copy_from_slice(&ground.open);
     }
     floor

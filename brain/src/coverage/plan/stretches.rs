@@ -1,6 +1,6 @@
 //! Stretches: where a lane can lie at all.
 
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, Ground};
 
 /// Work of looking at a cell.
@@ -38,7 +38,7 @@ pub(super) struct Stretches {
 }
 
 impl Stretches {
-    pub(super) async fn of(ground: &Ground, pace: &mut Pace) -> Self {
+    pub(super) async fn of(ground: &Ground, budget: &mut StepBudget) -> Self {
         let mut stretches = Self {
             all: Vec::new(),
             starts: [Vec::new(), Vec::new()],
@@ -47,7 +47,7 @@ impl Stretches {
             for line in 0..ground.length(axis.other()) {
                 stretches.starts[axis as usize].push(stretches.all.len());
                 stretches.add_line(ground, axis, line);
-                pace.spend(LOOK_WORK * ground.length(axis)).await;
+                budget.spend(LOOK_WORK * ground.length(axis)).await;
             }
             stretches.starts[axis as usize].push(stretches.all.len());
         }

@@ -9,7 +9,7 @@ use super::settings::PlanSettings;
 use super::timing::way_s;
 use crate::mapping::CELL_M;
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
 use crate::navigation::router::{Router, Spread};
 
@@ -73,12 +73,12 @@ impl<'plan> Tour<'plan> {
 
     /// Drives the lanes of one round after those of the other. Lanes of a later round that lie beside the way are driven with
     /// an earlier one: coming back for them would cost more.
-    pub(super) async fn drive(&mut self, rounds: &[Vec<Lane>], pace: &mut Pace) {
+    pub(super) async fn drive(&mut self, rounds: &[Vec<Lane>], budget: &mut StepBudget) {
         self.lanes = rounds.concat();
         if self.lanes.is_empty() {
             return;
         }
-        let costs = self.costs(pace).await;
+        let costs = self.costs(budget).await;
         let mut is_left = vec![true; self.lanes.len()];
         let mut round = 0..0;
         for lanes in rounds {
@@ -87,13 +87,16 @@ impl<'plan> Tour<'plan> {
             nearest_first(
                 &mut self.visits,
                 (&mut is_left, round.clone()),
-                (&costs, &mut *pace),
+                (&costs, &mut *budget),
             )
             .await;
-            improve(&mut self.visits, fixed, (&costs, &mut *pace)).await;
-            if self.settings.takes_along && self.take_along((&mut is_left, fixed), (&costs, &mut *pace)).await
+            improve(&mut self.visits, fixed, (&costs, &mut *budget)).await;
+            if self.settings.takes_along
+                && self
+                    .take_along((&mut is_left, fixed), (&costs, &mut *budget))
+                    .await
             {
-                improve(&mut self.visits, fixed, (&costs, &mut *pace)).await;
+                improve(&mut self.visits, fixed, (&costs, &mut *budget)).await;
             }
         }
     }
@@ -102,13 +105,13 @@ impl<'plan> Tour<'plan> {
     async fn take_along(
         &mut self,
         (is_left, fixed): (&mut [bool], usize),
-        (costs, pace): (&Costs, &mut Pace),
+        (costs, budget): (&Costs, &mut StepBudget),
     ) -> bool {
         let mut any = false;
         for _ in 0..TAKE_ALONG_PASSES {
             let mut more = false;
             for (lane, is_left) in is_left.iter_mut().enumerate().filter(|(_, is_left)| **is_left) {
-                pace.spend(COMPARE_WORK * (self.visits.len() - fixed)).await;
+                budget.spend(COMPARE_WORK * (self.visits.len() - fixed)).await;
                 let Some((cost_s, position, enter)) = cheapest_place(&self.visits, (lane, fixed), costs)
                 else {
                     continue;
@@ -163,7 +166,7 @@ impl<'plan> Tour<'plan> {
         lane.from == lane.to
     }
 
-    async fn costs(&self, pace: &mut Pace) -> Costs {
+    async fn costs(&self, budget: &mut StepBudget) -> Costs {
         let (from, direction_rad) = (self.start_cell, self.start.heading_rad);
         let ends = 2 * self.lanes.len();
         let mut costs = Costs {
@@ -178,7 +181,7 @@ impl<'plan> Tour<'plan> {
                 costs.seconds[a * ends + b] = self.guess_s(points[a], points[b]);
             }
             costs.first[a] = self.guess_s(self.point(from), points[a]);
-            pace.spend(GUESS_WORK * ends).await;
+            budget.spend(GUESS_WORK * ends).await;
         }
         let mut at_block: Vec<(usize, usize)> = cells
             .iter()
@@ -190,7 +193,7 @@ impl<'plan> Tour<'plan> {
         let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
             let out = (!self.is_point(a)).then(|| self.out_rad(a));
-            for b in self.near(cells[a], &at_block, (&mut spread, &mut *pace)).await {
+            for b in self.near(cells[a], &at_block, (&mut spread, &mut *budget)).await {
                 // The way back is as long; it was looked for already if the other end found this one.
                 if b / 2 == a / 2 || is_known[b * ends + a] {
                     continue;
@@ -201,13 +204,13 @@ impl<'plan> Tour<'plan> {
                 let seconds = self.way_s(&way, out, back);
                 costs.seconds[a * ends + b] = seconds;
                 costs.seconds[b * ends + a] = seconds;
-                pace.spend(WAY_WORK).await;
+                budget.spend(WAY_WORK).await;
             }
         }
-        for b in self.near(from, &at_block, (&mut spread, &mut *pace)).await {
+        for b in self.near(from, &at_block, (&mut spread, &mut *budget)).await {
             let way = self.router.way(&spread, from, cells[b]);
             costs.first[b] = self.way_s(&way, Some(direction_rad), Some(self.out_rad(b)));
-            pace.spend(WAY_WORK).await;
+            budget.spend(WAY_WORK).await;
         }
         costs
     }
@@ -222,7 +225,7 @@ impl<'plan> Tour<'plan> {
         &self,
         from: usize,
         at_block: &[(usize, usize)],
-        (spread, pace): (&mut Spread, &mut Pace),
+        (spread, budget): (&mut Spread, &mut StepBudget),
     ) -> Vec<usize> {
         let mut found = Vec::with_capacity(NEAR_ENDS + 8);
         let enough = |block| {
@@ -235,7 +238,7 @@ impl<'plan> Tour<'plan> {
             );
             found.len() >= NEAR_ENDS
         };
-        self.router.explore(from, (spread, pace), enough).await;
+        self.router.explore(from, (spread, budget), enough).await;
         found
     }
 
@@ -244,7 +247,7 @@ impl<'plan> Tour<'plan> {
     }
 
     /// The corners of the whole way.
-    pub(super) async fn corners(&self, pace: &mut Pace) -> Vec<Point2> {
+    pub(super) async fn corners(&self, budget: &mut StepBudget) -> Vec<Point2> {
         let mut spread = self.router.spread();
         let mut corners = vec![self.point(self.start_cell)];
         let mut at = self.start_cell;
@@ -258,13 +261,15 @@ impl<'plan> Tour<'plan> {
             let (enter, leave) = (self.cell(*end), self.cell(end ^ 1));
             let goal = self.router.block(enter);
             let is_there = |block| block == goal;
-            self.router.explore(at, (&mut spread, &mut *pace), is_there).await;
+            self.router
+                .explore(at, (&mut spread, &mut *budget), is_there)
+                .await;
             for cell in self.router.way(&spread, at, enter) {
                 push(cell);
             }
             push(leave);
             at = leave;
-            pace.spend(WAY_WORK).await;
+            budget.spend(WAY_WORK).await;
         }
         corners
     }
@@ -286,7 +291,7 @@ impl Costs {
 async fn nearest_first(
     order: &mut Vec<End>,
     (is_left, round): (&mut [bool], core::ops::Range<usize>),
-    (costs, pace): (&Costs, &mut Pace),
+    (costs, budget): (&Costs, &mut StepBudget),
 ) {
     let mut leave = order.last().map(|end| end ^ 1);
     let ends = 2 * round.start..2 * round.end;
@@ -302,7 +307,7 @@ async fn nearest_first(
         is_left[enter / 2] = false;
         order.push(enter);
         leave = Some(enter ^ 1);
-        pace.spend(COMPARE_WORK * ends.len()).await;
+        budget.spend(COMPARE_WORK * ends.len()).await;
     }
 }
 
@@ -323,10 +328,10 @@ fn cheapest_place(order: &[End], (lane, fixed): (usize, usize), costs: &Costs) -
 }
 
 /// Improves the tour after so many visits.
-async fn improve(order: &mut Vec<End>, fixed: usize, (costs, pace): (&Costs, &mut Pace)) {
+async fn improve(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) {
     for _ in 0..PASSES_MAX {
-        let turned = turn_parts(order, fixed, (costs, &mut *pace)).await;
-        let moved = move_parts(order, fixed, (costs, &mut *pace)).await;
+        let turned = turn_parts(order, fixed, (costs, &mut *budget)).await;
+        let moved = move_parts(order, fixed, (costs, &mut *budget)).await;
         if !turned && !moved {
             return;
         }
@@ -342,7 +347,7 @@ fn leave_before(order: &[End], position: usize) -> Option<End> {
 }
 
 /// Turns parts of the tour round where that saves time (2-opt).
-async fn turn_parts(order: &mut [End], fixed: usize, (costs, pace): (&Costs, &mut Pace)) -> bool {
+async fn turn_parts(order: &mut [End], fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
     let mut any = false;
     for first in fixed..order.len() {
         for last in first..order.len() {
@@ -359,20 +364,20 @@ async fn turn_parts(order: &mut [End], fixed: usize, (costs, pace): (&Costs, &mu
                 any = true;
             }
         }
-        pace.spend(COMPARE_WORK * (order.len() - first)).await;
+        budget.spend(COMPARE_WORK * (order.len() - first)).await;
     }
     any
 }
 
 /// Moves few lanes elsewhere, either way round, where that saves time (Or-opt).
-async fn move_parts(order: &mut Vec<End>, fixed: usize, (costs, pace): (&Costs, &mut Pace)) -> bool {
+async fn move_parts(order: &mut Vec<End>, fixed: usize, (costs, budget): (&Costs, &mut StepBudget)) -> bool {
     let mut any = false;
     for count in 1..=MOVED_MAX {
         let mut first = fixed;
         while first + count <= order.len() {
             any |= move_part(order, (fixed, first, count), costs);
             first += 1;
-            pace.spend(COMPARE_WORK * (order.len() - fixed)).await;
+            budget.spend(COMPARE_WORK * (order.len() - fixed)).await;
         }
     }
     any
@@ -420,7 +425,7 @@ mod tests {
     use super::{Costs, End, Lane, PlanSettings, Router, Tour, cheapest_place};
     use crate::mapping::{Cell, Raster};
     use crate::model::geometry::Pose2;
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
     use crate::navigation::configuration_space::Ground;
 
     /// Lanes without length at these places of a line; the start is at 0.
@@ -458,17 +463,17 @@ mod tests {
             takes_along: true,
         };
         let hall = Raster::filled(Cell { x: 0, y: 0 }, 400, 80, true);
-        let pace = &mut Pace::at_once();
+        let budget = &mut StepBudget::unlimited();
         at_once(async {
-            let mut ground = Ground::new(&hall, 5, pace).await;
+            let mut ground = Ground::new(&hall, 5, budget).await;
             let start = Pose2 {
                 x_m: 0.3,
                 y_m: 0.3,
                 heading_rad: 0.0,
             };
-            let origin = ground.origin_near(start.position(), pace).await.unwrap();
-            ground.keep_connected(origin, pace).await;
-            let router = Router::new(&ground, pace).await;
+            let origin = ground.origin_near(start.position(), budget).await.unwrap();
+            ground.keep_connected(origin, budget).await;
+            let router = Router::new(&ground, budget).await;
             let lane = |column: usize, row: usize, swept: usize| {
                 let from = origin + column + row * ground.width;
                 Lane {
@@ -482,7 +487,7 @@ mod tests {
                 vec![lane(150, 30, swept)],
             ];
             let mut tour = Tour::new(&router, &settings, start, origin);
-            tour.drive(&rounds, pace).await;
+            tour.drive(&rounds, budget).await;
             tour.visits.iter().map(|end| end / 2).collect()
         })
     }

@@ -4,13 +4,13 @@
 //! each room. *Frontier*: where known floor ends and nothing is known beyond. Both are taken for floor until something is met.
 
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Raster};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Work of copying a cell, of finding out whether something unknown lies beside it, and of freeing or visiting one.
 const COPIES_A_WORK: usize = 8;
 const LOOK_WORK: usize = 1;
 const VISIT_WORK: usize = 3;
-/// Cells that are visited between two looks at the pace.
+/// Cells that are visited between two looks at the budget.
 const VISITS: usize = 256;
 
 /// Cells around what is known that are hoped for beyond it.
@@ -27,12 +27,12 @@ fn beyond_cells(beyond_m: f64) -> u16 {
 pub(super) async fn hopeful(
     knowledge: &Raster<CellKnowledge>,
     beyond_m: f64,
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> Raster<CellKnowledge> {
     let mut hopeful = padded(knowledge, margin_cells(beyond_m));
-    pace.spend(hopeful.values().len() / COPIES_A_WORK).await;
-    advance_frontier(&mut hopeful, beyond_cells(beyond_m), pace).await;
-    fill_enclosed(&mut hopeful, pace).await;
+    budget.spend(hopeful.values().len() / COPIES_A_WORK).await;
+    advance_frontier(&mut hopeful, beyond_cells(beyond_m), budget).await;
+    fill_enclosed(&mut hopeful, budget).await;
     hopeful
 }
 
@@ -50,7 +50,7 @@ fn padded(knowledge: &Raster<CellKnowledge>, cells: usize) -> Raster<CellKnowled
 }
 
 /// Frees unknown cells up to so many steps from free ones.
-async fn advance_frontier(hopeful: &mut Raster<CellKnowledge>, beyond: u16, pace: &mut Pace) {
+async fn advance_frontier(hopeful: &mut Raster<CellKnowledge>, beyond: u16, budget: &mut StepBudget) {
     let width = hopeful.width();
     let cells = hopeful.values_mut();
     // Free cells whose neighbours are all known lead nowhere.
@@ -58,7 +58,7 @@ async fn advance_frontier(hopeful: &mut Raster<CellKnowledge>, beyond: u16, pace
     for row in 0..cells.len() / width.max(1) {
         let free = (row * width..(row + 1) * width).filter(|index| cells[*index] == CellKnowledge::Free);
         frontier.extend(free.filter(|index| is_beside_unknown(cells, *index, width)));
-        pace.spend(LOOK_WORK * width).await;
+        budget.spend(LOOK_WORK * width).await;
     }
     for _ in 0..beyond {
         let mut next = Vec::with_capacity(frontier.len());
@@ -73,7 +73,7 @@ async fn advance_frontier(hopeful: &mut Raster<CellKnowledge>, beyond: u16, pace
                     }
                 }
             }
-            pace.spend(VISIT_WORK * some.len()).await;
+            budget.spend(VISIT_WORK * some.len()).await;
         }
         frontier = next;
     }
@@ -96,7 +96,7 @@ fn beside(index: usize, width: usize) -> [usize; 4] {
 }
 
 /// Frees unknown cells that do not hang together with the border of the window.
-async fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>, pace: &mut Pace) {
+async fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>, budget: &mut StepBudget) {
     let width = hopeful.width();
     let cells = hopeful.values_mut();
     let mut is_outside = vec![false; cells.len()];
@@ -115,7 +115,7 @@ async fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>, pace: &mut Pace) {
                 }
             }
         }
-        pace.spend(VISIT_WORK * VISITS).await;
+        budget.spend(VISIT_WORK * VISITS).await;
     }
     for (some, outside) in cells.chunks_mut(VISITS).zip(is_outside.chunks(VISITS)) {
         for (kind, is_outside) in some.iter_mut().zip(outside) {
@@ -123,17 +123,17 @@ async fn fill_enclosed(hopeful: &mut Raster<CellKnowledge>, pace: &mut Pace) {
                 *kind = CellKnowledge::Free;
             }
         }
-        pace.spend(some.len()).await;
+        budget.spend(some.len()).await;
     }
 }
 
 #[cfg(test)]
 mod tests {
     use crate::mapping::{Cell, CellKnowledge, Raster};
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
 
     fn hopeful(knowledge: &Raster<CellKnowledge>, beyond_m: f64) -> Raster<CellKnowledge> {
-        at_once(super::hopeful(knowledge, beyond_m, &mut Pace::at_once()))
+        at_once(super::hopeful(knowledge, beyond_m, &mut StepBudget::unlimited()))
     }
 
     /// A ring of free cells with walls outside of it, and a gap in the wall.

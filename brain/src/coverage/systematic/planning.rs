@@ -10,7 +10,7 @@ use crate::coverage::plan::{CoveragePlan, Departure, PlanSettings, floor_in_reac
 use crate::coverage::wanted::Wanted;
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::{Gradual, Pace};
+use crate::model::gradual::{Gradual, StepBudget};
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{Situation, reachable};
 
@@ -118,12 +118,12 @@ pub(super) fn settings(situation: &Situation<'_>) -> PlanSettings {
 }
 
 async fn planned(basis: Basis) -> Made {
-    let pace = &mut Pace::in_steps();
+    let budget = &mut StepBudget::limited();
     let frame = match basis.frame {
         Some(frame) => frame,
-        None => LaneFrame::of_walls(&basis.knowledge, pace).await,
+        None => LaneFrame::of_walls(&basis.knowledge, budget).await,
     };
-    let plan = planned_in(&frame, basis, pace).await;
+    let plan = planned_in(&frame, basis, budget).await;
     Made {
         plan: plan.in_map(&frame),
         frame,
@@ -131,31 +131,31 @@ async fn planned(basis: Basis) -> Made {
 }
 
 /// The plan in the frame of its lanes.
-async fn planned_in(frame: &LaneFrame, basis: Basis, pace: &mut Pace) -> CoveragePlan {
+async fn planned_in(frame: &LaneFrame, basis: Basis, budget: &mut StepBudget) -> CoveragePlan {
     let knowledge = match basis.beyond_m {
-        Some(beyond_m) => hopeful(&basis.knowledge, beyond_m, pace).await,
+        Some(beyond_m) => hopeful(&basis.knowledge, beyond_m, budget).await,
         None => basis.knowledge,
     };
     let departure = Departure {
         start: frame.pose(basis.departure.start),
         ..basis.departure
     };
-    let ground = reachable(&knowledge, frame, (basis.radius_m, &basis.blocked), pace).await;
+    let ground = reachable(&knowledge, frame, (basis.radius_m, &basis.blocked), budget).await;
     let course = |cell| basis.wanted.course(frame.cell_in_map(cell));
     let is_in = |cells: &Raster<bool>, cell| cells.get(cell).copied().unwrap_or(false);
     let Some(squeezed_m) = basis.squeezed_m else {
         let swept = |cell| is_in(&basis.passed, frame.cell_in_map(cell));
-        return plan_area(&ground, (course, swept), departure, pace).await;
+        return plan_area(&ground, (course, swept), departure, budget).await;
     };
-    let floor = floor_in_reach(&ground, &departure, pace).await;
-    let known = squeeze::near(&floor, pace).await;
+    let floor = floor_in_reach(&ground, &departure, budget).await;
+    let known = squeeze::near(&floor, budget).await;
     let knowledge = match &basis.began {
-        Some(began) => without_what_came(knowledge, began, pace).await,
+        Some(began) => without_what_came(knowledge, began, budget).await,
         None => knowledge,
     };
-    let ground = reachable(&knowledge, frame, (squeezed_m, &basis.blocked), pace).await;
+    let ground = reachable(&knowledge, frame, (squeezed_m, &basis.blocked), budget).await;
     let swept = |cell| is_in(&basis.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
-    plan_area(&ground, (course, swept), departure, pace).await
+    plan_area(&ground, (course, swept), departure, budget).await
 }
 
 #[cfg(test)]
@@ -166,7 +166,7 @@ mod tests {
     use crate::mapping::{Cell, CellKnowledge, Map, Raster};
     use crate::model::config::{Body, SensorLayout};
     use crate::model::geometry::{Point2, Pose2};
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
     use crate::model::order::CleaningOrder;
     use crate::navigation::lane_frame::LaneFrame;
 
@@ -230,7 +230,7 @@ mod tests {
             &basis.knowledge,
             &LaneFrame::OF_MAP,
             (basis.radius_m, &[]),
-            &mut Pace::at_once(),
+            &mut StepBudget::unlimited(),
         ));
         assert_eq!(plan, plan_coverage(&ground, |_| false, START, &SETTINGS));
         assert!((3..100).contains(&steps), "{steps} steps");

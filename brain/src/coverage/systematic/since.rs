@@ -4,7 +4,7 @@
 //! in reach if that were gone again, and tries the way there: who stood in a door has mostly left by then.
 
 use crate::mapping::{CellKnowledge, Raster};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Cells that are looked at for a unit of work.
 const CELLS_A_WORK: usize = 4;
@@ -14,7 +14,7 @@ const CELLS_A_WORK: usize = 4;
 pub(super) async fn without_what_came(
     mut knowledge: Raster<CellKnowledge>,
     began: &Raster<CellKnowledge>,
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> Raster<CellKnowledge> {
     let width = knowledge.width().max(1);
     for row in 0..knowledge.height() {
@@ -27,7 +27,7 @@ pub(super) async fn without_what_came(
                 *kind = CellKnowledge::Free;
             }
         }
-        pace.spend(width / CELLS_A_WORK + 1).await;
+        budget.spend(width / CELLS_A_WORK + 1).await;
     }
     knowledge
 }
@@ -36,7 +36,7 @@ pub(super) async fn without_what_came(
 mod tests {
     use super::without_what_came;
     use crate::mapping::{Cell, CellKnowledge, Raster};
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
 
     #[test]
     fn what_came_is_gone_again_and_walls_edges_and_what_is_forbidden_stay() {
@@ -51,7 +51,7 @@ mod tests {
             Cell { x: -1, y: 0 },
             &[Occupied, Occupied, Free, Cliff, NoGo, Occupied, Occupied],
         );
-        let without = at_once(without_what_came(now, &began, &mut Pace::at_once()));
+        let without = at_once(without_what_came(now, &began, &mut StepBudget::unlimited()));
         assert_eq!(
             without.values(),
             [Occupied, Free, Free, Cliff, NoGo, Occupied, Occupied],

@@ -7,7 +7,7 @@
 use crate::coverage::plan::CoveragePlan;
 use crate::mapping::{Cell, Raster};
 use crate::model::config::Body;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 
 /// Floor that must come into reach, square metres.
 pub(super) const WORTH_M2: f64 = 0.4;
@@ -77,7 +77,7 @@ impl Squeeze {
 }
 
 /// What lies on or near these cells.
-pub(super) async fn near(cells: &Raster<bool>, pace: &mut Pace) -> Raster<bool> {
+pub(super) async fn near(cells: &Raster<bool>, budget: &mut StepBudget) -> Raster<bool> {
     let mut near = cells.clone();
     let (width, origin) = (cells.width().max(1), cells.origin());
     for (row, line) in cells.values().chunks(width).enumerate() {
@@ -93,7 +93,8 @@ pub(super) async fn near(cells: &Raster<bool>, pace: &mut Pace) -> Raster<bool> 
                 }
             }
         }
-        pace.spend(GROW_WORK * line.iter().filter(|cell| **cell).count() + line.len() / 8)
+        budget
+            .spend(GROW_WORK * line.iter().filter(|cell| **cell).count() + line.len() / 8)
             .await;
     }
     near
@@ -105,7 +106,7 @@ mod tests {
     use crate::coverage::plan::CoveragePlan;
     use crate::mapping::{Cell, Raster};
     use crate::model::config::Body;
-    use crate::model::gradual::{Pace, at_once};
+    use crate::model::gradual::{StepBudget, at_once};
 
     #[test]
     fn looks_end_after_some_tries_until_floor_is_won() {
@@ -143,7 +144,7 @@ mod tests {
     fn cells_at_the_edge_of_the_window_are_near_what_is_inside() {
         let mut cells = Raster::filled(Cell { x: -5, y: 2 }, 10, 10, false);
         *cells.get_mut(Cell { x: -5, y: 2 }).unwrap() = true;
-        let near = at_once(near(&cells, &mut Pace::at_once()));
+        let near = at_once(near(&cells, &mut StepBudget::unlimited()));
         let is_near = |x, y| near.get(Cell { x, y }).copied();
         assert_eq!((is_near(-2, 5), is_near(-1, 2)), (Some(true), Some(false)));
         assert_eq!(near.values().iter().filter(|cell| **cell).count(), 16);

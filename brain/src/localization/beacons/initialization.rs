@@ -11,7 +11,7 @@ use super::range_prediction::RangePrediction;
 use super::weight::weight;
 use crate::localization::skyline::{Factor, Solution, Summation, System};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::pose_estimate::PoseEstimate;
 
 /// Distance before the first attempt, and between two, metres.
@@ -204,7 +204,7 @@ impl BatchInitializer {
                 ],
             );
         }
-        let Solution { values, factor } = at_once(system.solve(&mut Pace::at_once()))?;
+        let Solution { values, factor } = at_once(system.solve(&mut StepBudget::unlimited()))?;
         Some((values, factor, libm::sqrt(misfit / f64::from(count.max(1)))))
     }
 
@@ -238,7 +238,7 @@ impl BatchInitializer {
                 if let Some(one) = unit.get_mut(row) {
                     *one = 1.0;
                 }
-                let column = at_once(factor.solve(unit, &mut Pace::at_once()))?;
+                let column = at_once(factor.solve(unit, &mut StepBudget::unlimited()))?;
                 Some(column.get(common - POSE..).unwrap_or_default().to_vec())
             })
             .collect();

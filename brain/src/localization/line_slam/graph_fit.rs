@@ -10,7 +10,7 @@ use super::graph::{Graph, LineObservation};
 use super::manhattan::{align, align_to_manhattan};
 use super::optimization::{CaptureRange, optimize};
 use crate::model::geometry::{Pose2, normalize_rad};
-use crate::model::gradual::{Gradual, Pace};
+use crate::model::gradual::{Gradual, StepBudget};
 
 /// Work of one step: a quarter of a millisecond on one desktop core.
 const STEP_WORK: usize = 300_000;
@@ -42,9 +42,9 @@ enum MergeVerdict {
 /// nodes.
 pub(super) fn begin(graph: &Graph) -> Option<Gradual<Option<FittedGraph>>> {
     let fit = GraphFit::of(graph)?;
-    Some(Gradual::new(
-        async move { fit.fitted(&mut Pace::of(STEP_WORK)).await },
-    ))
+    Some(Gradual::new(async move {
+        fit.fitted(&mut StepBudget::of(STEP_WORK)).await
+    }))
 }
 
 impl GraphFit {
@@ -59,24 +59,24 @@ impl GraphFit {
     }
 
     /// Runs all of it. Each part except the optimization is one pass over the observations and one step.
-    async fn fitted(mut self, pace: &mut Pace) -> Option<FittedGraph> {
+    async fn fitted(mut self, budget: &mut StepBudget) -> Option<FittedGraph> {
         self.clean_up();
         loop {
-            pace.pause().await;
+            budget.pause().await;
             self.merge_duplicates();
-            pace.pause().await;
+            budget.pause().await;
             align_to_manhattan(&mut self.graph);
-            pace.pause().await;
+            budget.pause().await;
             let reach = match self.hypothesis {
                 Some(_) => CaptureRange::Far,
                 None => CaptureRange::Near,
             };
-            let is_solved = optimize(&mut self.graph, reach, pace).await;
+            let is_solved = optimize(&mut self.graph, reach, budget).await;
             if self.judge_merge(is_solved)? == MergeVerdict::Accepted {
                 break;
             }
         }
-        pace.pause().await;
+        budget.pause().await;
         self.clean_up();
         Some(self.into_fitted())
     }

@@ -2,7 +2,7 @@
 
 use super::graph::{Graph, KERNEL, Unknowns};
 use crate::localization::skyline::{Solution, System};
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 #[cfg(test)]
 use crate::model::gradual::at_once;
 
@@ -38,15 +38,15 @@ impl CaptureRange {
 }
 
 /// Optimizes the graph. Returns whether there is a solution.
-pub(super) async fn optimize(graph: &mut Graph, reach: CaptureRange, pace: &mut Pace) -> bool {
+pub(super) async fn optimize(graph: &mut Graph, reach: CaptureRange, budget: &mut StepBudget) -> bool {
     let wide = reach.wide_iterations();
     for round in 0..wide + ITERATIONS_MAX {
         let kernel = if round < wide { WIDE_KERNEL } else { KERNEL };
         let unknowns = graph.unknowns();
         let mut system = graph.system(&unknowns);
-        pace.spend(MOVE_WORK * graph.nodes.len()).await;
-        gather(graph, (&unknowns, kernel), &mut system, pace).await;
-        let Some(Solution { values, factor }) = system.solve(pace).await else {
+        budget.spend(MOVE_WORK * graph.nodes.len()).await;
+        gather(graph, (&unknowns, kernel), &mut system, budget).await;
+        let Some(Solution { values, factor }) = system.solve(budget).await else {
             return false;
         };
         graph.apply(&unknowns, &values);
@@ -56,30 +56,35 @@ pub(super) async fn optimize(graph: &mut Graph, reach: CaptureRange, pace: &mut 
             return true;
         }
         if round + 1 < wide + ITERATIONS_MAX {
-            pace.spend(MOVE_WORK * graph.nodes.len()).await;
+            budget.spend(MOVE_WORK * graph.nodes.len()).await;
         }
     }
     true
 }
 
 /// Adds odometry, observations and dockings to the system.
-async fn gather(graph: &Graph, (unknowns, kernel): (&Unknowns, f64), system: &mut System, pace: &mut Pace) {
+async fn gather(
+    graph: &Graph,
+    (unknowns, kernel): (&Unknowns, f64),
+    system: &mut System,
+    budget: &mut StepBudget,
+) {
     for step in 0..graph.nodes.len().saturating_sub(1) {
         graph.add_odometry_residual(step, unknowns, system);
-        pace.spend(STEP_WORK).await;
+        budget.spend(STEP_WORK).await;
     }
     for observation in &graph.observations {
         graph.add_line_residual((observation, kernel), unknowns, system);
-        pace.spend(OBSERVATION_WORK).await;
+        budget.spend(OBSERVATION_WORK).await;
     }
     for docking in 0..graph.docked.len() {
         graph.add_dock_residual(docking, system);
-        pace.spend(OBSERVATION_WORK).await;
+        budget.spend(OBSERVATION_WORK).await;
     }
 }
 
 /// Runs the whole optimization at once.
 #[cfg(test)]
 pub(super) fn optimized(graph: &mut Graph) -> bool {
-    at_once(optimize(graph, CaptureRange::Near, &mut Pace::at_once()))
+    at_once(optimize(graph, CaptureRange::Near, &mut StepBudget::unlimited()))
 }

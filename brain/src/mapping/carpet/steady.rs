@@ -116,9 +116,9 @@ impl SteadyWatch {
     /// Present speed, m/s; `None` while it is not known, slow or in a curve.
     fn straight_pace(&self, now_us: u64) -> Option<f64> {
         let [left, right] = self.rims_m_per_s(now_us)?;
-        let pace = 0.5 * (left + right);
-        let is_straight = pace >= PACE_MIN_M_PER_S && (right - left).abs() <= CURVE * pace;
-        is_straight.then_some(pace)
+        let budget = 0.5 * (left + right);
+        let is_straight = budget >= PACE_MIN_M_PER_S && (right - left).abs() <= CURVE * budget;
+        is_straight.then_some(budget)
     }
 
     /// Speeds of the left and the right wheel's rim.
@@ -159,7 +159,7 @@ impl SteadyWatch {
         let is_settled = now_us >= since_us.saturating_add(SETTLE_US + WINDOW_US);
         is_settled.then_some(Way {
             brush_percent: self.brush_percent,
-            pace: (pace_m_per_s / PACE_STEP_M_PER_S + 0.5) as u8,
+            budget: (pace_m_per_s / PACE_STEP_M_PER_S + 0.5) as u8,
         })
     }
 }

@@ -26,7 +26,7 @@ pub(super) struct Excess {
 pub(super) struct Way {
     pub(super) brush_percent: u8,
     /// Speed in steps of 5 cm/s.
-    pub(super) pace: u8,
+    pub(super) budget: u8,
 }
 
 /// Marks kept: two and a half minutes of steady driving.

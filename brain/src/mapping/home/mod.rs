@@ -16,7 +16,7 @@ use super::wall_direction::DirectionAt;
 use super::{CELL_M, Cell, Raster, StoredMap};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::Point2;
-use crate::model::gradual::{Gradual, Pace, at_once};
+use crate::model::gradual::{Gradual, StepBudget, at_once};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
@@ -167,7 +167,10 @@ impl HomeMap {
         let beneath = self.knowledge_beneath();
         let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
         let with_changes = (knowledge, self.annotations.room_changes());
-        self.rooms = at_once(self.rooms.renewed_in_steps(with_changes, &mut Pace::at_once()));
+        self.rooms = at_once(
+            self.rooms
+                .renewed_in_steps(with_changes, &mut StepBudget::unlimited()),
+        );
         self.surveying = None;
     }
 
@@ -178,7 +181,9 @@ impl HomeMap {
         let (before, changes) = (self.rooms.clone(), self.annotations.room_changes().clone());
         self.surveying = Some(Gradual::new(async move {
             let with_changes = (&knowledge, &changes);
-            before.renewed_in_steps(with_changes, &mut Pace::in_steps()).await
+            before
+                .renewed_in_steps(with_changes, &mut StepBudget::limited())
+                .await
         }));
     }
 
@@ -286,17 +291,17 @@ impl HomeMap {
     }
 
     /// The same with a stored home instead of nothing.
-    pub(super) async fn filled(mut self, stored: &StoredMap, pace: &mut Pace) -> Self {
-        self.layers = stored.layers(pace).await;
+    pub(super) async fn filled(mut self, stored: &StoredMap, budget: &mut StepBudget) -> Self {
+        self.layers = stored.layers(budget).await;
         self.base = self.layers.clone();
         self.dock = stored.dock_place();
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
-        self.derived = Derived::anew(&mut self.layers, pace).await;
+        self.derived = Derived::anew(&mut self.layers, budget).await;
         let beneath = self.knowledge_beneath();
         let knowledge = beneath.as_ref().unwrap_or(&self.derived.knowledge);
         let with_changes = (knowledge, self.annotations.room_changes());
-        self.rooms = stored.rooms().renewed_in_steps(with_changes, pace).await;
+        self.rooms = stored.rooms().renewed_in_steps(with_changes, budget).await;
         self
     }
 

@@ -9,7 +9,7 @@ use crate::mapping::{
     CELL_M, Cell, CellKnowledge, DistanceField, DockPlace, FloorKind, Raster, Rooms, WallSegment,
 };
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
@@ -104,7 +104,10 @@ impl Map {
     pub(crate) fn wall_direction_rad(&self) -> Option<f64> {
         let home = &self.home;
         home.direction.at(home.revision, || {
-            at_once(wall_direction_rad(&home.derived.knowledge, &mut Pace::at_once()))
+            at_once(wall_direction_rad(
+                &home.derived.knowledge,
+                &mut StepBudget::unlimited(),
+            ))
         })
     }
 

@@ -8,7 +8,7 @@ use super::Map;
 use crate::mapping::StoredMap;
 use crate::mapping::home::HomeMap;
 use crate::model::config::BrainConfig;
-use crate::model::gradual::{Gradual, Pace, at_once};
+use crate::model::gradual::{Gradual, StepBudget, at_once};
 
 /// A stored home that is being taken up.
 #[derive(Debug)]
@@ -25,7 +25,7 @@ impl TakingUp {
         let (body, sensors) = (config.body, config.sensors);
         Self(Gradual::new(async move {
             let blank = HomeMap::new(body, sensors);
-            ReadyHome(blank.filled(&stored, &mut Pace::in_steps()).await)
+            ReadyHome(blank.filled(&stored, &mut StepBudget::limited()).await)
         }))
     }
 
@@ -42,7 +42,9 @@ impl Map {
     /// Takes up a stored home in place of what is known.
     pub fn take_up(&mut self, stored: &StoredMap) {
         let blank = HomeMap::new(self.home.pencil.body, self.home.pencil.sensors);
-        self.put(ReadyHome(at_once(blank.filled(stored, &mut Pace::at_once()))));
+        self.put(ReadyHome(at_once(
+            blank.filled(stored, &mut StepBudget::unlimited()),
+        )));
     }
 
     /// Puts a home in place of what is known.

@@ -6,7 +6,7 @@ use super::Map;
 use crate::mapping::layers::Layers;
 use crate::mapping::rooms::Rooms;
 use crate::mapping::{Annotations, DockPlace, StoredMap};
-use crate::model::gradual::{Gradual, Pace, at_once};
+use crate::model::gradual::{Gradual, StepBudget, at_once};
 
 /// A copy of what is written down. It shares the cells with the map as long as that does not change them.
 struct Draft {
@@ -26,8 +26,8 @@ impl Draft {
         }
     }
 
-    async fn written(self, pace: &mut Pace) -> StoredMap {
-        StoredMap::of_layers(&self.layers, &self.rooms, pace)
+    async fn written(self, budget: &mut StepBudget) -> StoredMap {
+        StoredMap::of_layers(&self.layers, &self.rooms, budget)
             .await
             .with_dock_place(self.dock)
             .with_annotations(self.annotations)
@@ -38,12 +38,12 @@ impl Map {
     /// The home as plain data.
     #[must_use]
     pub fn stored(&self) -> StoredMap {
-        at_once(Draft::of(self).written(&mut Pace::at_once()))
+        at_once(Draft::of(self).written(&mut StepBudget::unlimited()))
     }
 
     /// As [`Self::stored`], of the map as it is now, in steps.
     pub(crate) fn stored_in_steps(&self) -> Gradual<StoredMap> {
         let copy = Draft::of(self);
-        Gradual::new(async move { copy.written(&mut Pace::in_steps()).await })
+        Gradual::new(async move { copy.written(&mut StepBudget::limited()).await })
     }
 }

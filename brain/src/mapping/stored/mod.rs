@@ -15,7 +15,7 @@ use super::rooms::Rooms;
 use super::tile_grid::TILE_CELLS;
 use super::{Cell, CellKnowledge, DockPlace, FloorKind, Raster};
 use crate::model::geometry::Pose2;
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 
 /// Most cells of a stored map's window.
 pub(super) const CELLS_MAX: u64 = TILES_MAX as u64 * (TILE_CELLS * TILE_CELLS) as u64;
@@ -100,11 +100,11 @@ impl StoredMap {
     /// What is known of each cell.
     #[must_use]
     pub fn knowledge(&self) -> Raster<CellKnowledge> {
-        at_once(self.knowledge_in_steps(&mut Pace::at_once()))
+        at_once(self.knowledge_in_steps(&mut StepBudget::unlimited()))
     }
 
     /// As [`Self::knowledge`], in steps.
-    pub(crate) async fn knowledge_in_steps(&self, pace: &mut Pace) -> Raster<CellKnowledge> {
+    pub(crate) async fn knowledge_in_steps(&self, budget: &mut StepBudget) -> Raster<CellKnowledge> {
         let mut raster = Raster::filled(
             self.origin,
             self.width as usize,
@@ -113,7 +113,7 @@ impl StoredMap {
         );
         for (place, value) in raster.values_mut().iter_mut().zip(values_of(&self.cells)) {
             *place = unpack(value).knowledge();
-            pace.spend(1).await;
+            budget.spend(1).await;
         }
         raster
     }
@@ -125,7 +125,7 @@ impl StoredMap {
             self.rooms.iter().map(|run| run.value).collect()
         } else {
             let changes = self.annotations.room_changes();
-            let changed = at_once(changes.made_in(self.rooms().found(), &mut Pace::at_once()));
+            let changed = at_once(changes.made_in(self.rooms().found(), &mut StepBudget::unlimited()));
             changed.values().iter().copied().collect()
         };
         labels.iter().filter(|label| **label != 0).count()
@@ -137,12 +137,12 @@ impl StoredMap {
         self.cells.iter().all(|run| run.value == 0)
     }
 
-    pub(super) async fn of_layers(layers: &Layers, rooms: &Rooms, pace: &mut Pace) -> Self {
+    pub(super) async fn of_layers(layers: &Layers, rooms: &Rooms, budget: &mut StepBudget) -> Self {
         let mut around: Option<CellBox> = None;
         for (cell, _) in layers.gathered() {
             let here = CellBox::of(cell);
             around = Some(around.map_or(here, |before| before.joined(here)));
-            pace.spend(CELL_WORK).await;
+            budget.spend(CELL_WORK).await;
         }
         let Some(around) = around else {
             return Self {
@@ -156,14 +156,14 @@ impl StoredMap {
             if let Some(place) = raster.get_mut(cell) {
                 *place = pack(evidence);
             }
-            pace.spend(CELL_WORK).await;
+            budget.spend(CELL_WORK).await;
         }
         let (mut cells, mut labels) = (Vec::new(), Vec::new());
         for (index, value) in raster.values().iter().enumerate() {
             let label = rooms.found().get(raster.cell(index)).copied();
             lengthen(&mut cells, *value);
             lengthen(&mut labels, label.unwrap_or(0));
-            pace.spend(CELL_WORK).await;
+            budget.spend(CELL_WORK).await;
         }
         Self {
             dock: DockPlace::default(),
@@ -187,15 +187,15 @@ impl StoredMap {
     }
 
     /// What is stored, as layers.
-    pub(super) async fn layers(&self, pace: &mut Pace) -> Layers {
+    pub(super) async fn layers(&self, budget: &mut StepBudget) -> Layers {
         let mut layers = Layers::default();
         let raster: Raster<()> = Raster::filled(self.origin, self.width as usize, self.height as usize, ());
         for (index, value) in values_of(&self.cells).enumerate() {
             if value != 0 {
                 layers.change(raster.cell(index), |evidence| *evidence = unpack(value));
-                pace.spend(CELL_WORK).await;
+                budget.spend(CELL_WORK).await;
             }
-            pace.spend(1).await;
+            budget.spend(1).await;
         }
         layers
     }

@@ -16,6 +16,8 @@ const ROBOTS: [(&str, &str, &str); 1] = [(
 pub(crate) struct Item {
     /// Name.
     pub(crate) name: String,
+    /// Its former name, which older files and scripts may still have.
+    former_name: Option<String>,
     /// Unit of the whole number.
     pub(crate) unit: String,
     /// Least and greatest value that can be true.
@@ -90,9 +92,10 @@ impl Catalog {
         })
     }
 
-    /// The value of this name.
+    /// The value of this name, or of this former name.
     pub(crate) fn find(&self, name: &str) -> anyhow::Result<&Item> {
-        self.items.iter().find(|item| item.name == name).with_context(|| {
+        let is_called = |item: &&Item| item.name == name || item.former_name.as_deref() == Some(name);
+        self.items.iter().find(is_called).with_context(|| {
             let known: Vec<&str> = self.items.iter().map(|item| item.name.as_str()).collect();
             format!("there is no value {name:?}; known: {}", known.join(", "))
         })
@@ -119,8 +122,10 @@ mod tests {
     #[test]
     fn the_robots_own_tables_are_read() {
         let catalog = Catalog::of("sr8730").expect("known");
-        let item = catalog.find("wheel-count-way").expect("listed");
+        let item = catalog.find("wheel-distance-per-count").expect("listed");
         assert_eq!(item.shown(500_000), "500000 nm");
+        let former = catalog.find("wheel-count-way").expect("its former name");
+        assert_eq!(former.name, item.name);
         let order = catalog.find("wheel-left-order").expect("listed");
         assert_eq!(order.shown(1), "1");
         for (signal, channel) in [
@@ -145,6 +150,6 @@ mod tests {
         );
         let catalog = Catalog::of("sr8730").expect("known");
         let error = catalog.find("wheel").expect_err("unknown").to_string();
-        assert!(error.contains("known: wheel-count-way, "), "{error}");
+        assert!(error.contains("known: wheel-distance-per-count, "), "{error}");
     }
 }

@@ -46,7 +46,7 @@ impl Bench<'_> {
 
     /// Speed of the rims at full duty and nominal voltage: a full pack turns them faster.
     pub(super) fn free_speed(&mut self) -> anyhow::Result<i64> {
-        let way_nm = self.needed("wheel-count-way")?;
+        let way_nm = self.needed("wheel-distance-per-count")?;
         let wheels = [Motor::WheelLeft, Motor::WheelRight];
         let counted = self.count(&wheels, 1000, Duration::from_millis(1_000))?;
         let way_nm = (counted.left.abs() + counted.right.abs()) * way_nm / 2;

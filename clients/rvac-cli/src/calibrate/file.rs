@@ -51,12 +51,12 @@ impl Measurements {
                 catalog.robot
             );
         }
-        for name in content.values.keys() {
-            catalog
-                .find(name)
+        for (name, value) in content.values {
+            let item = catalog
+                .find(&name)
                 .with_context(|| format!("{} cannot be kept as it is", path.display()))?;
+            measurements.values.insert(item.name.clone(), value);
         }
-        measurements.values = content.values;
         Ok(measurements)
     }
 
@@ -103,7 +103,9 @@ mod tests {
         let catalog = Catalog::of("sr8730").expect("known");
         let mut measured = Measurements::open(&path, &catalog).expect("not there yet");
         measured.keep(&catalog, "wheel-track", 231_000).expect("kept");
-        measured.keep(&catalog, "wheel-count-way", 480_000).expect("kept");
+        measured
+            .keep(&catalog, "wheel-distance-per-count", 480_000)
+            .expect("kept");
         let again = Measurements::open(&path, &catalog).expect("readable");
         assert_eq!(again.get("wheel-track"), Some(231_000));
         assert_eq!(again.get("battery-capacity"), None);

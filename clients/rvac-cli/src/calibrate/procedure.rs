@@ -72,7 +72,7 @@ impl Procedure {
     /// How the value of this name is measured.
     pub(crate) fn of(name: &str) -> Self {
         match name {
-            "wheel-count-way" => Self::Push,
+            "wheel-distance-per-count" => Self::Push,
             "wheel-track" => Self::Spin,
             "wheel-left-order" => Self::Order(Side::Left),
             "wheel-right-order" => Self::Order(Side::Right),
@@ -134,7 +134,7 @@ impl Bench<'_> {
                 Ok(count_way_nm(moved, way_mm)?)
             }
             Procedure::Spin => {
-                let way_nm = self.needed("wheel-count-way")?;
+                let way_nm = self.needed("wheel-distance-per-count")?;
                 let moved = self.moved_by_hand("Turn it ten times around on the spot, then press Enter.")?;
                 Ok(track_um(moved, 10, way_nm)?)
             }

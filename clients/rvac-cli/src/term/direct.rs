@@ -8,9 +8,9 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
 use rvac_protocol::PacketBuffer;
+use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::SEPARATOR;
 use rvac_protocol::message::{BinaryKinds, Command};
-use rvac_protocol::seal::{Direction, seal, to_hex};
 use rvac_protocol::session::{HostEvent, HostSession, SendError};
 use rvac_protocol::text::{Form, is_stop, read_command};
 use rvac_units::Tick;
@@ -166,7 +166,7 @@ impl<'a> Terminal<'a> {
             HostEvent::Closed(_) => "the robot has left the session".to_owned(),
             HostEvent::Silent => "the robot is silent".to_owned(),
             HostEvent::Unanswered(sequence) => format!("number {} was not answered", sequence.0),
-            HostEvent::EdgesLost { count } => format!("{count} events were lost"),
+            HostEvent::EventsLost { count } => format!("{count} events were lost"),
             HostEvent::Incompatible {
                 version_min,
                 version_max,
@@ -253,7 +253,11 @@ fn to_command(line: &str, robot_tick: Option<(Tick, Tick)>) -> Option<Command> {
 fn sealed_verbatim(line: &str, session: u16) -> Vec<u8> {
     let mut bytes = line.as_bytes().to_vec();
     bytes.push(b'*');
-    bytes.extend_from_slice(&to_hex(seal(Direction::HostToRobot, session, line.as_bytes())));
+    bytes.extend_from_slice(&to_hex(packet_crc(
+        Direction::HostToRobot,
+        session,
+        line.as_bytes(),
+    )));
     bytes.push(SEPARATOR);
     bytes
 }

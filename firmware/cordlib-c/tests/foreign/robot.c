@@ -1,4 +1,4 @@
-/* A whole exchange through the C interface: a person's typed packets go in, throttles and sealed packets come out.
+/* A whole exchange through the C interface: a person's typed packets go in, throttles and packets with a CRC come out.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -60,12 +60,12 @@ static uint32_t crc32c(uint32_t crc, const unsigned char *bytes, size_t length)
     return crc;
 }
 
-/* Whether a text packet from the robot outside of a session carries the right seal; the seal is cut off. */
-static int unseal(char *packet)
+/* Whether a text packet from the robot outside of a session carries the right CRC; the CRC is cut off. */
+static int strip_crc(char *packet)
 {
     char *star = strrchr(packet, '*');
-    unsigned seal;
-    if (!star || strlen(star) != 9 || sscanf(star + 1, "%8X", &seal) != 1)
+    unsigned expected;
+    if (!star || strlen(star) != 9 || sscanf(star + 1, "%8X", &expected) != 1)
         return 0;
     *star = 0;
     size_t length = strlen(packet);
@@ -74,7 +74,7 @@ static int unseal(char *packet)
     uint32_t crc = crc32c(0xFFFFFFFFu, head, sizeof head);
     crc = crc32c(crc, (unsigned char *)packet, length);
     crc = crc32c(crc, tail, sizeof tail);
-    return (crc ^ 0xFFFFFFFFu) == seal;
+    return (crc ^ 0xFFFFFFFFu) == expected;
 }
 
 static void pull(void)
@@ -84,7 +84,7 @@ static void pull(void)
         if (byte == SEPARATOR) {
             if (packet_length > 0 && packet_count < PACKETS) {
                 packets[packet_count][packet_length] = 0;
-                check(unseal(packets[packet_count]), packets[packet_count]);
+                check(strip_crc(packets[packet_count]), packets[packet_count]);
                 packet_count++;
             }
             packet_length = 0;

@@ -67,10 +67,10 @@ sub crc32c(@bytes) {
 
 sub packets() {
     $received.decode('utf-8').split("\x1F").grep(*.chars).map: -> $packet {
-        my ($text, $seal) = $packet.split('*');
+        my ($text, $crc) = $packet.split('*');
         my @bytes = $text.encode.list;
-        my @sealed = flat '<'.ord, 0, 0, @bytes, @bytes.elems +& 0xFF, @bytes.elems +> 8;
-        die "bad seal: $packet" unless crc32c(@sealed) == :16($seal);
+        my @summed = flat '<'.ord, 0, 0, @bytes, @bytes.elems +& 0xFF, @bytes.elems +> 8;
+        die "bad CRC: $packet" unless crc32c(@summed) == :16($crc);
         $text
     }
 }

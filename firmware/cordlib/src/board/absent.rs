@@ -1,4 +1,4 @@
-//! The part that is not there.
+//! The part that is absent.
 
 use rvac_protocol::message::{
     Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, PROBE_CHANNELS, PROBE_PORTS,
@@ -9,7 +9,7 @@ use rvac_units::{Frequency, Ratio, Throttle};
 use super::{
     Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels,
     CliffSensors, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders,
-    HeadingSensor, Lights, Probe, ProximitySensors, WheelCounts, WheelDropSwitches,
+    HeadingSensor, Lights, PinProbe, ProximitySensors, WheelCounts, WheelDropSwitches,
 };
 
 /// Stands for a part the machine lacks. Commands to it are refused as `absent`, and the description says so.
@@ -97,7 +97,7 @@ impl Charger for Absent {
     fn ask_dock(&mut self, _: DockRequest) {}
 }
 
-impl Probe for Absent {
+impl PinProbe for Absent {
     const PRESENT: bool = false;
 
     fn analog(&mut self) -> [u16; PROBE_CHANNELS] {

@@ -1,4 +1,4 @@
-//! Switches that feel the world.
+//! Contact switches.
 
 use rvac_protocol::message::{Bumpers, WheelDrops};
 

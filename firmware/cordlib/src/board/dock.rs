@@ -1,4 +1,4 @@
-//! The dock as the robot feels and hears it.
+//! Contacts and beam receivers of the dock.
 
 use rvac_protocol::message::DockReceivers;
 
@@ -13,6 +13,6 @@ pub trait DockBeams {
     /// Number of receivers, 0..=4.
     const COUNT: u8;
 
-    /// Last symbol of each receiver, 0 = nothing of late.
+    /// Last symbol of each receiver, 0 = none recently.
     fn symbols(&mut self) -> DockReceivers;
 }

@@ -22,8 +22,8 @@ pub struct CliffLevels {
     pub right: u16,
 }
 
-/// Cliff sensors: emitters that light the floor and receivers that see it. A floor is what answers to the emitter: the
-/// difference between lit and dark decides, so that neither sunlight nor a stuck input passes for a floor.
+/// Cliff sensors: emitters that light the floor and receivers that see it. The difference between lit and dark decides, so
+/// that neither sunlight nor a stuck input passes for floor.
 pub trait CliffSensors {
     /// Which sensors are fitted.
     const FITTED: Cliffs;

@@ -35,7 +35,7 @@ pub use ground::{CliffLevels, CliffSensors, Emitters};
 pub use link::{Link, Received};
 pub use panel::{Beeper, Buttons, Lights};
 pub use power::{ChargeDrive, Charger, ChargerReadings, CurrentSense, DockRequest, ThermistorFault};
-pub use probe::Probe;
+pub use probe::PinProbe;
 pub use ranging::{HeadingSensor, ProximitySensors};
 pub use supervision::{HardwareFault, ResetRecord, Watchdog};
 pub use wheels::{Encoders, WheelCounts, WheelDrive, WheelMotors};
@@ -52,7 +52,7 @@ pub trait Parts {
     type Link: Link;
     /// Bridges of the two wheels.
     type Wheels: WheelMotors;
-    /// Why the chip started, and how often of late.
+    /// Why the chip started, and how often recently.
     type Reset: ResetRecord;
     /// Hardware watchdog.
     type Watchdog: Watchdog;
@@ -91,7 +91,7 @@ pub trait Parts {
     /// Buttons.
     type Buttons: Buttons;
     /// Raw readings.
-    type Probe: Probe;
+    type Probe: PinProbe;
 }
 
 /// The parts of one machine.
@@ -132,15 +132,15 @@ impl<P: Parts> core::fmt::Debug for Board<P> {
 }
 
 impl<P: Parts> Board<P> {
-    /// Switches off everything that moves or charges. For a panic handler that has no `Cord` at hand: it rebuilds the
+    /// Switches off everything that moves or charges. For a panic handler without access to the `Cord`: it rebuilds the
     /// parts and calls this.
     pub fn all_off(&mut self) {
         self.charger.drive(ChargeDrive::Off);
         self.motors_off();
     }
 
-    /// Brakes the wheels and switches off every motor and the sound. The one place where motion ends, whoever asks:
-    /// reflexes, `stop`, hardware faults.
+    /// Brakes the wheels and switches off every motor and the sound. Reflexes, `stop` and hardware faults all end motion
+    /// here.
     pub fn motors_off(&mut self) {
         self.wheels.drive(WheelDrive::Brake, WheelDrive::Brake);
         self.brush_main.set(Throttle::ZERO);

@@ -12,14 +12,14 @@ pub trait CurrentSense {
     fn currents(&mut self) -> Option<Currents>;
 }
 
-/// One look at the pack and at what feeds it. Raw conversions, not averaged: the charger wants the dither.
+/// One set of readings of the pack and its supply. Raw conversions, not averaged: the charger needs the dither.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChargerReadings {
     /// At the pack's terminals, in mV.
     pub pack_mv: i32,
-    /// At the charger's side of the shunt, in mV: the supply's voltage while current flows, the pack's else.
+    /// At the charger's side of the shunt, in mV: the supply's voltage while current flows, else the pack's.
     pub input_mv: i32,
-    /// Through the shunt into the pack, in mA; what the board knows of the zero is taken off.
+    /// Through the shunt into the pack, in mA; the board's calibrated offset is subtracted.
     pub current_ma: i32,
     /// Of the pack.
     pub temperature: Result<Temperature, ThermistorFault>,
@@ -29,8 +29,7 @@ pub struct ChargerReadings {
     pub adapter: bool,
 }
 
-/// What is wrong with the measurement of the pack's temperature. A board reports the first two, from the raw count; the
-/// rest is found here.
+/// Faults of the temperature measurement. A board reports the first two, from the raw count; cordlib detects the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ThermistorFault {
     /// Not connected.
@@ -45,18 +44,18 @@ pub enum ThermistorFault {
     Frozen,
 }
 
-/// What the charger's switch does.
+/// Drive of the charger's switch.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ChargeDrive {
     /// No current.
     #[default]
     Off,
-    /// Conducts for this share of the board's envelope. Never above 95 %, so that the board always finds quiet time for
-    /// its converter, and never 0.
+    /// Conducts for this share of the board's envelope. Never 0, and never above 95 %, so that the board always has quiet
+    /// time for its converter.
     Duty(Ratio),
 }
 
-/// What the dock is asked for.
+/// Request to the dock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DockRequest {
     /// Nothing: no code is sent.
@@ -66,8 +65,8 @@ pub enum DockRequest {
     Current,
 }
 
-/// The battery's measurement, and the switch that charges it. Regulation, limits and all decisions are this crate's
-/// (`charge`); the board only measures and gates.
+/// Measurement of the battery and the switch that charges it. Regulation, limits and all decisions belong to this crate
+/// (`charge`); the board only measures and switches.
 pub trait Charger {
     /// Whether the battery is measured.
     const PRESENT: bool;

@@ -2,8 +2,8 @@
 
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, PROBE_PORTS, Refusal};
 
-/// What stands on the pins, before any threshold or unit. Nothing here changes what the machine does.
-pub trait Probe {
+/// Raw readings of the pins, without threshold or unit. Reading them changes nothing in the machine.
+pub trait PinProbe {
     /// Whether raw readings can be had.
     const PRESENT: bool;
 
@@ -16,7 +16,7 @@ pub trait Probe {
     /// Levels of the digital lines, a word for each port in the order of the chip (A, B, C ...), a bit for each pin.
     fn lines(&mut self) -> [u16; PROBE_PORTS];
 
-    /// The buttons without knowing which.
+    /// The buttons, before it is calibrated which is which.
     fn buttons(&mut self) -> ButtonProbe;
 
     /// Opens a serial port for reading; one that was open is closed. It never sends.

@@ -1,8 +1,8 @@
-//! What survives a crash.
+//! Reset record, watchdog and hardware faults.
 
 use rvac_protocol::message::ResetCause;
 
-/// What the chip knows of its own start.
+/// What the chip knows about its start.
 pub trait ResetRecord {
     /// Why it started.
     fn cause(&mut self) -> ResetCause;
@@ -10,8 +10,8 @@ pub trait ResetRecord {
     /// Starts since the firmware was written, as far as the board can count.
     fn boot_count(&mut self) -> u32;
 
-    /// Resets in a row, other than power-on, since [`Self::forget_recent`] was called last. Kept where a reset does not
-    /// clear it, counted up by the board's start-up code.
+    /// Consecutive resets, other than power-on, since the last call of [`Self::forget_recent`]. Stored where a reset does
+    /// not clear it, and counted by the board's start-up code.
     fn recent(&mut self) -> u8;
 
     /// Sets [`Self::recent`] to 0: the firmware has run long enough.
@@ -24,13 +24,13 @@ pub trait Watchdog {
     fn feed(&mut self);
 }
 
-/// What a board's own checks found.
+/// A fault that the board's own checks found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HardwareFault {
     /// The oscillator failed, or two clocks disagree (S20).
     Clock,
     /// Flash, memory or stack failed a check (S21).
     Memory,
-    /// A trap that returned, or anything else that cannot be.
+    /// A trap that returned, or any other impossible state.
     Internal,
 }

@@ -2,13 +2,13 @@
 
 use rvac_units::Throttle;
 
-/// What one wheel's bridge does.
+/// Drive of one wheel's bridge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WheelDrive {
     /// The motor's terminals are shorted: PWM compare 0, the wheel brakes.
     Brake,
-    /// The bridge is driven with this duty, forward positive. Full scale is a duty of 1; the dead band of the motor is
-    /// dealt with here, not by the board.
+    /// The bridge is driven with this duty, forward positive. Full scale is a duty of 1. Cordlib compensates the dead band
+    /// of the motor, not the board.
     Duty(Throttle),
 }
 

@@ -1,4 +1,4 @@
-//! One pass of the charger: measure, look for faults, advance the state machine, regulate, pass the gate.
+//! One pass of the charger: measure, detect faults, advance the state machine, regulate, apply the guard.
 
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase, ChargerStatus};
 use rvac_units::{Ratio, Tick};
@@ -6,44 +6,44 @@ use rvac_units::{Ratio, Tick};
 use crate::board::{ChargeDrive, ChargerReadings, DockRequest};
 use crate::parameters::PackParameters;
 
+use super::current_offset::CurrentOffset;
 use super::faults::FaultWatch;
-use super::gauge::{Gauge, Use};
-use super::guard::{AGE_MAX_MS, Guard, View};
+use super::gauge::{Gauge, PackLoad};
+use super::guard::{AGE_MAX_MS, ChargeConditions, Guard};
 use super::history::History;
-use super::meter::{Beats, Means, Meter, Window};
-use super::phases::{Charge, Pulse, Rest};
+use super::meter::{Averages, AveragingWindow, CompletedWindows, Meter};
+use super::phases::{ChargeRecord, MaintenancePulse, Rest};
 use super::regulate::Regulator;
-use super::scale::PackScale;
+use super::scale::PackLimits;
 use super::stops::{AllStops, Detectors, Stops};
 use super::thermometer::Thermometer;
-use super::zero::Zero;
 
 /// The supply must be there this long before current flows.
 const SUPPLIED_MS: u32 = 1_000;
-/// The dock is asked this long before current flows, so that it has heard.
+/// The dock is asked this long before current flows, so that it has received the request.
 const ASKED_MS: u32 = 2_000;
 
 /// Whether anything on the robot turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motors {
+pub enum MotorActivity {
     /// No motor is driven and no wheel turns.
     Idle,
     /// Something is driven or turns.
     Running,
 }
 
-/// What the rest of the firmware knows that the charger must know.
+/// What the charger must know of the rest of the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChargeContext {
     /// The contacts are closed, debounced, and the robot is not about to leave.
     pub docked: bool,
     /// Whether anything turns.
-    pub motors: Motors,
-    /// What the machine takes from the pack by what is switched on, in mA, as far as it is known.
+    pub motors: MotorActivity,
+    /// Estimated load of the parts that are switched on, in mA.
     pub load_ma: i32,
 }
 
-/// What the board is to do.
+/// What the board has to do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ChargeOutput {
     /// The switch.
@@ -56,7 +56,7 @@ pub struct ChargeOutput {
 #[derive(Clone, Debug)]
 pub struct ChargeController<S = AllStops> {
     pub(super) pack: PackParameters,
-    pub(super) scale: PackScale,
+    pub(super) scale: PackLimits,
     pub(super) stops: S,
     pub(super) phase: ChargePhase,
     pub(super) fault: Option<ChargeFault>,
@@ -65,17 +65,17 @@ pub struct ChargeController<S = AllStops> {
     pub(super) full: bool,
     pub(super) meter: Meter,
     pub(super) thermometer: Thermometer,
-    pub(super) zero: Zero,
+    pub(super) current_offset: CurrentOffset,
     pub(super) watch: FaultWatch,
     pub(super) detectors: Detectors,
-    pub(super) charge: Charge,
-    pub(super) pulse: Pulse,
+    pub(super) charge: ChargeRecord,
+    pub(super) pulse: MaintenancePulse,
     pub(super) rest: Rest,
     pub(super) regulator: Regulator,
     pub(super) history: History,
     pub(super) gauge: Gauge,
-    /// Newest averages of 100 ms, zero taken off.
-    pub(super) tenth: Option<Means>,
+    /// Newest averages of 100 ms, current offset subtracted.
+    pub(super) tenth: Option<Averages>,
     pub(super) docked_ms: u32,
     pub(super) supplied_ms: u32,
     pub(super) off_ms: u32,
@@ -86,7 +86,7 @@ pub struct ChargeController<S = AllStops> {
 }
 
 impl ChargeController {
-    /// A charger after a reset: it knows nothing of an earlier charge, and checks everything before it begins one.
+    /// A charger after a reset. It knows of no earlier charge and checks everything before it begins one.
     #[must_use]
     pub fn new(pack: PackParameters) -> Self {
         Self::with_stops(pack, AllStops)
@@ -94,12 +94,12 @@ impl ChargeController {
 }
 
 impl<S: Stops> ChargeController<S> {
-    /// As [`ChargeController::new`] with a choice of stops, for campaigns that show what each stop is worth.
+    /// As [`ChargeController::new`] with a choice of stops, for campaigns that test each stop alone.
     #[must_use]
     pub fn with_stops(pack: PackParameters, stops: S) -> Self {
         Self {
             pack,
-            scale: PackScale::of(&pack),
+            scale: PackLimits::of(&pack),
             stops,
             phase: ChargePhase::Idle,
             fault: None,
@@ -107,11 +107,11 @@ impl<S: Stops> ChargeController<S> {
             full: false,
             meter: Meter::new(),
             thermometer: Thermometer::default(),
-            zero: Zero::default(),
+            current_offset: CurrentOffset::default(),
             watch: FaultWatch::default(),
             detectors: Detectors::default(),
-            charge: Charge::default(),
-            pulse: Pulse::default(),
+            charge: ChargeRecord::default(),
+            pulse: MaintenancePulse::default(),
             rest: Rest::default(),
             regulator: Regulator::default(),
             history: History::new(),
@@ -136,14 +136,14 @@ impl<S: Stops> ChargeController<S> {
     ) -> ChargeOutput {
         let elapsed_ms = self.last.map_or(0, |last| now.since(last));
         self.last = Some(now);
-        let beats = self.meter.take(readings, elapsed_ms, now);
+        let windows = self.meter.take(readings, elapsed_ms, now);
         self.pass_time(context, elapsed_ms);
-        self.measure(&beats, context);
-        if let Some(fault) = self.find_fault(&beats, context) {
+        self.measure(&windows, context);
+        if let Some(fault) = self.find_fault(&windows, context) {
             self.fail(fault);
         }
-        self.advance(&beats, context);
-        self.regulate(&beats, context, elapsed_ms)
+        self.advance(&windows, context);
+        self.regulate(&windows, context, elapsed_ms)
     }
 
     fn pass_time(&mut self, context: ChargeContext, elapsed_ms: u32) {
@@ -168,47 +168,52 @@ impl<S: Stops> ChargeController<S> {
         self.charge.pass(self.is_charging(), elapsed_ms);
     }
 
-    fn measure(&mut self, beats: &Beats, context: ChargeContext) {
-        if let Some(means) = beats.of(Window::Tenth) {
-            self.thermometer.each_tenth(&means);
-            self.tenth = Some(self.zero.correct(means));
+    fn measure(&mut self, windows: &CompletedWindows, context: ChargeContext) {
+        if let Some(averages) = windows.of(AveragingWindow::Tenth) {
+            self.thermometer.each_tenth(&averages);
+            self.tenth = Some(self.current_offset.correct(averages));
         }
-        if let Some(means) = beats.of(Window::Second) {
-            self.thermometer.each_second(&means);
+        if let Some(averages) = windows.of(AveragingWindow::Second) {
+            self.thermometer.each_second(&averages);
             let no_supply = !self.meter.adapter() && !context.docked;
-            if no_supply && self.off_ms >= means.elapsed_ms {
-                self.zero.learn(&means);
+            if no_supply && self.off_ms >= averages.elapsed_ms {
+                self.current_offset.learn(&averages);
             }
-            let means = self.zero.correct(means);
-            let use_of = Use {
+            let averages = self.current_offset.correct(averages);
+            let load = PackLoad {
                 load_ma: context.load_ma,
                 charging: self.is_charging(),
             };
-            self.gauge.each_second(&means, use_of, &self.pack);
+            self.gauge.each_second(&averages, load, &self.pack);
             if self.is_charging() || self.phase == ChargePhase::Maintain {
-                self.charge.gather(&means);
+                self.charge.gather(&averages);
             }
         }
     }
 
-    fn regulate(&mut self, beats: &Beats, context: ChargeContext, elapsed_ms: u32) -> ChargeOutput {
+    fn regulate(
+        &mut self,
+        windows: &CompletedWindows,
+        context: ChargeContext,
+        elapsed_ms: u32,
+    ) -> ChargeOutput {
         let target_ma = self.target_ma();
         let wanted = target_ma > 0;
         let ready = wanted
             && self.supplied_ms >= SUPPLIED_MS
             && self.asked_ms >= ASKED_MS
-            && context.motors == Motors::Idle;
+            && context.motors == MotorActivity::Idle;
         if !ready {
             self.regulator.restart();
         } else {
             self.charge.want(elapsed_ms);
-            if let Some(means) = beats.of(Window::Envelope) {
-                let current_ma = self.zero.correct(means).current_ma;
+            if let Some(averages) = windows.of(AveragingWindow::Envelope) {
+                let current_ma = self.current_offset.correct(averages).current_ma;
                 self.regulator
                     .fold_back(current_ma, self.scale.fold_back_ma(), target_ma);
             }
-            if let (Some(_), Some(means)) = (beats.of(Window::Tenth), self.tenth) {
-                self.regulator.control(means.current_ma, target_ma);
+            if let (Some(_), Some(averages)) = (windows.of(AveragingWindow::Tenth), self.tenth) {
+                self.regulator.control(averages.current_ma, target_ma);
             }
         }
         let view = self.view(context);
@@ -231,13 +236,13 @@ impl<S: Stops> ChargeController<S> {
         self.output
     }
 
-    fn view(&self, context: ChargeContext) -> View {
-        View {
+    fn view(&self, context: ChargeContext) -> ChargeConditions {
+        ChargeConditions {
             supplied: context.docked && self.meter.adapter(),
-            motors_idle: context.motors == Motors::Idle,
+            motors_idle: context.motors == MotorActivity::Idle,
             age_ms: self.meter.age_ms(),
             temperature_cc: self.thermometer.cc(),
-            pack_mv: self.tenth.map(|means| means.pack_mv),
+            pack_mv: self.tenth.map(|averages| averages.pack_mv),
             pack_range_mv: (
                 self.scale.deep_mv(),
                 self.scale.voltage_max_mv().saturating_add(200),
@@ -245,15 +250,15 @@ impl<S: Stops> ChargeController<S> {
         }
     }
 
-    /// Switches off at once, because a motor is about to run or everything stops. The charge goes on by itself when it
-    /// may.
+    /// Switches off at once, because a motor is about to run or everything stops. The charge resumes by itself when it is
+    /// allowed again.
     pub fn cut(&mut self) -> ChargeOutput {
         self.regulator.restart();
         self.output = ChargeOutput::default();
         self.output
     }
 
-    /// What was asked of the board last.
+    /// The last output to the board.
     #[must_use]
     pub const fn output(&self) -> ChargeOutput {
         self.output
@@ -288,11 +293,10 @@ impl<S: Stops> ChargeController<S> {
         let fresh = self.meter.age_ms() <= AGE_MAX_MS;
         self.tenth
             .filter(|_| fresh)
-            .map(|means| (means.pack_mv, means.current_ma))
+            .map(|averages| (averages.pack_mv, averages.current_ma))
     }
 
-    /// Temperature of the pack in hundredths of a degree, averaged over 100 ms; `None` when there is none to be
-    /// believed.
+    /// Temperature of the pack in hundredths of a degree, averaged over 100 ms; `None` without a plausible reading.
     #[must_use]
     pub const fn temperature_cc(&self) -> Option<i32> {
         self.thermometer.cc()
@@ -302,7 +306,7 @@ impl<S: Stops> ChargeController<S> {
         &self.thermometer
     }
 
-    /// Whether current is meant to fill the pack.
+    /// Whether the phase charges the pack.
     pub(super) const fn is_charging(&self) -> bool {
         matches!(
             self.phase,

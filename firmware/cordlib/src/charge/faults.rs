@@ -1,28 +1,28 @@
-//! What stops a charge for good until a person clears it.
+//! Faults: they stop a charge until a person clears them.
 
 use rvac_protocol::message::{ChargeFault, ChargePhase};
 
 use crate::board::ThermistorFault;
 
 use super::controller::{ChargeContext, ChargeController};
+use super::frozen_sensor::FrozenSensorDetector;
 use super::guard::AGE_MAX_MS;
-use super::meter::{Beats, Means, Window};
-use super::stillness::Stillness;
+use super::meter::{Averages, AveragingWindow, CompletedWindows};
 use super::stops::Stops;
 
 const TOO_HOT_CC: i32 = 5_500;
 /// A pack that was too hot must have cooled to this before the fault can be cleared.
 const COOLED_CC: i32 = 4_500;
-/// Over-current must last for four envelopes, so that the fifth finds it: within 100 ms.
+/// Over-current must last for four envelopes; the fifth reports it, within 100 ms.
 const OVER_MS: u32 = 80;
-/// Current through a switch that is off: limit, time to settle after switching off, and how long it must last to be found
+/// Current through a switch that is off: limit, time to settle after switching off, and duration, so that it is found
 /// within a second.
 const LEAK_MA: i32 = 150;
 const SETTLE_MS: u32 = 200;
 const LEAK_MS: u32 = 900;
-/// Current shown at rest, too small for a shorted switch: the sensor's zero is wrong. A converter without dither may be
-/// wrong by a whole count of 108 mA.
-pub(super) const ZERO_MA: i32 = 120;
+/// Current at rest, too small for a shorted switch: the sensor's offset is wrong. Without dither the converter may be off
+/// by a whole count of 108 mA.
+pub(super) const OFFSET_FAULT_MA: i32 = 120;
 /// Less than this is no current.
 const NO_CURRENT_MA: i32 = 50;
 const NO_CURRENT_MS: u32 = 5_000;
@@ -30,7 +30,7 @@ const NO_CURRENT_TRIES: u8 = 3;
 const NO_CURRENT_PAUSE_MS: u32 = 300_000;
 const ADAPTER_MAX_MV: i32 = 30_000;
 const THERMISTOR_MS: u32 = 1_000;
-/// No battery: the voltage shoots up in the first half minute.
+/// Without a battery the voltage shoots up in the first half minute.
 const ABSENT_MS: u32 = 30_000;
 /// Interruptions by the contacts; one is forgiven each minute.
 const INTERRUPTIONS_MAX: u8 = 10;
@@ -43,7 +43,7 @@ pub(super) struct FaultWatch {
     leak_ms: u32,
     no_current_ms: u32,
     no_current_tries: u8,
-    stillness: Stillness,
+    frozen_sensor: FrozenSensorDetector,
     /// Averages of the last second and of the one before: a jump in the middle of a second is shared by two.
     seconds_mv: [Option<i32>; 2],
     supplied: bool,
@@ -64,12 +64,12 @@ impl FaultWatch {
         }
     }
 
-    /// The switch was opened: the voltage falls by what the current made, which is no jump.
+    /// The switch was opened. The voltage falls with the current, which is no jump.
     pub(super) const fn interrupt(&mut self) {
         self.seconds_mv = [None; 2];
     }
 
-    /// Off the dock nothing can be wrong with the charger. How often the contacts came and went is kept.
+    /// Resets the timers: off the dock the charger has no faults. The count of interruptions stays.
     fn rest(&mut self) {
         *self = Self {
             supplied: self.supplied,
@@ -80,7 +80,7 @@ impl FaultWatch {
     }
 }
 
-/// Adds to a span while a condition holds, else forgets it; whether it has reached `limit_ms`.
+/// Adds to a span while a condition holds, else resets it; returns whether it has reached `limit_ms`.
 fn lasts(span_ms: &mut u32, condition: bool, elapsed_ms: u32, limit_ms: u32) -> bool {
     *span_ms = if condition {
         span_ms.saturating_add(elapsed_ms)
@@ -91,53 +91,59 @@ fn lasts(span_ms: &mut u32, condition: bool, elapsed_ms: u32, limit_ms: u32) -> 
 }
 
 impl<S: Stops> ChargeController<S> {
-    /// Looks for a fault in what this pass has measured.
-    pub(super) fn find_fault(&mut self, beats: &Beats, context: ChargeContext) -> Option<ChargeFault> {
+    /// Looks for a fault in the measurements of this pass.
+    pub(super) fn find_fault(
+        &mut self,
+        windows: &CompletedWindows,
+        context: ChargeContext,
+    ) -> Option<ChargeFault> {
         if !context.docked {
             self.watch.rest();
             return None;
         }
-        let leak = beats.of(Window::Tenth).and_then(|means| self.find_leak(&means));
+        let leak = windows
+            .of(AveragingWindow::Tenth)
+            .and_then(|averages| self.find_leak(&averages));
         if self.phase == ChargePhase::Fault {
             return leak.filter(|_| self.fault != Some(ChargeFault::Shorted));
         }
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
         leak.or_else(|| (at_work && self.meter.age_ms() > AGE_MAX_MS).then_some(ChargeFault::Stale))
-            .or_else(|| self.find_in_envelope(beats))
-            .or_else(|| self.find_in_tenth(beats))
-            .or_else(|| self.find_in_second(beats))
-            .or_else(|| self.find_wrong_zero(beats))
+            .or_else(|| self.find_in_envelope(windows))
+            .or_else(|| self.find_in_tenth(windows))
+            .or_else(|| self.find_in_second(windows))
+            .or_else(|| self.find_wrong_offset(windows))
     }
 
     /// Current flows though the switch is off.
-    fn find_leak(&mut self, means: &Means) -> Option<ChargeFault> {
-        let current_ma = self.zero.correct(*means).current_ma;
+    fn find_leak(&mut self, averages: &Averages) -> Option<ChargeFault> {
+        let current_ma = self.current_offset.correct(*averages).current_ma;
         let leaks = self.off_ms >= SETTLE_MS && current_ma > LEAK_MA;
-        lasts(&mut self.watch.leak_ms, leaks, means.elapsed_ms, LEAK_MS).then_some(ChargeFault::Shorted)
+        lasts(&mut self.watch.leak_ms, leaks, averages.elapsed_ms, LEAK_MS).then_some(ChargeFault::Shorted)
     }
 
-    fn find_in_envelope(&mut self, beats: &Beats) -> Option<ChargeFault> {
-        let means = beats.of(Window::Envelope)?;
-        let current_ma = self.zero.correct(means).current_ma;
+    fn find_in_envelope(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
+        let averages = windows.of(AveragingWindow::Envelope)?;
+        let current_ma = self.current_offset.correct(averages).current_ma;
         let over = self.off_ms == 0 && current_ma > self.scale.over_current_ma();
-        lasts(&mut self.watch.over_ms, over, means.elapsed_ms, OVER_MS).then_some(ChargeFault::OverCurrent)
+        lasts(&mut self.watch.over_ms, over, averages.elapsed_ms, OVER_MS).then_some(ChargeFault::OverCurrent)
     }
 
-    fn find_in_tenth(&mut self, beats: &Beats) -> Option<ChargeFault> {
-        let means = beats.of(Window::Tenth)?;
+    fn find_in_tenth(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
+        let averages = windows.of(AveragingWindow::Tenth)?;
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
-        if means.input_mv > ADAPTER_MAX_MV {
+        if averages.input_mv > ADAPTER_MAX_MV {
             return Some(ChargeFault::Adapter);
         }
         if at_work && self.watch.interruptions > INTERRUPTIONS_MAX {
             return Some(ChargeFault::Contact);
         }
         if !self.is_at_full_rate() {
-            self.watch.stillness.pause();
+            self.watch.frozen_sensor.pause();
         } else if self
             .watch
-            .stillness
-            .is_frozen(means.temperature_cc, means.elapsed_ms)
+            .frozen_sensor
+            .is_frozen(averages.temperature_cc, averages.elapsed_ms)
         {
             return Some(ChargeFault::ThermistorFrozen);
         }
@@ -151,20 +157,20 @@ impl<S: Stops> ChargeController<S> {
         })
     }
 
-    fn find_in_second(&mut self, beats: &Beats) -> Option<ChargeFault> {
-        let means = self.zero.correct(beats.of(Window::Second)?);
+    fn find_in_second(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
+        let averages = self.current_offset.correct(windows.of(AveragingWindow::Second)?);
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
-        if at_work && means.temperature_cc.is_some_and(|cc| cc >= TOO_HOT_CC) {
+        if at_work && averages.temperature_cc.is_some_and(|cc| cc >= TOO_HOT_CC) {
             return Some(ChargeFault::TooHot);
         }
         let flows = self.charge.flows();
         let [last_mv, before_mv] = self.watch.seconds_mv;
-        self.watch.seconds_mv = [flows.then_some(means.pack_mv), last_mv];
+        self.watch.seconds_mv = [flows.then_some(averages.pack_mv), last_mv];
         let young = self.charge.is_young(ABSENT_MS);
-        if flows && means.pack_mv >= self.scale.voltage_max_mv() && young {
+        if flows && averages.pack_mv >= self.scale.voltage_max_mv() && young {
             return Some(ChargeFault::NoBattery);
         }
-        let jumped = |mv: Option<i32>| mv.is_some_and(|mv| self.scale.is_jump(mv, means.pack_mv));
+        let jumped = |mv: Option<i32>| mv.is_some_and(|mv| self.scale.is_jump(mv, averages.pack_mv));
         if flows && (jumped(last_mv) || jumped(before_mv)) {
             return Some(if young {
                 ChargeFault::NoBattery
@@ -172,34 +178,37 @@ impl<S: Stops> ChargeController<S> {
                 ChargeFault::VoltageJump
             });
         }
-        let rests =
-            self.off_ms >= means.elapsed_ms.saturating_add(SETTLE_MS) && self.supplied_ms >= means.elapsed_ms;
-        if rests && self.scale.unfit(means.pack_mv) == Some(ChargeFault::NoBattery) {
+        let rests = self.off_ms >= averages.elapsed_ms.saturating_add(SETTLE_MS)
+            && self.supplied_ms >= averages.elapsed_ms;
+        if rests && self.scale.unfit(averages.pack_mv) == Some(ChargeFault::NoBattery) {
             return Some(ChargeFault::NoBattery);
         }
-        self.find_no_current(&means)
+        self.find_no_current(&averages)
     }
 
-    /// Ten seconds of rest show current where there is none.
-    fn find_wrong_zero(&mut self, beats: &Beats) -> Option<ChargeFault> {
-        let means = self.zero.correct(beats.of(Window::TenSeconds)?);
-        let needed = self.phase == ChargePhase::Idle && means.pack_mv < self.scale.recharge_mv();
-        let rested = self.off_ms >= means.elapsed_ms.saturating_add(SETTLE_MS);
-        let docked = self.docked_ms >= means.elapsed_ms;
-        let wrong = means.current_ma.saturating_abs() >= ZERO_MA || self.zero.is_broken();
-        (needed && rested && docked && wrong).then_some(ChargeFault::CurrentZero)
+    /// Ten seconds of rest show a current that cannot flow.
+    fn find_wrong_offset(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
+        let averages = self
+            .current_offset
+            .correct(windows.of(AveragingWindow::TenSeconds)?);
+        let needed = self.phase == ChargePhase::Idle && averages.pack_mv < self.scale.recharge_mv();
+        let rested = self.off_ms >= averages.elapsed_ms.saturating_add(SETTLE_MS);
+        let docked = self.docked_ms >= averages.elapsed_ms;
+        let wrong =
+            averages.current_ma.saturating_abs() >= OFFSET_FAULT_MA || self.current_offset.is_broken();
+        (needed && rested && docked && wrong).then_some(ChargeFault::CurrentOffset)
     }
 
-    /// A dock that gives nothing is asked again after a pause; the third time it is a fault.
-    fn find_no_current(&mut self, means: &Means) -> Option<ChargeFault> {
-        let dry = self.regulator.must_flow() && means.current_ma < NO_CURRENT_MA;
+    /// A dock that gives no current is asked again after a pause; the third time it is a fault.
+    fn find_no_current(&mut self, averages: &Averages) -> Option<ChargeFault> {
+        let dry = self.regulator.must_flow() && averages.current_ma < NO_CURRENT_MA;
         if self.regulator.must_flow() && !dry {
             self.watch.no_current_tries = 0;
         }
         if !lasts(
             &mut self.watch.no_current_ms,
             dry,
-            means.elapsed_ms,
+            averages.elapsed_ms,
             NO_CURRENT_MS,
         ) {
             return None;
@@ -214,7 +223,7 @@ impl<S: Stops> ChargeController<S> {
         None
     }
 
-    /// Stops for good.
+    /// Stops charging with a fault.
     pub(super) fn fail(&mut self, fault: ChargeFault) {
         self.history.note_fault();
         self.fault = Some(fault);
@@ -224,7 +233,7 @@ impl<S: Stops> ChargeController<S> {
         self.charge.finish();
     }
 
-    /// A person has seen to the fault. False if its cause is still there; so is the third fault within a day, until the
+    /// Clears the fault for a person; false if its cause remains. The third fault within a day cannot be cleared until the
     /// first of them is a day old.
     pub fn clear(&mut self) -> bool {
         let Some(fault) = self.fault else {
@@ -257,14 +266,17 @@ impl<S: Stops> ChargeController<S> {
             ChargeFault::Stale => pack.is_none(),
             ChargeFault::Shorted => supplied && pack.is_none_or(|(_, current_ma)| current_ma > LEAK_MA),
             ChargeFault::Adapter => {
-                supplied && self.tenth.is_none_or(|means| means.input_mv > ADAPTER_MAX_MV)
+                supplied
+                    && self
+                        .tenth
+                        .is_none_or(|averages| averages.input_mv > ADAPTER_MAX_MV)
             }
             ChargeFault::NoBattery | ChargeFault::DeepDischarge => {
                 pack.is_none_or(|(pack_mv, _)| self.scale.unfit(pack_mv).is_some())
             }
             ChargeFault::Repeated => self.history.is_faulty_day(),
             ChargeFault::OverCurrent
-            | ChargeFault::CurrentZero
+            | ChargeFault::CurrentOffset
             | ChargeFault::NoCurrent
             | ChargeFault::ThermistorFrozen
             | ChargeFault::VoltageJump

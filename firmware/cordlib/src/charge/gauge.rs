@@ -1,13 +1,13 @@
-//! How much charge is left. The current out of the pack cannot be measured, so the estimate counts what the parts that
-//! are switched on take by their nominal figures, and is pulled towards what the voltage tells. One curve serves up and
-//! down, so that its end points agree.
+//! State of charge. The current out of the pack cannot be measured, so the estimate integrates the nominal loads of the
+//! parts that are switched on, and is pulled towards the state of charge that the voltage shows. One curve serves charging
+//! and discharging, so that its end points agree.
 
 use rvac_units::Ratio;
 
 use crate::limit::within;
 use crate::parameters::PackParameters;
 
-use super::meter::Means;
+use super::meter::Averages;
 
 /// Millivolts of one cell and its charge in millionths: a resting NiMH cell at room temperature.
 const CURVE: [(i32, i32); 11] = [
@@ -24,21 +24,21 @@ const CURVE: [(i32, i32); 11] = [
     (1_400, 1_000_000),
 ];
 const WHOLE: i64 = 1_000_000;
-/// Share of what goes in that stays in, in hundredths.
+/// Charging efficiency, in hundredths.
 const STORED: i64 = 93;
-/// While it charges, no more than this is claimed before the charge has ended well.
+/// While the pack charges, the estimate stays below this until the charge has ended well.
 const ALMOST: i64 = 990_000;
-/// Each second the estimate moves by this share of its distance from what the voltage tells.
+/// Each second the estimate moves towards the value by voltage by one in this many of the difference.
 const PULL: i64 = 600;
 /// Milliseconds and millionths to milliampere hours.
 const MS_PER_H: i64 = 3_600_000;
 
-/// What happens to the pack.
+/// Load and charging of the pack.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Use {
-    /// What the machine takes by its own reckoning.
+pub(super) struct PackLoad {
+    /// Estimated load of the machine.
     pub(super) load_ma: i32,
-    /// It is being filled.
+    /// The pack is being charged.
     pub(super) charging: bool,
 }
 
@@ -49,21 +49,23 @@ pub(super) struct Gauge {
 }
 
 impl Gauge {
-    /// A second is over.
-    pub(super) fn each_second(&mut self, means: &Means, use_of: Use, pack: &PackParameters) {
-        let Use { load_ma, charging } = use_of;
+    /// Takes the averages of a second.
+    pub(super) fn each_second(&mut self, averages: &Averages, load: PackLoad, pack: &PackParameters) {
+        let PackLoad { load_ma, charging } = load;
         let sag_mv = i64::from(load_ma).saturating_mul(i64::from(pack.resistance_mohm)) / 1_000;
-        let open_mv = means.pack_mv.saturating_add(i32::try_from(sag_mv).unwrap_or(0));
+        let open_mv = averages
+            .pack_mv
+            .saturating_add(i32::try_from(sag_mv).unwrap_or(0));
         let by_voltage = by_voltage(open_mv, pack.cells);
         let Some(charge) = self.charge else {
             self.charge = Some(by_voltage);
             return;
         };
-        let in_ma = i64::from(means.current_ma.max(0)).saturating_mul(STORED) / 100;
+        let in_ma = i64::from(averages.current_ma.max(0)).saturating_mul(STORED) / 100;
         let net_ma = in_ma.saturating_sub(i64::from(load_ma));
         let capacity_ma_ms = i64::from(pack.capacity_mah.max(1)).saturating_mul(MS_PER_H);
         let change = net_ma
-            .saturating_mul(i64::from(means.elapsed_ms))
+            .saturating_mul(i64::from(averages.elapsed_ms))
             .saturating_mul(WHOLE)
             / capacity_ma_ms.max(1);
         let counted = charge.saturating_add(change);
@@ -87,16 +89,16 @@ impl Gauge {
     }
 }
 
-/// What the voltage of a pack at rest tells, in millionths.
+/// State of charge by the voltage of a resting pack, in millionths.
 fn by_voltage(pack_mv: i32, cells: u8) -> i64 {
     let cell_mv = pack_mv / i32::from(cells.max(1));
     let (mut below_mv, mut below) = (0, 0);
     for (above_mv, above) in CURVE {
         if cell_mv < above_mv {
             let span_mv = i64::from(above_mv.saturating_sub(below_mv).max(1));
-            let way_mv = i64::from(cell_mv.saturating_sub(below_mv).max(0));
+            let above_mv_of_point = i64::from(cell_mv.saturating_sub(below_mv).max(0));
             let rise = i64::from(above.max(below).saturating_sub(below));
-            return i64::from(below).saturating_add(way_mv.saturating_mul(rise) / span_mv);
+            return i64::from(below).saturating_add(above_mv_of_point.saturating_mul(rise) / span_mv);
         }
         (below_mv, below) = (above_mv, above);
     }
@@ -105,18 +107,18 @@ fn by_voltage(pack_mv: i32, cells: u8) -> i64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{CURVE, Gauge, Use, by_voltage};
-    use crate::charge::meter::Means;
+    use super::{CURVE, Gauge, PackLoad, by_voltage};
+    use crate::charge::meter::Averages;
     use crate::parameters::PackParameters;
 
     const PACK: PackParameters = PackParameters::NIMH_12;
 
-    fn means(pack_mv: i32, current_ma: i32) -> Means {
-        Means {
+    fn averages(pack_mv: i32, current_ma: i32) -> Averages {
+        Averages {
             elapsed_ms: 1_000,
             pack_mv,
             current_ma,
-            ..Means::default()
+            ..Averages::default()
         }
     }
 
@@ -146,8 +148,8 @@ mod tests {
         let mut gauge = Gauge::default();
         assert!(gauge.charge().is_none());
         gauge.each_second(
-            &means(14_640, 0),
-            Use {
+            &averages(14_640, 0),
+            PackLoad {
                 load_ma: 0,
                 charging: false,
             },
@@ -156,8 +158,8 @@ mod tests {
         assert_eq!(gauge.charge().unwrap().millionths(), 200_000);
         for _ in 0..3_600 {
             gauge.each_second(
-                &means(17_000, 950),
-                Use {
+                &averages(17_000, 950),
+                PackLoad {
                     load_ma: 15,
                     charging: true,
                 },
@@ -168,8 +170,8 @@ mod tests {
         assert!((620_000..640_000).contains(&after_an_hour), "{after_an_hour}");
         for _ in 0..7_200 {
             gauge.each_second(
-                &means(17_500, 950),
-                Use {
+                &averages(17_500, 950),
+                PackLoad {
                     load_ma: 15,
                     charging: true,
                 },
@@ -187,8 +189,8 @@ mod tests {
         let load_ma = 1_500;
         let sag_mv = load_ma * i32::from(PACK.resistance_mohm) / 1_000;
         gauge.each_second(
-            &means(15_180, 0),
-            Use {
+            &averages(15_180, 0),
+            PackLoad {
                 load_ma: 0,
                 charging: false,
             },
@@ -197,8 +199,8 @@ mod tests {
         let before = gauge.charge().unwrap().millionths();
         for _ in 0..600 {
             gauge.each_second(
-                &means(15_180 - sag_mv, 0),
-                Use {
+                &averages(15_180 - sag_mv, 0),
+                PackLoad {
                     load_ma,
                     charging: false,
                 },

@@ -1,5 +1,5 @@
-//! The one gate between the charger's wishes and its switch, as `permit` is for the motors: it looks at the readings by
-//! itself and knows nothing of phases and stops, so that no mistake there can keep the switch on.
+//! The single gate between the charge controller and its switch, as `permit` is for the motors. It checks the readings
+//! independently and knows nothing of phases and stops, so that no error there can keep the switch on.
 
 use crate::board::ChargeDrive;
 
@@ -7,18 +7,17 @@ use super::regulate::DUTY_MAX;
 
 /// Readings older than this are no readings.
 pub(super) const AGE_MAX_MS: u32 = 200;
-/// Beyond these temperatures no current flows, in hundredths of a degree: a degree outside of what the charger itself
-/// keeps.
+/// No current flows beyond these temperatures, in hundredths of a degree: 1 °C outside the limits of the controller.
 const COLDEST_CC: i32 = -100;
 const HOTTEST_CC: i32 = 5_100;
-/// No current after this much of it, a little less than 3.6 hours, whatever the reason, until there was a rest.
+/// Longest time of current without a rest, a little less than 3.6 hours.
 const FLOW_MAX_MS: u32 = 12_900_000;
-/// A rest that forgets how long current flowed: half an hour, and one minute more.
+/// A rest that resets this time: 31 minutes.
 pub(super) const REST_MS: u32 = 1_860_000;
 
-/// What the gate looks at.
+/// The readings that the guard checks.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(super) struct ChargeConditions {
     /// On the dock's contacts, which carry a supply, and not about to leave.
     pub(super) supplied: bool,
     /// No motor is driven and no wheel turns.
@@ -30,7 +29,7 @@ pub(super) struct View {
     pub(super) pack_range_mv: (i32, i32),
 }
 
-/// The gate's own clock.
+/// The guard's own timers.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Guard {
     flow_ms: u32,
@@ -38,9 +37,18 @@ pub(super) struct Guard {
 }
 
 impl Guard {
-    /// What of the wish may reach the switch. `elapsed_ms` is the time since it was asked last.
-    pub(super) fn permit(&mut self, wish: ChargeDrive, view: &View, elapsed_ms: u32) -> ChargeDrive {
-        let drive = if self.allows(view) { wish } else { ChargeDrive::Off };
+    /// The part of the request that may reach the switch. `elapsed_ms` is the time since the last call.
+    pub(super) fn permit(
+        &mut self,
+        request: ChargeDrive,
+        view: &ChargeConditions,
+        elapsed_ms: u32,
+    ) -> ChargeDrive {
+        let drive = if self.allows(view) {
+            request
+        } else {
+            ChargeDrive::Off
+        };
         let drive = match drive {
             ChargeDrive::Duty(duty) if (1..=DUTY_MAX).contains(&duty.millionths()) => drive,
             _ => ChargeDrive::Off,
@@ -49,7 +57,7 @@ impl Guard {
         drive
     }
 
-    fn allows(&self, view: &View) -> bool {
+    fn allows(&self, view: &ChargeConditions) -> bool {
         let (least_mv, most_mv) = view.pack_range_mv;
         view.supplied
             && view.motors_idle
@@ -76,11 +84,11 @@ impl Guard {
 
 #[cfg(test)]
 mod tests {
-    use super::{FLOW_MAX_MS, Guard, View};
+    use super::{ChargeConditions, FLOW_MAX_MS, Guard};
     use crate::board::ChargeDrive;
     use rvac_units::Ratio;
 
-    const GOOD: View = View {
+    const GOOD: ChargeConditions = ChargeConditions {
         supplied: true,
         motors_idle: true,
         age_ms: 20,
@@ -95,46 +103,46 @@ mod tests {
 
     #[test]
     fn each_precondition_alone_keeps_the_switch_off() {
-        let wish = duty(500_000);
-        assert_eq!(Guard::default().permit(wish, &GOOD, 1), wish);
+        let request = duty(500_000);
+        assert_eq!(Guard::default().permit(request, &GOOD, 1), request);
         let bad = [
-            View {
+            ChargeConditions {
                 supplied: false,
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 motors_idle: false,
                 ..GOOD
             },
-            View { age_ms: 201, ..GOOD },
-            View {
+            ChargeConditions { age_ms: 201, ..GOOD },
+            ChargeConditions {
                 temperature_cc: None,
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 temperature_cc: Some(5_101),
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 temperature_cc: Some(-101),
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 pack_mv: None,
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 pack_mv: Some(8_999),
                 ..GOOD
             },
-            View {
+            ChargeConditions {
                 pack_mv: Some(20_601),
                 ..GOOD
             },
         ];
         for view in bad {
             assert_eq!(
-                Guard::default().permit(wish, &view, 1),
+                Guard::default().permit(request, &view, 1),
                 ChargeDrive::Off,
                 "{view:?}"
             );
@@ -145,10 +153,10 @@ mod tests {
 
     #[test]
     fn current_ends_after_its_longest_time_and_comes_back_after_a_rest() {
-        let wish = duty(500_000);
+        let request = duty(500_000);
         let mut guard = Guard::default();
         let mut flowed_ms = 0;
-        while guard.permit(wish, &GOOD, 1_000) != ChargeDrive::Off {
+        while guard.permit(request, &GOOD, 1_000) != ChargeDrive::Off {
             flowed_ms += 1_000;
         }
         assert!(
@@ -158,10 +166,10 @@ mod tests {
         for _ in 0..1_800 {
             guard.permit(ChargeDrive::Off, &GOOD, 1_000);
         }
-        assert_eq!(guard.permit(wish, &GOOD, 1_000), ChargeDrive::Off);
+        assert_eq!(guard.permit(request, &GOOD, 1_000), ChargeDrive::Off);
         for _ in 0..1_861 {
             guard.permit(ChargeDrive::Off, &GOOD, 1_000);
         }
-        assert_eq!(guard.permit(wish, &GOOD, 1_000), wish);
+        assert_eq!(guard.permit(request, &GOOD, 1_000), request);
     }
 }

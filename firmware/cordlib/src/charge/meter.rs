@@ -1,8 +1,8 @@
-//! Averages of the pack's readings. One count of the converter is 32.5 mV or 108 mA, so nothing is decided on a single
-//! reading: the dither of many makes the figures finer than a count.
+//! Averages of the pack's readings. One count of the converter is 32.5 mV or 108 mA, so no decision rests on a single
+//! reading: with dither, averaging many readings resolves less than a count.
 //!
 //! Windows of 20 ms (one envelope of the switch), 100 ms, 1 s and 10 s follow each other without gaps; each sums up the
-//! samples of the smaller one.
+//! samples of the next smaller one.
 
 use rvac_units::Tick;
 
@@ -11,12 +11,12 @@ use crate::board::{ChargerReadings, ThermistorFault};
 /// Lengths of the windows in ms.
 const LENGTHS_MS: [u32; WINDOWS] = [20, 100, 1_000, 10_000];
 const WINDOWS: usize = 4;
-/// Age that a reading is given when there is none.
+/// Age while there was no reading yet.
 const NEVER_MS: u32 = u32::MAX;
 
 /// One of the windows, by its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Window {
+pub(super) enum AveragingWindow {
     Envelope = 0,
     Tenth = 1,
     Second = 2,
@@ -25,12 +25,12 @@ pub(super) enum Window {
 
 /// Averages of one window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Means {
+pub(super) struct Averages {
     /// Length of the window: at least its nominal one.
     pub(super) elapsed_ms: u32,
     pub(super) pack_mv: i32,
     pub(super) input_mv: i32,
-    /// As the board measures it, zero not taken off.
+    /// As the board measures it, offset not subtracted.
     pub(super) current_ma: i32,
     /// In hundredths of a degree, of the samples whose thermistor was sound.
     pub(super) temperature_cc: Option<i32>,
@@ -53,8 +53,8 @@ struct Sums {
 
 /// Which windows were completed in a pass, with their averages.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Beats {
-    means: [Option<Means>; WINDOWS],
+pub(super) struct CompletedWindows {
+    averages: [Option<Averages>; WINDOWS],
 }
 
 /// The averages.
@@ -67,10 +67,10 @@ pub(super) struct Meter {
     sums: [Sums; WINDOWS],
 }
 
-impl Beats {
+impl CompletedWindows {
     /// The averages of this window, if it was completed just now and had a sample.
-    pub(super) fn of(&self, window: Window) -> Option<Means> {
-        self.means.get(window as usize).copied().flatten()
+    pub(super) fn of(&self, window: AveragingWindow) -> Option<Averages> {
+        self.averages.get(window as usize).copied().flatten()
     }
 }
 
@@ -95,7 +95,12 @@ impl Meter {
     }
 
     /// Takes the newest readings, `elapsed_ms` after the last ones.
-    pub(super) fn take(&mut self, readings: Option<ChargerReadings>, elapsed_ms: u32, now: Tick) -> Beats {
+    pub(super) fn take(
+        &mut self,
+        readings: Option<ChargerReadings>,
+        elapsed_ms: u32,
+        now: Tick,
+    ) -> CompletedWindows {
         self.adapter = readings.is_some_and(|readings| readings.adapter);
         self.measured |= readings.is_some();
         self.age_ms = match readings {
@@ -111,13 +116,13 @@ impl Meter {
         self.close(elapsed_ms)
     }
 
-    /// How old the newest reading is, in ms.
+    /// Age of the newest reading, in ms.
     pub(super) const fn age_ms(&self) -> u32 {
         self.age_ms
     }
 
-    /// Whether there were ever readings. A board that has none, for example because its pack is not calibrated, measures
-    /// nothing, and nothing can be wrong with it.
+    /// Whether there was ever a reading. A board without any, for example because its pack is not calibrated, cannot have
+    /// a measurement fault.
     pub(super) const fn has_measured(&self) -> bool {
         self.measured
     }
@@ -127,7 +132,7 @@ impl Meter {
         self.adapter
     }
 
-    /// A reading counts once, however often the board shows it.
+    /// A reading counts once, however often the board returns it.
     fn is_new(&mut self, age_ms: u32, now: Tick) -> bool {
         let taken = Tick(now.0.wrapping_sub(age_ms));
         let new = self.taken.is_none_or(|last| taken != last && taken.reached(last));
@@ -137,23 +142,23 @@ impl Meter {
         new
     }
 
-    fn close(&mut self, elapsed_ms: u32) -> Beats {
-        let mut beats = Beats::default();
+    fn close(&mut self, elapsed_ms: u32) -> CompletedWindows {
+        let mut windows = CompletedWindows::default();
         let mut closed = Sums {
             elapsed_ms,
             ..Sums::default()
         };
         // The samples of this pass are in the smallest window already; only its time is still to be added.
-        for ((sums, length_ms), means) in self.sums.iter_mut().zip(LENGTHS_MS).zip(&mut beats.means) {
+        for ((sums, length_ms), averages) in self.sums.iter_mut().zip(LENGTHS_MS).zip(&mut windows.averages) {
             sums.add(&closed);
             if sums.elapsed_ms < length_ms {
                 break;
             }
             closed = *sums;
             *sums = Sums::default();
-            *means = closed.means();
+            *averages = closed.averages();
         }
-        beats
+        windows
     }
 }
 
@@ -183,14 +188,14 @@ impl Sums {
         self.fault = smaller.fault.or(self.fault);
     }
 
-    fn means(&self) -> Option<Means> {
+    fn averages(&self) -> Option<Averages> {
         if self.count == 0 {
             return None;
         }
         let count = self.count.max(1);
         let temperature_cc =
             (self.warm_count > 0).then(|| self.temperature_dc.saturating_mul(10) / self.warm_count.max(1));
-        Some(Means {
+        Some(Averages {
             elapsed_ms: self.elapsed_ms,
             pack_mv: self.pack_mv / count,
             input_mv: self.input_mv / count,
@@ -203,7 +208,7 @@ impl Sums {
 
 #[cfg(test)]
 mod tests {
-    use super::{Meter, Window};
+    use super::{AveragingWindow, Meter};
     use crate::board::{ChargerReadings, ThermistorFault};
     use rvac_units::{Temperature, Tick};
 
@@ -222,14 +227,14 @@ mod tests {
     fn dither_makes_a_mean_finer_than_a_count() {
         let mut meter = Meter::new();
         let start = u32::MAX - 400;
-        let mut means = None;
+        let mut averages = None;
         for ms in 1..=1_000_u32 {
             let counts = if ms % 4 == 0 { 500 } else { 501 };
-            let beats = meter.take(Some(readings(counts * 32, 0)), 1, Tick(start.wrapping_add(ms)));
-            means = beats.of(Window::Second).or(means);
+            let windows = meter.take(Some(readings(counts * 32, 0)), 1, Tick(start.wrapping_add(ms)));
+            averages = windows.of(AveragingWindow::Second).or(averages);
         }
-        let means = means.unwrap();
-        assert_eq!((means.pack_mv, means.temperature_cc), (16_024, Some(2_500)));
+        let averages = averages.unwrap();
+        assert_eq!((averages.pack_mv, averages.temperature_cc), (16_024, Some(2_500)));
     }
 
     #[test]
@@ -237,7 +242,7 @@ mod tests {
         let mut meter = Meter::new();
         for ms in 1..=20_u32 {
             // The converter stands still from the fifth millisecond on.
-            let beats = meter.take(
+            let windows = meter.take(
                 Some(readings(
                     if ms < 5 { 10_000 } else { 20_000 },
                     ms.saturating_sub(4),
@@ -245,8 +250,8 @@ mod tests {
                 1,
                 Tick(ms),
             );
-            if let Some(means) = beats.of(Window::Envelope) {
-                assert_eq!(means.pack_mv, 10_000);
+            if let Some(averages) = windows.of(AveragingWindow::Envelope) {
+                assert_eq!(averages.pack_mv, 10_000);
             }
         }
         assert_eq!(meter.age_ms(), 16);
@@ -256,8 +261,8 @@ mod tests {
     fn windows_without_samples_have_no_mean() {
         let mut meter = Meter::new();
         for ms in 1..=300_u32 {
-            let beats = meter.take(None, 1, Tick(ms));
-            assert_eq!(beats.of(Window::Tenth), None);
+            let windows = meter.take(None, 1, Tick(ms));
+            assert_eq!(windows.of(AveragingWindow::Tenth), None);
         }
         assert!(meter.age_ms() > 200);
     }
@@ -269,16 +274,16 @@ mod tests {
             temperature: Err(ThermistorFault::Open),
             ..readings(15_000, 0)
         };
-        let mut means = None;
+        let mut averages = None;
         for ms in 1..=20_u32 {
-            means = meter
+            averages = meter
                 .take(Some(broken), 1, Tick(ms))
-                .of(Window::Envelope)
-                .or(means);
+                .of(AveragingWindow::Envelope)
+                .or(averages);
         }
-        let means = means.unwrap();
+        let averages = averages.unwrap();
         assert_eq!(
-            (means.temperature_cc, means.fault),
+            (averages.temperature_cc, averages.fault),
             (None, Some(ThermistorFault::Open))
         );
     }

@@ -1,16 +1,18 @@
-//! The charger: from raw readings of the pack to the duty of the switch. The table of states and stops is that of
-//! SAFETY.md; all of it runs here, pure and in integers, and the board only measures and gates.
+//! Charge control for NiMH packs: from raw readings to the duty of the charger's switch. SAFETY.md lists states and stops.
+//! All of it runs here, in integers and without access to hardware; the board only measures and switches.
 //!
-//! Words: a *charge* begins with the first current and lasts until it has ended, interruptions of up to ten minutes
-//! included. A *phase* is a state of the machine, see [`ChargePhase`](rvac_protocol::message::ChargePhase). A *stop* is
-//! one of eight independent conditions that end the phase of full current, an *end* is the stop that did. A *fault*
-//! stops for good, until a person clears it. The *window* is the range of temperatures in which current may begin.
-//! *Slow* current is a tenth of the capacity an hour.
+//! Terms: a *charge* begins with the first current and lasts until it has ended, interruptions of up to 31 minutes
+//! included. A *phase* is a state of the state machine, see [`ChargePhase`](rvac_protocol::message::ChargePhase). A *stop*
+//! is one of eight independent termination criteria of the phase of full current (dT/dt, -dV, 0dV, dT and four limits); an
+//! *end* is the stop that applied. A *fault* stops charging until a person clears it. The *window* is the range of
+//! temperatures in which a charge may begin. *Slow* current is C/10, a tenth of the capacity per hour.
 //!
-//! Time is counted in spans between passes, never by comparing clocks: nothing here knows that the clock wraps.
+//! Time is summed up from pass to pass and never compared with a clock, so the wrap of the clock does not matter.
 
 mod controller;
+mod current_offset;
 mod faults;
+mod frozen_sensor;
 mod gauge;
 mod guard;
 mod history;
@@ -18,12 +20,10 @@ mod meter;
 mod phases;
 mod regulate;
 mod scale;
-mod stillness;
 mod stops;
 mod thermometer;
-mod zero;
 
-pub use controller::{ChargeContext, ChargeController, ChargeOutput, Motors};
+pub use controller::{ChargeContext, ChargeController, ChargeOutput, MotorActivity};
 pub use stops::{AllStops, Stops};
 
 pub(crate) use thermometer::Thermometer;

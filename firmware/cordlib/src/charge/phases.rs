@@ -3,11 +3,11 @@
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
 use super::controller::{ChargeContext, ChargeController};
-use super::faults::ZERO_MA;
+use super::faults::OFFSET_FAULT_MA;
 use super::guard;
-use super::meter::{Beats, Means, Window};
-use super::scale::PackScale;
-use super::stops::{Detectors, Progress, Stops, TIME_MS};
+use super::meter::{Averages, AveragingWindow, CompletedWindows};
+use super::scale::PackLimits;
+use super::stops::{ChargeProgress, Detectors, Stops, TIME_MS};
 
 /// The contacts must be closed this long before a charge begins.
 const DOCKED_MS: u32 = 1_000;
@@ -15,32 +15,32 @@ const DOCKED_MS: u32 = 1_000;
 const COLDEST_CC: i32 = 0;
 const COOL_CC: i32 = 500;
 const WARMEST_CC: i32 = 4_000;
-/// Play of the window, so that current does not come and go at its edge.
-const PLAY_CC: i32 = 100;
+/// Hysteresis of the window, so that current does not come and go at its limit.
+const HYSTERESIS_CC: i32 = 100;
 const PRECHARGE_MS: u32 = 3_600_000;
 const TOP_OFF_MS: u32 = 1_800_000;
 /// Temperature at which a full pack gets no more current.
 const TOP_OFF_MAX_CC: i32 = 4_500;
-/// A charge that was interrupted for longer is over: what was counted of it is forgotten.
+/// A charge that was interrupted for longer is over, and its counts are reset.
 const AWAY_MS: u32 = guard::REST_MS;
-/// An interruption of the current that makes slopes meaningless.
+/// An interruption of the current that restarts the detectors.
 const PAUSE_MS: u32 = 10_000;
-/// Rest after a charge before the voltage tells how full the pack is, and before the gate lets another one through.
+/// Rest after a charge before the voltage shows the state of charge, and before the guard allows another charge.
 const REST_MS: u32 = guard::REST_MS;
 /// Rest after a charge that ran out of time.
 const LONG_REST_MS: u32 = 3_600_000;
-/// A full pack is not charged again before this, and after twice the time whenever it turned out to be full still.
+/// A full pack is not charged again before this time, which doubles whenever the pack turns out to be still full.
 const RECHARGE_MS: u32 = 2 * 3_600_000;
 const RECHARGE_MAX_MS: u32 = 16 * 3_600_000;
 /// Pause between two pulses of `maintain`, and their longest length.
 const PULSE_PERIOD_MS: u32 = 120_000;
 const PULSE_MAX_MS: u32 = 20_000;
-/// A pack that was left alone this long shows its resting voltage.
+/// After this time without a pulse the pack shows its resting voltage.
 const PULSE_REST_MS: u32 = 100_000;
 
-/// What is counted of a charge.
+/// Counts of one charge.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Charge {
+pub(super) struct ChargeRecord {
     /// Time in which current was wanted and could flow.
     flowed_ms: u32,
     charged_mas: u32,
@@ -53,7 +53,7 @@ pub(super) struct Charge {
     flowing: bool,
 }
 
-impl Charge {
+impl ChargeRecord {
     pub(super) const fn pass(&mut self, charging: bool, elapsed_ms: u32) {
         self.paused_ms = self.paused_ms.saturating_add(elapsed_ms);
         if !charging && self.paused_ms >= AWAY_MS {
@@ -78,15 +78,15 @@ impl Charge {
         self.paused_ms = 0;
     }
 
-    pub(super) fn gather(&mut self, means: &Means) {
-        let seconds_ms = i64::from(means.elapsed_ms);
-        let mas = i64::from(means.current_ma.max(0)).saturating_mul(seconds_ms) / 1_000;
+    pub(super) fn gather(&mut self, averages: &Averages) {
+        let seconds_ms = i64::from(averages.elapsed_ms);
+        let mas = i64::from(averages.current_ma.max(0)).saturating_mul(seconds_ms) / 1_000;
         self.charged_mas = self
             .charged_mas
             .saturating_add(u32::try_from(mas).unwrap_or(u32::MAX));
     }
 
-    /// A charge that was interrupted for a short time goes on; any other begins from nothing.
+    /// Resumes a charge that was interrupted for a short time, else begins a new one.
     fn begin(&mut self, temperature_cc: i32) {
         if self.start_cc.is_none() {
             *self = Self {
@@ -98,7 +98,7 @@ impl Charge {
         self.paused_ms = 0;
     }
 
-    /// The charge is over: the next one begins from nothing.
+    /// The charge is over: the next one starts from zero.
     pub(super) const fn finish(&mut self) {
         self.start_cc = None;
     }
@@ -113,8 +113,8 @@ impl Charge {
         self.flowed_ms < span_ms
     }
 
-    fn progress(&self, scale: PackScale) -> Progress {
-        Progress {
+    fn progress(&self, scale: PackLimits) -> ChargeProgress {
+        ChargeProgress {
             phase_ms: self.phase_ms,
             flowed_ms: self.flowed_ms,
             charged_mas: self.charged_mas,
@@ -127,7 +127,7 @@ impl Charge {
 
 /// Pulses of `maintain`.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Pulse {
+pub(super) struct MaintenancePulse {
     on: bool,
     ms: u32,
     from_mas: u32,
@@ -168,7 +168,7 @@ impl<S: Stops> ChargeController<S> {
         }
     }
 
-    /// The full current flows, as far as is known.
+    /// The full current flows, as far as the controller knows.
     pub(super) fn is_at_full_rate(&self) -> bool {
         self.phase == ChargePhase::Fast && !self.charge.slow && self.charge.flows()
     }
@@ -187,8 +187,8 @@ impl<S: Stops> ChargeController<S> {
         }
     }
 
-    /// Lets the state machine look at what was measured.
-    pub(super) fn advance(&mut self, beats: &Beats, context: ChargeContext) {
+    /// Advances the state machine by what was measured.
+    pub(super) fn advance(&mut self, windows: &CompletedWindows, context: ChargeContext) {
         if !context.docked {
             self.leave_dock();
             return;
@@ -197,21 +197,21 @@ impl<S: Stops> ChargeController<S> {
             self.detectors.restart();
             self.charge.phase_ms = 0;
         }
-        if let Some(means) = beats.of(Window::Second) {
-            let means = self.zero.correct(means);
+        if let Some(averages) = windows.of(AveragingWindow::Second) {
+            let averages = self.current_offset.correct(averages);
             match self.phase {
-                ChargePhase::Idle => self.consider(&means),
-                ChargePhase::Precharge => self.precharge(&means),
-                ChargePhase::Fast => self.fast(&means),
-                ChargePhase::TopOff => self.top_off(&means),
-                ChargePhase::Maintain => self.maintain(&means),
+                ChargePhase::Idle => self.consider(&averages),
+                ChargePhase::Precharge => self.precharge(&averages),
+                ChargePhase::Fast => self.fast(&averages),
+                ChargePhase::TopOff => self.top_off(&averages),
+                ChargePhase::Maintain => self.maintain(&averages),
                 ChargePhase::Fault => {}
             }
         }
-        if let (Some(means), ChargePhase::Fast) = (beats.of(Window::TenSeconds), self.phase) {
-            let means = self.zero.correct(means);
+        if let (Some(averages), ChargePhase::Fast) = (windows.of(AveragingWindow::TenSeconds), self.phase) {
+            let averages = self.current_offset.correct(averages);
             let progress = self.charge.progress(self.scale);
-            let found = self.detectors.each_ten_seconds(&means, &progress, &self.stops);
+            let found = self.detectors.each_ten_seconds(&averages, &progress, &self.stops);
             if let Some(end) = found {
                 self.finish(end);
             }
@@ -233,23 +233,24 @@ impl<S: Stops> ChargeController<S> {
     }
 
     /// Whether a charge may begin, and with which phase.
-    fn consider(&mut self, means: &Means) {
+    fn consider(&mut self, averages: &Averages) {
         let settled =
             self.docked_ms >= DOCKED_MS && self.supplied_ms >= DOCKED_MS && self.off_ms >= DOCKED_MS;
-        let needed = self.rest.wanted || (self.rest.left_ms == 0 && means.pack_mv < self.scale.recharge_mv());
+        let needed =
+            self.rest.wanted || (self.rest.left_ms == 0 && averages.pack_mv < self.scale.recharge_mv());
         if !settled || !needed || self.rest.forbidden || self.rest.left_ms > 0 {
             return;
         }
-        if means.current_ma.saturating_abs() >= ZERO_MA {
+        if averages.current_ma.saturating_abs() >= OFFSET_FAULT_MA {
             return;
         }
-        let Some(cc) = means
+        let Some(cc) = averages
             .temperature_cc
             .filter(|cc| (COLDEST_CC..=WARMEST_CC).contains(cc) && self.thermometer.cc().is_some())
         else {
             return;
         };
-        if let Some(fault) = self.scale.unfit(means.pack_mv) {
+        if let Some(fault) = self.scale.unfit(averages.pack_mv) {
             self.fail(fault);
             return;
         }
@@ -258,17 +259,17 @@ impl<S: Stops> ChargeController<S> {
         self.charge.begin(cc);
         self.charge.slow = cc < COOL_CC;
         self.detectors.restart();
-        self.phase = if means.pack_mv < self.scale.precharge_mv() {
+        self.phase = if averages.pack_mv < self.scale.precharge_mv() {
             ChargePhase::Precharge
         } else {
             ChargePhase::Fast
         };
     }
 
-    fn precharge(&mut self, means: &Means) {
-        if means.pack_mv < self.scale.deep_mv() {
+    fn precharge(&mut self, averages: &Averages) {
+        if averages.pack_mv < self.scale.deep_mv() {
             self.fail(ChargeFault::DeepDischarge);
-        } else if means.pack_mv >= self.scale.precharge_mv() {
+        } else if averages.pack_mv >= self.scale.precharge_mv() {
             self.charge.phase_ms = 0;
             self.detectors.restart();
             self.phase = ChargePhase::Fast;
@@ -277,25 +278,25 @@ impl<S: Stops> ChargeController<S> {
         }
     }
 
-    fn fast(&mut self, means: &Means) {
-        if let Some(cc) = means.temperature_cc {
+    fn fast(&mut self, averages: &Averages) {
+        if let Some(cc) = averages.temperature_cc {
             let edge_cc = if self.charge.slow {
-                COOL_CC.saturating_add(PLAY_CC)
+                COOL_CC.saturating_add(HYSTERESIS_CC)
             } else {
-                COOL_CC.saturating_sub(PLAY_CC)
+                COOL_CC.saturating_sub(HYSTERESIS_CC)
             };
             self.charge.slow = cc < edge_cc;
         }
         let progress = self.charge.progress(self.scale);
-        if let Some(end) = Detectors::each_second(means, &progress, &self.stops) {
+        if let Some(end) = Detectors::each_second(averages, &progress, &self.stops) {
             self.finish(end);
         }
     }
 
-    fn top_off(&mut self, means: &Means) {
-        let warm = means.temperature_cc.is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
+    fn top_off(&mut self, averages: &Averages) {
+        let warm = averages.temperature_cc.is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
         let over = self.charge.phase_ms >= TOP_OFF_MS || self.charge.flowed_ms >= TIME_MS;
-        let high = means.pack_mv >= self.scale.voltage_max_mv();
+        let high = averages.pack_mv >= self.scale.voltage_max_mv();
         if warm || over || high {
             self.fill();
         }
@@ -307,13 +308,15 @@ impl<S: Stops> ChargeController<S> {
         self.regulator.restart();
         let warm = self.thermometer.cc().is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
         match end {
-            ChargeEnd::Slope | ChargeEnd::Drop if !warm => {
+            ChargeEnd::TemperatureSlope | ChargeEnd::NegativeDeltaV if !warm => {
                 self.charge.phase_ms = 0;
                 self.phase = ChargePhase::TopOff;
             }
-            ChargeEnd::Slope | ChargeEnd::Drop | ChargeEnd::Plateau | ChargeEnd::Rise | ChargeEnd::Charge => {
-                self.fill()
-            }
+            ChargeEnd::TemperatureSlope
+            | ChargeEnd::NegativeDeltaV
+            | ChargeEnd::ZeroDeltaV
+            | ChargeEnd::TemperatureRise
+            | ChargeEnd::Charge => self.fill(),
             ChargeEnd::Time => self.idle(LONG_REST_MS),
             ChargeEnd::Hot | ChargeEnd::Voltage | ChargeEnd::Undocked | ChargeEnd::Stopped => {
                 self.idle(REST_MS);
@@ -327,7 +330,7 @@ impl<S: Stops> ChargeController<S> {
         self.phase = ChargePhase::Idle;
     }
 
-    /// The pack is full. One that took next to nothing was full before: it is left alone for twice as long.
+    /// The pack is full. If it took next to nothing, it was full before, and the next charge waits twice as long.
     fn fill(&mut self) {
         let was_full = self.charge.charged_mas < self.scale.capacity_mas() / 7;
         let longer_ms = self.rest.recharge_ms.saturating_mul(2).min(RECHARGE_MAX_MS);
@@ -338,32 +341,32 @@ impl<S: Stops> ChargeController<S> {
         };
         self.rest.wait(self.rest.recharge_ms);
         self.charge.finish();
-        self.pulse = Pulse {
+        self.pulse = MaintenancePulse {
             cool_ms: REST_MS,
-            ..Pulse::default()
+            ..MaintenancePulse::default()
         };
         self.full = true;
         self.gauge.fill();
         self.phase = ChargePhase::Maintain;
     }
 
-    fn maintain(&mut self, means: &Means) {
-        self.pulse.ms = self.pulse.ms.saturating_add(means.elapsed_ms);
-        self.pulse.cool_ms = self.pulse.cool_ms.saturating_sub(means.elapsed_ms);
+    fn maintain(&mut self, averages: &Averages) {
+        self.pulse.ms = self.pulse.ms.saturating_add(averages.elapsed_ms);
+        self.pulse.cool_ms = self.pulse.cool_ms.saturating_sub(averages.elapsed_ms);
         let rested = !self.pulse.on && self.pulse.ms >= PULSE_REST_MS;
-        let empty = rested && means.pack_mv < self.scale.recharge_mv() && self.rest.left_ms == 0;
+        let empty = rested && averages.pack_mv < self.scale.recharge_mv() && self.rest.left_ms == 0;
         if empty || self.rest.wanted {
-            // The gate wants a rest between the last pulse and the charge.
+            // The guard demands a rest between the last pulse and the charge.
             self.rest.wait(if self.rest.wanted { 0 } else { REST_MS });
             self.phase = ChargePhase::Idle;
             return;
         }
         if self.pulse.cool_ms == 0 && self.pack.drain_ma > 0 && self.history.may_maintain() {
-            self.history.note_maintained(means.elapsed_ms);
+            self.history.note_maintained(averages.elapsed_ms);
         }
         let drain_mas = u32::from(self.pack.drain_ma).saturating_mul(PULSE_PERIOD_MS / 1_000);
         let given_mas = self.charge.charged_mas.saturating_sub(self.pulse.from_mas);
-        let in_window = means
+        let in_window = averages
             .temperature_cc
             .is_some_and(|cc| (COOL_CC..=WARMEST_CC).contains(&cc));
         let over = given_mas >= drain_mas || self.pulse.ms >= PULSE_MAX_MS || !in_window;
@@ -371,7 +374,7 @@ impl<S: Stops> ChargeController<S> {
             self.pulse.on = false;
         } else if !self.pulse.on && self.pulse.ms >= PULSE_PERIOD_MS {
             let due = in_window && drain_mas > 0 && self.pulse.cool_ms == 0 && self.history.may_maintain();
-            self.pulse = Pulse {
+            self.pulse = MaintenancePulse {
                 on: due,
                 ms: 0,
                 from_mas: self.charge.charged_mas,

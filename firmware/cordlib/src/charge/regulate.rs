@@ -1,4 +1,4 @@
-//! The current: a slow integral controller, and a fast cut when the supply jumps.
+//! Current regulation: a slow integral controller, and fast fold-back when the supply jumps.
 
 use rvac_units::Ratio;
 
@@ -12,10 +12,10 @@ const GAIN: i32 = 30;
 /// Most that the duty rises in 100 ms: the ramp to full current takes about 15 s.
 const RISE_MAX: i32 = 4_000;
 const FALL_MAX: i32 = 40_000;
-/// The current must follow the duty: it has when it moved by this much.
+/// The current follows the duty if it changes by this much.
 const FOLLOWS_MA: i32 = 40;
-/// The duty is raised no further than this beyond the duty at which the current was last seen to follow. So a current
-/// sensor that stands still cannot drive the duty to its end, and a weak supply is not asked in vain.
+/// The duty rises at most this far beyond the duty at which the current last followed. A frozen current sensor therefore
+/// cannot drive the duty to its limit, and a weak supply is not overdriven.
 const LEAD_MAX: i32 = 150_000;
 
 /// The controller.
@@ -27,7 +27,7 @@ pub(super) struct Regulator {
 }
 
 impl Regulator {
-    /// The current starts from nothing.
+    /// The current starts from zero.
     pub(super) const fn restart(&mut self) {
         self.duty = 0;
         self.followed_duty = 0;
@@ -48,7 +48,7 @@ impl Regulator {
         self.duty = within(self.duty.saturating_add(step), 0, most);
     }
 
-    /// Once an envelope: a supply that jumped up is answered at once.
+    /// Once an envelope: cuts the duty at once when the supply has jumped up.
     pub(super) fn fold_back(&mut self, current_ma: i32, limit_ma: i32, target_ma: i32) {
         if current_ma > limit_ma {
             let scaled =
@@ -62,7 +62,7 @@ impl Regulator {
         self.duty >= LEAD_MAX / 2
     }
 
-    /// What is asked of the switch.
+    /// The request to the switch.
     pub(super) const fn drive(&self) -> ChargeDrive {
         if self.duty <= 0 {
             return ChargeDrive::Off;

@@ -6,13 +6,13 @@ use crate::parameters::PackParameters;
 
 /// Limits of a pack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct PackScale {
+pub(super) struct PackLimits {
     cells: i32,
     capacity_mah: i32,
     current_max_ma: i32,
 }
 
-impl PackScale {
+impl PackLimits {
     pub(super) fn of(pack: &PackParameters) -> Self {
         Self {
             cells: i32::from(pack.cells),
@@ -35,7 +35,7 @@ impl PackScale {
         self.cells(800)
     }
 
-    /// Below this the pack is woken gently: 1.0 V a cell.
+    /// Below this the pack is precharged: 1.0 V a cell.
     pub(super) const fn precharge_mv(self) -> i32 {
         self.cells(1_000)
     }
@@ -50,15 +50,15 @@ impl PackScale {
         self.cells(1_700)
     }
 
-    /// Fall from the peak that means full: 80 mV for twelve cells.
-    pub(super) const fn drop_mv(self) -> i32 {
+    /// -dV: fall from the peak that means full, 80 mV for twelve cells.
+    pub(super) const fn negative_delta_v_mv(self) -> i32 {
         self.cells.saturating_mul(80) / 12
     }
 
-    /// A rise below this in 20 minutes means full: 10 mV for twelve cells.
-    pub(super) const fn plateau_mv(self) -> i32 {
-        let plateau = self.cells.saturating_mul(10) / 12;
-        if plateau < 1 { 1 } else { plateau }
+    /// 0dV: a rise below this in 20 minutes means full, 10 mV for twelve cells.
+    pub(super) const fn zero_delta_v_mv(self) -> i32 {
+        let limit_mv = self.cells.saturating_mul(10) / 12;
+        if limit_mv < 1 { 1 } else { limit_mv }
     }
 
     /// 1.3 times the capacity, in mA s.
@@ -81,7 +81,7 @@ impl PackScale {
         }
     }
 
-    /// The set point of the full current: a twentieth below the limit, so that ripple stays below it.
+    /// Set point of the full current: 5 % below the limit, to leave room for ripple.
     pub(super) const fn full_ma(self) -> i32 {
         self.current_max_ma.saturating_sub(self.current_max_ma / 20)
     }

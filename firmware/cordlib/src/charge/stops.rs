@@ -1,14 +1,14 @@
-//! What ends a charge: eight stops, each of which must suffice alone.
+//! What ends a charge: eight termination criteria, each of which must suffice alone.
 
 use heapless::Deque;
 use rvac_protocol::message::ChargeEnd;
 
 use crate::limit::within;
 
-use super::meter::Means;
-use super::scale::PackScale;
+use super::meter::Averages;
+use super::scale::PackLimits;
 
-/// Which stops apply. The firmware uses [`AllStops`]; the campaign that shows that each one suffices alone uses its own.
+/// Which stops apply. The firmware uses [`AllStops`]; the campaign that tests each one alone uses its own.
 pub trait Stops {
     /// Whether this end may end a charge.
     fn applies(&self, end: ChargeEnd) -> bool;
@@ -24,36 +24,36 @@ impl Stops for AllStops {
     }
 }
 
-/// Temperature rise over three minutes that ends a charge at the full current: 0.8 degrees a minute, the lower end of what
-/// makers advise, since half the capacity an hour heats a pack slowly. A weaker supply heats it less: the limit falls with
-/// the current, to half a degree a minute.
-const SLOPE_CC: i32 = 240;
-const SLOPE_LEAST_CC: i32 = 150;
+/// dT/dt: temperature rise over 3 minutes that ends a charge at full current, 0.8 °C/min. That is the lower end of what
+/// makers advise, because C/2 heats a pack slowly. A weaker supply heats it less, so the limit falls with the current, to
+/// 0.5 °C/min.
+const TEMPERATURE_SLOPE_CC: i32 = 240;
+const TEMPERATURE_SLOPE_LEAST_CC: i32 = 150;
 /// Windows of 10 s in three minutes.
-const SLOPE_WINDOWS: usize = 18;
-/// The slope means nothing in the first minutes.
-const SLOPE_HOLD_OFF_MS: u32 = 3 * 60_000;
-/// After storage or deep discharge the voltage may fall without meaning.
-const DROP_HOLD_OFF_MS: u32 = 10 * 60_000;
-/// The drop must last for this many windows of 10 s.
-const DROP_WINDOWS: u8 = 6;
-/// A voltage means something else when the current has changed by more than this: the pack's resistance moves it.
+const TEMPERATURE_SLOPE_WINDOWS: usize = 18;
+/// dT/dt is meaningless in the first minutes.
+const TEMPERATURE_SLOPE_HOLD_OFF_MS: u32 = 3 * 60_000;
+/// After storage or deep discharge the voltage of an empty pack may fall at first.
+const NEGATIVE_DELTA_V_HOLD_OFF_MS: u32 = 10 * 60_000;
+/// -dV must last for this many windows of 10 s.
+const NEGATIVE_DELTA_V_WINDOWS: u8 = 6;
+/// Voltages are comparable only if the current has changed by less than this, because of the pack's resistance.
 const SAME_CURRENT_MA: i32 = 80;
-const PLATEAU_WINDOWS: u16 = 20 * 6;
-const PLATEAU_HOLD_OFF_MS: u32 = 90 * 60_000;
-const RISE_CC: i32 = 1_500;
-/// No charge goes on in a pack that is this hot.
+const ZERO_DELTA_V_WINDOWS: u16 = 20 * 6;
+const ZERO_DELTA_V_HOLD_OFF_MS: u32 = 90 * 60_000;
+const TEMPERATURE_RISE_CC: i32 = 1_500;
+/// A charge ends at this temperature.
 pub(super) const HOT_CC: i32 = 5_000;
-/// No charge lasts longer, precharge and top-off included.
+/// Longest charge, precharge and top-off included.
 pub(super) const TIME_MS: u32 = 3 * 3_600_000 + 1_800_000;
 /// Weight of a new 10 s mean in the smoothed voltage is one in this many.
 const SMOOTHING: i32 = 4;
-/// The smoothed voltage is kept in parts of a millivolt.
+/// The smoothed voltage is kept in 16ths of a millivolt.
 const FINE: i32 = 16;
 
-/// A charge as far as the stops look at it.
+/// The state of a charge that the stops need.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Progress {
+pub(super) struct ChargeProgress {
     /// Time since the current began to flow at this rate, in ms.
     pub(super) phase_ms: u32,
     /// Time in which current was wanted, in the whole charge, in ms.
@@ -62,42 +62,46 @@ pub(super) struct Progress {
     pub(super) charged_mas: u32,
     /// Temperature when the charge began.
     pub(super) start_cc: i32,
-    /// The full current flows, so that slopes of voltage mean something.
+    /// The full current flows, so that 0dV is meaningful.
     pub(super) full_rate: bool,
-    pub(super) scale: PackScale,
+    pub(super) scale: PackLimits,
 }
 
-/// The stops that need a memory.
+/// The stops that need a history.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Detectors {
-    temperatures_cc: Deque<i32, { SLOPE_WINDOWS + 1 }>,
+    temperatures_cc: Deque<i32, { TEMPERATURE_SLOPE_WINDOWS + 1 }>,
     smooth: Option<i32>,
     peak: i32,
     peak_current_ma: i32,
-    drop_windows: u8,
-    plateau_from: i32,
-    plateau_windows: u16,
+    negative_delta_v_windows: u8,
+    zero_delta_v_from: i32,
+    zero_delta_v_windows: u16,
 }
 
 impl Detectors {
-    /// The current starts anew: what was seen before means nothing.
+    /// The current starts anew: the history is void.
     pub(super) fn restart(&mut self) {
         *self = Self::default();
     }
 
-    /// The stops that look once a second. `end` asks whether a stop applies.
-    pub(super) fn each_second(means: &Means, progress: &Progress, stops: &impl Stops) -> Option<ChargeEnd> {
-        let temperature_cc = means.temperature_cc;
+    /// The limits, checked once a second.
+    pub(super) fn each_second(
+        averages: &Averages,
+        progress: &ChargeProgress,
+        stops: &impl Stops,
+    ) -> Option<ChargeEnd> {
+        let temperature_cc = averages.temperature_cc;
         let at_least = |limit_cc: i32| temperature_cc.is_some_and(|cc| cc >= limit_cc);
         let found = [
             (ChargeEnd::Hot, at_least(HOT_CC)),
             (
-                ChargeEnd::Rise,
-                at_least(progress.start_cc.saturating_add(RISE_CC)),
+                ChargeEnd::TemperatureRise,
+                at_least(progress.start_cc.saturating_add(TEMPERATURE_RISE_CC)),
             ),
             (
                 ChargeEnd::Voltage,
-                means.pack_mv >= progress.scale.voltage_max_mv(),
+                averages.pack_mv >= progress.scale.voltage_max_mv(),
             ),
             (
                 ChargeEnd::Charge,
@@ -110,29 +114,29 @@ impl Detectors {
             .find_map(|(end, is_found)| (is_found && stops.applies(end)).then_some(end))
     }
 
-    /// The stops that look at slopes, once in 10 s. `means` has the zero of the current taken off.
+    /// dT/dt, -dV and 0dV, checked once in 10 s. `averages` has the current offset subtracted.
     pub(super) fn each_ten_seconds(
         &mut self,
-        means: &Means,
-        progress: &Progress,
+        averages: &Averages,
+        progress: &ChargeProgress,
         stops: &impl Stops,
     ) -> Option<ChargeEnd> {
-        let slope = self.sees_slope(means, progress);
-        self.smooth_voltage(means);
-        let drop = self.sees_drop(means.current_ma, progress);
-        let plateau = self.sees_plateau(progress);
+        let temperature_slope = self.is_temperature_slope(averages, progress);
+        self.smooth_voltage(averages);
+        let negative_delta_v = self.is_negative_delta_v(averages.current_ma, progress);
+        let zero_delta_v = self.is_zero_delta_v(progress);
         let found = [
-            (ChargeEnd::Slope, slope),
-            (ChargeEnd::Drop, drop),
-            (ChargeEnd::Plateau, plateau),
+            (ChargeEnd::TemperatureSlope, temperature_slope),
+            (ChargeEnd::NegativeDeltaV, negative_delta_v),
+            (ChargeEnd::ZeroDeltaV, zero_delta_v),
         ];
         found
             .into_iter()
             .find_map(|(end, is_found)| (is_found && stops.applies(end)).then_some(end))
     }
 
-    fn sees_slope(&mut self, means: &Means, progress: &Progress) -> bool {
-        let Some(newest_cc) = means.temperature_cc else {
+    fn is_temperature_slope(&mut self, averages: &Averages, progress: &ChargeProgress) -> bool {
+        let Some(newest_cc) = averages.temperature_cc else {
             self.temperatures_cc.clear();
             return false;
         };
@@ -143,52 +147,53 @@ impl Detectors {
         self.temperatures_cc.push_back(newest_cc).ok();
         let spans_three_minutes = self.temperatures_cc.is_full();
         let limit_cc = within(
-            means.current_ma.saturating_mul(SLOPE_CC) / progress.scale.full_ma().max(1),
-            SLOPE_LEAST_CC,
-            SLOPE_CC,
+            averages.current_ma.saturating_mul(TEMPERATURE_SLOPE_CC) / progress.scale.full_ma().max(1),
+            TEMPERATURE_SLOPE_LEAST_CC,
+            TEMPERATURE_SLOPE_CC,
         );
         let oldest_cc = self.temperatures_cc.front().copied().unwrap_or(newest_cc);
         spans_three_minutes
-            && progress.phase_ms >= SLOPE_HOLD_OFF_MS
+            && progress.phase_ms >= TEMPERATURE_SLOPE_HOLD_OFF_MS
             && newest_cc.saturating_sub(oldest_cc) >= limit_cc
     }
 
-    fn smooth_voltage(&mut self, means: &Means) {
-        let newest = means.pack_mv.saturating_mul(FINE);
+    fn smooth_voltage(&mut self, averages: &Averages) {
+        let newest = averages.pack_mv.saturating_mul(FINE);
         let smooth = self.smooth.map_or(newest, |smooth| {
             smooth.saturating_add(newest.saturating_sub(smooth) / SMOOTHING)
         });
         self.smooth = Some(smooth);
     }
 
-    fn sees_drop(&mut self, current_ma: i32, progress: &Progress) -> bool {
+    fn is_negative_delta_v(&mut self, current_ma: i32, progress: &ChargeProgress) -> bool {
         let smooth = self.smooth.unwrap_or(0);
         let changed = current_ma.saturating_sub(self.peak_current_ma).saturating_abs() > SAME_CURRENT_MA;
-        if smooth > self.peak || changed || progress.phase_ms < DROP_HOLD_OFF_MS {
+        if smooth > self.peak || changed || progress.phase_ms < NEGATIVE_DELTA_V_HOLD_OFF_MS {
             self.peak = smooth;
             self.peak_current_ma = current_ma;
-            self.drop_windows = 0;
+            self.negative_delta_v_windows = 0;
             return false;
         }
-        let below = self.peak.saturating_sub(smooth) >= progress.scale.drop_mv().saturating_mul(FINE);
-        self.drop_windows = if below {
-            self.drop_windows.saturating_add(1)
+        let below =
+            self.peak.saturating_sub(smooth) >= progress.scale.negative_delta_v_mv().saturating_mul(FINE);
+        self.negative_delta_v_windows = if below {
+            self.negative_delta_v_windows.saturating_add(1)
         } else {
             0
         };
-        self.drop_windows >= DROP_WINDOWS
+        self.negative_delta_v_windows >= NEGATIVE_DELTA_V_WINDOWS
     }
 
-    /// Where a tenth of the current flows the voltage is flat all the time.
-    fn sees_plateau(&mut self, progress: &Progress) -> bool {
+    /// Applies at full current only: at C/10 the voltage is flat all the time.
+    fn is_zero_delta_v(&mut self, progress: &ChargeProgress) -> bool {
         let smooth = self.smooth.unwrap_or(0);
-        let rise = smooth.saturating_sub(self.plateau_from);
-        if rise >= progress.scale.plateau_mv().saturating_mul(FINE) || !progress.full_rate {
-            self.plateau_from = smooth;
-            self.plateau_windows = 0;
+        let rise = smooth.saturating_sub(self.zero_delta_v_from);
+        if rise >= progress.scale.zero_delta_v_mv().saturating_mul(FINE) || !progress.full_rate {
+            self.zero_delta_v_from = smooth;
+            self.zero_delta_v_windows = 0;
             return false;
         }
-        self.plateau_windows = self.plateau_windows.saturating_add(1);
-        self.plateau_windows >= PLATEAU_WINDOWS && progress.flowed_ms >= PLATEAU_HOLD_OFF_MS
+        self.zero_delta_v_windows = self.zero_delta_v_windows.saturating_add(1);
+        self.zero_delta_v_windows >= ZERO_DELTA_V_WINDOWS && progress.flowed_ms >= ZERO_DELTA_V_HOLD_OFF_MS
     }
 }

@@ -1,10 +1,10 @@
-//! The pack's temperature, as far as it can be believed.
+//! The pack's temperature and its plausibility.
 
 use crate::board::ThermistorFault;
 
-use super::meter::Means;
+use super::meter::Averages;
 
-/// What a pack in a home can have, in hundredths of a degree.
+/// Plausible range of a pack in a home, in hundredths of a degree.
 const LEAST_CC: i32 = -2_000;
 const MOST_CC: i32 = 8_000;
 /// Most that a pack can change in a second.
@@ -24,15 +24,15 @@ pub(crate) struct Thermometer {
 }
 
 impl Thermometer {
-    /// Time passes. Without a good reading in it the temperature becomes doubtful.
+    /// Time passes. Without a good reading the temperature becomes invalid.
     pub(super) const fn pass(&mut self, elapsed_ms: u32) {
         self.bad_ms = self.bad_ms.saturating_add(elapsed_ms);
         self.jump_ms = self.jump_ms.saturating_sub(elapsed_ms);
     }
 
-    /// A window of 100 ms is over.
-    pub(super) const fn each_tenth(&mut self, means: &Means) {
-        match means.temperature_cc {
+    /// Takes the averages of 100 ms.
+    pub(super) const fn each_tenth(&mut self, averages: &Averages) {
+        match averages.temperature_cc {
             Some(cc) if cc >= LEAST_CC && cc <= MOST_CC => {
                 self.cc = Some(cc);
                 if self.jump_ms == 0 {
@@ -42,18 +42,18 @@ impl Thermometer {
             }
             Some(_) => self.doubt(ThermistorFault::Range),
             None => {
-                if let Some(fault) = means.fault {
+                if let Some(fault) = averages.fault {
                     self.doubt(fault);
                 }
             }
         }
     }
 
-    /// A window of a second is over.
-    pub(super) fn each_second(&mut self, means: &Means) {
+    /// Takes the averages of a second.
+    pub(super) fn each_second(&mut self, averages: &Averages) {
         let [last_cc, before_cc] = self.seconds_cc;
-        self.seconds_cc = [means.temperature_cc, last_cc];
-        let is_jump = |cc: Option<i32>, limit_cc: i32| match (cc, means.temperature_cc) {
+        self.seconds_cc = [averages.temperature_cc, last_cc];
+        let is_jump = |cc: Option<i32>, limit_cc: i32| match (cc, averages.temperature_cc) {
             (Some(cc), Some(now_cc)) => now_cc.saturating_sub(cc).saturating_abs() > limit_cc,
             _ => false,
         };
@@ -68,12 +68,12 @@ impl Thermometer {
         self.bad = Some(fault);
     }
 
-    /// The newest temperature, in hundredths of a degree; `None` when there is none to be believed.
+    /// The newest temperature, in hundredths of a degree; `None` if none is plausible.
     pub(crate) const fn cc(&self) -> Option<i32> {
         if self.jump_ms > 0 { None } else { self.cc }
     }
 
-    /// What has been wrong for at least `span_ms`. A converter that stands still is a frozen thermistor.
+    /// A fault that has lasted for at least `span_ms`. A stopped converter counts as a frozen thermistor.
     pub(crate) fn fault_for(&self, span_ms: u32) -> Option<ThermistorFault> {
         (self.bad_ms >= span_ms || self.jump_ms > 0).then(|| self.bad.unwrap_or(ThermistorFault::Frozen))
     }

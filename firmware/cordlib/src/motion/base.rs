@@ -34,7 +34,7 @@ impl From<&Drive> for BaseVelocity {
 }
 
 impl BaseVelocity {
-    /// The velocity one control period later on the way to `target`.
+    /// The velocity one control period later, ramped towards `target`.
     pub(crate) fn ramp_to(self, target: Self, parameters: &Parameters, elapsed_ms: u32) -> Self {
         let elapsed_ms = i32::try_from(elapsed_ms).unwrap_or(i32::MAX);
         let step = |per_second: i32| (per_second / 1_000).saturating_mul(elapsed_ms);
@@ -53,7 +53,7 @@ impl BaseVelocity {
         }
     }
 
-    /// Speeds of the rims. If one would be too fast both are slowed alike, so that the curve stays the same.
+    /// Speeds of the rims. If one is too fast, both are scaled down, so that the curvature stays the same.
     pub(crate) fn rims(self, parameters: &Parameters, near_cliff: bool) -> RimSpeeds {
         let half_track_um = i64::from(parameters.limits.track.0 / 2);
         let swing = i64::from(self.turn_urad_per_s).saturating_mul(half_track_um) / 1_000_000;

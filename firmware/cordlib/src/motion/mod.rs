@@ -1,12 +1,12 @@
-//! What the wheels are asked to do: a `drive` or `motor` under its lease, or a bounded `move`.
+//! Motion control: a `drive` or `motor` under its lease, or a bounded `move`.
 //!
-//! Everything here is a wish. Whether a wheel turns is decided by [`crate::permit::Standing::permit`].
+//! Everything here is a request. [`crate::permit::MotionPermit::restrict`] decides whether a wheel turns.
 
 mod base;
 mod path;
 mod wheel;
 
-pub(crate) use path::{Pace, Path};
+pub(crate) use path::{MoveLimits, Path};
 pub(crate) use wheel::{CONTROL_MS, WheelStatus};
 
 use rvac_protocol::message::{Drive, Gyro, MotionPhase, MoveEnd};
@@ -14,15 +14,15 @@ use rvac_units::{Throttle, Tick};
 
 use crate::board::{WheelCounts, WheelDrive};
 use crate::parameters::Parameters;
-use crate::permit::{CLIFF_SPEED_MAX_UM_PER_S, Standing};
-use crate::timing::{Periodic, Until};
+use crate::permit::{CLIFF_SPEED_MAX_UM_PER_S, MotionPermit};
+use crate::timing::{Deadline, Periodic};
 
 use base::BaseVelocity;
 use wheel::{WheelController, WheelGoal};
 
 /// One of the two driven wheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub(crate) enum WheelSide {
     Left,
     Right,
 }
@@ -30,7 +30,7 @@ pub(crate) enum Side {
 #[derive(Clone, Copy, Debug)]
 enum Activity {
     Idle,
-    Drive { target: BaseVelocity, lease: Until },
+    Drive { target: BaseVelocity, lease: Deadline },
     Direct { left: DirectDuty, right: DirectDuty },
     Path(Path),
 }
@@ -39,7 +39,7 @@ enum Activity {
 #[derive(Clone, Copy, Debug, Default)]
 struct DirectDuty {
     duty: Throttle,
-    lease: Until,
+    lease: Deadline,
 }
 
 /// The wheels for rules and telemetry.
@@ -47,7 +47,7 @@ struct DirectDuty {
 pub(crate) struct MotionStatus {
     pub(crate) left: WheelStatus,
     pub(crate) right: WheelStatus,
-    /// Way of the robot's centre since the last pass.
+    /// Distance of the robot's centre since the last pass.
     pub(crate) travelled_nm: i32,
 }
 
@@ -61,7 +61,7 @@ pub(crate) struct Period<'a> {
     /// Gyro, if any.
     pub(crate) gyro: Option<Gyro>,
     /// What is allowed.
-    pub(crate) standing: Standing,
+    pub(crate) permit: MotionPermit,
 }
 
 /// What ended in a pass.
@@ -69,7 +69,7 @@ pub(crate) struct Period<'a> {
 pub(crate) enum Ending {
     /// A `move` ended.
     Move(MoveEnd),
-    /// A lease ran out while the robot was to move.
+    /// A lease ran out during motion.
     LeaseLost,
 }
 
@@ -105,10 +105,10 @@ impl Motion {
         }
     }
 
-    /// Starts or renews a `drive`. Returns how a `move` ended that it replaces.
+    /// Starts or renews a `drive`. Returns the ending of a `move` that it replaces.
     pub(crate) fn drive(&mut self, drive: &Drive, now: Tick) -> Option<Ending> {
         let target = BaseVelocity::from(drive);
-        let lease = Until::at(now.after(u32::from(drive.lease_ms)));
+        let lease = Deadline::at(now.after(u32::from(drive.lease_ms)));
         if let Activity::Drive {
             target: old_target,
             lease: old_lease,
@@ -120,17 +120,17 @@ impl Motion {
         self.replace(Activity::Drive { target, lease })
     }
 
-    /// Starts or renews a directly commanded duty. The other wheel keeps its own.
-    pub(crate) fn direct(&mut self, side: Side, duty: Throttle, lease_end: Tick) -> Option<Ending> {
-        let lease = Until::at(lease_end);
+    /// Starts or renews a directly commanded duty. The other wheel keeps its duty.
+    pub(crate) fn direct(&mut self, side: WheelSide, duty: Throttle, lease_end: Tick) -> Option<Ending> {
+        let lease = Deadline::at(lease_end);
         let new = DirectDuty { duty, lease };
         let (mut left, mut right) = match self.activity {
             Activity::Direct { left, right } => (left, right),
             _ => <(DirectDuty, DirectDuty)>::default(),
         };
         match side {
-            Side::Left => left = new,
-            Side::Right => right = new,
+            WheelSide::Left => left = new,
+            WheelSide::Right => right = new,
         }
         let goes_on = matches!(self.activity, Activity::Direct { .. });
         let next = Activity::Direct { left, right };
@@ -141,7 +141,7 @@ impl Motion {
         self.replace(next)
     }
 
-    /// Starts a planned `move`. Returns how a `move` ended that it replaces.
+    /// Starts a planned `move`. Returns the ending of a `move` that it replaces.
     pub(crate) fn follow(&mut self, path: Path) -> Option<Ending> {
         self.replace(Activity::Path(path))
     }
@@ -152,7 +152,7 @@ impl Motion {
         ending
     }
 
-    /// Forgets everything that was asked: the wheels brake. Returns how a `move` ended, if one ran.
+    /// Drops all requests: the wheels brake. Returns the ending of a `move`, if one ran.
     pub(crate) fn halt(&mut self, end: MoveEnd) -> Option<Ending> {
         let ending = matches!(self.activity, Activity::Path(_)).then_some(Ending::Move(end));
         self.activity = Activity::Idle;
@@ -164,7 +164,7 @@ impl Motion {
         ending
     }
 
-    /// As [`Self::halt`], for a reflex: telemetry shows it until the next command.
+    /// As [`Self::halt`], for a reflex: telemetry shows `reflex` until the next command.
     pub(crate) fn brake(&mut self) -> Option<Ending> {
         let was_active = self.is_active();
         let ending = self.halt(MoveEnd::Inhibited);
@@ -172,12 +172,12 @@ impl Motion {
         ending
     }
 
-    /// Whether anything is asked of the wheels.
+    /// Whether any motion is requested.
     pub(crate) const fn is_active(&self) -> bool {
         !matches!(self.activity, Activity::Idle)
     }
 
-    /// Whether a lease, or the bound of a `move`, covers what is asked.
+    /// Whether a lease or the bound of a `move` covers the request.
     pub(crate) const fn is_fresh(&self) -> bool {
         match &self.activity {
             Activity::Idle => false,
@@ -187,15 +187,15 @@ impl Motion {
         }
     }
 
-    /// Whether what is asked would be allowed by `standing`, by its direction.
-    pub(crate) fn suits(&self, standing: &Standing, parameters: &Parameters) -> bool {
+    /// Whether `permit` allows the direction of the request.
+    pub(crate) fn suits(&self, permit: &MotionPermit, parameters: &Parameters) -> bool {
         let (left, right) = match &self.activity {
             Activity::Idle => return true,
-            Activity::Drive { target, .. } => return suits_velocity(*target, standing, parameters),
+            Activity::Drive { target, .. } => return suits_velocity(*target, permit, parameters),
             Activity::Direct { left, right } => (left.duty.millionths(), right.duty.millionths()),
-            Activity::Path(path) => return suits_path(path, standing),
+            Activity::Path(path) => return suits_path(path, permit),
         };
-        standing.allows_direction(left, right)
+        permit.allows_direction(left, right)
     }
 
     /// Whether a `move` runs.
@@ -214,7 +214,7 @@ impl Motion {
         }
     }
 
-    /// Notes the way since the last pass and ends what is over. Every pass.
+    /// Notes the distance since the last pass and ends motion whose lease or time is over. Called in every pass.
     pub(crate) fn expire(&mut self, counts: WheelCounts, count_nm: u32, now: Tick) -> Option<Ending> {
         let moved = counts
             .left
@@ -247,7 +247,7 @@ impl Motion {
         }
     }
 
-    /// Whether a control period is over. The wheels are measured then.
+    /// The length of the control period that has just ended, if one has. The wheels are measured then.
     pub(crate) fn begin_period(&mut self, parameters: &Parameters, now: Tick) -> Option<u32> {
         if !self.period.is_due(now, CONTROL_MS) {
             return None;
@@ -286,14 +286,14 @@ impl Motion {
     fn control_drive(&mut self, target: BaseVelocity, period: &Period<'_>) {
         let (parameters, elapsed_ms) = (period.parameters, period.elapsed_ms);
         self.velocity = self.velocity.ramp_to(target, parameters, elapsed_ms);
-        let rims = self.velocity.rims(parameters, period.standing.sees_cliff());
+        let rims = self.velocity.rims(parameters, period.permit.sees_cliff());
         let goal = |speed_um_per_s| WheelGoal {
             speed_um_per_s,
             lead_nm: 0,
             settle_nm: None,
         };
-        self.left.advance(way_nm(rims.left, elapsed_ms));
-        self.right.advance(way_nm(rims.right, elapsed_ms));
+        self.left.advance(distance_nm(rims.left, elapsed_ms));
+        self.right.advance(distance_nm(rims.right, elapsed_ms));
         for (wheel, rim) in [(&mut self.left, rims.left), (&mut self.right, rims.right)] {
             wheel.limit_lag();
             if rim == 0 && self.velocity == BaseVelocity::default() {
@@ -308,7 +308,7 @@ impl Motion {
 
     fn control_path(&mut self, mut path: Path, period: &Period<'_>) -> Option<Ending> {
         let (parameters, gyro) = (period.parameters, period.gyro);
-        if period.standing.sees_cliff() {
+        if period.permit.sees_cliff() {
             path.limit_speed(CLIFF_SPEED_MAX_UM_PER_S);
         }
         let travelled_nm = (self.left.status().travelled_nm, self.right.status().travelled_nm);
@@ -331,7 +331,7 @@ impl Motion {
         None
     }
 
-    /// Whether both wheels are where they should be and stand.
+    /// Whether both wheels have reached their goal and stand still.
     fn is_settled(&self, step: &path::PathStep, tolerance_nm: i32) -> bool {
         [(&self.left, step.left), (&self.right, step.right)]
             .into_iter()
@@ -341,12 +341,12 @@ impl Motion {
             })
     }
 
-    /// What is asked of the bridges until the next control period.
+    /// Drive requested of the bridges until the next control period.
     pub(crate) const fn asked(&self) -> (WheelDrive, WheelDrive) {
         self.asked
     }
 
-    /// Notes what the gate let through.
+    /// Notes what was permitted and written to the bridges.
     pub(crate) const fn applied(&mut self, outputs: (WheelDrive, WheelDrive)) {
         self.left.applied(outputs.0);
         self.right.applied(outputs.1);
@@ -363,7 +363,7 @@ impl Motion {
 }
 
 impl DirectDuty {
-    /// Ends with its lease; true if that stopped something.
+    /// Ends with its lease; true if that stopped the wheel.
     fn expire(&mut self, now: Tick) -> bool {
         let ended = self.lease.has_come(now);
         let stopped = ended && self.duty != Throttle::ZERO;
@@ -374,28 +374,28 @@ impl DirectDuty {
     }
 }
 
-/// Whether a `drive` is allowed: a pressed bumper or a cliff forbids any part of it that goes forward.
-pub(crate) fn suits_drive(drive: &Drive, standing: &Standing, parameters: &Parameters) -> bool {
-    suits_velocity(BaseVelocity::from(drive), standing, parameters)
+/// Whether a `drive` is allowed: a pressed bumper or a cliff forbids any forward speed.
+pub(crate) fn suits_drive(drive: &Drive, permit: &MotionPermit, parameters: &Parameters) -> bool {
+    suits_velocity(BaseVelocity::from(drive), permit, parameters)
 }
 
 /// Whether a planned `move` is allowed.
-pub(crate) fn suits_path(path: &Path, standing: &Standing) -> bool {
-    if standing.inhibits_forward() && path.heading_sign() > 0 {
+pub(crate) fn suits_path(path: &Path, permit: &MotionPermit) -> bool {
+    if permit.inhibits_forward() && path.heading_sign() > 0 {
         return false;
     }
     let (left, right) = path.direction();
-    standing.allows_direction(left, right)
+    permit.allows_direction(left, right)
 }
 
-fn suits_velocity(velocity: BaseVelocity, standing: &Standing, parameters: &Parameters) -> bool {
-    if standing.inhibits_forward() && velocity.speed_um_per_s > 0 {
+fn suits_velocity(velocity: BaseVelocity, permit: &MotionPermit, parameters: &Parameters) -> bool {
+    if permit.inhibits_forward() && velocity.speed_um_per_s > 0 {
         return false;
     }
     let rims = velocity.rims(parameters, false);
-    standing.allows_direction(rims.left, rims.right)
+    permit.allows_direction(rims.left, rims.right)
 }
 
-fn way_nm(speed_um_per_s: i32, elapsed_ms: u32) -> i32 {
+fn distance_nm(speed_um_per_s: i32, elapsed_ms: u32) -> i32 {
     speed_um_per_s.saturating_mul(i32::try_from(elapsed_ms).unwrap_or(i32::MAX))
 }

@@ -1,8 +1,8 @@
-//! A `move`: straight, an arc, or a turn on the spot, with a trapezoid of speed, ending on encoder counts.
+//! A `move`: a straight line, an arc, or a turn on the spot, with a trapezoidal speed profile, ending on encoder counts.
 //!
-//! The wheel with the longer way sets the pace; the other follows in proportion. The reference waits for a wheel that is
-//! far behind, so that a heavy carpet costs time and not length. With a gyro the heading follows the gyro, as far as it
-//! stays plausible beside the encoders.
+//! The wheel with the longer path sets the pace; the other follows in proportion. The reference waits for a wheel that lags
+//! far behind, so that a heavy carpet costs time and not length. With a gyro the heading follows the gyro, within a limit
+//! around what the encoders show.
 
 use rvac_protocol::message::{Gyro, Move};
 use rvac_units::{Angle, Tick};
@@ -12,33 +12,33 @@ use crate::parameters::Parameters;
 
 use super::wheel::WheelGoal;
 
-/// Slowest pace of the reference, so that it always arrives, in µm/s.
+/// Slowest speed of the reference, so that it always arrives, in µm/s.
 const CREEP_UM_PER_S: i64 = 5_000;
-/// Shares are kept in parts of 2^20.
+/// Shares are fixed-point fractions of 2^20.
 const SHARE_BITS: u32 = 20;
-/// The gyro may correct this much, and a fifth of the turn made so far.
+/// The gyro may correct the heading by this much plus a fifth of the turn so far.
 const GYRO_TRUST_URAD: i64 = 50_000;
-/// Least tolerance at the end; otherwise one and a half counts.
+/// Least tolerance at the end; otherwise 1.5 encoder counts.
 const SETTLE_MIN_NM: i64 = 700_000;
 const TIMEOUT_SLACK_MS: i64 = 2_000;
 
 /// Limits of one move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Pace {
+pub(crate) struct MoveLimits {
     /// Speed of the centre, in µm/s.
     pub(crate) speed_um_per_s: i32,
     /// Turn rate, in µrad/s.
     pub(crate) turn_urad_per_s: i32,
 }
 
-/// A path under way.
+/// A path in execution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
-    /// Way of the centre, signed.
+    /// Path length of the centre, signed.
     length_um: i64,
     left_share: i64,
     right_share: i64,
-    /// Way of the faster rim: in all and so far.
+    /// Path length of the faster rim: in total and so far.
     end_nm: i64,
     made_nm: i64,
     speed_um_per_s: i64,
@@ -54,9 +54,9 @@ pub(crate) struct Path {
 /// What one period of a path asks of the wheels.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PathStep {
-    /// Way of the left reference in this period.
+    /// Distance of the left reference in this period.
     pub(crate) left_nm: i32,
-    /// Way of the right reference in this period.
+    /// Distance of the right reference in this period.
     pub(crate) right_nm: i32,
     /// Goal of the left wheel.
     pub(crate) left: WheelGoal,
@@ -68,7 +68,7 @@ impl Path {
     /// Plans a move. `None` if there is nothing to do.
     pub(crate) fn plan(
         movement: &Move,
-        pace: Pace,
+        pace: MoveLimits,
         parameters: &Parameters,
         start: (Tick, Option<Gyro>),
     ) -> Option<Self> {
@@ -128,7 +128,7 @@ impl Path {
         })
     }
 
-    /// Signs of the two wheels' ways.
+    /// Directions of the two wheels, by sign.
     pub(crate) const fn direction(&self) -> (i32, i32) {
         (self.left_share.signum() as i32, self.right_share.signum() as i32)
     }
@@ -148,7 +148,7 @@ impl Path {
         self.made_nm >= self.end_nm
     }
 
-    /// Deviation of a wheel at the end that is small enough.
+    /// Tolerance of a wheel's position at the end.
     pub(crate) const fn settle_nm(&self) -> i32 {
         self.settle_nm
     }
@@ -158,12 +158,12 @@ impl Path {
         self.speed_max_um_per_s = self.speed_max_um_per_s.min(i64::from(limit_um_per_s));
     }
 
-    /// One control period. `travelled_nm` is the way of the left and right rim in it; a reference that waits stays where
-    /// it is.
+    /// One control period. `travelled_nm` is the distance of the left and right rim in it. A waiting reference does not
+    /// advance.
     pub(crate) fn step(&mut self, elapsed_ms: u32, travelled_nm: (i32, i32), gyro: Option<Gyro>) -> PathStep {
         let turned_nm = i64::from(travelled_nm.1).saturating_sub(i64::from(travelled_nm.0));
         self.encoder_turn_nm = self.encoder_turn_nm.saturating_add(turned_nm);
-        let way_nm = self.advance(i64::from(elapsed_ms));
+        let distance_nm = self.advance(i64::from(elapsed_ms));
         let lead_nm = self.gyro_lead_nm(gyro);
         let goal = |share: i64, lead_nm: i32| WheelGoal {
             speed_um_per_s: narrow(of_share(self.speed_um_per_s, share)),
@@ -171,8 +171,8 @@ impl Path {
             settle_nm: Some(self.settle_nm),
         };
         PathStep {
-            left_nm: narrow(of_share(way_nm, self.left_share)),
-            right_nm: narrow(of_share(way_nm, self.right_share)),
+            left_nm: narrow(of_share(distance_nm, self.left_share)),
+            right_nm: narrow(of_share(distance_nm, self.right_share)),
             left: goal(self.left_share, lead_nm.saturating_neg()),
             right: goal(self.right_share, lead_nm),
         }
@@ -198,13 +198,13 @@ impl Path {
             .min(self.speed_max_um_per_s)
             .min(stoppable)
             .max(CREEP_UM_PER_S);
-        let way_nm = self.speed_um_per_s.saturating_mul(elapsed_ms).min(left_nm);
-        self.made_nm = self.made_nm.saturating_add(way_nm);
-        way_nm
+        let distance_nm = self.speed_um_per_s.saturating_mul(elapsed_ms).min(left_nm);
+        self.made_nm = self.made_nm.saturating_add(distance_nm);
+        distance_nm
     }
 
-    /// How far the right wheel must be ahead (and the left behind) of what its encoder says, for the body to have turned
-    /// as the gyro shows.
+    /// Distance by which the right wheel must lead its encoder count, and the left must lag, so that the heading agrees
+    /// with the gyro.
     fn gyro_lead_nm(&self, gyro: Option<Gyro>) -> i32 {
         let (Some(start), Some(gyro)) = (self.heading_start, gyro) else {
             return 0;
@@ -218,9 +218,11 @@ impl Path {
     }
 }
 
-/// Highest speed from which the way still suffices to stop.
-fn stopping_speed(acceleration_um_per_s2: i64, way_um: i64) -> i64 {
-    let square = acceleration_um_per_s2.saturating_mul(2).saturating_mul(way_um);
+/// Highest speed from which the robot can stop within the distance.
+fn stopping_speed(acceleration_um_per_s2: i64, distance_um: i64) -> i64 {
+    let square = acceleration_um_per_s2
+        .saturating_mul(2)
+        .saturating_mul(distance_um);
     i64::try_from(u64::try_from(square).unwrap_or(0).isqrt()).unwrap_or(i64::MAX)
 }
 

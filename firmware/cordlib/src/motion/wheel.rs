@@ -1,5 +1,5 @@
-//! Speed of one wheel: measurement from encoder counts, and a controller whose integral part is the way that the wheel is
-//! behind, exact to the count, so that it never drifts.
+//! Speed of one wheel: measurement from encoder counts, and a PI controller whose integral is the wheel's position lag,
+//! exact to the count, so that it never drifts.
 
 use rvac_units::Throttle;
 
@@ -9,7 +9,7 @@ use crate::parameters::WheelParameters;
 
 /// Length of a control period.
 pub(crate) const CONTROL_MS: u32 = 10;
-/// A wheel under speed control is never reckoned further behind than this: what a blocked wheel missed is not caught up.
+/// Limit of the position lag under speed control (anti-windup): a wheel that was blocked does not catch up more than this.
 const LAG_MAX_NM: i32 = 15_000_000;
 /// Weight of the newest speed sample is one in this many.
 const FILTER: i32 = 4;
@@ -18,7 +18,7 @@ const SLEW: i32 = 50_000;
 
 /// A wheel that turns faster than this is braked before a commanded duty drives it the other way.
 const REVERSAL_UM_PER_S: i32 = 50_000;
-/// Where the speed is not known the wheel brakes this long instead: 0.4 s.
+/// If the speed is not known, the wheel brakes for this long instead: 0.4 s.
 const BLIND_REST_PERIODS: u8 = 40;
 
 /// One wheel as the rules and the telemetry see it.
@@ -30,9 +30,9 @@ pub(crate) struct WheelStatus {
     pub(crate) set_point_um_per_s: Option<i32>,
     /// Measured speed, filtered.
     pub(crate) speed_um_per_s: i32,
-    /// Speed that one count in one control period looks like.
+    /// Speed that corresponds to one count in one control period: the resolution of the measurement.
     pub(crate) speed_step_um_per_s: i32,
-    /// Way in the last control period.
+    /// Distance in the last control period.
     pub(crate) travelled_nm: i32,
     /// Whether the encoder counted in the last control period.
     pub(crate) turned: bool,
@@ -53,9 +53,9 @@ pub(crate) struct WheelController {
     behind_nm: i32,
     duty: i32,
     status: WheelStatus,
-    /// Counts mean ways, so that the speed is known.
+    /// The distance per count is known, and with it the speed.
     counted: bool,
-    /// Control periods for which a wheel of unknown speed still brakes before it is driven the other way.
+    /// Control periods for which a wheel of unknown speed still brakes before it reverses.
     coming_to_rest: u8,
 }
 
@@ -64,9 +64,9 @@ pub(crate) struct WheelController {
 pub(crate) struct WheelGoal {
     /// Speed.
     pub(crate) speed_um_per_s: i32,
-    /// Way by which the wheel is to be ahead of its encoder's reckoning, from another sensor.
+    /// Distance by which the wheel is to lead its encoder count, from another sensor.
     pub(crate) lead_nm: i32,
-    /// Deviation at rest that is small enough, or `None` to let the wheel rest wherever it stands.
+    /// Position tolerance at rest, or `None` to let the wheel stop anywhere.
     pub(crate) settle_nm: Option<i32>,
 }
 
@@ -101,7 +101,7 @@ impl WheelController {
         self.lag_nm = self.lag_nm.saturating_sub(travelled_nm);
     }
 
-    /// Rests: nothing is to be caught up.
+    /// Comes to rest and drops the position lag.
     pub(crate) fn rest(&mut self) {
         self.lag_nm = 0;
         self.behind_nm = 0;
@@ -109,29 +109,29 @@ impl WheelController {
         self.status.set_point_um_per_s = Some(0);
     }
 
-    /// Adds the way that the set point makes in this period. A wheel under speed control forgets what is too far behind.
-    pub(crate) fn advance(&mut self, way_nm: i32) {
-        self.lag_nm = self.lag_nm.saturating_add(way_nm);
+    /// Advances the set point by the distance of this period.
+    pub(crate) fn advance(&mut self, distance_nm: i32) {
+        self.lag_nm = self.lag_nm.saturating_add(distance_nm);
     }
 
-    /// Forgets what the wheel is behind beyond the limit.
+    /// Limits the position lag (anti-windup).
     pub(crate) fn limit_lag(&mut self) {
         self.lag_nm = within(self.lag_nm, -LAG_MAX_NM, LAG_MAX_NM);
     }
 
-    /// How far the wheel is behind.
+    /// Position lag of the wheel.
     pub(crate) const fn lag_nm(&self) -> i32 {
         self.lag_nm
     }
 
-    /// Whether it is so far behind that the set point should wait for it.
+    /// Whether the lag is so large that the set point should wait.
     pub(crate) fn is_far_behind(&self) -> bool {
         let direction = self.status.set_point_um_per_s.unwrap_or(0).signum();
         self.behind_nm.saturating_mul(direction) > LAG_MAX_NM
     }
 
-    /// The duty for this period: feed-forward over the dead band, the speed error, and the way behind. Never against the
-    /// direction of the set point: a wheel that is too fast brakes.
+    /// The duty for this period: feed-forward over the dead band, the speed error, and the position lag. It never opposes
+    /// the direction of the set point: a wheel that is too fast brakes.
     pub(crate) fn control(&mut self, goal: WheelGoal, parameters: &WheelParameters) -> WheelDrive {
         self.status.set_point_um_per_s = Some(goal.speed_um_per_s);
         let behind_nm = self.lag_nm.saturating_add(goal.lead_nm);
@@ -178,7 +178,7 @@ impl WheelController {
         WheelDrive::Duty(Throttle::saturating_from_millionths(self.duty))
     }
 
-    /// Notes what was really applied after the gate.
+    /// Notes what was applied after the permit.
     pub(crate) const fn applied(&mut self, drive: WheelDrive) {
         self.status.duty = drive.duty().millionths();
         if self.status.duty == 0 {
@@ -202,7 +202,7 @@ impl WheelController {
         saturate(forward.saturating_add(proportional).saturating_add(integral))
     }
 
-    /// One step towards the wanted duty. The dead band is jumped: nothing turns inside of it.
+    /// One step towards the wanted duty. The dead band is skipped, because the motor does not turn within it.
     fn slew(&self, wanted: i32, dead_band: i32) -> i32 {
         let from = if self.duty.signum() == wanted.signum() {
             self.duty

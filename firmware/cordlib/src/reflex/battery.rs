@@ -1,27 +1,27 @@
-//! S16: below 1.1 V a cell for 10 s the robot should go to its dock, below 1.0 V for 2 s brushes and suction are off, below
-//! 0.9 V for 0.5 s everything is. An empty pack recovers its voltage when the load is gone, so each of these stays until
-//! the pack is charged, or exchanged.
-//! S17: above 55 degrees motors are off until the pack has cooled, above 60 that is latched; a temperature that cannot be
+//! S16: below 1.1 V a cell for 10 s the robot should return to its dock; below 1.0 V for 2 s brushes and suction are off;
+//! below 0.9 V for 0.5 s everything is off. An empty pack recovers its voltage without load, so each level stays until the
+//! pack is charged or exchanged.
+//! S17: above 55 °C motors are off until the pack has cooled; above 60 °C that is latched. A temperature that cannot be
 //! measured for 2 s is latched too.
 
 use rvac_protocol::message::{Inhibit, Inhibits};
 use rvac_units::Tick;
 
 use crate::charge::Thermometer;
-use crate::timing::Held;
+use crate::timing::HoldTimer;
 
-/// Averages of 100 ms: most of two of them may pass before a level is seen, and the limits are to hold with that.
+/// Voltages are averages of 100 ms. A level is seen up to two averages late, which the limits below allow for.
 const AVERAGE_MS: u32 = 200;
-/// Millivolts of a cell, and how long it must be below.
+/// Threshold in millivolts per cell, and how long the cell voltage must be below it.
 const LEVELS: [(Inhibit, i32, u32); 3] = [
     (Inhibit::BatteryLow, 1_100, 10_000 - AVERAGE_MS),
     (Inhibit::BatteryWeak, 1_000, 2_000 - AVERAGE_MS),
     (Inhibit::BatteryEmpty, 900, 500 - AVERAGE_MS),
 ];
-/// On the dock a level ends this far above it.
+/// On the dock a level ends this far above its threshold.
 const CHARGED_MV: i32 = 50;
 const CHARGED_MS: u32 = 10_000;
-/// Off the dock only a pack that was exchanged rests at this.
+/// Off the dock only an exchanged pack reaches this voltage.
 const EXCHANGED_MV: i32 = 1_250;
 const EXCHANGED_MS: u32 = 60_000;
 /// Hundredths of a degree.
@@ -45,26 +45,26 @@ pub(crate) struct PackView {
 
 /// One threshold of the voltage.
 #[derive(Clone, Copy, Debug, Default)]
-struct Level {
+struct VoltageLevel {
     active: bool,
-    below: Held,
-    charged: Held,
-    exchanged: Held,
+    below: HoldTimer,
+    charged: HoldTimer,
+    exchanged: HoldTimer,
 }
 
-/// The battery as the rules see it.
+/// State of the battery rules.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BatteryRule {
-    levels: [Level; LEVELS.len()],
+    levels: [VoltageLevel; LEVELS.len()],
     hot: bool,
-    hot_for: Held,
-    overheated_for: Held,
-    cooled_for: Held,
+    hot_for: HoldTimer,
+    overheated_for: HoldTimer,
+    cooled_for: HoldTimer,
     unmeasured: bool,
 }
 
 impl BatteryRule {
-    /// Looks at the pack; returns what is to be latched.
+    /// Takes the pack's readings; returns what is to be latched.
     pub(crate) fn update(&mut self, view: &PackView, now: Tick) -> Inhibits {
         if let Some(pack_mv) = view.pack_mv {
             let cell_mv = pack_mv / view.cells.max(1);
@@ -95,7 +95,7 @@ impl BatteryRule {
         latched
     }
 
-    /// What stands against the robot now, besides what is latched.
+    /// What inhibits now, besides what is latched.
     pub(crate) fn inhibits(&self) -> Inhibits {
         let mut inhibits = Inhibits::NONE;
         for (level, (inhibit, ..)) in self.levels.iter().zip(LEVELS) {
@@ -109,7 +109,7 @@ impl BatteryRule {
         inhibits
     }
 
-    /// The pack is still too hot to forgive that it was overheated.
+    /// The pack is still too hot to clear `battery-overheated`.
     pub(crate) const fn is_hot(&self) -> bool {
         self.hot
     }
@@ -120,7 +120,7 @@ impl BatteryRule {
     }
 }
 
-impl Level {
+impl VoltageLevel {
     fn fall(&mut self, above_mv: i32, now: Tick, span_ms: u32) {
         self.active |= self.below.for_at_least(above_mv < 0, now, span_ms);
     }

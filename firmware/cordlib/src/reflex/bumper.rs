@@ -1,12 +1,12 @@
 //! S6: a press brakes at once, and only motion away from the pressed side is allowed until it is released.
 //! S7: a bumper that stays pressed for 3 s or 0.15 m while the robot backs off, or for 10 s off the dock, is stuck; that
-//! is latched. Nothing looks backwards, so a contact that lets go and comes back begins no new way: only driving forward
-//! makes it good.
+//! is latched. No sensor looks backwards, so a contact that opens and closes again does not restart the distance: only
+//! driving forward reduces it.
 
 use rvac_protocol::message::Bumpers;
 use rvac_units::Tick;
 
-use crate::timing::{Debounced, Held};
+use crate::timing::{Debounced, HoldTimer};
 
 /// Release must be stable this long; a press counts at once.
 const RELEASE_MS: u32 = 30;
@@ -15,14 +15,14 @@ const STUCK_MS: u32 = 10_000;
 /// As for a cliff (S8).
 const STUCK_BACKING_NM: i64 = 150_000_000;
 
-/// The bumper as the rules see it.
+/// State of the bumper rules.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BumperRule {
     left: Debounced<0, RELEASE_MS>,
     right: Debounced<0, RELEASE_MS>,
-    pressed: Held,
-    backing: Held,
-    /// Way backed off while pressed that no way forward has made good.
+    pressed: HoldTimer,
+    backing: HoldTimer,
+    /// Distance reversed while pressed, less the distance driven forward since.
     backed_nm: i64,
 }
 
@@ -31,9 +31,9 @@ pub(crate) struct BumperRule {
 pub(crate) struct BumperContext {
     /// The wheels together drive the robot backwards.
     pub(crate) backing: bool,
-    /// Way of the robot's centre since the last pass, forward positive.
+    /// Distance of the robot's centre since the last pass, forward positive.
     pub(crate) travelled_nm: i32,
-    /// The robot stands on the dock, which may press on the bumper for ever.
+    /// The robot is on the dock, which may press the bumper permanently.
     pub(crate) docked: bool,
 }
 
@@ -62,8 +62,8 @@ impl BumperRule {
         }
     }
 
-    /// A person has seen to it: the way backed off counts from here.
-    pub(crate) const fn restart_way(&mut self) {
+    /// A person has freed the bumper: the distance counts from here.
+    pub(crate) const fn reset_backed_distance(&mut self) {
         self.backed_nm = 0;
     }
 

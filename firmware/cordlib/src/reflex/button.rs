@@ -1,4 +1,4 @@
-//! S28: any button press while the robot moves stops it, without the host, until it is armed again.
+//! S28: any button press during motion stops the robot, without the host, until it is armed again.
 
 use rvac_units::Tick;
 
@@ -23,12 +23,12 @@ pub(crate) struct ButtonChange {
     pub(crate) pressed: u8,
     /// Went up, bit by number.
     pub(crate) released: u8,
-    /// Some button went down, whichever: what S28 needs.
+    /// Any button went down: what S28 needs.
     pub(crate) any_pressed: bool,
 }
 
 impl ButtonRule {
-    /// Takes the raw buttons, and whether any is down, which a board may know without knowing which; returns what
+    /// Takes the raw buttons, and whether any is down (a board may know that without knowing which); returns what
     /// changed.
     pub(crate) fn update(&mut self, raw: u8, any: bool, now: Tick) -> ButtonChange {
         let before = self.any.is_active();

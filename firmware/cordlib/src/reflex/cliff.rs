@@ -6,16 +6,16 @@ use rvac_units::Tick;
 
 use crate::timing::Debounced;
 
-/// A single dark sample is noise; three in a row keep far below the 20 ms of the rule.
+/// A single dark sample is noise. Three in a row stay far below the 20 ms of the rule.
 const SET_MS: u32 = 2;
 const CLEAR_MS: u32 = 50;
 const REVERSE_MAX_NM: i64 = 150_000_000;
 const ONSETS_MAX: u8 = 3;
 const ONSETS_WINDOW_MS: u32 = 5_000;
-/// Floor that is seen for a moment while the robot brakes along an edge or backs off from it does not make that a second one.
+/// Floor that is seen for a moment while the robot brakes along an edge or backs off does not make it a second cliff.
 const SAME_CLIFF_MS: u32 = 300;
 
-/// The cliff sensors as the rule sees them.
+/// State of the cliff rule.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CliffRule {
     left: Debounced<SET_MS, CLEAR_MS>,
@@ -25,17 +25,17 @@ pub(crate) struct CliffRule {
     onsets: [Option<Tick>; ONSETS_MAX as usize],
 }
 
-/// What the robot does while the floor is looked at.
+/// The robot's motion when the sensors are read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CliffContext {
-    /// The wheels are driven: only then does an onset count towards the trap. A robot that is carried sees cliffs too.
+    /// The wheels are driven. Only then an onset counts towards `cliff-trapped`: a carried robot sees cliffs too.
     pub(crate) driven: bool,
-    /// Way of the robot's centre since the last pass, forward positive.
+    /// Distance of the robot's centre since the last pass, forward positive.
     pub(crate) travelled_nm: i32,
 }
 
 impl CliffRule {
-    /// Takes what the sensors see; returns whether the robot is trapped.
+    /// Takes the sensors' readings; returns whether the robot is trapped.
     pub(crate) fn update(&mut self, no_floor: Cliffs, context: CliffContext, now: Tick) -> bool {
         let before = self.any();
         self.left.update(no_floor.left, now);
@@ -69,13 +69,13 @@ impl CliffRule {
         self.left.is_active() || self.middle.is_active() || self.right.is_active()
     }
 
-    /// Whether an onset now is one of the cliff that was met last. One that flickers on counts again after that time.
+    /// Whether an onset now belongs to the last cliff. A flicker that goes on counts again after that time.
     fn is_same_cliff(&self, now: Tick) -> bool {
         let is_fresh = |onset: &Tick| now.since(*onset) <= SAME_CLIFF_MS;
         self.onsets.iter().flatten().any(is_fresh)
     }
 
-    /// Notes an onset; true when it is the third within the window, after which the count starts anew.
+    /// Notes an onset; true if it is the third within the window. The count then starts anew.
     fn is_third_onset(&mut self, now: Tick) -> bool {
         for place in &mut self.onsets {
             if place.is_some_and(|at| now.since(at) > ONSETS_WINDOW_MS) {

@@ -1,34 +1,34 @@
-//! S19: on the dock the robot moves only after `arm` with `undock`. Whenever the contacts close or open, all stored
-//! motion is cleared, and it must be armed again: lifted off the dock, the robot stays still.
+//! S19: on the dock the robot moves only after `arm` with `undock`. Whenever the contacts close or open, stored motion is
+//! cleared and the robot must be armed again: lifted off the dock, it stays still.
 
 use rvac_units::Tick;
 
 use crate::guarded::Permission;
-use crate::timing::{Debounced, Held};
+use crate::timing::{Debounced, HoldTimer};
 
-/// One sample is noise; contacts that bounce open keep the robot docked.
+/// One sample is noise. While bouncing contacts open for a moment the robot counts as docked.
 const SET_MS: u32 = 10;
 const CLEAR_MS: u32 = 300;
-/// A robot that has been off the contacts this long has left the dock; closing again is a new arrival.
+/// With the contacts open for this long the robot has left the dock; closing them again is a new arrival.
 const LEFT_MS: u32 = 1_000;
 
 /// What changed at the dock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum DockChange {
-    /// Arrived, or put on it.
+    /// The contacts closed: the robot arrived, or was put on the dock.
     Arrived,
     /// Taken off without an `undock`.
     TakenOff,
-    /// Off the contacts, as `undock` asked.
+    /// Off the contacts after `undock`.
     Left,
 }
 
-/// The dock contacts as the rule sees them.
+/// State of the dock rule.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct DockRule {
     contacts: Debounced<SET_MS, CLEAR_MS>,
     undocking: Permission,
-    away: Held,
+    away: HoldTimer,
 }
 
 impl DockRule {
@@ -53,7 +53,7 @@ impl DockRule {
         self.away.restart();
     }
 
-    /// Takes the permission back.
+    /// Revokes the permission.
     pub(crate) const fn stay(&mut self) {
         self.undocking = Permission::REFUSED;
     }

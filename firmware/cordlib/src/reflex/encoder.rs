@@ -1,20 +1,19 @@
-//! S13: an encoder that disagrees with its command for 500 ms, in direction or by showing less than a fifth of the speed,
-//! is a fault; latched.
+//! S13: an encoder that for 500 ms shows the wrong direction or less than a fifth of the set speed is a fault; latched.
 
 use rvac_units::Tick;
 
 use crate::motion::WheelStatus;
-use crate::timing::Held;
+use crate::timing::HoldTimer;
 
-/// With the 80 ms that the filtered speed needs to fall, this stays within the 500 ms of the rule.
+/// The filtered speed takes 80 ms to fall; together they stay within the 500 ms of the rule.
 const DISAGREEMENT_MS: u32 = 410;
-/// Below this set point the quantisation of an encoder proves nothing, in µm/s.
+/// Below this set point the encoder's resolution is too coarse for the check, in µm/s.
 const SET_POINT_MIN_UM_PER_S: i32 = 50_000;
 
 /// Plausibility of one encoder.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct EncoderRule {
-    disagreement: Held,
+    disagreement: HoldTimer,
 }
 
 impl EncoderRule {

@@ -1,22 +1,22 @@
-//! What the host allows: S4 (`arm` after a reset), `stop`, S1 (a lease that ran out), S28 (a person's button outranks the
-//! host, S27, until it arms again).
+//! What the host allows: S4 (`arm` after a reset), `stop`, S1 (an expired lease), S28 (a button press outranks the host, S27,
+//! until it arms again).
 
 use rvac_protocol::message::{Inhibit, Inhibits};
 
 use crate::guarded::Permission;
 
-/// Allowances of the host. Starts with nothing allowed.
+/// Permissions given by the host. Nothing is allowed at first.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct HostRule {
     armed: Permission,
-    standing: Inhibits,
+    inhibits: Inhibits,
 }
 
 impl HostRule {
-    /// Motion is allowed; earlier `stop`, button and lost link are forgotten.
+    /// Allows motion; an earlier `stop`, button press and lost link are cleared.
     pub(crate) const fn arm(&mut self) {
         self.armed = Permission::GIVEN;
-        self.standing = Inhibits::NONE;
+        self.inhibits = Inhibits::NONE;
     }
 
     /// Motion must be armed anew.
@@ -26,22 +26,22 @@ impl HostRule {
 
     /// `stop` was commanded.
     pub(crate) const fn stop(&mut self) {
-        self.standing.insert(Inhibit::Stopped);
+        self.inhibits.insert(Inhibit::Stopped);
     }
 
     /// A person pressed a button while the robot moved.
     pub(crate) const fn button(&mut self) {
-        self.standing.insert(Inhibit::ButtonStop);
+        self.inhibits.insert(Inhibit::ButtonStop);
     }
 
     /// A lease ran out while the robot moved.
     pub(crate) const fn lose_link(&mut self) {
-        self.standing.insert(Inhibit::LinkLost);
+        self.inhibits.insert(Inhibit::LinkLost);
     }
 
-    /// A fresh motion command came: the link lives.
+    /// A fresh motion command came: the link is alive.
     pub(crate) const fn hear(&mut self) {
-        self.standing.remove(Inhibit::LinkLost);
+        self.inhibits.remove(Inhibit::LinkLost);
     }
 
     /// Whether the host has armed.
@@ -49,14 +49,14 @@ impl HostRule {
         self.armed.is_given()
     }
 
-    /// Whether the host has armed and not stopped everything since, which takes another `arm` to move.
+    /// Whether the host has armed and has not stopped the robot since.
     pub(crate) const fn lets_move(&self) -> bool {
-        self.armed.is_given() && !self.standing.contains(Inhibit::Stopped)
+        self.armed.is_given() && !self.inhibits.contains(Inhibit::Stopped)
     }
 
-    /// What follows from it.
+    /// Inhibits that follow.
     pub(crate) const fn inhibits(&self) -> Inhibits {
-        let mut inhibits = self.standing;
+        let mut inhibits = self.inhibits;
         if !self.armed.is_given() {
             inhibits.insert(Inhibit::NotArmed);
         }

@@ -1,22 +1,22 @@
-//! S10: a hanging wheel switches wheels, brushes and suction off until both wheels have stood for 1 s and a new command
-//! comes.
+//! S10: a hanging wheel switches wheels, brushes and suction off until both wheels have been on the floor for 1 s and a new
+//! command comes.
 
 use rvac_protocol::message::WheelDrops;
 use rvac_units::Tick;
 
 use crate::timing::Debounced;
 
-/// A threshold makes a wheel hang for a moment; well below the 50 ms of the rule.
+/// On a door threshold a wheel hangs for a moment. This is well below the 50 ms of the rule.
 const SET_MS: u32 = 15;
 const CLEAR_MS: u32 = 50;
-const STANDING_MS: u32 = 1_000;
+const GROUNDED_MS: u32 = 1_000;
 
-/// The wheel drop switches as the rule sees them.
+/// State of the lift rule.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LiftRule {
     left: Debounced<SET_MS, CLEAR_MS>,
     right: Debounced<SET_MS, CLEAR_MS>,
-    lifted: Debounced<0, STANDING_MS>,
+    lifted: Debounced<0, GROUNDED_MS>,
 }
 
 impl LiftRule {
@@ -27,7 +27,7 @@ impl LiftRule {
         self.lifted.update(left || right, now)
     }
 
-    /// Wheels that hang now, without the second of standing.
+    /// Wheels that hang now, without the 1 s hold.
     pub(crate) const fn hanging(&self) -> WheelDrops {
         WheelDrops {
             left: self.left.is_active(),

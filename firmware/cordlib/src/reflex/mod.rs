@@ -1,7 +1,7 @@
-//! The reflexes: one file for each family of rules, and [`Reflexes`], which gathers what they inhibit.
+//! The reflexes: one file for each family of rules, and [`Reflexes`], which collects what they inhibit.
 //!
-//! Rule numbers are those of SAFETY.md. S2 and S3 end in the protocol session, S5 in `watch`, S9 in `floor`, S22 in the
-//! integer types, S29 in `cleaning`.
+//! Rule numbers are those of SAFETY.md. S2 and S3 are implemented in the protocol session, S5 in `watch`, S9 in `floor`, S22
+//! in the integer types, S29 in `cleaning`.
 
 mod battery;
 mod bumper;
@@ -27,7 +27,7 @@ use crate::board::ResetRecord;
 use crate::guarded::Latches;
 use crate::motion::{MotionStatus, WheelStatus};
 use crate::parameters::Parameters;
-use crate::permit::Standing;
+use crate::permit::MotionPermit;
 use crate::senses::Senses;
 
 use battery::BatteryRule;
@@ -64,7 +64,7 @@ pub(crate) struct Reflexes {
     idle: bool,
     latched: Latches,
     wheel_turns: bool,
-    /// Encoder counts mean ways: fitted and calibrated.
+    /// Encoders are fitted and calibrated: counts are distances.
     counted: bool,
     /// Wheels whose encoder has counted since the reset, calibrated or not.
     alive: [bool; 2],
@@ -109,8 +109,8 @@ impl Reflexes {
         }
     }
 
-    /// The rules that look at contacts and the floor, on every pass.
-    pub(crate) fn feel(&mut self, senses: &Senses, motion: &MotionStatus) -> Findings {
+    /// Runs the rules on contacts and the floor, in every pass.
+    pub(crate) fn check_contacts(&mut self, senses: &Senses, motion: &MotionStatus) -> Findings {
         let now = senses.now;
         let dock = self.dock.update(senses.docked, now);
         let backing = motion.left.duty.saturating_add(motion.right.duty) < 0;
@@ -128,7 +128,7 @@ impl Reflexes {
             travelled_nm: motion.travelled_nm,
         };
         let trapped = self.cliff.update(senses.no_floor, context, now);
-        // Without counts neither the way nor the speed back from a cliff could be limited.
+        // Without encoders neither distance nor speed of the reverse from a cliff can be limited.
         let blind = !self.counted && context.driven && self.cliff.any();
         if trapped || blind {
             self.latched.insert(Inhibit::CliffTrapped);
@@ -141,7 +141,7 @@ impl Reflexes {
         }
     }
 
-    /// The rules that look at motors, once for each control period. Returns wheels that were switched off for load.
+    /// Runs the rules on motors, once in each control period. Returns wheels that were switched off for overload.
     pub(crate) fn judge_wheels(
         &mut self,
         senses: &Senses,
@@ -214,13 +214,13 @@ impl Reflexes {
         self.idle = self.progress.update(headway, senses.now);
     }
 
-    /// The rules that look at the battery, on every pass.
+    /// Runs the rules on the battery, in every pass.
     pub(crate) fn judge_battery(&mut self, view: &PackView, now: rvac_units::Tick) {
         let found = self.battery.update(view, now);
         self.latched.add(found);
     }
 
-    /// Lets the record of resets age.
+    /// Lets the reset record age.
     pub(crate) fn age<R: ResetRecord>(&mut self, record: &mut R, now: rvac_units::Tick) {
         self.reset.update(record, now);
     }
@@ -230,7 +230,7 @@ impl Reflexes {
         self.latched.insert(inhibit);
     }
 
-    /// Takes a latched inhibit away if its cause is gone; false if it is still there.
+    /// Clears a latched inhibit if its cause is gone; false if the cause remains.
     pub(crate) fn clear(&mut self, inhibit: Inhibit) -> bool {
         let cause_remains = match inhibit {
             Inhibit::ResetLoop => self.reset.is_young(),
@@ -250,7 +250,7 @@ impl Reflexes {
         if !cause_remains {
             self.latched.remove(inhibit);
             if inhibit == Inhibit::BumperStuck {
-                self.bumper.restart_way();
+                self.bumper.reset_backed_distance();
             }
         }
         !cause_remains
@@ -280,14 +280,14 @@ impl Reflexes {
         all
     }
 
-    /// What is allowed, given whether a lease is fresh.
-    pub(crate) fn standing(&self, fresh: bool) -> Standing {
-        Standing {
+    /// Which motion is allowed, given whether a lease is fresh.
+    pub(crate) fn motion_permit(&self, fresh: bool) -> MotionPermit {
+        MotionPermit {
             armed: self.host.is_armed(),
             fresh,
             inhibits: self.inhibits(),
             bumpers: self.bumper.pressed(),
-            leaving: false,
+            escaping_dock: false,
         }
     }
 

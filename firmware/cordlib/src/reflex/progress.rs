@@ -1,11 +1,11 @@
-//! S15: a robot that is driven at 30 % or more and makes less than 2 cm in 2 s, or turns its wheels by a radian against
-//! each other while the gyro sees nothing of it, does not get on. It stops; the next command after a second may try
-//! again, and how often is the host's decision.
+//! S15: a robot driven at 30 % or more makes no progress if it covers less than 2 cm in 2 s, or if its wheels turn it by a
+//! radian and the gyro does not confirm that. It stops. After 1 s the next command may try again; how often is the host's
+//! decision.
 
 use rvac_protocol::message::Gyro;
 use rvac_units::{Angle, Tick};
 
-use crate::timing::Until;
+use crate::timing::Deadline;
 
 use super::stall::STALL_DUTY;
 
@@ -16,14 +16,14 @@ const TURN_CHECK_URAD: i64 = 1_000_000;
 const CONFIRMED_SHARE: i64 = 10;
 const REST_MS: u32 = 1_000;
 
-/// Progress since the last time some was seen.
+/// Progress since the last anchor.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct ProgressRule {
     anchor: Option<Anchor>,
     left_nm: i64,
     right_nm: i64,
     turned_urad: i64,
-    rest: Until,
+    rest: Deadline,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -37,9 +37,9 @@ struct Anchor {
 pub(crate) struct Headway {
     /// Larger duty of the two wheels, in millionths.
     pub(crate) duty: i32,
-    /// Way of the left rim since the last look.
+    /// Distance of the left rim in this period.
     pub(crate) left_nm: i32,
-    /// Way of the right rim since the last look.
+    /// Distance of the right rim in this period.
     pub(crate) right_nm: i32,
     /// Distance between the wheels.
     pub(crate) track_um: i32,
@@ -48,7 +48,7 @@ pub(crate) struct Headway {
 }
 
 impl ProgressRule {
-    /// Returns whether the robot does not get on; true for the second of rest too.
+    /// Returns whether the robot makes no progress; true during the 1 s of rest as well.
     pub(crate) fn update(&mut self, headway: Headway, now: Tick) -> bool {
         self.rest.has_come(now);
         if headway.duty < STALL_DUTY {
@@ -67,7 +67,7 @@ impl ProgressRule {
             self.move_anchor(now);
         } else if self.is_turn_unconfirmed(anchor.heading, heading) || now.since(anchor.tick) >= WINDOW_MS {
             self.anchor = None;
-            self.rest = Until::at(now.after(REST_MS));
+            self.rest = Deadline::at(now.after(REST_MS));
         } else if self.turned_urad.saturating_abs() >= TURN_CHECK_URAD {
             self.anchor = None;
         }
@@ -83,7 +83,7 @@ impl ProgressRule {
         self.turned_urad = self.turned_urad.saturating_add(turned_urad);
     }
 
-    /// Way was made: the window starts again, while the check of the turn goes on.
+    /// The robot has moved: the window starts again, while the check of the turn goes on.
     fn move_anchor(&mut self, now: Tick) {
         (self.left_nm, self.right_nm) = (0, 0);
         if let Some(anchor) = &mut self.anchor {

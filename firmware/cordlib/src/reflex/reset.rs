@@ -2,33 +2,33 @@
 //! them; once the firmware has run for 60 s the count starts again.
 
 use crate::board::ResetRecord;
-use crate::timing::Until;
+use crate::timing::Deadline;
 use rvac_units::Tick;
 
 const RESETS_MAX: u8 = 3;
 const SOUND_MS: u32 = 60_000;
 
-/// Resets of late.
+/// Recent resets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ResetRule {
-    young: Until,
+    young: Deadline,
 }
 
 impl ResetRule {
-    /// Looks at the record; returns the rule and whether the resets form a loop.
+    /// Reads the record; returns the rule and whether the resets form a loop.
     pub(crate) fn new<R: ResetRecord>(record: &mut R, now: Tick) -> (Self, bool) {
-        let young = Until::at(now.after(SOUND_MS));
+        let young = Deadline::at(now.after(SOUND_MS));
         (Self { young }, record.recent() >= RESETS_MAX)
     }
 
-    /// Forgets the resets when the firmware has run long enough.
+    /// Clears the record when the firmware has run long enough.
     pub(crate) fn update<R: ResetRecord>(&mut self, record: &mut R, now: Tick) {
         if self.young.has_come(now) {
             record.forget_recent();
         }
     }
 
-    /// Whether the start was too short a time ago to call the loop over.
+    /// Whether the firmware has not yet run long enough to end the loop.
     pub(crate) const fn is_young(&self) -> bool {
         self.young.is_running()
     }

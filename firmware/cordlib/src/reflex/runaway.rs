@@ -1,21 +1,21 @@
-//! S12: a wheel that turns without a command, or faster than 1.5 times its set point, for 200 ms is a runaway; both
-//! bridges brake, latched. Only while armed: a robot that is pushed about by hand when it rests is no fault, and its
-//! bridges are off anyway.
+//! S12: a wheel that for 200 ms turns without a command, or faster than 1.5 times its set point, is a runaway: both bridges
+//! brake, latched. The rule applies while armed only: a resting robot may be pushed by hand, and its bridges are off
+//! anyway.
 
 use rvac_units::Tick;
 
 use crate::motion::WheelStatus;
-use crate::timing::Held;
+use crate::timing::HoldTimer;
 
-/// Looked at every 10 ms; with the filter of the speed measurement this stays within 250 ms.
+/// Checked every 10 ms; with the filter of the speed measurement this stays within 250 ms.
 const RUNAWAY_MS: u32 = 190;
-/// Speed that a stopped wheel may have for a while, for example from a push, in µm/s.
+/// Speed that a stopped wheel may have, for example from a push, in µm/s.
 const SLACK_UM_PER_S: i32 = 60_000;
 
 /// Runaway of one wheel.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RunawayRule {
-    excess: Held,
+    excess: HoldTimer,
 }
 
 impl RunawayRule {

@@ -3,20 +3,20 @@
 
 use rvac_units::{Current, Tick};
 
-use crate::timing::Held;
+use crate::timing::HoldTimer;
 
 /// Duty above which a motor that does not turn is stalled, in millionths.
 pub(crate) const STALL_DUTY: i32 = 300_000;
-/// These rules look every 10 ms. A current is seen up to one period late, a standstill up to two, for the first period
-/// without a count may have begun with one.
+/// These rules run every 10 ms. An overcurrent is seen up to one period late, a standstill up to two, because the first
+/// period without a count may have begun with one.
 const OVER_CURRENT_MS: u32 = 80;
 const STANDSTILL_MS: u32 = 270;
 
 /// Overload of one motor.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct StallRule {
-    over_current: Held,
-    standing: Held,
+    over_current: HoldTimer,
+    standstill: HoldTimer,
 }
 
 /// What the rule looks at.
@@ -24,7 +24,7 @@ pub(crate) struct StallRule {
 pub(crate) struct Load {
     /// Duty in millionths.
     pub(crate) duty: i32,
-    /// Whether its sensor counted since the last look; `None` without a sensor.
+    /// Whether its sensor has counted since the last period; `None` without a sensor.
     pub(crate) turned: Option<bool>,
     /// Current and its limit, if measured.
     pub(crate) current: Option<(Current, Current)>,
@@ -38,12 +38,12 @@ impl StallRule {
             .is_some_and(|(current, limit)| current.magnitude() > limit.0);
         let blocked = load.duty.saturating_abs() > STALL_DUTY && load.turned == Some(false);
         let over_current = self.over_current.for_at_least(above, now, OVER_CURRENT_MS);
-        self.standing.for_at_least(blocked, now, STANDSTILL_MS) || over_current
+        self.standstill.for_at_least(blocked, now, STANDSTILL_MS) || over_current
     }
 
-    /// Forgets how long it lasted, after the motor was switched off.
+    /// Restarts the timers after the motor was switched off.
     pub(crate) const fn restart(&mut self) {
         self.over_current.restart();
-        self.standing.restart();
+        self.standstill.restart();
     }
 }

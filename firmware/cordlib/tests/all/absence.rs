@@ -4,7 +4,7 @@ use crate::rig;
 use crate::rig::{Rig, drive, motor, movement};
 use cordlib::Cord;
 use cordlib::board::{Board, ChargeDrive, ChargerReadings};
-use rvac_protocol::message::{Bumpers, Capabilities, Cliffs, Currents, EdgeKind, Inhibit, Motor, Refusal};
+use rvac_protocol::message::{Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, Refusal};
 use rvac_units::{Current, Temperature};
 
 fn everything() -> Capabilities {
@@ -142,9 +142,7 @@ fn a_button_of_unknown_number_stops_all_the_same() {
     assert!(took_ms <= 50 && rig.has(Inhibit::ButtonStop));
     rig.run(100);
     assert!(
-        !rig.edges
-            .iter()
-            .any(|edge| matches!(edge, EdgeKind::Button { .. })),
+        !rig.edges.iter().any(|edge| matches!(edge, Event::Button { .. })),
         "which one is not known"
     );
     assert_eq!(rig.last_state().buttons, 0);

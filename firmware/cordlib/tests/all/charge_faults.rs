@@ -191,7 +191,7 @@ fn a_sensor_that_shows_current_at_rest_is_not_believed() {
     let mut dock = Dock::at(15_000, 0);
     dock.shown_ma = Some(130);
     dock.run_s(30.0);
-    assert_eq!(dock.fault(), Some(ChargeFault::CurrentZero));
+    assert_eq!(dock.fault(), Some(ChargeFault::CurrentOffset));
     // Off the dock the zero is learned.
     let mut dock = Dock::at(15_000, 0);
     dock.docked = false;

@@ -2,7 +2,7 @@
 
 use crate::dock::Dock;
 use cordlib::board::ChargeDrive;
-use cordlib::charge::Motors;
+use cordlib::charge::MotorActivity;
 use rvac_protocol::message::{ChargeEnd, ChargePhase};
 
 const MINUTE_S: u32 = 60;
@@ -159,7 +159,7 @@ fn a_fast_rise_of_temperature_ends_it_and_the_rest_is_topped_off() {
     );
     assert_eq!(
         (dock.end(), dock.phase()),
-        (Some(ChargeEnd::Slope), ChargePhase::TopOff)
+        (Some(ChargeEnd::TemperatureSlope), ChargePhase::TopOff)
     );
     assert!(
         (120..=220).contains(&took_s),
@@ -229,7 +229,7 @@ fn a_fall_of_the_voltage_ends_it_when_it_lasts_and_not_in_the_first_ten_minutes(
     );
     assert_eq!(
         (dock.end(), dock.phase()),
-        (Some(ChargeEnd::Drop), ChargePhase::TopOff)
+        (Some(ChargeEnd::NegativeDeltaV), ChargePhase::TopOff)
     );
     assert!((960..=1_080).contains(&took_s), "{took_s} s");
 }
@@ -274,7 +274,7 @@ fn a_voltage_that_stands_ends_it_after_ninety_minutes() {
     let took_s = dock.run_until(2 * HOUR_S, |_, _| {}, |dock| dock.end().is_some());
     assert_eq!(
         (dock.end(), dock.phase()),
-        (Some(ChargeEnd::Plateau), ChargePhase::Maintain)
+        (Some(ChargeEnd::ZeroDeltaV), ChargePhase::Maintain)
     );
     assert!((5_330..=5_400).contains(&took_s), "{took_s} s");
 }
@@ -290,7 +290,10 @@ fn a_slow_rise_by_fifteen_degrees_ends_it() {
         },
         |dock| dock.end().is_some(),
     );
-    assert_eq!((dock.end(), dock.temperature), (Some(ChargeEnd::Rise), Ok(400)));
+    assert_eq!(
+        (dock.end(), dock.temperature),
+        (Some(ChargeEnd::TemperatureRise), Ok(400))
+    );
 }
 
 #[test]
@@ -389,10 +392,10 @@ fn current_stops_in_the_same_pass_when_the_supply_goes_or_a_motor_runs() {
     assert!(dock.is_off(), "the contacts must hold for a second");
     dock.run_s(30.0);
     assert!(dock.current_ma() > 900);
-    dock.motors = Motors::Running;
+    dock.motors = MotorActivity::Running;
     dock.step();
     assert!(dock.is_off());
-    dock.motors = Motors::Idle;
+    dock.motors = MotorActivity::Idle;
     dock.run_s(1.0);
     dock.docked = false;
     dock.step();
@@ -505,6 +508,6 @@ fn fifty_days_on_the_dock_do_not_blind_it() {
     dock.run_s(40.0);
     assert_eq!(dock.phase(), ChargePhase::Fast);
     let took_s = dock.run_until(2 * HOUR_S, |_, _| {}, |dock| dock.end().is_some());
-    assert_eq!(dock.end(), Some(ChargeEnd::Plateau));
+    assert_eq!(dock.end(), Some(ChargeEnd::ZeroDeltaV));
     assert!((5_330..=5_400).contains(&took_s), "{took_s} s");
 }

@@ -4,7 +4,7 @@ use crate::rig;
 use crate::rig::{Rig, drive, motor};
 use cordlib::board::{Board, WheelDrive};
 use rvac_protocol::message::{
-    Beep, Bumpers, Command, EdgeKind, Inhibit, Led, LedPattern, Motor, Parameter, Report, Sequence,
+    Beep, Bumpers, Command, Event, Inhibit, Led, LedPattern, Motor, Parameter, Report, Sequence,
 };
 use rvac_units::{Frequency, Ratio};
 
@@ -112,7 +112,7 @@ fn edges_are_lossless_and_come_once_and_in_order() {
         .edges
         .iter()
         .filter_map(|edge| match edge {
-            EdgeKind::Bump(bumpers) => Some(bumpers.left),
+            Event::Bump(bumpers) => Some(bumpers.left),
             _ => None,
         })
         .collect();
@@ -131,7 +131,7 @@ fn packets_leave_whole_through_a_narrow_queue() {
     let before = rig.host.counters();
     rig.run(5_000);
     let after = rig.host.counters();
-    assert_eq!(after.bad_seal, before.bad_seal);
+    assert_eq!(after.bad_crc, before.bad_crc);
     assert_eq!(after.malformed, before.malformed);
     assert!(after.accepted > before.accepted + 20);
 }

@@ -19,11 +19,11 @@ fn finish(rig: &mut Rig, command: Command) -> MoveEnd {
 }
 
 fn turned_rad(rig: &Rig) -> f64 {
-    (rig.ways[1] - rig.ways[0]) / LIMITS.track.as_m()
+    (rig.distances[1] - rig.distances[0]) / LIMITS.track.as_m()
 }
 
 fn length_m(rig: &Rig) -> f64 {
-    f64::midpoint(rig.ways[0], rig.ways[1])
+    f64::midpoint(rig.distances[0], rig.distances[1])
 }
 
 fn check(command: Command, want_m: f64, want_rad: f64) {
@@ -100,8 +100,8 @@ fn a_move_that_gets_nowhere_times_out() {
     let mut held_ms = 0;
     while rig.move_ends().is_empty() && held_ms < 10_000 {
         rig.rims = [0.0; 2];
-        rig.ways = rig
-            .ways
+        rig.distances = rig
+            .distances
             .map(|way| if held_ms % 200 == 0 { way + 0.000_51 } else { way });
         held_ms += 1;
         rig.run(1);
@@ -138,9 +138,9 @@ fn drive_reaches_and_holds_its_speed_with_a_ramp() {
     }
     assert!((rig.rims[0] - 0.25).abs() < 0.01, "{:?} m/s", rig.rims);
     assert!(fastest_change < 1.5, "{fastest_change} m/s²");
-    let way_m = rig.ways[0];
+    let distance_m = rig.distances[0];
     rig.run(4_000);
-    let mean = (rig.ways[0] - way_m) / 4.0;
+    let mean = (rig.distances[0] - distance_m) / 4.0;
     assert!((mean - 0.25).abs() < 0.002, "mean {mean} m/s");
     rig.repeated = vec![drive(0.1, 1.0)];
     rig.run(2_000);
@@ -156,9 +156,9 @@ fn slow_speeds_are_held_too() {
     let mut rig = Rig::armed(0);
     rig.repeated = vec![drive(0.02, 0.0)];
     rig.run(2_000);
-    let start_m = rig.ways[0];
+    let start_m = rig.distances[0];
     rig.run(5_000);
-    let mean = (rig.ways[0] - start_m) / 5.0;
+    let mean = (rig.distances[0] - start_m) / 5.0;
     assert!((mean - 0.02).abs() < 0.002, "mean {mean} m/s, {:?}", rig.names());
 }
 

@@ -80,7 +80,7 @@ fn charging(start: u32) -> Rig {
     rig
 }
 
-fn told(rig: &Rig) -> rvac_protocol::message::Battery {
+fn reported(rig: &Rig) -> rvac_protocol::message::Battery {
     rig.reports
         .iter()
         .rev()
@@ -251,7 +251,7 @@ fn s18_charging_is_told_from_the_first_current_to_the_fault() {
     let mut rig = charging(0);
     assert_eq!(rig.cord.board().charger.request, DockRequest::Current);
     feed(&mut rig, 1_500);
-    let battery = told(&rig);
+    let battery = reported(&rig);
     assert_eq!(battery.state, ChargeState::Charging);
     assert_eq!(
         battery.charger.map(|charger| charger.phase),
@@ -269,7 +269,7 @@ fn s18_charging_is_told_from_the_first_current_to_the_fault() {
     );
     rig.run(3_000);
     assert!(rig.has(Inhibit::ChargerFault));
-    let battery = told(&rig);
+    let battery = reported(&rig);
     let status = battery.charger.expect("a charger");
     assert_eq!(
         (status.phase, status.fault),
@@ -413,12 +413,19 @@ fn no_charge_is_told_before_it_is_known() {
     let mut rig = Rig::switched_on_with(0, |board| board.charger.readings = Some(PACK));
     rig.connect();
     rig.run(3_000);
-    let mut told = rig.reports.iter().filter_map(|report| match report {
+    let mut reported = rig.reports.iter().filter_map(|report| match report {
         Report::Info(info) => Some(info.battery),
         _ => None,
     });
-    assert_eq!(told.next(), Some(None), "the first info comes with the session");
-    let later: Vec<f64> = told.flatten().map(|battery| battery.charge.as_f64()).collect();
+    assert_eq!(
+        reported.next(),
+        Some(None),
+        "the first info comes with the session"
+    );
+    let later: Vec<f64> = reported
+        .flatten()
+        .map(|battery| battery.charge.as_f64())
+        .collect();
     assert!(
         !later.is_empty() && later.iter().all(|&charge| charge > 0.4),
         "{later:?}"

@@ -3,7 +3,7 @@
 use crate::rig;
 use crate::rig::{Rig, clear, drive, motor, movement, worst_reaction};
 use rvac_protocol::message::{
-    Bumpers, Cliffs, Currents, EdgeKind, Inhibit, MotionPhase, Motor, MoveEnd, Refusal, WheelDrops,
+    Bumpers, Cliffs, Currents, Event, Inhibit, MotionPhase, Motor, MoveEnd, Refusal, WheelDrops,
 };
 use rvac_units::Current;
 
@@ -126,7 +126,7 @@ fn s6_only_motion_away_is_allowed_until_release() {
     rig.repeated.clear();
     press(&mut rig, LEFT);
     rig.run(20);
-    assert!(rig.edges.contains(&EdgeKind::Bump(LEFT)));
+    assert!(rig.edges.contains(&Event::Bump(LEFT)));
     assert_eq!(rig.cord.phase(), MotionPhase::Reflex);
     assert_eq!(rig.try_motion(drive(0.1, 0.0)), Err(Refusal::Inhibited));
     assert_eq!(
@@ -181,13 +181,16 @@ fn s7_a_bumper_pressed_while_backing_for_three_seconds_is_stuck() {
     press(&mut rig, BOTH);
     rig.run(20);
     rig.repeated = vec![drive(-0.04, 0.0)];
-    let start_m = rig.ways[0];
+    let start_m = rig.distances[0];
     let took_ms = rig.run_until(3_200, |rig| rig.has(Inhibit::BumperStuck));
     assert!(took_ms > 2_900, "{took_ms} ms");
     rig.run(2);
     assert!(rig.wheels_off());
-    let way_m = start_m - rig.ways[0];
-    assert!((0.05..0.14).contains(&way_m), "{way_m} m: not by its way");
+    let distance_m = start_m - rig.distances[0];
+    assert!(
+        (0.05..0.14).contains(&distance_m),
+        "{distance_m} m: not by distance"
+    );
 }
 
 #[test]
@@ -196,13 +199,13 @@ fn s7_a_bumper_pressed_over_15_cm_of_backing_is_stuck() {
     press(&mut rig, BOTH);
     rig.run(200);
     rig.repeated = vec![drive(-0.3, 0.0)];
-    let start_m = rig.ways[0];
+    let start_m = rig.distances[0];
     let took_ms = rig.run_until(2_000, |rig| rig.has(Inhibit::BumperStuck));
     assert!(took_ms < 1_500, "{took_ms} ms");
     rig.run(500);
     assert!(rig.wheels_off());
-    let way_m = start_m - rig.ways[0];
-    assert!((0.14..0.18).contains(&way_m), "{way_m} m");
+    let distance_m = start_m - rig.distances[0];
+    assert!((0.14..0.18).contains(&distance_m), "{distance_m} m");
     assert_eq!(rig.ask(clear(Inhibit::BumperStuck)), Err(Refusal::CauseRemains));
     press(&mut rig, Bumpers::default());
     rig.run(100);
@@ -219,7 +222,7 @@ fn s7_a_bumper_pressed_over_15_cm_of_backing_is_stuck() {
 fn s7_a_contact_that_comes_and_goes_begins_no_new_way() {
     let backed_off_m = |between: rvac_protocol::message::Command| {
         let mut rig = Rig::driving(0);
-        let start_m = rig.ways[0];
+        let start_m = rig.distances[0];
         for _ in 0..6 {
             press(&mut rig, BOTH);
             rig.run(30);
@@ -229,12 +232,12 @@ fn s7_a_contact_that_comes_and_goes_begins_no_new_way() {
             rig.repeated = vec![between];
             rig.run(1_500);
         }
-        (rig.has(Inhibit::BumperStuck), start_m - rig.ways[0])
+        (rig.has(Inhibit::BumperStuck), start_m - rig.distances[0])
     };
-    let (stuck, way_m) = backed_off_m(drive(0.0, 0.0));
-    assert!(stuck && (0.13..0.18).contains(&way_m), "{way_m} m");
-    let (stuck, way_m) = backed_off_m(drive(0.2, 0.0));
-    assert!(!stuck, "{way_m} m in sum, driven forward in between");
+    let (stuck, distance_m) = backed_off_m(drive(0.0, 0.0));
+    assert!(stuck && (0.13..0.18).contains(&distance_m), "{distance_m} m");
+    let (stuck, distance_m) = backed_off_m(drive(0.2, 0.0));
+    assert!(!stuck, "{distance_m} m in sum, driven forward in between");
 }
 
 #[test]
@@ -242,7 +245,7 @@ fn s7_a_robot_pushed_back_by_its_bumper_is_not_backing_off() {
     let mut rig = Rig::connected(0);
     press(&mut rig, BOTH);
     for _ in 0..4_000 {
-        rig.ways = rig.ways.map(|way| way - 0.000_1);
+        rig.distances = rig.distances.map(|way| way - 0.000_1);
         rig.run(1);
     }
     assert!(!rig.has(Inhibit::BumperStuck), "{:?}", rig.names());
@@ -259,10 +262,10 @@ fn s8_only_a_slow_short_reverse_leads_away() {
     rig.repeated.clear();
     see(&mut rig, MIDDLE);
     rig.run(200);
-    assert!(rig.edges.contains(&EdgeKind::Cliff(MIDDLE)));
+    assert!(rig.edges.contains(&Event::Cliff(MIDDLE)));
     assert_eq!(rig.try_motion(drive(0.05, 0.0)), Err(Refusal::Inhibited));
     assert_eq!(rig.try_motion(drive(0.0, 0.5)), Err(Refusal::Inhibited));
-    let start_m = rig.ways[0];
+    let start_m = rig.distances[0];
     rig.repeated = vec![drive(-0.3, 0.0)];
     let mut fastest_m_per_s: f64 = 0.0;
     for _ in 0..1_000 {
@@ -273,8 +276,8 @@ fn s8_only_a_slow_short_reverse_leads_away() {
     assert!(!rig.has(Inhibit::CliffTrapped));
     rig.run(2_000);
     assert!(rig.has(Inhibit::CliffTrapped) && rig.wheels_off());
-    let way_m = start_m - rig.ways[0];
-    assert!((0.13..0.17).contains(&way_m), "{way_m} m");
+    let distance_m = start_m - rig.distances[0];
+    assert!((0.13..0.17).contains(&distance_m), "{distance_m} m");
     assert_eq!(rig.ask(clear(Inhibit::CliffTrapped)), Err(Refusal::CauseRemains));
     see(&mut rig, Cliffs::default());
     rig.run(100);
@@ -330,15 +333,15 @@ fn s8_floor_that_shows_up_on_the_way_back_leads_no_farther() {
     let mut rig = Rig::driving(0);
     see(&mut rig, MIDDLE);
     rig.run(200);
-    let start_m = rig.ways[0];
+    let start_m = rig.distances[0];
     rig.repeated = vec![drive(-0.1, 0.0)];
     see(&mut rig, Cliffs::default());
     rig.run(70);
     see(&mut rig, MIDDLE);
     rig.run(3_000);
     assert!(rig.has(Inhibit::CliffTrapped) && rig.wheels_off());
-    let way_m = start_m - rig.ways[0];
-    assert!((0.1..0.17).contains(&way_m), "{way_m} m");
+    let distance_m = start_m - rig.distances[0];
+    assert!((0.1..0.17).contains(&distance_m), "{distance_m} m");
 }
 
 #[test]
@@ -410,12 +413,12 @@ fn s11_over_current_and_standstill_switch_the_wheel_off() {
     let mut rig = Rig::driving(0);
     block(&mut rig);
     rig.run(400);
-    assert!(rig.has(Inhibit::WheelStall) && rig.edges.contains(&EdgeKind::Stall(Motor::WheelLeft)));
+    assert!(rig.has(Inhibit::WheelStall) && rig.edges.contains(&Event::Stall(Motor::WheelLeft)));
     assert_eq!(rig.ask(clear(Inhibit::WheelStall)), Ok(()));
 }
 
 #[test]
-fn s11_a_blocked_brush_reverses_once_and_is_then_given_up() {
+fn s11_a_blocked_brush_reverses_once_and_is_then_latched() {
     let mut rig = Rig::armed(0);
     rig.cord.board_mut().brush_main.pulses = Some(0);
     rig.repeated = vec![motor(Motor::BrushMain, 0.8)];
@@ -495,7 +498,7 @@ fn s13_an_encoder_that_shows_a_fraction_of_the_speed_is_a_fault() {
 }
 
 #[test]
-fn s15_a_robot_that_crawls_is_told_within_two_seconds() {
+fn s15_a_robot_that_crawls_is_reported_within_two_seconds() {
     let mut rig = Rig::armed(0);
     rig.repeated = vec![motor(Motor::WheelLeft, 0.5), motor(Motor::WheelRight, 0.5)];
     rig.mechanics.blocked = [true, true];
@@ -504,7 +507,7 @@ fn s15_a_robot_that_crawls_is_told_within_two_seconds() {
         rig.run(1);
         took_ms += 1;
         if took_ms % 100 == 0 {
-            rig.ways = rig.ways.map(|way| way + 0.000_6);
+            rig.distances = rig.distances.map(|way| way + 0.000_6);
         }
     }
     assert!(
@@ -598,7 +601,7 @@ fn s28_a_button_stops_within_50_ms_and_until_arming() {
     rig.run(500);
     assert!(off(&rig), "the host goes on asking in vain");
     for pressed in [true, false] {
-        assert!(rig.edges.contains(&EdgeKind::Button { button: 0, pressed }));
+        assert!(rig.edges.contains(&Event::Button { button: 0, pressed }));
     }
     rig.arm();
     rig.run(200);
@@ -629,7 +632,7 @@ fn s28_a_button_of_a_resting_robot_is_an_event_only() {
     rig.cord.board_mut().buttons.down = 1;
     rig.run(100);
     assert!(!rig.has(Inhibit::ButtonStop));
-    assert!(rig.edges.contains(&EdgeKind::Button {
+    assert!(rig.edges.contains(&Event::Button {
         button: 0,
         pressed: true
     }));

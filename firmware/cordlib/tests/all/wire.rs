@@ -5,8 +5,8 @@ use cordlib::board::Received;
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{Command, Inhibit, Motor};
 
-/// The bytes of a sealed command, not yet on the line.
-fn sealed(rig: &mut Rig, command: Command) -> Vec<u8> {
+/// The bytes of a command with its CRC, not yet on the line.
+fn with_crc(rig: &mut Rig, command: Command) -> Vec<u8> {
     let mut packet = PacketBuffer::new();
     let now = rig.host_now();
     rig.host.send(command, now, &mut packet).expect("sending");
@@ -23,7 +23,7 @@ fn s2_a_damaged_command_moves_nothing() {
             1 => drive(-0.2, 1.0),
             _ => motor(Motor::WheelLeft, 1.0),
         };
-        let mut bytes = sealed(&mut rig, command);
+        let mut bytes = with_crc(&mut rig, command);
         // Separators are no part of the packet: without one, or with two, it is still whole.
         let mut place = phases.below(bytes.len() as u32) as usize;
         while bytes[place] == 0x1F {
@@ -51,7 +51,7 @@ fn s3_commands_of_a_stale_buffer_are_refused() {
     let mut phases = Phases(3);
     for _ in 0..200 {
         let mut rig = Rig::armed(u32::MAX - phases.below(6_000));
-        let old = sealed(&mut rig, drive(0.3, 0.0));
+        let old = with_crc(&mut rig, drive(0.3, 0.0));
         rig.run(450 + phases.below(4_500));
         rig.deliver(&old);
         for _ in 0..50 {
@@ -64,7 +64,7 @@ fn s3_commands_of_a_stale_buffer_are_refused() {
 #[test]
 fn s3_commands_of_before_a_reset_are_refused() {
     let mut before = Rig::driving(0);
-    let old = sealed(&mut before, drive(0.3, 0.0));
+    let old = with_crc(&mut before, drive(0.3, 0.0));
     let mut reset = Rig::switched_on(0);
     reset.host_dead = true;
     let received = old.into_iter().map(Received::Byte);

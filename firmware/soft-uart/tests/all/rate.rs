@@ -1,7 +1,7 @@
 //! The rate: found from `U`, found again after a restart of either side, kept when there is noise.
 
 use crate::line::{CLEAN, COUNTS_PER_S, Faults, Line, Random, bit_counts, good, hear};
-use soft_uart::{Baud, BitTime, Level, Received, Receiver, Trust};
+use soft_uart::{Baud, BitTime, Level, RateTrust, Received, Receiver};
 
 /// What a host sends until it is answered, and what follows.
 const GREETING: &[u8] = b"U\nhello 3 17 a9c2\n";
@@ -28,7 +28,7 @@ fn one_letter_gives_the_rate_and_everything_after_it_arrives() {
             line.bytes(baud, GREETING);
             let mut receiver = automatic();
             let heard = hear(&line, &mut receiver, u32::MAX - 105_000);
-            assert_eq!(receiver.trust(), Trust::Locked(baud), "{clock_error}");
+            assert_eq!(receiver.trust(), RateTrust::Locked(baud), "{clock_error}");
             assert_eq!(heard, good(&GREETING[1..]), "{baud:?} {clock_error}");
         }
     }
@@ -75,7 +75,7 @@ fn data_without_the_letter_gives_no_rate() {
         );
         let mut receiver = automatic();
         assert_eq!(hear(&line, &mut receiver, 0), []);
-        assert_eq!(receiver.trust(), Trust::Listening, "{baud:?}");
+        assert_eq!(receiver.trust(), RateTrust::Listening, "{baud:?}");
     }
 }
 
@@ -155,7 +155,11 @@ fn one_letter_at_a_third_of_the_rate_is_remembered() {
         line.pause_ms(2.0);
         let mut receiver = automatic();
         hear(&line, &mut receiver, 0);
-        assert_eq!(receiver.trust(), Trust::Locked(before), "nothing was wrong yet");
+        assert_eq!(
+            receiver.trust(),
+            RateTrust::Locked(before),
+            "nothing was wrong yet"
+        );
         line.edges.clear();
         line.bytes(after, b"\nhello 3 17 a9c2\n");
         line.pause_ms(2.0);
@@ -237,7 +241,7 @@ fn data_that_looks_like_a_slower_letter_is_data() {
     line.bytes(Baud::B115200, b"more\n");
     let mut receiver = automatic();
     let heard = hear(&line, &mut receiver, 0);
-    assert_eq!(receiver.trust(), Trust::Locked(Baud::B115200));
+    assert_eq!(receiver.trust(), RateTrust::Locked(Baud::B115200));
     let mut expected = GREETING[1..].to_vec();
     expected.extend([0x1C; 4]);
     expected.extend(b"more\n");
@@ -253,11 +257,11 @@ fn many_framing_errors_make_the_rate_doubtful_and_good_bytes_mend_it() {
     }
     let mut receiver = Receiver::starting_at(Baud::B57600, COUNTS_PER_S);
     hear(&line, &mut receiver, 0);
-    assert_eq!(receiver.trust(), Trust::Doubtful(Baud::B57600));
+    assert_eq!(receiver.trust(), RateTrust::Doubtful(Baud::B57600));
     let mut line = Line::new(CLEAN, 1);
     line.bytes(Baud::B57600, b"0123456789");
     hear(&line, &mut receiver, 0);
-    assert_eq!(receiver.trust(), Trust::Locked(Baud::B57600));
+    assert_eq!(receiver.trust(), RateTrust::Locked(Baud::B57600));
 }
 
 #[test]

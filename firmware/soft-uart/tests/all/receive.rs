@@ -2,7 +2,7 @@
 
 use crate::line::{CLEAN, COUNTS_PER_S, Faults, Line, Random, bit_counts, good, hear};
 use proptest::prelude::{Just, Strategy, any, prop, prop_oneof, proptest};
-use soft_uart::{Baud, BitTime, Decoder, Edge, EdgeRing, Level, Queued, Received, Receiver, Trust};
+use soft_uart::{Baud, BitTime, Decoder, Edge, EdgeRing, Level, Queued, RateTrust, Received, Receiver};
 
 const LATE: f64 = 0.25;
 const ERROR: f64 = 0.025;
@@ -99,7 +99,7 @@ proptest! {
         let sent: Vec<u8> = bytes.iter().map(|(byte, _)| *byte).collect();
         let mut receiver = receiver(baud);
         assert_eq!(hear(&line, &mut receiver, offset), good(&sent));
-        assert_eq!(receiver.trust(), Trust::Locked(baud));
+        assert_eq!(receiver.trust(), RateTrust::Locked(baud));
     }
 
     /// Pulses that are farther from all else than they are long, as many as find room.

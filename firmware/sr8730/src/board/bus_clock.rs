@@ -1,5 +1,5 @@
-//! A second clock beside the core timer, from the peripheral bus: Timer5, which runs free. When the link samples its input with
-//! that timer, the number of samples takes its place.
+//! A second clock beside the core timer, from the peripheral bus: the free-running Timer5. If the link samples its
+//! input with that timer, the number of samples serves as the clock.
 
 #[cfg(not(feature = "link-sampled"))]
 use pic32mx3_hal::timer::{Prescaler, Timer};
@@ -12,7 +12,7 @@ pub struct BusClock(Timer<5>);
 #[cfg(not(feature = "link-sampled"))]
 impl BusClock {
     /// Half counts of the core timer in one of this clock: its prescaler is 256.
-    pub const HALVES_PER_COUNT: u32 = crate::logic::pace::HALVES_PER_COUNT;
+    pub const HALVES_PER_COUNT: u32 = crate::logic::clock_check::HALVES_PER_COUNT;
 
     /// Running.
     #[must_use]

@@ -1,7 +1,7 @@
-//! The battery's measurement, the charger's gate, and the code that asks the dock for current.
+//! Battery measurement, the charger's gate, and the code that requests current from the dock.
 //!
-//! cordlib decides whether and how much; here is only what must be exact to the microsecond. The gate is an interrupt of Timer3
-//! at each PWM period while the charger is on, and off at all other times.
+//! cordlib decides whether and how much to charge. This file does what must be exact to the microsecond. The gate is an
+//! interrupt of Timer3 in each PWM period while the charger is on; otherwise the interrupt is off.
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
@@ -17,7 +17,7 @@ use super::{contacts, converter, interlock, off, tick};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
 use crate::generated::pins;
-use crate::logic::dock_code::{DockCode, HALF_PERIOD_COUNTS, Half, LeadingOnes, REPEAT_MS};
+use crate::logic::dock_code::{CarrierHalf, DockCode, HALF_PERIOD_COUNTS, LeadingOnes, REPEAT_MS};
 use crate::logic::envelope::{Envelope, pulses_for};
 use crate::logic::guarded::Guarded;
 use crate::logic::pack::PackScale;
@@ -30,7 +30,7 @@ const COMPARE: u8 = 3;
 /// ENABLE of the charger: RD2, OC3 on Timer3.
 pub type GateChannel = PwmChannel<COMPARE, 3, Pin<'D', 2, Output>>;
 
-/// Pulses in each envelope, 0 = off. Kept with its complement: a bit that flips here must not charge.
+/// Pulses in each envelope, 0 = off. Stored with its complement, so that a flipped bit cannot switch the charger on.
 static PULSES: Guarded = Guarded::new(0);
 /// The two copies of [`PULSES`] disagreed.
 static DAMAGED: AtomicBool = AtomicBool::new(false);
@@ -38,7 +38,7 @@ static DAMAGED: AtomicBool = AtomicBool::new(false);
 static PERIODS: AtomicU32 = AtomicU32::new(0);
 static GATE: HandlerCell<vector::TIMER_3, Gate> = HandlerCell::empty();
 static CODE: HandlerCell<vector::TIMER_1, CodeSender> = HandlerCell::empty();
-/// A code is being sent, or shall be.
+/// A code is being sent or is about to be.
 static SENDING: AtomicBool = AtomicBool::new(false);
 
 #[derive(Debug)]
@@ -69,7 +69,7 @@ fn on_period(context: &mut Context<vector::TIMER_3>) {
 }
 interrupt!(TIMER_3, on_period);
 
-/// Off at once: the pin is low when this returns, and the interrupt does not come again.
+/// Switches off at once: when this returns the pin is low and the interrupt is disabled.
 fn shut() {
     pwm::stop(COMPARE);
     Source::Timer3.disable();
@@ -89,14 +89,14 @@ fn on_half_period(context: &mut Context<vector::TIMER_1>) {
         return;
     };
     match sender.code.next() {
-        Half::High => converter::put(pins::PROXIMITY_EMIT, true),
-        Half::Low => converter::put(pins::PROXIMITY_EMIT, false),
-        Half::Over if sender.timer.is_running() => {
+        CarrierHalf::High => converter::write_pin(pins::PROXIMITY_EMIT, true),
+        CarrierHalf::Low => converter::write_pin(pins::PROXIMITY_EMIT, false),
+        CarrierHalf::Over if sender.timer.is_running() => {
             sender.timer.stop();
             converter::return_emitter();
             SENDING.store(false, Ordering::Relaxed);
         }
-        Half::Over => {
+        CarrierHalf::Over => {
             sender.code = DockCode::start(sender.ones);
             sender
                 .timer
@@ -118,14 +118,14 @@ pub struct PackCharger {
     code: CodePhase,
 }
 
-/// How the code for the dock stands.
+/// Phase of the code for the dock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum CodePhase {
     /// Not sent before this millisecond.
     Resting { until: u32 },
-    /// The emitter was asked for, for a code that was due then.
+    /// The emitter was requested for a code that was due at this time.
     Waiting { since: u32 },
-    /// On its way; it was due then.
+    /// Being sent; it was due at this time.
     Sending { since: u32 },
 }
 
@@ -164,14 +164,14 @@ impl PackCharger {
         }
     }
 
-    /// Whether the power stage, the divider and the pack are known, without which nothing charges.
+    /// Whether power stage, divider and pack are calibrated, which charging requires.
     #[must_use]
     pub const fn may_charge(&self) -> bool {
         self.allowed
     }
 
-    /// To be called once in a millisecond: shuts the gate when nobody has asked for it lately or its interrupt stands still,
-    /// and sends the dock its code. Returns whether the gate's variable was found damaged.
+    /// Called once a millisecond: shuts the gate if its drive was not renewed or its interrupt has stopped, and sends
+    /// the code for the dock. Returns whether the gate's variable is damaged.
     pub fn service(&mut self) -> bool {
         let overdue = self.renewal.is_overdue();
         let periods = PERIODS.load(Ordering::Relaxed);
@@ -190,7 +190,7 @@ impl PackCharger {
         self.drive = ChargeDrive::Off;
     }
 
-    /// The code five times a second, as long as the dock is asked. The emitter is borrowed from the proximity sensors.
+    /// Sends the code five times a second while current is requested. The emitter is shared with the proximity sensors.
     fn send_code(&mut self) {
         let now = tick::ticks();
         match self.code {
@@ -203,7 +203,7 @@ impl PackCharger {
             }
             CodePhase::Waiting { since } if converter::emitter_is_lent() => {
                 SENDING.store(true, Ordering::Relaxed);
-                // The timer stands still, so this begins the code.
+                // The timer is stopped, so this begins the code.
                 Source::Timer1.request();
                 self.code = CodePhase::Sending { since };
             }

@@ -1,4 +1,4 @@
-//! What the firmware checks of itself while it runs (S20, S21): clock, image, memory, stack, registers of the motors.
+//! Self-checks of the running firmware (S20, S21): clock, image, memory, stack, registers of the motors.
 
 use pic32mx3_hal::clock::{self, Running};
 use pic32mx3_hal::interrupt::{Context, Priority, Source, SubPriority, Vector, vector};
@@ -8,16 +8,16 @@ use pic32mx3_hal::{cpu, interrupt, memory, stack};
 use super::bus_clock::BusClock;
 use super::{off, tick};
 use crate::generated::pins::{self, Signal};
-use crate::logic::image_check::{ImageCheck, Verdict};
+use crate::logic::clock_check::{ClockAgreement, ClockCheck, ClockSample};
+use crate::logic::image_check::{ImageCheck, ImageState};
 use crate::logic::image_sums::{ImageSums, sum};
-use crate::logic::pace::{Look, Pace, PaceCheck};
-use crate::logic::reset_log::Trouble;
+use crate::logic::reset_log::FatalCause;
 
 /// Words of memory tested in one millisecond: 32 KiB in four seconds.
 const RAM_WORDS: u32 = 2;
 
-/// Signals that output compares drive with pulses of the motors' time base, and the number of each one's output compare.
-/// All are on one port. The latches beneath stay low, so that a pin is low when its output compare is off.
+/// Signals that output compares drive with pulses of the motors' time base, and the number of each one's output
+/// compare. All are on one port. The latches beneath stay low, so that a pin is low when its output compare is off.
 const PULSED: [(u8, Signal); 4] = [
     (1, pins::WHEEL_LEFT_ENABLE),
     (2, pins::BRUSH_MAIN_ENABLE),
@@ -25,36 +25,37 @@ const PULSED: [(u8, Signal); 4] = [
     (4, pins::WHEEL_RIGHT_ENABLE),
 ];
 
-/// The crystal has failed and the chip runs on its internal oscillator, at a tenth of its speed: everything off at once.
+/// The crystal has failed and the chip runs on its internal oscillator at a tenth of its speed: switches everything
+/// off.
 fn on_clock_failure(_: &mut Context<vector::CLOCK_MONITOR>) {
     off::everything();
     off::note_clock_failure();
     Source::ClockMonitor.clear();
-    // The cause stays, so it would come again and again.
+    // The cause remains, so the interrupt would repeat.
     Source::ClockMonitor.disable();
 }
 interrupt!(CLOCK_MONITOR, on_clock_failure);
 
-/// What a check found.
+/// Result of a check that failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finding {
-    /// Clocks disagree, or the crystal failed: nothing may move any more, but the host can be told.
+    /// Clocks disagree, or the crystal failed: nothing may move, but the fault can be reported to the host.
     Clock,
-    /// Neither code nor memory can be believed: everything off and a start from the beginning, which checks all of it.
-    Broken(Trouble),
+    /// Code or memory is damaged: everything off and a reset, which checks all of it.
+    Broken(FatalCause),
 }
 
 /// The checks.
 #[derive(Debug)]
 pub struct SelfChecks {
-    /// `None` when it was found damaged at the start: that is known, and reported, and needs no second finding.
+    /// `None` if the image was damaged at the start: that is reported already.
     image: Option<ImageCheck<'static>>,
     sums: ImageSums,
     ram_place: u32,
     ram_size: u32,
     bus: BusClock,
     pulses: TimeBase<3>,
-    pace: PaceCheck,
+    pace: ClockCheck,
     started: bool,
 }
 
@@ -68,50 +69,50 @@ impl SelfChecks {
         Self {
             image: Some(ImageCheck::new(
                 [program, memory::image::boot()],
-                memory::image::seal(),
+                memory::image::check_words(),
             )),
-            // Taken before the whole image is checked, so that what changes in between is found, too.
+            // Taken before the whole image is checked, so that changes in between are found as well.
             sums: ImageSums::new(program.len() as u32 / 4, block_sum),
             ram_place: 0,
             ram_size: memory::ram_size(),
             bus,
             pulses: TimeBase::of(pulses),
-            pace: PaceCheck::new(Look::default(), BusClock::HALVES_PER_COUNT),
+            pace: ClockCheck::new(ClockSample::default(), BusClock::HALVES_PER_COUNT),
             started: false,
         }
     }
 
     /// The whole image, before anything moves: some 20 ms.
-    pub fn image_at_start(&mut self) -> Verdict {
-        let verdict = self.image.map_or(Verdict::Damaged, |image| image.all());
-        if verdict != Verdict::Whole {
+    pub fn image_at_start(&mut self) -> ImageState {
+        let verdict = self.image.map_or(ImageState::Damaged, |image| image.all());
+        if verdict != ImageState::Whole {
             self.image = None;
-            // Who put the board together was damaged code: it may have switched on what nobody knows of.
+            // Damaged code has assembled the board and may have switched anything on.
             off::everything();
         }
         verdict
     }
 
-    /// To be called once in a millisecond.
+    /// Called once a millisecond.
     pub fn service(&mut self) -> Option<Finding> {
         if self.image.is_none() {
             off::everything();
         }
         let verdict = self.image.as_mut().map(ImageCheck::slice);
-        if !self.sums.is_next_whole(block_sum) || verdict == Some(Verdict::Damaged) {
-            return Some(Finding::Broken(Trouble::Flash));
+        if !self.sums.is_next_whole(block_sum) || verdict == Some(ImageState::Damaged) {
+            return Some(Finding::Broken(FatalCause::Flash));
         }
         if !self.ram_holds() {
-            return Some(Finding::Broken(Trouble::Memory));
+            return Some(Finding::Broken(FatalCause::Memory));
         }
         if !stack::canary_is_alive() {
-            return Some(Finding::Broken(Trouble::Stack));
+            return Some(Finding::Broken(FatalCause::Stack));
         }
         if !self.pulses_hold() {
-            return Some(Finding::Broken(Trouble::Register));
+            return Some(Finding::Broken(FatalCause::Register));
         }
         let clock_has_failed = off::clock_has_failed() || clock::has_failed();
-        let clock_is_other = clock::running() != Running::PrimaryPll || !self.pace_is_even();
+        let clock_is_other = clock::running() != Running::PrimaryPll || !self.clocks_agree();
         (clock_has_failed || clock_is_other).then_some(Finding::Clock)
     }
 
@@ -124,21 +125,21 @@ impl SelfChecks {
         self.pulses.holds() && PULSED.into_iter().all(obeys)
     }
 
-    fn pace_is_even(&mut self) -> bool {
-        let look = Look {
+    fn clocks_agree(&mut self) -> bool {
+        let look = ClockSample {
             tick: tick::ticks(),
             core: cpu::count(),
             bus: self.bus.count(),
         };
         if !self.started {
             self.started = true;
-            self.pace = PaceCheck::new(look, BusClock::HALVES_PER_COUNT);
+            self.pace = ClockCheck::new(look, BusClock::HALVES_PER_COUNT);
         }
-        self.pace.update(look) == Pace::Even
+        self.pace.update(look) == ClockAgreement::Even
     }
 
-    /// The next words of memory, variables and stack alike: each is held back for some microseconds with interrupts off, so
-    /// that nobody sees it change.
+    /// Tests the next words of memory, variables and stack alike. Interrupts are off for some microseconds, so that no
+    /// code sees the words change.
     fn ram_holds(&mut self) -> bool {
         let mut holds = true;
         for _ in 0..RAM_WORDS {

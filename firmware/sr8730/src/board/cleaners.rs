@@ -6,12 +6,12 @@ use pic32mx3_hal::gpio::{Level, Output, Pin};
 use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
-use super::interlock::Motor;
+use super::interlock::InterlockedMotor;
 use super::link::by_edges::brush_pulses;
-use super::wheels::Bridge;
+use super::wheels::MotorBridge;
 use crate::logic::renewal::Renewal;
 
-/// Above this a motor with a plain switch runs.
+/// A motor with a plain switch runs above this duty, in millionths.
 const SWITCH_ON: i32 = 500_000;
 
 /// ENABLE of the main brush: RD1, OC2 on Timer3.
@@ -20,7 +20,7 @@ pub type BrushEnable = PwmChannel<2, 3, Pin<'D', 1, Output>>;
 /// The main brush.
 #[derive(Debug)]
 pub struct BrushMain {
-    bridge: Bridge<BrushEnable, Pin<'C', 2, Output>>,
+    bridge: MotorBridge<BrushEnable, Pin<'C', 2, Output>>,
     renewal: Renewal,
     has_pulses: bool,
 }
@@ -36,13 +36,13 @@ impl BrushMain {
     ) -> Self {
         decay.set_low();
         Self {
-            bridge: Bridge::new(enable, phase, Level::Low, Motor::BrushMain),
+            bridge: MotorBridge::new(enable, phase, Level::Low, InterlockedMotor::BrushMain),
             renewal: Renewal::default(),
             has_pulses,
         }
     }
 
-    /// To be called once in a millisecond.
+    /// Called once a millisecond.
     pub fn service(&mut self) {
         if self.renewal.is_overdue() {
             self.bridge.command(Throttle::ZERO);
@@ -68,14 +68,14 @@ impl CleaningMotor for BrushMain {
 #[derive(Debug)]
 pub struct Switched<P> {
     pin: P,
-    motor: Motor,
+    motor: InterlockedMotor,
     renewal: Renewal,
 }
 
 impl<P: OutputPin> Switched<P> {
     /// Off.
     #[must_use]
-    pub fn take(pin: P, motor: Motor) -> Self {
+    pub fn take(pin: P, motor: InterlockedMotor) -> Self {
         let mut switched = Self {
             pin,
             motor,
@@ -85,7 +85,7 @@ impl<P: OutputPin> Switched<P> {
         switched
     }
 
-    /// To be called once in a millisecond.
+    /// Called once a millisecond.
     pub fn service(&mut self) {
         if self.renewal.is_overdue() {
             self.write(Throttle::ZERO);

@@ -1,5 +1,5 @@
-//! Switches: bumper, wheel drops, dust box, dock contacts, buttons. All are read at each pass of the main loop, which is
-//! far more often than any of their rules needs; debouncing is cordlib's.
+//! Switches: bumper, wheel drops, dust box, dock contacts, buttons. All are read in each pass of the main loop, far
+//! more often than their rules require. cordlib debounces them.
 
 use cordlib::board::{BumperSwitches, Buttons, DockContacts, DustBox, WheelDropSwitches};
 use pic32mx3_hal::gpio::{Input, Pin};
@@ -11,14 +11,14 @@ use crate::logic::ladder::{self, Ladder};
 
 /// The bumper's two switches.
 #[derive(Debug)]
-pub struct Bumper {
+pub struct BumperContacts {
     /// RG9.
     pub left: Pin<'G', 9, Input>,
     /// RG15.
     pub right: Pin<'G', 15, Input>,
 }
 
-impl BumperSwitches for Bumper {
+impl BumperSwitches for BumperContacts {
     const ZONES: u8 = 2;
 
     fn pressed(&mut self) -> Bumpers {
@@ -75,7 +75,7 @@ impl DockContacts for Adapter {
     }
 }
 
-/// Whether there is a supply on the contacts, for the charger.
+/// Whether the contacts carry a supply, for the charger.
 #[must_use]
 pub(super) fn adapter_is_live() -> bool {
     let word = super::off::port(pins::ADAPTER).read();
@@ -90,7 +90,7 @@ pub struct ButtonLines {
 }
 
 impl ButtonLines {
-    /// With the levels of the ladder, if they are known.
+    /// With the levels of the resistor ladder, if they are calibrated.
     #[must_use]
     pub const fn take(any: Pin<'E', 9, Input>, ladder: Option<Ladder>) -> Self {
         Self { any, ladder }
@@ -109,7 +109,7 @@ impl Buttons for ButtonLines {
     }
 }
 
-/// The buttons without knowing which.
+/// The buttons before calibration: any button, without knowing which.
 #[must_use]
 pub(super) fn raw_buttons() -> ButtonProbe {
     let word = super::off::port(pins::BUTTON_ANY).read();

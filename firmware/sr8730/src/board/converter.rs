@@ -1,8 +1,8 @@
-//! The converter: ten channels once in a millisecond, and the infrared proximity sensors, whose multiplexers move on with
-//! each scan.
+//! The ADC: ten channels once a millisecond, and the infrared proximity sensors, whose multiplexers advance with each
+//! scan.
 //!
-//! The interrupt at the end of a scan copies all results with the millisecond in which they were taken, so that their age is
-//! known, and then prepares the next look of the proximity sensors, which has the rest of the millisecond to settle.
+//! The interrupt at the end of a scan copies all results with the millisecond in which they were taken, so that their
+//! age is known. It then selects the next proximity sensor, which has the rest of the millisecond to settle.
 
 use core::sync::atomic::{AtomicU16, AtomicU32, Ordering};
 
@@ -14,7 +14,7 @@ use pic32mx3_hal::{cpu, interrupt};
 use super::off::{mask, port};
 use super::tick;
 use crate::generated::pins::{self, Signal};
-use crate::logic::proximity::{FRONT_CHANNEL, Look, SENSORS, Sweep};
+use crate::logic::proximity::{FRONT_CHANNEL, SENSORS, ScanTarget, Sweep};
 
 /// Channels of the chip.
 pub const CHANNELS: usize = 16;
@@ -49,8 +49,8 @@ static LIT: [AtomicU16; SENSORS] = [const { AtomicU16::new(0) }; SENSORS];
 static EMITTER: AtomicU32 = AtomicU32::new(Emitter::Sweeping as u32);
 static HANDLER: HandlerCell<vector::ADC, Scanning> = HandlerCell::empty();
 
-/// Who uses the infrared emitters. The sweep goes on by itself; the code for the dock asks and is answered by the next
-/// scan, when the emitter is dark and the multiplexers stand on the front emitter.
+/// User of the infrared emitters. The sweep runs by itself. The code for the dock requests the front emitter; the next
+/// scan lends it, with the emitter dark and the multiplexers set to it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
 pub(super) enum Emitter {
@@ -81,12 +81,12 @@ fn on_scan(context: &mut Context<vector::ADC>) {
 }
 interrupt!(ADC, on_scan);
 
-/// Notes what this look saw and prepares the one after it.
+/// Stores the reading of this scan and selects the target of the next one.
 fn next_look(sweep: Sweep) -> Sweep {
     match EMITTER.load(Ordering::Relaxed) {
         LENT => Sweep::new(),
         ASKED => {
-            aim(Look {
+            select_channel(ScanTarget {
                 channel: FRONT_CHANNEL,
                 lit: false,
             });
@@ -94,14 +94,14 @@ fn next_look(sweep: Sweep) -> Sweep {
             Sweep::new()
         }
         _ => {
-            let Look { channel, lit } = sweep.look();
+            let ScanTarget { channel, lit } = sweep.look();
             let seen = count(pins::PROXIMITY_RECEIVE);
             let readings = if lit { &LIT } else { &DARK };
             if let Some(reading) = readings.get(usize::from(channel)) {
                 reading.store(seen, Ordering::Relaxed);
             }
             let next = sweep.next();
-            aim(next.look());
+            select_channel(next.look());
             next
         }
     }
@@ -110,18 +110,18 @@ fn next_look(sweep: Sweep) -> Sweep {
 const ASKED: u32 = Emitter::Asked as u32;
 const LENT: u32 = Emitter::Lent as u32;
 
-/// Select lines move in the dark only. Writes latches by their set and clear registers, so neighbours on these ports are
-/// left alone.
-fn aim(look: Look) {
-    put(pins::PROXIMITY_EMIT, false);
-    put(pins::PROXIMITY_SELECT_A, look.channel & 1 != 0);
-    put(pins::PROXIMITY_SELECT_B, look.channel & 2 != 0);
-    put(pins::PROXIMITY_SELECT_C, look.channel & 4 != 0);
-    put(pins::PROXIMITY_EMIT, look.lit);
+/// Changes the select lines only while the emitter is dark. Writes latches through their set and clear registers, so
+/// other pins of these ports do not change.
+fn select_channel(look: ScanTarget) {
+    write_pin(pins::PROXIMITY_EMIT, false);
+    write_pin(pins::PROXIMITY_SELECT_A, look.channel & 1 != 0);
+    write_pin(pins::PROXIMITY_SELECT_B, look.channel & 2 != 0);
+    write_pin(pins::PROXIMITY_SELECT_C, look.channel & 4 != 0);
+    write_pin(pins::PROXIMITY_EMIT, look.lit);
 }
 
 #[inline(always)]
-pub(super) fn put(signal: Signal, high: bool) {
+pub(super) fn write_pin(signal: Signal, high: bool) {
     let port: Port = port(signal);
     if high {
         port.set(mask(signal));
@@ -135,7 +135,7 @@ pub(super) fn put(signal: Signal, high: bool) {
 pub fn take(adc: Adc) -> (Scanner, Channels) {
     let (scanner, results) = adc.start(TIMING);
     let sweep = Sweep::new();
-    aim(sweep.look());
+    select_channel(sweep.look());
     // Given once, because `Peripherals` gives the converter once.
     HANDLER.hand_over(Scanning { results, sweep }).ok();
     interrupt::set_priority(Vector::Adc, Priority::Level3, SubPriority::Sub0).ok();
@@ -164,7 +164,7 @@ pub fn counts() -> [u16; CHANNELS] {
     })
 }
 
-/// Runs a function between two scans, so that what it reads belongs to one of them.
+/// Runs a function between two scans, so that all its readings belong to the same scan.
 pub fn whole<R>(function: impl FnOnce() -> R) -> R {
     cpu::with_level(Priority::Level3, function)
 }
@@ -192,7 +192,7 @@ pub fn proximity(sensor: usize) -> (u16, u16) {
     (of(&DARK), of(&LIT))
 }
 
-/// Asks for the front emitter.
+/// Requests the front emitter.
 pub(super) fn ask_for_emitter() {
     EMITTER.store(ASKED, Ordering::Relaxed);
 }
@@ -202,8 +202,8 @@ pub(super) fn emitter_is_lent() -> bool {
     EMITTER.load(Ordering::Relaxed) == LENT
 }
 
-/// Gives the emitters back to the sweep, dark.
+/// Returns the emitters to the sweep, dark.
 pub(super) fn return_emitter() {
-    put(pins::PROXIMITY_EMIT, false);
+    write_pin(pins::PROXIMITY_EMIT, false);
     EMITTER.store(Emitter::Sweeping as u32, Ordering::Relaxed);
 }

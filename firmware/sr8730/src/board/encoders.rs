@@ -1,8 +1,7 @@
 //! The wheels' encoders on the input captures IC1 to IC4.
 //!
-//! Each edge interrupts; the count comes from the levels of both lines then, not from the captures. A direction that only
-//! one line showed would not be known, and a wheel with one dead line must look wrong, not half as fast: it then shows
-//! illegal transitions or none.
+//! Each edge interrupts. The count follows from the levels of both lines, not from the captured times. A wheel with one
+//! dead line then shows illegal transitions or none, instead of half the speed in an unknown direction.
 
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 
@@ -18,13 +17,13 @@ use super::off::{mask, port};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
 use crate::generated::pins::{self, Signal};
-use crate::logic::quadrature::{Levels, Order, Step, step};
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
+use crate::logic::quadrature::{Levels, PhaseOrder, Step, step};
 
 /// Edges of one line in a millisecond: a wheel at full speed makes one, so this is noise.
 const EDGES_PER_MS: u32 = 40;
 
-/// Count of one wheel, written by its two handlers, which are of one level.
+/// Count of one wheel, written by its two handlers, which have the same interrupt level.
 #[derive(Debug)]
 struct WheelCount {
     lines: [Signal; 2],
@@ -35,7 +34,7 @@ struct WheelCount {
 
 static LEFT: WheelCount = WheelCount::new([pins::WHEEL_LEFT_ENCODER_1, pins::WHEEL_LEFT_ENCODER_2]);
 static RIGHT: WheelCount = WheelCount::new([pins::WHEEL_RIGHT_ENCODER_1, pins::WHEEL_RIGHT_ENCODER_2]);
-static BUDGETS: [Budget; 4] = [const { Budget::new(EDGES_PER_MS) }; 4];
+static RATE_LIMITS: [InterruptRateLimit; 4] = [const { InterruptRateLimit::new(EDGES_PER_MS) }; 4];
 
 type Line1 = Capture<1, Pin<'D', 8, Input>>;
 type Line2 = Capture<2, Pin<'D', 9, Input>>;
@@ -55,7 +54,7 @@ macro_rules! on_edge {
                 capture.drain();
             }
             Source::$source.clear();
-            if !BUDGETS[$budget].spend() {
+            if !RATE_LIMITS[$budget].spend() {
                 Source::$source.disable();
             }
             $wheel.look();
@@ -130,13 +129,13 @@ pub struct EncoderLines {
 /// Both encoders.
 #[derive(Debug)]
 pub struct WheelEncoders {
-    left: Order,
-    right: Order,
+    left: PhaseOrder,
+    right: PhaseOrder,
     calibrated: bool,
 }
 
 impl WheelEncoders {
-    /// Starts counting. Timer3, which runs for the motors, is the captures' time base; their times are not used.
+    /// Starts counting. Timer3, which runs for the motors, is the time base of the captures; their times are not used.
     #[must_use]
     pub fn take(lines: EncoderLines, calibration: &Calibration) -> Self {
         let (edge, timer) = (CaptureEdge::Both, CaptureTimer::Timer3);
@@ -164,22 +163,22 @@ impl WheelEncoders {
             source.enable();
         }
         Self {
-            left: Order::from_calibration(calibration.measured(Calibrated::WheelLeftOrder)),
-            right: Order::from_calibration(calibration.measured(Calibrated::WheelRightOrder)),
+            left: PhaseOrder::from_calibration(calibration.measured(Calibrated::WheelLeftOrder)),
+            right: PhaseOrder::from_calibration(calibration.measured(Calibrated::WheelRightOrder)),
             calibrated: calibration.wheels().is_some(),
         }
     }
 
-    /// To be called once in a millisecond: lines that were switched off for noise get another chance.
+    /// Called once a millisecond: enables lines again that were disabled for noise.
     pub fn service(&mut self) {
-        for (budget, source) in BUDGETS.iter().zip(SOURCES) {
+        for (budget, source) in RATE_LIMITS.iter().zip(SOURCES) {
             if budget.renew() {
                 source.enable();
             }
         }
     }
 
-    /// Whether way and order are known, so that speeds can be controlled.
+    /// Whether distance per count and order are calibrated, so that speeds can be controlled.
     #[must_use]
     pub const fn is_calibrated(&self) -> bool {
         self.calibrated
@@ -197,7 +196,7 @@ impl Encoders for WheelEncoders {
     }
 }
 
-/// Totals without any order or unit, line 1 leading positive.
+/// Raw totals: line 1 leading is positive, without calibrated order or unit.
 #[must_use]
 pub(super) fn raw() -> EncoderProbe {
     EncoderProbe {
@@ -209,18 +208,19 @@ pub(super) fn raw() -> EncoderProbe {
     }
 }
 
-/// Counts of both wheels together since the last call, whatever their direction: a measure of way.
+/// Counts of both wheels together since the last call, in any direction: a measure of distance.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct WayCounter {
+pub(super) struct Odometer {
     left: i32,
     right: i32,
 }
 
-impl WayCounter {
+impl Odometer {
     pub(super) fn take(&mut self) -> u32 {
         let (left, right) = (LEFT.total(), RIGHT.total());
-        let way = left.wrapping_sub(self.left).unsigned_abs() + right.wrapping_sub(self.right).unsigned_abs();
+        let counts =
+            left.wrapping_sub(self.left).unsigned_abs() + right.wrapping_sub(self.right).unsigned_abs();
         (self.left, self.right) = (left, right);
-        way
+        counts
     }
 }

@@ -1,10 +1,10 @@
-//! The charger's gate stays shut while a motor may draw current.
+//! Keeps the charger's gate shut while a motor may draw current.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
 /// A motor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motor {
+pub enum InterlockedMotor {
     /// Left wheel.
     WheelLeft = 1,
     /// Right wheel.
@@ -17,14 +17,14 @@ pub enum Motor {
     Vacuum = 16,
 }
 
-/// Which motors may draw current. The main program writes, handlers read.
+/// Motors that may draw current. Written by the main program, read by interrupt handlers.
 #[derive(Debug)]
 struct Interlock {
-    /// A bit for each, as [`Motor`] numbers them.
+    /// A bit for each, as [`InterlockedMotor`] numbers them.
     driven: AtomicU32,
 }
 
-/// That of this chip.
+/// The interlock of this chip.
 static INTERLOCK: Interlock = Interlock::new();
 
 impl Interlock {
@@ -35,7 +35,7 @@ impl Interlock {
     }
 
     #[inline(always)]
-    fn note(&self, motor: Motor, driven: bool) {
+    fn note(&self, motor: InterlockedMotor, driven: bool) {
         let motors = self.driven.load(Ordering::Relaxed);
         let changed = if driven {
             motors | motor as u32
@@ -51,8 +51,8 @@ impl Interlock {
     }
 }
 
-impl Motor {
-    /// Notes whether it may draw current. Called from the main program only.
+impl InterlockedMotor {
+    /// Notes whether the motor may draw current. Called from the main program only.
     pub(super) fn note(self, driven: bool) {
         INTERLOCK.note(self, driven);
     }
@@ -67,14 +67,14 @@ pub(super) fn any_motor_driven() -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{Interlock, Motor};
+    use super::{Interlock, InterlockedMotor};
 
-    const MOTORS: [Motor; 5] = [
-        Motor::WheelLeft,
-        Motor::WheelRight,
-        Motor::BrushMain,
-        Motor::BrushSides,
-        Motor::Vacuum,
+    const MOTORS: [InterlockedMotor; 5] = [
+        InterlockedMotor::WheelLeft,
+        InterlockedMotor::WheelRight,
+        InterlockedMotor::BrushMain,
+        InterlockedMotor::BrushSides,
+        InterlockedMotor::Vacuum,
     ];
 
     #[test]

@@ -7,13 +7,13 @@
 //! | 6 | clock monitor | everything off |
 //! | 5 | Timer4, while something is sent | next level of the link |
 //! | 4 | input captures 1 to 4 | counts of the wheels |
-//! | 3 | converter, once in a millisecond | copies a scan, moves the proximity sensors on |
+//! | 3 | ADC, once a millisecond | copies a scan, selects the next proximity sensor |
 //! | 3 | Timer3, while charging | the charger's pulse of this PWM period |
-//! | 3 | Timer1, during 16.5 of 200 ms while the dock is asked | half a carrier period of the code for the dock |
+//! | 3 | Timer1, during 16.5 of 200 ms while current is requested | half a carrier period of the code for the dock |
 //! | 3 | external interrupts, UARTs | edges of the beam receivers, bytes of the gyro module |
 //! | 2 | core timer | the millisecond |
 //!
-//! Handlers and main loop share atomic words and bounded rings; nothing else.
+//! Handlers and main loop share only atomic words and bounded rings.
 
 pub mod bus_clock;
 pub mod charger;
@@ -51,7 +51,7 @@ impl Parts for Sr8730 {
     type Reset = resets::Starts;
     type Watchdog = resets::Supervised;
     type Encoders = encoders::WheelEncoders;
-    type Bumpers = contacts::Bumper;
+    type Bumpers = contacts::BumperContacts;
     type Cliffs = sensing::CliffReceivers;
     type WheelDrops = contacts::DropSwitches;
     type Proximity = sensing::ProximityReceivers;
@@ -70,7 +70,7 @@ impl Parts for Sr8730 {
     type Probe = probe::RawReadings;
 }
 
-/// What a service of all parts found.
+/// Result of the parts' service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Service {
     /// Nothing special.
@@ -79,7 +79,7 @@ pub enum Service {
     DamagedVariable,
 }
 
-/// What the parts do once in a millisecond, apart from what cordlib asks of them.
+/// Periodic work of the parts, once a millisecond, besides the calls from cordlib.
 pub fn service(board: &mut Board<Sr8730>) -> Service {
     board.wheels.service();
     board.brush_main.service();

@@ -1,7 +1,8 @@
-//! Everything off at once, for code that owns nothing: the panic handler, the exception hook, the handler of a failing clock.
+//! Switches everything off, for code that owns no part: the panic handler, the exception hook, the handler of a failing
+//! clock.
 //!
-//! Output compares fall back to their pins' latches, which are low. PHASE and MODE stay: with ENABLE low and MODE
-//! high the wheels brake.
+//! Disabled output compares leave their pins to the latches, which are low. PHASE and MODE stay: with ENABLE low and
+//! MODE high the wheels brake.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,7 +21,7 @@ const SWITCHES: [Signal; 4] = [
     pins::SOUND_ENABLE,
 ];
 
-/// The clock monitor has found the crystal dead; nothing is switched on any more until the next reset.
+/// The clock monitor has detected a failed crystal; nothing is switched on again before the next reset.
 static CLOCK_FAILED: AtomicBool = AtomicBool::new(false);
 
 /// Switches off all motors, the charger, the sound and the infrared emitter. Takes a microsecond.

@@ -20,11 +20,11 @@ pub struct LightPins {
     pub main: Pin<'A', 6, Output>,
     /// Supply of the second group: RG1.
     pub battery: Pin<'G', 1, Output>,
-    /// LED_UNKNOWNS: the supply of nobody knows what, RG0, unless it is known to switch the emitters of the cliff sensors.
+    /// LED_UNKNOWNS: a supply of unknown purpose, RG0, unless it is known to switch the emitters of the cliff sensors.
     pub unknown: Option<Pin<'G', 0, Output>>,
 }
 
-/// The eight lights, and as a ninth the supply of unknown purpose, so that a person can find out what it feeds.
+/// The eight lights, and as a ninth the supply of unknown purpose, so that its load can be found out.
 #[derive(Debug)]
 pub struct PanelLights {
     pins: LightPins,
@@ -43,7 +43,7 @@ impl PanelLights {
         }
     }
 
-    /// To be called once in a millisecond: the other group's turn.
+    /// Called once a millisecond: switches to the other group.
     pub fn service(&mut self) {
         if self.lamps.any() {
             let shown = self.lamps.change();
@@ -57,7 +57,7 @@ impl PanelLights {
         }
     }
 
-    /// Supplies off, lines, supply on: no line ever lights the other group.
+    /// Supplies off, lines set, supply on: so no line lights the other group.
     fn show(&mut self, shown: LampLines) {
         self.pins.main.set_low();
         self.pins.battery.set_low();

@@ -1,6 +1,6 @@
-//! Raw readings for a person who calibrates: what stands on the pins, before any threshold or unit.
+//! Raw readings of the pins for calibration, without threshold or unit.
 
-use cordlib::board::Probe;
+use cordlib::board::PinProbe;
 use pic32mx3_hal::gpio::Port;
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, PROBE_PORTS, Refusal};
 
@@ -8,26 +8,26 @@ use super::link::by_edges::port_c;
 use super::serial::SerialPorts;
 use super::{contacts, converter, encoders};
 
-/// Everything that can be looked at.
+/// All raw readings.
 #[derive(Debug)]
 pub struct RawReadings {
     ports: SerialPorts,
 }
 
 impl RawReadings {
-    /// Owns the serial ports, which are opened at any rate for a probe.
+    /// Owns the serial ports, which a probe can open at any rate.
     #[must_use]
     pub const fn take(ports: SerialPorts) -> Self {
         Self { ports }
     }
 
-    /// To be called once in a millisecond.
+    /// Called once a millisecond.
     pub fn service(&mut self) {
         self.ports.service();
     }
 }
 
-impl Probe for RawReadings {
+impl PinProbe for RawReadings {
     const PRESENT: bool = true;
 
     fn analog(&mut self) -> [u16; PROBE_CHANNELS] {

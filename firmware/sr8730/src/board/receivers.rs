@@ -1,6 +1,7 @@
-//! The four infrared receivers that hear the dock's beams: INT3, INT4, INT0, INT1.
+//! The four infrared receivers of the dock's beams: INT3, INT4, INT0, INT1.
 //!
-//! A pin interrupts at one of its edges, so each handler turns to the other edge when it has noted this one.
+//! An external interrupt triggers on one polarity, so each handler selects the opposite edge after it has stored this
+//! one.
 
 use cordlib::board::DockBeams;
 use pic32mx3_hal::cpu;
@@ -13,7 +14,7 @@ use soft_uart::{Edge, EdgeRing, Level, Queued};
 
 use super::tick;
 use crate::logic::beam::{BeamCodes, BeamReceiver, Light};
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
 
 const RECEIVERS: usize = 4;
 /// Edges of one receiver in a millisecond; a code makes two at most.
@@ -22,7 +23,8 @@ const EDGES_PER_MS: u32 = 20;
 const EDGES: usize = 32;
 
 static HEARD: [EdgeRing<EDGES>; RECEIVERS] = [const { EdgeRing::new() }; RECEIVERS];
-static BUDGETS: [Budget; RECEIVERS] = [const { Budget::new(EDGES_PER_MS) }; RECEIVERS];
+static RATE_LIMITS: [InterruptRateLimit; RECEIVERS] =
+    [const { InterruptRateLimit::new(EDGES_PER_MS) }; RECEIVERS];
 
 type DockLeft = Pin<'A', 14, Input>;
 type DockRight = Pin<'A', 15, Input>;
@@ -51,7 +53,7 @@ macro_rules! on_edge {
                 let level = if heard { Level::Low } else { Level::High };
                 HEARD[$number].push(Edge { at, level });
             }
-            if !BUDGETS[$number].spend() {
+            if !RATE_LIMITS[$number].spend() {
                 SOURCES[$number].disable();
             }
         }
@@ -64,8 +66,8 @@ on_edge!(on_dock_right, EXTERNAL_4, DOCK_RIGHT, 1);
 on_edge!(on_rear_left, EXTERNAL_0, REAR_LEFT, 2);
 on_edge!(on_rear_right, EXTERNAL_1, REAR_RIGHT, 3);
 
-/// Waits for the edge that leads away from the present level, and returns whether the receiver hears the carrier (low). If the
-/// level changes while the edge is chosen, the edge is missed, so look again.
+/// Selects the edge that leads away from the present level, and returns whether the receiver sees the carrier (low). If
+/// the level changes meanwhile, that edge is missed, so the level is read again.
 trait Follow {
     fn is_hearing(&self) -> bool;
     fn wait_for(&mut self, edge: TriggerEdge);
@@ -118,7 +120,7 @@ pub struct BeamReceivers {
 }
 
 impl BeamReceivers {
-    /// Starts listening, if the beams' codes are known.
+    /// Starts receiving, if the beams' codes are calibrated.
     #[must_use]
     pub fn take(mut pins: ReceiverPins, codes: Option<BeamCodes>) -> Self {
         follow(&mut pins.dock_left);
@@ -150,7 +152,7 @@ impl BeamReceivers {
         }
     }
 
-    /// To be called once in a millisecond: takes what was heard.
+    /// Called once a millisecond: decodes the received edges.
     pub fn service(&mut self) {
         let Some(codes) = self.codes else {
             return;
@@ -169,7 +171,7 @@ impl BeamReceivers {
             }
             *symbol = receiver.poll(count, now, &codes);
         }
-        for (budget, source) in BUDGETS.iter().zip(SOURCES) {
+        for (budget, source) in RATE_LIMITS.iter().zip(SOURCES) {
             if budget.renew() {
                 source.enable();
             }

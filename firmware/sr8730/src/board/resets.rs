@@ -1,4 +1,4 @@
-//! Why the chip started, how often of late, and the watchdog.
+//! Reset cause, recent resets, and the watchdog.
 
 use cordlib::board::{ResetRecord, Watchdog};
 use pic32mx3_hal::persistent::Persistent;
@@ -8,13 +8,13 @@ use rvac_protocol::message::ResetCause;
 
 use super::{converter, tick};
 use crate::logic::life::SignsOfLife;
-use crate::logic::reset_log::{ResetLog, Trouble, WORDS};
+use crate::logic::reset_log::{FatalCause, ResetLog, WORDS};
 
 #[cfg_attr(target_arch = "mips", unsafe(link_section = ".noinit"))]
 static LOG: Persistent<WORDS> = Persistent::uninitialised();
 
-/// The cause in the words of the wire. With power the brown-out bit is set, too, and a watchdog that bites during a brown-out is
-/// a brown-out; so the order matters.
+/// The reset cause of the wire. Power-on sets the brown-out bit as well, and a watchdog reset during a brown-out counts
+/// as a brown-out, so the order matters.
 #[must_use]
 pub fn cause_of(causes: Causes) -> ResetCause {
     if causes.power_on() {
@@ -32,44 +32,48 @@ pub fn cause_of(causes: Causes) -> ResetCause {
     }
 }
 
-/// Notes what ended this run, for the next one to tell.
-pub fn note(trouble: Trouble) {
+/// Notes what ended this run, for the report of the next one.
+pub fn note(fatal_cause: FatalCause) {
     let log = LOG.load().map(ResetLog::from_words);
     let log = log.unwrap_or(ResetLog {
         boots: 0,
         recent: 0,
-        trouble,
+        fatal_cause,
     });
-    LOG.store(ResetLog { trouble, ..log }.words());
+    LOG.store(ResetLog { fatal_cause, ..log }.words());
 }
 
-/// This start, and those before it.
+/// This start and the log of earlier ones.
 #[derive(Debug)]
 pub struct Starts {
     cause: ResetCause,
     log: ResetLog,
-    trouble: Trouble,
+    fatal_cause: FatalCause,
 }
 
 impl Starts {
-    /// Counts this start. Once in a run: the chip's bits are cleared by it.
+    /// Counts this start. Called once: it clears the chip's reset bits.
     #[must_use]
     pub fn take() -> Self {
         let cause = cause_of(Causes::take());
         let log = ResetLog::after_start(LOG.load().map(ResetLog::from_words), cause);
-        let trouble = log.trouble;
+        let fatal_cause = log.fatal_cause;
         let log = ResetLog {
-            trouble: Trouble::None,
+            fatal_cause: FatalCause::None,
             ..log
         };
         LOG.store(log.words());
-        Self { cause, log, trouble }
+        Self {
+            cause,
+            log,
+            fatal_cause,
+        }
     }
 
-    /// What ended the run before this one, if it could note it.
+    /// What ended the previous run, if it was noted.
     #[must_use]
-    pub const fn trouble(&self) -> Trouble {
-        self.trouble
+    pub const fn fatal_cause(&self) -> FatalCause {
+        self.fatal_cause
     }
 }
 
@@ -92,8 +96,8 @@ impl ResetRecord for Starts {
     }
 }
 
-/// The watchdog of 128 ms. It is fed from the main loop only, when cordlib's stages have run and both interrupts that the
-/// rest hangs on still come.
+/// The watchdog of 128 ms. It is fed only from the main loop, if cordlib's stages have run and the two essential
+/// interrupts still come.
 #[derive(Debug)]
 pub struct Supervised {
     watchdog: watchdog::Watchdog,
@@ -101,7 +105,7 @@ pub struct Supervised {
 }
 
 impl Supervised {
-    /// Running from here on, if the configuration words did not start it already.
+    /// Starts it, unless the configuration words did so already.
     #[must_use]
     pub fn take(mut watchdog: watchdog::Watchdog) -> Self {
         watchdog.start();

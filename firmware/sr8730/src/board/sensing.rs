@@ -6,12 +6,12 @@ use rvac_protocol::message::{Cliffs, Currents, PROXIMITY_SENSORS};
 use rvac_units::Current;
 
 use super::converter;
-use super::encoders::WayCounter;
+use super::encoders::Odometer;
 use super::tick;
 use crate::calibration::{Calibration, CliffCalibration, CliffEmitters, CurrentCalibration};
 use crate::generated::calibration::Calibrated;
 use crate::generated::pins::{self, Signal};
-use crate::logic::floor_light::{StillnessWatch, still_counts};
+use crate::logic::floor_light::{FrozenReadingDetector, frozen_after_counts};
 use crate::logic::proximity::{ProximityScale, SENSORS};
 
 const CLIFFS: [Signal; 3] = [pins::CLIFF_LEFT, pins::CLIFF_MIDDLE, pins::CLIFF_RIGHT];
@@ -23,31 +23,31 @@ pub struct CliffReceivers {
     emitters: Option<Pin<'G', 0, Output>>,
     calibration: Option<CliffCalibration>,
     lit: bool,
-    watch: [StillnessWatch; 3],
-    way: WayCounter,
-    still_counts: u32,
+    watch: [FrozenReadingDetector; 3],
+    odometer: Odometer,
+    frozen_after_counts: u32,
     seen: u32,
     plausible: [bool; 3],
 }
 
 impl CliffReceivers {
-    /// With what is known of their emitters and levels; `emitters` is the line that switches them, if one does.
+    /// With their calibrated emitters and levels; `emitters` is the line that switches them, if any.
     #[must_use]
     pub fn take(emitters: Option<Pin<'G', 0, Output>>, calibration: &Calibration) -> Self {
         Self {
             emitters,
             calibration: calibration.cliffs(),
             lit: true,
-            watch: [StillnessWatch::default(); 3],
-            way: WayCounter::default(),
-            still_counts: still_counts(calibration.measured(Calibrated::WheelCountWay)),
+            watch: [FrozenReadingDetector::default(); 3],
+            odometer: Odometer::default(),
+            frozen_after_counts: frozen_after_counts(calibration.measured(Calibrated::WheelDistancePerCount)),
             seen: 0,
             plausible: [true; 3],
         }
     }
 
-    /// Levels of emitters that nothing switches. A dark look cannot be had, so the level of a drop stands for it; and a
-    /// receiver whose readings no living sensor gives shows that level when lit, too, which cordlib takes for a drop.
+    /// Levels for emitters that are always lit. The level of a drop stands in for the dark reading. A receiver with
+    /// implausible readings reports that level when lit as well, which cordlib treats as a drop.
     fn always_lit(&mut self, counts: [u16; 3], drop_level: u16) -> [u16; 3] {
         if !self.lit {
             return [drop_level; 3];
@@ -55,9 +55,9 @@ impl CliffReceivers {
         let scans = converter::scans();
         if scans != self.seen {
             self.seen = scans;
-            let way = self.way.take();
+            let counts_moved = self.odometer.take();
             for ((plausible, watch), count) in self.plausible.iter_mut().zip(&mut self.watch).zip(counts) {
-                *plausible = watch.is_plausible(count, way, self.still_counts);
+                *plausible = watch.is_plausible(count, counts_moved, self.frozen_after_counts);
             }
         }
         let [left, middle, right] = self.plausible;
@@ -103,7 +103,7 @@ pub struct ProximityReceivers {
 }
 
 impl ProximityReceivers {
-    /// With the readings that mean nothing and touching, if they are known.
+    /// With the calibrated readings for no object and for contact, if they are known.
     #[must_use]
     pub const fn take(scale: Option<ProximityScale>) -> Self {
         Self { scale }
@@ -129,29 +129,30 @@ impl ProximitySensors for ProximityReceivers {
 #[derive(Debug)]
 pub struct WheelCurrents {
     calibration: Option<CurrentCalibration>,
-    smooth: [Smooth; 2],
+    filters: [LowPass; 2],
     at: u32,
 }
 
-/// A mean over the last few milliseconds: the line is not filtered, and a motor at 20 kHz makes it jump.
+/// First-order low-pass filter over some milliseconds: the line has no filter, and a motor with 20 kHz PWM makes it
+/// noisy.
 #[derive(Clone, Copy, Debug, Default)]
-struct Smooth {
+struct LowPass {
     sixteenths: i32,
 }
 
-impl Smooth {
+impl LowPass {
     const fn take(&mut self, count: u16) {
         self.sixteenths += count as i32 - self.sixteenths / 16;
     }
 }
 
 impl WheelCurrents {
-    /// With zero and scale, if they are known.
+    /// With offset and scale, if they are calibrated.
     #[must_use]
     pub fn take(calibration: Option<CurrentCalibration>) -> Self {
         Self {
             calibration,
-            smooth: [Smooth::default(); 2],
+            filters: [LowPass::default(); 2],
             at: tick::ticks(),
         }
     }
@@ -165,16 +166,16 @@ impl CurrentSense for WheelCurrents {
         converter::age_ms()?;
         let counts = [pins::WHEEL_LEFT_CURRENT, pins::WHEEL_RIGHT_CURRENT].map(converter::count);
         let now = tick::ticks();
-        let [left, right] = &mut self.smooth;
+        let [left, right] = &mut self.filters;
         let [left_count, right_count] = counts;
         if now != self.at {
             self.at = now;
             left.take(left_count);
             right.take(right_count);
         }
-        let current = |smooth: &Smooth, zero: i32| {
+        let current = |filter: &LowPass, zero: i32| {
             // Below 1,023 counts of 50 mA: fits.
-            Current((smooth.sixteenths / 16 - zero) * known.scale_ua / 1_000)
+            Current((filter.sixteenths / 16 - zero) * known.scale_ua / 1_000)
         };
         Some(Currents {
             wheel_left: current(left, known.left_zero),

@@ -1,5 +1,5 @@
-//! The two hardware UARTs, which only listen: the gyro module is on one of them, the built-in Linux board on the other, and
-//! nobody has recorded which. Also the gyro itself, once its frames are known.
+//! The two hardware UARTs, which only receive. The gyro module is on one of them and the built-in Linux board on the
+//! other; which is not documented. Also the gyro itself, if its frames are calibrated.
 
 use core::sync::atomic::{AtomicU8, AtomicU32, Ordering};
 
@@ -14,19 +14,19 @@ use soft_uart::ByteRing;
 use super::tick;
 use crate::calibration::GyroCalibration;
 use crate::logic::gyro_frame::FrameReader;
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
 
 const BUS_HZ: u32 = 80_000_000;
 /// Bytes that wait for the main loop: 2 ms at a million baud.
 const BYTES: usize = 256;
 /// Interrupts of a port in a millisecond: a byte each at a million baud.
 const BYTES_PER_MS: u32 = 120;
-/// A gyro that has said nothing for this long gives no heading.
+/// A gyro that has sent nothing for this long gives no heading.
 const SILENT_MS: u32 = 100;
 
 static RECEIVED: [ByteRing<BYTES>; 2] = [const { ByteRing::new() }; 2];
 static LOST: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
-static BUDGETS: [Budget; 2] = [const { Budget::new(BYTES_PER_MS) }; 2];
+static RATE_LIMITS: [InterruptRateLimit; 2] = [const { InterruptRateLimit::new(BYTES_PER_MS) }; 2];
 static PORT_1: HandlerCell<vector::UART_1, Receiver<1, Pin<'F', 2, Input>>> = HandlerCell::empty();
 static PORT_2: HandlerCell<vector::UART_2, Receiver<2, Pin<'F', 4, Input>>> = HandlerCell::empty();
 const SOURCES: [Source; 2] = [Source::Uart1Received, Source::Uart2Received];
@@ -47,7 +47,7 @@ macro_rules! on_byte {
                 }
             }
             SOURCES[$number].clear();
-            if !BUDGETS[$number].spend() {
+            if !RATE_LIMITS[$number].spend() {
                 SOURCES[$number].disable();
             }
         }
@@ -132,7 +132,7 @@ pub struct SerialParts {
 }
 
 impl SerialPorts {
-    /// Listens to the gyro module if its port and rate are known; else both ports are off and it has no power.
+    /// Opens the port of the gyro module if port and rate are calibrated; else both ports are off and it has no power.
     #[must_use]
     pub fn take(parts: SerialParts, gyro: Option<GyroCalibration>) -> Self {
         let (uart, pin) = parts.uart1;
@@ -165,11 +165,11 @@ impl SerialPorts {
         self.gyro.map(|(port, _)| port)
     }
 
-    /// To be called once in a millisecond: ports that were switched off for noise get another chance.
+    /// Called once a millisecond: enables ports again that were disabled for noise.
     pub fn service(&mut self) {
         for (port, (budget, source)) in [PortNumber::One, PortNumber::Two]
             .into_iter()
-            .zip(BUDGETS.iter().zip(SOURCES))
+            .zip(RATE_LIMITS.iter().zip(SOURCES))
         {
             if budget.renew() && user(port) != User::Nobody {
                 source.enable();
@@ -214,7 +214,7 @@ impl SerialPorts {
         self.probed.map_or(0, lost)
     }
 
-    /// Ends a probe; a gyro that was there before is listened to again.
+    /// Ends a probe and opens the gyro's port again.
     pub fn end_probe(&mut self) {
         let Some(port) = self.probed.take() else {
             return;
@@ -246,7 +246,7 @@ impl SerialPorts {
         started.map_err(|_| Refusal::Range)
     }
 
-    /// The module has power while anybody listens: it may be on either port.
+    /// The module has power while any port is open: it may be on either port.
     fn set_user(&mut self, port: PortNumber, user: User) {
         let index = port.index();
         if let Some(place) = USERS.get(index) {
@@ -290,7 +290,7 @@ pub struct GyroModule {
 }
 
 impl GyroModule {
-    /// Reads from this port what its frames say; `None` when the module is not known.
+    /// Reads frames from this port; `None` if the module is not calibrated.
     #[must_use]
     pub fn take(port: Option<PortNumber>) -> Self {
         Self {
@@ -301,7 +301,7 @@ impl GyroModule {
         }
     }
 
-    /// To be called once in a millisecond: reads what the module has said.
+    /// Called once a millisecond: reads received frames.
     pub fn service(&mut self) {
         let Some(port) = self.port.filter(|port| user(*port) == User::Gyro) else {
             self.reader.restart();

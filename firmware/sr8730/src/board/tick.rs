@@ -17,7 +17,7 @@ const COUNTS_PER_US: u32 = 40;
 static TICKS: AtomicU32 = AtomicU32::new(0);
 /// The core timer when the newest millisecond was counted.
 static COUNTED_AT: AtomicU32 = AtomicU32::new(0);
-/// 1 when the main loop has not yet seen the newest millisecond.
+/// 1 while the main loop has not yet taken the newest millisecond.
 static NEWS: AtomicU32 = AtomicU32::new(0);
 static HANDLER: HandlerCell<vector::CORE_TIMER, Ticking> = HandlerCell::empty();
 
@@ -84,17 +84,18 @@ pub fn ticks() -> u32 {
     TICKS.load(Ordering::Relaxed)
 }
 
-/// Sleeps until a millisecond has been counted that [`take_news`] has not told of. Other interrupts are served meanwhile.
+/// Sleeps until a millisecond has been counted that [`take_news`] has not returned yet. Other interrupts are served
+/// meanwhile.
 pub fn wait() {
     while NEWS.load(Ordering::Acquire) == 0 {
         cpu::sleep_while_zero(&NEWS);
     }
 }
 
-/// Whether a millisecond has been counted since this was asked last.
+/// Whether a millisecond has been counted since the last call.
 pub fn take_news() -> bool {
     let news = NEWS.load(Ordering::Acquire) != 0;
-    // One that is counted just before this line is seen, too: the clock is read after it.
+    // A millisecond that is counted just before this line is not lost: the clock is read afterwards.
     if news {
         NEWS.store(0, Ordering::Relaxed);
     }

@@ -8,25 +8,25 @@ use pic32mx3_hal::gpio::{Output, Pin};
 use pic32mx3_hal::pwm::PwmChannel;
 use rvac_units::Throttle;
 
-use super::interlock::Motor;
-use crate::logic::bridge::{BridgeLines, BridgeSequence, Turn};
+use super::interlock::InterlockedMotor;
+use crate::logic::bridge::{BridgeLines, BridgeSequence, MotorDirection};
 use crate::logic::renewal::Renewal;
 
 /// A bridge with ENABLE and PHASE.
 #[derive(Debug)]
-pub struct Bridge<E, P> {
+pub struct MotorBridge<E, P> {
     enable: E,
     phase: P,
     forward: Level,
-    motor: Motor,
+    motor: InterlockedMotor,
     sequence: BridgeSequence,
     written: BridgeLines,
 }
 
-impl<E: SetDutyCycle, P: OutputPin> Bridge<E, P> {
+impl<E: SetDutyCycle, P: OutputPin> MotorBridge<E, P> {
     /// Braking. `forward` is the level of PHASE for forward.
     #[must_use]
-    pub fn new(enable: E, phase: P, forward: Level, motor: Motor) -> Self {
+    pub fn new(enable: E, phase: P, forward: Level, motor: InterlockedMotor) -> Self {
         let mut bridge = Self {
             enable,
             phase,
@@ -35,7 +35,7 @@ impl<E: SetDutyCycle, P: OutputPin> Bridge<E, P> {
             sequence: BridgeSequence::new(),
             written: BridgeLines {
                 compare: 0,
-                turn: Turn::Backward,
+                turn: MotorDirection::Backward,
             },
         };
         bridge.write(BridgeLines::default());
@@ -48,22 +48,22 @@ impl<E: SetDutyCycle, P: OutputPin> Bridge<E, P> {
         self.write(lines);
     }
 
-    /// To be called once in a millisecond: the second half of a reversal.
+    /// Called once a millisecond: the second half of a reversal.
     pub fn service(&mut self) {
         let lines = self.sequence.service();
         self.write(lines);
     }
 
-    /// Width and direction in the order that lets no current flow the wrong way: PHASE differs only when the width is 0,
-    /// and the width is written last.
+    /// Writes width and direction in a safe order: PHASE changes only while the width is 0, and the width is written
+    /// last.
     fn write(&mut self, lines: BridgeLines) {
         if lines.compare != 0 {
             self.motor.note(true);
         }
         if lines.turn != self.written.turn {
             let level = match lines.turn {
-                Turn::Forward => self.forward,
-                Turn::Backward => self.forward.inverted(),
+                MotorDirection::Forward => self.forward,
+                MotorDirection::Backward => self.forward.inverted(),
             };
             // Pins of this chip cannot fail.
             match level {
@@ -87,8 +87,8 @@ pub type RightEnable = PwmChannel<4, 3, Pin<'D', 3, Output>>;
 /// Both wheels.
 #[derive(Debug)]
 pub struct Wheels {
-    left: Bridge<LeftEnable, Pin<'C', 1, Output>>,
-    right: Bridge<RightEnable, Pin<'G', 7, Output>>,
+    left: MotorBridge<LeftEnable, Pin<'C', 1, Output>>,
+    right: MotorBridge<RightEnable, Pin<'G', 7, Output>>,
     renewal: Renewal,
 }
 
@@ -108,13 +108,18 @@ impl Wheels {
         left_mode.set_high();
         right_mode.set_high();
         Self {
-            left: Bridge::new(left_enable, left_phase, Level::Low, Motor::WheelLeft),
-            right: Bridge::new(right_enable, right_phase, Level::High, Motor::WheelRight),
+            left: MotorBridge::new(left_enable, left_phase, Level::Low, InterlockedMotor::WheelLeft),
+            right: MotorBridge::new(
+                right_enable,
+                right_phase,
+                Level::High,
+                InterlockedMotor::WheelRight,
+            ),
             renewal: Renewal::default(),
         }
     }
 
-    /// To be called once in a millisecond. Brakes when nobody has said for 50 ms that the wheels shall turn.
+    /// Called once a millisecond. Brakes if the drive was not renewed for 50 ms.
     pub fn service(&mut self) {
         if self.renewal.is_overdue() {
             self.left.command(Throttle::ZERO);
@@ -135,8 +140,8 @@ impl WheelMotors for Wheels {
 
 #[cfg(test)]
 mod tests {
-    use super::Bridge;
-    use crate::board::interlock::Motor;
+    use super::MotorBridge;
+    use crate::board::interlock::InterlockedMotor;
     use core::cell::RefCell;
     use core::convert::Infallible;
     use embedded_hal::digital::{self, OutputPin};
@@ -205,7 +210,12 @@ mod tests {
     fn forward_is_the_level_that_the_wiring_says() {
         for (forward, phase) in [(Level::Low, false), (Level::High, true)] {
             let lines = RefCell::default();
-            let mut bridge = Bridge::new(Enable(&lines), Phase(&lines), forward, Motor::WheelLeft);
+            let mut bridge = MotorBridge::new(
+                Enable(&lines),
+                Phase(&lines),
+                forward,
+                InterlockedMotor::WheelLeft,
+            );
             bridge.command(duty(500_000));
             assert_eq!((lines.borrow().width, lines.borrow().phase), (2_000, phase));
             bridge.command(duty(-500_000));
@@ -219,7 +229,12 @@ mod tests {
     #[test]
     fn no_order_of_commands_changes_phase_while_the_line_has_a_width() {
         let lines = RefCell::default();
-        let mut bridge = Bridge::new(Enable(&lines), Phase(&lines), Level::High, Motor::WheelRight);
+        let mut bridge = MotorBridge::new(
+            Enable(&lines),
+            Phase(&lines),
+            Level::High,
+            InterlockedMotor::WheelRight,
+        );
         let mut seed = 11_u32;
         for _ in 0..50_000 {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);

@@ -1,7 +1,7 @@
-//! Which part hangs on which pin: the whole board in one list.
+//! The pins of all parts in one list.
 //!
-//! The pin of each part is named twice: by its port, whose type the compiler checks, and by its signal in
-//! `robots/samsung-sr8730/pinout.toml`. If the two disagree this file does not compile.
+//! Each pin is named twice: by its port, whose type the compiler checks, and by its signal in
+//! `robots/samsung-sr8730/pinout.toml`. If the two disagree, this file does not compile.
 
 use cordlib::board::Board;
 use pic32mx3_hal::Peripherals;
@@ -13,9 +13,9 @@ use super::bus_clock::BusClock;
 use super::charger::PackCharger;
 use super::checks::SelfChecks;
 use super::cleaners::{BrushMain, Switched};
-use super::contacts::{Adapter, Bumper, ButtonLines, DropSwitches, DustBoxSwitch};
+use super::contacts::{Adapter, BumperContacts, ButtonLines, DropSwitches, DustBoxSwitch};
 use super::encoders::{EncoderLines, WheelEncoders};
-use super::interlock::Motor;
+use super::interlock::InterlockedMotor;
 use super::link::{InputParts, SerialLink};
 use super::panel::{LightPins, PanelLights, SoundPins, Speaker};
 use super::probe::RawReadings;
@@ -57,9 +57,9 @@ const fn is_on(signal: Signal, name: &str) -> bool {
     }
 }
 
-// The groups of the list are macros, because pins can be taken out of one another's neighbourhood within one function only.
+// The groups of the list are macros, because the parts of a struct can be moved out only within one function.
 
-/// Everything with a motor. Timer3 is the one free-running 20 kHz of all motors and the charger: nobody stops it or
+/// Everything with a motor. Timer3 is the common 20 kHz time base of all motors and the charger: no code stops it or
 /// changes its period.
 macro_rules! motors {
     ($chip:ident, $p:ident, $time:ident, $calibration:ident) => {
@@ -84,8 +84,8 @@ macro_rules! motors {
                 pin!($p.rc3 is BRUSH_MAIN_DECAY).into_output(Low),
                 $calibration.brush_gives_pulses(),
             ),
-            Switched::take(pin!($p.ra4 is BRUSH_SIDES).into_output(Low), Motor::BrushSides),
-            Switched::take(pin!($p.rd5 is VACUUM).into_output(Low), Motor::Vacuum),
+            Switched::take(pin!($p.ra4 is BRUSH_SIDES).into_output(Low), InterlockedMotor::BrushSides),
+            Switched::take(pin!($p.rd5 is VACUUM).into_output(Low), InterlockedMotor::Vacuum),
         )
     };
 }
@@ -124,7 +124,7 @@ macro_rules! feelers {
                 },
                 $calibration,
             ),
-            Bumper {
+            BumperContacts {
                 left: pin!($p.rg9 is BUMPER_LEFT).into_input(),
                 right: pin!($p.rg15 is BUMPER_RIGHT).into_input(),
             },
@@ -145,7 +145,7 @@ macro_rules! feelers {
     };
 }
 
-/// What people see and hear.
+/// Lights and sound.
 macro_rules! panel {
     ($chip:ident, $p:ident, $unknown_supply:ident) => {{
         let tone_time = Speaker::time_base($chip.timer2);
@@ -244,8 +244,8 @@ macro_rules! lines {
     };
 }
 
-/// Takes the chip apart and puts the robot together. Everything is off; interrupts have their levels, but are not on yet.
-/// The start-up code has given every output its level and direction already; here they only get their owners.
+/// Builds the board from the chip's peripherals. Everything is off; interrupts have their levels but are not enabled
+/// yet. The start-up code has set level and direction of every output already; here they only get their owners.
 #[must_use]
 pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) -> (Board<Sr8730>, SelfChecks) {
     let p = chip.pins;

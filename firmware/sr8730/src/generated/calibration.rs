@@ -6,8 +6,8 @@ pub const COUNT: usize = 31;
 /// A value that a person measures on the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calibrated {
-    /// Wheel count way (nm). Needed for drive and move.
-    WheelCountWay,
+    /// Wheel distance per count (nm). Needed for drive and move.
+    WheelDistancePerCount,
     /// Wheel track (um). Needed for drive and move.
     WheelTrack,
     /// Wheel left order (1). Needed for drive and move.
@@ -83,8 +83,6 @@ impl Calibrated {
 pub struct Entry {
     /// Which one.
     pub value: Calibrated,
-    /// Its name in `robot.toml`.
-    pub name: &'static str,
     /// Least value that can be true.
     pub low: i32,
     /// Greatest value that can be true.
@@ -96,218 +94,187 @@ pub struct Entry {
 /// All values, in the order of the record.
 pub const ENTRIES: [Entry; COUNT] = [
     Entry {
-        value: Calibrated::WheelCountWay,
-        name: "wheel-count-way",
+        value: Calibrated::WheelDistancePerCount,
         low: 1_000,
         high: 50_000_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelTrack,
-        name: "wheel-track",
         low: 100_000,
         high: 500_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelLeftOrder,
-        name: "wheel-left-order",
         low: 0,
         high: 1,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelRightOrder,
-        name: "wheel-right-order",
         low: 0,
         high: 1,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelDeadBand,
-        name: "wheel-dead-band",
         low: 0,
         high: 900,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelFreeSpeed,
-        name: "wheel-free-speed",
         low: 100,
         high: 2_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelLeftCurrentZero,
-        name: "wheel-left-current-zero",
         low: 0,
         high: 1_023,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelRightCurrentZero,
-        name: "wheel-right-current-zero",
         low: 0,
         high: 1_023,
         assumed: None,
     },
     Entry {
         value: Calibrated::WheelCurrentScale,
-        name: "wheel-current-scale",
         low: -50_000,
         high: 50_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::BrushMainPulseRate,
-        name: "brush-main-pulse-rate",
         low: 1,
         high: 5_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::BrushMainDeadBand,
-        name: "brush-main-dead-band",
         low: 0,
         high: 900,
         assumed: None,
     },
     Entry {
         value: Calibrated::ButtonLadder1,
-        name: "button-ladder-1",
         low: 0,
         high: 1_023,
         assumed: None,
     },
     Entry {
         value: Calibrated::ButtonLadder2,
-        name: "button-ladder-2",
         low: 0,
         high: 1_023,
         assumed: None,
     },
     Entry {
         value: Calibrated::ButtonLadder3,
-        name: "button-ladder-3",
         low: 0,
         high: 1_023,
         assumed: None,
     },
     Entry {
         value: Calibrated::CliffEmitterLine,
-        name: "cliff-emitter-line",
         low: 0,
         high: 1,
         assumed: None,
     },
     Entry {
         value: Calibrated::CliffFloorLevel,
-        name: "cliff-floor-level",
         low: 1,
         high: 1_022,
         assumed: None,
     },
     Entry {
         value: Calibrated::CliffDropLevel,
-        name: "cliff-drop-level",
         low: 0,
         high: 1_022,
         assumed: None,
     },
     Entry {
         value: Calibrated::ProximityNone,
-        name: "proximity-none",
         low: 0,
         high: 1_022,
         assumed: None,
     },
     Entry {
         value: Calibrated::ProximityTouching,
-        name: "proximity-touching",
         low: 1,
         high: 1_023,
         assumed: None,
     },
     Entry {
         value: Calibrated::BatteryScale,
-        name: "battery-scale",
         low: 25_000,
         high: 45_000,
         assumed: Some(32_549),
     },
     Entry {
         value: Calibrated::ChargeCurrentZero,
-        name: "charge-current-zero",
         low: -2_000,
         high: 2_000,
         assumed: Some(0),
     },
     Entry {
         value: Calibrated::BatteryCapacity,
-        name: "battery-capacity",
         low: 500,
         high: 5_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::ChargeStageChecked,
-        name: "charge-stage-checked",
         low: 0,
         high: 1,
         assumed: None,
     },
     Entry {
         value: Calibrated::DockCodeOnes,
-        name: "dock-code-ones",
         low: 5,
         high: 6,
         assumed: Some(6),
     },
     Entry {
         value: Calibrated::DockBeamLeft,
-        name: "dock-beam-left",
         low: 1,
         high: 255,
         assumed: None,
     },
     Entry {
         value: Calibrated::DockBeamRight,
-        name: "dock-beam-right",
         low: 1,
         high: 255,
         assumed: None,
     },
     Entry {
         value: Calibrated::DockBeamNear,
-        name: "dock-beam-near",
         low: 1,
         high: 255,
         assumed: None,
     },
     Entry {
         value: Calibrated::DockBeamShort,
-        name: "dock-beam-short",
         low: 100,
         high: 3_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::GyroUart,
-        name: "gyro-uart",
         low: 1,
         high: 2,
         assumed: None,
     },
     Entry {
         value: Calibrated::GyroRate,
-        name: "gyro-rate",
         low: 1_200,
         high: 1_000_000,
         assumed: None,
     },
     Entry {
         value: Calibrated::GyroFrame,
-        name: "gyro-frame",
         low: 1,
         high: 1,
         assumed: None,

@@ -1,8 +1,8 @@
-//! What the dock's beams say, from the edges of an infrared receiver.
+//! Decodes the dock's beams from the edges of an infrared receiver.
 //!
-//! Nobody has recorded the real dock's beams. This decodes the placeholder of `robots/samsung-sr8730/dock-signal.md`: eight
-//! bits, highest first, four units of time a bit, carrier for three of them for a 1 and for one for a 0. Without
-//! calibration values the beams are reported as absent.
+//! The real dock's beams have not been recorded. This decodes the placeholder of
+//! `robots/samsung-sr8730/dock-signal.md`: eight bits, highest first, four units of time a bit, carrier for three of
+//! them for a 1 and for one for a 0. Without calibration values the beams are reported as absent.
 
 /// Symbol of the beam to the dock's left, as the host knows it.
 pub const LEFT: u8 = 1;
@@ -11,7 +11,7 @@ pub const RIGHT: u8 = 2;
 /// Symbol of the weak beam around the dock.
 pub const NEAR: u8 = 4;
 
-/// A beam counts as heard for this long: its code comes every 120 ms, and one may be lost.
+/// A beam counts as received for this long: its code comes every 120 ms, and one may be lost.
 const HELD_MS: u32 = 250;
 /// Counts of the core timer in a microsecond.
 const COUNTS_PER_US: u32 = 40;
@@ -25,7 +25,7 @@ pub struct BeamCodes {
 }
 
 impl BeamCodes {
-    /// `None` unless all four are known and fit. `unit_us` is the length of the shortest carrier burst.
+    /// `None` unless all four are known and valid. `unit_us` is the length of the shortest carrier burst.
     #[must_use]
     pub fn new(codes: [Option<i32>; 3], unit_us: Option<i32>) -> Option<Self> {
         let [left, right, near] = codes.map(|code| u8::try_from(code?).ok());
@@ -45,10 +45,10 @@ impl BeamCodes {
     }
 }
 
-/// What a receiver does after an edge.
+/// State of a receiver after an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Light {
-    /// It hears the carrier.
+    /// It sees the carrier.
     Carrier,
     /// It does not.
     Dark,
@@ -65,7 +65,7 @@ pub struct BeamReceiver {
 }
 
 impl BeamReceiver {
-    /// Takes an edge: what it led to, and the core timer's count at that moment.
+    /// Takes an edge: the state after it, and the core timer's count at that moment.
     pub fn edge(&mut self, light: Light, at: u32, codes: &BeamCodes) {
         let silent = at.wrapping_sub(self.last_edge);
         self.last_edge = at;
@@ -83,8 +83,8 @@ impl BeamReceiver {
         }
     }
 
-    /// To be called once in a millisecond: ends a code by the silence after it and lets old ones fade. Returns the symbols of
-    /// all beams that were heard of late, added up.
+    /// Called once a millisecond: the silence after a code ends it, and old codes expire. Returns the sum of the
+    /// symbols of all beams received recently.
     pub fn poll(&mut self, count: u32, tick_ms: u32, codes: &BeamCodes) -> u8 {
         let silent = count.wrapping_sub(self.last_edge);
         if self.bits != 0 && self.carrier_since.is_none() && silent > 4 * codes.unit_counts {
@@ -107,7 +107,7 @@ impl BeamReceiver {
 
     fn take_burst(&mut self, burst: u32, codes: &BeamCodes) {
         let unit = codes.unit_counts;
-        // One unit or three, each give or take half a unit and what a receiver module adds.
+        // One unit or three, each within half a unit plus the distortion of the receiver module.
         let fits = burst > unit / 4 && burst < 4 * unit;
         if !fits || self.bits > BITS {
             // More bits than a code has: noise until the next silence.

@@ -1,10 +1,10 @@
-//! What a motor bridge is told, step by step.
+//! Sequencing of a motor bridge.
 //!
 //! The A3950 of a wheel and the DRV8840 of the main brush both have an ENABLE line with PWM and a PHASE line for the
-//! direction, and both brake in the off-time as this board sets them. PHASE changes only while ENABLE has been low for at
-//! least one whole PWM period: a change under current would throw the motor from full forward to full backward within a
-//! microsecond. The compare register is taken over at the end of a PWM period of 50 µs, so a change of direction
-//! waits for two of the service calls that come once in a millisecond.
+//! direction, and both brake in the off-time as this board sets them. PHASE changes only while ENABLE has been low for
+//! at least one whole PWM period: a change under current would throw the motor from full forward to full backward
+//! within a microsecond. The compare register is taken over at the end of a PWM period of 50 µs, so a change of
+//! direction waits for two of the service calls that come once in a millisecond.
 
 use rvac_units::Throttle;
 
@@ -15,23 +15,23 @@ const QUIET_CALLS: u8 = 2;
 
 const MILLIONTHS_PER_COUNT: i32 = 1_000_000 / PERIOD_COUNTS as i32;
 
-/// Way that a motor turns.
+/// Direction of a motor.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Turn {
+pub enum MotorDirection {
     /// As the robot drives forward, or the brush cleans.
     #[default]
     Forward,
-    /// The other way.
+    /// The opposite direction.
     Backward,
 }
 
-/// What the lines of a bridge must carry now.
+/// Present levels of a bridge's lines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BridgeLines {
     /// Counts of a PWM period in which ENABLE is high, 0..=4000. 0 brakes.
     pub compare: u16,
     /// Direction on PHASE.
-    pub turn: Turn,
+    pub turn: MotorDirection,
 }
 
 /// State of one bridge.
@@ -49,11 +49,11 @@ impl BridgeSequence {
         Self {
             lines: BridgeLines {
                 compare: 0,
-                turn: Turn::Forward,
+                turn: MotorDirection::Forward,
             },
             wanted: BridgeLines {
                 compare: 0,
-                turn: Turn::Forward,
+                turn: MotorDirection::Forward,
             },
             quiet: 0,
         }
@@ -64,15 +64,15 @@ impl BridgeSequence {
         self.wanted.compare = compare_for(duty);
         if duty.millionths() != 0 {
             self.wanted.turn = if duty.millionths() < 0 {
-                Turn::Backward
+                MotorDirection::Backward
             } else {
-                Turn::Forward
+                MotorDirection::Forward
             };
         }
         self.settle()
     }
 
-    /// To be called once in a millisecond; returns what to write.
+    /// Called once a millisecond; returns what to write.
     pub const fn service(&mut self) -> BridgeLines {
         if self.lines.compare == 0 {
             self.quiet = self.quiet.saturating_add(1);
@@ -89,7 +89,8 @@ impl BridgeSequence {
     const fn settle(&mut self) -> BridgeLines {
         let turns = matches!(
             (self.lines.turn, self.wanted.turn),
-            (Turn::Forward, Turn::Backward) | (Turn::Backward, Turn::Forward)
+            (MotorDirection::Forward, MotorDirection::Backward)
+                | (MotorDirection::Backward, MotorDirection::Forward)
         );
         let compare = if turns && self.quiet < QUIET_CALLS {
             0
@@ -105,7 +106,7 @@ impl BridgeSequence {
     }
 }
 
-/// Counts with ENABLE high for a duty; full duty lies above PR and so never switches off.
+/// Counts with ENABLE high for a duty. Full duty lies above PR, so that the output never switches off.
 const fn compare_for(duty: Throttle) -> u16 {
     // At most 1,000,000 / 250 = 4,000: fits.
     (duty.millionths().saturating_abs() / MILLIONTHS_PER_COUNT) as u16
@@ -113,14 +114,14 @@ const fn compare_for(duty: Throttle) -> u16 {
 
 #[cfg(test)]
 mod tests {
-    use super::{BridgeLines, BridgeSequence, PERIOD_COUNTS, Turn};
+    use super::{BridgeLines, BridgeSequence, MotorDirection, PERIOD_COUNTS};
     use rvac_units::Throttle;
 
     fn duty(millionths: i32) -> Throttle {
         Throttle::from_millionths(millionths).unwrap()
     }
 
-    fn lines(compare: u16, turn: Turn) -> BridgeLines {
+    fn lines(compare: u16, turn: MotorDirection) -> BridgeLines {
         BridgeLines { compare, turn }
     }
 
@@ -135,7 +136,7 @@ mod tests {
         ] {
             assert_eq!(
                 BridgeSequence::new().command(duty(millionths)),
-                lines(compare, Turn::Forward)
+                lines(compare, MotorDirection::Forward)
             );
         }
     }
@@ -143,20 +144,26 @@ mod tests {
     #[test]
     fn a_reversal_is_quiet_for_a_whole_millisecond_before_phase_changes() {
         let mut bridge = BridgeSequence::new();
-        assert_eq!(bridge.command(duty(800_000)), lines(3_200, Turn::Forward));
-        assert_eq!(bridge.command(duty(-800_000)), lines(0, Turn::Forward));
-        assert_eq!(bridge.service(), lines(0, Turn::Forward));
-        assert_eq!(bridge.service(), lines(3_200, Turn::Backward));
+        assert_eq!(
+            bridge.command(duty(800_000)),
+            lines(3_200, MotorDirection::Forward)
+        );
+        assert_eq!(bridge.command(duty(-800_000)), lines(0, MotorDirection::Forward));
+        assert_eq!(bridge.service(), lines(0, MotorDirection::Forward));
+        assert_eq!(bridge.service(), lines(3_200, MotorDirection::Backward));
     }
 
     #[test]
     fn a_stop_between_two_directions_counts_as_quiet() {
         let mut bridge = BridgeSequence::new();
         bridge.command(duty(100_000));
-        assert_eq!(bridge.command(Throttle::ZERO), lines(0, Turn::Forward));
+        assert_eq!(bridge.command(Throttle::ZERO), lines(0, MotorDirection::Forward));
         bridge.service();
         bridge.service();
-        assert_eq!(bridge.command(duty(-100_000)), lines(400, Turn::Backward));
+        assert_eq!(
+            bridge.command(duty(-100_000)),
+            lines(400, MotorDirection::Backward)
+        );
     }
 
     #[test]

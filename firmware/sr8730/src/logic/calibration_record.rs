@@ -1,16 +1,16 @@
-//! The calibration record at the end of program flash: what an owner has measured on this very robot.
+//! The calibration record at the end of program flash: the values that an owner has measured on this robot.
 //!
 //! Little endian: magic u32, version u16, count u16, `count` values i32 (the most negative one means unknown), and the
-//! CRC-32C of all before it. A record that is damaged, or made for another list of values, counts as wholly unknown:
-//! half of a calibration is worse than none.
+//! CRC-32C of all before it. A damaged record, or one for another list of values, is ignored completely: half a
+//! calibration is worse than none.
 
-use rvac_protocol::seal::crc32c;
+use rvac_protocol::crc::crc32c;
 
 /// First word.
 pub const MAGIC: u32 = 0x4C41_4352;
 /// Layout of the record.
 pub const VERSION: u16 = 1;
-/// Stands for a value that nobody has measured.
+/// Marks a value that is not measured.
 pub const UNKNOWN: i32 = i32::MIN;
 
 const HEADER_BYTES: usize = 8;
@@ -20,9 +20,9 @@ const HEADER_BYTES: usize = 8;
 pub enum RecordFault {
     /// There is none: flash is erased there.
     Absent,
-    /// It is something else, or of another version.
+    /// It is no record, or one of another version.
     Foreign,
-    /// It holds so many values, but this firmware knows another number.
+    /// It holds this number of values, but this firmware expects another one.
     Count(u16),
     /// Its check value is wrong.
     Damaged,
@@ -31,7 +31,7 @@ pub enum RecordFault {
 /// Reads a record with `N` values, whose ranges are `ranges`. A value outside of its range counts as unknown.
 ///
 /// # Errors
-/// Why nothing of it can be used.
+/// Why the record cannot be used.
 pub fn read<const N: usize>(
     record: &[u8],
     ranges: &[(i32, i32); N],
@@ -69,7 +69,7 @@ pub fn read<const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::{MAGIC, RecordFault, UNKNOWN, VERSION, read};
-    use rvac_protocol::seal::crc32c;
+    use rvac_protocol::crc::crc32c;
     use std::vec::Vec;
 
     const RANGES: [(i32, i32); 3] = [(0, 10), (-5, 5), (1, 1_000)];

@@ -1,13 +1,13 @@
-//! What the robot tells the dock so that it gives its full current: 33 bits on a carrier of 38 kHz.
+//! The code that requests full current from the dock: 33 bits on a 38 kHz carrier.
 //!
-//! An interrupt at 76 kHz sets the emitter's line for one half period of the carrier. A bit lasts 0.5 ms, 19 periods of the
-//! carrier; a 1 is carrier, the highest bit comes first (see `robots/samsung-sr8730/dock-signal.md`).
+//! An interrupt at 76 kHz sets the emitter's line for one half period of the carrier. A bit lasts 0.5 ms, 19 periods of
+//! the carrier; a 1 is carrier, the highest bit comes first (see `robots/samsung-sr8730/dock-signal.md`).
 
 /// The code of the original's source, which worked on a robot: six leading ones.
 const CODE_SIX_ONES: u64 = 0x1_F8C3_0CC3;
 /// Bits of the code with six leading ones.
 const BITS_SIX_ONES: u8 = 33;
-/// Half periods of the carrier in one bit.
+/// CarrierHalf periods of the carrier in one bit.
 const HALVES_PER_BIT: u8 = 38;
 
 /// Time from one start of the code to the next.
@@ -15,7 +15,7 @@ pub const REPEAT_MS: u32 = 200;
 /// Counts of Timer1 in one half period: 80 MHz / 76 kHz.
 pub const HALF_PERIOD_COUNTS: u16 = 1_053;
 
-/// How many ones the code begins with: the original's source has six, the author's thesis prints five.
+/// Number of leading ones: the original's source has six, the author's thesis prints five.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LeadingOnes {
     /// As in the thesis.
@@ -36,7 +36,7 @@ impl LeadingOnes {
     }
 }
 
-/// Place in one sending of the code.
+/// Position in one transmission of the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DockCode {
     rest: u64,
@@ -44,9 +44,9 @@ pub struct DockCode {
     halves: u8,
 }
 
-/// What the emitter's line does for a half period.
+/// Level of the emitter's line for a half period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Half {
+pub enum CarrierHalf {
     /// High: the emitter is lit.
     High,
     /// Low.
@@ -70,7 +70,7 @@ impl DockCode {
             LeadingOnes::Six => BITS_SIX_ONES,
             LeadingOnes::Five => BITS_SIX_ONES - 1,
         };
-        // The first bit to send is the highest of the word; a missing leading one falls off the top.
+        // The first bit to send is the highest of the word; a missing leading one is shifted out.
         Self {
             rest: CODE_SIX_ONES << (u64::BITS - bits as u32),
             bits,
@@ -80,9 +80,9 @@ impl DockCode {
 
     /// The next half period.
     #[inline]
-    pub const fn next(&mut self) -> Half {
+    pub const fn next(&mut self) -> CarrierHalf {
         if self.bits == 0 {
-            return Half::Over;
+            return CarrierHalf::Over;
         }
         let carrier = self.rest >> 63 == 1 && self.halves & 1 == 0;
         self.halves += 1;
@@ -91,29 +91,43 @@ impl DockCode {
             self.bits -= 1;
             self.rest <<= 1;
         }
-        if carrier { Half::High } else { Half::Low }
+        if carrier {
+            CarrierHalf::High
+        } else {
+            CarrierHalf::Low
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{DockCode, HALF_PERIOD_COUNTS, HALVES_PER_BIT, Half, LeadingOnes};
+    use super::{CarrierHalf, DockCode, HALF_PERIOD_COUNTS, HALVES_PER_BIT, LeadingOnes};
     use std::string::String;
     use std::vec::Vec;
 
-    fn halves(ones: LeadingOnes) -> Vec<Half> {
+    fn halves(ones: LeadingOnes) -> Vec<CarrierHalf> {
         let mut code = DockCode::start(ones);
-        core::iter::from_fn(|| Some(code.next()).filter(|half| *half != Half::Over)).collect()
+        core::iter::from_fn(|| Some(code.next()).filter(|half| *half != CarrierHalf::Over)).collect()
     }
 
     /// One digit a bit, whose half periods must all agree.
-    fn digits(halves: &[Half]) -> String {
+    fn digits(halves: &[CarrierHalf]) -> String {
         halves
             .chunks(usize::from(HALVES_PER_BIT))
             .map(|bit| {
-                let carrier = bit.first() == Some(&Half::High);
+                let carrier = bit.first() == Some(&CarrierHalf::High);
                 for pair in bit.chunks(2) {
-                    assert_eq!(pair, [if carrier { Half::High } else { Half::Low }, Half::Low]);
+                    assert_eq!(
+                        pair,
+                        [
+                            if carrier {
+                                CarrierHalf::High
+                            } else {
+                                CarrierHalf::Low
+                            },
+                            CarrierHalf::Low
+                        ]
+                    );
                 }
                 if carrier { '1' } else { '0' }
             })

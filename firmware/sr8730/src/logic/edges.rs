@@ -1,4 +1,4 @@
-//! Edges of the link on their way from the interrupt, which is written in assembly, to the decoder.
+//! Queue of the link's edges from the interrupt, which is written in assembly, to the decoder.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -7,10 +7,10 @@ use soft_uart::{Edge, Level, Queued};
 /// Edges that wait for the main loop: 2.2 ms of the densest pattern at 230,400 baud.
 pub const EDGES: usize = 512;
 
-/// The queue; the order of the fields is known to the interrupt.
+/// The queue. The interrupt relies on the order of the fields.
 ///
-/// When it is full the interrupt notes that and switches itself off: so a wire that oscillates takes no more time than 512
-/// edges in a millisecond. The main loop lets it come again when it has emptied the queue.
+/// If the queue is full, the interrupt sets a flag and disables itself, so that an oscillating wire takes at most the
+/// time of 512 edges in a millisecond. The main loop enables it again when it has emptied the queue.
 #[derive(Debug)]
 #[repr(C)]
 pub struct EdgeQueue {
@@ -38,9 +38,9 @@ impl EdgeQueue {
         }
     }
 
-    /// The oldest entry. Tells of a gap when everything before it has been handed out.
+    /// The oldest entry. Reports a gap after everything before it has been taken.
     pub fn pop(&self) -> Option<Queued> {
-        // Read first: while it is set the interrupt adds nothing.
+        // Read first: while the flag is set, the interrupt adds nothing.
         let lost = self.lost.load(Ordering::Acquire) != 0;
         let tail = self.tail.load(Ordering::Relaxed);
         let head = self.head.load(Ordering::Acquire);
@@ -52,7 +52,7 @@ impl EdgeQueue {
             return None;
         }
         if head.wrapping_sub(tail) > EDGES as u32 {
-            // The interrupt never does that: a bit of an index has flipped, and to follow it would take for ever.
+            // The interrupt never does that: a bit of an index has flipped, and following it would take too long.
             self.tail.store(head, Ordering::Release);
             return Some(Queued::Overrun);
         }
@@ -73,7 +73,7 @@ impl EdgeQueue {
             .store(u32::from(level == Level::High), Ordering::Relaxed);
     }
 
-    /// Adds an edge as the interrupt does; false when it must switch itself off.
+    /// Adds an edge as the interrupt does; false if it must disable itself.
     #[must_use]
     pub fn push(&self, edge: Edge) -> bool {
         self.set_level(edge.level);

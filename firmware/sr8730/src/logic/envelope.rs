@@ -1,8 +1,9 @@
 //! The charger's gate.
 //!
 //! The maker's firmware lets pulses of 3.33 % through at 20 kHz and varies the mean current by an envelope of 50 Hz
-//! (measured). Here an envelope is 400 PWM periods: the first so many carry a pulse, the rest is quiet. At least 20 periods are
-//! always quiet, so that one scan of the converter in each envelope sees the pack without pulses, whatever the duty.
+//! (measured). Here an envelope has 400 PWM periods: the first ones carry a pulse, the rest is quiet. At least 20
+//! periods are always quiet, so that one scan of the converter in each envelope sees the pack without pulses, whatever
+//! the duty.
 
 use rvac_units::Ratio;
 
@@ -18,14 +19,14 @@ pub const PULSE_COUNTS: u16 = PERIOD_COUNTS / 30;
 /// Most periods of an envelope that may carry a pulse.
 pub const PULSES_MAX: u16 = ENVELOPE_PERIODS - QUIET_PERIODS;
 
-/// Periods with a pulse for a share of the pulses that are possible.
+/// Periods with a pulse for a share of the maximum.
 #[must_use]
 pub const fn pulses_for(share: Ratio) -> u16 {
-    // At most 380: fits. Rounded down, so that the charger never gives more than it was told.
+    // At most 380: fits. Rounded down, so that the charger never gives more than commanded.
     (share.millionths() as u32 * PULSES_MAX as u32 / 1_000_000) as u16
 }
 
-/// Place within the envelope.
+/// Position within the envelope.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Envelope {
     period: u16,
@@ -38,7 +39,7 @@ impl Envelope {
         Self { period: 0 }
     }
 
-    /// Moves on by one PWM period and returns the counts of its pulse, 0 for none. More than [`PULSES_MAX`] is not given.
+    /// Advances by one PWM period and returns the counts of its pulse, 0 for none. Limited to [`PULSES_MAX`].
     pub const fn next(&mut self, pulses: u16) -> u16 {
         let place = self.period;
         self.period = if place + 1 < ENVELOPE_PERIODS {

@@ -1,8 +1,8 @@
-//! Critical variables with their complement (S21): a bit that flips in memory must not switch a motor or the charger on.
+//! Critical variables with their complement (S21): a flipped bit in memory must not switch on a motor or the charger.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
-/// A word that is kept twice, the second time inverted. One side writes it, any side reads it.
+/// A word that is stored twice, once inverted. It has one writer and any number of readers.
 #[derive(Debug)]
 pub struct Guarded {
     value: AtomicU32,
@@ -23,8 +23,8 @@ impl Guarded {
         }
     }
 
-    /// Changes the value. A reader that comes between the two writes sees a disagreement, so an interrupt that reads must
-    /// not be able to come in between: write with interrupts off, or from a higher level than all readers.
+    /// Changes the value. A reader between the two writes would see a disagreement, so no reading interrupt may come in
+    /// between: write with interrupts off, or from a higher level than all readers.
     #[inline(always)]
     pub fn set(&self, value: u32) {
         self.value.store(value, Ordering::Relaxed);

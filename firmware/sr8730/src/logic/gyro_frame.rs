@@ -1,8 +1,8 @@
 //! Frames of the gyro module.
 //!
-//! What the real module sends is not known. Frame 1 is the simulator's placeholder from `robots/samsung-sr8730/gyro.md`: AA 55,
-//! heading in hundredths of a degree (i32), turn rate in tenths of a degree per second (i16), little endian, and the sum
-//! of these six bytes.
+//! The real module's frames are not known. Frame 1 is the simulator's placeholder from `robots/samsung-sr8730/gyro.md`:
+//! AA 55, heading in hundredths of a degree (i32), turn rate in tenths of a degree per second (i16), little endian, and
+//! the sum of these six bytes.
 
 use rvac_protocol::message::Gyro;
 use rvac_units::{Angle, AngularSpeed};
@@ -40,7 +40,8 @@ pub struct FrameReader {
 }
 
 impl FrameReader {
-    /// Takes a byte; returns what the frame that it completes says. A wrong sum drops one byte and looks for the next start.
+    /// Takes a byte; returns the content of a frame that it completes. After a wrong sum the next start is searched one
+    /// byte later.
     pub fn push(&mut self, byte: u8) -> Option<Gyro> {
         if let Some(place) = self.bytes.get_mut(usize::from(self.length)) {
             *place = byte;
@@ -60,12 +61,12 @@ impl FrameReader {
         None
     }
 
-    /// A framing error or a lost byte: the frame is broken.
+    /// A framing error or a lost byte: drops the frame.
     pub const fn restart(&mut self) {
         self.length = 0;
     }
 
-    /// Drops bytes until what is left could begin a frame.
+    /// Drops bytes until the rest could begin a frame.
     fn align(&mut self) {
         while self.length > 0 && !self.could_begin() {
             self.drop_first();

@@ -1,8 +1,9 @@
-//! A quick look at the whole image, twenty times a second.
+//! A quick check of the whole image, twenty times a second.
 //!
-//! The check value of the image is too dear to be reckoned often. Code that a flipped bit has changed can switch a motor on at once,
-//! and must be found before the watchdog's time has passed. So sums of blocks are taken at the start, when the image was
-//! found whole, and one block is added up again in each millisecond. A sum notices every single bit.
+//! The CRC of the image takes too long to be computed often. Code that a flipped bit has changed can switch on a motor
+//! at once, and must be found before the watchdog's time has passed. Therefore sums of blocks are taken at the start,
+//! after the image was found intact, and one block is summed up again each millisecond. A sum detects every single-bit
+//! error.
 
 /// Words of a block: 3 KiB.
 pub const BLOCK_WORDS: u32 = 768;

@@ -1,9 +1,9 @@
-//! Who must have shown a sign of life before the watchdog is fed (S5).
+//! Conditions for feeding the watchdog (S5).
 //!
-//! cordlib asks for feeding when its own stages have run. Here the two that only the board can see join in: the interrupt that
-//! counts milliseconds, and the converter. If either stands still the watchdog is not fed, and bites after 128 ms.
+//! cordlib feeds it when its own stages have run. Two more conditions are known to the board only: the interrupt that
+//! counts milliseconds and the ADC must run. If either stops, the watchdog is not fed and resets the chip after 128 ms.
 
-/// What was seen at the last feeding.
+/// Counters at the last feeding.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SignsOfLife {
     ticks: u32,
@@ -11,7 +11,7 @@ pub struct SignsOfLife {
 }
 
 impl SignsOfLife {
-    /// Whether both went on since this last said yes. `ticks` and `scans` count interrupts, wrapping.
+    /// Whether both have advanced since this last returned true. `ticks` and `scans` count interrupts, wrapping.
     pub const fn are_complete(&mut self, ticks: u32, scans: u32) -> bool {
         let complete = ticks != self.ticks && scans != self.scans;
         if complete {

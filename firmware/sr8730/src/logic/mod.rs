@@ -1,8 +1,9 @@
-//! What the board's parts decide, apart from any register: it is compiled and tested on a computer, too.
+//! The decisions of the board's parts, without access to registers. They are also compiled and tested on a computer.
 
 pub mod beam;
 pub mod bridge;
 pub mod calibration_record;
+pub mod clock_check;
 pub mod dock_code;
 pub mod edges;
 pub mod envelope;
@@ -11,16 +12,15 @@ pub mod guarded;
 pub mod gyro_frame;
 pub mod image_check;
 pub mod image_sums;
+pub mod interrupt_rate;
 pub mod ladder;
 pub mod lamps;
 pub mod life;
-pub mod pace;
 pub mod pack;
 pub mod proximity;
 pub mod quadrature;
 pub mod renewal;
 pub mod reset_log;
 pub mod runs;
-pub mod storm;
 pub mod thermistor;
 pub mod tone;

@@ -1,24 +1,24 @@
 //! Voltages and charge current of the battery pack from the counts of the converter.
 //!
-//! One count is 32.5 mV at the pack and, over the shunt of 0.3 ohm, 108 mA. Two dividers made of 1 % resistors may differ by
-//! half an ampere's worth: that zero is a calibration value, and cordlib learns what is left of it off the dock, where
-//! no current can flow, because the shunt lies in the charge path only.
+//! One count is 32.5 mV at the pack and, over the shunt of 0.3 ohm, 108 mA. Two dividers made of 1 % resistors may
+//! differ by the equivalent of half an ampere. This offset is a calibration value, and cordlib learns the remainder off
+//! the dock, where no current can flow, because the shunt lies in the charge path only.
 
 /// Shunt in tenths of an ohm.
 const SHUNT_TENTHS_OHM: i64 = 3;
 
-/// One look at the pack.
+/// One reading of the pack.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PackReading {
     /// Voltage behind the shunt: the pack.
     pub pack_mv: i32,
     /// Voltage before the shunt: the charger's side.
     pub input_mv: i32,
-    /// Current into the pack, zero taken off.
+    /// Current into the pack, offset subtracted.
     pub current_ma: i32,
 }
 
-/// Turns counts into quantities.
+/// Converts counts to quantities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PackScale {
     scale_uv: i64,
@@ -26,8 +26,8 @@ pub struct PackScale {
 }
 
 impl PackScale {
-    /// With the voltage of one count at the pack in microvolts, and the zero of the current in hundredths of a count, both from
-    /// the calibration.
+    /// With the voltage of one count at the pack in microvolts, and the zero of the current in hundredths of a count,
+    /// both from the calibration.
     #[must_use]
     pub const fn new(scale_uv: i32, zero_centicounts: i32) -> Self {
         Self {
@@ -36,7 +36,7 @@ impl PackScale {
         }
     }
 
-    /// What one scan says: counts before and behind the shunt, ten bits each.
+    /// Reading of one scan: counts before and behind the shunt, ten bits each.
     #[must_use]
     pub fn reading(&self, before: u16, after: u16) -> PackReading {
         let drop = (i64::from(before) - i64::from(after)) * 100 - self.zero_centicounts;

@@ -1,17 +1,17 @@
 //! The seven infrared proximity sensors behind their multiplexers.
 //!
-//! Each scan of the converter, once in a millisecond, belongs to one sensor: first with its emitter dark, then lit, and the
-//! difference is what came back. Select lines change only after a lit scan has ended and the emitter is off again, because
-//! three lines cannot change at once and the multiplexers pass through other channels on the way.
+//! Each scan of the ADC, once a millisecond, belongs to one sensor: first with its emitter dark, then lit. The
+//! difference is the reflected light. Select lines change only after a lit scan has ended and the emitter is off again:
+//! three lines cannot change at once, and the multiplexers pass through other channels.
 
 /// Sensors, in the order of the channels: right, middle right, front right, front, front left, middle left, left.
 pub const SENSORS: usize = 7;
 /// Channel of the emitter that looks straight ahead, which also talks to the dock.
 pub const FRONT_CHANNEL: u8 = 3;
 
-/// What one scan sees.
+/// Target of one scan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Look {
+pub struct ScanTarget {
     /// Channel of both multiplexers, 0..=6.
     pub channel: u8,
     /// Whether the emitter is lit.
@@ -23,7 +23,7 @@ pub struct Look {
 pub struct Sweep(u8);
 
 impl Sweep {
-    /// Number of looks until all sensors were seen.
+    /// Number of scans for all sensors.
     pub const LOOKS: u8 = 2 * SENSORS as u8;
 
     /// At the first sensor, dark.
@@ -32,16 +32,16 @@ impl Sweep {
         Self(0)
     }
 
-    /// What is looked at now.
+    /// The present target.
     #[must_use]
-    pub const fn look(self) -> Look {
-        Look {
+    pub const fn look(self) -> ScanTarget {
+        ScanTarget {
             channel: self.0 / 2,
             lit: self.0 & 1 == 1,
         }
     }
 
-    /// The look after this one.
+    /// The next target.
     #[must_use]
     pub const fn next(self) -> Self {
         if self.0 + 1 < Self::LOOKS {
@@ -52,7 +52,7 @@ impl Sweep {
     }
 }
 
-/// Readings that mean nothing and touching, from the calibration.
+/// Calibrated readings for no object and for contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ProximityScale {
     none: i32,
@@ -84,7 +84,7 @@ impl ProximityScale {
 
 #[cfg(test)]
 mod tests {
-    use super::{Look, ProximityScale, SENSORS, Sweep};
+    use super::{ProximityScale, SENSORS, ScanTarget, Sweep};
 
     #[test]
     fn each_sensor_is_seen_dark_then_lit_and_the_channel_changes_only_into_the_dark() {
@@ -100,8 +100,8 @@ mod tests {
         }
         assert_eq!(sweep, Sweep::new());
         for channel in 0..7 {
-            assert!(looks.contains(&Look { channel, lit: false }));
-            assert!(looks.contains(&Look { channel, lit: true }));
+            assert!(looks.contains(&ScanTarget { channel, lit: false }));
+            assert!(looks.contains(&ScanTarget { channel, lit: true }));
         }
     }
 

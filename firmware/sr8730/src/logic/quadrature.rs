@@ -1,8 +1,8 @@
 //! Counting a wheel's two encoder lines.
 //!
-//! Both lines interrupt on every edge. Which line leads when the wheel turns forward is not known before somebody has
-//! turned the wheel by hand (`wheel-left-order`, `wheel-right-order`), so the interrupt counts with line 1 leading as
-//! positive, and the order is applied where the total is read.
+//! Both lines interrupt on every edge. Calibration by hand finds out which line leads when the wheel turns forward
+//! (`wheel-left-order`, `wheel-right-order`). The interrupt counts line 1 leading as positive, and the order is applied
+//! where the total is read.
 
 /// Levels of both lines: bit 0 is line 1, bit 1 is line 2.
 pub type Levels = u8;
@@ -10,17 +10,17 @@ pub type Levels = u8;
 /// Effect of a change of levels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Nothing changed: the interrupt came for an edge that was already seen, or for a spike.
+    /// No change: the interrupt came for an edge that was already counted, or for a spike.
     None,
     /// One count with line 1 leading.
     Up,
     /// One count with line 2 leading.
     Down,
-    /// Both lines changed at once: an edge was missed, and the direction with it.
+    /// Both lines changed at once: an edge was missed, and the direction is unknown.
     Illegal,
 }
 
-/// The step between two looks at the lines; only the lowest two bits of each count.
+/// The step between two readings of the lines; only the lowest two bits of each matter.
 #[must_use]
 pub const fn step(before: Levels, now: Levels) -> Step {
     match (before & 3, now & 3) {
@@ -33,7 +33,7 @@ pub const fn step(before: Levels, now: Levels) -> Step {
 
 /// Which line leads when the wheel turns forward.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Order {
+pub enum PhaseOrder {
     /// Line 1 (calibration value 0).
     #[default]
     FirstLeads,
@@ -41,8 +41,8 @@ pub enum Order {
     SecondLeads,
 }
 
-impl Order {
-    /// From the calibration value; what is unknown is taken as the first, and then nothing that needs it is offered.
+impl PhaseOrder {
+    /// From the calibration value. An unknown value counts as line 1; parts that need it are then absent.
     #[must_use]
     pub const fn from_calibration(value: Option<i32>) -> Self {
         match value {
@@ -63,7 +63,7 @@ impl Order {
 
 #[cfg(test)]
 mod tests {
-    use super::{Levels, Order, Step, step};
+    use super::{Levels, PhaseOrder, Step, step};
 
     const FORWARD: [Levels; 4] = [0b00, 0b01, 0b11, 0b10];
 
@@ -86,9 +86,9 @@ mod tests {
 
     #[test]
     fn the_order_turns_the_sign() {
-        assert_eq!(Order::from_calibration(Some(1)).forward(7), -7);
-        assert_eq!(Order::from_calibration(Some(0)).forward(7), 7);
-        assert_eq!(Order::from_calibration(None).forward(i32::MIN), i32::MIN);
-        assert_eq!(Order::SecondLeads.forward(i32::MIN), i32::MIN);
+        assert_eq!(PhaseOrder::from_calibration(Some(1)).forward(7), -7);
+        assert_eq!(PhaseOrder::from_calibration(Some(0)).forward(7), 7);
+        assert_eq!(PhaseOrder::from_calibration(None).forward(i32::MIN), i32::MIN);
+        assert_eq!(PhaseOrder::SecondLeads.forward(i32::MIN), i32::MIN);
     }
 }

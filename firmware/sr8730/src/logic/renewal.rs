@@ -1,24 +1,24 @@
-//! Outputs that must be asked for again and again.
+//! Time-out of outputs that must be renewed.
 //!
-//! cordlib tells each output every 10 ms what it shall do. If that stops for an output, whatever the reason, a flipped bit in
-//! the firmware's memory included, the output is switched off.
+//! cordlib writes each output every 10 ms. If it stops to do so for any reason, for example a flipped bit in memory,
+//! the output is switched off.
 
 /// Milliseconds without a call after which an output is switched off.
 const OVERDUE_MS: u8 = 50;
 
-/// Time since an output was asked for.
+/// Time since an output was written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Renewal {
     passed_ms: u8,
 }
 
 impl Renewal {
-    /// It was asked for now.
+    /// The output was written now.
     pub const fn renew(&mut self) {
         self.passed_ms = 0;
     }
 
-    /// To be called once in a millisecond; true from 50 ms without [`Self::renew`] on.
+    /// Called once a millisecond; true after 50 ms without [`Self::renew`].
     pub const fn is_overdue(&mut self) -> bool {
         self.passed_ms = self.passed_ms.saturating_add(1);
         self.passed_ms >= OVERDUE_MS

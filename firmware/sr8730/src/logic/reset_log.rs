@@ -1,14 +1,14 @@
-//! What survives a reset in memory that the start-up code does not clear.
+//! The log of resets, in memory that the start-up code does not clear.
 
 use rvac_protocol::message::ResetCause;
 
 /// Words in memory.
 pub const WORDS: usize = 3;
 
-/// What a dying firmware could still note.
+/// Why the firmware ended a run, noted before the reset.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Trouble {
-    /// Nothing noted.
+pub enum FatalCause {
+    /// Nothing was noted.
     #[default]
     None,
     /// A panic.
@@ -17,9 +17,9 @@ pub enum Trouble {
     Exception,
     /// An interrupt without handler.
     StrayInterrupt,
-    /// A memory cell that does not hold its value.
+    /// A faulty memory cell.
     Memory,
-    /// The image in flash differs from its check value.
+    /// The image in flash differs from its checksum.
     Flash,
     /// The stack grew into the words that guard its end.
     Stack,
@@ -27,11 +27,11 @@ pub enum Trouble {
     Variable,
     /// The crystal failed; the chip ran on its own oscillator.
     Clock,
-    /// A register of the chip that decides about motors or charger was not as it had been set up.
+    /// A register of the chip that controls motors or charger has changed.
     Register,
 }
 
-impl Trouble {
+impl FatalCause {
     const ALL: [Self; 10] = [
         Self::None,
         Self::Panic,
@@ -54,7 +54,7 @@ impl Trouble {
     fn from_number(number: u32) -> Self {
         Self::ALL
             .into_iter()
-            .find(|trouble| trouble.number() == number)
+            .find(|fatal_cause| fatal_cause.number() == number)
             .unwrap_or_default()
     }
 
@@ -83,25 +83,25 @@ pub struct ResetLog {
     pub boots: u32,
     /// Resets in a row other than power-on, since [`Self::recent`] was set to 0.
     pub recent: u32,
-    /// What the run before noted at its end.
-    pub trouble: Trouble,
+    /// Why the previous run ended.
+    pub fatal_cause: FatalCause,
 }
 
 impl ResetLog {
     /// Reads the record.
     #[must_use]
-    pub fn from_words([boots, recent, trouble]: [u32; WORDS]) -> Self {
+    pub fn from_words([boots, recent, fatal_cause]: [u32; WORDS]) -> Self {
         Self {
             boots,
             recent,
-            trouble: Trouble::from_number(trouble),
+            fatal_cause: FatalCause::from_number(fatal_cause),
         }
     }
 
-    /// The record as it is kept.
+    /// The record as it is stored.
     #[must_use]
     pub const fn words(self) -> [u32; WORDS] {
-        [self.boots, self.recent, self.trouble.number()]
+        [self.boots, self.recent, self.fatal_cause.number()]
     }
 
     /// The record after a start with this cause. `before` is what memory held.
@@ -110,7 +110,7 @@ impl ResetLog {
         let before = before.unwrap_or(Self {
             boots: 0,
             recent: 0,
-            trouble: Trouble::None,
+            fatal_cause: FatalCause::None,
         });
         let is_power_on = cause == ResetCause::PowerOn;
         Self {
@@ -120,10 +120,10 @@ impl ResetLog {
             } else {
                 before.recent.saturating_add(1)
             },
-            trouble: if is_power_on {
-                Trouble::None
+            fatal_cause: if is_power_on {
+                FatalCause::None
             } else {
-                before.trouble
+                before.fatal_cause
             },
         }
     }
@@ -131,7 +131,7 @@ impl ResetLog {
 
 #[cfg(test)]
 mod tests {
-    use super::{ResetLog, Trouble};
+    use super::{FatalCause, ResetLog};
     use rvac_protocol::message::ResetCause;
 
     #[test]
@@ -154,25 +154,25 @@ mod tests {
     fn memory_that_lost_its_content_begins_anew() {
         let started = ResetLog::after_start(None, ResetCause::BrownOut);
         assert_eq!((started.boots, started.recent), (1, 1));
-        assert_eq!(ResetLog::from_words([1, 2, 99]).trouble, Trouble::None);
+        assert_eq!(ResetLog::from_words([1, 2, 99]).fatal_cause, FatalCause::None);
     }
 
     #[test]
-    fn trouble_is_told_after_the_reset_and_forgotten_with_the_power() {
+    fn the_cause_is_reported_after_the_reset_and_lost_with_the_power() {
         let died = ResetLog {
             boots: 1,
             recent: 0,
-            trouble: Trouble::Stack,
+            fatal_cause: FatalCause::Stack,
         };
         let log = Some(ResetLog::from_words(died.words()));
         assert_eq!(log, Some(died));
         assert_eq!(
-            ResetLog::after_start(log, ResetCause::Software).trouble,
-            Trouble::Stack
+            ResetLog::after_start(log, ResetCause::Software).fatal_cause,
+            FatalCause::Stack
         );
         assert_eq!(
-            ResetLog::after_start(log, ResetCause::PowerOn).trouble,
-            Trouble::None
+            ResetLog::after_start(log, ResetCause::PowerOn).fatal_cause,
+            FatalCause::None
         );
     }
 }

@@ -1,8 +1,8 @@
-//! What the sending interrupt of the link is given: levels and times, one word each, reckoned in the main loop.
+//! Queue of the link's sending interrupt: levels and times, one word each, computed in the main loop.
 //!
-//! A word holds the period of Timer4 in its lower half and, in its upper half, the distance of the register that makes the pin
-//! low or high from the port's latch. The interrupt stores one word to each of two registers and is over, forty cycles after
-//! it came: the less it does, the less it shifts what is sent and the edges of what is received.
+//! A word holds the period of Timer4 in its lower half and, in its upper half, the distance of the register that makes
+//! the pin low or high from the port's latch. The interrupt stores one word to each of two registers and is over, forty
+//! cycles after it came: the less it does, the less it shifts what is sent and the edges of what is received.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -16,7 +16,7 @@ const RUNS_PER_BYTE: usize = 10;
 const CLEAR: u32 = 4;
 const SET: u32 = 8;
 
-/// The words on their way to the interrupt, which is written in assembly: the order of the fields is known there.
+/// Words for the interrupt, which is written in assembly and relies on the order of the fields.
 #[derive(Debug)]
 #[repr(C)]
 pub struct RunRing {
@@ -29,7 +29,7 @@ pub struct RunRing {
     runs: [AtomicU32; RUNS],
 }
 
-/// The word for a level that holds for so many counts.
+/// The word for a level of this many counts.
 #[must_use]
 pub const fn word(level: Level, counts: u32) -> u32 {
     let register = match level {
@@ -52,7 +52,8 @@ impl RunRing {
         }
     }
 
-    /// Adds the runs of as many of `bytes` as surely fit, and returns how many bytes. Called by the main program only.
+    /// Adds the runs of as many of `bytes` as are sure to fit, and returns the number of bytes. Called by the main
+    /// program only.
     pub fn push(&self, transmitter: &mut Transmitter, bytes: &[u8]) -> usize {
         let mut head = self.head.load(Ordering::Relaxed);
         let waiting = head.wrapping_sub(self.tail.load(Ordering::Acquire)) as usize;
@@ -88,7 +89,7 @@ impl RunRing {
         self.head.load(Ordering::Relaxed) == self.tail.load(Ordering::Acquire)
     }
 
-    /// Notes that Timer4 is started, if something waits and it does not run: then the caller must start it. To be called with
+    /// If something waits and Timer4 does not run, notes that it runs; the caller must then start it. Called with
     /// interrupts off.
     #[must_use]
     pub fn must_start(&self) -> bool {

@@ -1,10 +1,10 @@
 //! Temperature of the battery pack.
 //!
-//! A 10 k NTC in the pack, 10 k across it, 1.5 k to 3.3 V (AVDD), read as AN4. The curve is that of the original's author,
-//! who fitted it to measured points:
+//! A 10 k NTC in the pack, 10 k across it, 1.5 k to 3.3 V (AVDD), read as AN4. The original's author fitted this curve
+//! to measured points:
 //! R = 1.5 / (1024/a - 1.15) kilo-ohm, T = -0.966 + 42.4294 / (0.129334 R + 0.307073) degrees Celsius.
 //! With the first put into the second, T = -0.966 + 42.4294 (1024 - 1.15 a) / (314.443 - 0.159133 a): one division.
-//! Between 0 and 10 degrees one count is more than a degree; nobody has checked the curve on a second robot.
+//! Between 0 and 10 degrees one count is more than a degree; the curve has not been checked on a second robot.
 
 use rvac_units::Temperature;
 
@@ -13,7 +13,7 @@ const OPEN_ABOVE: u16 = 880;
 /// Readings below this mean a short circuit: about 150 degrees.
 const SHORT_BELOW: u16 = 100;
 
-/// A thermistor that cannot be believed.
+/// An implausible thermistor reading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Implausible {
     /// Not connected; carries the reading.

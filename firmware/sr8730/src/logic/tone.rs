@@ -4,9 +4,9 @@ use rvac_units::{Frequency, Ratio};
 
 /// Clock of the timers' prescaler.
 const BUS_HZ: u32 = 80_000_000;
-/// Lowest tone: below it there is only a rattle.
+/// Lowest tone: below it the speaker only rattles.
 const PITCH_MIN_HZ: u32 = 20;
-/// Highest tone; no ear hears more.
+/// Highest tone, at the limit of hearing.
 const PITCH_MAX_HZ: u32 = 20_000;
 
 /// Division of the bus clock before the timer.
@@ -18,7 +18,7 @@ pub enum ToneClock {
     By64,
 }
 
-/// What the timer and the compare register get.
+/// Values of the timer and the compare register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tone {
     /// Prescaler.
@@ -29,8 +29,8 @@ pub struct Tone {
     pub compare: u16,
 }
 
-/// The tone for a pitch and a volume, or `None` when it would be silent: no volume, or a pitch that is not above zero. Pitches
-/// beyond what can be heard are brought into the range.
+/// The tone for a pitch and a volume, or `None` when it would be silent: no volume, or a pitch that is not above zero.
+/// Inaudible pitches are clamped to the range.
 #[must_use]
 pub fn tone(pitch: Frequency, volume: Ratio) -> Option<Tone> {
     let pitch_hz = u32::try_from(pitch.0).ok().filter(|hz| *hz > 0)?;

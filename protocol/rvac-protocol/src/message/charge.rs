@@ -1,4 +1,4 @@
-//! What the charger does, how a charge ended and what is wrong with it, by name.
+//! Phase, end and fault of the charger, by name.
 
 macro_rules! names {
     ($(#[$doc:meta])* $type:ident: $count:literal { $($(#[$each:meta])* $variant:ident => $name:literal,)* }) => {
@@ -30,7 +30,7 @@ macro_rules! names {
 }
 
 names! {
-    /// Where the charger's state machine stands (table of the charger in SAFETY.md).
+    /// Phase of the charger's state machine (table of the charger in SAFETY.md).
     ChargePhase: 6 {
         /// No current is wanted, or not allowed to flow.
         Idle => "idle",
@@ -40,9 +40,9 @@ names! {
         Fast => "fast",
         /// The last percent after a good end, at a tenth of the capacity an hour.
         TopOff => "top-off",
-        /// Full: short pulses make up for what the electronics take.
+        /// Full: short pulses make up for the load of the electronics.
         Maintain => "maintain",
-        /// Something is wrong, see the fault; no current until a person clears it.
+        /// A fault: no current until a person clears it.
         Fault => "fault",
     }
 }
@@ -50,17 +50,17 @@ names! {
 names! {
     /// What ended the last charge.
     ChargeEnd: 10 {
-        /// The temperature rose fast (dT/dt).
-        Slope => "slope",
-        /// The voltage fell from its peak.
-        Drop => "drop",
-        /// The voltage did not rise any more.
-        Plateau => "plateau",
-        /// The pack is much warmer than at the start.
-        Rise => "rise",
-        /// The pack is too warm to go on.
+        /// dT/dt: the temperature rose fast.
+        TemperatureSlope => "slope",
+        /// -dV: the voltage fell from its peak.
+        NegativeDeltaV => "drop",
+        /// 0dV: the voltage stopped rising.
+        ZeroDeltaV => "plateau",
+        /// dT: the pack is much warmer than at the start.
+        TemperatureRise => "rise",
+        /// The pack is too warm to continue.
         Hot => "hot",
-        /// The voltage is higher than a sound pack's.
+        /// The voltage is higher than that of a good pack.
         Voltage => "voltage",
         /// More charge went in than the pack can hold.
         Charge => "charge",
@@ -68,7 +68,7 @@ names! {
         Time => "time",
         /// The robot left the dock, or the dock lost its supply.
         Undocked => "undocked",
-        /// The host wanted it.
+        /// The host requested it.
         Stopped => "stopped",
     }
 }
@@ -78,12 +78,12 @@ names! {
     ChargeFault: 18 {
         /// The pack is hotter than any charge may make it.
         TooHot => "too-hot",
-        /// More current than was ever asked for.
+        /// More current than the set point allows.
         OverCurrent => "over-current",
         /// Current flows though the charger is off: its transistor is shorted. Only driving off the dock cuts it.
         Shorted => "shorted",
-        /// The current sensor shows current where none can flow.
-        CurrentZero => "current-zero",
+        /// The current sensor shows a current that cannot flow: its offset is wrong.
+        CurrentOffset => "current-zero",
         /// The charger is on and no current is seen.
         NoCurrent => "no-current",
         /// The converter's readings are too old.

@@ -1,4 +1,4 @@
-//! What the host may ask of the robot.
+//! Commands from host to robot.
 
 use rvac_units::{AngularSpeed, Frequency, Length, Ratio, Speed, Throttle, Tick};
 
@@ -9,7 +9,7 @@ use super::{BinaryKinds, CommandName, Inhibit, Probe, ProtocolVersion};
 pub struct Sequence(pub u16);
 
 impl Sequence {
-    /// Whether `self` comes after `other` on the wrapping circle (less than half a turn ahead).
+    /// Whether `self` is newer than `other`: ahead by less than half the range, modulo the wrap.
     #[must_use]
     pub const fn is_newer_than(self, other: Self) -> bool {
         let ahead = self.0.wrapping_sub(other.0);
@@ -23,12 +23,12 @@ impl Sequence {
     }
 }
 
-/// A command from host to robot. Closed: what the robot does not know never becomes a `Command`.
+/// A command from host to robot. The set is closed: an unknown command never becomes a `Command`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Command {
     /// Opens a session.
     Hello(HostHello),
-    /// Leaves sealed mode: a person types.
+    /// Leaves checked mode: a person types.
     Hand,
     /// Asks for row `row` of the description table; the robot answers with one `describe` packet.
     Describe {
@@ -43,7 +43,7 @@ pub enum Command {
     Drive(Drive),
     /// Runs one motor under a lease.
     Motor(MotorCommand),
-    /// Moves a bounded way. Acknowledged.
+    /// Moves a bounded distance. Acknowledged.
     Move(Move),
     /// Stops everything, at once, in any form and any mode.
     Stop,
@@ -55,7 +55,7 @@ pub enum Command {
     Arm {
         /// Number for the acknowledgement.
         sequence: Sequence,
-        /// Whether motion off the dock is meant (S19).
+        /// Whether motion off the dock is allowed (S19).
         undock: bool,
     },
     /// Clears a latched inhibit whose cause is gone. Acknowledged.
@@ -74,18 +74,18 @@ pub enum Command {
         /// New value in the parameter's own unit.
         value: i32,
     },
-    /// Asks for nothing but an acknowledgement: keeps a session alive and measures the round trip. The session answers
-    /// it; it never reaches the firmware.
+    /// Asks only for an acknowledgement: keeps a session alive and measures the round trip. The session answers it; it
+    /// never reaches the firmware.
     Ping {
         /// Number for the acknowledgement.
         sequence: Sequence,
     },
-    /// Confirms every edge up to and including this number. The session handles it; it never reaches the firmware.
+    /// Confirms every event up to and including this number. The session handles it; it never reaches the firmware.
     Seen {
-        /// Number of the newest edge of an unbroken row.
-        edge: u16,
+        /// Number of the newest event without a gap before it.
+        event: u16,
     },
-    /// Asks for a full charge now, or forbids charging until it is asked for again. Acknowledged.
+    /// Requests a full charge now, or forbids charging until it is requested again. Acknowledged.
     Charge {
         /// Number for the acknowledgement.
         sequence: Sequence,
@@ -97,7 +97,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// The command's word.
+    /// The command's name on the wire.
     #[must_use]
     pub const fn name(&self) -> CommandName {
         match self {
@@ -185,8 +185,9 @@ pub struct Drive {
     pub lease_ms: u16,
     /// Number; motion that is not newer than the last is refused.
     pub sequence: Sequence,
-    /// The newest robot tick the host had seen; older than 400 ms is refused. In hand mode both may be absent: then the
-    /// codec fills `sequence` with 0 and this with the present tick, and the session limits speed and lease instead.
+    /// The newest robot tick that the host has received; motion with a tick older than 400 ms is refused. In hand mode
+    /// both may be absent: then the codec fills `sequence` with 0 and this with the present tick, and the session
+    /// limits speed and lease instead.
     pub seen_tick: Tick,
 }
 
@@ -285,8 +286,8 @@ pub struct MotorCommand {
 /// A bounded movement: straight, an arc, or a turn on the spot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Move {
-    /// Length of the way of the robot's centre, backwards negative. With `radius` 0 it is the turn on the spot, in radians
-    /// times one metre (so 1.57 m turns a quarter left).
+    /// Path length of the robot's centre, backwards negative. With `radius` 0 it is the angle of a turn on the spot, in
+    /// radians times one metre (1.57 m is a quarter turn to the left).
     pub length: Length,
     /// Signed radius of the arc, left positive; `None` goes straight.
     pub radius: Option<Length>,

@@ -2,7 +2,7 @@
 
 use super::{Capabilities, Limits, Parameter};
 
-/// The word of a command, for tables and for telling which commands a robot understands.
+/// The name of a command, for tables and for the list of commands that a robot understands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum CommandName {
@@ -67,7 +67,7 @@ impl CommandName {
         Self::Probe,
     ];
 
-    /// The word on the wire.
+    /// The name on the wire.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -92,7 +92,7 @@ impl CommandName {
         }
     }
 
-    /// The command with exactly this word.
+    /// The command with exactly this name.
     #[must_use]
     pub fn from_name(name: &[u8]) -> Option<Self> {
         Some(match name {
@@ -119,7 +119,7 @@ impl CommandName {
     }
 }
 
-/// A set of command words.
+/// A set of command names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct CommandNames(u32);
 
@@ -148,11 +148,11 @@ pub struct DescribeRow {
     pub row: u8,
     /// How many rows there are.
     pub rows: u8,
-    /// What it says.
+    /// Its content.
     pub content: RowContent,
 }
 
-/// What a row says.
+/// Content of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowContent {
     /// Geometry and limits.

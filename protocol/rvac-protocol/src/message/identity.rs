@@ -1,4 +1,4 @@
-//! Who the robot is: handshake and description.
+//! Identity of the robot: handshake and description.
 
 use heapless::String;
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
@@ -62,7 +62,7 @@ pub enum ResetCause {
     External,
     /// The firmware asked for it (panic handler, update).
     Software,
-    /// The chip does not tell.
+    /// The chip does not report it.
     Unknown,
 }
 
@@ -99,7 +99,7 @@ impl ResetCause {
     }
 }
 
-/// Opening of a session by the robot; also sent unasked after a reset.
+/// Opening of a session by the robot; also sent without a request after a reset.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RobotHello {
     /// Oldest version the robot speaks.
@@ -110,11 +110,11 @@ pub struct RobotHello {
     pub device: Name,
     /// Firmware version.
     pub firmware: Name,
-    /// Session number for the seal; 0 when no session is open.
+    /// Session number for the CRC; 0 when no session is open.
     pub session: u16,
-    /// Largest packet the robot can take, in bytes without the separator.
+    /// Largest packet that the robot accepts, in bytes without the separator.
     pub packet_max: u16,
-    /// Starts since the firmware was written, as far as the board can count.
+    /// Starts since the firmware was written, as far as the board counts them.
     pub boot_count: u32,
     /// Why it started.
     pub reset_cause: ResetCause,
@@ -124,7 +124,7 @@ pub struct RobotHello {
     pub tick: Tick,
 }
 
-/// What the board has. Absent means absent: it is never faked.
+/// Parts of the board. An absent part is never simulated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Capabilities {
     /// Wheel encoders.
@@ -159,7 +159,7 @@ pub struct Capabilities {
     pub battery: bool,
     /// The firmware charges.
     pub charger: bool,
-    /// Raw readings can be asked for.
+    /// Raw readings are available.
     pub probe: bool,
 }
 
@@ -172,7 +172,7 @@ pub struct Limits {
     pub turn_max: AngularSpeed,
     /// Distance between the wheels' contact points.
     pub track: Length,
-    /// Way of the rim per encoder count, in nanometres.
+    /// Distance of the rim per encoder count, in nanometres.
     pub count_nm: u32,
     /// Radius of the body (0 if it is not round).
     pub radius: Length,
@@ -180,10 +180,10 @@ pub struct Limits {
     pub swath: Length,
 }
 
-/// The description table as the host has gathered it.
+/// The robot's description, assembled from its rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Description {
-    /// What there is.
+    /// The parts of the board.
     pub capabilities: Capabilities,
     /// Geometry and limits.
     pub limits: Limits,

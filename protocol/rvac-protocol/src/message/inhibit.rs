@@ -16,7 +16,7 @@ pub enum Inhibit {
     BumperStuck = 4,
     /// A cliff sensor sees no floor: only slow reverse is allowed (S8).
     Cliff = 5,
-    /// Cliffs kept coming or reversing did not help (S8). Latched.
+    /// Three cliffs within 5 s, or reversing did not help (S8). Latched.
     CliffTrapped = 6,
     /// A cliff sensor fails its self-test (S9).
     CliffSensorFault = 7,
@@ -30,7 +30,7 @@ pub enum Inhibit {
     Runaway = 11,
     /// An encoder disagrees with its command in direction or is silent (S13). Latched.
     EncoderFault = 12,
-    /// Wheels turn but the robot does not come forward (S15).
+    /// Wheels turn but the robot makes no progress (S15).
     NotMoving = 13,
     /// On the dock: motion needs an undock command (S19).
     Docked = 14,
@@ -40,7 +40,7 @@ pub enum Inhibit {
     Stopped = 16,
     /// A self-check of the firmware failed (S21, S22). Latched.
     InternalFault = 17,
-    /// The pack is below 1.1 V a cell (S16): go to the dock. Forbids nothing yet.
+    /// The pack is below 1.1 V a cell (S16): return to the dock. Forbids nothing yet.
     BatteryLow = 18,
     /// The pack is below 1.0 V a cell (S16): brushes and suction are off.
     BatteryWeak = 19,
@@ -54,7 +54,7 @@ pub enum Inhibit {
     Thermistor = 23,
     /// The charger has found a fault (S18), which `info` names: no charging. Forbids no motion. Latched.
     ChargerFault = 24,
-    /// Current flows into the pack though the charger is off (S18): stay off the dock. Forbids no motion. Latched.
+    /// Current flows into the pack though the charger is off (S18): keep off the dock. Forbids no motion. Latched.
     ChargerShorted = 25,
     /// The clock failed, or two clocks disagree (S20). Latched.
     Clock = 26,
@@ -210,7 +210,7 @@ impl Inhibits {
         self.0 |= 1 << inhibit as u32;
     }
 
-    /// Takes `inhibit` out.
+    /// Removes `inhibit`.
     pub const fn remove(&mut self, inhibit: Inhibit) {
         self.0 &= !(1 << inhibit as u32);
     }

@@ -1,4 +1,4 @@
-//! What the two sides can say, as closed types. Text and binary forms are two spellings of these.
+//! All messages of both sides, as closed types. The text and binary forms encode these.
 
 mod charge;
 mod command;
@@ -22,7 +22,7 @@ pub use probe::{
     ProbeTarget, Probed, ProbedContent, SerialProbe,
 };
 pub use report::{
-    Acknowledgement, Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Edge, EdgeKind, Gyro,
-    Info, LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, PROXIMITY_SENSORS, Refusal, Report, State,
-    WheelDrops,
+    Acknowledgement, Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Event, Gyro, Info,
+    LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, NumberedEvent, PROXIMITY_SENSORS, Refusal, Report,
+    State, WheelDrops,
 };

@@ -1,4 +1,4 @@
-//! Raw readings, for calibration: what stands on the pins before any threshold or unit is known.
+//! Raw readings of the pins for calibration, without threshold or unit.
 
 use heapless::Vec;
 use rvac_units::Tick;
@@ -14,7 +14,7 @@ pub const PROBE_BYTES: usize = 64;
 /// Longest lease of a probe in ms.
 pub const PROBE_LEASE_MS_MAX: u16 = 1_000;
 
-/// What to look at.
+/// What to read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProbeTarget {
     /// Raw counts of the converter.
@@ -37,9 +37,10 @@ pub enum ProbeTarget {
 /// Asks for raw readings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Probe {
-    /// What to look at.
+    /// What to read.
     pub target: ProbeTarget,
-    /// 0: one answer, only while the robot is not armed. Else answers come until this many ms have passed, armed or not.
+    /// 0: one answer, only while the robot is not armed. Else answers come until this many ms have passed, armed or
+    /// not.
     pub lease_ms: u16,
     /// Number for the acknowledgement.
     pub sequence: Sequence,
@@ -50,19 +51,19 @@ pub struct Probe {
 pub struct Probed {
     /// When it was taken.
     pub tick: Tick,
-    /// What was seen.
+    /// The readings.
     pub content: ProbedContent,
 }
 
-/// What a probe saw.
+/// Readings of a probe.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ProbedContent {
     /// Counts by channel; channels that the board does not convert are 0.
     Analog([u16; PROBE_CHANNELS]),
     /// Encoders.
     Encoders(EncoderProbe),
-    /// One word for each port in the order of the chip (A, B, C ...), bit by bit the level of a pin, 1 = high. Ports that
-    /// the chip does not have are 0.
+    /// One word for each port in the order of the chip (A, B, C ...), bit by bit the level of a pin, 1 = high. Ports
+    /// that the chip does not have are 0.
     Lines([u16; PROBE_PORTS]),
     /// Buttons.
     Buttons(ButtonProbe),
@@ -81,23 +82,23 @@ pub struct EncoderProbe {
     pub left_illegal: u32,
     /// The same of the right encoder.
     pub right_illegal: u32,
-    /// Pulses of the main brush since reset, wrapping; `None` if nothing counts them.
+    /// Pulses of the main brush since reset, wrapping; `None` without a sensor.
     pub brush: Option<u32>,
 }
 
-/// The buttons without knowing which.
+/// The buttons, before it is known which is which.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ButtonProbe {
-    /// Count of the line that tells which button is down.
+    /// Count of the line that distinguishes the buttons.
     pub level: u16,
-    /// Whether the line that tells of any button is active.
+    /// Whether the line for any button is active.
     pub pressed: bool,
 }
 
-/// A piece of what a serial port received.
+/// A piece of the bytes that a serial port received.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SerialProbe {
-    /// Bytes received before this piece since the port was opened; a gap in it is what was lost on our line.
+    /// Bytes received before this piece since the port was opened; a gap shows bytes lost on the link.
     pub at: u32,
     /// Bytes that the receiver itself lost or saw with a wrong stop bit, since the port was opened.
     pub lost: u32,

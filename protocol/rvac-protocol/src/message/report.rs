@@ -1,4 +1,4 @@
-//! What the robot tells the host.
+//! Reports from robot to host.
 
 use heapless::String;
 use rvac_units::{Angle, AngularSpeed, Current, Ratio, Temperature, Tick, Voltage};
@@ -18,26 +18,26 @@ pub enum Report {
     Hello(RobotHello),
     /// One row of the description table.
     Describe(super::DescribeRow),
-    /// Slow facts.
+    /// Slowly changing values.
     Info(Info),
     /// Telemetry.
     State(State),
     /// Something happened.
-    Edge(Edge),
+    Event(NumberedEvent),
     /// Answer to a numbered command.
     Acknowledgement(Acknowledgement),
-    /// A raw reading that was asked for.
+    /// A requested raw reading.
     Probed(Probed),
     /// A line of text for people.
     Log {
-        /// How grave.
+        /// Severity.
         level: LogLevel,
-        /// What.
+        /// The text.
         text: LogText,
     },
 }
 
-/// Slow facts, with the words of 2016.
+/// Slowly changing values, under the keys of 2016.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Info {
     /// `firmware-version`
@@ -61,17 +61,17 @@ pub struct Info {
 pub struct LinkCounters {
     /// Packets accepted.
     pub accepted: u32,
-    /// Packets whose seal was wrong.
-    pub bad_seal: u32,
+    /// Packets whose CRC was wrong.
+    pub bad_crc: u32,
     /// Bytes lost in the receiver.
     pub overrun: u32,
     /// Bytes with a wrong stop bit.
     pub framing: u32,
     /// Packets longer than the limit, or with a forbidden control byte.
     pub malformed: u32,
-    /// Well-sealed packets that were refused.
+    /// Packets with the right CRC that were refused.
     pub refused: u32,
-    /// Times the receiver had to find the next separator again.
+    /// Poisoned packets, after which the receiver waited for the next separator.
     pub resync: u32,
 }
 
@@ -86,13 +86,13 @@ pub struct Battery {
     pub current: Current,
     /// Pack temperature; `None` when it cannot be measured.
     pub temperature: Option<Temperature>,
-    /// What the charger does.
+    /// State of the charger.
     pub state: ChargeState,
-    /// More about the charger, where the firmware controls it.
+    /// Details of the charger, if the firmware controls it.
     pub charger: Option<ChargerStatus>,
 }
 
-/// What the charger does.
+/// State of the charger.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum ChargeState {
     /// Not on the dock.
@@ -102,7 +102,7 @@ pub enum ChargeState {
     Charging,
     /// On the dock, full.
     Full,
-    /// On the dock, not charging for a fault.
+    /// On the dock, not charging because of a fault.
     Fault,
 }
 
@@ -155,10 +155,10 @@ pub struct Currents {
     pub brush_main: Current,
 }
 
-/// Last symbol each dock receiver heard, 0 = none: left, right, rear left, rear right.
+/// Last symbol of each dock receiver, 0 = none: left, right, rear left, rear right.
 pub type DockReceivers = [u8; 4];
 
-/// What motion control is doing.
+/// State of motion control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum MotionPhase {
     /// Nothing.
@@ -205,13 +205,13 @@ pub struct State {
     pub battery_voltage: Voltage,
     /// Pack current.
     pub battery_current: Current,
-    /// What the charger does.
+    /// State of the charger.
     pub charge: ChargeState,
     /// On the dock contacts.
     pub docked: bool,
-    /// What keeps the robot from moving.
+    /// Everything that inhibits motion.
     pub inhibits: Inhibits,
-    /// What motion control does.
+    /// State of motion control.
     pub motion: MotionPhase,
     /// Cleaning motors that run now: bit 0 main brush, 1 side brushes, 2 vacuum.
     pub cleaners: u8,
@@ -220,7 +220,7 @@ pub struct State {
 /// How a `move` ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MoveEnd {
-    /// The whole way was made.
+    /// The whole distance was covered.
     Done,
     /// Something inhibits.
     Inhibited,
@@ -232,7 +232,7 @@ pub enum MoveEnd {
 
 /// Something happened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EdgeKind {
+pub enum Event {
     /// A bumper changed: the new state of both.
     Bump(Bumpers),
     /// A cliff sensor changed: the new state of all.
@@ -256,15 +256,15 @@ pub enum EdgeKind {
     Stall(Motor),
 }
 
-/// An edge, numbered so that none is lost unseen: the robot repeats unconfirmed edges, the host drops those it has.
+/// A numbered event. The robot repeats unconfirmed events, the host drops duplicates and detects gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Edge {
+pub struct NumberedEvent {
     /// Rising number.
     pub number: u16,
     /// When it happened.
     pub tick: Tick,
-    /// What.
-    pub kind: EdgeKind,
+    /// The event.
+    pub kind: Event,
 }
 
 /// Why a command was refused.
@@ -274,19 +274,19 @@ pub enum Refusal {
     Range,
     /// A required key is missing.
     Missing,
-    /// A key stands twice.
+    /// A key occurs twice.
     Duplicate,
     /// A motion command has a key it must not have.
     UnknownKey,
     /// The command or a name in it is not known.
     Unknown,
-    /// The seal is missing in sealed mode.
-    Unsealed,
+    /// The CRC is missing in checked mode.
+    NoCrc,
     /// Not newer than the last motion command.
     Old,
     /// The host's view of the robot is older than 400 ms.
     Stale,
-    /// An inhibit stands against it; `info` and `state` tell which.
+    /// An inhibit forbids it; `state` shows which.
     Inhibited,
     /// The board has no such part.
     Absent,
@@ -294,7 +294,7 @@ pub enum Refusal {
     Busy,
     /// The cause of the latched inhibit is still there.
     CauseRemains,
-    /// Not JSON as the specification wants it.
+    /// Not JSON according to the specification.
     Syntax,
 }
 
@@ -306,7 +306,7 @@ impl Refusal {
         Self::Duplicate,
         Self::UnknownKey,
         Self::Unknown,
-        Self::Unsealed,
+        Self::NoCrc,
         Self::Old,
         Self::Stale,
         Self::Inhibited,
@@ -325,7 +325,7 @@ impl Refusal {
             Self::Duplicate => "duplicate",
             Self::UnknownKey => "key",
             Self::Unknown => "unknown",
-            Self::Unsealed => "unsealed",
+            Self::NoCrc => "unsealed",
             Self::Old => "old",
             Self::Stale => "stale",
             Self::Inhibited => "inhibited",
@@ -345,24 +345,24 @@ impl Refusal {
     }
 }
 
-/// Answer to a numbered command: done, or refused with a named reason.
+/// Answer to a numbered command: executed, or refused with a named reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Acknowledgement {
     /// The command's number; `None` answers a refused command whose number could not be read.
     pub sequence: Option<Sequence>,
-    /// `None` = done.
+    /// `None` = executed.
     pub refusal: Option<Refusal>,
 }
 
-/// How grave a log line is.
+/// Severity of a log line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LogLevel {
     /// For developers.
     Debug,
     /// Worth knowing.
     Info,
-    /// Something is wrong, work goes on.
+    /// A fault that does not stop work.
     Warn,
-    /// Something is wrong and stops work.
+    /// A fault that stops work.
     Error,
 }

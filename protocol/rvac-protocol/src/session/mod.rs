@@ -1,7 +1,8 @@
-//! The conversation: what each end keeps in mind beyond single packets.
+//! Sessions: the state of each end beyond single packets.
 //!
-//! Both ends are state machines without I/O and without a clock: bytes and the present time go in, events and bytes come
-//! out. [`RobotSession`] runs in the firmware, [`HostSession`] in the daemon and in tools. Either is driven alike:
+//! Both ends are state machines without I/O and without a clock: bytes and the present time go in, events and bytes
+//! come out. [`RobotSession`] runs in the firmware, [`HostSession`] in the daemon and in tools. Both are driven the
+//! same way:
 //!
 //! ```text
 //! every received byte    -> receive(byte, now)          -> Option<event>
@@ -23,9 +24,9 @@ pub use robot::{
 const FLUSH_AFTER_MS: u32 = 100;
 /// Bad packets in a row that make either side leave the binary forms.
 const BAD_IN_ROW_MAX: u8 = 3;
-/// Commands that must arrive and wait for their answer at a time.
+/// Most commands that wait for their answer at a time.
 const COMMANDS_UNDER_WAY: usize = 8;
-/// Ten edges at the pace of the bits, for a robot that measures the baud rate. A packet of nothing else is empty.
+/// Ten edges at the bit rate, for a robot that measures the baud rate. A packet of only this byte is empty.
 const BAUD_RATE_PATTERN: u8 = b'U';
-/// Edges that wait for their confirmation. When more come, the oldest is given up; the host sees the gap in the numbers.
-const EDGES_WAITING: usize = 16;
+/// Events that wait for confirmation. A further event drops the oldest; the host sees the gap in the numbers.
+const EVENTS_WAITING: usize = 16;

@@ -13,8 +13,8 @@ use crate::span;
 /// How strict a packet must be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// Sealed mode: every key of a motion command is required, and the number of every command that has one.
-    Sealed,
+    /// Checked mode: every key of a motion command is required, and the number of every command that has one.
+    Checked,
     /// Hand mode: `ttl` (250), `n` (0), `t` (the present tick), `radius` (straight) may be absent.
     Hand {
         /// The present tick.
@@ -38,7 +38,7 @@ type Read = Result<Command, Refusal>;
 /// Reads a command.
 ///
 /// # Errors
-/// What is wrong with it, and which number the answer should carry.
+/// Why it is refused, and the number for the answer.
 pub fn read_command(text: &[u8], form: Form) -> Result<Command, RefusedCommand> {
     read(text, form).map_err(|refusal| RefusedCommand {
         sequence: sequence_of(text),
@@ -46,8 +46,8 @@ pub fn read_command(text: &[u8], form: Form) -> Result<Command, RefusedCommand> 
     })
 }
 
-/// Whether the text is a `stop`, which is obeyed whatever else is wrong with the packet: the bare word, or whatever begins
-/// like an object whose `c` is `stop`.
+/// Whether the text is a `stop`, which is obeyed even in a damaged packet: the bare word, or any text that begins like
+/// an object whose `c` is `stop`.
 #[must_use]
 pub fn is_stop(text: &[u8]) -> bool {
     text == b"stop" || word_of(text) == Ok(b"stop")
@@ -77,7 +77,7 @@ fn read(text: &[u8], form: Form) -> Read {
     }
 }
 
-/// The value of `c`. It usually stands first, so this rarely reads far.
+/// The value of `c`. It usually is the first member, so this rarely reads far.
 fn word_of(text: &[u8]) -> Result<&[u8], Refusal> {
     let mut members = Members::of(text)?;
     while let Some((key, value)) = members.next()? {
@@ -116,7 +116,7 @@ fn read_hello(text: &[u8]) -> Read {
     }))
 }
 
-/// Kinds by name; those of a newer peer are left out.
+/// Kinds by name; kinds of a newer peer are ignored.
 pub(super) fn binary_kinds(words: &[u8]) -> BinaryKinds {
     BinaryKinds {
         state: lists(words, "state"),
@@ -280,7 +280,7 @@ fn read_ping(text: &[u8], form: Form) -> Read {
 fn read_seen(text: &[u8]) -> Read {
     let fields = Fields::read(text, ["c", "n"], UnknownKeys::Ignore)?;
     Ok(Command::Seen {
-        edge: fields.word(1, span::WORD)?,
+        event: fields.word(1, span::WORD)?,
     })
 }
 
@@ -311,7 +311,7 @@ fn read_probe(text: &[u8], form: Form) -> Read {
         (false, true) => PROBE_LEASE_MS_MAX,
         (false, false) => 0,
     };
-    // Bytes come in the course of time: a serial port has no single answer.
+    // Bytes arrive over time: a serial port has no single answer.
     if is_serial && lease_ms == 0 {
         return Err(Refusal::Range);
     }

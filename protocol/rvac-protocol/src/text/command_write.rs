@@ -2,28 +2,28 @@
 
 use super::write::ObjectWriter;
 use crate::buffer::{EncodeError, PacketBuffer};
+use crate::crc::Direction;
 use crate::message::{BinaryKinds, Command, Parameter, Probe, ProbeTarget, Sequence};
-use crate::seal::Direction;
 use crate::span;
 
-/// Appends a command, sealed for `session`, and a separator.
+/// Appends a command with its CRC for `session`, and a separator.
 ///
 /// # Errors
-/// [`EncodeError::Range`] if a number is outside of what the wire allows; the buffer is as before then.
-pub fn write_sealed_command(
+/// [`EncodeError::Range`] if a number is out of range; the buffer is then unchanged.
+pub fn write_command_with_crc(
     command: &Command,
     session: u16,
     buffer: &mut PacketBuffer,
 ) -> Result<(), EncodeError> {
     let start = buffer.length();
     write_command(command, buffer)?;
-    buffer.seal_text(start, Direction::HostToRobot, session)
+    buffer.append_crc(start, Direction::HostToRobot, session)
 }
 
-/// Appends a command as text, without a seal.
+/// Appends a command as text, without a CRC.
 ///
 /// # Errors
-/// As [`write_sealed_command`].
+/// As [`write_command_with_crc`].
 pub fn write_command(command: &Command, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
     let mut object = ObjectWriter::new(buffer);
     object.name("c", command.name().name());
@@ -79,7 +79,7 @@ fn write_members(command: &Command, object: &mut ObjectWriter<'_>) {
             write_sequence(write_value(object, *parameter, *value), *sequence)
         }
         Command::Ping { sequence } => write_sequence(object, *sequence),
-        Command::Seen { edge } => object.number("n", *edge, span::WORD),
+        Command::Seen { event } => object.number("n", *event, span::WORD),
         Command::Charge { sequence, wanted } => write_sequence(object.flag("on", *wanted), *sequence),
         Command::Probe(probe) => write_probe(object, probe),
     };

@@ -10,7 +10,7 @@ pub(crate) struct Decimal {
     exponent: i32,
 }
 
-/// Digits that surely fit 64 bits. Further digits are below any resolution of the wire and only count as places.
+/// Digits that always fit into 64 bits. Further digits are below any resolution of the wire and only count as places.
 const DIGITS_MAX: u32 = 18;
 /// Far beyond any number of the wire, far below an overflow.
 const EXPONENT_MAX: i32 = 10_000;
@@ -28,7 +28,7 @@ const POWERS: [u64; 20] = {
 impl Decimal {
     /// Reads the number at the beginning of `bytes`; gives it and its length. `None` if JSON has no such number.
     pub(crate) fn read(bytes: &[u8]) -> Option<(Self, usize)> {
-        let mut reader = Reader {
+        let mut reader = DecimalReader {
             bytes,
             at: 0,
             digits: 0,
@@ -76,14 +76,14 @@ impl Decimal {
     }
 }
 
-struct Reader<'a> {
+struct DecimalReader<'a> {
     bytes: &'a [u8],
     at: usize,
     digits: u32,
     number: Decimal,
 }
 
-impl Reader<'_> {
+impl DecimalReader<'_> {
     fn peek(&self) -> Option<u8> {
         self.bytes.get(self.at).copied()
     }
@@ -97,7 +97,7 @@ impl Reader<'_> {
         Some(digit)
     }
 
-    /// Takes a digit into the mantissa; gives whether it still fitted.
+    /// Appends a digit to the mantissa; returns whether it fitted.
     fn take(&mut self, digit: u8) -> bool {
         if self.digits == DIGITS_MAX {
             return false;
@@ -152,7 +152,8 @@ impl Reader<'_> {
 /// Most characters of a number: a sign, twenty digits, a point, and a zero before it.
 const SPELLING_MAX: usize = 24;
 
-/// A number as it stands in a packet. It grows from its last character to its first, as division gives the digits.
+/// The spelling of a number. It grows from the last character to the first, in the order in which division yields
+/// digits.
 pub(crate) struct Spelling {
     bytes: [u8; SPELLING_MAX],
     begin: usize,
@@ -163,7 +164,7 @@ impl Spelling {
         self.bytes.get(self.begin..).unwrap_or_default()
     }
 
-    /// Puts `byte` before what is there. There is room for every number.
+    /// Prepends `byte`. There is room for every number.
     fn prepend(&mut self, byte: u8) {
         let slot = self.bytes.get_mut(..self.begin).and_then(<[u8]>::last_mut);
         if let Some(slot) = slot {
@@ -173,7 +174,7 @@ impl Spelling {
     }
 }
 
-/// Spells `value` counts with `decimals` places, as short as it is exact.
+/// Spells `value` counts with `decimals` places: the shortest exact spelling.
 pub(crate) fn spell(value: i64, decimals: u8) -> Spelling {
     let mut spelling = Spelling {
         bytes: [0; SPELLING_MAX],

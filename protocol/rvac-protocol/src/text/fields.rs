@@ -4,16 +4,16 @@ use super::scan::{Members, Value};
 use crate::message::Refusal;
 use crate::span::Span;
 
-/// What happens to keys that the packet does not have.
+/// How unknown keys are treated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum UnknownKeys {
-    /// Motion: a key that we do not know could have changed the meaning.
+    /// Refused, in motion commands: an unknown key could change the meaning.
     Refuse,
-    /// Everything else: a newer peer may say more.
+    /// Ignored, in all other packets: a newer peer may send more.
     Ignore,
 }
 
-/// The values of `N` keys, in the order in which the keys were asked for.
+/// The values of `N` keys, in the order of the requested keys.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fields<'a, const N: usize> {
     values: [Option<Value<'a>>; N],

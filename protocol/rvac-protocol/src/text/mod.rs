@@ -1,14 +1,14 @@
-//! The text form: one JSON object a packet.
+//! The text form: one JSON object per packet.
 //!
-//! Reading takes the text without its seal and gives a closed type or a [`Refusal`](crate::message::Refusal); writing
-//! appends the text without a seal. Seals and separators are the session's, see
-//! [`write_sealed_command`] and [`write_sealed_report`] for tools and tests.
+//! Reading takes the text without its CRC and returns a closed type or a [`Refusal`](crate::message::Refusal); writing
+//! appends the text without a CRC. The session adds CRCs and separators; tools and tests use
+//! [`write_command_with_crc`] and [`write_report_with_crc`].
 
 mod command_read;
 mod command_write;
 mod decimal;
 mod fields;
-mod report_edge;
+mod report_event;
 mod report_info;
 mod report_probe;
 mod report_read;
@@ -19,7 +19,7 @@ mod scan;
 mod write;
 
 pub use command_read::{Form, RefusedCommand, is_stop, read_command};
-pub use command_write::{write_command, write_sealed_command};
-pub use report_info::{Firmware, InfoPart};
+pub use command_write::{write_command, write_command_with_crc};
+pub use report_info::{FirmwareInfo, InfoPart};
 pub use report_read::{ReportPacket, read_report};
-pub use report_write::{write_report, write_sealed_report};
+pub use report_write::{write_report, write_report_with_crc};

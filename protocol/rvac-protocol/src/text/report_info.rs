@@ -1,4 +1,4 @@
-//! `info`: the words of 2016, in three packets because together they are too long for one.
+//! `info`: the keys of 2016, in three packets because together they do not fit into one.
 
 use rvac_units::{Current, Ratio, Temperature, Voltage};
 
@@ -12,11 +12,11 @@ use crate::message::{
 };
 use crate::span;
 
-/// What one `info` packet told. Packets come in the order battery, link, firmware; older firmware tells all in one.
+/// Content of one `info` packet. Packets come in the order battery, link, firmware; older firmware sends all in one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct InfoPart {
     /// Versions and rates.
-    pub firmware: Option<Firmware>,
+    pub firmware: Option<FirmwareInfo>,
     /// Battery readings.
     pub battery: Option<Battery>,
     /// Link counters of the robot.
@@ -25,7 +25,7 @@ pub struct InfoPart {
 
 /// Versions and rates.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Firmware {
+pub struct FirmwareInfo {
     /// `firmware-version`
     pub firmware_version: Name,
     /// `cordlib-version`
@@ -120,7 +120,7 @@ pub(super) fn write_battery(battery: &Battery, buffer: &mut PacketBuffer) -> Res
 pub(super) fn write_link(link: &LinkCounters, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
     let totals = [
         link.accepted,
-        link.bad_seal,
+        link.bad_crc,
         link.overrun,
         link.framing,
         link.malformed,
@@ -146,8 +146,8 @@ pub(super) fn read(text: &[u8]) -> Result<InfoPart, Refusal> {
     })
 }
 
-fn read_firmware(fields: &Fields<'_, 6>) -> Result<Firmware, Refusal> {
-    Ok(Firmware {
+fn read_firmware(fields: &Fields<'_, 6>) -> Result<FirmwareInfo, Refusal> {
+    Ok(FirmwareInfo {
         firmware_version: read_name(fields.text(1)?)?,
         cordlib_version: read_name(fields.text(2)?)?,
         main_steps_hz: fields.total(3)?,
@@ -164,7 +164,7 @@ fn read_battery(fields: &Fields<'_, 9>) -> Result<Battery, Refusal> {
         voltage: Voltage(fields.int(2, span::VOLTAGE)?),
         current: Current(fields.int(3, span::CURRENT)?),
         temperature: read_temperature(fields)?,
-        // Firmware of 2016 does not tell.
+        // Firmware of 2016 does not send it.
         state: CHARGE_STATES
             .into_iter()
             .find(|(_, name)| name.as_bytes() == state)
@@ -183,7 +183,7 @@ fn read_temperature(fields: &Fields<'_, 9>) -> Result<Option<Temperature>, Refus
         .map_err(|_| Refusal::Range)
 }
 
-/// Names of a newer robot are left out: its battery's figures are worth reading all the same.
+/// Names of a newer robot are ignored, so that the battery's figures can still be read.
 fn read_charger(fields: &Fields<'_, 9>) -> Result<Option<ChargerStatus>, Refusal> {
     let phase = ChargePhase::from_name(fields.text_or_empty(6)?);
     let end = ChargeEnd::from_name(fields.text_or_empty(7)?);
@@ -194,7 +194,7 @@ fn read_charger(fields: &Fields<'_, 9>) -> Result<Option<ChargerStatus>, Refusal
 fn read_link(fields: &Fields<'_, 8>) -> Result<LinkCounters, Refusal> {
     Ok(LinkCounters {
         accepted: fields.total(1)?,
-        bad_seal: fields.total(2)?,
+        bad_crc: fields.total(2)?,
         overrun: fields.total(3)?,
         framing: fields.total(4)?,
         malformed: fields.total(5)?,

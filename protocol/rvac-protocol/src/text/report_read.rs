@@ -4,11 +4,11 @@ use super::fields::{Fields, UnknownKeys};
 use super::report_info::InfoPart;
 use super::report_write::level_name;
 use super::scan::{Members, Value};
-use super::{report_edge, report_info, report_probe, report_robot, report_state};
+use super::{report_event, report_info, report_probe, report_robot, report_state};
 use crate::message::{Acknowledgement, LogLevel, LogText, Refusal, Report, Sequence};
 use crate::span;
 
-/// What one packet of the robot says.
+/// Content of one packet of the robot.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ReportPacket {
     /// A whole report. Never `Report::Info`.
@@ -20,15 +20,15 @@ pub enum ReportPacket {
 /// Reads a report.
 ///
 /// # Errors
-/// What is wrong with it. [`Refusal::Unknown`] is a packet of a newer robot, not a broken one.
+/// Why it cannot be read. [`Refusal::Unknown`] means a packet of a newer robot, not a broken one.
 pub fn read_report(text: &[u8]) -> Result<ReportPacket, Refusal> {
     let mut members = Members::of(text)?;
     while let Some((key, value)) = members.next()? {
         match key {
             b"c" => return read_named(text, value.text()?),
             b"e" => {
-                return report_edge::read(text, value.text()?)
-                    .map(|edge| ReportPacket::Report(Report::Edge(edge)));
+                return report_event::read(text, value.text()?)
+                    .map(|event| ReportPacket::Report(Report::Event(event)));
             }
             b"a" => {
                 return read_answer(text).map(|answer| ReportPacket::Report(Report::Acknowledgement(answer)));
@@ -70,7 +70,7 @@ fn read_log(text: &[u8]) -> Result<Report, Refusal> {
     let level = [LogLevel::Debug, LogLevel::Info, LogLevel::Warn, LogLevel::Error]
         .into_iter()
         .find(|level| level_name(*level).as_bytes() == name)
-        // Firmware of 2016 does not tell; an unknown level is still worth reading.
+        // Firmware of 2016 sends no level, and an unknown level does not make the line useless.
         .unwrap_or(LogLevel::Info);
     Ok(Report::Log {
         level,
@@ -78,7 +78,7 @@ fn read_log(text: &[u8]) -> Result<Report, Refusal> {
     })
 }
 
-/// Undoes the escapes of a JSON string; what is longer than a log line is cut at a character.
+/// Decodes the escapes of a JSON string; text beyond the length of a log line is cut at a character.
 fn unescape(raw: &[u8]) -> Result<LogText, Refusal> {
     let raw = core::str::from_utf8(raw).map_err(|_| Refusal::Syntax)?;
     let mut text = LogText::new();

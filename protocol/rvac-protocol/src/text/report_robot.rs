@@ -49,7 +49,7 @@ pub(super) fn read_hello(text: &[u8]) -> Result<RobotHello, Refusal> {
         session: fields.word(5, span::WORD)?,
         packet_max: fields.word(6, span::WORD)?,
         boot_count: fields.total(7)?,
-        // A cause of a newer robot is one that this version cannot tell.
+        // A cause of a newer robot is unknown to this version.
         reset_cause: ResetCause::from_name(fields.text(8)?).unwrap_or(ResetCause::Unknown),
         binary: binary_kinds(fields.text_or_empty(9)?),
         tick: Tick(fields.total(10)?),

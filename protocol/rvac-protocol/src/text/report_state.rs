@@ -1,4 +1,4 @@
-//! Telemetry as text. Keys are single letters, so that the longest report with its seal fits one packet.
+//! Telemetry as text. Keys are single letters, so that the longest report with its CRC fits one packet.
 
 use rvac_units::{Angle, AngularSpeed, Current, Tick, Voltage};
 
@@ -14,7 +14,7 @@ const KEYS: [&str; 17] = [
     "c", "t", "l", "r", "h", "g", "p", "d", "f", "k", "x", "y", "z", "v", "a", "s", "i",
 ];
 
-/// The letter of what the charger does.
+/// The letter of the charger's state.
 const fn charge_letter(charge: ChargeState) -> u8 {
     match charge {
         ChargeState::Discharging => b'd',
@@ -24,7 +24,7 @@ const fn charge_letter(charge: ChargeState) -> u8 {
     }
 }
 
-/// The letter of what motion control does.
+/// The letter of the motion phase.
 const fn motion_letter(motion: MotionPhase) -> u8 {
     match motion {
         MotionPhase::Idle => b'i',

@@ -7,12 +7,12 @@ use crate::span::Span;
 /// A value of a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Value<'a> {
-    /// Between the quotes, escapes not undone. No name of the wire has an escape, so names compare directly.
+    /// The text between the quotes, escapes not decoded. No name of the wire has an escape, so names compare directly.
     Text(&'a [u8]),
     Number(Decimal),
     Flag(bool),
     Null,
-    /// An array or an object: none of our packets has one, those of newer versions may.
+    /// An array or an object: no packet of this version has one, those of newer versions may.
     Composite,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct Members<'a> {
     begun: bool,
 }
 
-/// Nesting that unknown values may have.
+/// Deepest nesting of unknown values.
 const DEPTH_MAX: u32 = 32;
 
 impl<'a> Members<'a> {
@@ -124,7 +124,7 @@ impl<'a> Members<'a> {
         }
     }
 
-    /// The rest of a string whose opening quote is behind us.
+    /// The rest of a string after its opening quote.
     #[inline]
     fn string(&mut self) -> Result<&'a [u8], Refusal> {
         let begin = self.at;
@@ -158,7 +158,8 @@ impl<'a> Members<'a> {
         }
     }
 
-    /// Skips an array or an object. Bit 0 of `nesting` says whether the innermost is an object, bit 1 the next outer one.
+    /// Skips an array or an object. Bit 0 of `nesting` is set if the innermost is an object, bit 1 for the next outer
+    /// one.
     fn skip_composite(&mut self) -> Result<Value<'a>, Refusal> {
         let mut nesting: u32 = 0;
         let mut depth: u32 = 0;
@@ -232,7 +233,7 @@ impl<'a> Members<'a> {
         }
     }
 
-    /// Of JSON's white space only the space can arrive: the others poison a packet.
+    /// Of JSON's white space only the space can occur: the others poison a packet.
     #[inline]
     fn skip_spaces(&mut self) {
         while self.peek() == Some(b' ') {

@@ -4,7 +4,8 @@ use super::decimal::spell;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::span::Span;
 
-/// Appends the members of one object. Errors are kept and told at the end, so that the packets read as lists of members.
+/// Appends the members of one object. An error is kept until the end, so that the code of a packet reads as a list of
+/// members.
 #[derive(Debug)]
 pub(crate) struct ObjectWriter<'b> {
     buffer: &'b mut PacketBuffer,
@@ -38,12 +39,12 @@ impl<'b> ObjectWriter<'b> {
         self
     }
 
-    /// A measured number; the nearest in its span stands for what is beyond.
+    /// A measured number; beyond its span it is clamped.
     pub(crate) fn measured(&mut self, key: &str, value: impl Into<i64>, span: Span) -> &mut Self {
         self.number(key, span.saturate(value.into()), span)
     }
 
-    /// A name: text that needs no escapes. What would need one becomes `?`.
+    /// A name: text without escapes. A character that would need one is replaced by `?`.
     pub(crate) fn name(&mut self, key: &str, name: &str) -> &mut Self {
         self.key(key);
         self.raw(b"\"");
@@ -75,7 +76,7 @@ impl<'b> ObjectWriter<'b> {
         self.raw(b"\"")
     }
 
-    /// Names separated by spaces, as many as leave the packet `bytes_left` bytes for what follows.
+    /// Names separated by spaces, as many as leave `bytes_left` bytes in the packet.
     pub(crate) fn names_that_fit<'n>(
         &mut self,
         key: &str,
@@ -169,10 +170,10 @@ impl<'b> ObjectWriter<'b> {
         self.outcome
     }
 
-    /// Bytes that are left in the packet besides its seal and `bytes_left` more.
+    /// Free bytes of the packet, less its CRC and `bytes_left`.
     fn room(&self, bytes_left: usize) -> usize {
         let used = self.buffer.length() - self.begin;
-        (crate::frame::PACKET_BYTES_MAX - crate::frame::TEXT_SEAL_BYTES).saturating_sub(used + bytes_left)
+        (crate::frame::PACKET_BYTES_MAX - crate::frame::TEXT_CRC_BYTES).saturating_sub(used + bytes_left)
     }
 
     fn key(&mut self, key: &str) {
@@ -195,7 +196,7 @@ const fn hex_digits(byte: u8) -> [u8; 2] {
     [DIGITS[(byte >> 4) as usize], DIGITS[(byte & 0xF) as usize]]
 }
 
-/// One character as it stands in a JSON string.
+/// One character in its JSON spelling.
 struct Escaped {
     bytes: [u8; 6],
     length: usize,

@@ -2,9 +2,9 @@
 //! does not compile until it has a meaning here, and then a test wants a vector of it.
 
 use rvac_protocol::message::{
-    Acknowledgement, Battery, Capabilities, ChargeEnd, ChargeFault, ChargeState, Command, DescribeRow,
-    EdgeKind, Info, LinkCounters, LogLevel, MotionPhase, MoveEnd, ProbeTarget, ProbedContent, Report,
-    RowContent, State,
+    Acknowledgement, Battery, Capabilities, ChargeEnd, ChargeFault, ChargeState, Command, DescribeRow, Event,
+    Info, LinkCounters, LogLevel, MotionPhase, MoveEnd, ProbeTarget, ProbedContent, Report, RowContent,
+    State,
 };
 use serde_json::{Value, json};
 
@@ -51,7 +51,7 @@ pub(crate) fn command(command: &Command) -> Value {
             value,
         } => json!({"command": "set", "number": sequence.0, "parameter": parameter.name(), "value": value}),
         Command::Ping { sequence } => json!({"command": "ping", "number": sequence.0}),
-        Command::Seen { edge } => json!({"command": "seen", "edge": edge}),
+        Command::Seen { event } => json!({"command": "seen", "edge": event}),
         Command::Charge { sequence, wanted } => {
             json!({"command": "charge", "number": sequence.0, "wanted": wanted})
         }
@@ -86,8 +86,8 @@ pub(crate) fn report(report: &Report) -> Value {
         Report::Describe(row) => describe(row),
         Report::Info(info) => firmware(info),
         Report::State(state) => telemetry(state),
-        Report::Edge(edge) => {
-            json!({"report": "edge", "number": edge.number, "tick_ms": edge.tick.0, "edge": edge_kind(&edge.kind)})
+        Report::Event(event) => {
+            json!({"report": "edge", "number": event.number, "tick_ms": event.tick.0, "edge": event_kind(&event.kind)})
         }
         Report::Acknowledgement(Acknowledgement { sequence, refusal }) => json!({
             "report": "answer", "number": sequence.map(|sequence| sequence.0), "refusal": refusal.map(|refusal| refusal.name()),
@@ -187,7 +187,7 @@ pub(crate) fn battery(battery: &Battery) -> Value {
 
 pub(crate) fn link(link: &LinkCounters) -> Value {
     json!({
-        "accepted": link.accepted, "bad_seal": link.bad_seal, "overrun": link.overrun, "framing": link.framing,
+        "accepted": link.accepted, "bad_seal": link.bad_crc, "overrun": link.overrun, "framing": link.framing,
         "malformed": link.malformed, "refused": link.refused, "resync": link.resync,
     })
 }
@@ -207,16 +207,16 @@ fn telemetry(state: &State) -> Value {
     })
 }
 
-fn edge_kind(kind: &EdgeKind) -> Value {
+fn event_kind(kind: &Event) -> Value {
     match kind {
-        EdgeKind::Bump(bumpers) => json!({"bump": [bumpers.left, bumpers.right]}),
-        EdgeKind::Cliff(cliffs) => json!({"cliff": [cliffs.left, cliffs.middle, cliffs.right]}),
-        EdgeKind::Lift(drops) => json!({"lift": [drops.left, drops.right]}),
-        EdgeKind::Button { button, pressed } => json!({"button": button, "pressed": pressed}),
-        EdgeKind::Docked(docked) => json!({"docked": docked}),
-        EdgeKind::MoveFinished(end) => json!({"move_finished": move_end(*end)}),
-        EdgeKind::Inhibits(inhibits) => json!({"inhibits": inhibits.bits()}),
-        EdgeKind::Stall(motor) => json!({"stall": motor.name()}),
+        Event::Bump(bumpers) => json!({"bump": [bumpers.left, bumpers.right]}),
+        Event::Cliff(cliffs) => json!({"cliff": [cliffs.left, cliffs.middle, cliffs.right]}),
+        Event::Lift(drops) => json!({"lift": [drops.left, drops.right]}),
+        Event::Button { button, pressed } => json!({"button": button, "pressed": pressed}),
+        Event::Docked(docked) => json!({"docked": docked}),
+        Event::MoveFinished(end) => json!({"move_finished": move_end(*end)}),
+        Event::Inhibits(inhibits) => json!({"inhibits": inhibits.bits()}),
+        Event::Stall(motor) => json!({"stall": motor.name()}),
     }
 }
 

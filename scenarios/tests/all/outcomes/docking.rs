@@ -2,7 +2,7 @@
 
 use brain::Brain;
 use brain::command::StrategyName;
-use home::DockBeams;
+use home::BeamStrengths;
 use rvac_api::RequestBody;
 use rvac_sim::{Host, Household};
 use scenarios::{JOB_S, Table, Watched, generated_with, is_home, scene};
@@ -31,7 +31,7 @@ fn ways_home() {
 
         let mut watched = Watched::somewhere(&generated_with(14, "bad"), seed).knowing_home();
         let world = watched.household_mut().robot_mut().world_mut();
-        world.set_dock_beams(DockBeams::POOR);
+        world.set_dock_beams(BeamStrengths::POOR);
         world.push_dock(0.05, 0.05);
         send_home(&mut watched);
         table.row(

@@ -1,4 +1,4 @@
-//! What the generator draws.
+//! Random choices of the generator.
 
 use crate::Pcg;
 

@@ -1,15 +1,15 @@
 //! Finds places for furniture: at a wall or freely, away from doors and from each other.
 
 use super::draw::Draw;
-use super::shape::{Frame, Point, Rect, Side};
+use super::shape::{Point, Rect, RoomSide, WallFrame};
 use super::sizes::Size;
 use super::things::{Piece, Rug, Things};
 
 /// Places that are tried before a piece is left out.
 const TRIES: usize = 40;
-/// Usual least way between two pieces: a person passes, and so does a robot.
+/// Usual least distance of two pieces: a person passes, and so does a robot.
 const PASSAGE_M: f64 = 0.46;
-/// Some stand closer to each other.
+/// Least distance of pieces that stand closer to each other.
 const CLOSE_M: f64 = 0.06;
 const CLOSE_SHARE: f64 = 0.2;
 
@@ -19,7 +19,7 @@ pub(super) enum Where {
     /// Its back at any wall.
     Wall,
     /// Its back at this wall.
-    At(Side),
+    At(RoomSide),
     /// In a corner.
     Corner,
 }
@@ -54,20 +54,20 @@ impl<'a> Furnisher<'a> {
         }
     }
 
-    /// A place for a piece of this size with so much free floor in front. The frame's origin is the piece's corner at the
-    /// wall; the piece and the floor in front are taken from now on.
+    /// A place for a piece of this size with so much free floor in front. The frame's origin is the piece's corner at
+    /// the wall; the piece and the floor in front are taken from now on.
     pub(super) fn at_wall(
         &mut self,
         (width, depth): Size,
         front_m: f64,
         place: Where,
-    ) -> Option<(Frame, Side)> {
+    ) -> Option<(WallFrame, RoomSide)> {
         for _ in 0..TRIES {
             let side = match place {
                 Where::At(side) => side,
-                Where::Wall | Where::Corner => Side::ALL[self.draw.below(4)],
+                Where::Wall | Where::Corner => RoomSide::ALL[self.draw.below(4)],
             };
-            let free_m = Frame::length_of(&self.room, side) - width;
+            let free_m = WallFrame::length_of(&self.room, side) - width;
             if free_m < 0.0 {
                 continue;
             }
@@ -76,7 +76,7 @@ impl<'a> Furnisher<'a> {
                 Where::Corner => free_m,
                 Where::Wall | Where::At(_) => self.snapped(free_m),
             };
-            let frame = Frame::of_side(&self.room, side).moved(along, 0.0);
+            let frame = WallFrame::of_side(&self.room, side).moved(along, 0.0);
             let body = frame.rect([0.0, 0.0], [width, depth]);
             let front = frame.rect([0.0, depth], [width, depth + front_m]);
             let passage_m = self.passage_m();
@@ -110,7 +110,7 @@ impl<'a> Furnisher<'a> {
     }
 
     /// A free place for a group of this size, away from the walls by at least a passage.
-    pub(super) fn freely(&mut self, size: Size) -> Option<Frame> {
+    pub(super) fn freely(&mut self, size: Size) -> Option<WallFrame> {
         let (width, depth) = if self.draw.chance(0.5) {
             size
         } else {
@@ -128,13 +128,13 @@ impl<'a> Furnisher<'a> {
             if self.is_free(&body, PASSAGE_M) {
                 self.solid.push(body);
                 return Some(if turned {
-                    Frame {
+                    WallFrame {
                         origin: [body.high[0], body.low[1]],
                         along: [0.0, 1.0],
                         into: [-1.0, 0.0],
                     }
                 } else {
-                    Frame {
+                    WallFrame {
                         origin: body.low,
                         along: [1.0, 0.0],
                         into: [0.0, 1.0],
@@ -214,7 +214,7 @@ impl<'a> Furnisher<'a> {
     }
 
     /// A chair in this frame, drawn back from its place toward `back` (0..1 of 35 cm) and turned a little.
-    pub(super) fn chair(&mut self, frame: &Frame, at: Point, back: Point) {
+    pub(super) fn chair(&mut self, frame: &WallFrame, at: Point, back: Point) {
         let drawn_m = 0.35 * self.moved.number(0.0, 1.0);
         let turn_rad = self.moved.number(-0.3, 0.3);
         let centre = frame.point(at[0] + back[0] * drawn_m, at[1] + back[1] * drawn_m);
@@ -231,5 +231,5 @@ impl<'a> Furnisher<'a> {
 /// Usual leg.
 pub(super) const LEG_M: f64 = 0.05;
 const CHAIR_LEG_M: f64 = 0.035;
-/// Half of the way between two legs of a chair.
+/// Half of the distance between two legs of a chair.
 const CHAIR_HALF_M: f64 = 0.19;

@@ -6,7 +6,7 @@
 
 use super::draw::Draw;
 use super::shape::Rect;
-use super::things::{Door, Line, Room, RoomKind, Things};
+use super::things::{PlacedDoor, PlacedLine, Room, RoomKind, Things};
 
 /// Thickness of walls between rooms, metres.
 const WALL_M: f64 = 0.12;
@@ -15,7 +15,7 @@ const JAMB_M: f64 = 0.16;
 
 /// How large a home is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Extent {
+pub(super) enum HomeSize {
     Studio,
     Small,
     Medium,
@@ -23,11 +23,11 @@ pub(super) enum Extent {
 }
 
 /// Draws the rooms of a home.
-pub(super) fn draw_rooms(draw: &mut Draw, extent: Extent) -> Things {
+pub(super) fn draw_rooms(draw: &mut Draw, extent: HomeSize) -> Things {
     let mut things = Things::default();
     match extent {
-        Extent::Studio => studio(draw, &mut things),
-        Extent::Small | Extent::Medium | Extent::Large => rows(draw, extent, &mut things),
+        HomeSize::Studio => studio(draw, &mut things),
+        HomeSize::Small | HomeSize::Medium | HomeSize::Large => rows(draw, extent, &mut things),
     }
     things
 }
@@ -45,17 +45,17 @@ fn studio(draw: &mut Draw, things: &mut Things) {
     });
     let half = 0.5 * WALL_M;
     let corner = [bath.high[0] + half, bath.high[1] + half];
-    things.walls.push(Line {
+    things.walls.push(PlacedLine {
         ends: [[0.0, corner[1]], corner],
         thickness_m: WALL_M,
     });
-    things.walls.push(Line {
+    things.walls.push(PlacedLine {
         ends: [[corner[0], 0.0], [corner[0], corner[1] + half]],
         thickness_m: WALL_M,
     });
     let width = draw.length(0.74, 0.86);
     let start = draw.length(JAMB_M, bath.high[1] - JAMB_M - width);
-    things.doors.push(Door {
+    things.doors.push(PlacedDoor {
         ends: [[corner[0], start], [corner[0], start + width]],
         open: true,
         threshold_m: draw.pick(&[0.0, 0.006, 0.01]),
@@ -63,16 +63,16 @@ fn studio(draw: &mut Draw, things: &mut Things) {
 }
 
 /// A row of rooms beside the corridor.
-struct Row {
+struct RoomRow {
     low_y: f64,
     high_y: f64,
     door_y: f64,
     kinds: Vec<RoomKind>,
 }
 
-fn rows(draw: &mut Draw, extent: Extent, things: &mut Things) {
+fn rows(draw: &mut Draw, extent: HomeSize, things: &mut Things) {
     let full_depth = draw.chance(0.55);
-    let corridor_m = draw.length(1.1, if extent == Extent::Large { 1.9 } else { 1.5 });
+    let corridor_m = draw.length(1.1, if extent == HomeSize::Large { 1.9 } else { 1.5 });
     let (south_m, north_m) = (draw.length(2.5, 3.6), draw.length(3.0, 4.2));
     let corridor_y = [south_m + WALL_M, south_m + WALL_M + corridor_m];
     let top = corridor_y[1] + WALL_M + north_m;
@@ -95,13 +95,13 @@ fn rows(draw: &mut Draw, extent: Extent, things: &mut Things) {
     });
     let stairs_m = stairs(draw, extent, corridor, things);
     for row in [
-        Row {
+        RoomRow {
             low_y: 0.0,
             high_y: south_m,
             door_y: south_m + 0.5 * WALL_M,
             kinds: south,
         },
-        Row {
+        RoomRow {
             low_y: top - north_m,
             high_y: top,
             door_y: corridor_y[1] + 0.5 * WALL_M,
@@ -113,12 +113,12 @@ fn rows(draw: &mut Draw, extent: Extent, things: &mut Things) {
 }
 
 /// The rooms of both rows.
-fn kinds(draw: &mut Draw, extent: Extent, full_depth: bool) -> (Vec<RoomKind>, Vec<RoomKind>) {
+fn kinds(draw: &mut Draw, extent: HomeSize, full_depth: bool) -> (Vec<RoomKind>, Vec<RoomKind>) {
     use RoomKind::{Bath, Bedroom, Child, Kitchen, Living, Office, Storage, Toilet};
     let (mut south, mut north) = match extent {
-        Extent::Large => (vec![Kitchen, Bath, Toilet, Office], vec![Bedroom, Child, Bedroom]),
-        Extent::Medium => (vec![Kitchen, Bath, Office], vec![Bedroom, Child]),
-        Extent::Small | Extent::Studio => (vec![Kitchen, Bath], vec![Bedroom]),
+        HomeSize::Large => (vec![Kitchen, Bath, Toilet, Office], vec![Bedroom, Child, Bedroom]),
+        HomeSize::Medium => (vec![Kitchen, Bath, Office], vec![Bedroom, Child]),
+        HomeSize::Small | HomeSize::Studio => (vec![Kitchen, Bath], vec![Bedroom]),
     };
     if draw.chance(0.4) {
         south.push(Storage);
@@ -157,7 +157,7 @@ fn width_of(draw: &mut Draw, kind: RoomKind) -> f64 {
 }
 
 /// Lays the rooms of a row side by side over the whole length, each with a door to the corridor.
-fn fill(draw: &mut Draw, row: &Row, [first_x, end_x, doors_end_x]: [f64; 3], things: &mut Things) {
+fn fill(draw: &mut Draw, row: &RoomRow, [first_x, end_x, doors_end_x]: [f64; 3], things: &mut Things) {
     let widths: Vec<f64> = row.kinds.iter().map(|kind| width_of(draw, *kind)).collect();
     let walls_m = WALL_M * (row.kinds.len() as f64 - 1.0);
     // Small rooms stay small; the others take what is over.
@@ -198,7 +198,7 @@ fn row_door(draw: &mut Draw, (kind, y): (RoomKind, f64), [low_x, high_x]: [f64; 
     let width = draw.length(narrow, wide);
     let start = draw.length(low_x + JAMB_M, high_x - JAMB_M - width);
     let wet = matches!(kind, RoomKind::Bath | RoomKind::Toilet | RoomKind::Kitchen);
-    things.doors.push(Door {
+    things.doors.push(PlacedDoor {
         ends: [[start, y], [start + width, y]],
         open: kind != RoomKind::Storage || draw.chance(0.5),
         threshold_m: if wet {
@@ -212,7 +212,7 @@ fn row_door(draw: &mut Draw, (kind, y): (RoomKind, f64), [low_x, high_x]: [f64; 
 fn living_door(draw: &mut Draw, x: f64, corridor: Rect, things: &mut Things) {
     let width = draw.length(0.84, (corridor.depth() - 0.1).min(1.4));
     let start = draw.length(corridor.low[1], corridor.high[1] - width);
-    things.doors.push(Door {
+    things.doors.push(PlacedDoor {
         ends: [[x, start], [x, start + width]],
         open: true,
         threshold_m: draw.pick(&[0.0, 0.0, 0.008]),
@@ -220,8 +220,8 @@ fn living_door(draw: &mut Draw, x: f64, corridor: Rect, things: &mut Things) {
 }
 
 /// Stairs down at the end of the corridor of some large homes; gives the length that they take.
-fn stairs(draw: &mut Draw, extent: Extent, corridor: Rect, things: &mut Things) -> f64 {
-    if extent != Extent::Large || !draw.chance(0.5) {
+fn stairs(draw: &mut Draw, extent: HomeSize, corridor: Rect, things: &mut Things) -> f64 {
+    if extent != HomeSize::Large || !draw.chance(0.5) {
         return 0.0;
     }
     let length = draw.length(0.9, 1.2);

@@ -21,9 +21,9 @@ use crate::{Home, HomeError, RobotModel};
 use draw::Draw;
 use furnisher::Furnisher;
 pub use half::Half;
-use layout::{Extent, draw_rooms};
-use shape::{Frame, Rect, Side};
-use things::{Piece, Room, RoomKind, Things, Visitor, Walker};
+use layout::{HomeSize, draw_rooms};
+use shape::{Rect, RoomSide, WallFrame};
+use things::{Piece, PlacedWalker, Room, RoomKind, Things, Visitor};
 use write::Turn;
 
 /// Which generated home.
@@ -138,10 +138,10 @@ impl GeneratedHome {
         let mut draw = Draw::new(seed, 100 + fixed);
         let mut moved = Draw::new(seed, 10_000 + loose);
         let extent = match self.number % 7 {
-            0 => Extent::Studio,
-            1 | 4 => Extent::Small,
-            2 | 5 | 6 => Extent::Medium,
-            _ => Extent::Large,
+            0 => HomeSize::Studio,
+            1 | 4 => HomeSize::Small,
+            2 | 5 | 6 => HomeSize::Medium,
+            _ => HomeSize::Large,
         };
         let mut things = draw_rooms(&mut draw, extent);
         let dock_clear = place_dock(&mut draw, &mut things);
@@ -191,10 +191,10 @@ fn place_dock(draw: &mut Draw, things: &mut Things) -> Option<Rect> {
         .collect();
     for _ in 0..200 {
         let room = rooms.get(draw.below(rooms.len()))?;
-        let side = Side::ALL[draw.below(4)];
-        let length = Frame::length_of(&room.rect, side);
+        let side = RoomSide::ALL[draw.below(4)];
+        let length = WallFrame::length_of(&room.rect, side);
         let along = draw.length(DOCK_ASIDE_M, length - DOCK_ASIDE_M);
-        let frame = Frame::of_side(&room.rect, side).moved(along, 0.0);
+        let frame = WallFrame::of_side(&room.rect, side).moved(along, 0.0);
         let clear = frame.rect([-DOCK_ASIDE_M, 0.0], [DOCK_ASIDE_M, DOCK_FRONT_M]);
         let at_door = things.doors.iter().any(|door| door.clear().overlaps(&clear));
         let other_room = things
@@ -237,8 +237,8 @@ const SLANTED: &str = "Slanted outer wall";
 
 /// Some doors stand open at a right angle to their wall.
 fn door_leaves(draw: &mut Draw, things: &mut Things) {
-    let south_of = |door: &things::Door| door.ends[0][1] == door.ends[1][1];
-    let doors: Vec<things::Door> = things
+    let south_of = |door: &things::PlacedDoor| door.ends[0][1] == door.ends[1][1];
+    let doors: Vec<things::PlacedDoor> = things
         .doors
         .iter()
         .filter(|door| south_of(door))
@@ -273,7 +273,7 @@ fn furnish(draw: &mut Draw, moved: &mut Draw, things: &mut Things, dock_clear: O
         let clear = things
             .doors
             .iter()
-            .map(things::Door::clear)
+            .map(things::PlacedDoor::clear)
             .chain(dock_clear)
             .collect();
         let others = rooms
@@ -347,7 +347,7 @@ fn invite(moved: &mut Draw, things: &mut Things) {
     for kind in ["person", "person", "pet"] {
         let goals = (0..4).map(|_| within(moved, &rooms)).collect();
         let from_s = moved.number(20.0, 300.0);
-        things.walkers.push(Walker {
+        things.walkers.push(PlacedWalker {
             kind,
             goals,
             rest_s: moved.number(3.0, 40.0),

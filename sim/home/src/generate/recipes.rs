@@ -1,13 +1,13 @@
-//! What stands in which room.
+//! Furniture of each kind of room.
 
 use super::furnisher::{Furnisher, LEG_M, Where};
-use super::shape::{Frame, Rect, Side};
+use super::shape::{Rect, RoomSide, WallFrame};
 use super::sizes::{
     ARMCHAIR, BED_NARROW, BED_WIDE, BOX, COFFEE_TABLE, COUNTER_DEPTH_M, DESK, DINING_TABLE, DOG_BED, DRESSER,
     FLOOR_LAMP, FRIDGE, GARBAGE_CAN, HAMPER, HOUSE_PLANT, SHELF, SIDE_TABLE, SOFA, STOOL, Size, TOILET,
     TV_STAND, WASHING_MACHINE,
 };
-use super::things::{Line, RoomKind};
+use super::things::{PlacedLine, RoomKind};
 
 /// Way in front of furniture with doors or drawers.
 const DRAWERS_M: f64 = 0.5;
@@ -30,7 +30,7 @@ pub(super) fn furnish(room: &mut Furnisher<'_>, kind: RoomKind) {
 
 fn living(room: &mut Furnisher<'_>) {
     let sofa_side = sofa_group(room);
-    television(room, sofa_side.map(Side::opposite));
+    television(room, sofa_side.map(RoomSide::opposite));
     if room.room.area_m2() > 20.0 {
         dining(room);
     }
@@ -50,7 +50,7 @@ fn studio(room: &mut Furnisher<'_>) {
     counter(room, 1.8);
     bed(room, BED_NARROW);
     let side = sofa_group(room);
-    television(room, side.map(Side::opposite));
+    television(room, side.map(RoomSide::opposite));
     dining(room);
     boxy(room, ("Wardrobe", DRESSER), DRAWERS_M, Where::Corner);
     lamp(room);
@@ -144,14 +144,14 @@ fn corridor(room: &mut Furnisher<'_>) {
     }
     if room.draw.chance(0.3) {
         let side = if room.draw.chance(0.5) {
-            Side::South
+            RoomSide::South
         } else {
-            Side::North
+            RoomSide::North
         };
         if let Some((frame, _)) = room.at_wall((0.5, 0.04), 0.5, Where::At(side)) {
             let rect = frame.rect([0.0, 0.0], [0.5, 0.04]);
             room.solid("Standing mirror", &rect);
-            room.things.mirrors.push(Line {
+            room.things.mirrors.push(PlacedLine {
                 ends: [frame.point(0.0, 0.04), frame.point(0.5, 0.04)],
                 thickness_m: 0.06,
             });
@@ -166,7 +166,7 @@ fn storage(room: &mut Furnisher<'_>) {
 }
 
 /// A sofa with a low table and often a rug in front of it; gives the wall.
-fn sofa_group(room: &mut Furnisher<'_>) -> Option<Side> {
+fn sofa_group(room: &mut Furnisher<'_>) -> Option<RoomSide> {
     let (width, depth) = room.draw.pick(SOFA);
     let table = room.draw.pick(COFFEE_TABLE);
     let gap = room.draw.length(0.36, 0.5);
@@ -196,14 +196,14 @@ fn sofa_group(room: &mut Furnisher<'_>) -> Option<Side> {
     Some(side)
 }
 
-fn television(room: &mut Furnisher<'_>, side: Option<Side>) {
+fn television(room: &mut Furnisher<'_>, side: Option<RoomSide>) {
     let size = room.draw.pick(TV_STAND);
     let place = side.map_or(Where::Wall, Where::At);
     if let Some((frame, _)) = room.at_wall(size, DRAWERS_M, place) {
         let rect = frame.rect([0.0, 0.0], [size.0, size.1]);
         room.solid("Television stand", &rect);
         if room.draw.chance(0.4) {
-            room.things.cables.push(Line {
+            room.things.cables.push(PlacedLine {
                 ends: [frame.point(size.0 + 0.02, 0.06), frame.point(size.0 + 0.4, 0.2)],
                 thickness_m: 0.02,
             });
@@ -225,7 +225,7 @@ fn dining(room: &mut Furnisher<'_>) {
     let Some(frame) = frame.or_else(|| {
         // One narrow end at the wall: the frame's x must run into the room.
         room.at_wall((group.1, group.0), 0.3, Where::Wall)
-            .map(|(frame, _)| Frame {
+            .map(|(frame, _)| WallFrame {
                 origin: frame.point(group.1, 0.0),
                 along: frame.into,
                 into: [-frame.along[0], -frame.along[1]],
@@ -279,12 +279,12 @@ fn bed(room: &mut Furnisher<'_>, sizes: &[Size]) {
 }
 
 /// A wardrobe; gives the line of its doors.
-fn wardrobe(room: &mut Furnisher<'_>) -> Option<Line> {
+fn wardrobe(room: &mut Furnisher<'_>) -> Option<PlacedLine> {
     let size = (room.draw.length(1.2, 2.2), 0.6);
     let (frame, _) = room.at_wall(size, 0.55, Where::Corner)?;
     let rect = frame.rect([0.0, 0.0], [size.0, size.1]);
     room.solid("Wardrobe", &rect);
-    Some(Line {
+    Some(PlacedLine {
         ends: [frame.point(0.2, size.1), frame.point(size.0 - 0.2, size.1)],
         thickness_m: 0.06,
     })
@@ -313,7 +313,7 @@ fn desk(room: &mut Furnisher<'_>) {
         .collect();
     room.legs("Office chair", legs, LEG_M);
     if room.draw.chance(0.5) {
-        room.things.cables.push(Line {
+        room.things.cables.push(PlacedLine {
             ends: [
                 frame.point(0.5 * size.0, 0.02),
                 frame.point(0.5 * size.0 + 0.3, 0.5),
@@ -326,8 +326,8 @@ fn desk(room: &mut Furnisher<'_>) {
 /// A kitchen counter along most of a wall.
 fn counter(room: &mut Furnisher<'_>, shortest_m: f64) {
     for _ in 0..8 {
-        let side = Side::ALL[room.draw.below(4)];
-        let longest_m = Frame::length_of(&room.room, side);
+        let side = RoomSide::ALL[room.draw.below(4)];
+        let longest_m = WallFrame::length_of(&room.room, side);
         let size = (room.draw.length(shortest_m, longest_m.min(3.6)), COUNTER_DEPTH_M);
         if let Some((frame, _)) = room.at_wall(size, 0.7, Where::At(side)) {
             let rect = frame.rect([0.0, 0.0], [size.0, size.1]);

@@ -60,14 +60,14 @@ impl Rect {
 
 /// A side of a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum RoomSide {
     South,
     East,
     North,
     West,
 }
 
-impl Side {
+impl RoomSide {
     pub(super) const ALL: [Self; 4] = [Self::South, Self::East, Self::North, Self::West];
 
     pub(super) const fn opposite(self) -> Self {
@@ -82,29 +82,29 @@ impl Side {
 
 /// A frame whose x runs along a wall and whose y points into the room.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Frame {
+pub(super) struct WallFrame {
     pub(super) origin: Point,
     pub(super) along: Point,
     pub(super) into: Point,
 }
 
-impl Frame {
+impl WallFrame {
     /// The frame of a side of a room, with its origin at the right-hand end as seen from the room.
-    pub(super) fn of_side(room: &Rect, side: Side) -> Self {
+    pub(super) fn of_side(room: &Rect, side: RoomSide) -> Self {
         let (origin, along, into) = match side {
-            Side::South => (room.low, [1.0, 0.0], [0.0, 1.0]),
-            Side::East => ([room.high[0], room.low[1]], [0.0, 1.0], [-1.0, 0.0]),
-            Side::North => (room.high, [-1.0, 0.0], [0.0, -1.0]),
-            Side::West => ([room.low[0], room.high[1]], [0.0, -1.0], [1.0, 0.0]),
+            RoomSide::South => (room.low, [1.0, 0.0], [0.0, 1.0]),
+            RoomSide::East => ([room.high[0], room.low[1]], [0.0, 1.0], [-1.0, 0.0]),
+            RoomSide::North => (room.high, [-1.0, 0.0], [0.0, -1.0]),
+            RoomSide::West => ([room.low[0], room.high[1]], [0.0, -1.0], [1.0, 0.0]),
         };
         Self { origin, along, into }
     }
 
     /// Length of a side of a room.
-    pub(super) fn length_of(room: &Rect, side: Side) -> f64 {
+    pub(super) fn length_of(room: &Rect, side: RoomSide) -> f64 {
         match side {
-            Side::South | Side::North => room.width(),
-            Side::East | Side::West => room.depth(),
+            RoomSide::South | RoomSide::North => room.width(),
+            RoomSide::East | RoomSide::West => room.depth(),
         }
     }
 

@@ -1,4 +1,4 @@
-//! What a home consists of, before it is written.
+//! The parts of a generated home, before it is written.
 
 use super::shape::{Point, Rect};
 
@@ -43,14 +43,14 @@ pub(super) struct Room {
 
 /// A gap in a wall with a leaf.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Door {
+pub(super) struct PlacedDoor {
     pub(super) ends: [Point; 2],
     pub(super) open: bool,
     /// Height of the threshold, metres; 0 = none.
     pub(super) threshold_m: f64,
 }
 
-impl Door {
+impl PlacedDoor {
     /// What must stay free of furniture.
     pub(super) fn clear(&self) -> Rect {
         Rect::new(self.ends[0], self.ends[1]).grown(0.7)
@@ -79,12 +79,12 @@ pub(super) struct Rug {
 
 /// A straight thing on the floor or a wall.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct PlacedLine {
     pub(super) ends: [Point; 2],
     pub(super) thickness_m: f64,
 }
 
-/// Somebody who stands in the way for a while.
+/// A person who blocks the way for a while.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visitor {
     pub(super) place: Point,
@@ -95,7 +95,7 @@ pub(super) struct Visitor {
 
 /// Somebody who walks from place to place.
 #[derive(Clone, Debug)]
-pub(super) struct Walker {
+pub(super) struct PlacedWalker {
     pub(super) kind: &'static str,
     pub(super) goals: Vec<Point>,
     pub(super) rest_s: f64,
@@ -107,15 +107,15 @@ pub(super) struct Walker {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Things {
     pub(super) rooms: Vec<Room>,
-    pub(super) walls: Vec<Line>,
-    pub(super) doors: Vec<Door>,
-    pub(super) cables: Vec<Line>,
+    pub(super) walls: Vec<PlacedLine>,
+    pub(super) doors: Vec<PlacedDoor>,
+    pub(super) cables: Vec<PlacedLine>,
     pub(super) rugs: Vec<Rug>,
     pub(super) pieces: Vec<Piece>,
     pub(super) stairs: Vec<Rect>,
-    pub(super) mirrors: Vec<Line>,
+    pub(super) mirrors: Vec<PlacedLine>,
     pub(super) visitors: Vec<Visitor>,
-    pub(super) walkers: Vec<Walker>,
+    pub(super) walkers: Vec<PlacedWalker>,
     /// The dock's place and the direction into the room.
     pub(super) dock: Option<(Point, Point)>,
 }

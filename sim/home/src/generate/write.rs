@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use super::shape::{Point, Rect};
-use super::things::{Line, Piece, Rug, Things};
+use super::things::{Piece, PlacedLine, Rug, Things};
 
 /// How the drawn home is laid on the paper, so that not every home has its corridor from left to right.
 #[derive(Clone, Copy, Debug, Default)]
@@ -142,7 +142,7 @@ fn write_piece(text: &mut String, piece: &Piece, turn: Turn) {
 }
 
 /// A cable is a low, slippery edge.
-fn write_cable(text: &mut String, cable: &Line, turn: Turn) {
+fn write_cable(text: &mut String, cable: &PlacedLine, turn: Turn) {
     text.push_str("\n# a cable");
     strip(text, "threshold", (cable.ends, turn));
     line(text, "width-m", &format!("{:.3}", cable.thickness_m));

@@ -1,8 +1,9 @@
-//! Radio beacons that stand in a home, and a radio on the robot that measures how far they are, or how strongly it receives them.
+//! Radio beacons that stand in a home, and a radio on the robot that measures how far they are, or how strongly it
+//! receives them.
 //!
-//! The figures of ranges are those of ultra-wideband modules of the Decawave class (Sensors 22 (2022) 2927: 0.21 m in motion, 0.25 m
-//! mixed): noise of [`Beacons::SIGMA_M`], a delay behind walls that only ever lengthens the way and stays the same at a
-//! place, replies that do not come, and now and then one that came by way of the ceiling.
+//! The figures of ranges are those of ultra-wideband modules of the Decawave class (Sensors 22 (2022) 2927: 0.21 m in
+//! motion, 0.25 m mixed): noise of [`Beacons::SIGMA_M`], a delay behind walls that always lengthens the range and is
+//! constant at a place, lost replies, and occasional reflections by the ceiling.
 
 use super::strength::Air;
 use crate::{Home, Pcg, Pose};
@@ -14,16 +15,16 @@ const TURN_MS: u64 = 50;
 /// Share of measurements without an answer, in sight and behind walls.
 const LOST_IN_SIGHT: f64 = 0.03;
 const LOST_BEHIND: f64 = 0.2;
-/// Most by which what is in the way lengthens a range, metres; even odds below it.
+/// Longest delay by obstacles, metres; uniformly distributed below it.
 const DELAY_MAX_M: f64 = 0.6;
 /// Places so near to each other have the same delay, metres.
 const PATCH_M: f64 = 0.5;
 /// Share of ranges that came by a detour, and how long it is at most, metres.
 const DETOURS: f64 = 0.02;
 const DETOUR_MAX_M: f64 = 3.0;
-/// Step of the look along the way, metres.
+/// Sampling step along the line of sight, metres.
 const LOOK_M: f64 = 0.04;
-/// Solid cells for which the way is not free: a leg of a chair is nothing to a radio.
+/// Solid cells that count as an obstacle: a leg of a chair does not.
 const SOLID_STEPS: u32 = 2;
 
 /// What was measured of a beacon.
@@ -37,7 +38,7 @@ pub enum Measured {
 
 /// What the radio measures.
 #[derive(Clone, Copy, Debug)]
-enum Kind {
+enum RadioKind {
     Ranges,
     Strengths(Air),
 }
@@ -46,7 +47,7 @@ enum Kind {
 #[derive(Clone, Debug)]
 pub struct Beacons {
     places: Vec<(f64, f64)>,
-    kind: Kind,
+    kind: RadioKind,
     delays: u64,
     random: Pcg,
     steps: u64,
@@ -81,7 +82,7 @@ impl Beacons {
             .collect();
         Self {
             places,
-            kind: Kind::Ranges,
+            kind: RadioKind::Ranges,
             delays: u64::from(random.next_u32()) << 32 | u64::from(random.next_u32()),
             random,
             steps: 0,
@@ -92,7 +93,7 @@ impl Beacons {
     #[must_use]
     pub fn by_strength(self) -> Self {
         Self {
-            kind: Kind::Strengths(Air::new(self.delays)),
+            kind: RadioKind::Strengths(Air::new(self.delays)),
             ..self
         }
     }
@@ -103,7 +104,8 @@ impl Beacons {
         &self.places
     }
 
-    /// One millisecond later the robot is at `pose` of the plan: number of a beacon and what was measured of it, if something was now.
+    /// One millisecond later the robot is at `pose` of the plan: number of a beacon and what was measured of it, if
+    /// something was now.
     pub fn step(&mut self, home: &Home, pose: Pose) -> Option<(u16, Measured)> {
         self.steps += 1;
         if !self.steps.is_multiple_of(TURN_MS) || self.places.is_empty() {
@@ -113,8 +115,8 @@ impl Beacons {
         let place = *self.places.get(turn)?;
         let number = u16::try_from(turn).ok()?;
         let measured = match self.kind {
-            Kind::Ranges => Measured::Range(self.measure(home, pose, (number, place))?),
-            Kind::Strengths(air) => {
+            RadioKind::Ranges => Measured::Range(self.measure(home, pose, (number, place))?),
+            RadioKind::Strengths(air) => {
                 Measured::Strength(air.receive((home, pose), (number, place), &mut self.random)?)
             }
         };
@@ -138,7 +140,7 @@ impl Beacons {
         Some(range_m.max(0.0))
     }
 
-    /// Delay of a beacon around a place, as a way.
+    /// Delay of a beacon around a place, as a distance.
     fn delay_m(&self, number: u16, pose: Pose) -> f64 {
         let patch = |value: f64| libm::floor(value / PATCH_M) as i64 as u64;
         let mut hash = self.delays ^ u64::from(number).wrapping_mul(0xd6e8_feb8_6659_fd93);
@@ -149,7 +151,7 @@ impl Beacons {
     }
 }
 
-/// Whether something solid stands in the straight way.
+/// Whether an obstacle blocks the line of sight.
 fn is_behind(home: &Home, from: (f64, f64), to: (f64, f64)) -> bool {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = libm::ceil(libm::hypot(dx, dy) / LOOK_M).max(1.0) as u32;

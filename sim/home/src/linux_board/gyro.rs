@@ -1,12 +1,12 @@
 //! A MEMS gyro on the Linux board: the noise of [`crate::Noise`], and a bias that follows the board as it warms up.
 
-use crate::world::{DRIFT_STEPS, WALK_STEPS, WorldGyro};
-use crate::{Gyro, Noise, Pcg, wrap_angle};
+use crate::world::{DRIFT_STEPS, SimulatedGyro, WALK_STEPS};
+use crate::{GyroModel, Noise, Pcg, wrap_angle};
 
 /// Stream of random numbers, beside those of the world.
 const STREAM: u64 = 5;
 /// The smallest step of the total: what the daemon's reader sends are microradians.
-const PART: Gyro = Gyro { resolution_rad: 1e-6 };
+const PART: GyroModel = GyroModel { resolution_rad: 1e-6 };
 /// How much a small Linux board warms up in a closed robot, kelvin, and the time constant in seconds. Placeholders: no robot
 /// was measured.
 const WARMING_K: f64 = 18.0;
@@ -15,7 +15,7 @@ const WARMING_S: f64 = 900.0;
 /// The gyro. The same seed and the same poses give the same totals.
 #[derive(Clone, Debug)]
 pub struct BoardGyro {
-    gyro: WorldGyro,
+    gyro: SimulatedGyro,
     random: Pcg,
     rad_per_s_k: f64,
     warmed_k: f64,
@@ -29,7 +29,7 @@ impl BoardGyro {
     pub fn new(noise: &Noise, seed: u64) -> Self {
         let mut random = Pcg::new(seed, STREAM);
         Self {
-            gyro: WorldGyro::new(&PART, noise, &mut random),
+            gyro: SimulatedGyro::new(&PART, noise, &mut random),
             rad_per_s_k: noise.gyro_warming_rad_per_s_k * random.normal(),
             random,
             warmed_k: 0.0,

@@ -1,7 +1,7 @@
 //! How strongly a beacon at 2.4 GHz (Bluetooth, Wi-Fi) is received in a home.
 //!
-//! Log-distance path loss, losses of what stands in the straight way, and a shadowing that is a function of the place: it does not
-//! average out, however long a radio listens there. Besides, the robot's own body shades its antenna by where it points, and each
+//! Log-distance path loss, losses of obstacles in the line of sight, and a shadowing that is a function of the place
+//! and does not average out over time. Besides, the robot's own body shades its antenna by where it points, and each
 //! packet fades by itself. Figures: exponent and shadowing of Recommendation ITU-R P.1238 for homes, walls of COST 231
 //! (light walls 3.4 dB, heavy ones 6.9 dB), power in one metre of usual tags.
 
@@ -10,22 +10,22 @@ use crate::{Home, Pcg, Pose};
 /// Received power in one metre, dBm, and its deviation from beacon to beacon.
 const AT_1_M_DBM: f64 = -59.0;
 const BEACON_SIGMA_DB: f64 = 4.0;
-/// Path loss exponent with nothing in the way.
+/// Path loss exponent without obstacles.
 const EXPONENT: f64 = 1.9;
 /// Nearer than this it does not get stronger, metres.
 const NEAREST_M: f64 = 0.3;
-/// Loss of each thing in the way, decibels, and of all of them at most: what is shaded much comes around the corner.
+/// Loss of each obstacle, decibels, and the largest total loss: a strongly shaded signal arrives by diffraction.
 const OBSTACLE_DB: f64 = 4.5;
 const OBSTACLES_MAX_DB: f64 = 20.0;
-/// Deviation of the shadowing where it is drawn, decibels, and how far these places are apart, metres. Between them it is
-/// interpolated, which leaves 4 dB on average.
+/// Deviation of the shadowing where it is drawn, decibels, and how far these places are apart, metres. Between them it
+/// is interpolated, which leaves 4 dB on average.
 const SHADOW_DB: f64 = 6.0;
 const SHADOW_M: f64 = 1.2;
 /// By how much the robot's own body shades its antenna when that points away, decibels, up and down.
 const BODY_DB: f64 = 2.0;
 /// Deviation of a packet, decibels.
 const FADING_DB: f64 = 3.5;
-/// Step of the look along the way, metres, and solid ones in a row that are an obstacle.
+/// Sampling step along the line of sight, metres, and consecutive solid samples that count as an obstacle.
 const LOOK_M: f64 = 0.04;
 const SOLID_STEPS: u32 = 2;
 /// Weaker ones are not heard, dBm.
@@ -56,12 +56,12 @@ impl Air {
     fn mean_dbm(self, home: &Home, pose: Pose, (number, place): (u16, (f64, f64))) -> f64 {
         let (dx, dy) = (place.0 - pose.x_m, place.1 - pose.y_m);
         let away_m = libm::hypot(dx, dy).max(NEAREST_M);
-        let walls = solid_in_way(home, (pose.x_m, pose.y_m), place);
-        let in_way_db = (OBSTACLE_DB * f64::from(walls)).min(OBSTACLES_MAX_DB);
+        let walls = obstacles_between(home, (pose.x_m, pose.y_m), place);
+        let obstacle_loss_db = (OBSTACLE_DB * f64::from(walls)).min(OBSTACLES_MAX_DB);
         let aside_rad = libm::atan2(dy, dx) - pose.heading_rad;
         AT_1_M_DBM + BEACON_SIGMA_DB * self.drawn(number, (i64::MAX, i64::MAX))
             - 10.0 * EXPONENT * libm::log10(away_m)
-            - in_way_db
+            - obstacle_loss_db
             + SHADOW_DB * self.shadow(number, pose)
             + BODY_DB * libm::cos(aside_rad)
     }
@@ -86,8 +86,8 @@ impl Air {
     }
 }
 
-/// Things in the straight way that are more than a leg of a chair.
-fn solid_in_way(home: &Home, from: (f64, f64), to: (f64, f64)) -> u32 {
+/// Obstacles in the line of sight that are larger than a leg of a chair.
+fn obstacles_between(home: &Home, from: (f64, f64), to: (f64, f64)) -> u32 {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let steps = libm::ceil(libm::hypot(dx, dy) / LOOK_M).max(1.0) as u32;
     let (mut things, mut solid) = (0, 0);

@@ -1,7 +1,7 @@
 //! Grey images: PGM (P2, P5) and PNG.
 
 /// A grey image, rows from the top. `None` = transparent.
-pub(crate) struct Image {
+pub(crate) struct GreyImage {
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) pixels: Vec<Option<u8>>,
@@ -9,7 +9,7 @@ pub(crate) struct Image {
 
 /// Why an image cannot be used.
 #[derive(Debug)]
-pub(crate) enum ImageError {
+pub(crate) enum GreyImageError {
     /// It ends too early; where.
     Truncated(String),
     /// Pixels and limit.
@@ -27,7 +27,7 @@ pub(crate) fn is_image(bytes: &[u8]) -> bool {
     bytes.starts_with(PNG_MAGIC) || bytes.starts_with(b"P5") || bytes.starts_with(b"P2")
 }
 
-pub(crate) fn decode(bytes: &[u8]) -> Result<Image, ImageError> {
+pub(crate) fn decode(bytes: &[u8]) -> Result<GreyImage, GreyImageError> {
     if bytes.starts_with(PNG_MAGIC) {
         decode_png(bytes)
     } else if bytes.starts_with(b"P5") || bytes.starts_with(b"P2") {
@@ -40,14 +40,14 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Image, ImageError> {
     }
 }
 
-fn wrong(place: &str, problem: &str) -> ImageError {
-    ImageError::Wrong(place.to_owned(), problem.to_owned())
+fn wrong(place: &str, problem: &str) -> GreyImageError {
+    GreyImageError::Wrong(place.to_owned(), problem.to_owned())
 }
 
-fn check_size(width: u64, height: u64) -> Result<(usize, usize), ImageError> {
+fn check_size(width: u64, height: u64) -> Result<(usize, usize), GreyImageError> {
     let pixels = width.saturating_mul(height);
     if pixels > PIXELS_MAX {
-        return Err(ImageError::TooManyPixels(pixels, PIXELS_MAX));
+        return Err(GreyImageError::TooManyPixels(pixels, PIXELS_MAX));
     }
     if width < 2 || height < 2 {
         return Err(wrong("the header", "an image needs at least 2 x 2 pixels"));
@@ -80,7 +80,7 @@ impl PnmReader<'_> {
         }
     }
 
-    fn number(&mut self, what: &str) -> Result<u64, ImageError> {
+    fn number(&mut self, what: &str) -> Result<u64, GreyImageError> {
         self.skip_blank();
         let start = self.position;
         let mut value: u64 = 0;
@@ -91,7 +91,7 @@ impl PnmReader<'_> {
         if self.position > start {
             Ok(value)
         } else if self.peek().is_none() {
-            Err(ImageError::Truncated(format!("the {what} is missing")))
+            Err(GreyImageError::Truncated(format!("the {what} is missing")))
         } else {
             Err(wrong(
                 &format!("byte {start}"),
@@ -101,7 +101,7 @@ impl PnmReader<'_> {
     }
 }
 
-fn decode_pgm(bytes: &[u8]) -> Result<Image, ImageError> {
+fn decode_pgm(bytes: &[u8]) -> Result<GreyImage, GreyImageError> {
     let binary = bytes.starts_with(b"P5");
     let mut reader = PnmReader { bytes, position: 2 };
     let (width, height) = (reader.number("width")?, reader.number("height")?);
@@ -118,7 +118,7 @@ fn decode_pgm(bytes: &[u8]) -> Result<Image, ImageError> {
     } else {
         text_pixels(&mut reader, width * height, white)?
     };
-    Ok(Image {
+    Ok(GreyImage {
         width,
         height,
         pixels,
@@ -129,12 +129,16 @@ fn grey(value: u64, white: u64) -> Option<u8> {
     Some((value.min(white) * 255 / white) as u8)
 }
 
-fn binary_pixels(reader: &PnmReader<'_>, count: usize, white: u64) -> Result<Vec<Option<u8>>, ImageError> {
+fn binary_pixels(
+    reader: &PnmReader<'_>,
+    count: usize,
+    white: u64,
+) -> Result<Vec<Option<u8>>, GreyImageError> {
     let wide = if white > 255 { 2 } else { 1 };
     // One white space ends the header.
     let raster = reader.bytes.get(reader.position + 1..).unwrap_or(&[]);
     let Some(raster) = raster.get(..count * wide) else {
-        return Err(ImageError::Truncated(format!(
+        return Err(GreyImageError::Truncated(format!(
             "{} of {} bytes of pixels are there",
             raster.len(),
             count * wide
@@ -151,10 +155,14 @@ fn binary_pixels(reader: &PnmReader<'_>, count: usize, white: u64) -> Result<Vec
         .collect())
 }
 
-fn text_pixels(reader: &mut PnmReader<'_>, count: usize, white: u64) -> Result<Vec<Option<u8>>, ImageError> {
+fn text_pixels(
+    reader: &mut PnmReader<'_>,
+    count: usize,
+    white: u64,
+) -> Result<Vec<Option<u8>>, GreyImageError> {
     // Two bytes a pixel at least, so a lying header cannot make us take more memory than the file allows.
     if reader.bytes.len() < count {
-        return Err(ImageError::Truncated(format!(
+        return Err(GreyImageError::Truncated(format!(
             "{} bytes cannot hold {count} pixels",
             reader.bytes.len()
         )));
@@ -164,7 +172,7 @@ fn text_pixels(reader: &mut PnmReader<'_>, count: usize, white: u64) -> Result<V
         .collect()
 }
 
-fn decode_png(bytes: &[u8]) -> Result<Image, ImageError> {
+fn decode_png(bytes: &[u8]) -> Result<GreyImage, GreyImageError> {
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::normalize_to_color8());
     let mut reader = decoder.read_info().map_err(png_error)?;
@@ -185,9 +193,9 @@ fn decode_png(bytes: &[u8]) -> Result<Image, ImageError> {
         .map(|pixel| mean_grey(pixel, has_alpha))
         .collect();
     if pixels.len() < width * height {
-        return Err(ImageError::Truncated("pixels are missing".to_owned()));
+        return Err(GreyImageError::Truncated("pixels are missing".to_owned()));
     }
-    Ok(Image {
+    Ok(GreyImage {
         width,
         height,
         pixels,
@@ -203,12 +211,12 @@ fn mean_grey(pixel: &[u8], has_alpha: bool) -> Option<u8> {
     (alpha > 0).then(|| (sum / colors.len().max(1) as u32) as u8)
 }
 
-fn png_error(error: png::DecodingError) -> ImageError {
+fn png_error(error: png::DecodingError) -> GreyImageError {
     match error {
         png::DecodingError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            ImageError::Truncated("the PNG ends in the middle of a chunk".to_owned())
+            GreyImageError::Truncated("the PNG ends in the middle of a chunk".to_owned())
         }
-        error => ImageError::Wrong(
+        error => GreyImageError::Wrong(
             "the PNG".to_owned(),
             format!("{error}; save it again with an image editor"),
         ),

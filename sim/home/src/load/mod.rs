@@ -47,7 +47,7 @@ pub(crate) struct WalkerWish {
 pub(crate) enum DockWish {
     /// Nothing.
     Anywhere,
-    /// It stands about there, metres.
+    /// Its approximate position, metres.
     Near(f64, f64),
     /// Exactly there.
     At(Pose),
@@ -166,10 +166,10 @@ pub(crate) fn stem(path: &Path) -> String {
         .map_or_else(|| "home".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// Cuts a plan down to what matters (floor and drops with a solid margin) and splits coarse cells. Gives the plan and the
-/// place of its lower left corner in the frame of the given one, metres.
+/// Cuts a plan down to what matters (floor and drops with a solid margin) and splits coarse cells. Gives the plan and
+/// the place of its lower left corner in the frame of the given one, metres.
 pub(crate) fn fit(path: &Path, coarse: &Grid) -> Result<(Grid, f64, f64), HomeError> {
-    let Some(window) = Window::around_floor(coarse) else {
+    let Some(window) = GridWindow::around_floor(coarse) else {
         return Err(HomeError::NoFloor {
             path: path.to_owned(),
         });
@@ -213,14 +213,14 @@ pub(crate) fn check_cells(path: &Path, width: u64, height: u64) -> Result<(), Ho
 }
 
 /// Columns and rows of a grid.
-struct Window {
+struct GridWindow {
     column: usize,
     row: usize,
     columns: usize,
     rows: usize,
 }
 
-impl Window {
+impl GridWindow {
     /// All cells that are not solid, with one ring of their walls.
     fn around_floor(grid: &Grid) -> Option<Self> {
         let (mut left, mut low, mut right, mut top) = (usize::MAX, usize::MAX, 0, 0);

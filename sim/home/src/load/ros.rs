@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::image::{Image, ImageError};
+use super::image::{GreyImage, GreyImageError};
 use super::{DockWish, Draft, HomeError, ReadError, fit, image, read_limited, stem};
 use crate::plan::{Cell, Grid, SurfaceMap};
 use crate::pose::Pose;
@@ -27,11 +27,11 @@ struct Thresholds {
     occupied: f64,
     free: f64,
     negate: bool,
-    mode: Mode,
+    mode: MapMode,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Mode {
+enum MapMode {
     Trinary,
     Scale,
     Raw,
@@ -72,7 +72,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
 }
 
 /// Image rows run downward from the top; ours run upward.
-fn cells(image: &Image, thresholds: &Thresholds) -> Vec<Cell> {
+fn cells(image: &GreyImage, thresholds: &Thresholds) -> Vec<Cell> {
     image
         .pixels
         .chunks_exact(image.width)
@@ -87,7 +87,7 @@ impl Thresholds {
         let Some(grey) = pixel else {
             return Cell::Outside;
         };
-        if self.mode == Mode::Raw {
+        if self.mode == MapMode::Raw {
             return match grey {
                 0..=49 => Cell::Floor,
                 50..=100 => Cell::Obstacle,
@@ -100,7 +100,7 @@ impl Thresholds {
             Cell::Obstacle
         } else if occupied < self.free {
             Cell::Floor
-        } else if self.mode == Mode::Trinary {
+        } else if self.mode == MapMode::Trinary {
             Cell::Outside
         } else if occupied < 0.5 * (self.occupied + self.free) {
             Cell::Floor
@@ -118,9 +118,9 @@ fn thresholds(path: &Path, yaml: &MapYaml) -> Result<Thresholds, HomeError> {
         return Err(invalid(path, "occupied_thresh", problem));
     }
     let mode = match yaml.mode.as_deref() {
-        None | Some("trinary") => Mode::Trinary,
-        Some("scale") => Mode::Scale,
-        Some("raw") => Mode::Raw,
+        None | Some("trinary") => MapMode::Trinary,
+        Some("scale") => MapMode::Scale,
+        Some("raw") => MapMode::Raw,
         Some(other) => {
             let problem = format!("`{other}` is not one of trinary, scale, raw");
             return Err(invalid(path, "mode", problem));
@@ -146,7 +146,7 @@ fn origin(path: &Path, numbers: &[f64]) -> Result<Pose, HomeError> {
     }
 }
 
-fn load_image(path: &Path, name: &str) -> Result<Image, HomeError> {
+fn load_image(path: &Path, name: &str) -> Result<GreyImage, HomeError> {
     let file: PathBuf = path.parent().unwrap_or(Path::new("")).join(name);
     let bytes = read_limited(&file, IMAGE_BYTES_MAX).map_err(|error| match error {
         ReadError::TooLong(bytes) => HomeError::TooLong {
@@ -161,16 +161,16 @@ fn load_image(path: &Path, name: &str) -> Result<Image, HomeError> {
         },
     })?;
     image::decode(&bytes).map_err(|error| match error {
-        ImageError::Truncated(place) => HomeError::Truncated {
+        GreyImageError::Truncated(place) => HomeError::Truncated {
             path: file.clone(),
             place,
         },
-        ImageError::TooManyPixels(cells, limit) => HomeError::TooManyCells {
+        GreyImageError::TooManyPixels(cells, limit) => HomeError::TooManyCells {
             path: file.clone(),
             cells,
             limit,
         },
-        ImageError::Wrong(place, problem) => HomeError::Invalid {
+        GreyImageError::Wrong(place, problem) => HomeError::Invalid {
             path: file.clone(),
             place,
             problem,

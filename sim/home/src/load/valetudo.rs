@@ -46,7 +46,7 @@ struct RawEntity {
 }
 
 /// Consecutive pixels of one row.
-struct Run {
+struct PixelRun {
     column: u32,
     row: u32,
     count: u32,
@@ -67,7 +67,7 @@ const CARPET: Surface = Surface {
 pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
     let map: RawMap = serde_json::from_str(text).map_err(|error| json_error(path, &error))?;
     check_head(path, &map)?;
-    let extent = Extent::of(path, &map)?;
+    let extent = PixelExtent::of(path, &map)?;
     let coarse = paint(&map, &extent);
     let (mut grid, corner_x_m, corner_y_m) = fit(path, &coarse)?;
     let to_plan = |x_cm: f64, y_cm: f64| {
@@ -143,13 +143,13 @@ fn json_error(path: &Path, error: &serde_json::Error) -> HomeError {
     }
 }
 
-fn runs(layer: &RawLayer) -> impl Iterator<Item = Run> + '_ {
-    let plain = layer.pixels.chunks_exact(2).map(|pixel| Run {
+fn runs(layer: &RawLayer) -> impl Iterator<Item = PixelRun> + '_ {
+    let plain = layer.pixels.chunks_exact(2).map(|pixel| PixelRun {
         column: pixel[0],
         row: pixel[1],
         count: 1,
     });
-    let compressed = layer.compressed.chunks_exact(3).map(|run| Run {
+    let compressed = layer.compressed.chunks_exact(3).map(|run| PixelRun {
         column: run[0],
         row: run[1],
         count: run[2],
@@ -166,14 +166,14 @@ fn cell_of(layer: &RawLayer) -> Option<Cell> {
 }
 
 /// Pixels that are used; rows run downward.
-struct Extent {
+struct PixelExtent {
     left: u32,
     right: u32,
     top: u32,
     bottom: u32,
 }
 
-impl Extent {
+impl PixelExtent {
     fn of(path: &Path, map: &RawMap) -> Result<Self, HomeError> {
         let mut extent = Self {
             left: u32::MAX,
@@ -195,7 +195,7 @@ impl Extent {
         Ok(extent)
     }
 
-    fn add(&mut self, path: &Path, run: &Run) -> Result<(), HomeError> {
+    fn add(&mut self, path: &Path, run: &PixelRun) -> Result<(), HomeError> {
         let last = run.column.saturating_add(run.count - 1);
         if last > PIXEL_MAX || run.row > PIXEL_MAX {
             return Err(HomeError::Invalid {
@@ -221,7 +221,7 @@ impl Extent {
 }
 
 /// Floor first and walls over it, whatever the order in the file.
-fn paint(map: &RawMap, extent: &Extent) -> Grid {
+fn paint(map: &RawMap, extent: &PixelExtent) -> Grid {
     let (width, height) = (extent.width(), extent.height());
     let mut cells = vec![Cell::Outside; width * height];
     for wanted in [Cell::Floor, Cell::Obstacle] {

@@ -1,4 +1,4 @@
-//! One figure of a robot description with its unit and its pedigree.
+//! One figure of a robot description with its unit and its source.
 
 use serde::Deserialize;
 

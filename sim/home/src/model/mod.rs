@@ -1,4 +1,4 @@
-//! What the simulator must know of a robot, read from `robots/<name>/robot.toml`.
+//! A robot's description for the simulator, read from `robots/<name>/robot.toml`.
 
 mod catalog;
 mod figure;
@@ -10,8 +10,8 @@ use std::path::PathBuf;
 pub use catalog::robot_names;
 pub use figure::Confidence;
 
-/// A robot: geometry, limits, motors, sensors, battery. SI units, REP-103 axes, poses relative to the centre between the
-/// wheels.
+/// A robot: geometry, limits, motors, sensors, battery. SI units, REP-103 axes, poses relative to the centre between
+/// the wheels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotModel {
     /// Short name, as in the handshake: `sr8730`.
@@ -19,36 +19,36 @@ pub struct RobotModel {
     /// Name for people.
     pub title: String,
     /// The body.
-    pub body: Body,
+    pub body: BodyModel,
     /// Wheels as geometry and limits.
-    pub drive: Drive,
+    pub drive: DriveModel,
     /// Wheel motors.
     pub wheel_motor: WheelMotor,
     /// What the cleaning motors draw.
     pub cleaners: Cleaners,
     /// The bumper.
-    pub bumper: Bumper,
+    pub bumper: BumperModel,
     /// Cliff sensors: left, middle, right for three; in the order of the file.
     pub cliffs: Vec<CliffMount>,
     /// Wheel drop switches: 2 = one a wheel, 1 = one for all, 0 = none.
     pub wheel_drops: u8,
     /// Infrared proximity sensors from the right side counter-clockwise.
-    pub proximity: Option<Proximity>,
+    pub proximity: Option<ProximityModel>,
     /// The gyro.
-    pub gyro: Option<Gyro>,
+    pub gyro: Option<GyroModel>,
     /// Dock receivers: left, right, rear left, rear right.
     pub dock_receivers: Vec<ReceiverMount>,
     /// The battery.
-    pub battery: Battery,
+    pub battery: BatteryModel,
     /// Number of buttons.
     pub buttons: u8,
     /// A turning lidar.
-    pub lidar: Option<Lidar>,
+    pub lidar: Option<LidarModel>,
 }
 
 /// The body seen from above: a disc.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct BodyModel {
     /// Radius in metres.
     pub radius_m: f64,
     /// Width that one pass cleans, metres.
@@ -59,7 +59,7 @@ pub struct Body {
 
 /// Wheels as geometry and limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Drive {
+pub struct DriveModel {
     /// Distance between the wheels' contact points, metres.
     pub track_m: f64,
     /// Way of the rim per encoder count, metres.
@@ -108,12 +108,12 @@ pub struct Cleaners {
 
 /// The bumper: an arc in front on springs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bumper {
+pub struct BumperModel {
     /// The bumper spans this angle to each side of straight ahead, radians.
     pub half_arc_rad: f64,
     /// A contact within this angle of straight ahead presses both halves, radians.
     pub overlap_rad: f64,
-    /// How far it gives way, metres.
+    /// Travel until it is fully pressed, metres.
     pub travel_m: f64,
     /// Way after which a switch closes, metres.
     pub switch_m: f64,
@@ -132,7 +132,7 @@ pub struct CliffMount {
 
 /// Infrared proximity sensors at the rim, each looking straight outward.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Proximity {
+pub struct ProximityModel {
     /// Direction of each sensor from straight ahead, radians, from the right side counter-clockwise.
     pub headings_rad: Vec<f64>,
     /// Distance of the sensors from the centre, metres.
@@ -149,7 +149,7 @@ pub struct Proximity {
 
 /// A gyro around the upward axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gyro {
+pub struct GyroModel {
     /// Smallest step of the integrated heading, radians.
     pub resolution_rad: f64,
 }
@@ -159,13 +159,13 @@ pub struct Gyro {
 pub struct ReceiverMount {
     /// Direction from straight ahead, radians.
     pub heading_rad: f64,
-    /// It hears up to this angle to each side, radians.
+    /// It receives up to this angle to each side, radians.
     pub half_angle_rad: f64,
 }
 
 /// A NiMH pack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Battery {
+pub struct BatteryModel {
     /// Cells in series.
     pub cells: u8,
     /// Capacity in ampere hours.
@@ -174,7 +174,7 @@ pub struct Battery {
     pub resistance_ohm: f64,
     /// What the electronics draw, ampere.
     pub electronics_a: f64,
-    /// Current of the dock when it hears the robot, ampere.
+    /// Current of the dock when it receives the robot's code, ampere.
     pub charge_a: f64,
     /// Current of the dock when it does not, ampere.
     pub trickle_a: f64,
@@ -182,7 +182,7 @@ pub struct Battery {
 
 /// A turning lidar above the centre.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lidar {
+pub struct LidarModel {
     /// Farthest distance, metres.
     pub range_m: f64,
     /// Beams per turn, evenly spaced, the first straight ahead, counter-clockwise.

@@ -6,18 +6,18 @@ use super::raw::{
     RawProximity, RawReceivers, RawWheelMotor,
 };
 use super::{
-    Battery, Body, Bumper, Cleaners, CliffMount, Drive, Gyro, Lidar, ModelError, Proximity, ReceiverMount,
-    RobotModel, WheelMotor,
+    BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, DriveModel, GyroModel, LidarModel,
+    ModelError, ProximityModel, ReceiverMount, RobotModel, WheelMotor,
 };
 
 /// Names the file in every complaint.
-struct Reader<'a> {
+struct ModelReader<'a> {
     origin: &'a str,
 }
 
 type Range = core::ops::RangeInclusive<f64>;
 
-impl Reader<'_> {
+impl ModelReader<'_> {
     fn complaint(&self, key: &str, problem: String) -> ModelError {
         ModelError::Value {
             origin: self.origin.to_owned(),
@@ -95,7 +95,7 @@ pub(crate) fn robot_model(text: &str, origin: &str) -> Result<RobotModel, ModelE
         origin: origin.to_owned(),
         message: error.to_string().trim().replace('\n', " "),
     })?;
-    let reader = Reader { origin };
+    let reader = ModelReader { origin };
     let body = body(&reader, &raw.body)?;
     Ok(RobotModel {
         drive: drive(&reader, &raw.drive)?,
@@ -122,20 +122,24 @@ pub(crate) fn robot_model(text: &str, origin: &str) -> Result<RobotModel, ModelE
     })
 }
 
-fn body(reader: &Reader<'_>, raw: &RawBody) -> Result<Body, ModelError> {
+fn body(reader: &ModelReader<'_>, raw: &RawBody) -> Result<BodyModel, ModelError> {
     let radius_m = reader.figure(&raw.radius, "body.radius [m]", 0.05..=0.5)?;
-    Ok(Body {
+    Ok(BodyModel {
         radius_m,
         swath_m: reader.figure(&raw.swath, "body.swath [m]", 0.05..=2.0 * radius_m)?,
         climb_m: reader.figure(&raw.climb, "body.climb [m]", 0.0..=0.1)?,
     })
 }
 
-fn drive(reader: &Reader<'_>, raw: &RawDrive) -> Result<Drive, ModelError> {
+fn drive(reader: &ModelReader<'_>, raw: &RawDrive) -> Result<DriveModel, ModelError> {
     let speed_max_m_per_s = reader.figure(&raw.speed_max, "drive.speed-max [m/s]", 0.05..=2.0)?;
-    Ok(Drive {
+    Ok(DriveModel {
         track_m: reader.figure(&raw.track, "drive.track [m]", 0.05..=1.0)?,
-        count_m: reader.figure(&raw.count_way, "drive.count-way [mm]", 0.001..=50.0)? / 1000.0,
+        count_m: reader.figure(
+            &raw.distance_per_count,
+            "drive.distance-per-count [mm]",
+            0.001..=50.0,
+        )? / 1000.0,
         encoder_lines: reader.count(&raw.encoder_lines, "drive.encoder-lines", 1.0..=2.0)? as u8,
         cruise_m_per_s: reader.figure(&raw.cruise, "drive.cruise [m/s]", 0.02..=speed_max_m_per_s)?,
         speed_max_m_per_s,
@@ -143,7 +147,7 @@ fn drive(reader: &Reader<'_>, raw: &RawDrive) -> Result<Drive, ModelError> {
     })
 }
 
-fn wheel_motor(reader: &Reader<'_>, raw: &RawWheelMotor) -> Result<WheelMotor, ModelError> {
+fn wheel_motor(reader: &ModelReader<'_>, raw: &RawWheelMotor) -> Result<WheelMotor, ModelError> {
     Ok(WheelMotor {
         free_speed_m_per_s: reader.figure(&raw.free_speed, "wheel-motor.free-speed [m/s]", 0.05..=5.0)?,
         stall_force_n: reader.figure(&raw.stall_force, "wheel-motor.stall-force [N]", 1.0..=500.0)?,
@@ -156,7 +160,7 @@ fn wheel_motor(reader: &Reader<'_>, raw: &RawWheelMotor) -> Result<WheelMotor, M
     })
 }
 
-fn cleaners(reader: &Reader<'_>, raw: &RawCleaners) -> Result<Cleaners, ModelError> {
+fn cleaners(reader: &ModelReader<'_>, raw: &RawCleaners) -> Result<Cleaners, ModelError> {
     Ok(Cleaners {
         main_a: reader.figure(&raw.main, "cleaners.main [A]", 0.0..=20.0)?,
         sides_a: reader.figure(&raw.sides, "cleaners.sides [A]", 0.0..=20.0)?,
@@ -164,10 +168,10 @@ fn cleaners(reader: &Reader<'_>, raw: &RawCleaners) -> Result<Cleaners, ModelErr
     })
 }
 
-fn bumper(reader: &Reader<'_>, raw: &RawBumper) -> Result<Bumper, ModelError> {
+fn bumper(reader: &ModelReader<'_>, raw: &RawBumper) -> Result<BumperModel, ModelError> {
     let travel_m = reader.figure(&raw.travel, "bumper.travel [mm]", 0.5..=30.0)? / 1000.0;
     let switch_mm = reader.figure(&raw.switch, "bumper.switch [mm]", 0.1..=travel_m * 1000.0)?;
-    Ok(Bumper {
+    Ok(BumperModel {
         half_arc_rad: radians(reader.figure(&raw.half_arc, "bumper.half-arc [deg]", 10.0..=180.0)?),
         overlap_rad: radians(reader.figure(&raw.overlap, "bumper.overlap [deg]", 0.0..=180.0)?),
         travel_m,
@@ -176,7 +180,11 @@ fn bumper(reader: &Reader<'_>, raw: &RawBumper) -> Result<Bumper, ModelError> {
     })
 }
 
-fn cliffs(reader: &Reader<'_>, raw: &RawPlaces, body: &Body) -> Result<Vec<CliffMount>, ModelError> {
+fn cliffs(
+    reader: &ModelReader<'_>,
+    raw: &RawPlaces,
+    body: &BodyModel,
+) -> Result<Vec<CliffMount>, ModelError> {
     let span = -body.radius_m..=body.radius_m;
     let x = reader.list(&raw.x, "cliffs.x [m]", span.clone())?;
     let y = reader.list(&raw.y, "cliffs.y [m]", span)?;
@@ -199,9 +207,13 @@ const CLIFFS_MAX: usize = 4;
 /// Most dock receivers.
 const RECEIVERS_MAX: usize = 4;
 
-fn proximity(reader: &Reader<'_>, raw: &RawProximity, body: &Body) -> Result<Proximity, ModelError> {
+fn proximity(
+    reader: &ModelReader<'_>,
+    raw: &RawProximity,
+    body: &BodyModel,
+) -> Result<ProximityModel, ModelError> {
     let headings = reader.list(&raw.headings, "proximity.headings [deg]", -180.0..=180.0)?;
-    Ok(Proximity {
+    Ok(ProximityModel {
         headings_rad: headings.into_iter().map(radians).collect(),
         mount_radius_m: reader.figure(
             &raw.mount_radius,
@@ -219,14 +231,14 @@ fn proximity(reader: &Reader<'_>, raw: &RawProximity, body: &Body) -> Result<Pro
     })
 }
 
-fn gyro(reader: &Reader<'_>, raw: &RawGyro) -> Result<Gyro, ModelError> {
+fn gyro(reader: &ModelReader<'_>, raw: &RawGyro) -> Result<GyroModel, ModelError> {
     let degrees = reader.figure(&raw.resolution, "gyro.resolution [deg]", 0.0001..=1.0)?;
-    Ok(Gyro {
+    Ok(GyroModel {
         resolution_rad: radians(degrees),
     })
 }
 
-fn receivers(reader: &Reader<'_>, raw: &RawReceivers) -> Result<Vec<ReceiverMount>, ModelError> {
+fn receivers(reader: &ModelReader<'_>, raw: &RawReceivers) -> Result<Vec<ReceiverMount>, ModelError> {
     let headings = reader.list(&raw.headings, "dock-receivers.headings [deg]", -180.0..=180.0)?;
     if headings.len() > RECEIVERS_MAX {
         let problem = format!(
@@ -245,8 +257,8 @@ fn receivers(reader: &Reader<'_>, raw: &RawReceivers) -> Result<Vec<ReceiverMoun
         .collect())
 }
 
-fn battery(reader: &Reader<'_>, raw: &RawBattery) -> Result<Battery, ModelError> {
-    Ok(Battery {
+fn battery(reader: &ModelReader<'_>, raw: &RawBattery) -> Result<BatteryModel, ModelError> {
+    Ok(BatteryModel {
         cells: reader.count(&raw.cells, "battery.cells", 1.0..=40.0)? as u8,
         capacity_ah: reader.figure(&raw.capacity, "battery.capacity [Ah]", 0.1..=50.0)?,
         resistance_ohm: reader.figure(&raw.resistance, "battery.resistance [ohm]", 0.0..=5.0)?,
@@ -256,8 +268,8 @@ fn battery(reader: &Reader<'_>, raw: &RawBattery) -> Result<Battery, ModelError>
     })
 }
 
-fn lidar(reader: &Reader<'_>, raw: &RawLidar) -> Result<Lidar, ModelError> {
-    Ok(Lidar {
+fn lidar(reader: &ModelReader<'_>, raw: &RawLidar) -> Result<LidarModel, ModelError> {
+    Ok(LidarModel {
         range_m: reader.figure(&raw.range, "lidar.range [m]", 0.1..=50.0)?,
         beams: reader.count(&raw.beams, "lidar.beams", 4.0..=4000.0)?,
         turns_hz: reader.figure(&raw.turns, "lidar.turns [Hz]", 0.1..=50.0)?,

@@ -23,7 +23,7 @@ pub(super) struct RawModel {
     pub(super) battery: RawBattery,
     pub(super) buttons: RawCount,
     pub(super) lidar: Option<RawLidar>,
-    /// What the firmware must know and nobody measured; the world does not need it.
+    /// Calibration values for the firmware; the world does not use them.
     #[serde(rename = "calibration")]
     pub(super) _calibration: Option<IgnoredAny>,
 }
@@ -40,7 +40,8 @@ pub(super) struct RawBody {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub(super) struct RawDrive {
     pub(super) track: Figure,
-    pub(super) count_way: Figure,
+    #[serde(alias = "count-way")]
+    pub(super) distance_per_count: Figure,
     pub(super) encoder_lines: Figure,
     pub(super) cruise: Figure,
     pub(super) speed_max: Figure,

@@ -95,7 +95,7 @@ pub(crate) fn squared_distances(
 ) -> Vec<f32> {
     let mut squared = column_distances((width, height), is_source);
     let mut row = vec![0.0; width];
-    let mut envelope = Envelope::with_capacity(width);
+    let mut envelope = ParabolaEnvelope::with_capacity(width);
     for cells in squared.chunks_exact_mut(width) {
         for (value, cell) in row.iter_mut().zip(cells.iter()) {
             *value = f64::from(*cell) * f64::from(*cell);
@@ -127,12 +127,12 @@ fn column_distances((width, height): (usize, usize), is_source: impl Fn(usize) -
 }
 
 /// Lower envelope of the parabolas `(x - apex)^2 + height`.
-struct Envelope {
+struct ParabolaEnvelope {
     apexes: Vec<usize>,
     starts: Vec<f64>,
 }
 
-impl Envelope {
+impl ParabolaEnvelope {
     fn with_capacity(width: usize) -> Self {
         Self {
             apexes: Vec::with_capacity(width),

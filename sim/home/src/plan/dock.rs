@@ -1,4 +1,4 @@
-//! A place for the dock in plans that have none, or that only tell roughly where it stands.
+//! A place for the dock in plans that have none, or only an approximate position.
 
 use super::distance::DistanceField;
 use super::grid::Grid;
@@ -7,7 +7,7 @@ use crate::Pose;
 
 /// Gap between the body and the back of the dock when the robot stands on its contacts, metres.
 pub(crate) const DOCK_GAP_M: f64 = 0.01;
-/// The way in front of a dock that must be free for the body, metres.
+/// Length of the path in front of a dock that must be free for the body, metres.
 const APPROACH_M: f64 = 0.6;
 /// Most candidates that are looked at, so that a huge hall does not take long.
 const CANDIDATES_MAX: usize = 4_000;
@@ -70,7 +70,7 @@ impl DockSearch<'_> {
         cells.iter().copied().step_by(every).collect()
     }
 
-    /// A dock at the wall next to this cell, if the wall is straight enough there and the way to it free.
+    /// A dock at the wall next to this cell, if the wall is straight enough there and the path to it is free.
     fn candidate(&self, index: usize) -> Option<Pose> {
         let (x_m, y_m) = self.grid.centre(index);
         let (nx, ny) = self.blocked.away(x_m, y_m);
@@ -82,7 +82,7 @@ impl DockSearch<'_> {
         };
         let docked = self.radius_m + DOCK_GAP_M;
         let tolerance = 0.5 * self.grid.cell_m;
-        let way_free = (0..=6).all(|step| {
+        let path_free = (0..=6).all(|step| {
             free(
                 docked + APPROACH_M * f64::from(step) / 6.0,
                 0.0,
@@ -93,7 +93,7 @@ impl DockSearch<'_> {
             let (x, y) = dock.point(0.1, *aside);
             (self.blocked.at(x, y) - 0.1).abs() < self.grid.cell_m
         });
-        (way_free && wall_straight).then_some(dock)
+        (path_free && wall_straight).then_some(dock)
     }
 
     fn room_in_front(&self, dock: Pose) -> f64 {

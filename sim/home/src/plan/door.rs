@@ -5,7 +5,7 @@
 pub(crate) struct Door {
     /// Cells of the leaf, and what they are when it is open.
     pub(crate) cells: Vec<(usize, super::Cell)>,
-    /// It stands open.
+    /// It is open.
     pub(crate) open: bool,
     /// Moments in simulated milliseconds at which it shall be open (true) or closed, rising.
     pub(crate) schedule: Vec<(u64, bool)>,

@@ -1,4 +1,4 @@
-//! Where the robot can get to, and what it can sweep from there.
+//! The floor that the robot can reach, and the floor that it can sweep from there.
 
 use super::distance::{DistanceField, squared_distances};
 use super::grid::{Cell, Grid};

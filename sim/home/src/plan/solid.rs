@@ -1,4 +1,4 @@
-//! What is solid at this moment: the plan, and the feet of who walks in it.
+//! Solid cells at this moment: the plan, and the feet of walkers.
 
 use super::DistanceField;
 

@@ -1,13 +1,13 @@
-//! What the wheels roll on.
+//! Surfaces under the wheels.
 
 /// A kind of floor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Surface {
     /// Extra force that the surface takes from each wheel, newton.
     pub(crate) drag_n: f64,
-    /// Share of the rim's way that is lost to slip.
+    /// Share of the rim's distance that is lost to slip.
     pub(crate) slip: f64,
-    /// Heading that the nap adds, radians per metre of way.
+    /// Heading that the nap adds, radians per metre.
     pub(crate) bias_rad_per_m: f64,
     /// So dark that a cliff sensor sees no floor.
     pub(crate) black: bool,
@@ -15,10 +15,11 @@ pub(crate) struct Surface {
     pub(crate) brush_load: f64,
 }
 
-/// What any pile takes from a brush, and what each newton takes that the pile takes from a wheel, relative to hard floor.
-/// Assumed, not measured on this robot: the bristles then turn in a pile instead of over a plane. So a flat woven mat of 0.4 N
-/// loads the brush by a third more, and a deep pile of 1.8 N twice as much as hard floor does. That the roller's current steps up
-/// from hard floor to carpet and again with the pile is what makers of cleaners tell floors by (US 11882986).
+/// What any pile takes from a brush, and what each newton takes that the pile takes from a wheel, relative to hard
+/// floor. Assumed, not measured on this robot: the bristles then turn in a pile instead of over a plane. So a flat
+/// woven mat of 0.4 N loads the brush by a third more, and a deep pile of 1.8 N twice as much as hard floor does. That
+/// the roller's current steps up from hard floor to carpet and again with the pile is what makers of cleaners tell
+/// floors by (US 11882986).
 const BRUSH_LOAD_OF_PILE: f64 = 0.15;
 const BRUSH_LOAD_PER_N: f64 = 0.5;
 

@@ -1,4 +1,4 @@
-//! Ways that people and pets take between places.
+//! Paths of people and pets between places.
 
 use std::collections::VecDeque;
 
@@ -19,7 +19,7 @@ pub(crate) enum WalkerKind {
 }
 
 impl WalkerKind {
-    /// What a way keeps from walls and furniture.
+    /// Clearance of a path to walls and furniture.
     const fn clearance_m(self) -> f64 {
         match self {
             Self::Person => 0.2,
@@ -70,7 +70,7 @@ impl<'a> Ways<'a> {
         let mut legs = Vec::new();
         let mut here = first;
         for place in places.into_iter().skip(1).chain([first]) {
-            if let Some(leg) = self.way(here, place, kind) {
+            if let Some(leg) = self.path(here, place, kind) {
                 legs.push(leg);
                 here = place;
             }
@@ -101,8 +101,8 @@ impl<'a> Ways<'a> {
         nearest.map(|(_, square)| square)
     }
 
-    /// The way with the fewest squares.
-    fn way(&self, from: usize, to: usize, kind: WalkerKind) -> Option<Vec<(f64, f64)>> {
+    /// The path with the fewest squares.
+    fn path(&self, from: usize, to: usize, kind: WalkerKind) -> Option<Vec<(f64, f64)>> {
         const UNSEEN: usize = usize::MAX;
         // Searched backwards, so that following the links goes forward.
         let mut next = vec![UNSEEN; self.columns * self.rows];

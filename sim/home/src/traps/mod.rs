@@ -1,8 +1,8 @@
-//! Traps: places in which owners find their robots, drawn from a kind and a seed.
+//! Traps: places in which robots get stuck in real homes, drawn from a kind and a seed.
 //!
-//! A *trap* is a room of 4 x 3 m with a dock, and the robot in a tight place in it. The seed draws its sizes, down to gaps that
-//! are hardly wider than the body. The robot has come *free* when it is outside of the trap's rectangle. Two kinds have no way
-//! out: from those the robot can only give up and say so.
+//! A *trap* is a room of 4 x 3 m with a dock, and the robot in a tight place in it. The seed draws its sizes, down to
+//! gaps that are hardly wider than the body. The robot is *free* when it is outside of the trap's rectangle. Two kinds
+//! have no exit: there the robot can only stop and report that.
 
 mod recipes;
 mod sketch;
@@ -40,21 +40,21 @@ kinds! {
     Airer => "airer",
     /// Below a bed, between boxes.
     Bed => "bed",
-    /// An island of floor in a black carpet, which cliff sensors take for an abyss. No way out.
+    /// An island of floor in a black carpet, which cliff sensors see as a cliff. No exit.
     BlackIsland => "black-island",
-    /// The same with a way out along the wall.
+    /// The same with an exit along the wall.
     BlackRug => "black-rug",
     /// Cables all around.
     Cables => "cables",
-    /// A thick carpet on which much of the way is lost.
+    /// A thick carpet on which wheels slip much.
     Carpet => "carpet",
     /// A cage of chair legs with one gap.
     Chairs => "chairs",
-    /// A closet whose door has fallen shut. No way out.
+    /// A closet whose door has fallen shut. No exit.
     Closet => "closet",
     /// A closet whose door somebody opens after some minutes.
     Door => "door",
-    /// Behind the leaf of a door that stands open.
+    /// Behind the leaf of an open door.
     DoorLeaf => "door-leaf",
     /// A landing between stairs.
     Landing => "landing",
@@ -83,7 +83,7 @@ kinds! {
 }
 
 impl TrapKind {
-    /// Whether there is a way out, now or within some minutes.
+    /// Whether there is an exit, now or within some minutes.
     #[must_use]
     pub const fn can_be_left(self) -> bool {
         !matches!(self, Self::BlackIsland | Self::Closet)

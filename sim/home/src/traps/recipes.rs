@@ -1,5 +1,5 @@
-//! How each kind of trap is drawn. The body is 35 cm wide; cells of the plan have 2 cm, so a gap may come out that much wider
-//! or narrower than it was drawn.
+//! How each kind of trap is drawn. The body is 35 cm wide; cells of the plan have 2 cm, so a gap may come out that much
+//! wider or narrower than it was drawn.
 
 use core::f64::consts::{PI, TAU};
 
@@ -10,20 +10,20 @@ use super::sketch::{Point, Sketch, corners};
 const BODY_M: f64 = 0.35;
 /// What the narrowest gaps have beyond the body: less is a matter of a cell.
 const TIGHT_M: f64 = 0.05;
-/// Beyond this a gap is no trap any more.
+/// A wider gap is no trap.
 const LOOSE_M: f64 = 0.14;
 
 pub(super) fn draw(kind: TrapKind, sketch: &mut Sketch) {
     match kind {
         TrapKind::Airer => airer(sketch),
         TrapKind::Bed => bed(sketch),
-        TrapKind::BlackIsland => black(sketch, Way::None),
-        TrapKind::BlackRug => black(sketch, Way::AlongTheWall),
+        TrapKind::BlackIsland => black(sketch, ExitKind::None),
+        TrapKind::BlackRug => black(sketch, ExitKind::AlongTheWall),
         TrapKind::Cables => cables(sketch),
         TrapKind::Carpet => carpet(sketch),
         TrapKind::Chairs => chairs(sketch),
-        TrapKind::Closet => closet(sketch, Way::None),
-        TrapKind::Door => closet(sketch, Way::Later),
+        TrapKind::Closet => closet(sketch, ExitKind::None),
+        TrapKind::Door => closet(sketch, ExitKind::Later),
         TrapKind::DoorLeaf => door_leaf(sketch),
         TrapKind::Landing => landing(sketch),
         TrapKind::Mirror => mirror(sketch),
@@ -40,9 +40,9 @@ pub(super) fn draw(kind: TrapKind, sketch: &mut Sketch) {
     }
 }
 
-/// Whether there is a way out.
+/// Whether there is an exit.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Way {
+enum ExitKind {
     None,
     AlongTheWall,
     Later,
@@ -95,14 +95,14 @@ fn bed(sketch: &mut Sketch) {
     sketch.end_at([0.0, 0.0], [east, north]);
 }
 
-fn black(sketch: &mut Sketch, way: Way) {
+fn black(sketch: &mut Sketch, exit: ExitKind) {
     let (low, high) = ([0.9, 1.0], [sketch.number(1.6, 1.9), sketch.number(1.8, 2.1)]);
     let lane_m = sketch.number(0.55, 0.75);
     let north = high[1] + 0.45;
     let south = low[1] - 0.45;
-    // With a way out, the island reaches the wall in the west, and a lane leads along that wall.
-    match way {
-        Way::AlongTheWall => {
+    // With an exit, the island reaches the wall in the west, and a lane leads along that wall.
+    match exit {
+        ExitKind::AlongTheWall => {
             sketch.black_rug(&[
                 [0.0, south],
                 [2.4, south],
@@ -115,7 +115,7 @@ fn black(sketch: &mut Sketch, way: Way) {
             ]);
             sketch.end_at([0.0, south], [2.4, north]);
         }
-        Way::None | Way::Later => {
+        ExitKind::None | ExitKind::Later => {
             let outer = [
                 [0.3, south],
                 [2.4, south],
@@ -167,7 +167,7 @@ fn chairs(sketch: &mut Sketch) {
     let radius_m = sketch.number(0.42, 0.6);
     let gap_rad = (gap(sketch) + 0.04) / radius_m;
     let gap_at_rad = sketch.number(-PI, PI);
-    // So many legs that nobody fits between two of them.
+    // So many legs that the robot does not fit between two of them.
     let count = libm::ceil((TAU - gap_rad) * radius_m / 0.3);
     let legs: Vec<Point> = (0..=count as u32)
         .map(|leg| {
@@ -185,12 +185,12 @@ fn chairs(sketch: &mut Sketch) {
     );
 }
 
-fn closet(sketch: &mut Sketch, way: Way) {
+fn closet(sketch: &mut Sketch, exit: ExitKind) {
     let (east, north) = (sketch.number(0.8, 1.2), sketch.number(1.1, 2.2));
     sketch.wall([[east, 0.0], [east, north]]);
     sketch.wall([[0.0, north], [east + 0.05, north]]);
     let start = sketch.number(0.1, north - 0.95);
-    let opens_s = (way == Way::Later).then(|| sketch.number(90.0, 300.0));
+    let opens_s = (exit == ExitKind::Later).then(|| sketch.number(90.0, 300.0));
     sketch.shut_door([[east, start], [east, start + 0.75]], opens_s);
     let heading_deg = any_heading(sketch);
     sketch.start([0.4 * east, 0.5 * north], heading_deg);
@@ -217,7 +217,7 @@ fn landing(sketch: &mut Sketch) {
     let (east, south) = (sketch.number(1.2, 1.6), sketch.number(1.9, 2.1));
     let exit_m = sketch.number(0.7, 0.9);
     sketch.wall([[0.0, south - 0.05], [east, south - 0.05]]);
-    // Stairs down at the west and, except for the way out, in the east.
+    // Stairs down at the west and, except for the exit, in the east.
     sketch.cliff([0.0, south], [0.25, 3.0]);
     sketch.cliff([east, south + exit_m], [east + 0.6, 3.0]);
     sketch.block([east, south - 0.1], [east + 0.6, south]);
@@ -284,12 +284,12 @@ fn sofa(sketch: &mut Sketch) {
     let north = sketch.number(0.42, 0.6);
     let pitch = gap(sketch) + 0.04;
     // All gaps but one are closed by a leg in their middle.
-    let way_out = libm::floor(sketch.number(0.0, 3.99)) as u32;
+    let exit_side = libm::floor(sketch.number(0.0, 3.99)) as u32;
     let mut legs = Vec::new();
     for field in 0..4 {
         let west = 0.05 + pitch * f64::from(field);
         legs.push([west, north]);
-        if field != way_out {
+        if field != exit_side {
             legs.push([west + 0.5 * pitch, north]);
         }
     }

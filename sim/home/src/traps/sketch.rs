@@ -1,4 +1,4 @@
-//! A home TOML in the making.
+//! Builder of a trap's home TOML.
 
 use core::fmt::Write;
 
@@ -101,7 +101,7 @@ impl Sketch {
         self.strip("mirror", ends);
     }
 
-    /// Force on each wheel, share of the way lost, degrees of turn for each metre.
+    /// Force on each wheel, share of the distance lost, degrees of turn for each metre.
     pub(super) fn rug(&mut self, corners: &[Point], [drag_n, slip, bias]: [f64; 3]) {
         self.table("rug");
         self.line(&format!("polygon = {}", points(corners)));

@@ -4,8 +4,8 @@ use crate::model::{RobotModel, WheelMotor};
 use crate::plan::Solid;
 use crate::pose::{Pose, wrap_angle};
 
-/// A switch stays closed this long after the last step in which it was pressed: springs are slower than a step, and in a
-/// corner the nearest wall changes from step to step.
+/// A switch stays closed this long after the last step in which it was pressed: springs are slower than a step, and in
+/// a corner the nearest wall changes from step to step.
 const RELEASE_MS: u64 = 15;
 /// A new contact counts when the last one is at least this long ago, milliseconds.
 const CONTACT_PAUSE_MS: u64 = 100;
@@ -36,7 +36,7 @@ pub(crate) struct Body {
     /// No solid thing is nearer to the rim than this, metres.
     pub(crate) free_m: f64,
     /// Direction of the present contact from straight ahead.
-    pub(crate) contact: Option<Contact>,
+    pub(crate) contact: Option<BodyContact>,
     left_until_ms: u64,
     right_until_ms: u64,
     last_contact_ms: Option<u64>,
@@ -45,18 +45,18 @@ pub(crate) struct Body {
 
 /// What the body touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Contact {
+pub(crate) struct BodyContact {
     /// Cosine of its direction from straight ahead.
     pub(crate) forward: f64,
     /// Sine of its direction from straight ahead, left positive.
     pub(crate) left: f64,
-    /// How far the bumper is pressed, 1 = to its end; a part of the body that does not give way counts as pressed.
+    /// How far the bumper is pressed, 1 = to its end; a rigid part of the body counts as pressed.
     pub(crate) compression: f64,
     /// It is somebody's foot, or a pet.
     pub(crate) is_foot: bool,
 }
 
-/// From this compression on nothing gives way any more.
+/// From this compression on the contact is rigid.
 pub(crate) const RIGID: f64 = 0.98;
 
 impl Body {
@@ -105,12 +105,12 @@ impl Body {
         )
     }
 
-    /// Moves along a small arc as if nothing stood in the way.
-    pub(crate) fn advance(&mut self, way_m: f64, turn_rad: f64) {
+    /// Moves along a small arc without regard to obstacles.
+    pub(crate) fn advance(&mut self, distance_m: f64, turn_rad: f64) {
         let half = 0.5 * turn_rad;
-        self.x_m += way_m * (self.cos - self.sin * half);
-        self.y_m += way_m * (self.sin + self.cos * half);
-        self.free_m -= way_m.abs();
+        self.x_m += distance_m * (self.cos - self.sin * half);
+        self.y_m += distance_m * (self.sin + self.cos * half);
+        self.free_m -= distance_m.abs();
         self.turn(turn_rad);
     }
 
@@ -173,7 +173,7 @@ impl Body {
         } else {
             1.0
         };
-        self.contact = Some(Contact {
+        self.contact = Some(BodyContact {
             forward,
             left,
             compression,
@@ -185,7 +185,7 @@ impl Body {
         ((nx, ny), if gives_way { self.travel_m } else { 0.0 })
     }
 
-    /// A body that stands still keeps touching and pressing what it touches and presses.
+    /// A body at rest keeps its contacts and the state of its bumper.
     pub(crate) const fn rest(&mut self, now_ms: u64) {
         if self.contact.is_none() {
             return;

@@ -1,9 +1,9 @@
-//! What has been swept, and how much dirt was taken up.
+//! Swept floor, and dirt taken up.
 
 use crate::home::Home;
 use crate::{Pcg, Pose};
 
-/// Share of a cell's dirt that one pass of the disc over one centimetre of way takes up, of 256.
+/// Share of a cell's dirt that one pass of the disc over one centimetre takes up, of 256.
 const TAKE_256: u16 = 28;
 /// Side of the patches that share an amount of dirt, cells.
 const PATCH_CELLS: usize = 16;

@@ -16,7 +16,7 @@ const NEAR_M: f64 = 0.5;
 const BEAM_TAN: f64 = 0.70;
 /// Tangent of how far a beam reaches over the middle (4 degrees).
 const OVERLAP_TAN: f64 = 0.07;
-/// The emitters stand so far in front of the dock's back, metres.
+/// Distance of the emitters in front of the dock's back, metres.
 const EMITTER_M: f64 = 0.04;
 /// Greatest errors with which the contacts still touch: along, aside in metres, and in heading.
 const CONTACT_ALONG_M: f64 = 0.018;
@@ -25,18 +25,18 @@ const CONTACT_RAD: f64 = 0.2;
 /// Most steps of a line of sight.
 const SIGHT_MAX: usize = 200;
 
-/// What becomes of the dock's beams on their way; all zero is a dock in a dark room with black walls.
+/// Attenuation and reflections of the dock's beams; all zero is a dock in a dark room with black walls.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct DockBeams {
+pub struct BeamStrengths {
     /// Share of the words that a receiver misses.
     pub lost: f64,
-    /// Share of the words in which a receiver that looks elsewhere hears one of the lobes from a wall.
+    /// Share of codes in which a receiver that faces elsewhere receives one of the lobes reflected by a wall.
     pub reflected: f64,
     /// How ragged the edges of the lobes are: standard deviation of their angle, radians.
     pub ragged_rad: f64,
 }
 
-impl DockBeams {
+impl BeamStrengths {
     /// A sunny room with white walls.
     pub const POOR: Self = Self {
         lost: 0.1,
@@ -52,9 +52,9 @@ pub(crate) struct Dock {
     plan_cos: f64,
     plan_sin: f64,
     docked: Pose,
-    beams: DockBeams,
+    beams: BeamStrengths,
     random: Pcg,
-    /// What the receivers hear.
+    /// Symbols of the receivers.
     pub(crate) symbols: [u8; 4],
     /// The contacts touch.
     pub(crate) docked_now: bool,
@@ -68,7 +68,7 @@ impl Dock {
             plan_cos: 0.0,
             plan_sin: 0.0,
             docked: pose,
-            beams: DockBeams::default(),
+            beams: BeamStrengths::default(),
             random,
             symbols: [0; 4],
             docked_now: false,
@@ -90,7 +90,7 @@ impl Dock {
         self.stand_at(Pose::new(x_m, y_m, self.pose.heading_rad + turn_rad), model);
     }
 
-    pub(crate) fn set_beams(&mut self, beams: DockBeams) {
+    pub(crate) fn set_beams(&mut self, beams: BeamStrengths) {
         self.beams = beams;
     }
 
@@ -135,7 +135,7 @@ impl Dock {
             if wrap_angle(direction - mount.heading_rad).abs() <= mount.half_angle_rad {
                 *heard = symbol;
             }
-            if self.beams != DockBeams::default() {
+            if self.beams != BeamStrengths::default() {
                 *heard = self.beams.heard(*heard, symbol, &mut self.random);
             }
         }
@@ -151,8 +151,8 @@ impl Dock {
     }
 }
 
-impl DockBeams {
-    /// What a receiver hears that should hear `heard` where the beams say `symbol`.
+impl BeamStrengths {
+    /// Symbol of a receiver whose last one is `heard`, at a place where the beams have `symbol`.
     fn heard(self, heard: u8, symbol: u8, random: &mut Pcg) -> u8 {
         let (fate, lobe) = (random.unit(), random.below(2));
         if heard != 0 {
@@ -192,16 +192,19 @@ fn in_sight(solid: Solid<'_>, from: (f64, f64), to: (f64, f64)) -> bool {
     if length < 1e-6 {
         return true;
     }
-    let mut way_m = 0.0;
+    let mut distance_m = 0.0;
     for _ in 0..SIGHT_MAX {
-        if way_m >= length {
+        if distance_m >= length {
             return true;
         }
-        let clear_m = solid.at(from.0 + dx / length * way_m, from.1 + dy / length * way_m);
+        let clear_m = solid.at(
+            from.0 + dx / length * distance_m,
+            from.1 + dy / length * distance_m,
+        );
         if clear_m < 0.0 {
             return false;
         }
-        way_m += clear_m.max(0.015);
+        distance_m += clear_m.max(0.015);
     }
     false
 }

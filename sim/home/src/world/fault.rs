@@ -1,4 +1,4 @@
-//! Sensors that lie.
+//! Sensor faults.
 
 use super::Sensors;
 use crate::Pcg;
@@ -53,14 +53,14 @@ pub enum SensorFault {
     Inverted,
 }
 
-/// A total that went on counting in its own way while its sensor lied.
+/// An encoder total that diverged while its sensor was faulty.
 #[derive(Clone, Copy, Debug, Default)]
-struct Counter {
+struct DriftingCounter {
     true_total: i32,
     shown: i32,
 }
 
-impl Counter {
+impl DriftingCounter {
     /// Gives what is shown now that the true total has moved on.
     fn follow(&mut self, true_total: i32, fault: Option<SensorFault>, random: &mut Pcg) -> i32 {
         let change = true_total.wrapping_sub(self.true_total);
@@ -81,11 +81,11 @@ impl Counter {
 pub(crate) struct Faults {
     active: Vec<(SensorId, SensorFault)>,
     random: Pcg,
-    /// Some sensor has lied before, so totals may differ from the truth for ever.
+    /// Some sensor was faulty before, so totals may differ from the truth permanently.
     engaged: bool,
-    left: Counter,
-    right: Counter,
-    heading: Counter,
+    left: DriftingCounter,
+    right: DriftingCounter,
+    heading: DriftingCounter,
     shown: Sensors,
 }
 
@@ -95,9 +95,9 @@ impl Faults {
             active: Vec::new(),
             random,
             engaged: false,
-            left: Counter::default(),
-            right: Counter::default(),
-            heading: Counter::default(),
+            left: DriftingCounter::default(),
+            right: DriftingCounter::default(),
+            heading: DriftingCounter::default(),
             shown: Sensors::default(),
         }
     }
@@ -106,7 +106,7 @@ impl Faults {
     pub(crate) fn set(&mut self, sensor: SensorId, fault: Option<SensorFault>, truth: &Sensors) {
         if !self.engaged {
             self.engaged = true;
-            let counter = |total: i32| Counter {
+            let counter = |total: i32| DriftingCounter {
                 true_total: total,
                 shown: total,
             };

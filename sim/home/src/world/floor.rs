@@ -12,7 +12,7 @@ const SPOT_M: f64 = 0.008;
 const EDGE_M: f64 = 0.004;
 /// Level of a cliff sensor over a usual floor, emitter on.
 const FLOOR_LEVEL: f64 = 180.0;
-/// Places across the brush at which it feels the floor: each bristle for itself, so that a brush half on a rug is half loaded.
+/// Sample points across the brush: a brush half on a rug has half the load.
 const BRUSH_SHARES: [f64; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
 /// Share of the light that a black rug gives back.
 const BLACK_SHARE: f64 = 0.05;
@@ -66,12 +66,12 @@ impl Underneath {
         self.cliff_free_m = 0.0;
     }
 
-    /// Whether wheels hang; called after every move of `way_m`.
-    pub(crate) fn move_on(&mut self, home: &Home, body: &Body, way_m: f64) {
+    /// Whether wheels hang; called after every move of `distance_m`.
+    pub(crate) fn move_on(&mut self, home: &Home, body: &Body, distance_m: f64) {
         let Some(cliffs) = &home.cliffs else {
             return;
         };
-        self.cliff_free_m -= way_m.abs();
+        self.cliff_free_m -= distance_m.abs();
         if self.cliff_free_m > self.radius_m {
             return;
         }
@@ -122,7 +122,7 @@ impl Underneath {
         if emitter { self.lit } else { self.dark }
     }
 
-    /// Lets the room's light flicker, so that a frozen reading can be told from a live one.
+    /// Lets the room's light flicker, so that a frozen reading differs from a live one.
     pub(crate) fn flicker(&mut self, random: &mut Pcg) {
         for dark in &mut self.dark {
             *dark = (AMBIENT_LEVEL * (1.0 + self.noise * random.normal())) as u8;

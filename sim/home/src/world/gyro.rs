@@ -15,7 +15,7 @@ const DRIFT_PERIOD_S: f64 = DRIFT_STEPS as f64 * STEP_S;
 
 /// The gyro.
 #[derive(Clone, Debug)]
-pub(crate) struct Gyro {
+pub(crate) struct SimulatedGyro {
     steps_per_rad: f64,
     step_urad: f64,
     scale: f64,
@@ -27,8 +27,8 @@ pub(crate) struct Gyro {
     rate_rad_per_s: f64,
 }
 
-impl Gyro {
-    pub(crate) fn new(part: &model::Gyro, noise: &Noise, random: &mut Pcg) -> Self {
+impl SimulatedGyro {
+    pub(crate) fn new(part: &model::GyroModel, noise: &Noise, random: &mut Pcg) -> Self {
         Self {
             steps_per_rad: 1.0 / part.resolution_rad,
             step_urad: part.resolution_rad * 1e6,

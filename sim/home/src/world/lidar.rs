@@ -14,7 +14,7 @@ const HIT_M: f64 = 0.003;
 /// The lidar: measures a few beams in every step, so a scan is taken while the robot moves, as a real one is.
 #[derive(Clone, Debug)]
 pub(crate) struct Lidar {
-    part: model::Lidar,
+    part: model::LidarModel,
     beams_per_step: f64,
     due: f64,
     next: usize,
@@ -24,7 +24,7 @@ pub(crate) struct Lidar {
 }
 
 impl Lidar {
-    pub(crate) fn new(part: model::Lidar) -> Self {
+    pub(crate) fn new(part: model::LidarModel) -> Self {
         let beams = usize::from(part.beams);
         Self {
             part,
@@ -64,14 +64,14 @@ impl Lidar {
 
     /// Distance to what the beam meets; 0 when nothing is within range.
     fn march(&self, solid: Solid<'_>, (x_m, y_m): (f64, f64), (dx, dy): (f64, f64)) -> f64 {
-        let mut way_m = 0.0;
+        let mut distance_m = 0.0;
         for _ in 0..MARCH_MAX {
-            let clear_m = solid.at(x_m + dx * way_m, y_m + dy * way_m);
+            let clear_m = solid.at(x_m + dx * distance_m, y_m + dy * distance_m);
             if clear_m < HIT_M {
-                return way_m;
+                return distance_m;
             }
-            way_m += clear_m;
-            if way_m > self.part.range_m {
+            distance_m += clear_m;
+            if distance_m > self.part.range_m {
                 return 0.0;
             }
         }

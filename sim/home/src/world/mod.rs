@@ -21,12 +21,12 @@ use std::sync::Arc;
 
 pub use actuation::{Actuation, Bridge};
 pub use battery::{OddCell, Pack, PackMake, Supply};
-pub use dock::DockBeams;
+pub use dock::BeamStrengths;
 pub use fault::{SensorFault, SensorId};
 pub use sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, Sensors};
 pub use truth::Truth;
 
-pub(crate) use gyro::{DRIFT_STEPS, Gyro as WorldGyro, WALK_STEPS};
+pub(crate) use gyro::{DRIFT_STEPS, SimulatedGyro, WALK_STEPS};
 
 use crate::{Home, Noise, Pcg, Pose, RobotModel};
 use body::Body;
@@ -34,7 +34,7 @@ use dirt::Dirt;
 use dock::Dock;
 use fault::Faults;
 use floor::Underneath;
-use gyro::Gyro;
+
 use lidar::Lidar;
 use proximity::Proximity;
 use slip::Slip;
@@ -53,11 +53,11 @@ pub struct World {
     slip: Slip,
     underneath: Underneath,
     proximity: Option<Proximity>,
-    gyro: Option<Gyro>,
+    gyro: Option<SimulatedGyro>,
     dock: Option<Dock>,
     battery: Pack,
     charging_speed: f64,
-    /// What the main brush draws over what a clean one does.
+    /// Current of the main brush relative to a clean one.
     brush_drag: f64,
     dirt: Dirt,
     lidar: Option<Lidar>,
@@ -112,7 +112,10 @@ impl World {
                 .proximity
                 .as_ref()
                 .map(|part| Proximity::new(part, model.body.radius_m, noise, random)),
-            gyro: model.gyro.as_ref().map(|part| Gyro::new(part, noise, random)),
+            gyro: model
+                .gyro
+                .as_ref()
+                .map(|part| SimulatedGyro::new(part, noise, random)),
             dock: Dock::of(&home, model, Pcg::new(seed, Stream::Dock as u64)),
             battery: Pack::new(PackMake::of(&model.battery), 1.0, ROOM_C),
             charging_speed: 1.0,
@@ -151,7 +154,8 @@ impl World {
         self.faults.shown().unwrap_or(&self.sensors)
     }
 
-    /// What the firmware put on its pins in the last step: a copy of this world that is stepped with the same goes the same way.
+    /// What the firmware put on its pins in the last step: a copy of this world that is stepped with the same goes the
+    /// same way.
     #[must_use]
     pub const fn actuation(&self) -> &Actuation {
         &self.actuation
@@ -169,8 +173,8 @@ impl World {
         &self.truth
     }
 
-    /// Where the left and right wheel stand, in encoder counts and fractions of them: what the encoders would show if they
-    /// were perfect.
+    /// Where the left and right wheel stand, in encoder counts and fractions of them: what the encoders would show if
+    /// they were perfect.
     #[must_use]
     pub fn encoder_positions(&self) -> [f64; 2] {
         [self.left.exact_count(), self.right.exact_count()]
@@ -179,7 +183,7 @@ impl World {
     /// What the gyro's turns must be multiplied by, less 1, to be true; `None` without a gyro.
     #[must_use]
     pub fn gyro_scale_error(&self) -> Option<f64> {
-        self.gyro.as_ref().map(Gyro::scale_error)
+        self.gyro.as_ref().map(SimulatedGyro::scale_error)
     }
 
     /// The home as it is now, doors included.
@@ -201,16 +205,16 @@ impl World {
         }
     }
 
-    /// Somebody carries the dock elsewhere: `pose` is the middle of its back, looking into the room (plan frame). A home without one
-    /// stays without.
+    /// Somebody carries the dock elsewhere: `pose` is the middle of its back, looking into the room (plan frame). A
+    /// home without one stays without.
     pub fn put_dock(&mut self, pose: Pose) {
         if let Some(dock) = &mut self.dock {
             dock.stand_at(pose, &self.model);
         }
     }
 
-    /// What becomes of the dock's beams on their way.
-    pub fn set_dock_beams(&mut self, beams: DockBeams) {
+    /// Attenuation and reflections of the dock's beams.
+    pub fn set_dock_beams(&mut self, beams: BeamStrengths) {
         if let Some(dock) = &mut self.dock {
             dock.set_beams(beams);
         }
@@ -233,7 +237,8 @@ impl World {
         self.dirt.begin_stretch();
     }
 
-    /// Share of the reachable floor that was cleaned (brush and suction running) in one stretch and again in a later one.
+    /// Share of the reachable floor that was cleaned (brush and suction running) in one stretch and again in a later
+    /// one.
     #[must_use]
     pub fn cleaned_again_share(&self) -> f64 {
         f64::from(self.dirt.again_cells()) / f64::from(self.home.reachable_cells().max(1))
@@ -278,8 +283,9 @@ impl World {
         self.sensors.buttons &= !1u8.checked_shl(button.into()).unwrap_or(0);
     }
 
-    /// Somebody turns the left and right wheel by hand at these speeds of their rims, m/s, whatever the motors do: pushes or
-    /// turns the robot on the floor, or turns the wheels of a lifted one. 0 holds a wheel fast; `None` lets go of both.
+    /// Somebody turns the left and right wheel by hand at these speeds of their rims, m/s, whatever the motors do:
+    /// pushes or turns the robot on the floor, or turns the wheels of a lifted one. 0 holds a wheel fast; `None` lets
+    /// go of both.
     pub const fn turn_wheels(&mut self, rims_m_per_s: Option<[f64; 2]>) {
         let (left, right) = match rims_m_per_s {
             Some([left, right]) => (Some(left), Some(right)),
@@ -308,8 +314,8 @@ impl World {
         ));
     }
 
-    /// Lets the pack fill so many times as fast as its current would, up to 95 %: what the charger sees of temperature and time
-    /// stays as it is. For simulations that cannot wait for a charge.
+    /// Lets the pack fill so many times as fast as its current would, up to 95 %: what the charger sees of temperature
+    /// and time stays as it is. For simulations that cannot wait for a charge.
     pub fn set_charging_speed(&mut self, times: f64) {
         self.charging_speed = times.max(1.0);
     }

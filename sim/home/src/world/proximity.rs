@@ -25,8 +25,8 @@ struct Beam {
 }
 
 impl Beam {
-    fn at(&self, way_m: f64) -> (f64, f64) {
-        (self.x_m + self.dx * way_m, self.y_m + self.dy * way_m)
+    fn at(&self, distance_m: f64) -> (f64, f64) {
+        (self.x_m + self.dx * distance_m, self.y_m + self.dy * distance_m)
     }
 }
 
@@ -51,7 +51,7 @@ pub(crate) struct Proximity {
 }
 
 impl Proximity {
-    pub(crate) fn new(part: &model::Proximity, radius_m: f64, noise: &Noise, random: &mut Pcg) -> Self {
+    pub(crate) fn new(part: &model::ProximityModel, radius_m: f64, noise: &Noise, random: &mut Pcg) -> Self {
         let skin_m = radius_m - part.mount_radius_m;
         let near_light = part
             .near_m
@@ -125,15 +125,15 @@ impl Proximity {
 
     /// Distance from the sensor to what its cone meets.
     fn march(&self, solid: Solid<'_>, beam: &Beam) -> Option<f64> {
-        let mut way_m = 0.0;
+        let mut distance_m = 0.0;
         for _ in 0..MARCH_MAX {
-            let (x_m, y_m) = beam.at(way_m);
+            let (x_m, y_m) = beam.at(distance_m);
             let clear_m = solid.at(x_m, y_m);
-            if clear_m <= self.spread * way_m + 0.001 {
-                return Some(way_m + clear_m.max(0.0));
+            if clear_m <= self.spread * distance_m + 0.001 {
+                return Some(distance_m + clear_m.max(0.0));
             }
-            way_m += (0.95 * clear_m).max(MARCH_M);
-            if way_m > self.range_m {
+            distance_m += (0.95 * clear_m).max(MARCH_M);
+            if distance_m > self.range_m {
                 return None;
             }
         }

@@ -1,4 +1,4 @@
-//! What the firmware can read from the simulated pins.
+//! Inputs of the firmware from the simulated pins.
 
 use rvac_units::{Angle, AngularSpeed, Current, Temperature, Voltage};
 
@@ -27,7 +27,7 @@ pub struct Sensors {
     pub wheel_drop_right: bool,
     /// Infrared proximity, from the right side counter-clockwise, 0 = nothing, 255 = touching.
     pub proximity: [u8; 8],
-    /// What each dock receiver hears: the sum of [`DOCK_LEFT`], [`DOCK_RIGHT`] and [`DOCK_NEAR`]; 0 = nothing.
+    /// Symbols of each dock receiver: the sum of [`DOCK_LEFT`], [`DOCK_RIGHT`] and [`DOCK_NEAR`]; 0 = nothing.
     pub dock_receivers: [u8; 4],
     /// The dock's contacts touch and carry voltage.
     pub dock_contacts: bool,

@@ -1,4 +1,4 @@
-//! How the floor makes of the wheels' ways a motion of the body.
+//! From the wheels' distances to the motion of the body on a floor.
 
 use super::wheel::WheelErrors;
 use crate::model::RobotModel;
@@ -14,8 +14,8 @@ pub(crate) struct BothWheels {
 /// Steps over which one draw is spread: a wheel slips for a while, it does not tremble.
 pub(crate) const DRAW_STEPS: u64 = 128;
 
-/// Random slip: a random walk over the way. Every [`DRAW_STEPS`] milliseconds an error is drawn for the way made in them
-/// and spread over the next ones.
+/// Random slip: a random walk over the way. Every [`DRAW_STEPS`] milliseconds an error is drawn for the way made in
+/// them and spread over the next ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Slip {
     track_m: f64,
@@ -23,7 +23,7 @@ pub(crate) struct Slip {
     slip_rad_per_sqrt_m: f64,
     rug_drift: f64,
     /// Way since the last draw, metres.
-    way_m: f64,
+    distance_m: f64,
     /// Present errors of each step.
     stretch_m: f64,
     bend_rad: f64,
@@ -35,7 +35,7 @@ impl Slip {
         let scale = 1.0 + noise.encoder_scale * random.normal();
         let uneven = 0.5 * model.drive.track_m * noise.asymmetry_rad_per_m * random.normal();
         let wheel = |factor: f64| WheelErrors {
-            way_factor: scale * factor,
+            distance_factor: scale * factor,
             backlash_m: noise.backlash_m,
         };
         let slip = Self {
@@ -43,7 +43,7 @@ impl Slip {
             slip_m_per_sqrt_m: noise.slip_m_per_sqrt_m,
             slip_rad_per_sqrt_m: noise.slip_rad_per_sqrt_m,
             rug_drift: noise.rug_drift,
-            way_m: 0.0,
+            distance_m: 0.0,
             stretch_m: 0.0,
             bend_rad: 0.0,
         };
@@ -57,24 +57,24 @@ impl Slip {
     /// Way in metres and turn in radians of the body from the ways of both rims.
     pub(crate) fn motion(&mut self, left_m: f64, right_m: f64, surface: &Surface) -> (f64, f64) {
         let rolled_m = 0.5 * (left_m.abs() + right_m.abs());
-        self.way_m += rolled_m;
+        self.distance_m += rolled_m;
         let grip = 1.0 - surface.slip;
-        let way_m = 0.5 * (left_m + right_m) * grip + self.stretch_m;
+        let distance_m = 0.5 * (left_m + right_m) * grip + self.stretch_m;
         let turn_rad = (right_m - left_m) / self.track_m * grip;
         (
-            way_m,
+            distance_m,
             turn_rad + rolled_m * surface.bias_rad_per_m * self.rug_drift + self.bend_rad,
         )
     }
 
     /// Draws the errors of the next steps.
     pub(crate) fn draw(&mut self, random: &mut Pcg) {
-        if self.way_m == 0.0 {
+        if self.distance_m == 0.0 {
             (self.stretch_m, self.bend_rad) = (0.0, 0.0);
             return;
         }
-        let share = libm::sqrt(self.way_m) / DRAW_STEPS as f64;
-        self.way_m = 0.0;
+        let share = libm::sqrt(self.distance_m) / DRAW_STEPS as f64;
+        self.distance_m = 0.0;
         self.stretch_m = self.slip_m_per_sqrt_m * share * random.normal();
         self.bend_rad = self.slip_rad_per_sqrt_m * share * random.normal();
     }

@@ -24,14 +24,14 @@ const BATTERY_MS: u64 = 10;
 const DOCK_MS: u64 = 40;
 /// Less than this into the pack is a trickle, which is not hastened, ampere.
 const HASTE_FROM_A: f64 = 0.1;
-/// Noise of the thermistor's reading, degrees: about half a count of a ten-bit converter at room temperature, as any converter
-/// has. A reading without any is that of a dead sensor to a firmware that watches for one. Not measured.
+/// Noise of the thermistor's reading, degrees: about half a count of a ten-bit converter at room temperature, as any
+/// converter has. A reading without any is that of a dead sensor to a firmware that watches for one. Not measured.
 const THERMISTOR_C: f64 = 0.1;
 /// Milliseconds between two looks at the doors.
 const DOOR_MS: u64 = 256;
 /// Milliseconds between two computations of the direction of a lasting contact.
 const CONTACT_MS: u64 = 10;
-/// Slower wheels push nobody.
+/// Slower wheels do not push.
 const PUSH_M_PER_S: f64 = 0.01;
 /// A door waits until the robot is this far from its leaf, metres beyond the body.
 const DOOR_GAP_M: f64 = 0.02;
@@ -126,12 +126,12 @@ impl World {
     }
 
     fn roll(&mut self, left_m: f64, right_m: f64) -> f64 {
-        let (way_m, mut turn_rad) = self.slip.motion(left_m, right_m, &self.underneath.surface);
+        let (distance_m, mut turn_rad) = self.slip.motion(left_m, right_m, &self.underneath.surface);
         turn_rad *= 1.0 - self.body.wall_friction();
         let (x_m, y_m) = (self.body.x_m, self.body.y_m);
-        self.body.advance(way_m, turn_rad);
+        self.body.advance(distance_m, turn_rad);
         self.body.collide(solid!(self), self.truth.time_ms);
-        self.underneath.move_on(&self.home, &self.body, way_m);
+        self.underneath.move_on(&self.home, &self.body, distance_m);
         let (dx, dy) = (self.body.x_m - x_m, self.body.y_m - y_m);
         let along_m = dx * self.body.cos + dy * self.body.sin;
         self.truth.path_m += libm::sqrt(dx * dx + dy * dy);
@@ -221,7 +221,7 @@ impl World {
         }
     }
 
-    /// Whether the robot pushes against somebody's foot: nothing gives way any more, and the wheels go on toward it.
+    /// Whether the robot pushes against a foot: the contact is rigid, and the wheels keep driving towards it.
     fn judge_foot(&mut self) {
         let Some(contact) = self.body.contact.filter(|contact| contact.is_foot) else {
             self.foot_pushed_ms = 0;
@@ -325,7 +325,7 @@ impl World {
         let in_air = self.is_in_air();
         self.sensors.count_left = self.left.count;
         self.sensors.count_right = self.right.count;
-        self.sensors.gyro = self.gyro.as_ref().map(super::Gyro::reading);
+        self.sensors.gyro = self.gyro.as_ref().map(super::SimulatedGyro::reading);
         (self.sensors.bumper_left, self.sensors.bumper_right) = self.body.pressed(now_ms);
         self.sensors.cliff_levels = self.underneath.levels(actuation.cliff_emitter);
         self.sensors.cliff_dark = self.underneath.levels(false);

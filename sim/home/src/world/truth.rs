@@ -1,4 +1,4 @@
-//! What is really so, for judges and drawings; the firmware never sees it.
+//! Ground truth, for checks and drawings; the firmware never sees it.
 
 use crate::Pose;
 
@@ -32,7 +32,7 @@ pub struct Truth {
     pub contacts: u32,
     /// Times the body came into contact with the foot of somebody who walks, or with a pet.
     pub foot_contacts: u32,
-    /// Longest time for which the wheels went on against one when nothing gave way any more, milliseconds.
+    /// Longest time for which the wheels kept driving against a person with rigid contact, milliseconds.
     pub foot_pushed_max_ms: u32,
     /// The left wheel is over a drop.
     pub left_over_cliff: bool,

@@ -1,24 +1,24 @@
-//! People and pets that walk. They see the robot and do not step onto it: a foot comes down beside it or not at all, and a pet
-//! stops before it. So whatever contact there is, the robot has made it.
+//! People and pets that walk. They see the robot and do not step onto it: a foot comes down beside it or not at all,
+//! and a pet stops before it. Any contact is therefore caused by the robot.
 
 use crate::plan::{DistanceField, Foot, WalkerKind, WalkerPlan};
 
 /// Milliseconds between two looks at who walks.
 pub(crate) const WALK_MS: u64 = 20;
-/// Places of a way lie so far apart at most, metres; a step is a few of them.
+/// Largest distance of two points of a path, metres; a step spans a few of them.
 const PERSON_STRIDE: usize = 5;
 /// Time of a step.
 const PERSON_STEP_MS: u64 = 640;
 /// A pet goes one place on in this time: half a metre a second.
 const PET_STEP_MS: u64 = 200;
-/// Feet are so far to each side of the way, metres.
+/// Distance of the feet to each side of the path, metres.
 const FOOT_ASIDE_M: f64 = 0.09;
 /// A shoe is longer than it is wide; a disc in between.
 const FOOT_M: f64 = 0.08;
 const PET_M: f64 = 0.11;
-/// What nobody sets a foot into, beyond the robot's rim, metres.
+/// Clearance around the robot that no foot enters, metres.
 const ASIDE_M: f64 = 0.04;
-/// Who waits this long for the robot goes on behind it.
+/// After waiting this long a walker continues behind the robot.
 const PATIENCE_MS: u64 = 4_000;
 
 /// Everybody who walks, and where their feet are.
@@ -105,13 +105,13 @@ impl Walker {
         }
     }
 
-    fn way(&self) -> &[(f64, f64)] {
+    fn path(&self) -> &[(f64, f64)] {
         self.plan.legs.get(self.leg).map_or(&[], Vec::as_slice)
     }
 
     fn at(&self, place: usize) -> (f64, f64) {
-        let way = self.way();
-        way.get(place.min(way.len().saturating_sub(1)))
+        let path = self.path();
+        path.get(place.min(path.len().saturating_sub(1)))
             .copied()
             .unwrap_or_default()
     }
@@ -119,7 +119,7 @@ impl Walker {
     /// One foot comes down ahead, the other goes up.
     fn step(&mut self, now_ms: u64, robot: RobotDisc, solid: &DistanceField) -> bool {
         let next = self.place + PERSON_STRIDE;
-        let is_last = next >= self.way().len();
+        let is_last = next >= self.path().len();
         let (here, there) = (self.at(self.place), self.at(next));
         let length = libm::hypot(there.0 - here.0, there.1 - here.1).max(1e-9);
         let side = if self.left_foot {
@@ -179,7 +179,7 @@ impl Walker {
 
     fn go_on(&mut self, next: usize, now_ms: u64, step_ms: u64) {
         self.waits_since_ms = None;
-        if next < self.way().len() {
+        if next < self.path().len() {
             (self.place, self.due_ms) = (next, now_ms + step_ms);
             return;
         }

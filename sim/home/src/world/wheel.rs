@@ -5,7 +5,7 @@ use crate::model::{RobotModel, WheelMotor};
 
 /// Length of a step, seconds.
 pub(crate) const STEP_S: f64 = 0.001;
-/// A wheel slower than this that is not driven stands, m/s.
+/// A wheel that is not driven stops below this speed, m/s.
 const STANDING_M_PER_S: f64 = 1e-5;
 /// How much longer than under drive the speed takes to fall when the bridge coasts.
 const COAST_FACTOR: f64 = 5.0;
@@ -13,8 +13,8 @@ const COAST_FACTOR: f64 = 5.0;
 /// What makes wheels of one robot differ.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WheelErrors {
-    /// True way of the rim over nominal way.
-    pub(crate) way_factor: f64,
+    /// True distance of the rim over nominal distance.
+    pub(crate) distance_factor: f64,
     /// Play of the gear at the rim, metres.
     pub(crate) backlash_m: f64,
 }
@@ -28,9 +28,9 @@ pub(crate) struct Wheel {
     has_direction: bool,
     /// Speed of the rim as the motor turns it, m/s, nominal.
     pub(crate) rim_m_per_s: f64,
-    /// Nominal way of the motor side, metres.
+    /// Nominal distance of the motor side, metres.
     travel_m: f64,
-    /// Nominal way of the wheel behind the play, metres.
+    /// Nominal distance of the wheel behind the backlash, metres.
     rolled_m: f64,
     count_signed: i32,
     /// What the encoder shows.
@@ -62,7 +62,7 @@ impl Wheel {
         self.rim_m_per_s == 0.0 && self.held_m_per_s.is_none_or(|speed| speed == 0.0)
     }
 
-    /// Somebody turns the wheel at this speed, or lets go of it, and then it stands.
+    /// A person turns the wheel at this speed, or releases it; then it stops.
     pub(crate) const fn hold(&mut self, speed_m_per_s: Option<f64>) {
         if self.held_m_per_s.is_some() {
             self.rim_m_per_s = 0.0;
@@ -70,14 +70,14 @@ impl Wheel {
         self.held_m_per_s = speed_m_per_s;
     }
 
-    /// Advances the motor one step under a load that opposes its motion; `supply` is the battery voltage over the nominal.
-    /// Gives the true way of the rim on the floor in metres.
+    /// Advances the motor one step under a load that opposes its motion; `supply` is the battery voltage over the
+    /// nominal. Returns the true distance of the rim on the floor in metres.
     pub(crate) fn step(&mut self, bridge: Bridge, supply: f64, load_n: f64) -> f64 {
         let free = self.free_speed(bridge) * supply;
         let lost = load_n * self.motor.free_speed_m_per_s / self.motor.stall_force_n;
         let driven = free != 0.0;
         let target = if !driven {
-            // Friction goes on slowing the wheel until it stands; it does not turn it back (see below).
+            // Friction slows the wheel until it stops; it does not turn it back (see below).
             -(self.friction_m_per_s() + lost).copysign(self.rim_m_per_s)
         } else if free > lost {
             free - lost
@@ -141,12 +141,12 @@ impl Wheel {
             .rolled_m
             .max(self.travel_m - self.errors.backlash_m)
             .min(self.travel_m);
-        let way_m = rolled_m - self.rolled_m;
+        let distance_m = rolled_m - self.rolled_m;
         self.rolled_m = rolled_m;
-        way_m * self.errors.way_factor
+        distance_m * self.errors.distance_factor
     }
 
-    /// The way of the motor side in counts.
+    /// The distance of the motor side in counts.
     pub(crate) fn exact_count(&self) -> f64 {
         self.travel_m * self.counts_per_m
     }

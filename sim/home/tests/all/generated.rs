@@ -1,7 +1,7 @@
 //! The published set of generated homes.
 
 use home::generate::{GeneratedHome, PUBLISHED, People};
-use home::{Cell, Digest, Home, RobotModel};
+use home::{Cell, Fnv1a, Home, RobotModel};
 
 fn sr8730() -> RobotModel {
     RobotModel::by_name("sr8730").unwrap()
@@ -10,9 +10,10 @@ fn sr8730() -> RobotModel {
 /// Figures of benches are of these homes: a change of the generator changes the hash, and then all figures must be taken
 /// again.
 #[test]
+#[ignore = "campaign: fifty homes; cargo xtask test --all"]
 fn every_published_home_has_a_dock_and_hangs_together() {
     let model = sr8730();
-    let mut digest = Digest::default();
+    let mut digest = Fnv1a::default();
     let mut areas_m2 = Vec::new();
     for number in PUBLISHED {
         let text = GeneratedHome::number(number).floorplan(&model).unwrap();

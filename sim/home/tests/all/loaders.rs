@@ -401,6 +401,15 @@ fn mutate(seed: &[u8], random: &mut Pcg) -> Vec<u8> {
 }
 
 #[test]
+fn the_former_key_of_the_distance_per_count_is_read() {
+    let text = include_str!("../../../../robots/samsung-sr8730/robot.toml");
+    let former = text.replace("\ndistance-per-count =", "\ncount-way =");
+    assert_ne!(former, text);
+    let count_m = |text: &str| RobotModel::parse(text, "test.toml").unwrap().drive.count_m;
+    assert_eq!(count_m(&former), count_m(text));
+}
+
+#[test]
 fn robots_are_found_by_name_and_unknown_ones_named() {
     for name in robot_names() {
         let model = RobotModel::by_name(name).unwrap();

@@ -13,12 +13,12 @@ fn straight_drive_covers_what_the_encoders_count() {
     steps(&mut world, 1_000, drive(0.0, 0.0));
     let (truth, sensors) = (world.truth(), world.sensors());
     let start = at(&home, 1.0, 2.0, 0.0);
-    let way_m = truth.pose.x_m - start.x_m;
-    assert!(way_m > 1.0 && way_m < 2.0, "{way_m}");
+    let distance_m = truth.pose.x_m - start.x_m;
+    assert!(distance_m > 1.0 && distance_m < 2.0, "{distance_m}");
     assert!((truth.pose.y_m - start.y_m).abs() < 1e-9);
-    assert!((f64::from(sensors.count_left) * 0.0005 - way_m).abs() < 0.001);
+    assert!((f64::from(sensors.count_left) * 0.0005 - distance_m).abs() < 0.001);
     assert_eq!(sensors.count_left, sensors.count_right);
-    assert!((truth.path_m - way_m).abs() < 1e-6);
+    assert!((truth.path_m - distance_m).abs() < 1e-6);
     assert_eq!(truth.speed_m_per_s, 0.0);
 }
 

@@ -1,11 +1,11 @@
 //! The dock's homing beams on the robot's four 38 kHz receivers.
 //!
-//! Nobody has recorded the real ones. These are the placeholder of `robots/samsung-sr8730/dock-signal.md`: three codes of eight
-//! bits, sent in turn, four units of time a bit, carrier for three of them for a 1 and for one for a 0.
+//! The real ones have not been recorded. These are the placeholder of `robots/samsung-sr8730/dock-signal.md`: three
+//! codes of eight bits, sent in turn, four units of time a bit, carrier for three of them for a 1 and for one for a 0.
 
 use super::CYCLES_PER_MS;
-use super::encoder::Edge;
-use super::wiring::Line;
+use super::encoder::ScheduledEdge;
+use super::wiring::DigitalLine;
 
 /// Milliseconds from one code to the next.
 const SLOT_MS: u64 = 40;
@@ -17,7 +17,7 @@ const CYCLES_PER_US: u64 = CYCLES_PER_MS / 1000;
 /// The dock's transmitter and the robot's receivers.
 #[derive(Clone, Debug)]
 pub(super) struct Beams {
-    receivers: [Line; 4],
+    receivers: [DigitalLine; 4],
     codes: [u8; 3],
     unit: u64,
     on: [bool; 4],
@@ -26,7 +26,7 @@ pub(super) struct Beams {
 }
 
 impl Beams {
-    pub(super) fn new(receivers: [Line; 4], codes: [u8; 3], unit_us: u32) -> Self {
+    pub(super) fn new(receivers: [DigitalLine; 4], codes: [u8; 3], unit_us: u32) -> Self {
         Self {
             receivers,
             codes,
@@ -37,7 +37,7 @@ impl Beams {
     }
 
     /// The levels now, as edges at `cycle`.
-    pub(super) fn levels(&self, cycle: u64) -> [Edge; 4] {
+    pub(super) fn levels(&self, cycle: u64) -> [ScheduledEdge; 4] {
         [0, 1, 2, 3].map(|number| {
             let line = self.receivers[number];
             (cycle, line.pin, line.level(self.on[number]))
@@ -46,7 +46,7 @@ impl Beams {
 
     /// Edges of the millisecond that begins at `from`. `symbols` are the beams that reach each receiver: the sum of
     /// [`home::DOCK_LEFT`], [`home::DOCK_RIGHT`] and [`home::DOCK_NEAR`].
-    pub(super) fn pass_ms(&mut self, from: u64, symbols: [u8; 4], edges: &mut Vec<Edge>) {
+    pub(super) fn pass_ms(&mut self, from: u64, symbols: [u8; 4], edges: &mut Vec<ScheduledEdge>) {
         let now_ms = from / CYCLES_PER_MS;
         let slot = (now_ms / SLOT_MS) as usize % self.codes.len();
         if now_ms.is_multiple_of(SLOT_MS) {
@@ -71,7 +71,7 @@ impl Beams {
         bit < BITS && place % UNITS_PER_BIT < if one { ONE_UNITS } else { 1 }
     }
 
-    fn switch(&mut self, cycle: u64, carrier: bool, edges: &mut Vec<Edge>) {
+    fn switch(&mut self, cycle: u64, carrier: bool, edges: &mut Vec<ScheduledEdge>) {
         for (number, line) in self.receivers.iter().enumerate() {
             let on = carrier && self.heard[number];
             if on != self.on[number] {
@@ -87,16 +87,16 @@ mod tests {
     use super::Beams;
     use crate::board::pinout::Pinout;
     use crate::board::wiring::Wiring;
-    use crate::board::{CYCLES_PER_MS, encoder::Edge};
+    use crate::board::{CYCLES_PER_MS, encoder::ScheduledEdge};
 
-    fn beams() -> (Beams, crate::board::wiring::Line) {
+    fn beams() -> (Beams, crate::board::wiring::DigitalLine) {
         let wiring = Wiring::of(&Pinout::sr8730().unwrap()).unwrap();
         let left = wiring.beam_receivers[0];
         (Beams::new(wiring.beam_receivers, [72, 68, 65], 1_000), left)
     }
 
     /// Codes on one receiver, by the lengths of its bursts.
-    fn codes(edges: &[Edge], line: crate::board::wiring::Line) -> Vec<u8> {
+    fn codes(edges: &[ScheduledEdge], line: crate::board::wiring::DigitalLine) -> Vec<u8> {
         let (mut codes, mut code, mut bits, mut since, mut ended) = (Vec::new(), 0_u8, 0, 0, 0);
         for (cycle, pin, level) in edges {
             if *pin != line.pin {

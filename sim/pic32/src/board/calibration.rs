@@ -1,5 +1,5 @@
-//! What nobody has measured on the real machine: the calibration values of `robot.toml`, what the simulated robot has for
-//! them, and the record in flash through which the firmware learns them.
+//! Calibration values of `robot.toml`, which have not been measured on a real robot: their simulated values, and the
+//! record in flash through which the firmware reads them.
 
 use serde::Deserialize;
 
@@ -15,7 +15,7 @@ const MAGIC: u32 = 0x4C41_4352;
 const VERSION: u16 = 1;
 /// Magic, version and count before, the check value after the values.
 const FRAME_BYTES: usize = 12;
-/// Stands for a value that nobody knows.
+/// Marks an unknown value.
 const UNKNOWN: i32 = i32::MIN;
 
 #[derive(Deserialize)]
@@ -27,11 +27,13 @@ struct RawRobot {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct RawValue {
     name: String,
+    #[serde(rename = "former-name")]
+    _former_name: Option<String>,
     #[serde(rename = "unit")]
     _unit: String,
     range: [i32; 2],
     #[serde(rename = "confidence")]
-    _confidence: super::pinout::Confidence,
+    _confidence: super::pinout::RowConfidence,
     #[serde(rename = "assumed")]
     _assumed: Option<i32>,
     #[serde(rename = "needed-for")]
@@ -43,11 +45,11 @@ struct RawValue {
 
 /// The calibration values of a robot, in the order of its file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Calibration {
+pub struct CalibrationValues {
     values: Vec<(String, i32)>,
 }
 
-impl Calibration {
+impl CalibrationValues {
     /// Reads the calibration table out of the text of a `robot.toml`.
     ///
     /// # Errors
@@ -154,7 +156,8 @@ fn record(values: impl ExactSizeIterator<Item = i32>) -> Vec<u8> {
     bytes
 }
 
-/// Reflected CRC with the Castagnoli polynomial, a bit at a time: the firmware has its own, and the two check each other.
+/// Reflected CRC with the Castagnoli polynomial, a bit at a time: the firmware has its own, and the two check each
+/// other.
 fn crc32c(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| {
@@ -163,8 +166,8 @@ fn crc32c(bytes: &[u8]) -> u32 {
     })
 }
 
-/// What this one robot is like where nobody knows what all robots are like: the simulated values that the board's circuits
-/// follow.
+/// What this one robot is like where nobody knows what all robots are like: the simulated values that the board's
+/// circuits follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Particulars {
     /// Left and right wheel: line 2 of the encoder leads line 1 when the wheel rolls forward.
@@ -185,7 +188,7 @@ pub struct Particulars {
     pub battery_scale: i32,
     /// Reading of charger-voltage less that of battery-voltage without current, hundredths of a count.
     pub charge_zero: i32,
-    /// Leading ones of the code that the dock wants to hear.
+    /// Leading ones of the code that the dock expects.
     pub dock_code_ones: u8,
     /// Codes of the dock's left, right and near beam.
     pub beams: [u8; 3],
@@ -202,7 +205,7 @@ impl Particulars {
     ///
     /// # Errors
     /// [`BoardError::NoValue`].
-    pub fn of(calibration: &Calibration) -> Result<Self, BoardError> {
+    pub fn of(calibration: &CalibrationValues) -> Result<Self, BoardError> {
         let value = |name| calibration.value(name);
         // The ranges of the file keep these within their types; what does not fit saturates.
         let small = |name| Ok::<u8, BoardError>(value(name)?.clamp(0, 255) as u8);
@@ -239,7 +242,7 @@ impl Particulars {
 
 #[cfg(test)]
 mod tests {
-    use super::{Calibration, Particulars, crc32c};
+    use super::{CalibrationValues, Particulars, crc32c};
     use crate::board::BoardError;
 
     const ROW: &str = "[[calibration]]\nname = 'way'\nunit = 'nm'\nrange = [1, 9]\nconfidence = 'unknown'\nneeded-for = 'n'\nmeasure = 'm'\nsimulated = 5\n";
@@ -252,7 +255,7 @@ mod tests {
     #[test]
     fn a_record_is_laid_out_as_the_firmware_reads_it() {
         let text = format!("{ROW}{}", ROW.replace("way", "track").replace('5', "2"));
-        let calibration = Calibration::parse(&text).unwrap();
+        let calibration = CalibrationValues::parse(&text).unwrap();
         let record = calibration.record();
         assert_eq!(record[..16], *b"RCAL\x01\0\x02\0\x05\0\0\0\x02\0\0\0");
         assert_eq!(record[16..], crc32c(&record[..16]).to_le_bytes());
@@ -268,14 +271,14 @@ mod tests {
             (String::new(), "calibration"),
             (ROW.repeat(1025), "1025"),
         ] {
-            let message = Calibration::parse(&text).unwrap_err().to_string();
+            let message = CalibrationValues::parse(&text).unwrap_err().to_string();
             assert!(message.contains(named), "{message} does not name {named}");
         }
     }
 
     #[test]
     fn the_project_s_own_robot_has_all_that_the_circuits_need() {
-        let calibration = Calibration::sr8730().unwrap();
+        let calibration = CalibrationValues::sr8730().unwrap();
         let particulars = Particulars::of(&calibration).unwrap();
         assert_eq!(particulars.ladder.len(), 3);
         assert_eq!(calibration.value("no-such"), Err(BoardError::NoValue("no-such")));

@@ -1,4 +1,4 @@
-//! What the converter's inputs see, at the moment at which it samples.
+//! Levels of the ADC's inputs at the moment of a sample.
 
 use home::{Pcg, Sensors};
 
@@ -7,7 +7,7 @@ use super::calibration::Particulars;
 use super::power::{ChargeCurrent, divider_counts, thermistor_counts};
 use super::wiring::{Wiring, selected};
 use crate::machine::{Outputs, Surroundings};
-use crate::pins::Output;
+use crate::pins::PinDriver;
 
 /// Highest reading of the converter.
 const FULL_SCALE: f64 = 1023.0;
@@ -91,7 +91,7 @@ impl Circuit {
     }
 
     /// Whether the cliff sensors' emitters shine, by what the chip does to the line that may switch them.
-    pub(super) fn emitters_lit(&self, line: Output) -> bool {
+    pub(super) fn emitters_lit(&self, line: PinDriver) -> bool {
         !self.particulars.cliff_emitters_switched || self.wiring.cliff_emitters.is_on(line)
     }
 
@@ -159,8 +159,8 @@ impl Circuit {
         self.cliffs[number].read(target, outputs.changed(emitters.pin), cycle)
     }
 
-    /// The receive multiplexer shows the sensor that is selected; the transmit multiplexer, which has the same select lines,
-    /// lights its emitter.
+    /// The receive multiplexer shows the sensor that is selected; the transmit multiplexer, which has the same select
+    /// lines, lights its emitter.
     fn proximity_counts(&mut self, cycle: u64, outputs: &Outputs<'_>) -> f64 {
         let emit = self.wiring.emit;
         let select = &self.wiring.sensor_select;

@@ -1,12 +1,12 @@
 //! Switches: bumper, wheel drops, dust box, buttons, adapter.
 //!
-//! The home says once in a millisecond how they stand. A test may *force* one instead, at any cycle, to find out how long
-//! the firmware takes to react; and every change may *bounce*, as contacts do.
+//! The home sets their states once a millisecond. A test may *force* a state instead, at any cycle, to measure the
+//! firmware's reaction time; and every change may *bounce*, as contacts do.
 
 use home::{Pcg, Sensors};
 
-use super::encoder::Edge;
-use super::wiring::{Line, Wiring};
+use super::encoder::ScheduledEdge;
+use super::wiring::{DigitalLine, Wiring};
 use super::{CYCLES_PER_MS, CYCLES_PER_S};
 
 /// A switch.
@@ -22,7 +22,7 @@ pub enum Contact {
     WheelDropRight,
     /// The dust box is in.
     DustBox,
-    /// A button is down (which one tells the ladder).
+    /// A button is down (the ladder shows which one).
     AnyButton,
     /// The dock's contacts, or an adapter, carry voltage.
     Adapter,
@@ -40,7 +40,7 @@ impl Contact {
         Self::Adapter,
     ];
 
-    fn line(self, wiring: &Wiring) -> Line {
+    fn line(self, wiring: &Wiring) -> DigitalLine {
         match self {
             Self::BumperLeft => wiring.bumpers[0],
             Self::BumperRight => wiring.bumpers[1],
@@ -65,7 +65,7 @@ impl Contact {
     }
 }
 
-/// Who says how a switch stands.
+/// Source of a switch's state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hold {
     /// The home.
@@ -76,9 +76,9 @@ pub enum Hold {
     Off,
 }
 
-/// From now on, or from a cycle to come, somebody else says how a switch stands.
+/// From a cycle on, the caller sets the state of a switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Plan {
+struct ContactOverride {
     cycle: u64,
     contact: Contact,
     hold: Hold,
@@ -87,12 +87,12 @@ struct Plan {
 /// All switches.
 #[derive(Clone, Debug)]
 pub(super) struct Contacts {
-    lines: [Line; Contact::ALL.len()],
+    lines: [DigitalLine; Contact::ALL.len()],
     on: [bool; Contact::ALL.len()],
     /// How they stood at the beginning of the millisecond.
     before: [bool; Contact::ALL.len()],
     holds: [Hold; Contact::ALL.len()],
-    plans: Vec<Plan>,
+    plans: Vec<ContactOverride>,
     bounce_cycles: u64,
     random: Pcg,
 }
@@ -116,16 +116,16 @@ impl Contacts {
     }
 
     /// The levels now, as edges at `cycle`.
-    pub(super) fn levels(&self, cycle: u64) -> [Edge; Contact::ALL.len()] {
+    pub(super) fn levels(&self, cycle: u64) -> [ScheduledEdge; Contact::ALL.len()] {
         Contact::ALL.map(|contact| {
             let line = self.lines[contact as usize];
             (cycle, line.pin, line.level(self.on[contact as usize]))
         })
     }
 
-    /// Somebody else says how the switch stands, from this cycle on.
+    /// The caller sets the state of the switch, from this cycle on.
     pub(super) fn plan(&mut self, contact: Contact, hold: Hold, cycle: u64) {
-        self.plans.push(Plan { cycle, contact, hold });
+        self.plans.push(ContactOverride { cycle, contact, hold });
     }
 
     /// Whether the switch is on, bounces left out.
@@ -139,7 +139,7 @@ impl Contacts {
     }
 
     /// Edges of the millisecond that begins at `from`.
-    pub(super) fn pass_ms(&mut self, from: u64, sensors: &Sensors, edges: &mut Vec<Edge>) {
+    pub(super) fn pass_ms(&mut self, from: u64, sensors: &Sensors, edges: &mut Vec<ScheduledEdge>) {
         for contact in Contact::ALL {
             let on = self.wanted(contact, sensors);
             self.switch(contact, (on, from), edges);
@@ -167,7 +167,7 @@ impl Contacts {
         }
     }
 
-    fn switch(&mut self, contact: Contact, (on, cycle): (bool, u64), edges: &mut Vec<Edge>) {
+    fn switch(&mut self, contact: Contact, (on, cycle): (bool, u64), edges: &mut Vec<ScheduledEdge>) {
         let place = contact as usize;
         if on == self.on[place] {
             return;

@@ -1,7 +1,8 @@
-//! The dock's ear: does the robot's front emitter send the code for full current?
+//! The dock's receiver: decodes the robot's request for full current.
 //!
-//! The code is 33 bits of 0.5 ms on a carrier of 38 kHz, highest bit first, 1 = carrier (`robots/samsung-sr8730/dock-signal.md`).
-//! The dock counts the carrier's periods in each bit; a bit with most of its 19 periods is a 1, one with next to none a 0.
+//! The code is 33 bits of 0.5 ms on a carrier of 38 kHz, highest bit first, 1 = carrier
+//! (`robots/samsung-sr8730/dock-signal.md`). The dock counts the carrier's periods in each bit; a bit with most of its
+//! 19 periods is a 1, one with next to none a 0.
 
 use super::CYCLES_PER_MS;
 use crate::pins::Level;
@@ -40,7 +41,7 @@ pub(super) struct DockEar {
 }
 
 impl DockEar {
-    /// A dock that wants a code with so many leading ones.
+    /// A dock that expects a code with this many leading ones.
     pub(super) fn new(leading_ones: u8) -> Self {
         let bits = BITS - u32::from(LEADING_ONES.saturating_sub(leading_ones));
         Self {

@@ -1,13 +1,13 @@
 //! Encoders: two lines a wheel in quadrature, and the pulses of the main brush.
 
 use super::CYCLES_PER_MS;
-use super::wiring::Line;
+use super::wiring::DigitalLine;
 use crate::pins::{Level, Pin};
 
 /// An edge that is to come: cycle, pin, level after it.
-pub(super) type Edge = (u64, Pin, Level);
+pub(super) type ScheduledEdge = (u64, Pin, Level);
 
-/// Where a wheel's encoder stands, in counts: exactly, and what it shows. The two differ for ever once a sensor has lied.
+/// Position of a wheel's encoder in counts: true and shown. They differ permanently after a sensor fault.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Position {
     pub(super) exact: f64,
@@ -35,14 +35,14 @@ impl Encoder {
     }
 
     /// The levels now, as edges at `cycle`.
-    pub(super) fn levels(&self, cycle: u64) -> [Edge; 2] {
+    pub(super) fn levels(&self, cycle: u64) -> [ScheduledEdge; 2] {
         let levels = QUADRATURE[self.before.shown.rem_euclid(4) as usize];
         [0, 1].map(|line| (cycle, self.lines[line], Level::of(levels[line])))
     }
 
-    /// The wheel moves to `after` in the millisecond that begins at `from`; its edges come at the moments at which whole
-    /// counts are passed.
-    pub(super) fn turn(&mut self, after: Position, from: u64, edges: &mut Vec<Edge>) {
+    /// The wheel moves to `after` in the millisecond that begins at `from`; its edges come at the moments at which
+    /// whole counts are passed.
+    pub(super) fn turn(&mut self, after: Position, from: u64, edges: &mut Vec<ScheduledEdge>) {
         let steps = after.shown.wrapping_sub(self.before.shown);
         let forward = steps >= 0;
         let count = steps.unsigned_abs();
@@ -64,37 +64,37 @@ impl Encoder {
         self.before = after;
     }
 
-    /// When in the millisecond the step happens, 0..1: where the wheel passes a whole count, or evenly spread if the encoder
-    /// shows something else than what the wheel does.
+    /// When in the millisecond the step happens, 0..1: where the wheel passes a whole count, or evenly spread if the
+    /// encoder shows something else than what the wheel does.
     fn share(&self, after: Position, (step, count): (u32, u32)) -> f64 {
-        let way = after.exact - self.before.exact;
+        let travelled = after.exact - self.before.exact;
         let whole = after.exact.floor() - self.before.exact.floor();
-        if whole.abs() != f64::from(count) || way == 0.0 {
+        if whole.abs() != f64::from(count) || travelled == 0.0 {
             return (f64::from(step) + 0.5) / f64::from(count);
         }
-        let boundary = if way > 0.0 {
+        let boundary = if travelled > 0.0 {
             self.before.exact.floor() + f64::from(step) + 1.0
         } else {
             self.before.exact.floor() - f64::from(step)
         };
-        ((boundary - self.before.exact) / way).clamp(0.0, 0.999_999)
+        ((boundary - self.before.exact) / travelled).clamp(0.0, 0.999_999)
     }
 }
 
 /// The main brush's encoder: as many pulses as the brush turns, half of each with the line on.
 #[derive(Clone, Debug)]
 pub(super) struct BrushEncoder {
-    line: Line,
+    line: DigitalLine,
     pulses_per_ms: f64,
     /// Half pulses so far.
     halves: f64,
 }
 
-/// Share of full drive below which the brush stands: of no consequence for what is tested with it, so not a parameter.
+/// Share of full drive below which the brush does not turn. The tests do not depend on it, so it is not a parameter.
 const BRUSH_DEAD_BAND: f64 = 0.15;
 
 impl BrushEncoder {
-    pub(super) fn new(line: Line, pulses_per_s: f64) -> Self {
+    pub(super) fn new(line: DigitalLine, pulses_per_s: f64) -> Self {
         Self {
             line,
             pulses_per_ms: pulses_per_s / 1000.0,
@@ -103,7 +103,7 @@ impl BrushEncoder {
     }
 
     /// The level now, as an edge at `cycle`.
-    pub(super) fn level(&self, cycle: u64) -> Edge {
+    pub(super) fn level(&self, cycle: u64) -> ScheduledEdge {
         (cycle, self.line.pin, self.line.level(self.is_on()))
     }
 
@@ -112,7 +112,7 @@ impl BrushEncoder {
     }
 
     /// The brush is driven with this mean duty for the millisecond that begins at `from`.
-    pub(super) fn turn(&mut self, duty: f64, from: u64, edges: &mut Vec<Edge>) {
+    pub(super) fn turn(&mut self, duty: f64, from: u64, edges: &mut Vec<ScheduledEdge>) {
         let turning = (duty.abs() - BRUSH_DEAD_BAND).max(0.0) / (1.0 - BRUSH_DEAD_BAND);
         let step = 2.0 * self.pulses_per_ms * turning;
         let before = self.halves;
@@ -130,8 +130,8 @@ impl BrushEncoder {
 
 #[cfg(test)]
 mod tests {
-    use super::{BrushEncoder, Edge, Encoder, Position};
-    use crate::board::wiring::Line;
+    use super::{BrushEncoder, Encoder, Position, ScheduledEdge};
+    use crate::board::wiring::DigitalLine;
     use crate::pins::{Level, Pin};
 
     fn pin(name: &str) -> Pin {
@@ -143,7 +143,7 @@ mod tests {
     }
 
     /// Counts as a firmware does: line 1 leading is up.
-    fn decode(edges: &[Edge]) -> i32 {
+    fn decode(edges: &[ScheduledEdge]) -> i32 {
         let order = [0b00, 0b01, 0b11, 0b10];
         let (mut levels, mut total) = (0, 0);
         for (_, line, level) in edges {
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn a_brush_at_full_drive_gives_its_pulses() {
-        let line = Line {
+        let line = DigitalLine {
             pin: pin("RB5"),
             active: Level::Low,
         };

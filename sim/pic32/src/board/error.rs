@@ -1,4 +1,4 @@
-//! Why there is no board.
+//! Errors of building a board.
 
 use crate::pins::PinError;
 
@@ -32,7 +32,7 @@ pub enum BoardError {
     /// The emulated board needs a signal that is not there.
     #[error("pinout.toml: there is no signal `{0}`, which the board needs")]
     NoSignal(&'static str),
-    /// A signal whose active level nobody knows stands where the level decides.
+    /// A signal has an unknown active level where the level matters.
     #[error("pinout.toml: `{0}` must have an active level, high or low")]
     NoLevel(&'static str),
     /// An analog signal is not on an analog pin.

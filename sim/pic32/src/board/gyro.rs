@@ -5,8 +5,8 @@ use home::GyroReading;
 use super::CYCLES_PER_MS;
 use super::calibration::Particulars;
 use super::gyro_frame::{GyroFitted, GyroLayout, placeholder};
-use super::serial::{Rate, Sender};
-use super::wiring::{Line, Wiring};
+use super::serial::{HostRate, Sender};
+use super::wiring::{DigitalLine, Wiring};
 use crate::machine::Machine;
 use crate::pins::{Level, Pin};
 
@@ -16,12 +16,12 @@ const PERIOD_MS: u64 = 10;
 
 /// The module.
 #[derive(Clone, Debug)]
-pub(super) struct GyroModule {
-    power: Line,
+pub(super) struct EmulatedGyro {
+    power: DigitalLine,
     receive: Pin,
     sender: Sender,
     fitted: GyroFitted,
-    /// Of a module that nobody knows.
+    /// Of an unknown module.
     layout: Option<GyroLayout>,
     period_ms: u64,
     count: u8,
@@ -30,7 +30,7 @@ pub(super) struct GyroModule {
     edges: Vec<(u64, Level)>,
 }
 
-impl GyroModule {
+impl EmulatedGyro {
     pub(super) fn new(wiring: &Wiring, (particulars, fitted): (&Particulars, GyroFitted), seed: u64) -> Self {
         let layout = match fitted {
             GyroFitted::Unknown(number) => Some(GyroLayout::unknown(number)),
@@ -41,7 +41,7 @@ impl GyroModule {
         Self {
             power: wiring.gyro_power,
             receive: wiring.uart_receive[usize::from(uart.clamp(1, 2)) - 1],
-            sender: Sender::new(Rate::exact(baud), seed),
+            sender: Sender::new(HostRate::exact(baud), seed),
             fitted,
             layout,
             period_ms: layout.map_or(PERIOD_MS, |layout| layout.period_ms),

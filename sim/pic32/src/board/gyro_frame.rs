@@ -1,5 +1,5 @@
-//! What a gyro module says: the placeholder of `robots/samsung-sr8730/gyro.md`, or frames that no program knows, made up by
-//! a number, so that finding out an unknown module can be tried.
+//! Frames of a gyro module: the placeholder of `robots/samsung-sr8730/gyro.md`, or an unknown layout generated from a
+//! number, so that identifying an unknown module can be tested.
 
 use home::Pcg;
 
@@ -28,7 +28,7 @@ pub struct GyroLayout {
     pub head: [u8; 2],
     /// Bytes between head and number: a counter of frames, then a status that never changes; 0 to 2.
     pub filler_bytes: u8,
-    /// The number tells the heading, else the turn rate.
+    /// The number is the heading, else the turn rate.
     pub tells_heading: bool,
     /// It has four bytes, else two.
     pub wide: bool,
@@ -103,8 +103,8 @@ impl GyroLayout {
 
     /// The frame of this heading, degrees, and turn rate, degrees a second, counter-clockwise.
     pub(super) fn frame(&self, (heading, rate): (f64, f64), count: u8) -> Vec<u8> {
-        let told = if self.tells_heading { heading } else { rate };
-        let number = (told * self.steps_per_degree).round() as i32;
+        let sent = if self.tells_heading { heading } else { rate };
+        let number = (sent * self.steps_per_degree).round() as i32;
         let mut frame = self.head.to_vec();
         frame.extend([count, STATUS].iter().take(usize::from(self.filler_bytes)));
         // Two bytes hold the lower half: a number that outgrows them wraps.

@@ -1,26 +1,26 @@
-//! What people see and hear of the robot: its lights and its tone.
+//! The robot's lights and tone, as people perceive them.
 
 use crate::machine::Machine;
 use crate::pins::{Level, Pin};
 
 use super::CYCLES_PER_S;
-use super::wiring::{Line, Wiring, selected};
+use super::wiring::{DigitalLine, Wiring, selected};
 
 /// Channel of the sound multiplexer behind which the speaker is.
 const SPEAKER: u8 = 7;
 
-/// For how many cycles each light has been lit: by supply (main, battery, unknown) and line (0 to 4). A light is lit while
-/// its supply and its line are on.
+/// For how many cycles each light has been lit: by supply (main, battery, unknown) and line (0 to 4). A light is lit
+/// while its supply and its line are on.
 #[derive(Clone, Debug)]
-pub(super) struct Lights {
-    supplies: [Line; 3],
-    lines: [Line; 5],
+pub(super) struct LampTimes {
+    supplies: [DigitalLine; 3],
+    lines: [DigitalLine; 5],
     on: [bool; 8],
     at: u64,
     lit: [[u64; 5]; 3],
 }
 
-impl Lights {
+impl LampTimes {
     pub(super) fn new(wiring: &Wiring) -> Self {
         Self {
             supplies: wiring.light_supplies,
@@ -31,7 +31,7 @@ impl Lights {
         }
     }
 
-    fn pins(&self) -> impl Iterator<Item = Line> {
+    fn pins(&self) -> impl Iterator<Item = DigitalLine> {
         self.supplies.into_iter().chain(self.lines)
     }
 
@@ -74,10 +74,10 @@ impl Lights {
 
 /// The tone of the speaker.
 #[derive(Clone, Debug)]
-pub(super) struct Sound {
+pub(super) struct SpeakerTone {
     tone: Pin,
-    enable: Line,
-    select: [Line; 3],
+    enable: DigitalLine,
+    select: [DigitalLine; 3],
     last_rise: Option<u64>,
     period: Option<u64>,
 }
@@ -85,7 +85,7 @@ pub(super) struct Sound {
 /// A tone has ended when there was no period for this long: 20 Hz is the lowest that is heard.
 const SILENCE: u64 = CYCLES_PER_S / 15;
 
-impl Sound {
+impl SpeakerTone {
     pub(super) fn new(wiring: &Wiring) -> Self {
         Self {
             tone: wiring.sound_tone.pin,

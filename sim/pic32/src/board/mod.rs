@@ -1,6 +1,6 @@
-//! The board of the SR8730: what stands between the microcontroller's pins and the simulated home.
+//! The board of the SR8730, between the microcontroller's pins and the simulated home.
 //!
-//! Which pin does what is read from `robots/samsung-sr8730/pinout.toml`, what nobody has measured yet from the
+//! The pins are read from `robots/samsung-sr8730/pinout.toml`; values that have not been measured come from the
 //! calibration table of `robot.toml` beside it.
 
 mod beams;
@@ -20,12 +20,12 @@ mod robot;
 pub mod serial;
 pub mod wiring;
 
-pub use calibration::{Calibration, Particulars, RECORD_ADDRESS, put_record};
+pub use calibration::{CalibrationValues, Particulars, RECORD_ADDRESS, put_record};
 pub use contacts::{Contact, Hold};
 pub use error::BoardError;
 pub use gyro_frame::{GyroCheck, GyroFitted, GyroLayout};
-pub use motors::{Drive, Motor, Reaction, reaction};
-pub use robot::{Blueprint, BlueprintError, EmulatedRobot, EmulatedSettings, Record};
+pub use motors::{DriveInterval, MotorOutput, Reaction, reaction};
+pub use robot::{Blueprint, BlueprintError, CalibrationChoice, EmulatedRobot, EmulatedSettings};
 
 /// Cycles of the chip's system clock in a second.
 pub const CYCLES_PER_S: u64 = 80_000_000;

@@ -3,12 +3,12 @@
 use home::Bridge;
 
 use super::CYCLES_PER_MS;
-use super::wiring::{Line, Wiring};
+use super::wiring::{DigitalLine, Wiring};
 use crate::machine::Machine;
 
 /// A motor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Motor {
+pub enum MotorOutput {
     /// Left wheel.
     WheelLeft,
     /// Right wheel.
@@ -21,7 +21,7 @@ pub enum Motor {
     Vacuum,
 }
 
-impl Motor {
+impl MotorOutput {
     /// All of them.
     pub const ALL: [Self; 5] = [
         Self::WheelLeft,
@@ -34,7 +34,7 @@ impl Motor {
 
 /// A stretch of time in which a motor was driven without a pause of more than `PAUSE` cycles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Drive {
+pub struct DriveInterval {
     /// Cycle of the first pulse.
     pub from: u64,
     /// Cycle at which the last pulse ended; `None` = it goes on.
@@ -52,9 +52,9 @@ const KEPT: usize = 256;
 
 #[derive(Clone, Debug)]
 struct One {
-    enable: Line,
-    phase: Option<Line>,
-    mode: Option<Line>,
+    enable: DigitalLine,
+    phase: Option<DigitalLine>,
+    mode: Option<DigitalLine>,
     high_cycles: u64,
     /// Share of the last millisecond in which it was driven, 0..=1.
     duty: f64,
@@ -62,21 +62,21 @@ struct One {
     driven: f64,
     /// The one before: what a deaf bridge goes on with.
     kept: f64,
-    drives: Vec<Drive>,
+    drives: Vec<DriveInterval>,
     level_on: bool,
     last_off: u64,
 }
 
 /// All motors.
 #[derive(Clone, Debug)]
-pub(super) struct Motors {
+pub(super) struct MotorOutputs {
     motors: [One; 5],
     watched: bool,
     deaf: bool,
 }
 
-impl Motors {
-    /// `deaf` wheel bridges go on with the last duty when they are told to brake.
+impl MotorOutputs {
+    /// `deaf` wheel bridges keep the last duty when commanded to brake.
     pub(super) fn new(wiring: &Wiring, deaf: bool) -> Self {
         let one = |enable, phase, mode| One {
             enable,
@@ -135,15 +135,15 @@ impl Motors {
     }
 
     /// Duty of a motor in the last millisecond, forward positive.
-    pub(super) fn duty(&self, motor: Motor, machine: &Machine) -> f64 {
+    pub(super) fn duty(&self, motor: MotorOutput, machine: &Machine) -> f64 {
         let one = &self.motors[motor as usize];
-        let is_wheel = matches!(motor, Motor::WheelLeft | Motor::WheelRight);
+        let is_wheel = matches!(motor, MotorOutput::WheelLeft | MotorOutput::WheelRight);
         let duty = if self.deaf && is_wheel { one.kept } else { one.duty };
         if one.is_forward(machine) { duty } else { -duty }
     }
 
     /// What a wheel's bridge makes of it.
-    pub(super) fn bridge(&self, motor: Motor, machine: &Machine) -> Bridge {
+    pub(super) fn bridge(&self, motor: MotorOutput, machine: &Machine) -> Bridge {
         let mode = self.motors[motor as usize].mode;
         Bridge {
             pwm: self.duty(motor, machine),
@@ -152,7 +152,7 @@ impl Motors {
     }
 
     /// When the motor was driven, since [`Self::watch`] and at most the last of them.
-    pub(super) fn drives(&self, motor: Motor) -> &[Drive] {
+    pub(super) fn drives(&self, motor: MotorOutput) -> &[DriveInterval] {
         &self.motors[motor as usize].drives
     }
 
@@ -196,7 +196,7 @@ impl One {
             if self.drives.len() >= KEPT {
                 self.drives.remove(0);
             }
-            self.drives.push(Drive {
+            self.drives.push(DriveInterval {
                 from: cycle,
                 until: None,
                 forward,
@@ -224,7 +224,7 @@ pub enum Reaction {
 
 /// What became, after the event at `event`, of the drive that was going on then.
 #[must_use]
-pub fn reaction(drives: &[Drive], event: u64) -> Reaction {
+pub fn reaction(drives: &[DriveInterval], event: u64) -> Reaction {
     let going = drives
         .iter()
         .find(|drive| drive.from <= event && drive.until.is_none_or(|until| until + PERIOD > event));
@@ -237,15 +237,16 @@ pub fn reaction(drives: &[Drive], event: u64) -> Reaction {
 
 #[cfg(test)]
 mod tests {
-    use super::{Drive, Reaction, reaction};
+    use super::{DriveInterval, Reaction, reaction};
 
     #[test]
     fn a_reaction_is_the_time_from_the_event_to_the_end_of_the_drive() {
-        let drives = [(10, Some(50)), (10_000, Some(18_000)), (30_000, None)].map(|(from, until)| Drive {
-            from,
-            until,
-            forward: true,
-        });
+        let drives =
+            [(10, Some(50)), (10_000, Some(18_000)), (30_000, None)].map(|(from, until)| DriveInterval {
+                from,
+                until,
+                forward: true,
+            });
         for (event, wanted) in [
             (5, Reaction::NotDriven),
             (5_000, Reaction::NotDriven),

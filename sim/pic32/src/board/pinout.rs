@@ -8,7 +8,7 @@ use crate::pins::{Level, Pin};
 /// What a pin is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Kind {
+pub enum SignalKind {
     /// Digital input.
     Input,
     /// Digital output.
@@ -26,7 +26,7 @@ pub enum Kind {
 /// Level at which a signal means what its name says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Active {
+pub enum SignalLevel {
     /// The supply.
     High,
     /// Ground.
@@ -35,7 +35,7 @@ pub enum Active {
     Unknown,
 }
 
-/// What holds a line while nobody drives it.
+/// Pull of a line that is not driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pull {
@@ -68,7 +68,7 @@ impl From<Safe> for Level {
 /// How far a row can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Confidence {
+pub enum RowConfidence {
     /// Documented or measured.
     Known,
     /// Derived from something known.
@@ -95,12 +95,12 @@ struct RawSignal {
     port: String,
     #[serde(rename = "pin")]
     package_pin: u8,
-    kind: Kind,
-    active: Active,
+    kind: SignalKind,
+    active: SignalLevel,
     pull: Pull,
     function: Option<String>,
     safe: Option<Safe>,
-    confidence: Confidence,
+    confidence: RowConfidence,
     #[serde(rename = "source")]
     _source: String,
     #[serde(rename = "note")]
@@ -109,7 +109,7 @@ struct RawSignal {
 
 /// One signal of the board.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Signal {
+pub struct PinoutSignal {
     /// What our software calls it.
     pub name: String,
     /// Where it is.
@@ -117,9 +117,9 @@ pub struct Signal {
     /// Pin of the 100-pin package.
     pub package_pin: u8,
     /// What it is for.
-    pub kind: Kind,
+    pub kind: SignalKind,
     /// Level that means what the name says.
-    pub active: Active,
+    pub active: SignalLevel,
     /// What holds it.
     pub pull: Pull,
     /// Function of the pin that is used, in the words of the chip's pin list.
@@ -127,13 +127,13 @@ pub struct Signal {
     /// Level from the first instruction on, for outputs.
     pub safe: Option<Level>,
     /// How sure all this is.
-    pub confidence: Confidence,
+    pub confidence: RowConfidence,
 }
 
 /// All signals of the board, in the order of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pinout {
-    signals: Vec<Signal>,
+    signals: Vec<PinoutSignal>,
 }
 
 const FILE: &str = "pinout.toml";
@@ -170,8 +170,8 @@ impl Pinout {
         Self::parse(include_str!("../../../../robots/samsung-sr8730/pinout.toml"))
     }
 
-    fn add(&mut self, signal: Signal) -> Result<(), BoardError> {
-        let clash = |other: &&Signal| other.name == signal.name || other.pin == signal.pin;
+    fn add(&mut self, signal: PinoutSignal) -> Result<(), BoardError> {
+        let clash = |other: &&PinoutSignal| other.name == signal.name || other.pin == signal.pin;
         if let Some(first) = self.signals.iter().find(clash) {
             return Err(BoardError::Twice {
                 first: first.name.clone(),
@@ -186,7 +186,7 @@ impl Pinout {
     ///
     /// # Errors
     /// [`BoardError::NoSignal`].
-    pub fn signal(&self, name: &'static str) -> Result<&Signal, BoardError> {
+    pub fn signal(&self, name: &'static str) -> Result<&PinoutSignal, BoardError> {
         self.signals
             .iter()
             .find(|signal| signal.name == name)
@@ -194,17 +194,17 @@ impl Pinout {
     }
 
     /// All of them.
-    pub fn signals(&self) -> impl Iterator<Item = &Signal> {
+    pub fn signals(&self) -> impl Iterator<Item = &PinoutSignal> {
         self.signals.iter()
     }
 }
 
-fn signal(row: RawSignal) -> Result<Signal, BoardError> {
+fn signal(row: RawSignal) -> Result<PinoutSignal, BoardError> {
     let pin = row.port.parse().map_err(|cause| BoardError::Port {
         signal: row.name.clone(),
         cause,
     })?;
-    Ok(Signal {
+    Ok(PinoutSignal {
         name: row.name,
         pin,
         package_pin: row.package_pin,
@@ -219,7 +219,7 @@ fn signal(row: RawSignal) -> Result<Signal, BoardError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Active, Kind, Pinout};
+    use super::{Pinout, SignalKind, SignalLevel};
     use crate::board::BoardError;
     use crate::pins::Level;
 
@@ -243,7 +243,7 @@ mod tests {
         );
         assert_eq!(
             (signal.kind, signal.active, signal.safe),
-            (Kind::Output, Active::High, Some(Level::Low))
+            (SignalKind::Output, SignalLevel::High, Some(Level::Low))
         );
         assert_eq!(pinout.signal("b"), Err(BoardError::NoSignal("b")));
     }
@@ -273,7 +273,7 @@ mod tests {
     fn the_project_s_own_pinout_is_sound() {
         let pinout = Pinout::sr8730().unwrap();
         for signal in pinout.signals() {
-            let drives = matches!(signal.kind, Kind::Output | Kind::Pwm);
+            let drives = matches!(signal.kind, SignalKind::Output | SignalKind::Pwm);
             assert_eq!(signal.safe.is_some(), drives, "{}", signal.name);
         }
     }

@@ -1,10 +1,10 @@
 //! The charging circuit and the pack's thermistor, as the converter sees them.
 //!
-//! Drawn in the original's source: adapter, a P-channel MOSFET that CHARGING_ENABLE closes through an NPN, a shunt of 0.3 ohm,
-//! the pack. No inductor and no limiter. What was measured on the maker's firmware fits this picture: pulses of 94 µs
-//! (1.5 % at 160 Hz) gave about 250 mA on average, so some 16 to 20 A flow while the switch is closed; pulses of 1.7 µs
-//! (3.33 % at 20 kHz) would give half an ampere then, but 1 A was reached, so the switch opens about 1.7 µs late: its gate
-//! is pulled up by a resistor only.
+//! Drawn in the original's source: adapter, a P-channel MOSFET that CHARGING_ENABLE closes through an NPN, a shunt of
+//! 0.3 ohm, the pack. No inductor and no limiter. What was measured on the maker's firmware fits this picture: pulses
+//! of 94 µs (1.5 % at 160 Hz) gave about 250 mA on average, so some 16 to 20 A flow while the switch is closed; pulses
+//! of 1.7 µs (3.33 % at 20 kHz) would give half an ampere then, but 1 A was reached, so the switch opens about 1.7 µs
+//! late: its gate is pulled up by a resistor only.
 
 use home::Supply;
 
@@ -24,7 +24,8 @@ const PULSE: f64 = 133.0;
 /// Period of the charger's PWM, cycles: at most one pulse a slice.
 pub(super) const SLICE: u64 = 4_000;
 /// Time constant of the filters at the two converter inputs, seconds. Not recorded; the original measured in the quiet
-/// part of the envelope, so it is well below a millisecond, and the mean of pulses of 20 kHz can be seen, so it is above 50 µs.
+/// part of the envelope, so it is well below a millisecond, and the mean of pulses of 20 kHz can be seen, so it is
+/// above 50 µs.
 const FILTER_S: f64 = 0.000_2;
 
 /// Current of the charging circuit.
@@ -39,14 +40,14 @@ pub(super) struct ChargeCurrent {
     cycles: u64,
 }
 
-/// What the charging switch was told in a stretch of time.
+/// Commands of the charging switch in an interval.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct SwitchUse {
     /// Length of the stretch, cycles.
     pub(super) cycles: u64,
     /// For so many of them it was to be closed.
     pub(super) closed: u64,
-    /// So often it was told to open.
+    /// Number of commands to open.
     pub(super) openings: u32,
 }
 
@@ -77,7 +78,7 @@ impl ChargeCurrent {
         let cycles = switch.cycles;
         let closed = switch.closed as f64 + f64::from(switch.openings) * OPENS_LATE;
         let share = (closed / cycles as f64).min(1.0);
-        // The home's supply tells the resistance for the mean of all pulses; this is that of a closed switch.
+        // The home's supply gives the resistance for the mean of all pulses; this is that of a closed switch.
         let closed_ohm = SUPPLY.series_ohm * (PULSE + OPENS_LATE) / SLICE as f64;
         let driven_a = ((SUPPLY.open_v - pack_v) / closed_ohm).max(0.0);
         let passed_s = cycles as f64 / CYCLES_PER_S as f64;
@@ -126,8 +127,8 @@ pub(super) fn divider_counts(volts: f64, particulars: &Particulars) -> f64 {
     volts * 1e6 / f64::from(particulars.battery_scale.max(1))
 }
 
-/// Resistance of the thermistor, kilo-ohm, from which the original's formula makes this temperature. Below 5 degrees, where
-/// the formula has its pole, it goes on rising as such thermistors do, 6 % a degree.
+/// Resistance of the thermistor, kilo-ohm, from which the original's formula makes this temperature. Below 5 degrees,
+/// where the formula has its pole, it goes on rising as such thermistors do, 6 % a degree.
 fn thermistor_kohm(celsius: f64) -> f64 {
     const LOWEST: f64 = 5.0;
     let formula = |celsius: f64| {

@@ -1,25 +1,25 @@
-//! Which pin ends in which part of the robot.
+//! Connections of the pins to the robot's parts.
 
 use super::BoardError;
-use super::pinout::{Active, Pinout, Pull};
-use crate::pins::{Level, Output, Pin};
+use super::pinout::{Pinout, Pull, SignalLevel};
+use crate::pins::{Level, Pin, PinDriver};
 
 /// A digital line: its pin, and the level that means "on".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Line {
+pub struct DigitalLine {
     /// Where.
     pub pin: Pin,
     /// Which level is "on".
     pub active: Level,
 }
 
-impl Line {
+impl DigitalLine {
     fn of(pinout: &Pinout, name: &'static str) -> Result<Self, BoardError> {
         let signal = pinout.signal(name)?;
         let active = match signal.active {
-            Active::High => Level::High,
-            Active::Low => Level::Low,
-            Active::Unknown => return Err(BoardError::NoLevel(name)),
+            SignalLevel::High => Level::High,
+            SignalLevel::Low => Level::Low,
+            SignalLevel::Unknown => return Err(BoardError::NoLevel(name)),
         };
         Ok(Self {
             pin: signal.pin,
@@ -36,8 +36,8 @@ impl Line {
     /// Whether the chip switches the line on. A line that the chip leaves alone is off: the bridges and transistors
     /// behind the outputs hold it there.
     #[must_use]
-    pub fn is_on(self, output: Output) -> bool {
-        output == Output::from(self.active)
+    pub fn is_on(self, output: PinDriver) -> bool {
+        output == PinDriver::from(self.active)
     }
 }
 
@@ -45,11 +45,11 @@ impl Line {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WheelPins {
     /// PWM.
-    pub enable: Line,
+    pub enable: DigitalLine,
     /// On = forward.
-    pub phase: Line,
+    pub phase: DigitalLine,
     /// On = brake in the off-time.
-    pub mode: Line,
+    pub mode: DigitalLine,
     /// The two encoder lines.
     pub encoder: [Pin; 2],
     /// Number of the analog input of the current.
@@ -62,41 +62,41 @@ pub struct Wiring {
     /// Left and right.
     pub wheels: [WheelPins; 2],
     /// PWM of the main brush.
-    pub brush_enable: Line,
+    pub brush_enable: DigitalLine,
     /// On = forward.
-    pub brush_phase: Line,
+    pub brush_phase: DigitalLine,
     /// Pulses of the turning brush.
-    pub brush_encoder: Line,
+    pub brush_encoder: DigitalLine,
     /// Side brushes.
-    pub brush_sides: Line,
+    pub brush_sides: DigitalLine,
     /// Suction.
-    pub vacuum: Line,
+    pub vacuum: DigitalLine,
     /// Left and right half.
-    pub bumpers: [Line; 2],
+    pub bumpers: [DigitalLine; 2],
     /// Left and right wheel.
-    pub wheel_drops: [Line; 2],
+    pub wheel_drops: [DigitalLine; 2],
     /// On = the box is in.
-    pub dust_box: Line,
+    pub dust_box: DigitalLine,
     /// On while any button is pressed.
-    pub button_any: Line,
+    pub button_any: DigitalLine,
     /// Analog input of the ladder.
     pub button_ladder: u8,
     /// Analog inputs of the cliff sensors: left, middle, right.
     pub cliffs: [u8; 3],
     /// What may light the cliff sensors' emitters.
-    pub cliff_emitters: Line,
+    pub cliff_emitters: DigitalLine,
     /// Select lines of the sensor multiplexers, bit 0 first.
-    pub sensor_select: [Line; 3],
+    pub sensor_select: [DigitalLine; 3],
     /// Common of the transmit multiplexer.
-    pub emit: Line,
+    pub emit: DigitalLine,
     /// Analog input of the receive multiplexer's common.
     pub receive: u8,
-    /// 38 kHz receivers: dock left, dock right, rear left, rear right. On while they hear a carrier.
-    pub beam_receivers: [Line; 4],
+    /// 38 kHz receivers: dock left, dock right, rear left, rear right. On while they receive a carrier.
+    pub beam_receivers: [DigitalLine; 4],
     /// On while the contacts or the adapter carry voltage.
-    pub adapter: Line,
+    pub adapter: DigitalLine,
     /// The charging switch.
-    pub charge: Line,
+    pub charge: DigitalLine,
     /// Analog input of the charger's side of the shunt.
     pub charger_volts: u8,
     /// Analog input of the battery.
@@ -104,21 +104,21 @@ pub struct Wiring {
     /// Analog input of the thermistor.
     pub thermistor: u8,
     /// Supplies of the light groups: main, battery, unknown.
-    pub light_supplies: [Line; 3],
+    pub light_supplies: [DigitalLine; 3],
     /// Light lines 0 to 4.
-    pub light_lines: [Line; 5],
+    pub light_lines: [DigitalLine; 5],
     /// Select lines of the sound multiplexer, bit 0 first.
-    pub sound_select: [Line; 3],
+    pub sound_select: [DigitalLine; 3],
     /// Tone.
-    pub sound_tone: Line,
+    pub sound_tone: DigitalLine,
     /// Amplifier.
-    pub sound_enable: Line,
+    pub sound_enable: DigitalLine,
     /// Serial line from the host: it reaches both inputs, and the firmware listens on one of them.
-    pub link_receive: [Line; 2],
+    pub link_receive: [DigitalLine; 2],
     /// Serial line to the host.
-    pub link_transmit: Line,
+    pub link_transmit: DigitalLine,
     /// Power of the gyro module.
-    pub gyro_power: Line,
+    pub gyro_power: DigitalLine,
     /// Inputs of the two hardware UARTs.
     pub uart_receive: [Pin; 2],
     /// Pins that a resistor holds at the supply.
@@ -146,10 +146,10 @@ fn pulled_up(pinout: &Pinout) -> Vec<Pin> {
     by_board.map(|signal| signal.pin).collect()
 }
 
-fn lines<const N: usize>(pinout: &Pinout, names: [&'static str; N]) -> Result<[Line; N], BoardError> {
+fn lines<const N: usize>(pinout: &Pinout, names: [&'static str; N]) -> Result<[DigitalLine; N], BoardError> {
     let mut lines = Vec::with_capacity(N);
     for name in names {
-        lines.push(Line::of(pinout, name)?);
+        lines.push(DigitalLine::of(pinout, name)?);
     }
     // As many lines as names went in.
     lines.try_into().map_err(|_| BoardError::NoSignal("signal"))
@@ -158,9 +158,9 @@ fn lines<const N: usize>(pinout: &Pinout, names: [&'static str; N]) -> Result<[L
 fn wheel(pinout: &Pinout, names: [&'static str; 6]) -> Result<WheelPins, BoardError> {
     let [enable, phase, mode, encoder_1, encoder_2, current] = names;
     Ok(WheelPins {
-        enable: Line::of(pinout, enable)?,
-        phase: Line::of(pinout, phase)?,
-        mode: Line::of(pinout, mode)?,
+        enable: DigitalLine::of(pinout, enable)?,
+        phase: DigitalLine::of(pinout, phase)?,
+        mode: DigitalLine::of(pinout, mode)?,
         encoder: [pinout.signal(encoder_1)?.pin, pinout.signal(encoder_2)?.pin],
         current: analog(pinout, current)?,
     })
@@ -189,7 +189,7 @@ impl Wiring {
     /// # Errors
     /// The first signal that is missing or does not fit.
     pub fn of(pinout: &Pinout) -> Result<Self, BoardError> {
-        let line = |name| Line::of(pinout, name);
+        let line = |name| DigitalLine::of(pinout, name);
         Ok(Self {
             wheels: [wheel(pinout, LEFT)?, wheel(pinout, RIGHT)?],
             brush_enable: line("brush-main-enable")?,
@@ -259,7 +259,7 @@ impl Wiring {
 
 /// The number that the select lines of a multiplexer show, bit 0 first.
 #[must_use]
-pub fn selected(lines: &[Line; 3], output: impl Fn(Pin) -> Output) -> u8 {
+pub fn selected(lines: &[DigitalLine; 3], output: impl Fn(Pin) -> PinDriver) -> u8 {
     lines.iter().rev().fold(0, |number, line| {
         number << 1 | u8::from(line.is_on(output(line.pin)))
     })
@@ -267,10 +267,10 @@ pub fn selected(lines: &[Line; 3], output: impl Fn(Pin) -> Output) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Line, Wiring, selected};
+    use super::{DigitalLine, Wiring, selected};
     use crate::board::BoardError;
     use crate::board::pinout::Pinout;
-    use crate::pins::{Level, Output};
+    use crate::pins::{Level, PinDriver};
 
     #[test]
     fn every_part_of_the_robot_has_its_pin() {
@@ -293,8 +293,8 @@ mod tests {
     fn a_floating_pin_switches_nothing_on() {
         let pin = "RA4".parse().unwrap();
         for active in [Level::Low, Level::High] {
-            let line = Line { pin, active };
-            assert!(!line.is_on(Output::Floating));
+            let line = DigitalLine { pin, active };
+            assert!(!line.is_on(PinDriver::Floating));
             assert!(line.is_on(line.level(true).into()));
             assert!(!line.is_on(line.level(false).into()));
         }
@@ -311,7 +311,7 @@ mod tests {
             (vec![a, b], 3),
             (vec![c, b], 6),
         ] {
-            let output = |pin| Output::from(Level::of(on.iter().any(|line| line.pin == pin)));
+            let output = |pin| PinDriver::from(Level::of(on.iter().any(|line| line.pin == pin)));
             assert_eq!(selected(&wiring.sensor_select, output), number);
         }
     }

@@ -1,4 +1,4 @@
-//! What the core sees of the peripherals.
+//! The core's interface to the peripherals.
 
 use super::Taken;
 
@@ -44,9 +44,9 @@ pub struct BusFault;
 
 /// The special function registers. RAM and flash are not behind it, see [`Memory`](crate::memory::Memory).
 ///
-/// What a register write changes outside of the peripherals (an interrupt request, flash timing, a reset) is done between
-/// two runs of the core: the bus moves its horizon to the cycle of the access, and [`Cpu::run`](crate::cpu::Cpu::run)
-/// returns before the next instruction.
+/// What a register write changes outside of the peripherals (an interrupt request, flash timing, a reset) is done
+/// between two runs of the core: the bus moves its horizon to the cycle of the access, and
+/// [`Cpu::run`](crate::cpu::Cpu::run) returns before the next instruction.
 pub trait Bus {
     /// Reads a register; unused upper bits of the result are ignored for narrow widths.
     ///
@@ -60,7 +60,7 @@ pub trait Bus {
     /// [`BusFault`] when the chip would raise a bus error.
     fn store(&mut self, access: Access, value: u32) -> Result<(), BusFault>;
 
-    /// The cycle at which the peripherals want to be served next; `u64::MAX` for never. Asked at the begin of a run and
+    /// The cycle at which the peripherals must be served next; `u64::MAX` for never. Asked at the begin of a run and
     /// after each access.
     fn horizon(&self) -> u64;
 

@@ -1,6 +1,6 @@
 //! Loads and stores in full: address translation, registers of the chip, and what is wrong with an address.
 
-use super::exception::{ExceptionCode, Fault};
+use super::exception::{ExceptionCode, InstructionFault};
 use super::open::{merge_left, merge_right, split_left, split_right};
 use super::operation::Operation;
 use super::{Access, Bus, Cpu, Width};
@@ -31,8 +31,8 @@ impl Cpu {
         operation: Operation,
         memory: &mut Memory,
         bus: &mut B,
-    ) -> Result<(), Fault> {
-        let mut port = Port { memory, bus };
+    ) -> Result<(), InstructionFault> {
+        let mut port = AddressSpace { memory, bus };
         let (to, value) = match operation {
             Operation::Lb { to, base, offset } => {
                 let byte = self.load(&mut port, self.registers.sum(base, offset), Width::Byte)?;
@@ -70,7 +70,11 @@ impl Cpu {
         Ok(())
     }
 
-    fn transfer_out<B: Bus>(&mut self, operation: Operation, port: &mut Port<'_, B>) -> Result<(), Fault> {
+    fn transfer_out<B: Bus>(
+        &mut self,
+        operation: Operation,
+        port: &mut AddressSpace<'_, B>,
+    ) -> Result<(), InstructionFault> {
         match operation {
             Operation::Sb { rt, base, offset } => {
                 let value = self.registers.get(rt) & 0xFF;
@@ -103,12 +107,16 @@ impl Cpu {
                 )
             }
             // Only loads and stores come here.
-            _ => Err(Fault::plain(ExceptionCode::Reserved)),
+            _ => Err(InstructionFault::plain(ExceptionCode::Reserved)),
         }
     }
 
     /// The word around an address, for a store of a part of it.
-    fn load_for_store<B: Bus>(&mut self, port: &mut Port<'_, B>, address: u32) -> Result<u32, Fault> {
+    fn load_for_store<B: Bus>(
+        &mut self,
+        port: &mut AddressSpace<'_, B>,
+        address: u32,
+    ) -> Result<u32, InstructionFault> {
         let before = self.cycle;
         let word = self.load(port, address & !3, Width::Word);
         self.cycle = before;
@@ -118,14 +126,14 @@ impl Cpu {
     /// Loads from anywhere.
     pub(super) fn load<B: Bus>(
         &mut self,
-        port: &mut Port<'_, B>,
+        port: &mut AddressSpace<'_, B>,
         address: u32,
         width: Width,
-    ) -> Result<u32, Fault> {
+    ) -> Result<u32, InstructionFault> {
         if address & (width.bytes() - 1) != 0 {
-            return Err(Fault::at(ExceptionCode::AddressLoad, address));
+            return Err(InstructionFault::at(ExceptionCode::AddressLoad, address));
         }
-        let fault = Fault::at(ExceptionCode::BusData, address);
+        let fault = InstructionFault::at(ExceptionCode::BusData, address);
         let physical = self.physical(address).ok_or(fault)?;
         if (REGISTERS_START..REGISTERS_END).contains(&physical) {
             let access = self.register_access(physical, width);
@@ -145,14 +153,14 @@ impl Cpu {
     /// Stores to RAM or a register; stores to flash are bus errors.
     pub(super) fn store<B: Bus>(
         &mut self,
-        port: &mut Port<'_, B>,
+        port: &mut AddressSpace<'_, B>,
         (address, width): (u32, Width),
         value: u32,
-    ) -> Result<(), Fault> {
+    ) -> Result<(), InstructionFault> {
         if address & (width.bytes() - 1) != 0 {
-            return Err(Fault::at(ExceptionCode::AddressStore, address));
+            return Err(InstructionFault::at(ExceptionCode::AddressStore, address));
         }
-        let fault = Fault::at(ExceptionCode::BusData, address);
+        let fault = InstructionFault::at(ExceptionCode::BusData, address);
         let physical = self.physical(address).ok_or(fault)?;
         if (REGISTERS_START..REGISTERS_END).contains(&physical) {
             let access = self.register_access(physical, width);
@@ -178,7 +186,7 @@ impl Cpu {
 
 /// Everything that an address can lead to.
 #[derive(Debug)]
-pub(super) struct Port<'a, B> {
+pub(super) struct AddressSpace<'a, B> {
     pub(super) memory: &'a mut Memory,
     pub(super) bus: &'a mut B,
 }

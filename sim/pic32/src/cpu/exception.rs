@@ -46,14 +46,14 @@ pub(super) const REFILL_CYCLES: u64 = 3;
 
 /// Why an instruction could not be executed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Fault {
+pub(super) struct InstructionFault {
     pub(super) code: ExceptionCode,
     pub(super) accessed: Option<u32>,
     /// The coprocessor that is missing.
     pub(super) unit: u8,
 }
 
-impl Fault {
+impl InstructionFault {
     pub(super) const fn plain(code: ExceptionCode) -> Self {
         Self {
             code,
@@ -92,7 +92,7 @@ impl Fault {
 
 impl Cpu {
     /// Enters the handler of an exception; the instruction takes no effect.
-    pub(super) fn raise(&mut self, fault: Fault) -> Exception {
+    pub(super) fn raise(&mut self, fault: InstructionFault) -> Exception {
         let address = self.pc;
         if let (Some(accessed), ExceptionCode::AddressLoad | ExceptionCode::AddressStore) =
             (fault.accessed, fault.code)

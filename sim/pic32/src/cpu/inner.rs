@@ -1,8 +1,8 @@
 //! The inner loop: runs decoded code until something happens that it leaves to others.
 //!
-//! It calls nothing, so that everything it needs stays in registers of the host. The state of the core is taken over at its
-//! begin and handed back at its end. Addresses of instructions are indexes into the code here; an address outside of the
-//! code is an index beyond its end, from which the address can be had back (see [`Region::address`]).
+//! It calls nothing, so that everything it needs stays in registers of the host. The state of the core is taken over at
+//! its begin and handed back at its end. Addresses of instructions are indexes into the code here; an address outside
+//! of the code is an index beyond its end, from which the address can be had back (see [`Region::address`]).
 
 use super::Cpu;
 use super::operation::Operation;
@@ -64,9 +64,9 @@ impl Region {
     }
 }
 
-/// Where the inner loop stands.
+/// State of the inner loop.
 #[derive(Clone, Copy, Debug)]
-struct Frame {
+struct LoopState {
     index: usize,
     next: usize,
     cycle: u64,
@@ -76,7 +76,7 @@ struct Frame {
     line: u16,
 }
 
-impl Frame {
+impl LoopState {
     fn new(cpu: &Cpu, region: Region) -> Self {
         Self {
             index: region.index(cpu.pc),
@@ -130,7 +130,7 @@ pub(super) enum After {
 
 /// What instructions work on besides the core.
 #[derive(Debug)]
-pub(super) struct Scene<'a> {
+pub(super) struct ExecutionContext<'a> {
     pub(super) memory: Open<'a>,
     pub(super) region: Region,
     /// Index of the instruction.
@@ -143,8 +143,8 @@ impl Cpu {
     /// Executes from the current instruction on, up to the first one that does not begin before `limit`.
     pub(super) fn run_region(&mut self, memory: Open<'_>, region: Region, limit: u64) -> Leave {
         let code = memory.code;
-        let mut frame = Frame::new(self, region);
-        let mut scene = Scene {
+        let mut frame = LoopState::new(self, region);
+        let mut scene = ExecutionContext {
             memory,
             region,
             at: 0,
@@ -192,7 +192,7 @@ impl Cpu {
 
     /// A jump is taken after the next instruction.
     #[inline(always)]
-    fn follow(&mut self, frame: &mut Frame, region: Region, target: usize) {
+    fn follow(&mut self, frame: &mut LoopState, region: Region, target: usize) {
         if let Some(first) = region.first_line {
             let (end, line) = (line_of(first, frame.index), line_of(first, target));
             if self.prefetch.jump(frame.line, end, line) {

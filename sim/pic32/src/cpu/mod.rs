@@ -14,8 +14,8 @@
 //! | `mul` | 1 or 2 | estimated |
 //! | entering or leaving a handler | 3, and the wait for its line of flash | estimated |
 //!
-//! Not modelled: waiting for the bus behind DMA, write buffers, MIPS16e, user mode (KUSEG leads nowhere on a part that gives
-//! it no memory), debug mode beyond `sdbbp` and `deret`.
+//! Not modelled: waiting for the bus behind DMA, write buffers, MIPS16e, user mode (KUSEG leads nowhere on a part that
+//! gives it no memory), debug mode beyond `sdbbp` and `deret`.
 //!
 //! **How it works.** Flash is decoded once ([`crate::memory`]). The inner loop (`inner.rs`) runs decoded code without any call;
 //! it is left for uncommon instructions, for registers of the chip, and when the next event is due.
@@ -41,8 +41,8 @@ pub use exception::{Exception, ExceptionCode};
 
 use multiplier::Multiplier;
 use prefetch::PrefetchUnit;
-use registers::{Registers, Source, Target};
-use system::System;
+use registers::{Registers, Source, WriteTarget};
+use system::Coprocessor0;
 use timer::CoreTimer;
 
 /// What the interrupt controller asks for at the moment (EIC mode).
@@ -61,7 +61,7 @@ pub struct InterruptRequest {
 pub enum Exit {
     /// The cycle that the caller named.
     Reached,
-    /// The peripherals want to be served.
+    /// The peripherals must be served.
     Horizon,
     /// Count has become equal to Compare: the interrupt flag of the core timer is to be set.
     CoreTimer,
@@ -87,7 +87,7 @@ pub struct Taken {
 pub enum CoreReset {
     /// Power-on and everything like it.
     Cold,
-    /// A non-maskable interrupt: Status.NMI is set, ErrorEPC tells where it was.
+    /// A non-maskable interrupt: Status.NMI is set, ErrorEPC holds the address.
     NonMaskable,
 }
 
@@ -110,7 +110,7 @@ pub struct Cpu {
     other_registers: Registers,
     is_shadow_active: bool,
     multiplier: Multiplier,
-    system: System,
+    system: Coprocessor0,
     timer: CoreTimer,
     prefetch: PrefetchUnit,
     /// The line of flash at which the last jump ended; nothing when the core came here otherwise.
@@ -141,7 +141,7 @@ impl Cpu {
             other_registers: Registers::new(),
             is_shadow_active: false,
             multiplier: Multiplier::default(),
-            system: System::new(),
+            system: Coprocessor0::new(),
             timer: CoreTimer::new(),
             prefetch: PrefetchUnit::new(),
             line: None,
@@ -205,7 +205,8 @@ impl Cpu {
         self.system.is_timer_pending()
     }
 
-    /// The lowest value that a function's entry (`addiu sp, sp, -n`) has given the stack pointer; nothing before the first.
+    /// The lowest value that a function's entry (`addiu sp, sp, -n`) has given the stack pointer; nothing before the
+    /// first.
     pub fn deepest_stack(&self) -> Option<u32> {
         (self.deepest_stack != u32::MAX).then_some(self.deepest_stack)
     }
@@ -233,7 +234,7 @@ impl Cpu {
 
     /// Changes a general register of the set in use; register 0 stays zero.
     pub fn set_register(&mut self, number: u8, value: u32) {
-        self.registers.set(Target::new(u32::from(number)), value);
+        self.registers.set(WriteTarget::new(u32::from(number)), value);
     }
 
     /// HI and LO.

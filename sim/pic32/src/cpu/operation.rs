@@ -1,9 +1,9 @@
 //! Decoded instructions, eight bytes each.
 //!
-//! The fields bear the names of the instruction's fields (`rs`, `rt`, `rd`). What the inner loop executes itself is here;
-//! everything else is an [`Uncommon`] instruction.
+//! The fields bear the names of the instruction's fields (`rs`, `rt`, `rd`). What the inner loop executes itself is
+//! here; everything else is an [`Uncommon`] instruction.
 
-use super::registers::{Source, Target};
+use super::registers::{Source, WriteTarget};
 
 /// An instruction as the inner loop takes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,48 +11,48 @@ use super::registers::{Source, Target};
 pub(crate) enum Operation {
     Nop,
     /// `lui`, and `addiu` or `ori` with register 0.
-    Constant { rt: Target, value: u32 },
+    Constant { rt: WriteTarget, value: u32 },
     /// `addiu sp, sp, -n`: the stack grows.
     GrowStack { amount: u32 },
-    Addu { rd: Target, rs: Source, rt: Source },
-    Subu { rd: Target, rs: Source, rt: Source },
-    And { rd: Target, rs: Source, rt: Source },
-    Or { rd: Target, rs: Source, rt: Source },
-    Xor { rd: Target, rs: Source, rt: Source },
-    Nor { rd: Target, rs: Source, rt: Source },
-    Slt { rd: Target, rs: Source, rt: Source },
-    Sltu { rd: Target, rs: Source, rt: Source },
-    Movz { rd: Target, rs: Source, rt: Source },
-    Movn { rd: Target, rs: Source, rt: Source },
-    Sllv { rd: Target, rs: Source, rt: Source },
-    Srlv { rd: Target, rs: Source, rt: Source },
-    Srav { rd: Target, rs: Source, rt: Source },
-    Rotrv { rd: Target, rs: Source, rt: Source },
-    Sll { rd: Target, rt: Source, shift: u8 },
-    Srl { rd: Target, rt: Source, shift: u8 },
-    Sra { rd: Target, rt: Source, shift: u8 },
-    Rotr { rd: Target, rt: Source, shift: u8 },
-    Addiu { rt: Target, rs: Source, value: u32 },
-    Slti { rt: Target, rs: Source, value: i32 },
-    Sltiu { rt: Target, rs: Source, value: u32 },
-    Andi { rt: Target, rs: Source, value: u32 },
-    Ori { rt: Target, rs: Source, value: u32 },
-    Xori { rt: Target, rs: Source, value: u32 },
+    Addu { rd: WriteTarget, rs: Source, rt: Source },
+    Subu { rd: WriteTarget, rs: Source, rt: Source },
+    And { rd: WriteTarget, rs: Source, rt: Source },
+    Or { rd: WriteTarget, rs: Source, rt: Source },
+    Xor { rd: WriteTarget, rs: Source, rt: Source },
+    Nor { rd: WriteTarget, rs: Source, rt: Source },
+    Slt { rd: WriteTarget, rs: Source, rt: Source },
+    Sltu { rd: WriteTarget, rs: Source, rt: Source },
+    Movz { rd: WriteTarget, rs: Source, rt: Source },
+    Movn { rd: WriteTarget, rs: Source, rt: Source },
+    Sllv { rd: WriteTarget, rs: Source, rt: Source },
+    Srlv { rd: WriteTarget, rs: Source, rt: Source },
+    Srav { rd: WriteTarget, rs: Source, rt: Source },
+    Rotrv { rd: WriteTarget, rs: Source, rt: Source },
+    Sll { rd: WriteTarget, rt: Source, shift: u8 },
+    Srl { rd: WriteTarget, rt: Source, shift: u8 },
+    Sra { rd: WriteTarget, rt: Source, shift: u8 },
+    Rotr { rd: WriteTarget, rt: Source, shift: u8 },
+    Addiu { rt: WriteTarget, rs: Source, value: u32 },
+    Slti { rt: WriteTarget, rs: Source, value: i32 },
+    Sltiu { rt: WriteTarget, rs: Source, value: u32 },
+    Andi { rt: WriteTarget, rs: Source, value: u32 },
+    Ori { rt: WriteTarget, rs: Source, value: u32 },
+    Xori { rt: WriteTarget, rs: Source, value: u32 },
     /// `mask` has the size of the field and stands at bit 0.
-    Ext { rt: Target, rs: Source, shift: u8, mask: u32 },
+    Ext { rt: WriteTarget, rs: Source, shift: u8, mask: u32 },
     /// `mask` stands where the field goes.
-    Ins { rt: Target, rs: Source, shift: u8, mask: u32 },
-    Seb { rd: Target, rt: Source },
-    Seh { rd: Target, rt: Source },
-    Wsbh { rd: Target, rt: Source },
-    Clz { rd: Target, rs: Source },
-    Clo { rd: Target, rs: Source },
-    Mul { rd: Target, rs: Source, rt: Source },
+    Ins { rt: WriteTarget, rs: Source, shift: u8, mask: u32 },
+    Seb { rd: WriteTarget, rt: Source },
+    Seh { rd: WriteTarget, rt: Source },
+    Wsbh { rd: WriteTarget, rt: Source },
+    Clz { rd: WriteTarget, rs: Source },
+    Clo { rd: WriteTarget, rs: Source },
+    Mul { rd: WriteTarget, rs: Source, rt: Source },
     Multiply { kind: Multiply, rs: Source, rt: Source },
     Div { rs: Source, rt: Source },
     Divu { rs: Source, rt: Source },
-    Mfhi { rd: Target },
-    Mflo { rd: Target },
+    Mfhi { rd: WriteTarget },
+    Mflo { rd: WriteTarget },
     Mthi { rs: Source },
     Mtlo { rs: Source },
     Lb { to: Loaded, base: Source, offset: u32 },
@@ -67,7 +67,7 @@ pub(crate) enum Operation {
     Sw { rt: Source, base: Source, offset: u32 },
     Swl { rt: Source, base: Source, offset: u32 },
     Swr { rt: Source, base: Source, offset: u32 },
-    /// `words` is the way from the branch itself to its target.
+    /// `words` is the distance from the branch itself to its target.
     Beq { rs: Source, rt: Source, words: i32 },
     Bne { rs: Source, rt: Source, words: i32 },
     Blez { rs: Source, words: i32 },
@@ -78,7 +78,7 @@ pub(crate) enum Operation {
     J { target: u32 },
     Jal { target: u32 },
     Jr { rs: Source },
-    Jalr { rd: Target, rs: Source },
+    Jalr { rd: WriteTarget, rs: Source },
     Uncommon(Uncommon),
 }
 
@@ -86,7 +86,7 @@ pub(crate) enum Operation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Loaded {
     /// The register.
-    pub(crate) rt: Target,
+    pub(crate) rt: WriteTarget,
     /// Cycles for which the next instruction waits: 1 when it needs what is loaded.
     pub(crate) stall: u8,
 }
@@ -144,9 +144,9 @@ impl Condition {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[rustfmt::skip]
 pub(crate) enum Uncommon {
-    Add { rd: Target, rs: Source, rt: Source },
-    Sub { rd: Target, rs: Source, rt: Source },
-    Addi { rt: Target, rs: Source, value: i16 },
+    Add { rd: WriteTarget, rs: Source, rt: Source },
+    Sub { rd: WriteTarget, rs: Source, rt: Source },
+    Addi { rt: WriteTarget, rs: Source, value: i16 },
     /// `beql`, `bnel`, `blezl`, `bgtzl`, `bltzl`, `bgezl`; `words` counts from the delay slot.
     BranchLikely { condition: Condition, rs: Source, rt: Source, words: i16 },
     /// `bltzal`, `bgezal`.
@@ -155,21 +155,21 @@ pub(crate) enum Uncommon {
     BranchLinkLikely { condition: Condition, rs: Source, words: i16 },
     Trap { condition: Condition, rs: Source, rt: Source },
     TrapImmediate { condition: Condition, rs: Source, value: i16 },
-    Ll { rt: Target, base: Source, offset: i16 },
-    Sc { rt: Source, to: Target, base: Source, offset: i16 },
+    Ll { rt: WriteTarget, base: Source, offset: i16 },
+    Sc { rt: Source, to: WriteTarget, base: Source, offset: i16 },
     Syscall,
     Break,
     Sdbbp,
     Wait,
     Eret,
     Deret,
-    Di { rt: Target },
-    Ei { rt: Target },
-    Mfc0 { rt: Target, register: u8, select: u8 },
+    Di { rt: WriteTarget },
+    Ei { rt: WriteTarget },
+    Mfc0 { rt: WriteTarget, register: u8, select: u8 },
     Mtc0 { rt: Source, register: u8, select: u8 },
-    Rdpgpr { rd: Target, rt: Source },
-    Wrpgpr { rd: Target, rt: Source },
-    Rdhwr { rt: Target, register: u8 },
+    Rdpgpr { rd: WriteTarget, rt: Source },
+    Wrpgpr { rd: WriteTarget, rt: Source },
+    Rdhwr { rt: WriteTarget, register: u8 },
     CoprocessorUnusable { unit: u8 },
     Reserved,
     /// A breakpoint of the debugger stands before the instruction.

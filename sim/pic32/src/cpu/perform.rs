@@ -1,16 +1,16 @@
 //! One instruction of the inner loop: a flat `match`, of which the compiler makes one jump table.
 
-use super::inner::{After, Region, Scene};
+use super::inner::{After, ExecutionContext, Region};
 use super::multiplier::{Multiplier, product};
 use super::operation::{Loaded, Operation};
-use super::registers::{Registers, Source, Target};
+use super::registers::{Registers, Source, WriteTarget};
 use super::{Cpu, STACK_POINTER};
 
 impl Cpu {
     /// Executes an instruction.
     #[inline(always)]
     #[rustfmt::skip]
-    pub(super) fn perform(&mut self, operation: &Operation, scene: &mut Scene<'_>) -> After {
+    pub(super) fn perform(&mut self, operation: &Operation, scene: &mut ExecutionContext<'_>) -> After {
         let (r, at, region, memory) = (&mut self.registers, scene.at, scene.region, &mut scene.memory);
         match *operation {
             Operation::Nop => {}
@@ -66,7 +66,7 @@ impl Cpu {
             Operation::Bltz { rs, words } => return branch(r.signed(rs) < 0, at, words),
             Operation::Bgez { rs, words } => return branch(r.signed(rs) >= 0, at, words),
             Operation::J { target } => return After::Jump(region.jump(target)),
-            Operation::Jal { target } => return link(r, Target::new(31), region.link(at), region.jump(target)),
+            Operation::Jal { target } => return link(r, WriteTarget::new(31), region.link(at), region.jump(target)),
             Operation::Jr { rs } => return After::Jump(region.index(r.get(rs))),
             Operation::Jalr { rd, rs } => return link(r, rd, region.link(at), region.index(r.get(rs))),
             Operation::Mul { .. } | Operation::Multiply { .. } | Operation::Div { .. } | Operation::Divu { .. }
@@ -82,7 +82,7 @@ impl Cpu {
 #[inline(always)]
 fn grow_stack(r: &mut Registers, amount: u32, deepest: &mut u32) {
     let low = r.get(Source::new(STACK_POINTER)).wrapping_sub(amount);
-    r.set(Target::new(STACK_POINTER), low);
+    r.set(WriteTarget::new(STACK_POINTER), low);
     *deepest = low.min(*deepest);
 }
 
@@ -118,7 +118,7 @@ fn branch(is_taken: bool, at: usize, words: i32) -> After {
 }
 
 #[inline(always)]
-fn link(r: &mut Registers, to: Target, address: u32, target: usize) -> After {
+fn link(r: &mut Registers, to: WriteTarget, address: u32, target: usize) -> After {
     r.set(to, address);
     After::Jump(target)
 }

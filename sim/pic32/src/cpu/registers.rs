@@ -6,9 +6,10 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Source(u8);
 
-/// A register that an instruction writes. Register 0 cannot be written: writes to it go to place 32, which nobody reads.
+/// A register that an instruction writes. Register 0 cannot be written: writes to it go to place 32, which is never
+/// read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Target(u8);
+pub(crate) struct WriteTarget(u8);
 
 impl Source {
     /// The register with a number, of which five bits count.
@@ -22,7 +23,7 @@ impl Source {
     }
 }
 
-impl Target {
+impl WriteTarget {
     /// The register with a number, of which five bits count.
     pub(crate) const fn new(number: u32) -> Self {
         match number as u8 & 31 {
@@ -67,13 +68,13 @@ impl Registers {
 
     /// What a register holds that is about to be written.
     #[inline(always)]
-    pub(crate) fn before(&self, register: Target) -> u32 {
+    pub(crate) fn before(&self, register: WriteTarget) -> u32 {
         self.0[usize::from(register.0)]
     }
 
     /// Puts a value into a register.
     #[inline(always)]
-    pub(crate) fn set(&mut self, register: Target, value: u32) {
+    pub(crate) fn set(&mut self, register: WriteTarget, value: u32) {
         self.0[usize::from(register.0)] = value;
     }
 }

@@ -1,6 +1,6 @@
 //! The outer loop: events, interrupts, and the inner loop between them.
 
-use super::exception::{ExceptionCode, Fault};
+use super::exception::{ExceptionCode, InstructionFault};
 use super::inner::{Leave, Region};
 use super::uncommon::Flow;
 use super::{Bus, Cpu, Exit, Taken};
@@ -120,11 +120,11 @@ impl Cpu {
 
     /// What is wrong with the current address. In user mode the kernel's segments may not be named; this part has no memory
     /// for the user's.
-    fn fetch_fault(&self) -> Fault {
+    fn fetch_fault(&self) -> InstructionFault {
         let is_forbidden = self.system.is_user() && self.pc >> 31 != 0;
         match self.pc & 3 != 0 || is_forbidden {
-            true => Fault::at(ExceptionCode::AddressLoad, self.pc),
-            false => Fault::at(ExceptionCode::BusFetch, self.pc),
+            true => InstructionFault::at(ExceptionCode::AddressLoad, self.pc),
+            false => InstructionFault::at(ExceptionCode::BusFetch, self.pc),
         }
     }
 

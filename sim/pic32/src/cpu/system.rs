@@ -1,7 +1,7 @@
 //! Coprocessor 0: the registers that control the core.
 
 use super::InterruptRequest;
-use super::exception::Fault;
+use super::exception::InstructionFault;
 
 // Status.
 pub(super) const STATUS_IE: u32 = 1;
@@ -71,9 +71,9 @@ const BOOT_VECTORS: u32 = 0xBFC0_0200;
 const GENERAL_OFFSET: u32 = 0x180;
 const INTERRUPT_OFFSET: u32 = 0x200;
 
-/// A write to the system registers that others must hear of.
+/// A write to the system registers with effects elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Written {
+pub(super) enum Coprocessor0Write {
     /// Nothing more to do.
     Plain,
     /// Count was set.
@@ -86,7 +86,7 @@ pub(super) enum Written {
 
 /// The registers of coprocessor 0, except Count and Compare.
 #[derive(Clone, Debug)]
-pub(super) struct System {
+pub(super) struct Coprocessor0 {
     status: u32,
     cause: u32,
     epc: u32,
@@ -103,7 +103,7 @@ pub(super) struct System {
     debug_save: u32,
 }
 
-impl System {
+impl Coprocessor0 {
     pub(super) const fn new() -> Self {
         Self {
             status: STATUS_BEV | STATUS_ERL,
@@ -163,13 +163,13 @@ impl System {
         }
     }
 
-    pub(super) fn write(&mut self, register: u8, select: u8, value: u32) -> Written {
+    pub(super) fn write(&mut self, register: u8, select: u8, value: u32) -> Coprocessor0Write {
         match (register, select) {
             (7, 0) => self.hardware_enable = value & 0xF,
-            (9, 0) => return Written::Count(value),
+            (9, 0) => return Coprocessor0Write::Count(value),
             (11, 0) => {
                 self.cause &= !CAUSE_TI;
-                return Written::Compare(value);
+                return Coprocessor0Write::Compare(value);
             }
             (12, 0) => self.write_status(value),
             (12, 1) => self.interrupt_control = value & INTCTL_SPACING,
@@ -177,7 +177,7 @@ impl System {
             (12, 3) => self.shadow_map = value,
             (13, 0) => {
                 self.cause = self.cause & !CAUSE_WRITABLE | value & CAUSE_WRITABLE;
-                return Written::Cause;
+                return Coprocessor0Write::Cause;
             }
             (14, 0) => self.epc = value,
             (15, 1) => self.exception_base = EBASE_FIXED | value & EBASE_WRITABLE,
@@ -187,7 +187,7 @@ impl System {
             (31, 0) => self.debug_save = value,
             _ => {}
         }
-        Written::Plain
+        Coprocessor0Write::Plain
     }
 
     fn write_status(&mut self, value: u32) {
@@ -269,7 +269,7 @@ impl System {
     }
 
     /// Enters an exception at the instruction `address` and gives the vector's address.
-    pub(super) fn enter(&mut self, fault: Fault, address: u32, in_slot: bool) -> u32 {
+    pub(super) fn enter(&mut self, fault: InstructionFault, address: u32, in_slot: bool) -> u32 {
         let set = self.shadow_control >> SRSCTL_EXCEPTION_SHIFT & SET;
         self.enter_level(address, in_slot, set);
         self.set_cause(fault.code as u32, u32::from(fault.unit));

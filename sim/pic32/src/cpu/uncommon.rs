@@ -1,11 +1,11 @@
 //! Instructions that the inner loop leaves: privileged ones, traps, branches that annul their slot, `ll` and `sc`, and
 //! loads and stores of registers of the chip.
 
-use super::data::Port;
-use super::exception::{ExceptionCode, Fault, REFILL_CYCLES};
+use super::data::AddressSpace;
+use super::exception::{ExceptionCode, InstructionFault, REFILL_CYCLES};
 use super::operation::{Operation, Uncommon};
-use super::registers::{Source, Target};
-use super::system::Written;
+use super::registers::{Source, WriteTarget};
+use super::system::Coprocessor0Write;
 use super::{Bus, Cpu, Width};
 use crate::memory::Memory;
 
@@ -33,9 +33,11 @@ impl Cpu {
         operation: Operation,
         memory: &mut Memory,
         bus: &mut B,
-    ) -> Result<Flow, Fault> {
+    ) -> Result<Flow, InstructionFault> {
         match operation {
-            Operation::Uncommon(uncommon) => self.execute_uncommon(uncommon, &mut Port { memory, bus }),
+            Operation::Uncommon(uncommon) => {
+                self.execute_uncommon(uncommon, &mut AddressSpace { memory, bus })
+            }
             _ => self.transfer(operation, memory, bus).map(|()| Flow::Next),
         }
     }
@@ -43,9 +45,9 @@ impl Cpu {
     fn execute_uncommon<B: Bus>(
         &mut self,
         uncommon: Uncommon,
-        port: &mut Port<'_, B>,
-    ) -> Result<Flow, Fault> {
-        if let Some(fault) = Fault::of(uncommon) {
+        port: &mut AddressSpace<'_, B>,
+    ) -> Result<Flow, InstructionFault> {
+        if let Some(fault) = InstructionFault::of(uncommon) {
             return Err(fault);
         }
         match uncommon {
@@ -148,14 +150,14 @@ impl Cpu {
     /// Writes a register of coprocessor 0 as `mtc0` does.
     pub fn set_system_register(&mut self, register: u8, select: u8, value: u32) {
         match self.system.write(register, select, value) {
-            Written::Plain => {}
-            Written::Count(value) => self.timer.set_count(self.cycle, value),
-            Written::Compare(value) => self.timer.set_compare(self.cycle, value),
-            Written::Cause => self.timer.set_stopped(self.cycle, self.system.is_count_stopped()),
+            Coprocessor0Write::Plain => {}
+            Coprocessor0Write::Count(value) => self.timer.set_count(self.cycle, value),
+            Coprocessor0Write::Compare(value) => self.timer.set_compare(self.cycle, value),
+            Coprocessor0Write::Cause => self.timer.set_stopped(self.cycle, self.system.is_count_stopped()),
         }
     }
 
-    fn add(&mut self, uncommon: Uncommon) -> Result<(), Fault> {
+    fn add(&mut self, uncommon: Uncommon) -> Result<(), InstructionFault> {
         let value = |register: Source| self.registers.get(register).cast_signed();
         let (to, sum) = match uncommon {
             Uncommon::Add { rd, rs, rt } => (rd, value(rs).checked_add(value(rt))),
@@ -167,7 +169,7 @@ impl Cpu {
             } => (rt, value(rs).checked_add(i32::from(addend))),
             _ => return Ok(()),
         };
-        let sum = sum.ok_or(Fault::plain(ExceptionCode::Overflow))?;
+        let sum = sum.ok_or(InstructionFault::plain(ExceptionCode::Overflow))?;
         self.registers.set(to, sum.cast_unsigned());
         Ok(())
     }
@@ -186,7 +188,7 @@ impl Cpu {
         };
         let is_taken = condition.holds(self.registers.get(rs), self.registers.get(rt));
         if !matches!(uncommon, Uncommon::BranchLikely { .. }) {
-            self.registers.set(Target::new(31), self.pc.wrapping_add(8));
+            self.registers.set(WriteTarget::new(31), self.pc.wrapping_add(8));
         }
         let is_likely = !matches!(uncommon, Uncommon::BranchLink { .. });
         match (is_taken, is_likely) {
@@ -198,13 +200,13 @@ impl Cpu {
 
     fn store_conditional<B: Bus>(
         &mut self,
-        port: &mut Port<'_, B>,
-        (rt, to): (Source, Target),
+        port: &mut AddressSpace<'_, B>,
+        (rt, to): (Source, WriteTarget),
         (base, offset): (Source, i16),
-    ) -> Result<(), Fault> {
+    ) -> Result<(), InstructionFault> {
         let address = self.offset(base, offset);
         if address & 3 != 0 {
-            return Err(Fault::at(ExceptionCode::AddressStore, address));
+            return Err(InstructionFault::at(ExceptionCode::AddressStore, address));
         }
         if self.is_linked {
             self.store(port, (address, Width::Word), self.registers.get(rt))?;
@@ -225,11 +227,11 @@ impl Cpu {
         Flow::Vector(address)
     }
 
-    fn return_from_debug(&mut self) -> Result<Flow, Fault> {
+    fn return_from_debug(&mut self) -> Result<Flow, InstructionFault> {
         let address = self.system.leave_debug();
         address
             .map(Flow::Vector)
-            .ok_or(Fault::plain(ExceptionCode::Reserved))
+            .ok_or(InstructionFault::plain(ExceptionCode::Reserved))
     }
 
     /// Goes where an instruction leads.
@@ -254,9 +256,9 @@ impl Cpu {
     }
 }
 
-fn trap(holds: bool) -> Result<(), Fault> {
+fn trap(holds: bool) -> Result<(), InstructionFault> {
     match holds {
-        true => Err(Fault::plain(ExceptionCode::Trap)),
+        true => Err(InstructionFault::plain(ExceptionCode::Trap)),
         false => Ok(()),
     }
 }

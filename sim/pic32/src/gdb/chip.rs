@@ -1,8 +1,8 @@
 //! A machine as a target of the debugger.
 
-use super::{NoMemory, Register, Stop, Target};
+use super::{DebugTarget, GdbRegister, NoMemory, Stop};
 use crate::cpu::ExceptionCode;
-use crate::machine::{Fault, Halt, Machine, StopAt, Surroundings};
+use crate::machine::{Halt, Machine, ProgramFault, StopAt, Surroundings};
 use crate::peripheral::ResetSource;
 
 /// Cycles of a moment: 10 ms, short enough that a person who interrupts does not wait.
@@ -12,12 +12,12 @@ const REGISTERS: std::ops::Range<u32> = 0x1F80_0000..0x1F90_0000;
 
 /// A machine and what is around it. Exceptions of the program stop it.
 #[derive(Debug)]
-pub struct Chip<'a, S: Surroundings> {
+pub struct DebugChip<'a, S: Surroundings> {
     machine: &'a mut Machine,
     surroundings: &'a mut S,
 }
 
-impl<'a, S: Surroundings> Chip<'a, S> {
+impl<'a, S: Surroundings> DebugChip<'a, S> {
     /// The machine stops at exceptions from now on.
     pub fn new(machine: &'a mut Machine, surroundings: &'a mut S) -> Self {
         machine.stop_at(StopAt::Exceptions);
@@ -28,32 +28,32 @@ impl<'a, S: Surroundings> Chip<'a, S> {
     }
 }
 
-impl<S: Surroundings> Target for Chip<'_, S> {
-    fn register(&self, register: Register) -> u32 {
+impl<S: Surroundings> DebugTarget for DebugChip<'_, S> {
+    fn register(&self, register: GdbRegister) -> u32 {
         let cpu = self.machine.cpu();
         match register {
-            Register::General(number) => cpu.register(number),
-            Register::Status => cpu.system_register(12, 0),
-            Register::Low => cpu.product().1,
-            Register::High => cpu.product().0,
-            Register::BadAddress => cpu.system_register(8, 0),
-            Register::Cause => cpu.system_register(13, 0),
-            Register::ProgramCounter => cpu.pc(),
+            GdbRegister::General(number) => cpu.register(number),
+            GdbRegister::Status => cpu.system_register(12, 0),
+            GdbRegister::Low => cpu.product().1,
+            GdbRegister::High => cpu.product().0,
+            GdbRegister::BadAddress => cpu.system_register(8, 0),
+            GdbRegister::Cause => cpu.system_register(13, 0),
+            GdbRegister::ProgramCounter => cpu.pc(),
         }
     }
 
-    fn set_register(&mut self, register: Register, value: u32) {
+    fn set_register(&mut self, register: GdbRegister, value: u32) {
         let cpu = self.machine.cpu_mut();
         let (high, low) = cpu.product();
         match register {
-            Register::General(number) => cpu.set_register(number, value),
-            Register::Status => cpu.set_system_register(12, 0, value),
-            Register::Low => cpu.set_product(high, value),
-            Register::High => cpu.set_product(value, low),
-            Register::Cause => cpu.set_system_register(13, 0, value),
+            GdbRegister::General(number) => cpu.set_register(number, value),
+            GdbRegister::Status => cpu.set_system_register(12, 0, value),
+            GdbRegister::Low => cpu.set_product(high, value),
+            GdbRegister::High => cpu.set_product(value, low),
+            GdbRegister::Cause => cpu.set_system_register(13, 0, value),
             // The debugger writes all registers back; the same address must not break a delay slot.
-            Register::ProgramCounter if value != cpu.pc() => cpu.set_pc(value),
-            Register::ProgramCounter | Register::BadAddress => {}
+            GdbRegister::ProgramCounter if value != cpu.pc() => cpu.set_pc(value),
+            GdbRegister::ProgramCounter | GdbRegister::BadAddress => {}
         }
     }
 
@@ -135,8 +135,8 @@ fn stop(halt: Halt) -> Option<Stop> {
     match halt {
         Halt::Reached => None,
         Halt::Breakpoint => Some(Stop::Breakpoint),
-        Halt::Fault(Fault::Misuse(_)) => Some(Stop::Trapped),
-        Halt::Fault(Fault::Exception(exception)) => Some(match exception.code {
+        Halt::Fault(ProgramFault::Misuse(_)) => Some(Stop::Trapped),
+        Halt::Fault(ProgramFault::Exception(exception)) => Some(match exception.code {
             ExceptionCode::AddressLoad
             | ExceptionCode::AddressStore
             | ExceptionCode::BusFetch

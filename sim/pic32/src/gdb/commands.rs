@@ -1,19 +1,19 @@
-//! What a packet asks for, and the answer.
+//! Requests of the debugger and their answers.
 
-use super::description::{by_number, registers, told, xml};
+use super::description::{by_number, register_hex, registers, xml};
 use super::packet::{PACKET_BYTES, from_hex, hex, number, unescaped};
-use super::{NoMemory, Stop, Target};
+use super::{DebugTarget, NoMemory, Stop};
 
 /// What becomes of a packet.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Answer {
+pub(super) enum PacketReply {
     /// This text; the empty one for what is not known here.
     Text(String),
-    /// Why the program stands.
+    /// Why the program has stopped.
     Why,
-    /// The program runs; an answer comes when it stands again.
+    /// The program runs; an answer comes when it stops.
     Run,
-    /// The program ran and stands.
+    /// The program ran and has stopped.
     Stop(Stop),
     /// `OK`, and no acknowledgements from now on.
     WithoutAcknowledgement,
@@ -30,17 +30,17 @@ const MALFORMED: &str = "E22";
 const FAULT: &str = "E14";
 
 /// Does what a packet asks.
-pub(super) fn answer(packet: &[u8], target: &mut dyn Target) -> Answer {
+pub(super) fn answer(packet: &[u8], target: &mut dyn DebugTarget) -> PacketReply {
     let Some((command, rest)) = packet.split_first() else {
-        return Answer::Text(String::new());
+        return PacketReply::Text(String::new());
     };
     let text = match command {
-        b'?' => return Answer::Why,
+        b'?' => return PacketReply::Why,
         b'c' | b's' => return resume(*command, rest, target),
-        b'D' => return Answer::Leave,
-        b'k' => return Answer::Kill,
+        b'D' => return PacketReply::Leave,
+        b'k' => return PacketReply::Kill,
         b'q' => query(rest, target),
-        b'Q' if rest == b"StartNoAckMode" => return Answer::WithoutAcknowledgement,
+        b'Q' if rest == b"StartNoAckMode" => return PacketReply::WithoutAcknowledgement,
         b'v' => return long(rest, target),
         b'g' => Ok(all_registers(target)),
         b'G' => set_all_registers(rest, target),
@@ -54,7 +54,7 @@ pub(super) fn answer(packet: &[u8], target: &mut dyn Target) -> Answer {
         b'H' | b'T' => Ok(OK.to_owned()),
         _ => Ok(String::new()),
     };
-    Answer::Text(text.unwrap_or_else(str::to_owned))
+    PacketReply::Text(text.unwrap_or_else(str::to_owned))
 }
 
 /// An answer, or a refusal.
@@ -66,17 +66,17 @@ impl From<NoMemory> for &'static str {
     }
 }
 
-fn resume(command: u8, rest: &[u8], target: &mut dyn Target) -> Answer {
+fn resume(command: u8, rest: &[u8], target: &mut dyn DebugTarget) -> PacketReply {
     if let Some(address) = number(rest) {
-        target.set_register(super::Register::ProgramCounter, address);
+        target.set_register(super::GdbRegister::ProgramCounter, address);
     }
     match command {
-        b'c' => Answer::Run,
-        _ => Answer::Stop(target.step()),
+        b'c' => PacketReply::Run,
+        _ => PacketReply::Stop(target.step()),
     }
 }
 
-fn query(rest: &[u8], target: &mut dyn Target) -> Text {
+fn query(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
     let (name, arguments) = split(rest, b':').unwrap_or((rest, &[]));
     Ok(match name {
         b"Supported" => format!(
@@ -107,7 +107,7 @@ fn transfer(arguments: &[u8]) -> Text {
 }
 
 /// `monitor` commands of the debugger's user.
-fn monitor(command: &[u8], target: &mut dyn Target) -> Text {
+fn monitor(command: &[u8], target: &mut dyn DebugTarget) -> Text {
     let command = from_hex(command).ok_or(MALFORMED)?;
     let text = match command.as_slice() {
         b"reset" => {
@@ -120,34 +120,36 @@ fn monitor(command: &[u8], target: &mut dyn Target) -> Text {
     Ok(hex(text.as_bytes()))
 }
 
-fn long(rest: &[u8], target: &mut dyn Target) -> Answer {
+fn long(rest: &[u8], target: &mut dyn DebugTarget) -> PacketReply {
     match rest {
-        b"Cont?" => Answer::Text("vCont;c;C;s;S".to_owned()),
+        b"Cont?" => PacketReply::Text("vCont;c;C;s;S".to_owned()),
         _ => match rest.strip_prefix(b"Cont;").and_then(|actions| actions.first()) {
-            Some(b'c' | b'C') => Answer::Run,
-            Some(b's' | b'S') => Answer::Stop(target.step()),
-            _ => Answer::Text(String::new()),
+            Some(b'c' | b'C') => PacketReply::Run,
+            Some(b's' | b'S') => PacketReply::Stop(target.step()),
+            _ => PacketReply::Text(String::new()),
         },
     }
 }
 
-fn all_registers(target: &dyn Target) -> String {
-    registers().map(|register| told(target, Some(register))).collect()
+fn all_registers(target: &dyn DebugTarget) -> String {
+    registers()
+        .map(|register| register_hex(target, Some(register)))
+        .collect()
 }
 
-fn set_all_registers(rest: &[u8], target: &mut dyn Target) -> Text {
+fn set_all_registers(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
     for (register, digits) in registers().zip(rest.chunks_exact(8)) {
         target.set_register(register, word(digits)?);
     }
     Ok(OK.to_owned())
 }
 
-fn one_register(rest: &[u8], target: &dyn Target) -> Text {
+fn one_register(rest: &[u8], target: &dyn DebugTarget) -> Text {
     let register = number(rest).and_then(by_number).ok_or(MALFORMED)?;
-    Ok(told(target, register))
+    Ok(register_hex(target, register))
 }
 
-fn set_one_register(rest: &[u8], target: &mut dyn Target) -> Text {
+fn set_one_register(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
     let (register, digits) = split(rest, b'=').ok_or(MALFORMED)?;
     let register = number(register).and_then(by_number).ok_or(MALFORMED)?;
     if let Some(register) = register {
@@ -162,7 +164,7 @@ fn word(digits: &[u8]) -> Result<u32, &'static str> {
     Ok(u32::from_le_bytes(bytes))
 }
 
-fn read(rest: &[u8], target: &mut dyn Target) -> Text {
+fn read(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
     let (address, length) = pair(rest)?;
     let length = (length as usize).min(PACKET_BYTES / 2);
     let mut bytes = vec![0; length];
@@ -170,19 +172,19 @@ fn read(rest: &[u8], target: &mut dyn Target) -> Text {
     Ok(hex(&bytes))
 }
 
-fn write(rest: &[u8], target: &mut dyn Target) -> Text {
+fn write(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
     let (place, digits) = split(rest, b':').ok_or(MALFORMED)?;
     let (address, length) = pair(place)?;
     let bytes = from_hex(digits).ok_or(MALFORMED)?;
     put(target, (address, length), &bytes)
 }
 
-fn write_binary(rest: &[u8], target: &mut dyn Target) -> Text {
+fn write_binary(rest: &[u8], target: &mut dyn DebugTarget) -> Text {
     let (place, contents) = split(rest, b':').ok_or(MALFORMED)?;
     put(target, pair(place)?, &unescaped(contents))
 }
 
-fn put(target: &mut dyn Target, (address, length): (u32, u32), bytes: &[u8]) -> Text {
+fn put(target: &mut dyn DebugTarget, (address, length): (u32, u32), bytes: &[u8]) -> Text {
     if bytes.len() != length as usize {
         return Err(MALFORMED);
     }
@@ -191,7 +193,7 @@ fn put(target: &mut dyn Target, (address, length): (u32, u32), bytes: &[u8]) -> 
 }
 
 /// `Z0` and `Z1` are breakpoints; the others would be watchpoints.
-fn breakpoint(command: u8, rest: &[u8], target: &mut dyn Target) -> Text {
+fn breakpoint(command: u8, rest: &[u8], target: &mut dyn DebugTarget) -> Text {
     let (kind, place) = split(rest, b',').ok_or(MALFORMED)?;
     let (address, _) = pair(place)?;
     match (kind, command) {

@@ -1,29 +1,29 @@
 //! The target description: which registers there are, in which order.
 
-use super::{Register, Target};
+use super::{DebugTarget, GdbRegister};
 use std::fmt::Write;
 
-/// Registers of the floating point unit, which GDB wants to hear of for any MIPS: 32 and two of control. They are told as
-/// not available.
+/// Registers of the floating point unit, which GDB wants to hear of for any MIPS: 32 and two of control. They are told
+/// as not available.
 const FLOAT_REGISTERS: u32 = 34;
 /// The first of them.
 const FLOAT_START: u32 = 38;
 
 /// All registers that exist, in the order of their numbers.
-pub(super) fn registers() -> impl Iterator<Item = Register> {
+pub(super) fn registers() -> impl Iterator<Item = GdbRegister> {
     let others = [
-        Register::Status,
-        Register::Low,
-        Register::High,
-        Register::BadAddress,
-        Register::Cause,
-        Register::ProgramCounter,
+        GdbRegister::Status,
+        GdbRegister::Low,
+        GdbRegister::High,
+        GdbRegister::BadAddress,
+        GdbRegister::Cause,
+        GdbRegister::ProgramCounter,
     ];
-    (0..32).map(Register::General).chain(others)
+    (0..32).map(GdbRegister::General).chain(others)
 }
 
 /// A register by its number, or whether it is one that does not exist here.
-pub(super) fn by_number(number: u32) -> Option<Option<Register>> {
+pub(super) fn by_number(number: u32) -> Option<Option<GdbRegister>> {
     match number {
         ..FLOAT_START => registers().nth(number as usize).map(Some),
         _ if number < FLOAT_START + FLOAT_REGISTERS => Some(None),
@@ -31,8 +31,8 @@ pub(super) fn by_number(number: u32) -> Option<Option<Register>> {
     }
 }
 
-/// A register as the protocol tells it.
-pub(super) fn told(target: &dyn Target, register: Option<Register>) -> String {
+/// A register as the protocol encodes it.
+pub(super) fn register_hex(target: &dyn DebugTarget, register: Option<GdbRegister>) -> String {
     match register {
         Some(register) => super::packet::hex(&target.register(register).to_le_bytes()),
         None => "xxxxxxxx".to_owned(),

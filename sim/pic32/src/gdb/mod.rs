@@ -1,11 +1,12 @@
 //! The remote protocol of GDB: `target remote :PORT` in gdb-multiarch debugs the emulated program.
 //!
-//! [`Session`] is the protocol without I/O: bytes of the debugger go in, a [`Target`] is asked, bytes for the debugger come
-//! out. [`serve`] joins it to a TCP connection. [`Chip`] is a machine with its surroundings as a target.
+//! [`Session`] is the protocol without I/O: bytes of the debugger go in, a [`DebugTarget`] is asked, bytes for the
+//! debugger come out. [`serve`] joins it to a TCP connection. [`DebugChip`] is a machine with its surroundings as a
+//! target.
 //!
-//! What there is: registers, memory (flash included, so that `load` works), software and hardware breakpoints, `step`,
-//! `continue`, interruption, `monitor reset` and `monitor cycle`. What there is not: watchpoints, going backwards, threads.
-//! While the program stands, emulated time stands.
+//! Supported: registers, memory (flash included, so that `load` works), software and hardware breakpoints, `step`,
+//! `continue`, interruption, `monitor reset` and `monitor cycle`. Not supported: watchpoints, reverse execution,
+//! threads. While the program is stopped, emulated time is stopped.
 
 mod chip;
 mod commands;
@@ -14,13 +15,13 @@ mod packet;
 mod session;
 mod tcp;
 
-pub use chip::Chip;
+pub use chip::DebugChip;
 pub use session::Session;
 pub use tcp::serve;
 
 /// A register by the number that the target description gives it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Register {
+pub enum GdbRegister {
     /// A general register, 0..=31.
     General(u8),
     /// CP0 Status.
@@ -37,7 +38,7 @@ pub enum Register {
     ProgramCounter,
 }
 
-/// Why a program stands.
+/// Why a program has stopped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// A step is done, or it never ran.
@@ -60,12 +61,12 @@ pub enum Stop {
 pub struct NoMemory;
 
 /// What can be debugged.
-pub trait Target {
+pub trait DebugTarget {
     /// What a register holds.
-    fn register(&self, register: Register) -> u32;
+    fn register(&self, register: GdbRegister) -> u32;
 
     /// Changes a register; BadVAddr cannot be changed.
-    fn set_register(&mut self, register: Register, value: u32);
+    fn set_register(&mut self, register: GdbRegister, value: u32);
 
     /// Reads memory or registers of the chip at a virtual address, without side effects.
     ///

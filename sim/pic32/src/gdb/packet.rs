@@ -7,7 +7,7 @@ const INTERRUPT: u8 = 0x03;
 
 /// What came in.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Event {
+pub(super) enum PacketEvent {
     /// A packet whose checksum is right; escapes are still in it.
     Packet(Vec<u8>),
     /// A packet whose checksum is wrong, or that is too long.
@@ -20,14 +20,14 @@ pub(super) enum Event {
 
 /// Finds packets in a stream of bytes.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Framer {
-    state: State,
+pub(super) struct PacketFramer {
+    state: PacketState,
     packet: Vec<u8>,
     sum: u8,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum State {
+enum PacketState {
     #[default]
     Between,
     Inside,
@@ -35,40 +35,40 @@ enum State {
     SecondDigit(Option<u8>),
 }
 
-impl Framer {
+impl PacketFramer {
     /// Takes one byte.
-    pub(super) fn take(&mut self, byte: u8) -> Option<Event> {
+    pub(super) fn take(&mut self, byte: u8) -> Option<PacketEvent> {
         match (self.state, byte) {
-            (State::Between, b'$') => self.begin(),
-            (State::Between, INTERRUPT) => return Some(Event::Interrupt),
-            (State::Between, b'-') => return Some(Event::Refused),
-            (State::Between, _) => {}
-            (State::Inside, b'$') => self.begin(),
-            (State::Inside, b'#') => self.state = State::FirstDigit,
-            (State::Inside, _) => {
+            (PacketState::Between, b'$') => self.begin(),
+            (PacketState::Between, INTERRUPT) => return Some(PacketEvent::Interrupt),
+            (PacketState::Between, b'-') => return Some(PacketEvent::Refused),
+            (PacketState::Between, _) => {}
+            (PacketState::Inside, b'$') => self.begin(),
+            (PacketState::Inside, b'#') => self.state = PacketState::FirstDigit,
+            (PacketState::Inside, _) => {
                 self.sum = self.sum.wrapping_add(byte);
                 if self.packet.len() <= PACKET_BYTES {
                     self.packet.push(byte);
                 }
             }
-            (State::FirstDigit, _) => self.state = State::SecondDigit(digit(byte)),
-            (State::SecondDigit(first), _) => return Some(self.end(first, digit(byte))),
+            (PacketState::FirstDigit, _) => self.state = PacketState::SecondDigit(digit(byte)),
+            (PacketState::SecondDigit(first), _) => return Some(self.end(first, digit(byte))),
         }
         None
     }
 
     fn begin(&mut self) {
-        self.state = State::Inside;
+        self.state = PacketState::Inside;
         self.packet.clear();
         self.sum = 0;
     }
 
-    fn end(&mut self, first: Option<u8>, second: Option<u8>) -> Event {
-        self.state = State::Between;
-        let told = first.zip(second).map(|(first, second)| first << 4 | second);
-        match told == Some(self.sum) && self.packet.len() <= PACKET_BYTES {
-            true => Event::Packet(std::mem::take(&mut self.packet)),
-            false => Event::Damaged,
+    fn end(&mut self, first: Option<u8>, second: Option<u8>) -> PacketEvent {
+        self.state = PacketState::Between;
+        let stated = first.zip(second).map(|(first, second)| first << 4 | second);
+        match stated == Some(self.sum) && self.packet.len() <= PACKET_BYTES {
+            true => PacketEvent::Packet(std::mem::take(&mut self.packet)),
+            false => PacketEvent::Damaged,
         }
     }
 }
@@ -130,23 +130,26 @@ fn digit(letter: u8) -> Option<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Event, Framer, PACKET_BYTES, framed, unescaped};
+    use super::{PACKET_BYTES, PacketEvent, PacketFramer, framed, unescaped};
 
-    fn events(bytes: &[u8]) -> Vec<Event> {
-        let mut framer = Framer::default();
+    fn events(bytes: &[u8]) -> Vec<PacketEvent> {
+        let mut framer = PacketFramer::default();
         bytes.iter().filter_map(|byte| framer.take(*byte)).collect()
     }
 
     #[test]
     fn packets_are_found_between_anything() {
-        let packet = |text: &str| Event::Packet(text.as_bytes().to_vec());
-        let cases: [(&[u8], Vec<Event>); 7] = [
+        let packet = |text: &str| PacketEvent::Packet(text.as_bytes().to_vec());
+        let cases: [(&[u8], Vec<PacketEvent>); 7] = [
             (b"+$g#67+", vec![packet("g")]),
             (b"$?#3f$g#67", vec![packet("?"), packet("g")]),
-            (b"$g#68", vec![Event::Damaged]),
-            (b"$g#6z$?#3F", vec![Event::Damaged, packet("?")]),
+            (b"$g#68", vec![PacketEvent::Damaged]),
+            (b"$g#6z$?#3F", vec![PacketEvent::Damaged, packet("?")]),
             (b"$half$?#3f", vec![packet("?")]),
-            (b"\x03$#00-", vec![Event::Interrupt, packet(""), Event::Refused]),
+            (
+                b"\x03$#00-",
+                vec![PacketEvent::Interrupt, packet(""), PacketEvent::Refused],
+            ),
             (b"noise#67", vec![]),
         ];
         for (bytes, expected) in cases {
@@ -156,21 +159,21 @@ mod tests {
 
     #[test]
     fn a_packet_without_end_takes_no_memory() {
-        let mut framer = Framer::default();
+        let mut framer = PacketFramer::default();
         framer.take(b'$');
         for _ in 0..3 * PACKET_BYTES {
             assert_eq!(framer.take(b'a'), None);
         }
         assert!(framer.packet.len() <= PACKET_BYTES + 1);
-        let ends: Vec<Event> = b"#00".iter().filter_map(|byte| framer.take(*byte)).collect();
-        assert_eq!(ends, [Event::Damaged]);
+        let ends: Vec<PacketEvent> = b"#00".iter().filter_map(|byte| framer.take(*byte)).collect();
+        assert_eq!(ends, [PacketEvent::Damaged]);
     }
 
     #[test]
     fn escapes_come_back() {
         let text = b"a$b#c}d*e";
         let packet = framed(text);
-        let [Event::Packet(inside)] = <[Event; 1]>::try_from(events(&packet)).unwrap() else {
+        let [PacketEvent::Packet(inside)] = <[PacketEvent; 1]>::try_from(events(&packet)).unwrap() else {
             panic!("{}", packet.escape_ascii());
         };
         assert_eq!(unescaped(&inside), text);

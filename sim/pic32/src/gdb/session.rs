@@ -1,13 +1,13 @@
-//! A conversation with a debugger.
+//! A session with a debugger.
 
-use super::commands::{Answer, answer};
-use super::packet::{Event, Framer, framed};
-use super::{Stop, Target};
+use super::commands::{PacketReply, answer};
+use super::packet::{PacketEvent, PacketFramer, framed};
+use super::{DebugTarget, Stop};
 
 /// The state of the conversation.
 #[derive(Clone, Debug)]
 pub struct Session {
-    framer: Framer,
+    framer: PacketFramer,
     output: Vec<u8>,
     /// The last packet, in case it was not understood.
     last: Vec<u8>,
@@ -24,10 +24,10 @@ impl Default for Session {
 }
 
 impl Session {
-    /// A session in which the program stands.
+    /// A session with the program stopped.
     pub fn new() -> Self {
         Self {
-            framer: Framer::default(),
+            framer: PacketFramer::default(),
             output: Vec::new(),
             last: Vec::new(),
             is_running: false,
@@ -38,7 +38,7 @@ impl Session {
     }
 
     /// Takes bytes of the debugger and does what they ask.
-    pub fn receive(&mut self, bytes: &[u8], target: &mut dyn Target) {
+    pub fn receive(&mut self, bytes: &[u8], target: &mut dyn DebugTarget) {
         for byte in bytes {
             if let Some(event) = self.framer.take(*byte) {
                 self.handle(event, target);
@@ -46,7 +46,7 @@ impl Session {
         }
     }
 
-    /// Whether the program runs: then [`Self::run`] wants to be called again and again.
+    /// Whether the program runs: then [`Self::run`] must be called repeatedly.
     pub fn is_running(&self) -> bool {
         self.is_running
     }
@@ -57,7 +57,7 @@ impl Session {
     }
 
     /// Lets the program run for a moment.
-    pub fn run(&mut self, target: &mut dyn Target) {
+    pub fn run(&mut self, target: &mut dyn DebugTarget) {
         if self.is_running
             && let Some(stop) = target.run()
         {
@@ -70,14 +70,14 @@ impl Session {
         std::mem::take(&mut self.output)
     }
 
-    fn handle(&mut self, event: Event, target: &mut dyn Target) {
+    fn handle(&mut self, event: PacketEvent, target: &mut dyn DebugTarget) {
         match event {
-            Event::Interrupt if self.is_running => self.stopped(Stop::Interrupted),
-            // It stands already.
-            Event::Interrupt => {}
-            Event::Refused => self.output.extend_from_slice(&self.last),
-            Event::Damaged => self.output.push(b'-'),
-            Event::Packet(packet) => {
+            PacketEvent::Interrupt if self.is_running => self.stopped(Stop::Interrupted),
+            // It is stopped already.
+            PacketEvent::Interrupt => {}
+            PacketEvent::Refused => self.output.extend_from_slice(&self.last),
+            PacketEvent::Damaged => self.output.push(b'-'),
+            PacketEvent::Packet(packet) => {
                 if self.acknowledges {
                     self.output.push(b'+');
                 }
@@ -86,28 +86,28 @@ impl Session {
         }
     }
 
-    fn command(&mut self, packet: &[u8], target: &mut dyn Target) {
+    fn command(&mut self, packet: &[u8], target: &mut dyn DebugTarget) {
         match answer(packet, target) {
-            Answer::Text(text) => self.send(text.as_bytes()),
-            Answer::Why => self.send(told(self.stop).as_bytes()),
-            Answer::Run => self.is_running = true,
-            Answer::Stop(stop) => self.stopped(stop),
-            Answer::WithoutAcknowledgement => {
+            PacketReply::Text(text) => self.send(text.as_bytes()),
+            PacketReply::Why => self.send(stop_reply(self.stop).as_bytes()),
+            PacketReply::Run => self.is_running = true,
+            PacketReply::Stop(stop) => self.stopped(stop),
+            PacketReply::WithoutAcknowledgement => {
                 self.send(b"OK");
                 self.acknowledges = false;
             }
-            Answer::Leave => {
+            PacketReply::Leave => {
                 self.send(b"OK");
                 self.is_over = true;
             }
-            Answer::Kill => self.is_over = true,
+            PacketReply::Kill => self.is_over = true,
         }
     }
 
     fn stopped(&mut self, stop: Stop) {
         self.is_running = false;
         self.stop = stop;
-        self.send(told(stop).as_bytes());
+        self.send(stop_reply(stop).as_bytes());
     }
 
     fn send(&mut self, text: &[u8]) {
@@ -116,8 +116,8 @@ impl Session {
     }
 }
 
-/// A stop as a signal of POSIX, which is how the protocol tells it.
-fn told(stop: Stop) -> &'static str {
+/// A stop as a POSIX signal, as the protocol encodes it.
+fn stop_reply(stop: Stop) -> &'static str {
     match stop {
         Stop::Stepped => "T05thread:1;",
         Stop::Breakpoint => "T05thread:1;swbreak:;",

@@ -1,14 +1,15 @@
 //! The socket of the debugger.
 
-use super::{Session, Target};
+use super::{DebugTarget, Session};
 use std::io::{ErrorKind, Read, Write};
 use std::net::{TcpListener, TcpStream};
 
-/// Waits for a debugger, and answers it until it leaves. While the program runs, the socket is looked at between moments.
+/// Waits for a debugger, and answers it until it leaves. While the program runs, the socket is looked at between
+/// moments.
 ///
 /// # Errors
 /// What the operating system says about the socket.
-pub fn serve(listener: &TcpListener, target: &mut dyn Target) -> std::io::Result<()> {
+pub fn serve(listener: &TcpListener, target: &mut dyn DebugTarget) -> std::io::Result<()> {
     let (mut stream, _) = listener.accept()?;
     stream.set_nodelay(true)?;
     let mut session = Session::new();
@@ -24,7 +25,7 @@ pub fn serve(listener: &TcpListener, target: &mut dyn Target) -> std::io::Result
     Ok(())
 }
 
-/// Bytes of the debugger, nothing at the end of the connection. While the program runs, nobody waits for them.
+/// Bytes of the debugger, nothing at the end of the connection. While the program runs, reading does not block.
 fn received(stream: &mut TcpStream, is_running: bool) -> std::io::Result<Option<Vec<u8>>> {
     stream.set_nonblocking(is_running)?;
     let mut buffer = [0; 4096];

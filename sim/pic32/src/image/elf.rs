@@ -137,8 +137,8 @@ impl<'a> File<'a> {
         self.bytes.get(offset as usize..end).ok_or(missing)
     }
 
-    fn header(self) -> Result<Fields<'a>, ImageError> {
-        self.piece(ElfPart::Header, 0, HEADER_BYTES).map(Fields)
+    fn header(self) -> Result<ElfFields<'a>, ImageError> {
+        self.piece(ElfPart::Header, 0, HEADER_BYTES).map(ElfFields)
     }
 
     fn check_header(self) -> Result<(), ImageError> {
@@ -176,7 +176,7 @@ impl<'a> File<'a> {
         part: ElfPart,
         places: (usize, usize),
         wanted: u16,
-    ) -> Result<Vec<Fields<'a>>, ImageError> {
+    ) -> Result<Vec<ElfFields<'a>>, ImageError> {
         let header = self.header()?;
         let (offset, found) = (header.word(places.0), header.half(places.1));
         let count = header.half(places.1 + 2);
@@ -187,7 +187,7 @@ impl<'a> File<'a> {
             return Err(ImageError::EntrySize { part, found, wanted });
         }
         let table = self.piece(part, offset, u32::from(count) * u32::from(wanted))?;
-        Ok(table.chunks_exact(usize::from(wanted)).map(Fields).collect())
+        Ok(table.chunks_exact(usize::from(wanted)).map(ElfFields).collect())
     }
 
     fn segments(self) -> Result<Vec<Segment>, ImageError> {
@@ -249,7 +249,7 @@ impl<'a> File<'a> {
                 continue;
             };
             let names = self.contents(*names)?;
-            let entries = self.contents(*table)?.chunks_exact(SYMBOL_BYTES).map(Fields);
+            let entries = self.contents(*table)?.chunks_exact(SYMBOL_BYTES).map(ElfFields);
             found.extend(entries.filter_map(|entry| entry.symbol(names)));
         }
         found.sort_by(|left, right| (left.address, &left.name).cmp(&(right.address, &right.name)));
@@ -265,9 +265,9 @@ fn text(bytes: &[u8], start: u32) -> &[u8] {
 
 /// A record of fixed size; what lies beyond its end reads as zero.
 #[derive(Clone, Copy, Debug)]
-struct Fields<'a>(&'a [u8]);
+struct ElfFields<'a>(&'a [u8]);
 
-impl Fields<'_> {
+impl ElfFields<'_> {
     fn bytes<const N: usize>(self, offset: usize) -> [u8; N] {
         let found = self.0.get(offset..).and_then(|rest| rest.first_chunk());
         found.copied().unwrap_or([0; N])
@@ -466,12 +466,14 @@ mod tests {
         let file = program(&SEGMENTS, super::PART);
         for length in 4..file.len() {
             let Err(ImageError::Truncated {
-                needed, length: told, ..
+                needed,
+                length: stated,
+                ..
             }) = Image::from_elf(&file[..length])
             else {
                 panic!("{length} of {} bytes were not told as truncated", file.len());
             };
-            assert!(needed > length as u64 && told == length);
+            assert!(needed > length as u64 && stated == length);
         }
         assert_eq!(Image::from_elf(&file[..3]), Err(ImageError::NotElf));
     }

@@ -5,7 +5,7 @@ use super::{HexFault, Image, ImageError};
 /// Reads all records.
 pub(super) fn read(text: &str) -> Result<Image, ImageError> {
     let mut image = Image::erased();
-    let mut state = State::default();
+    let mut state = HexState::default();
     let mut last = 0;
     for (index, line) in text.lines().enumerate() {
         let line_number = index + 1;
@@ -18,7 +18,7 @@ pub(super) fn read(text: &str) -> Result<Image, ImageError> {
             line: line_number,
             fault,
         };
-        let record = Record::parse(line).map_err(at)?;
+        let record = HexRecord::parse(line).map_err(at)?;
         state.take(&record, &mut image, line_number)?;
     }
     if !state.is_ended {
@@ -35,13 +35,13 @@ pub(super) fn read(text: &str) -> Result<Image, ImageError> {
 
 /// One line.
 #[derive(Debug)]
-struct Record {
+struct HexRecord {
     kind: u8,
     address: u16,
     data: Vec<u8>,
 }
 
-impl Record {
+impl HexRecord {
     fn parse(line: &str) -> Result<Self, HexFault> {
         let digits = line.strip_prefix(':').ok_or(HexFault::NoColon)?;
         let bytes = bytes_of(digits).ok_or(HexFault::NoHex)?;
@@ -86,14 +86,14 @@ fn digit(letter: u8) -> Option<u8> {
 }
 
 #[derive(Debug, Default)]
-struct State {
+struct HexState {
     base: u32,
     has_data: bool,
     is_ended: bool,
 }
 
-impl State {
-    fn take(&mut self, record: &Record, image: &mut Image, line: usize) -> Result<(), ImageError> {
+impl HexState {
+    fn take(&mut self, record: &HexRecord, image: &mut Image, line: usize) -> Result<(), ImageError> {
         let at = |fault| ImageError::Hex { line, fault };
         if self.is_ended {
             return Err(at(HexFault::AfterEnd));

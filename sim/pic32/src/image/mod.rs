@@ -1,4 +1,4 @@
-//! What is programmed into the chip, read from an ELF or an Intel HEX file.
+//! The content to program into the chip, read from an ELF or an Intel HEX file.
 
 mod elf;
 mod error;

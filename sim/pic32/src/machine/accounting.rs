@@ -1,4 +1,4 @@
-//! Where the time goes: cycles by interrupt vector and priority level, how late handlers begin, idling, the stack.
+//! Accounting of time: cycles by interrupt vector and priority level, interrupt latency, idle time, the stack.
 
 use crate::peripheral::VECTORS;
 
@@ -23,12 +23,12 @@ pub struct Accounting {
     idle_cycles: u64,
     since: u64,
     charged_to: u64,
-    active: Vec<Active>,
+    active: Vec<ActiveHandler>,
 }
 
 /// A handler that was entered and not left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Active {
+struct ActiveHandler {
     vector: u8,
     level: u8,
     cycles: u64,
@@ -84,7 +84,7 @@ impl Accounting {
 
     pub(super) fn enter(&mut self, (vector, level): (u8, u8), cycle: u64, raised_at: Option<u64>) {
         self.charge(cycle);
-        self.active.push(Active {
+        self.active.push(ActiveHandler {
             vector,
             level,
             cycles: 0,
@@ -99,14 +99,14 @@ impl Accounting {
     /// A handler, or something else that ends with ERET, is left.
     pub(super) fn leave(&mut self, cycle: u64) {
         self.charge(cycle);
-        if let Some(Active { vector, cycles, .. }) = self.active.pop()
+        if let Some(ActiveHandler { vector, cycles, .. }) = self.active.pop()
             && let Some(account) = self.vectors.get_mut(usize::from(vector))
         {
             account.longest_cycles = account.longest_cycles.max(cycles);
         }
     }
 
-    /// Charges the time up to `cycle` to whoever had it.
+    /// Charges the time up to `cycle` to its owner.
     pub(super) fn charge(&mut self, cycle: u64) {
         let passed = cycle.saturating_sub(self.charged_to);
         self.charged_to = self.charged_to.max(cycle);

@@ -1,4 +1,4 @@
-//! Which cycle of the core is which cycle of the time base: they are the same at 80 MHz and differ with other clocks.
+//! Conversion between cycles of the core and of the time base: they are equal at 80 MHz and differ with other clocks.
 
 use crate::peripheral::Rate;
 
@@ -38,7 +38,8 @@ impl CoreClock {
         }
     }
 
-    /// The first cycle of the core that begins at this cycle of the time base or later; for the past, when it all began.
+    /// The first cycle of the core that begins at this cycle of the time base or later; for the past, when it all
+    /// began.
     pub(super) fn core_of(&self, base: u64) -> u64 {
         match (self.ahead, base.saturating_sub(self.base_since)) {
             (_, 0) => self.core_since,

@@ -1,4 +1,4 @@
-//! Faults put into the machine from outside: flipped bits, a dead crystal, a supply that is too low for a moment.
+//! Faults injected into the machine: flipped bits, a dead crystal, a supply that is too low for a moment.
 
 use super::Machine;
 use crate::memory::{FLASH_START, OutsideMemory};
@@ -44,7 +44,8 @@ impl Machine {
     }
 
     /// The crystal stops. What follows is up to the configuration words: the clock monitor goes over to the internal
-    /// oscillator and interrupts, or core and peripherals stand still, with outputs as they are, until the watchdog resets.
+    /// oscillator and interrupts, or core and peripherals stand still, with outputs as they are, until the watchdog
+    /// resets.
     pub fn fail_oscillator(&mut self) {
         self.chip.fail_crystal(self.cycle);
     }

@@ -1,11 +1,11 @@
 //! The whole chip: core, memories and peripherals, with pins to set and to look at.
 //!
-//! [`Machine::run_until`] executes the program up to a cycle of the 80 MHz time base. Between two calls the caller plays the
-//! circuit: it sets inputs now or ahead of time and reads what the chip did with its outputs. Analog inputs are asked for
-//! through [`Surroundings`] at the very moment at which the converter samples. A machine can be cloned at any time; clones
-//! share flash until one of them writes to it.
+//! [`Machine::run_until`] executes the program up to a cycle of the 80 MHz time base. Between two calls the caller acts
+//! as the circuit: it sets inputs now or ahead of time and reads the outputs. Analog inputs are requested through
+//! [`Surroundings`] at the moment at which the ADC samples. A machine can be cloned at any time; clones share flash
+//! until one of them writes to it.
 //!
-//! What of the chip is modelled and what is not, see [`crate::peripheral`].
+//! [`crate::peripheral`] lists what of the chip is modelled.
 
 mod accounting;
 mod core_clock;
@@ -26,7 +26,7 @@ use crate::memory::{BOOT_START, FLASH_START, Memory};
 pub use crate::peripheral::ResetSource;
 
 use crate::peripheral::{
-    Chip, Irq, Misuse, MisuseRecord, Operation, Order, PAGE_BYTES, ROW_BYTES, UnknownAccess,
+    Chip, Irq, Misuse, MisuseRecord, NvmOperation, Order, PAGE_BYTES, ROW_BYTES, UnknownAccess,
 };
 use core_clock::CoreClock;
 use view::View;
@@ -44,12 +44,12 @@ pub enum Halt {
     /// A breakpoint of the debugger is at the next instruction, which was not executed.
     Breakpoint,
     /// A fault that [`Machine::stop_at`] names; running on goes on behind it.
-    Fault(Fault),
+    Fault(ProgramFault),
 }
 
 /// What the program did wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum ProgramFault {
     /// It raised an exception.
     Exception(Exception),
     /// It misused the chip for the first time in this way.
@@ -70,7 +70,7 @@ pub enum StopAt {
 
 /// A reset and where it came in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ResetRecord {
+pub struct ResetEvent {
     /// What caused it.
     pub source: ResetSource,
     /// When.
@@ -99,9 +99,9 @@ pub struct Machine {
     stalled_until: u64,
     stop_at: StopAt,
     accounting: Accounting,
-    resets: Vec<ResetRecord>,
+    resets: Vec<ResetEvent>,
     reset_count: u64,
-    untold_resets: Vec<ResetSource>,
+    unreported_resets: Vec<ResetSource>,
     exceptions: Vec<ExceptionRecord>,
     exception_count: u64,
     touches: Option<Box<touches::Touches>>,
@@ -123,7 +123,7 @@ impl Machine {
             accounting: Accounting::new(0),
             resets: Vec::new(),
             reset_count: 0,
-            untold_resets: Vec::new(),
+            unreported_resets: Vec::new(),
             exceptions: Vec::new(),
             exception_count: 0,
             touches: None,
@@ -135,14 +135,15 @@ impl Machine {
         self.stop_at = stop_at;
     }
 
-    /// Resets the chip now. RAM and general registers keep what they have, also at power-on (on the chip they hold anything).
+    /// Resets the chip now. RAM and general registers keep what they have, also at power-on (on the chip they hold
+    /// anything).
     pub fn reset(&mut self, source: ResetSource) {
         self.reset_count += 1;
-        if self.untold_resets.len() < KEPT {
-            self.untold_resets.push(source);
+        if self.unreported_resets.len() < KEPT {
+            self.unreported_resets.push(source);
         }
         if self.resets.len() < KEPT {
-            self.resets.push(ResetRecord {
+            self.resets.push(ResetEvent {
                 source,
                 cycle: self.cycle,
                 pc: self.cpu.pc(),
@@ -156,8 +157,8 @@ impl Machine {
             .reset(source, self.cycle, configuration_of(&self.memory));
     }
 
-    /// Runs until this cycle since power-on, or until something named stops the program before. Everything that is due at
-    /// that cycle has happened then, except the instruction that begins with it.
+    /// Runs until this cycle since power-on, or until something named stops the program before. Everything that is due
+    /// at that cycle has happened then, except the instruction that begins with it.
     pub fn run_until(&mut self, cycle: u64, surroundings: &mut dyn Surroundings) -> Halt {
         if self.touches.is_some() {
             return self.run_noting(cycle, surroundings);
@@ -182,7 +183,8 @@ impl Machine {
         }
     }
 
-    /// Executes one instruction, with its delay slot if it has one; in WAIT, or while the core stands still, one cycle passes.
+    /// Executes one instruction, with its delay slot if it has one; in WAIT, or while the core stands still, one cycle
+    /// passes.
     pub fn step(&mut self, surroundings: &mut dyn Surroundings) -> Halt {
         loop {
             self.settle(surroundings);
@@ -235,18 +237,18 @@ impl Machine {
     }
 
     /// Flash changes when the operation begins, so that a reset in its midst finds it done, as the chip would have it.
-    fn program(&mut self, operation: Operation) {
+    fn program(&mut self, operation: NvmOperation) {
         let done = match operation {
-            Operation::Word { address, value } => self.write_flash(address, &value.to_le_bytes()),
-            Operation::Row { address, source } => {
+            NvmOperation::Word { address, value } => self.write_flash(address, &value.to_le_bytes()),
+            NvmOperation::Row { address, source } => {
                 let mut row = [0; ROW_BYTES as usize];
                 self.memory
                     .read(source, &mut row)
                     .is_ok_and(|()| source < FLASH_START)
                     && self.write_flash(address, &row)
             }
-            Operation::Page { address } => self.erase(address),
-            Operation::All => (0..FLASH_PAGES).all(|page| self.erase(FLASH_START + page * PAGE_BYTES)),
+            NvmOperation::Page { address } => self.erase(address),
+            NvmOperation::All => (0..FLASH_PAGES).all(|page| self.erase(FLASH_START + page * PAGE_BYTES)),
         };
         if !done {
             self.chip.flash_failed();
@@ -334,7 +336,7 @@ impl Machine {
                 cycle: self.cycle,
             });
         }
-        (self.stop_at != StopAt::Nothing).then_some(Halt::Fault(Fault::Exception(exception)))
+        (self.stop_at != StopAt::Nothing).then_some(Halt::Fault(ProgramFault::Exception(exception)))
     }
 
     /// The first misuse after the first `known` ones, if misuse is to stop the machine.
@@ -345,7 +347,7 @@ impl Machine {
             .misuses
             .get(known)
             .filter(|_| self.stop_at == StopAt::ExceptionsAndMisuse);
-        misuse.map(|record| Halt::Fault(Fault::Misuse(record.misuse)))
+        misuse.map(|record| Halt::Fault(ProgramFault::Misuse(record.misuse)))
     }
 
     /// Cycles of the 80 MHz time base since power-on.
@@ -378,8 +380,8 @@ impl Machine {
         &mut self.memory
     }
 
-    /// The value of the special function register at a physical address or its KSEG1 alias, without what reading it sets in
-    /// motion; nothing for addresses that the reference does not name.
+    /// The value of the special function register at a physical address or its KSEG1 alias, without what reading it
+    /// sets in motion; nothing for addresses that the reference does not name.
     pub fn peek_register(&mut self, address: u32) -> Option<u32> {
         self.chip.peek_address(address & 0x1FFF_FFFF, self.cycle)
     }
@@ -421,13 +423,13 @@ impl Machine {
     }
 
     /// The first 64 resets after power-on.
-    pub fn resets(&self) -> &[ResetRecord] {
+    pub fn resets(&self) -> &[ResetEvent] {
         &self.resets
     }
 
     /// What has reset the chip since the last call, at most 64 of them.
     pub fn take_resets(&mut self) -> Vec<ResetSource> {
-        std::mem::take(&mut self.untold_resets)
+        std::mem::take(&mut self.unreported_resets)
     }
 
     /// How many resets there were.

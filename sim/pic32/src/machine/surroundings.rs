@@ -1,7 +1,7 @@
 //! What the analog inputs see.
 
 use crate::peripheral::Chip;
-use crate::pins::{Output, Pin};
+use crate::pins::{Pin, PinDriver};
 
 /// The circuit around the chip, asked whenever the converter ends a sample.
 pub trait Surroundings {
@@ -34,7 +34,7 @@ impl<'a> Outputs<'a> {
     }
 
     /// What the chip does to this pin.
-    pub fn output(&self, pin: Pin) -> Output {
+    pub fn output(&self, pin: Pin) -> PinDriver {
         self.chip.output(pin, self.cycle)
     }
 

@@ -1,5 +1,5 @@
-//! Which bytes of memory the program touches, and how first: a campaign that breaks memory need not try bytes that nobody
-//! reads.
+//! Bytes of memory that the program accesses, and the kind of the first access: a campaign that flips bits need not try
+//! bytes that are never read.
 
 use std::collections::HashMap;
 
@@ -60,7 +60,8 @@ impl Machine {
         self.touches = Some(Box::default());
     }
 
-    /// Physical addresses of words that were touched since the last call, each once, and what was done to their bytes first.
+    /// Physical addresses of words that were touched since the last call, each once, and what was done to their bytes
+    /// first.
     pub fn take_touches(&mut self) -> impl Iterator<Item = (u32, Touch)> + use<> {
         let touches = self.touches.as_deref_mut().map(std::mem::take);
         touches.unwrap_or_default().first.into_iter()

@@ -1,4 +1,4 @@
-//! What the core sees of the peripherals: the chip, in the core's own cycles.
+//! The core's view of the peripherals: the chip, in the core's own cycles.
 
 use super::accounting::Accounting;
 use super::core_clock::CoreClock;

@@ -1,8 +1,8 @@
-//! What the outside does to pins and sees of them.
+//! Interface of the pins to the outside.
 
 use super::Machine;
 use crate::peripheral::{CYCLES_PER_S, Sent};
-use crate::pins::{Level, Output, Pin, Port, known};
+use crate::pins::{Level, Pin, PinDriver, Port, known};
 
 /// One of the two UARTs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -45,7 +45,7 @@ impl Machine {
         self.chip.set_input(pin, None, self.cycle);
     }
 
-    /// The board has a resistor from this pin to the supply: it reads high as long as nobody drives it.
+    /// The board has a resistor from this pin to the supply: it reads high while it is not driven.
     pub fn pull_up(&mut self, pin: Pin) {
         self.chip.pull_up(pin, self.cycle);
     }
@@ -61,7 +61,7 @@ impl Machine {
     }
 
     /// What the chip does to this pin now.
-    pub fn output(&self, pin: Pin) -> Output {
+    pub fn output(&self, pin: Pin) -> PinDriver {
         self.chip.output(pin, self.cycle)
     }
 
@@ -81,8 +81,8 @@ impl Machine {
         self.chip.watch(pin, self.cycle);
     }
 
-    /// The level changes of a watched pin since the last call, in time order: cycle and level after it. Nothing for a pin
-    /// that is not watched.
+    /// The level changes of a watched pin since the last call, in time order: cycle and level after it. Nothing for a
+    /// pin that is not watched.
     pub fn take_edges(&mut self, pin: Pin) -> Vec<(u64, Level)> {
         self.chip.take_edges(pin, self.cycle)
     }
@@ -92,8 +92,8 @@ impl Machine {
         self.send_characters(uart.receive_pin(), characters, begin)
     }
 
-    /// The outside sends characters as levels on a pin, one after the other without a pause; the first start bit begins at
-    /// `cycle`, or now if that is past. Returns the cycle at which the last stop bit ends.
+    /// The outside sends characters as levels on a pin, one after the other without a pause; the first start bit begins
+    /// at `cycle`, or now if that is past. Returns the cycle at which the last stop bit ends.
     pub fn send_characters(&mut self, pin: Pin, characters: &[u8], (cycle, rate): (u64, LineRate)) -> u64 {
         let begin = cycle.max(self.cycle);
         let bit_begin = |bit: u64| begin + bit * CYCLES_PER_S / u64::from(rate.baud.max(1));

@@ -1,4 +1,4 @@
-//! How long flash takes.
+//! Access times of flash.
 
 /// When the prefetch unit helps instruction fetches (CHECON.PREFEN).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use super::nvm::Started;
 use super::ports::Field;
 use super::register::{Block, Register, Via};
 use super::system::SystemWrite;
-use super::timers::Written;
-use super::{Chip, Direction, Misuse, Order, ResetSource, Slot, Unmodelled};
+use super::timers::TimerWrite;
+use super::{AccessDirection, Chip, Misuse, Order, ResetSource, Slot, Unmodelled};
 use crate::cpu::{Access, Width};
 use crate::pins::Port;
 
@@ -27,7 +27,7 @@ impl Chip {
         // What CLR, SET and INV read as is undefined.
         let found = Register::at(access.address).filter(|_| Via::of(access.address) == Via::Plain);
         let Some(register) = found else {
-            self.record.unknown(access.address, Direction::Read);
+            self.record.unknown(access.address, AccessDirection::Read);
             return 0;
         };
         let value = self.peek(register, access.cycle);
@@ -42,7 +42,7 @@ impl Chip {
         let found = Register::at(access.address);
         let Some(register) = found.filter(|register| via == Via::Plain || register.has_bit_operations())
         else {
-            self.record.unknown(access.address, Direction::Write);
+            self.record.unknown(access.address, AccessDirection::Write);
             return;
         };
         let value = if via == Via::Plain && access.width == Width::Word {
@@ -201,7 +201,7 @@ impl Chip {
         self.advance_timers(cycle);
         let before = self.running_counters();
         let now = self.now(cycle);
-        if self.timers.write((number, word), value, now) == Written::PrescalerWhileOn {
+        if self.timers.write((number, word), value, now) == TimerWrite::PrescalerWhileOn {
             self.record.misuse(Misuse::PrescalerWhileOn(number + 1));
         }
         self.begin_pulses(before, cycle);

@@ -1,6 +1,6 @@
 //! The 10-bit converter: sampling, converting, scanning, alternating and its buffer.
 
-use super::rate::{NEVER, Now, Rate, Span};
+use super::rate::{CountSpan, NEVER, Now, Rate};
 
 const ON: u32 = 1 << 15;
 const STOP_AFTER_SEQUENCE: u32 = 1 << 4;
@@ -35,7 +35,7 @@ pub(crate) enum Trigger {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
+enum AdcState {
     Idle,
     /// Until the trigger comes nothing says when it ends.
     Sampling(Option<Wait>),
@@ -48,7 +48,7 @@ enum State {
 /// So many TAD from some moment on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Wait {
-    span: Span,
+    span: CountSpan,
     tads: u64,
 }
 
@@ -58,9 +58,9 @@ impl Wait {
     }
 }
 
-/// What the converter wants at a cycle that has come.
+/// Action of the ADC that is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Due {
+pub(crate) enum AdcDue {
     Nothing,
     /// The level at this channel is held now.
     Hold(u8),
@@ -70,13 +70,13 @@ pub(crate) enum Due {
 
 /// The registers and what is going on.
 #[derive(Clone, Debug)]
-pub(crate) struct Analog {
+pub(crate) struct AdcModule {
     control: [u32; 3],
     channels: u32,
     scan: u32,
     digital: u32,
     buffer: [u32; 16],
-    state: State,
+    state: AdcState,
     /// Results since the last interrupt.
     results: u32,
     upper_half: bool,
@@ -86,15 +86,15 @@ pub(crate) struct Analog {
     second: bool,
 }
 
-impl Analog {
-    pub(crate) fn new() -> Analog {
-        Analog {
+impl AdcModule {
+    pub(crate) fn new() -> AdcModule {
+        AdcModule {
             control: [0; 3],
             channels: 0,
             scan: 0,
             digital: 0,
             buffer: [0; 16],
-            state: State::Idle,
+            state: AdcState::Idle,
             results: 0,
             upper_half: false,
             channel: 0,
@@ -142,7 +142,7 @@ impl Analog {
 
     fn wait(&self, tads: u64, now: Now) -> Wait {
         Wait {
-            span: Span::new(now.cycle, self.clock(now.peripheral)),
+            span: CountSpan::new(now.cycle, self.clock(now.peripheral)),
             tads,
         }
     }
@@ -150,15 +150,15 @@ impl Analog {
     /// The peripheral clock is another one from now on.
     pub(crate) fn change_clock(&mut self, now: Now) {
         let rate = self.clock(now.peripheral);
-        if let State::Sampling(Some(wait)) | State::Converting { wait, .. } = &mut self.state {
+        if let AdcState::Sampling(Some(wait)) | AdcState::Converting { wait, .. } = &mut self.state {
             wait.span.change_rate(now.cycle, rate);
         }
     }
 
     pub(crate) fn next_event(&self) -> u64 {
         match self.state {
-            State::Idle | State::Sampling(None) => NEVER,
-            State::Sampling(Some(wait)) | State::Converting { wait, .. } => wait.ends(),
+            AdcState::Idle | AdcState::Sampling(None) => NEVER,
+            AdcState::Sampling(Some(wait)) | AdcState::Converting { wait, .. } => wait.ends(),
         }
     }
 
@@ -193,16 +193,16 @@ impl Analog {
     fn write_control(&mut self, value: u32, now: Now) {
         let before = std::mem::replace(&mut self.control[0], value);
         if value & ON == 0 {
-            self.state = State::Idle;
+            self.state = AdcState::Idle;
             self.restart_sequence();
             self.upper_half = false;
             self.control[0] &= !SAMPLING;
             return;
         }
         match self.state {
-            State::Idle if value & (SAMPLING | AUTO_SAMPLE) != 0 => self.begin_sample(now),
-            State::Sampling { .. } if before & SAMPLING != 0 && value & SAMPLING == 0 => {
-                self.state = State::Sampling(Some(self.wait(0, now)));
+            AdcState::Idle if value & (SAMPLING | AUTO_SAMPLE) != 0 => self.begin_sample(now),
+            AdcState::Sampling { .. } if before & SAMPLING != 0 && value & SAMPLING == 0 => {
+                self.state = AdcState::Sampling(Some(self.wait(0, now)));
             }
             _ => {}
         }
@@ -213,7 +213,7 @@ impl Analog {
         self.control[0] |= SAMPLING;
         let automatic = self.trigger_source() == Trigger::Auto;
         let tads = u64::from(self.control[2] >> 8 & 0x1F);
-        self.state = State::Sampling(automatic.then(|| self.wait(tads, now)));
+        self.state = AdcState::Sampling(automatic.then(|| self.wait(tads, now)));
     }
 
     /// MUX A or, when they alternate, MUX B at every other sample; MUX A goes through the scan list if it scans.
@@ -235,24 +235,24 @@ impl Analog {
 
     /// The event of this trigger has happened.
     pub(crate) fn trigger(&mut self, trigger: Trigger, now: Now) {
-        if self.state == State::Sampling(None) && self.trigger_source() == trigger {
-            self.state = State::Sampling(Some(self.wait(0, now)));
+        if self.state == AdcState::Sampling(None) && self.trigger_source() == trigger {
+            self.state = AdcState::Sampling(Some(self.wait(0, now)));
         }
     }
 
-    /// What is to be done now that [`Analog::next_event`] has come.
-    pub(crate) fn due(&self, cycle: u64) -> Due {
+    /// What is to be done now that [`AdcModule::next_event`] has come.
+    pub(crate) fn due(&self, cycle: u64) -> AdcDue {
         match self.state {
-            State::Sampling(Some(wait)) if wait.ends() <= cycle => Due::Hold(self.channel),
-            State::Converting { wait, .. } if wait.ends() <= cycle => Due::Result,
-            _ => Due::Nothing,
+            AdcState::Sampling(Some(wait)) if wait.ends() <= cycle => AdcDue::Hold(self.channel),
+            AdcState::Converting { wait, .. } if wait.ends() <= cycle => AdcDue::Result,
+            _ => AdcDue::Nothing,
         }
     }
 
     /// Sampling ends with this level, 0..=1023.
     pub(crate) fn hold(&mut self, value: u16, now: Now) {
         self.control[0] &= !(SAMPLING | DONE);
-        self.state = State::Converting {
+        self.state = AdcState::Converting {
             value: value.min(1023),
             wait: self.wait(CONVERSION_TAD, now),
         };
@@ -260,7 +260,7 @@ impl Analog {
 
     /// The conversion ends; `true` when that is an interrupt.
     pub(crate) fn finish(&mut self, now: Now) -> bool {
-        let State::Converting { value, .. } = self.state else {
+        let AdcState::Converting { value, .. } = self.state else {
             return false;
         };
         self.control[0] |= DONE;
@@ -280,7 +280,7 @@ impl Analog {
                 self.control[0] &= !AUTO_SAMPLE;
             }
         }
-        self.state = State::Idle;
+        self.state = AdcState::Idle;
         if self.control[0] & AUTO_SAMPLE != 0 {
             self.begin_sample(now);
         }

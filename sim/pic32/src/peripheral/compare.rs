@@ -21,7 +21,7 @@ const WRITABLE: u32 = 0xE02F;
 
 /// OCxCON.OCM while the module is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Mode {
+pub(crate) enum CompareMode {
     Off,
     RiseOnce,
     FallOnce,
@@ -32,22 +32,22 @@ pub(crate) enum Mode {
     ModulateWithFault,
 }
 
-impl Mode {
-    fn of(control: u32) -> Mode {
+impl CompareMode {
+    fn of(control: u32) -> CompareMode {
         match control & (ON | 7) ^ ON {
-            1 => Mode::RiseOnce,
-            2 => Mode::FallOnce,
-            3 => Mode::Toggle,
-            4 => Mode::PulseOnce,
-            5 => Mode::PulseAlways,
-            6 => Mode::Modulate,
-            7 => Mode::ModulateWithFault,
-            _ => Mode::Off,
+            1 => CompareMode::RiseOnce,
+            2 => CompareMode::FallOnce,
+            3 => CompareMode::Toggle,
+            4 => CompareMode::PulseOnce,
+            5 => CompareMode::PulseAlways,
+            6 => CompareMode::Modulate,
+            7 => CompareMode::ModulateWithFault,
+            _ => CompareMode::Off,
         }
     }
 
     pub(crate) const fn is_modulation(self) -> bool {
-        matches!(self, Mode::Modulate | Mode::ModulateWithFault)
+        matches!(self, CompareMode::Modulate | CompareMode::ModulateWithFault)
     }
 }
 
@@ -70,7 +70,7 @@ pub(crate) struct Compare {
 
 /// What a compare event did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Event {
+pub(crate) struct CompareEvent {
     pub(crate) level: Level,
     pub(crate) interrupt: bool,
 }
@@ -98,11 +98,11 @@ impl Compare {
         self.past_high_cycles + self.pulse.map_or(0, |pulse| pulse.high_cycles())
     }
 
-    pub(crate) fn mode(&self) -> Mode {
-        Mode::of(self.control)
+    pub(crate) fn mode(&self) -> CompareMode {
+        CompareMode::of(self.control)
     }
 
-    /// Which timer it looks at, by the number of the timer that counts: 2 or 3 as 1 or 2, a pair as 1.
+    /// Its timer, by the number of the timer that counts: 2 or 3 as 1 or 2, a pair as 1.
     pub(crate) fn timer(&self) -> u8 {
         if self.control & TIMER_3 != 0 && self.control & WIDE == 0 {
             2
@@ -114,7 +114,7 @@ impl Compare {
     /// The pin's level when it is not modulated; `None` when the module leaves the pin alone.
     pub(crate) fn fixed_level(&self) -> Option<Level> {
         match self.mode() {
-            Mode::Off => None,
+            CompareMode::Off => None,
             mode if mode.is_modulation() => Some(Level::Low),
             _ => Some(self.level),
         }
@@ -170,7 +170,7 @@ impl Compare {
             self.primary = pulse.duty();
         }
         self.done = false;
-        self.level = Level::of(mode == Mode::FallOnce);
+        self.level = Level::of(mode == CompareMode::FallOnce);
         if mode.is_modulation() {
             self.pulse = Some(Pulse::new(self.primary, self.secondary, cycle));
         }
@@ -180,26 +180,26 @@ impl Compare {
     pub(crate) fn next_event(&self, counter: &Counter, cycle: u64) -> u64 {
         let value = match self.mode() {
             _ if self.done => return NEVER,
-            Mode::RiseOnce | Mode::FallOnce | Mode::Toggle => self.primary,
-            Mode::PulseOnce | Mode::PulseAlways if self.level == Level::Low => self.primary,
-            Mode::PulseOnce | Mode::PulseAlways => self.secondary,
-            Mode::Off | Mode::Modulate | Mode::ModulateWithFault => return NEVER,
+            CompareMode::RiseOnce | CompareMode::FallOnce | CompareMode::Toggle => self.primary,
+            CompareMode::PulseOnce | CompareMode::PulseAlways if self.level == Level::Low => self.primary,
+            CompareMode::PulseOnce | CompareMode::PulseAlways => self.secondary,
+            CompareMode::Off | CompareMode::Modulate | CompareMode::ModulateWithFault => return NEVER,
         };
         counter.next_reach(cycle, value)
     }
 
     /// The compare event happens.
-    pub(crate) fn happen(&mut self) -> Event {
+    pub(crate) fn happen(&mut self) -> CompareEvent {
         let rising = self.level == Level::Low;
         self.level = Level::of(rising);
         let mode = self.mode();
-        let pulsing = matches!(mode, Mode::PulseOnce | Mode::PulseAlways);
+        let pulsing = matches!(mode, CompareMode::PulseOnce | CompareMode::PulseAlways);
         self.done = match mode {
-            Mode::RiseOnce | Mode::FallOnce => true,
-            Mode::PulseOnce => !rising,
+            CompareMode::RiseOnce | CompareMode::FallOnce => true,
+            CompareMode::PulseOnce => !rising,
             _ => false,
         };
-        Event {
+        CompareEvent {
             level: self.level,
             interrupt: !(pulsing && rising),
         }

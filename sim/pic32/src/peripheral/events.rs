@@ -1,6 +1,6 @@
 //! What happens at its time: timer periods, compare events, samples, bits on serial lines, clock and watchdog.
 
-use super::analog::{Due, Trigger};
+use super::analog::{AdcDue, Trigger};
 use super::clock::Change;
 use super::compare;
 use super::counter::Counter;
@@ -174,7 +174,7 @@ impl Chip {
         let was_modulated = self.compares[place].pulse;
         self.compares[place].write(word, value, cycle);
         if word == 0 {
-            if self.compares[place].mode() == compare::Mode::ModulateWithFault {
+            if self.compares[place].mode() == compare::CompareMode::ModulateWithFault {
                 self.record.misuse(Misuse::NotModelled(Unmodelled::CompareFault));
             }
             let still = self.compares[place].pulse == was_modulated && was_modulated.is_some();
@@ -236,12 +236,12 @@ impl Chip {
 
     fn serve_analog(&mut self, cycle: u64, surroundings: &mut dyn Surroundings) {
         match self.analog.due(cycle) {
-            Due::Nothing => {}
-            Due::Hold(channel) => {
+            AdcDue::Nothing => {}
+            AdcDue::Hold(channel) => {
                 let value = self.sample(channel, cycle, surroundings);
                 self.analog.hold(value, self.now(cycle));
             }
-            Due::Result => {
+            AdcDue::Result => {
                 if self.analog.finish(self.now(cycle)) {
                     self.interrupts.raise(Irq::ANALOG, cycle);
                 }

@@ -7,12 +7,12 @@ use std::collections::BinaryHeap;
 
 /// The queue; equal cycles keep the order in which they were given.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Inputs {
+pub(crate) struct InputQueue {
     waiting: BinaryHeap<Reverse<(u64, u64, Pin, bool)>>,
     given: u64,
 }
 
-impl Inputs {
+impl InputQueue {
     pub(crate) fn add(&mut self, cycle: u64, pin: Pin, level: Level) {
         self.waiting
             .push(Reverse((cycle, self.given, pin, level.is_high())));

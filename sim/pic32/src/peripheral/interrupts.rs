@@ -1,4 +1,4 @@
-//! The interrupt controller: flags, enables, priorities, and which request the core is shown.
+//! The interrupt controller: flags, enables, priorities, and the request that the core sees.
 //!
 //! A *line* is a level-type source: as long as it is asserted its flag cannot be cleared.
 
@@ -250,7 +250,7 @@ impl Interrupts {
         self.enables & irq.mask() != 0
     }
 
-    /// Whether the external interrupt 0 to 4 looks at rising edges.
+    /// Whether the external interrupt 0 to 4 triggers on rising edges.
     pub(crate) fn is_rising(&self, external: u8) -> bool {
         self.control >> external & 1 != 0
     }

@@ -1,7 +1,7 @@
-//! Everything of the chip except core and memories: the special function registers and what stands behind them.
+//! Everything of the chip except core and memories: the special function registers and the peripherals behind them.
 //!
-//! Nothing is polled. Each part says at which cycle it wants to be called next (`schedule.rs`); what can be worked out when
-//! it is asked for (timer counts, PWM) has no events at all.
+//! Nothing is polled. Each part returns the cycle at which it must be called next (`schedule.rs`); what can be worked
+//! out when it is asked for (timer counts, PWM) has no events at all.
 //!
 //! | part | what is modelled | what is doubtful or left out |
 //! | --- | --- | --- |
@@ -44,38 +44,38 @@ mod system;
 mod timers;
 
 pub use rate::{CYCLES_PER_S, NEVER, Rate};
-pub use record::{Direction, Misuse, MisuseRecord, UnknownAccess};
+pub use record::{AccessDirection, Misuse, MisuseRecord, UnknownAccess};
 pub use serial::Sent;
 pub use storage::Unmodelled;
 pub use system::ResetSource;
 
 pub(crate) use interrupts::{Irq, VECTORS};
-pub(crate) use nvm::{Operation, PAGE_BYTES, ROW_BYTES};
+pub(crate) use nvm::{NvmOperation, PAGE_BYTES, ROW_BYTES};
 
 use crate::cpu::InterruptRequest;
 use crate::memory::FlashTiming;
 use crate::pins::Port;
-use analog::Analog;
+use analog::AdcModule;
 use capture::Capture;
 use clock::{Change, Clock};
 use compare::Compare;
 use configuration::Configuration;
-use inputs::Inputs;
+use inputs::InputQueue;
 use interrupts::Interrupts;
 use matrix::Matrix;
-use notice::Notice;
+use notice::ChangeNotice;
 use nvm::Nvm;
 use ports::Ports;
 use rate::Now;
-use record::{Place, Record};
+use record::{AccessRecord, AccessSite};
 use schedule::{Schedule, Slot};
 use serial::Serial;
 use std::ops::Range;
 use storage::Storage;
-use system::{System, Watchdog};
+use system::{SystemRegisters, Watchdog};
 use timers::Timers;
 
-/// What the peripherals want of core and memories.
+/// Requests of the peripherals to core and memories.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
     /// The chip is to be reset.
@@ -87,13 +87,13 @@ pub(crate) enum Order {
     /// Wait states or the executable part of RAM are other ones.
     Matrix,
     /// A flash operation begins.
-    Flash(Operation),
+    Flash(NvmOperation),
 }
 
 /// The peripherals, and what the outside does to the pins.
 #[derive(Clone, Debug)]
 pub(crate) struct Chip {
-    pub(crate) record: Record,
+    pub(crate) record: AccessRecord,
     schedule: Schedule,
     /// The core must stop before its next instruction: there are orders, or the request is another one.
     attention: bool,
@@ -101,19 +101,19 @@ pub(crate) struct Chip {
     offered: Option<InterruptRequest>,
     interrupts: Interrupts,
     clock: Clock,
-    system: System,
+    system: SystemRegisters,
     watchdog: Watchdog,
     nvm: Nvm,
     matrix: Matrix,
     ports: Ports,
-    notice: Notice,
+    notice: ChangeNotice,
     timers: Timers,
     compares: [Compare; 5],
     captures: [Capture; 5],
-    analog: Analog,
+    analog: AdcModule,
     serials: [Serial; 2],
     storage: Storage,
-    inputs: Inputs,
+    inputs: InputQueue,
 }
 
 impl Chip {
@@ -122,26 +122,26 @@ impl Chip {
         let clock = Clock::new(Configuration::of(configuration));
         let watchdog = Watchdog::new(clock.configuration(), 0);
         let mut chip = Chip {
-            record: Record::default(),
+            record: AccessRecord::default(),
             schedule: Schedule::new(),
             attention: false,
             orders: Vec::new(),
             offered: None,
             interrupts: Interrupts::new(),
             clock,
-            system: System::new(),
+            system: SystemRegisters::new(),
             watchdog,
             nvm: Nvm::new(),
             matrix: Matrix::new(),
             ports: Ports::new(),
-            notice: Notice::new(),
+            notice: ChangeNotice::new(),
             timers: Timers::new(),
             compares: [const { Compare::OFF }; 5],
             captures: std::array::from_fn(|_| Capture::default()),
-            analog: Analog::new(),
+            analog: AdcModule::new(),
             serials: [Serial::new(), Serial::new()],
             storage: Storage::default(),
-            inputs: Inputs::default(),
+            inputs: InputQueue::default(),
         };
         chip.begin(0);
         chip
@@ -163,7 +163,7 @@ impl Chip {
         self.release_modulated_pins(cycle);
         self.compares = std::array::from_fn(|number| self.compares[number].reset());
         self.captures = std::array::from_fn(|_| Capture::default());
-        self.analog = Analog::new();
+        self.analog = AdcModule::new();
         for serial in &mut self.serials {
             serial.reset();
         }
@@ -307,7 +307,7 @@ impl Chip {
 
     /// Sets where the program is, for what is recorded.
     pub(crate) fn set_place(&mut self, pc: u32, cycle: u64) {
-        self.record.place = Place { pc, cycle };
+        self.record.place = AccessSite { pc, cycle };
     }
 
     fn clock_changed(&mut self, change: Change, cycle: u64) {

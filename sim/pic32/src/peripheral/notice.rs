@@ -8,7 +8,7 @@ const INPUTS: u32 = (1 << 22) - 1;
 
 /// The registers and the reference.
 #[derive(Clone, Debug)]
-pub(crate) struct Notice {
+pub(crate) struct ChangeNotice {
     control: u32,
     enabled: u32,
     pull_ups: u32,
@@ -17,9 +17,9 @@ pub(crate) struct Notice {
     levels: u32,
 }
 
-impl Notice {
-    pub(crate) fn new() -> Notice {
-        Notice {
+impl ChangeNotice {
+    pub(crate) fn new() -> ChangeNotice {
+        ChangeNotice {
             control: 0,
             enabled: 0,
             pull_ups: 0,
@@ -30,10 +30,10 @@ impl Notice {
 
     /// After a reset; what pins showed stays.
     pub(crate) fn reset(&mut self) {
-        *self = Notice {
+        *self = ChangeNotice {
             reference: self.reference,
             levels: self.levels,
-            ..Notice::new()
+            ..ChangeNotice::new()
         };
     }
 

@@ -6,7 +6,7 @@ use super::system::Lock;
 
 /// A flash operation that may begin. Addresses are physical.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Operation {
+pub(crate) enum NvmOperation {
     /// One word.
     Word { address: u32, value: u32 },
     /// 512 bytes out of RAM.
@@ -22,14 +22,14 @@ pub(crate) const ROW_BYTES: u32 = 512;
 /// Bytes of a page.
 pub(crate) const PAGE_BYTES: u32 = 4096;
 
-impl Operation {
+impl NvmOperation {
     /// How long it takes, in microseconds. General knowledge of the family; the longest of each range.
     const fn duration_us(self) -> u64 {
         match self {
-            Operation::Word { .. } => 40,
-            Operation::Row { .. } => 4_500,
-            Operation::Page { .. } => 20_000,
-            Operation::All => 80_000,
+            NvmOperation::Word { .. } => 40,
+            NvmOperation::Row { .. } => 4_500,
+            NvmOperation::Page { .. } => 20_000,
+            NvmOperation::All => 80_000,
         }
     }
 
@@ -39,10 +39,10 @@ impl Operation {
 
     const fn address(self) -> u32 {
         match self {
-            Operation::Word { address, .. }
-            | Operation::Row { address, .. }
-            | Operation::Page { address } => address,
-            Operation::All => PROGRAM_START,
+            NvmOperation::Word { address, .. }
+            | NvmOperation::Row { address, .. }
+            | NvmOperation::Page { address } => address,
+            NvmOperation::All => PROGRAM_START,
         }
     }
 }
@@ -64,11 +64,11 @@ pub(crate) enum Started {
     /// Nothing.
     Nothing,
     /// An operation begins.
-    Operation(Operation),
+    Operation(NvmOperation),
     /// WR was set without the keys: nothing begins.
     WithoutKeys,
     /// WR was set sooner than 6 us after WREN: the operation begins all the same here.
-    TooSoon(Operation),
+    TooSoon(NvmOperation),
 }
 
 /// The registers.
@@ -153,21 +153,21 @@ impl Nvm {
         }
     }
 
-    fn operation(&self) -> Option<Operation> {
+    fn operation(&self) -> Option<NvmOperation> {
         let aligned = |bytes: u32| self.address & !(bytes - 1);
         Some(match self.control & 0xF {
-            1 => Operation::Word {
+            1 => NvmOperation::Word {
                 address: aligned(4),
                 value: self.data,
             },
-            3 => Operation::Row {
+            3 => NvmOperation::Row {
                 address: aligned(ROW_BYTES),
                 source: self.source,
             },
-            4 => Operation::Page {
+            4 => NvmOperation::Page {
                 address: aligned(PAGE_BYTES),
             },
-            5 => Operation::All,
+            5 => NvmOperation::All,
             _ => return None,
         })
     }
@@ -183,7 +183,7 @@ impl Nvm {
     }
 }
 
-fn is_allowed(operation: Operation, configuration: &Configuration) -> bool {
+fn is_allowed(operation: NvmOperation, configuration: &Configuration) -> bool {
     match operation.address() {
         address @ PROGRAM_START..PROGRAM_END => {
             let page = (address - PROGRAM_START) / PAGE_BYTES;

@@ -1,13 +1,13 @@
-//! Pins: which peripherals hold them, who hears of their changes, and what others see of them.
+//! Pins: the peripherals that own them, the observers of their changes, and their levels.
 
 use super::analog::Trigger;
 use super::capture::{self, Captured};
-use super::inputs::Inputs;
+use super::inputs::InputQueue;
 use super::ports::{Changes, Field, bits};
 use super::schedule::Slot;
 use super::timers::Ticked;
 use super::{Chip, Irq, Misuse, notice, serial};
-use crate::pins::{Level, Output, Pin, Port, known};
+use crate::pins::{Level, Pin, PinDriver, Port, known};
 
 /// INT0 to INT4.
 const EXTERNAL: [Pin; 5] = [
@@ -83,7 +83,7 @@ impl Chip {
 
     /// Forgets what was scheduled.
     pub(crate) fn clear_inputs(&mut self) {
-        self.inputs = Inputs::default();
+        self.inputs = InputQueue::default();
         self.schedule.set(Slot::Input, self.inputs.next());
     }
 
@@ -217,9 +217,9 @@ impl Chip {
     }
 
     /// What the chip does to a pin.
-    pub(crate) fn output(&self, pin: Pin, cycle: u64) -> Output {
+    pub(crate) fn output(&self, pin: Pin, cycle: u64) -> PinDriver {
         self.modulated_level(pin, cycle)
-            .map_or_else(|| self.ports.output(pin), Output::from)
+            .map_or_else(|| self.ports.output(pin), PinDriver::from)
     }
 
     /// What a voltmeter sees on a pin.

@@ -3,12 +3,12 @@
 //! *Outside* is what the circuit around the chip does to a pin. *Owned* pins are driven by a peripheral instead of LAT and
 //! TRIS; *pulsed* ones among them change by a rule (PWM), so that their level is asked for and not stored here.
 
-use crate::pins::{Level, Output, PIN_PLACES, Pin, Port};
+use crate::pins::{Level, PIN_PLACES, Pin, PinDriver, Port};
 use std::collections::BTreeMap;
 
 /// One port.
 #[derive(Clone, Copy, Debug)]
-struct State {
+struct PortState {
     tris: u16,
     lat: u16,
     open_drain: u16,
@@ -27,8 +27,8 @@ struct State {
     level: u16,
 }
 
-impl State {
-    const RESET: State = State {
+impl PortState {
+    const RESET: PortState = PortState {
         tris: 0xFFFF,
         lat: 0,
         open_drain: 0,
@@ -90,7 +90,7 @@ pub(crate) struct Changes {
 /// All ports.
 #[derive(Clone, Debug)]
 pub(crate) struct Ports {
-    states: [State; 7],
+    states: [PortState; 7],
     high_cycles: [u64; PIN_PLACES],
     high_since: [u64; PIN_PLACES],
     changed: [u64; PIN_PLACES],
@@ -101,7 +101,7 @@ pub(crate) struct Ports {
 impl Ports {
     pub(crate) fn new() -> Ports {
         Ports {
-            states: [State::RESET; 7],
+            states: [PortState::RESET; 7],
             high_cycles: [0; PIN_PLACES],
             high_since: [0; PIN_PLACES],
             changed: [0; PIN_PLACES],
@@ -114,11 +114,11 @@ impl Ports {
     pub(crate) fn reset(&mut self, cycle: u64) -> [Changes; 7] {
         Port::ALL.map(|port| {
             self.change(port, cycle, |state| {
-                *state = State {
+                *state = PortState {
                     outside: state.outside,
                     outside_high: state.outside_high,
                     board_pull_up: state.board_pull_up,
-                    ..State::RESET
+                    ..PortState::RESET
                 };
             })
         })
@@ -177,7 +177,7 @@ impl Ports {
         })
     }
 
-    fn change(&mut self, port: Port, cycle: u64, change: impl FnOnce(&mut State)) -> Changes {
+    fn change(&mut self, port: Port, cycle: u64, change: impl FnOnce(&mut PortState)) -> Changes {
         let state = &mut self.states[port.index()];
         let before = *state;
         change(state);
@@ -214,7 +214,7 @@ impl Ports {
         }
     }
 
-    /// Writes an edge down for whoever watches the pin.
+    /// Records an edge for the observers of the pin.
     pub(crate) fn note_edge(&mut self, pin: Pin, level: Level, cycle: u64) {
         if let Some(edges) = self.edges.get_mut(&pin) {
             edges.push((cycle, level));
@@ -249,10 +249,10 @@ impl Ports {
         self.states[port.index()].inputs() & port.present()
     }
 
-    pub(crate) fn output(&self, pin: Pin) -> Output {
+    pub(crate) fn output(&self, pin: Pin) -> PinDriver {
         let state = &self.states[pin.port().index()];
         if state.driven & pin.mask() == 0 {
-            Output::Floating
+            PinDriver::Floating
         } else {
             Level::of(state.driven_high & pin.mask() != 0).into()
         }
@@ -267,8 +267,8 @@ impl Ports {
     pub(crate) fn high_cycles(&self, pin: Pin, cycle: u64) -> u64 {
         let place = pin.index();
         let now = match self.output(pin) {
-            Output::High => cycle.saturating_sub(self.high_since[place]),
-            Output::Low | Output::Floating => 0,
+            PinDriver::High => cycle.saturating_sub(self.high_since[place]),
+            PinDriver::Low | PinDriver::Floating => 0,
         };
         self.high_cycles[place] + now
     }

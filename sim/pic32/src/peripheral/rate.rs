@@ -85,16 +85,16 @@ pub(crate) struct Now {
 
 /// Counting that began at some moment and goes on through changes of its clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Span {
+pub(crate) struct CountSpan {
     since: u64,
     /// Counts that were complete then.
     done: u64,
     rate: Rate,
 }
 
-impl Span {
-    pub(crate) fn new(cycle: u64, rate: Rate) -> Span {
-        Span {
+impl CountSpan {
+    pub(crate) fn new(cycle: u64, rate: Rate) -> CountSpan {
+        CountSpan {
             since: cycle,
             done: 0,
             rate,

@@ -6,9 +6,9 @@ use crate::pins::Pin;
 /// How many different records of a kind are kept; those after it are only counted.
 const KEPT: usize = 64;
 
-/// Which way an access went.
+/// Direction of an access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Direction {
+pub enum AccessDirection {
     /// The program read.
     Read,
     /// The program wrote.
@@ -20,8 +20,8 @@ pub enum Direction {
 pub struct UnknownAccess {
     /// Physical address.
     pub address: u32,
-    /// Which way.
-    pub direction: Direction,
+    /// Direction.
+    pub direction: AccessDirection,
     /// Virtual address of the first instruction that did it.
     pub pc: u32,
     /// Cycle of the first.
@@ -82,27 +82,27 @@ pub struct MisuseRecord {
 
 /// Where in the program and when.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Place {
+pub(crate) struct AccessSite {
     pub(crate) pc: u32,
     pub(crate) cycle: u64,
 }
 
 /// All of them, each kind once.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Record {
+pub(crate) struct AccessRecord {
     /// Where the program is, set before each access.
-    pub(crate) place: Place,
+    pub(crate) place: AccessSite,
     pub(crate) unknown: Vec<UnknownAccess>,
     pub(crate) misuses: Vec<MisuseRecord>,
 }
 
-impl Record {
+impl AccessRecord {
     pub(crate) fn misuse(&mut self, misuse: Misuse) {
         let full = self.misuses.len() >= KEPT;
         match self.misuses.iter_mut().find(|known| known.misuse == misuse) {
             Some(known) => known.count += 1,
             None if !full => {
-                let Place { pc, cycle } = self.place;
+                let AccessSite { pc, cycle } = self.place;
                 self.misuses.push(MisuseRecord {
                     misuse,
                     pc,
@@ -114,13 +114,13 @@ impl Record {
         }
     }
 
-    pub(crate) fn unknown(&mut self, address: u32, direction: Direction) {
+    pub(crate) fn unknown(&mut self, address: u32, direction: AccessDirection) {
         let same = |known: &&mut UnknownAccess| known.address == address && known.direction == direction;
         let full = self.unknown.len() >= KEPT;
         match self.unknown.iter_mut().find(same) {
             Some(known) => known.count += 1,
             None if !full => {
-                let Place { pc, cycle } = self.place;
+                let AccessSite { pc, cycle } = self.place;
                 self.unknown.push(UnknownAccess {
                     address,
                     direction,

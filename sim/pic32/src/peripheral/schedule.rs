@@ -1,8 +1,8 @@
-//! When each peripheral wants to be called next. Nothing is polled: the machine runs to the nearest of these cycles.
+//! The next call of each peripheral. Nothing is polled: the machine runs to the nearest of these cycles.
 
 use super::rate::NEVER;
 
-/// Who wants to be called.
+/// A peripheral that can be called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Slot {
     /// A level that was set ahead of time changes on a pin.
@@ -94,8 +94,8 @@ impl Schedule {
         self.next
     }
 
-    /// Takes off and returns the earliest call that is due at `cycle`, with the cycle it is for. Calls for the same cycle
-    /// come in the order of [`Slot`]: levels on pins first, so that a peripheral sees them.
+    /// Takes off and returns the earliest call that is due at `cycle`, with the cycle it is for. Calls for the same
+    /// cycle come in the order of [`Slot`]: levels on pins first, so that a peripheral sees them.
     pub(crate) fn take_due(&mut self, cycle: u64) -> Option<(Slot, u64)> {
         if self.next > cycle {
             return None;

@@ -1,6 +1,6 @@
 //! UART 1 and 2 (here 0 and 1): queues, bit times, framing, both as levels on their pins.
 
-use super::rate::{NEVER, Now, Span};
+use super::rate::{CountSpan, NEVER, Now};
 use crate::pins::{Level, Pin, Port, known};
 use std::collections::VecDeque;
 
@@ -48,7 +48,7 @@ pub enum Sent {
 #[derive(Clone, Copy, Debug)]
 struct Shift {
     /// Counts clocks of the peripheral bus.
-    span: Span,
+    span: CountSpan,
     bit_clocks: u64,
     /// Levels of its bits, the start bit in bit 0.
     levels: u16,
@@ -79,15 +79,15 @@ impl Shift {
 
 /// A frame on its way in.
 #[derive(Clone, Debug)]
-struct Arrival {
+struct IncomingFrame {
     /// Counts clocks of the peripheral bus.
-    span: Span,
+    span: CountSpan,
     bit_clocks: u64,
     edges: Vec<(u64, bool)>,
     confirmed: bool,
 }
 
-impl Arrival {
+impl IncomingFrame {
     /// Middle of a bit, 0 for the start bit.
     fn middle(&self, bit: u64) -> u64 {
         self.span.cycle_of((2 * bit + 1) * self.bit_clocks / 2)
@@ -103,7 +103,7 @@ impl Arrival {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Received {
+struct ReceivedFrame {
     character: u16,
     framing: bool,
     parity: bool,
@@ -118,8 +118,8 @@ pub(crate) struct Serial {
     outgoing: VecDeque<u16>,
     shift: Option<Shift>,
     pub(crate) sent: Vec<(u64, Sent)>,
-    incoming: VecDeque<Received>,
-    arrival: Option<Arrival>,
+    incoming: VecDeque<ReceivedFrame>,
+    arrival: Option<IncomingFrame>,
     line: bool,
     overrun: bool,
 }
@@ -258,7 +258,7 @@ impl Serial {
         }
         let bit_clocks = self.bit_clocks();
         self.shift = Some(Shift {
-            span: Span::new(now.cycle, now.peripheral),
+            span: CountSpan::new(now.cycle, now.peripheral),
             bit_clocks,
             levels,
             length,
@@ -292,8 +292,8 @@ impl Serial {
             Some(arrival) => arrival.edges.push((now.cycle, high)),
             None if begins => {
                 let bit_clocks = self.bit_clocks();
-                self.arrival = Some(Arrival {
-                    span: Span::new(now.cycle, now.peripheral),
+                self.arrival = Some(IncomingFrame {
+                    span: CountSpan::new(now.cycle, now.peripheral),
                     bit_clocks,
                     edges: vec![(now.cycle, false)],
                     confirmed: false,
@@ -326,7 +326,7 @@ impl Serial {
         if self.incoming.len() == DEPTH || self.overrun {
             self.overrun = true;
         } else {
-            self.incoming.push_back(Received {
+            self.incoming.push_back(ReceivedFrame {
                 character,
                 framing,
                 parity: wrong,

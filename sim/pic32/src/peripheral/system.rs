@@ -65,7 +65,7 @@ impl Lock {
 
 /// The registers.
 #[derive(Clone, Debug)]
-pub(crate) struct System {
+pub(crate) struct SystemRegisters {
     lock: Lock,
     causes: u32,
     reset_armed: bool,
@@ -83,9 +83,9 @@ pub(crate) enum SystemWrite {
     Locked,
 }
 
-impl System {
-    pub(crate) fn new() -> System {
-        System {
+impl SystemRegisters {
+    pub(crate) fn new() -> SystemRegisters {
+        SystemRegisters {
             lock: Lock::Closed,
             causes: ResetSource::PowerOn.bit(),
             reset_armed: false,
@@ -100,9 +100,9 @@ impl System {
         } else {
             self.causes
         };
-        *self = System {
+        *self = SystemRegisters {
             causes: causes | source.bit(),
-            ..System::new()
+            ..SystemRegisters::new()
         };
     }
 

@@ -40,7 +40,7 @@ pub(crate) enum Ticked {
 
 /// What a write asks the chip to report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Written {
+pub(crate) enum TimerWrite {
     /// All is well.
     Fine,
     /// The prescaler was changed while the timer was on.
@@ -136,7 +136,7 @@ impl Timers {
     }
 
     /// Writes a register. Matches must have been taken and outputs brought up to `cycle` before.
-    pub(crate) fn write(&mut self, (number, word): (u8, u8), value: u32, now: Now) -> Written {
+    pub(crate) fn write(&mut self, (number, word): (u8, u8), value: u32, now: Now) -> TimerWrite {
         let number = usize::from(number);
         if word == 0 {
             return self.write_control(number, value, now);
@@ -163,10 +163,10 @@ impl Timers {
             timer.counter.period = new;
         }
         timer.look_ahead();
-        Written::Fine
+        TimerWrite::Fine
     }
 
-    fn write_control(&mut self, number: usize, value: u32, now: Now) -> Written {
+    fn write_control(&mut self, number: usize, value: u32, now: Now) -> TimerWrite {
         let before = self.timers[number].control;
         let control = value & writable(number);
         self.timers[number].control = control;
@@ -177,9 +177,9 @@ impl Timers {
         self.settle(number, now);
         let prescaler = (before ^ control) & PRESCALER != 0;
         if prescaler && before & control & ON != 0 {
-            Written::PrescalerWhileOn
+            TimerWrite::PrescalerWhileOn
         } else {
-            Written::Fine
+            TimerWrite::Fine
         }
     }
 

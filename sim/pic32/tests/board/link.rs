@@ -1,7 +1,7 @@
 //! The serial line as levels on pins, and that runs repeat themselves.
 
 use pic32::board::EmulatedSettings;
-use pic32::board::serial::Rate;
+use pic32::board::serial::HostRate;
 use rvac_channel::FaultRates;
 
 use crate::program::{NOP, T0, T1, T2, branch, li, lw, store, sw};
@@ -30,7 +30,7 @@ fn echo() -> Vec<u32> {
     code
 }
 
-fn settings(rate: Rate, seed: u64) -> EmulatedSettings {
+fn settings(rate: HostRate, seed: u64) -> EmulatedSettings {
     EmulatedSettings {
         rate,
         seed,
@@ -39,7 +39,7 @@ fn settings(rate: Rate, seed: u64) -> EmulatedSettings {
 }
 
 /// What comes back of `sent`, at this rate.
-fn echoed(rate: Rate, seed: u64, faults: FaultRates, sent: &[u8]) -> Vec<u8> {
+fn echoed(rate: HostRate, seed: u64, faults: FaultRates, sent: &[u8]) -> Vec<u8> {
     let mut robot = robot_with(&echo(), world(None), &settings(rate, seed));
     pass_ms(&mut robot, 2);
     robot.set_line_rates(faults);
@@ -57,7 +57,7 @@ fn bytes_come_back_through_both_pins_at_every_rate_and_off_by_two_percent() {
     let sent: Vec<u8> = (0..=255).rev().collect();
     for baud in [9_600, 38_400, 115_200, 230_400] {
         for error_permille in [-20.0, 0.0, 20.0] {
-            let rate = Rate { baud, error_permille };
+            let rate = HostRate { baud, error_permille };
             let wait = if baud == 9_600 { &sent[..32] } else { &sent[..] };
             assert_eq!(echoed(rate, 1, FaultRates::NONE, wait), wait, "{rate:?}");
         }
@@ -66,7 +66,7 @@ fn bytes_come_back_through_both_pins_at_every_rate_and_off_by_two_percent() {
 
 #[test]
 fn flipped_bits_lost_and_doubled_bytes_are_of_the_line() {
-    let rate = Rate::exact(115_200);
+    let rate = HostRate::exact(115_200);
     let sent = vec![b'x'; 2048];
     let count = |faults: FaultRates| {
         let heard = echoed(rate, 5, faults, &sent);
@@ -94,7 +94,7 @@ fn flipped_bits_lost_and_doubled_bytes_are_of_the_line() {
 
 #[test]
 fn a_held_line_is_late_and_a_cut_one_silent() {
-    let mut robot = robot_with(&echo(), world(None), &settings(Rate::exact(115_200), 1));
+    let mut robot = robot_with(&echo(), world(None), &settings(HostRate::exact(115_200), 1));
     pass_ms(&mut robot, 2);
     robot.hold_line(20);
     robot.send(b"late");
@@ -113,7 +113,7 @@ fn a_chip_that_does_not_drive_its_line_yet_says_nothing() {
     let mut robot = robot_with(
         &[store(0xA000_0000, 1), crate::program::FOREVER.to_vec()].concat(),
         world(None),
-        &settings(Rate::exact(115_200), 1),
+        &settings(HostRate::exact(115_200), 1),
     );
     assert_eq!(pass_ms(&mut robot, 50), b"");
 }
@@ -121,7 +121,7 @@ fn a_chip_that_does_not_drive_its_line_yet_says_nothing() {
 #[test]
 fn the_same_seed_is_the_same_run() {
     let hash = |seed| {
-        let mut robot = robot_with(&echo(), world(None), &settings(Rate::exact(115_200), seed));
+        let mut robot = robot_with(&echo(), world(None), &settings(HostRate::exact(115_200), seed));
         robot.set_line_rates(FaultRates {
             bit_error: 1e-2,
             ..FaultRates::NONE

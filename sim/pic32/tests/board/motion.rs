@@ -1,7 +1,7 @@
 //! Motors, encoders, switches, the judge and the clock of reactions.
 
 use monitor::{Bridges, Rule};
-use pic32::board::{Contact, EmulatedRobot, EmulatedSettings, Hold, Motor, Reaction, reaction};
+use pic32::board::{Contact, EmulatedRobot, EmulatedSettings, Hold, MotorOutput, Reaction, reaction};
 use rvac_protocol::message::ResetCause;
 
 use crate::program::{CLR, FOREVER, NOP, SET, T0, T1, T2, branch, li, lw, oc, store, sw, timer};
@@ -38,7 +38,7 @@ fn duty_and_phase_drive_the_robot_both_ways() {
     for (phases, way) in [([false, true], 1.0), ([true, false], -1.0)] {
         let mut robot = driving([2400, 2400], phases);
         pass_ms(&mut robot, 1000);
-        assert!((robot.duty(Motor::WheelLeft) - 0.6 * way).abs() < 1e-3);
+        assert!((robot.duty(MotorOutput::WheelLeft) - 0.6 * way).abs() < 1e-3);
         let truth = robot.world().truth();
         let pose = truth.pose;
         assert!(truth.path_m > 0.15, "{} m", truth.path_m);
@@ -158,7 +158,7 @@ fn reactions_are_known_to_better_than_a_tenth_of_a_millisecond() {
         robot.hold_contact(Contact::BumperLeft, Hold::On, event);
         robot.hold_contact(Contact::BumperLeft, Hold::Off, event + 400_000);
         pass_ms(&mut robot, 12);
-        let drives = robot.drives(Motor::WheelLeft);
+        let drives = robot.drives(MotorOutput::WheelLeft);
         let Reaction::Stopped(cycles) = reaction(drives, event) else {
             panic!("press {press} at {event}: {drives:?}");
         };
@@ -181,7 +181,7 @@ fn deaf_bridges_go_on() {
     pass_ms(&mut robot, 20);
     robot.hold_contact(Contact::BumperLeft, Hold::On, 0);
     pass_ms(&mut robot, 50);
-    assert!(robot.duty(Motor::WheelLeft) > 0.4 && robot.wheels_driven());
+    assert!(robot.duty(MotorOutput::WheelLeft) > 0.4 && robot.wheels_driven());
     assert!(
         robot
             .monitor()
@@ -215,9 +215,9 @@ fn brushes_and_suction_are_plain_switches_and_a_bridge() {
     let encoder = robot.wiring().brush_encoder.pin;
     robot.machine_mut().watch(encoder);
     pass_ms(&mut robot, 1000);
-    assert_eq!(robot.duty(Motor::BrushSides), 1.0);
-    assert_eq!(robot.duty(Motor::Vacuum), 1.0);
-    assert_eq!(robot.duty(Motor::BrushMain), -1.0, "PHASE high is backward");
+    assert_eq!(robot.duty(MotorOutput::BrushSides), 1.0);
+    assert_eq!(robot.duty(MotorOutput::Vacuum), 1.0);
+    assert_eq!(robot.duty(MotorOutput::BrushMain), -1.0, "PHASE high is backward");
     let pulses = robot.machine_mut().take_edges(encoder).len() / 2;
     assert!((98..=100).contains(&pulses), "{pulses} pulses at full drive");
 }

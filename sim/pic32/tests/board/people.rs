@@ -1,6 +1,6 @@
 //! What people see, hear and press; the gyro module.
 
-use pic32::board::serial::{Rate, Receiver};
+use pic32::board::serial::{BitReceiver, HostRate};
 use rvac_channel::ReceivedByte;
 
 use crate::program::{CLR, FOREVER, SET, oc, timer};
@@ -68,7 +68,7 @@ fn buttons_and_the_dust_box_are_levels_on_their_pins() {
     let mut robot = robot(&FOREVER);
     let (any, dust) = (robot.wiring().button_any, robot.wiring().dust_box);
     pass_ms(&mut robot, 2);
-    let on = |robot: &pic32::board::EmulatedRobot, line: pic32::board::wiring::Line| {
+    let on = |robot: &pic32::board::EmulatedRobot, line: pic32::board::wiring::DigitalLine| {
         robot.machine().level(line.pin) == line.active
     };
     assert!(!on(&robot, any) && on(&robot, dust));
@@ -90,7 +90,7 @@ fn the_gyro_module_speaks_while_it_has_power() {
     let pin = robot.wiring().uart_receive[0];
     robot.machine_mut().watch(pin);
     pass_ms(&mut robot, 300);
-    let mut receiver = Receiver::new(Rate::exact(115_200).bit_cycles());
+    let mut receiver = BitReceiver::new(HostRate::exact(115_200).bit_cycles());
     let mut arrivals = Vec::new();
     for (cycle, level) in robot.machine_mut().take_edges(pin) {
         receiver.edge(cycle, level, &mut arrivals);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use home::{Home, Noise, Pose, RobotModel, World};
-use pic32::board::{Blueprint, EmulatedRobot, EmulatedSettings, Record};
+use pic32::board::{Blueprint, CalibrationChoice, EmulatedRobot, EmulatedSettings};
 
 use crate::program::{Program, store};
 
@@ -47,7 +47,8 @@ pub(crate) fn robot(code: &[u32]) -> EmulatedRobot {
 
 pub(crate) fn robot_with(code: &[u32], world: World, settings: &EmulatedSettings) -> EmulatedRobot {
     let image = Program::new(code).image().clone();
-    let blueprint = Blueprint::sr8730(image, &Record::Complete).expect("the project's board is sound");
+    let blueprint =
+        Blueprint::sr8730(image, &CalibrationChoice::Complete).expect("the project's board is sound");
     EmulatedRobot::new(&blueprint, world, settings)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::program::{CLR, IFS0, bare, oc, pin, run, timer};
 use pic32::machine::Machine;
-use pic32::pins::{Level, Output, Pin};
+use pic32::pins::{Level, Pin, PinDriver};
 
 const R: u32 = 0x10;
 const RS: u32 = 0x20;
@@ -58,7 +58,7 @@ fn a_new_duty_waits_for_the_end_of_the_period() {
     assert_eq!(machine.read_register(oc(1) + R), 1000);
     run(&mut machine, 8500);
     assert_eq!(machine.read_register(oc(1) + R), 3000);
-    assert_eq!(machine.output(rd0), Output::High);
+    assert_eq!(machine.output(rd0), PinDriver::High);
     assert_eq!(machine.read_register(PORTD) & 1, 1);
     let (high, low) = (Level::High, Level::Low);
     let edges = [(1000, low), (4000, high), (7000, low), (8000, high)];
@@ -89,15 +89,19 @@ fn the_pin_falls_back_to_latch_and_direction() {
     let mut machine = modulating(4000);
     let rd0 = pin("RD0");
     run(&mut machine, 10_000);
-    assert_eq!(machine.output(rd0), Output::High);
+    assert_eq!(machine.output(rd0), PinDriver::High);
     machine.write_register(TRISD + CLR, 1);
     machine.write_register(oc(1), 0);
-    assert_eq!(machine.output(rd0), Output::Low, "LAT is 0");
+    assert_eq!(machine.output(rd0), PinDriver::Low, "LAT is 0");
     machine.write_register(oc(1), 0x800E);
     machine.write_register(LATD, 1);
-    assert_eq!(machine.output(rd0), Output::Low, "the module has the pin");
+    assert_eq!(machine.output(rd0), PinDriver::Low, "the module has the pin");
     machine.write_register(oc(1), 0x000E);
-    assert_eq!(machine.output(rd0), Output::High, "a module that is off has not");
+    assert_eq!(
+        machine.output(rd0),
+        PinDriver::High,
+        "a module that is off has not"
+    );
     let total = machine.high_cycles(rd0);
     assert_eq!(high_in(&mut machine, rd0, 500), 500);
     assert_eq!(total, 10_000);

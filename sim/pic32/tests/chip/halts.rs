@@ -4,7 +4,7 @@ use crate::program::{
     FOREVER, MS, NOP, Program, T0, T1, WAIT_FOREVER, bare, branch, li, run, store, sw, word,
 };
 use pic32::cpu::ExceptionCode;
-use pic32::machine::{Fault, Grounded, Halt, Machine, StopAt};
+use pic32::machine::{Grounded, Halt, Machine, ProgramFault, StopAt};
 use pic32::peripheral::Misuse;
 
 /// CHECON with too few wait states, then `break`, then an endless loop; the handler of the bootstrap counts at RAM 0.
@@ -33,9 +33,9 @@ fn faults_end_a_run_if_they_are_to_and_it_goes_on_behind_them() {
     let misuse = Misuse::FlashTooFast { wait_states: 1 };
     assert_eq!(
         machine.run_until(MS, &mut Grounded),
-        Halt::Fault(Fault::Misuse(misuse))
+        Halt::Fault(ProgramFault::Misuse(misuse))
     );
-    let Halt::Fault(Fault::Exception(exception)) = machine.run_until(MS, &mut Grounded) else {
+    let Halt::Fault(ProgramFault::Exception(exception)) = machine.run_until(MS, &mut Grounded) else {
         panic!("no exception")
     };
     assert_eq!(
@@ -47,7 +47,7 @@ fn faults_end_a_run_if_they_are_to_and_it_goes_on_behind_them() {
     machine.stop_at(StopAt::Exceptions);
     assert!(matches!(
         machine.run_until(MS, &mut Grounded),
-        Halt::Fault(Fault::Exception(_))
+        Halt::Fault(ProgramFault::Exception(_))
     ));
 }
 

@@ -1,8 +1,8 @@
 //! Ports, change notice, external interrupts and who drives what.
 
 use crate::program::{CLR, IEC1, IFS0, IFS1, INTCON, INV, Program, SET, WAIT_FOREVER, bare, pin, run};
-use pic32::peripheral::{Direction, Misuse};
-use pic32::pins::{Level, Output};
+use pic32::peripheral::{AccessDirection, Misuse};
+use pic32::pins::{Level, PinDriver};
 
 const TRISA: u32 = 0xBF88_6000;
 const LATA: u32 = 0xBF88_6020;
@@ -53,31 +53,31 @@ fn clear_set_and_invert_leave_the_rest() {
 fn outputs_inputs_and_open_drains() {
     let mut machine = bare();
     let re3 = pin("RE3");
-    assert_eq!(machine.output(re3), Output::Floating);
+    assert_eq!(machine.output(re3), PinDriver::Floating);
     machine.write_register(LATE + SET, 8);
     machine.write_register(TRISE + CLR, 8);
     assert_eq!(
         (machine.output(re3), machine.level(re3)),
-        (Output::High, Level::High)
+        (PinDriver::High, Level::High)
     );
     assert_eq!(machine.read_register(PORTE) & 8, 8);
     machine.write_register(ODCE + SET, 8);
     assert_eq!(
         (machine.output(re3), machine.level(re3)),
-        (Output::Floating, Level::Low)
+        (PinDriver::Floating, Level::Low)
     );
     machine.pull_up(re3);
     assert_eq!(machine.level(re3), Level::High);
     machine.write_register(LATE + CLR, 8);
     assert_eq!(
         (machine.output(re3), machine.level(re3)),
-        (Output::Low, Level::Low)
+        (PinDriver::Low, Level::Low)
     );
     machine.write_register(TRISE + SET, 8);
     machine.set_input(re3, Level::High);
     assert_eq!(
         (machine.output(re3), machine.read_register(PORTE) & 8),
-        (Output::Floating, 8)
+        (PinDriver::Floating, 8)
     );
     assert!(machine.misuses().is_empty());
 }
@@ -122,9 +122,9 @@ fn jtag_holds_its_pins_until_it_is_off() {
     let ra4 = pin("RA4");
     machine.write_register(LATA + SET, 0x10);
     machine.write_register(TRISA + CLR, 0x10);
-    assert_eq!(machine.output(ra4), Output::Floating);
+    assert_eq!(machine.output(ra4), PinDriver::Floating);
     machine.write_register(DDPCON + CLR, 8);
-    assert_eq!(machine.output(ra4), Output::High);
+    assert_eq!(machine.output(ra4), PinDriver::High);
 }
 
 #[test]
@@ -132,14 +132,14 @@ fn the_crystal_has_its_pins() {
     let mut machine = bare();
     machine.write_register(TRISC, 0);
     machine.write_register(LATC, 0xFFFF);
-    assert_eq!(machine.output(pin("RC12")), Output::Floating);
-    assert_eq!(machine.output(pin("RC15")), Output::Floating);
-    assert_eq!(machine.output(pin("RC14")), Output::High);
+    assert_eq!(machine.output(pin("RC12")), PinDriver::Floating);
+    assert_eq!(machine.output(pin("RC15")), PinDriver::Floating);
+    assert_eq!(machine.output(pin("RC14")), PinDriver::High);
     let frc = Program::new(&WAIT_FOREVER).devcfg1(0xFF67_CFD8);
     let mut machine = frc.machine();
     machine.write_register(TRISC, 0);
     machine.write_register(LATC, 0xFFFF);
-    assert_eq!(machine.output(pin("RC12")), Output::High, "POSCMOD is off");
+    assert_eq!(machine.output(pin("RC12")), PinDriver::High, "POSCMOD is off");
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn a_weak_pull_up_decides_only_for_who_is_alone() {
     assert_eq!(machine.level(rc13), Level::Low);
     machine.release_input(rc13);
     assert_eq!(machine.level(rc13), Level::High);
-    assert_eq!(machine.output(rc13), Output::Floating);
+    assert_eq!(machine.output(rc13), PinDriver::Floating);
 }
 
 #[test]
@@ -233,8 +233,11 @@ fn unknown_registers_read_zero_and_are_told_with_their_place() {
         .iter()
         .map(|one| (one.address, one.direction, one.pc, one.count))
         .collect();
-    let read = (0x1F80_6800, Direction::Read, 0xBFC0_0008, 2);
-    assert_eq!(told, [read, (0x1F80_6810, Direction::Write, 0xBFC0_0010, 1)]);
+    let read = (0x1F80_6800, AccessDirection::Read, 0xBFC0_0008, 2);
+    assert_eq!(
+        told,
+        [read, (0x1F80_6810, AccessDirection::Write, 0xBFC0_0010, 1)]
+    );
 }
 
 #[test]

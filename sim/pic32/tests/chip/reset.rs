@@ -6,7 +6,7 @@ use crate::program::{
 };
 use pic32::machine::{Machine, ResetSource};
 use pic32::peripheral::Misuse;
-use pic32::pins::Output;
+use pic32::pins::PinDriver;
 
 const SYSKEY: u32 = 0xBF80_F230;
 const RCON: u32 = 0xBF80_F600;
@@ -104,7 +104,11 @@ fn a_watchdog_in_idle_is_a_non_maskable_interrupt_and_pins_stay_as_they_are() {
     run(&mut machine, 130 * MS);
     assert_eq!(starts(&machine), 2);
     assert!(machine.resets().is_empty(), "no reset");
-    assert_eq!(machine.output(pin("RE0")), Output::High, "outputs were not reset");
+    assert_eq!(
+        machine.output(pin("RE0")),
+        PinDriver::High,
+        "outputs were not reset"
+    );
     assert_eq!(word(&machine, 8) >> 19 & 1, 1, "Status.NMI");
     assert_eq!(word(&machine, 4) & 0x14, 0x14, "RCON.WDTO and RCON.IDLE");
 }
@@ -198,7 +202,7 @@ fn a_reset_lets_go_of_all_pins_and_keeps_ram() {
     machine.reset(ResetSource::MasterClear);
     assert_eq!(
         (machine.output(rd0), machine.output(re0)),
-        (Output::Floating, Output::Floating)
+        (PinDriver::Floating, PinDriver::Floating)
     );
     let high = (machine.high_cycles(rd0), machine.high_cycles(re0));
     assert_eq!(high, (6_000, 10_000));

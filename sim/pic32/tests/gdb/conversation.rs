@@ -1,7 +1,7 @@
 //! What the debugger says and hears, packet by packet.
 
 use crate::program::{COUNTER, FUNCTION, LOOP, machine};
-use pic32::gdb::{Chip, Session, Target};
+use pic32::gdb::{DebugChip, DebugTarget, Session};
 use pic32::machine::Grounded;
 
 /// A packet around a text without special characters.
@@ -11,7 +11,7 @@ fn packet(text: &str) -> Vec<u8> {
 }
 
 /// Says something and gives the answer without its frame. A running program is given some moments.
-fn ask(session: &mut Session, target: &mut dyn Target, text: &str) -> String {
+fn ask(session: &mut Session, target: &mut dyn DebugTarget, text: &str) -> String {
     session.receive(&packet(text), target);
     for _ in 0..10 {
         session.run(target);
@@ -38,7 +38,7 @@ fn told(value: u32) -> String {
 #[test]
 fn a_program_is_stopped_looked_at_changed_and_continued() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     let mut says = |text: &str| ask(&mut session, &mut chip, text);
     let talk = [
@@ -82,7 +82,7 @@ fn a_program_is_stopped_looked_at_changed_and_continued() {
 #[test]
 fn all_registers_go_out_and_come_in() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     let registers = ask(&mut session, &mut chip, "g");
     assert_eq!(registers.len(), 38 * 8);
@@ -103,7 +103,7 @@ fn all_registers_go_out_and_come_in() {
 #[test]
 fn a_running_program_is_interrupted() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     session.receive(&packet("c"), &mut chip);
     for _ in 0..3 {
@@ -125,7 +125,7 @@ fn a_running_program_is_interrupted() {
 fn a_fault_of_the_program_stops_it() {
     let (mut machine, mut around) = (machine(), Grounded);
     machine.cpu_mut().set_register(5, 0x0040_0000);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     assert_eq!(ask(&mut session, &mut chip, "c"), "T0bthread:1;");
     assert_eq!(ask(&mut session, &mut chip, "?"), "T0bthread:1;");
@@ -137,7 +137,7 @@ fn a_fault_of_the_program_stops_it() {
 #[test]
 fn registers_of_the_chip_are_memory_too() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     // LATA: all but bits 8 and 11 to 13 exist.
     assert_eq!(ask(&mut session, &mut chip, "Mbf886020,4:2301ffff"), "OK");
@@ -151,7 +151,7 @@ fn registers_of_the_chip_are_memory_too() {
 #[test]
 fn the_chip_can_be_reset_and_asked_for_the_time() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     for _ in 0..8 {
         ask(&mut session, &mut chip, "s");
@@ -167,7 +167,7 @@ fn the_chip_can_be_reset_and_asked_for_the_time() {
 #[test]
 fn damage_on_the_way_is_repaired() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     session.receive(b"$?#00", &mut chip);
     assert_eq!(session.take_output(), b"-");
@@ -183,7 +183,7 @@ fn damage_on_the_way_is_repaired() {
 #[test]
 fn the_description_comes_in_pieces() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     let mut text = String::new();
     loop {
@@ -206,7 +206,7 @@ fn the_description_comes_in_pieces() {
 #[test]
 fn no_bytes_make_it_fail() {
     let (mut machine, mut around) = (machine(), Grounded);
-    let mut chip = Chip::new(&mut machine, &mut around);
+    let mut chip = DebugChip::new(&mut machine, &mut around);
     let mut session = Session::new();
     let words = [
         "g",

@@ -1,7 +1,7 @@
 //! gdb-multiarch over TCP.
 
 use crate::program::{COUNTER, FUNCTION, machine};
-use pic32::gdb::{Chip, serve};
+use pic32::gdb::{DebugChip, serve};
 use pic32::machine::Grounded;
 use std::net::TcpListener;
 use std::process::Command;
@@ -59,7 +59,7 @@ fn gdb_debugs_a_program() {
     });
     let debugger = std::thread::spawn(move || command.output());
     let (mut machine, mut around) = (machine(), Grounded);
-    serve(&listener, &mut Chip::new(&mut machine, &mut around)).expect("the connection holds");
+    serve(&listener, &mut DebugChip::new(&mut machine, &mut around)).expect("the connection holds");
     let output = debugger.join().expect("the thread ends").expect("it was found");
     let text = String::from_utf8_lossy(&output.stdout);
     let errors = String::from_utf8_lossy(&output.stderr);

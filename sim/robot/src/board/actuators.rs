@@ -39,7 +39,7 @@ impl CleaningMotor for Cleaner {
     }
 }
 
-/// The tone generator: it remembers what sounds.
+/// The tone generator: it stores the present tone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sounder {
     pub(crate) pitch: Option<Frequency>,
@@ -59,14 +59,14 @@ impl Beeper for Sounder {
 
 /// The watchdog: it counts milliseconds since it was fed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Supervisor {
+pub struct SimulatedWatchdog {
     pub(crate) unfed_ms: u32,
 }
 
 /// Time after which an unfed watchdog resets the chip: the middle of the 128 to 256 ms that the chips offer.
 pub(crate) const WATCHDOG_MS: u32 = 200;
 
-impl Watchdog for Supervisor {
+impl Watchdog for SimulatedWatchdog {
     fn feed(&mut self) {
         self.unfed_ms = 0;
     }

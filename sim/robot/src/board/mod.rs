@@ -1,8 +1,8 @@
-//! The simulated boards: parts of cordlib's capability traits that hold plain values. Which of them a board has is its
-//! [`Outfit`].
+//! The simulated boards: implementations of cordlib's board traits that hold plain values. The [`Outfit`] lists the
+//! parts of a board.
 //!
-//! Before each pass of the firmware's loop the robot puts what the home's sensors say into the parts, after it it takes
-//! out what the firmware set. So the parts know nothing of the world, and the world nothing of the firmware.
+//! Before each pass of the firmware's loop the robot writes the home's sensor values into the parts; after it the robot
+//! reads the outputs that the firmware set. The parts are independent of the world, and the world of the firmware.
 
 mod actuators;
 mod one_line;
@@ -11,12 +11,12 @@ mod persistent;
 mod sensors;
 mod serial;
 
-pub use actuators::{Cleaner, Sounder, Supervisor, WheelBridges};
-pub use outfit::{Outfit, Relax, Sr8730};
-pub use persistent::Persistent;
+pub use actuators::{Cleaner, SimulatedWatchdog, Sounder, WheelBridges};
+pub use outfit::{Outfit, Relax, Sr8730Outfit};
+pub use persistent::PersistentMemory;
 pub use sensors::{
-    BumperPins, ButtonPins, CliffReceivers, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters,
-    GyroReading, PackPins, ProximityReadings, WheelDropPins,
+    BumperPins, ButtonPins, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters, GyroSensor, PackPins,
+    ProximityReadings, SimulatedCliffs, WheelDropPins,
 };
 pub use serial::SerialPort;
 
@@ -36,14 +36,14 @@ impl<O: Outfit> Parts for SimulatedParts<O> {
     type Clock = TickCounter;
     type Link = SerialPort;
     type Wheels = WheelBridges;
-    type Reset = Persistent;
-    type Watchdog = Supervisor;
+    type Reset = PersistentMemory;
+    type Watchdog = SimulatedWatchdog;
     type Encoders = EncoderCounters;
     type Bumpers = BumperPins;
-    type Cliffs = CliffReceivers;
+    type Cliffs = SimulatedCliffs;
     type WheelDrops = WheelDropPins<O>;
     type Proximity = ProximityReadings<O>;
-    type Gyro = GyroReading<O>;
+    type Gyro = GyroSensor<O>;
     type Currents = CurrentReadings<O>;
     type BrushMain = Cleaner;
     type BrushSides = Cleaner;
@@ -70,20 +70,20 @@ impl Clock for TickCounter {
     }
 }
 
-/// A board whose every output is off, as it stands the moment after a reset.
-pub(crate) fn fresh<O: Outfit>(persistent: Persistent) -> Board<SimulatedParts<O>> {
+/// A board after a reset: every output is off.
+pub(crate) fn fresh<O: Outfit>(persistent: PersistentMemory) -> Board<SimulatedParts<O>> {
     Board {
         clock: TickCounter::default(),
         link: SerialPort::default(),
         wheels: WheelBridges::default(),
         reset: persistent,
-        watchdog: Supervisor::default(),
+        watchdog: SimulatedWatchdog::default(),
         encoders: EncoderCounters::default(),
         bumpers: BumperPins::default(),
-        cliffs: CliffReceivers::default(),
+        cliffs: SimulatedCliffs::default(),
         wheel_drops: WheelDropPins::default(),
         proximity: ProximityReadings::default(),
-        gyro: GyroReading::default(),
+        gyro: GyroSensor::default(),
         currents: CurrentReadings::default(),
         brush_main: Cleaner::default(),
         brush_sides: Cleaner::default(),

@@ -1,21 +1,21 @@
-//! Encoders with one line count every edge upward, whichever way the wheel turns: the board gives the count the sign of
-//! what the wheel was last told to do.
+//! Encoders with one line count every edge upward in either direction: the board gives the count the sign of the
+//! wheel's last command.
 
 use cordlib::board::{WheelCounts, WheelDrive};
 
-/// After a reversal the wheel still rolls the old way, then stands, then rolls the new way; nobody can tell which edge was
-/// which, so those of this time count for nothing.
+/// After a reversal the wheel first keeps its old direction, then stops, then turns the new way. The direction of an
+/// edge in this time is unknown, so these edges are not counted.
 const REVERSAL_MS: u8 = 100;
 
 /// Both wheels' lines.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct OneLine {
-    left: Line,
-    right: Line,
+    left: WheelLine,
+    right: WheelLine,
 }
 
 impl OneLine {
-    /// Takes the edges counted up to now and what the bridges did in the last millisecond. To be called every millisecond.
+    /// Takes the edges counted so far and the drives of the last millisecond. Called every millisecond.
     pub(crate) fn take(&mut self, edges: [i32; 2], driven: [WheelDrive; 2]) -> WheelCounts {
         let [left, right] = edges;
         let [drive_left, drive_right] = driven;
@@ -28,20 +28,20 @@ impl OneLine {
 
 /// One wheel's line.
 #[derive(Clone, Copy, Debug, Default)]
-struct Line {
+struct WheelLine {
     edges: Option<i32>,
     total: i32,
     /// Last direction that was commanded: 1, -1, or 0 before the first.
     direction: i32,
-    /// Milliseconds for which edges count for nothing.
+    /// Milliseconds for which edges are not counted.
     unsure_ms: u8,
 }
 
-impl Line {
+impl WheelLine {
     fn take(&mut self, edges: i32, driven: WheelDrive) -> i32 {
         let commanded = driven.duty().millionths().signum();
         if commanded != 0 && commanded != self.direction {
-            // From rest there is no doubt.
+            // From rest the direction is certain.
             if self.direction != 0 {
                 self.unsure_ms = REVERSAL_MS;
             }
@@ -51,7 +51,7 @@ impl Line {
         if self.unsure_ms > 0 {
             self.unsure_ms -= 1;
         } else {
-            // A wheel that was never driven and turns is pushed; forward is as good a guess as any.
+            // A wheel that turns without having been driven is pushed; its direction is unknown, forward is assumed.
             let sign = if self.direction < 0 { -1 } else { 1 };
             self.total = self.total.wrapping_add(counted.wrapping_mul(sign));
         }
@@ -61,7 +61,7 @@ impl Line {
 
 #[cfg(test)]
 mod tests {
-    use super::{Line, REVERSAL_MS};
+    use super::{REVERSAL_MS, WheelLine};
     use cordlib::board::WheelDrive;
     use rvac_units::Throttle;
 
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn edges_have_the_sign_of_the_command_and_those_of_a_reversal_none() {
-        let mut line = Line::default();
+        let mut line = WheelLine::default();
         line.take(10, drive(0));
         assert_eq!(line.take(14, drive(300_000)), 4);
         assert_eq!(
@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn the_count_of_the_line_may_wrap() {
-        let mut line = Line::default();
+        let mut line = WheelLine::default();
         line.take(i32::MAX, drive(300_000));
         assert_eq!(line.take(i32::MIN + 1, drive(300_000)), 2);
     }

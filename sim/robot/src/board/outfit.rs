@@ -1,4 +1,4 @@
-//! What a model of robot has on its board, as far as models differ.
+//! The parts of a model's board, as far as models differ.
 
 use core::fmt::Debug;
 
@@ -22,9 +22,9 @@ pub trait Outfit: Copy + Default + Debug {
 
 /// Samsung Navibot SR8730.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sr8730;
+pub struct Sr8730Outfit;
 
-impl Outfit for Sr8730 {
+impl Outfit for Sr8730Outfit {
     const NAME: &'static str = "sr8730";
     const WHEEL_DROPS: u8 = 2;
     const PROXIMITY: u8 = 7;
@@ -34,8 +34,8 @@ impl Outfit for Sr8730 {
     const DUST_BOX: bool = true;
 }
 
-/// Vileda Relax: digital lines only, one line a wheel encoder. Its over-current lines and `battery OK` are not modelled,
-/// because nobody has measured where they switch.
+/// Vileda Relax: digital lines only, one line a wheel encoder. Its over-current lines and `battery OK` are not
+/// modelled, because their thresholds have not been measured.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Relax;
 

@@ -1,17 +1,17 @@
-//! What a reset does not clear.
+//! Memory that a reset does not clear.
 
 use cordlib::board::ResetRecord;
 use rvac_protocol::message::ResetCause;
 
-/// Memory that survives a reset, and the chip's own note of why it started.
+/// Memory that survives a reset, and the chip's reset cause.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Persistent {
+pub struct PersistentMemory {
     cause: ResetCause,
     boots: u32,
     recent: u8,
 }
 
-impl Persistent {
+impl PersistentMemory {
     /// After the power came on for the first time.
     #[must_use]
     pub const fn first() -> Self {
@@ -37,7 +37,7 @@ impl Persistent {
     }
 }
 
-impl ResetRecord for Persistent {
+impl ResetRecord for PersistentMemory {
     fn cause(&mut self) -> ResetCause {
         self.cause
     }
@@ -57,13 +57,13 @@ impl ResetRecord for Persistent {
 
 #[cfg(test)]
 mod tests {
-    use super::Persistent;
+    use super::PersistentMemory;
     use cordlib::board::ResetRecord;
     use rvac_protocol::message::ResetCause;
 
     #[test]
     fn resets_count_up_until_they_are_forgotten() {
-        let mut record = Persistent::first()
+        let mut record = PersistentMemory::first()
             .restarted(ResetCause::Watchdog)
             .restarted(ResetCause::BrownOut);
         assert_eq!(

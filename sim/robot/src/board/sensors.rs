@@ -1,5 +1,5 @@
-//! Sensor inputs: values that the robot fills in before each pass of the firmware. How many there are of a kind is the
-//! outfit's business.
+//! Sensor inputs: values that the robot writes before each pass of the firmware. The outfit decides how many of a kind
+//! there are.
 
 use core::marker::PhantomData;
 
@@ -28,12 +28,12 @@ impl BumperSwitches for BumperPins {
 
 /// Cliff emitters and receivers. The home answers to the emitters a millisecond later.
 #[derive(Clone, Copy, Debug)]
-pub struct CliffReceivers {
+pub struct SimulatedCliffs {
     pub(crate) levels: CliffLevels,
     pub(crate) emitters: Emitters,
 }
 
-impl Default for CliffReceivers {
+impl Default for SimulatedCliffs {
     fn default() -> Self {
         Self {
             levels: CliffLevels::default(),
@@ -42,7 +42,7 @@ impl Default for CliffReceivers {
     }
 }
 
-impl CliffSensors for CliffReceivers {
+impl CliffSensors for SimulatedCliffs {
     const FITTED: Cliffs = Cliffs {
         left: true,
         middle: true,
@@ -104,12 +104,12 @@ impl<O: Outfit> ProximitySensors for ProximityReadings<O> {
 
 /// Gyro.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct GyroReading<O> {
+pub struct GyroSensor<O> {
     pub(crate) gyro: Option<Gyro>,
     pub(crate) outfit: PhantomData<O>,
 }
 
-impl<O: Outfit> HeadingSensor for GyroReading<O> {
+impl<O: Outfit> HeadingSensor for GyroSensor<O> {
     const PRESENT: bool = O::GYRO;
 
     fn heading(&mut self) -> Option<Gyro> {

@@ -1,4 +1,4 @@
-//! The board's serial port: what lies between the wire and the firmware.
+//! The board's serial port, between the wire and the firmware.
 
 use std::collections::VecDeque;
 
@@ -19,7 +19,7 @@ pub struct SerialPort {
 }
 
 impl SerialPort {
-    /// What came over the wire, one frame.
+    /// Takes one frame from the wire.
     pub(crate) fn arrive(&mut self, frame: Received) {
         if self.received.len() < RECEIVE_QUEUE {
             self.received.push_back(frame);
@@ -35,7 +35,7 @@ impl SerialPort {
         byte
     }
 
-    /// The bytes that the firmware has said since this was called last and that have not left yet.
+    /// The bytes that the firmware has sent since the last call and that have not left yet.
     pub(crate) fn said(&mut self) -> impl Iterator<Item = u8> + '_ {
         let from = self.transmit.len() - core::mem::take(&mut self.fresh);
         self.transmit.range(from..).copied()

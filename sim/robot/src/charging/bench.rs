@@ -2,11 +2,11 @@
 
 use cordlib::PackParameters;
 use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest};
-use cordlib::charge::{ChargeContext, ChargeController, ChargeOutput, Motors, Stops};
+use cordlib::charge::{ChargeContext, ChargeController, ChargeOutput, MotorActivity, Stops};
 use home::{Pack, Pcg};
 use rvac_units::Tick;
 
-use super::conditions::{Conditions, Trouble};
+use super::conditions::{Conditions, InjectedFault};
 use super::converter::{Converter, thermistor_counts};
 
 /// An envelope of the switch.
@@ -14,7 +14,7 @@ pub(crate) const STEP_MS: u32 = 20;
 const STEP_S: f64 = STEP_MS as f64 / 1_000.0;
 /// Chemistry and heat.
 const SLOW_STEPS: u32 = 50;
-/// The robot comes to the dock; before it the charger learns its zero.
+/// Time of docking; before it the charger learns its current offset.
 const DOCKS_S: f64 = 6.0;
 const READINGS: u64 = 0xAD0;
 const EVENTS: u64 = 0xE7E;
@@ -24,7 +24,7 @@ const HIGH_SUPPLY_V: f64 = 33.0;
 
 /// A pack on a charger.
 #[derive(Debug)]
-pub struct Bench<S> {
+pub struct ChargeBench<S> {
     conditions: Conditions,
     pack: Pack,
     converter: Converter,
@@ -43,8 +43,8 @@ pub struct Bench<S> {
     stalled_ms: u32,
 }
 
-impl<S: Stops> Bench<S> {
-    /// The robot stands in front of the dock.
+impl<S: Stops> ChargeBench<S> {
+    /// The robot is in front of the dock.
     #[must_use]
     pub fn new(conditions: &Conditions, stops: S) -> Self {
         let mut pack = Pack::new(conditions.make, conditions.charge, conditions.ambient_c);
@@ -68,7 +68,7 @@ impl<S: Stops> Bench<S> {
             charger: ChargeController::with_stops(parameters, stops),
             output: ChargeOutput::default(),
             steps: 0,
-            // Clocks begin anywhere, and many of these charges see them wrap.
+            // Clocks start at any value, so that many of these charges include a wrap.
             start: events.next_u32(),
             events,
             current_a: 0.0,
@@ -99,7 +99,7 @@ impl<S: Stops> Bench<S> {
         &self.charger
     }
 
-    /// What the charger asks of the board.
+    /// Output of the charger to the board.
     #[must_use]
     pub const fn output(&self) -> ChargeOutput {
         self.output
@@ -124,10 +124,11 @@ impl<S: Stops> Bench<S> {
         let duty = self.duty();
         let net_v = self.pack.terminal_v(self.current_a - self.conditions.drain_a);
         self.current_a = if self.is_supplied() {
-            let asked = self.output.request == DockRequest::Current || self.is_past(Trouble::shorted_at);
+            let asked =
+                self.output.request == DockRequest::Current || self.is_past(InjectedFault::shorted_at);
             let mut supply = self.conditions.supply;
             supply.open_v *= self.supply_share;
-            if self.is_past(Trouble::high_at) {
+            if self.is_past(InjectedFault::high_at) {
                 supply.open_v = HIGH_SUPPLY_V;
             }
             supply.current_a(duty, net_v, asked)
@@ -146,7 +147,7 @@ impl<S: Stops> Bench<S> {
         let context = ChargeContext {
             // The contacts are debounced by 300 ms, so a bounce leaves the robot docked.
             docked: self.seconds() >= DOCKS_S,
-            motors: Motors::Idle,
+            motors: MotorActivity::Idle,
             load_ma: 15,
         };
         let now = Tick(self.start.wrapping_add(self.steps.wrapping_mul(STEP_MS)));
@@ -154,7 +155,7 @@ impl<S: Stops> Bench<S> {
     }
 
     fn duty(&self) -> f64 {
-        if self.is_past(Trouble::shorted_at) {
+        if self.is_past(InjectedFault::shorted_at) {
             return 1.0;
         }
         match self.output.drive {
@@ -163,8 +164,8 @@ impl<S: Stops> Bench<S> {
         }
     }
 
-    /// Whether the trouble of this kind has begun.
-    fn is_past(&self, of: impl Fn(&Trouble) -> Option<f64>) -> bool {
+    /// Whether the fault of this kind has begun.
+    fn is_past(&self, of: impl Fn(&InjectedFault) -> Option<f64>) -> bool {
         of(&self.conditions.trouble).is_some_and(|at_s| self.seconds() >= at_s)
     }
 
@@ -172,10 +173,10 @@ impl<S: Stops> Bench<S> {
     fn happen(&mut self) {
         self.bounce_ms = self.bounce_ms.saturating_sub(STEP_MS);
         match self.conditions.trouble {
-            Trouble::ContactBounce(per_hour) if self.events.unit() < per_hour * STEP_S / 3_600.0 => {
+            InjectedFault::ContactBounce(per_hour) if self.events.unit() < per_hour * STEP_S / 3_600.0 => {
                 self.bounce_ms = BOUNCE_MS;
             }
-            Trouble::Flicker(share) if self.steps.is_multiple_of(15) => {
+            InjectedFault::Flicker(share) if self.steps.is_multiple_of(15) => {
                 self.supply_share = 1.0 + share * self.events.symmetric();
             }
             _ => {}
@@ -195,11 +196,15 @@ impl<S: Stops> Bench<S> {
         let last = self.last.unwrap_or(fresh);
         let mut shown = fresh;
         match self.conditions.trouble {
-            Trouble::ThermistorFrozen(at_s) if self.seconds() >= at_s => shown.temperature = last.temperature,
-            Trouble::VoltageFrozen(at_s) if self.seconds() >= at_s => shown.pack_mv = last.pack_mv,
-            Trouble::CurrentFrozen(at_s) if self.seconds() >= at_s => shown.current_ma = last.current_ma,
-            Trouble::CurrentDead(at_s) if self.seconds() >= at_s => shown.current_ma = 0,
-            Trouble::ConverterStalled(at_s) if self.seconds() >= at_s => {
+            InjectedFault::ThermistorFrozen(at_s) if self.seconds() >= at_s => {
+                shown.temperature = last.temperature
+            }
+            InjectedFault::VoltageFrozen(at_s) if self.seconds() >= at_s => shown.pack_mv = last.pack_mv,
+            InjectedFault::CurrentFrozen(at_s) if self.seconds() >= at_s => {
+                shown.current_ma = last.current_ma
+            }
+            InjectedFault::CurrentDead(at_s) if self.seconds() >= at_s => shown.current_ma = 0,
+            InjectedFault::ConverterStalled(at_s) if self.seconds() >= at_s => {
                 self.stalled_ms += STEP_MS;
                 shown = ChargerReadings {
                     age_ms: self.stalled_ms,
@@ -215,7 +220,7 @@ impl<S: Stops> Bench<S> {
 
     /// While current flows the charger's side shows the supply's voltage behind the switch.
     fn input_mv(&self, pack_v: f64) -> i32 {
-        let volts = if self.is_past(Trouble::high_at) && self.current_a > 0.0 {
+        let volts = if self.is_past(InjectedFault::high_at) && self.current_a > 0.0 {
             HIGH_SUPPLY_V
         } else {
             pack_v + 0.3 * self.current_a
@@ -225,14 +230,14 @@ impl<S: Stops> Bench<S> {
 
     fn thermistor_counts(&self) -> f64 {
         match self.conditions.trouble {
-            Trouble::ThermistorOpen(at_s) if self.seconds() >= at_s => 893.0,
-            Trouble::ThermistorShorted(at_s) if self.seconds() >= at_s => 4.0,
+            InjectedFault::ThermistorOpen(at_s) if self.seconds() >= at_s => 893.0,
+            InjectedFault::ThermistorShorted(at_s) if self.seconds() >= at_s => 4.0,
             _ => self.thermistor,
         }
     }
 }
 
-impl Trouble {
+impl InjectedFault {
     const fn shorted_at(&self) -> Option<f64> {
         match self {
             Self::SwitchShorted(at_s) => Some(*at_s),

@@ -1,13 +1,13 @@
-//! What differs from charge to charge, all of it from one seed.
+//! The conditions of a charge, all drawn from one seed.
 
 use home::{OddCell, PackMake, Pcg, Supply};
 
 /// Streams of random numbers of a seed.
 const CONDITIONS: u64 = 0xC4A1;
 
-/// Something that goes wrong.
+/// An injected fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Trouble {
+pub enum InjectedFault {
     /// Nothing.
     None,
     /// The thermistor's wire breaks at this second.
@@ -34,7 +34,7 @@ pub enum Trouble {
     SupplyHigh(f64),
 }
 
-impl Trouble {
+impl InjectedFault {
     /// A name for tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -54,7 +54,7 @@ impl Trouble {
         }
     }
 
-    /// The kinds of trouble, in the order of [`Trouble::drawn`].
+    /// The kinds of faults, in the order of [`InjectedFault::drawn`].
     pub const KINDS: u32 = 12;
 
     /// The kind with this number, with figures of its own.
@@ -90,11 +90,11 @@ pub struct Conditions {
     pub ambient_c: f64,
     /// The pack when it docks, degrees Celsius.
     pub pack_c: f64,
-    /// What the electronics take all the time, ampere.
+    /// Standby current of the electronics, ampere.
     pub drain_a: f64,
     /// The adapter in the dock.
     pub supply: Supply,
-    /// The thermistor shows so much more, degrees.
+    /// Offset of the thermistor, degrees.
     pub thermistor_offset_k: f64,
     /// Noise of a reading, counts.
     pub noise_counts: f64,
@@ -102,13 +102,13 @@ pub struct Conditions {
     pub gain: f64,
     /// Mismatch of the two dividers, relative.
     pub mismatch: f64,
-    /// What goes wrong.
-    pub trouble: Trouble,
+    /// The injected fault.
+    pub trouble: InjectedFault,
 }
 
 impl Conditions {
-    /// The charge of a seed. Half of them are sound packs at room temperature without trouble; the others have worn packs,
-    /// any weather, or trouble.
+    /// The charge of a seed. Half of them are good packs at room temperature without a fault; the others have worn
+    /// packs, any temperature, or a fault.
     #[must_use]
     pub fn drawn(seed: u64) -> Self {
         let mut random = Pcg::new(seed, CONDITIONS);
@@ -125,8 +125,8 @@ impl Conditions {
                 conditions.pack_c = conditions.ambient_c + 8.0 * random.unit();
             }
             _ => {
-                let kind = 1 + random.below(Trouble::KINDS - 1);
-                conditions.trouble = Trouble::drawn(kind, random);
+                let kind = 1 + random.below(InjectedFault::KINDS - 1);
+                conditions.trouble = InjectedFault::drawn(kind, random);
                 if random.below(3) == 0 {
                     conditions.make = PackMake::worn(random);
                 }
@@ -135,7 +135,7 @@ impl Conditions {
         conditions
     }
 
-    /// A sound pack, at a temperature at which charging begins by any sensor, without trouble.
+    /// A good pack without a fault, at a temperature at which charging begins with any sensor.
     fn sound(seed: u64, random: &mut Pcg) -> Self {
         let mut between = |least: f64, most: f64| least + (most - least) * random.unit();
         let ambient_c = between(9.0, 34.0);
@@ -164,25 +164,25 @@ impl Conditions {
             noise_counts,
             gain,
             mismatch,
-            trouble: Trouble::None,
+            trouble: InjectedFault::None,
         }
     }
 
-    /// A charge of a sound pack without trouble, whatever the seed.
+    /// A charge of a good pack without a fault, for any seed.
     #[must_use]
     pub fn healthy(seed: u64) -> Self {
         Self::sound(seed, &mut Pcg::new(seed, CONDITIONS))
     }
 
-    /// Whether the pack should come out full: sound cells, a start between 6 and 37 degrees so that every sensor agrees
-    /// that charging may begin, and nothing goes wrong but what a good charger sees through.
+    /// Whether the pack should become full: good cells, a start between 6 and 37 degrees so that charging begins with
+    /// every sensor, and no fault except those that a charger must tolerate.
     #[must_use]
     pub fn is_healthy(&self) -> bool {
         let sound =
             self.make.capacity_ah >= 1.6 && self.make.odd.is_none() && self.make.resistance_ohm <= 0.6;
         let temperate =
             self.ambient_c >= 9.0 && (9.0..=37.0).contains(&self.pack_c) && self.ambient_c <= 34.0;
-        sound && temperate && self.trouble == Trouble::None
+        sound && temperate && self.trouble == InjectedFault::None
     }
 
     /// Whether a cell has failed.

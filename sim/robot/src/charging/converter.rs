@@ -1,4 +1,4 @@
-//! What the converter makes of the pack: counts with noise, and the board's way back to units.
+//! The converter: counts of the pack with noise, and their conversion back to units.
 
 use cordlib::board::ThermistorFault;
 use home::Pcg;
@@ -25,7 +25,7 @@ pub(crate) struct Converter {
     noise_counts: f64,
     /// Error of the pack's divider, relative.
     gain: f64,
-    /// How much more the charger's divider shows than the pack's, relative: a current where none flows.
+    /// Mismatch of the charger's divider to the pack's, relative: it shows a current where none flows.
     mismatch: f64,
     random: Pcg,
     /// Tenths of a degree for each count, as the board's formula has it.
@@ -56,7 +56,7 @@ impl Converter {
     /// Mean of the conversions of an envelope.
     fn mean_counts(&mut self, exact: f64) -> f64 {
         if self.noise_counts >= DITHERING_COUNTS {
-            // Enough noise makes the steps of the converter noise like any other, and one draw does for all conversions.
+            // With enough noise the converter's steps act as noise too, and one draw is enough for all conversions.
             let variance = self.noise_counts * self.noise_counts + 1.0 / 12.0;
             let deviation = (variance / f64::from(CONVERSIONS)).sqrt();
             return (exact + deviation * self.random.normal()).clamp(0.0, 1_023.0);
@@ -93,8 +93,8 @@ impl Converter {
     }
 }
 
-/// Resistance of the thermistor, kilo-ohm, by the inverse of the board's formula; below 5 degrees, where that has its pole,
-/// it goes on rising by 6 % a degree as such thermistors do.
+/// Resistance of the thermistor, kilo-ohm, by the inverse of the board's formula; below 5 degrees, where that has its
+/// pole, it goes on rising by 6 % a degree as such thermistors do.
 fn thermistor_kohm(celsius: f64) -> f64 {
     let formula = |celsius: f64| {
         (42.429_470_166_511_1 / (celsius + 0.966_249_433_923_487) - 0.307_073_187_406_113)
@@ -114,7 +114,7 @@ pub(crate) fn thermistor_counts(celsius: f64) -> f64 {
     1_024.0 * lower / (1.5 + lower)
 }
 
-/// The other way round, by halving.
+/// The inverse, by bisection.
 fn celsius_of(counts: f64) -> f64 {
     let (mut low, mut high) = (-50.0, 150.0);
     for _ in 0..40 {

@@ -1,4 +1,4 @@
-//! How a charge went.
+//! Outcome of a charge.
 
 use cordlib::board::ChargeDrive;
 use cordlib::charge::Stops;
@@ -6,19 +6,19 @@ use monitor::{ChargeMonitor, Charging};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use rvac_units::Ratio;
 
-use super::bench::{Bench, STEP_MS};
+use super::bench::{ChargeBench, STEP_MS};
 use super::conditions::Conditions;
 
-/// A charge is watched for this long at most, ms.
+/// Longest simulated charge, ms.
 const WATCH_MS: u32 = 5 * 3_600_000;
-/// After its end the pack is watched for this long: heat goes on to spread, ms.
+/// Time after the end of a charge, in which heat still spreads, ms.
 const AFTER_MS: u32 = 1_800_000;
-/// A charger that does not begin within this time waits for something, ms.
+/// A charger that does not begin within this time is waiting, ms.
 const WAIT_MS: u32 = 600_000;
 
-/// How a charge went, by what is really so.
+/// Outcome of a charge, by the true state of the pack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome {
+pub struct ChargeOutcome {
     /// The seed.
     pub seed: u64,
     /// What ended the full current; `None` if it never began or a fault ended it.
@@ -41,10 +41,10 @@ pub struct Outcome {
 
 /// Runs one charge with these stops.
 #[must_use]
-pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> Outcome {
-    let mut bench = Bench::new(conditions, stops);
+pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> ChargeOutcome {
+    let mut bench = ChargeBench::new(conditions, stops);
     let mut monitor = ChargeMonitor::default();
-    let mut outcome = Outcome {
+    let mut outcome = ChargeOutcome {
         seed: conditions.seed,
         end: None,
         fault: None,
@@ -92,7 +92,7 @@ pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> Outcome {
         outcome.driven_h += f64::from(u8::from(driven && charging)) * f64::from(STEP_MS) / 3_600_000.0;
     }
     let status = bench.charger().status();
-    Outcome {
+    ChargeOutcome {
         end: status.end.filter(|_| status.fault.is_none()),
         fault: status.fault,
         violations: monitor.count(),

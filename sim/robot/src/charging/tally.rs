@@ -6,11 +6,11 @@ use cordlib::charge::{AllStops, Stops};
 use rvac_protocol::message::ChargeEnd;
 
 use super::conditions::Conditions;
-use super::outcome::{Outcome, run};
+use super::outcome::{ChargeOutcome, run};
 
 /// Which charges are run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Trial {
+pub enum ChargeTrial {
     /// All stops, every kind of pack, weather and trouble.
     Everything,
     /// Only this stop, on sound packs without trouble: does it suffice alone?
@@ -27,10 +27,10 @@ impl Stops for Only {
     }
 }
 
-impl Trial {
+impl ChargeTrial {
     /// The outcome of one seed.
     #[must_use]
-    pub fn run(self, seed: u64) -> Outcome {
+    pub fn run(self, seed: u64) -> ChargeOutcome {
         match self {
             Self::Everything => run(&Conditions::drawn(seed), AllStops),
             Self::Only(end) => run(&Conditions::healthy(seed), Only(end)),
@@ -40,7 +40,7 @@ impl Trial {
 
 /// The sum of many outcomes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Tally {
+pub struct ChargeTally {
     /// Charges.
     pub charges: u32,
     /// Charges of sound packs without trouble.
@@ -65,9 +65,9 @@ pub struct Tally {
     estimate_error: f64,
 }
 
-impl Tally {
+impl ChargeTally {
     /// Adds one outcome.
-    pub fn add(&mut self, outcome: &Outcome, healthy: bool) {
+    pub fn add(&mut self, outcome: &ChargeOutcome, healthy: bool) {
         self.charges += 1;
         let name = match (outcome.fault, outcome.end) {
             (Some(fault), _) => fault.name(),

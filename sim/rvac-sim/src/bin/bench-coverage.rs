@@ -17,10 +17,10 @@ use anyhow::Context;
 use brain::command::StrategyName;
 use clap::Parser;
 use home::{Home, RobotModel};
-use pic32::board::Record;
+use pic32::board::CalibrationChoice;
 use progress::Progress;
 use rvac_sim::run::{RunSettings, household, run};
-use rvac_sim::{Firmware, Report, Scene};
+use rvac_sim::{Firmware, RunReport, Scene};
 use serde::Serialize;
 
 /// Compares how well two firmwares clean.
@@ -59,13 +59,13 @@ struct Arguments {
 #[derive(Debug, Serialize)]
 struct Pair {
     seed: u64,
-    built_in: Report,
-    emulated: Report,
+    built_in: RunReport,
+    emulated: RunReport,
 }
 
 /// One figure of all pairs.
 #[derive(Debug, Serialize)]
-struct Figure {
+struct PairFigure {
     built_in_mean: f64,
     emulated_mean: f64,
     /// Emulated less built in, as a part of the built-in mean.
@@ -77,7 +77,7 @@ struct Figure {
 /// What the pairs say about the tolerance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-enum Verdict {
+enum ToleranceVerdict {
     /// The whole interval is within it.
     Within,
     /// The difference that was seen is within it, but there were too few runs to be sure.
@@ -92,11 +92,11 @@ enum Verdict {
 struct Comparison {
     home: String,
     minutes: u64,
-    covered: Figure,
-    path_m: Figure,
-    bumps: Figure,
+    covered: PairFigure,
+    path_m: PairFigure,
+    bumps: PairFigure,
     violations: u32,
-    verdict: Verdict,
+    verdict: ToleranceVerdict,
     pairs: Vec<Pair>,
 }
 
@@ -109,11 +109,11 @@ const STUDENT_MANY: f64 = 2.12;
 
 fn main() -> anyhow::Result<ExitCode> {
     let arguments = Arguments::parse();
-    let firmware = Firmware::load(Some(&arguments.firmware), &Record::Complete)?;
+    let firmware = Firmware::load(Some(&arguments.firmware), &CalibrationChoice::Complete)?;
     let mut is_close = true;
     for path in &arguments.home {
         let comparison = compare(&arguments, &firmware, path)?;
-        is_close &= comparison.verdict != Verdict::Beyond && comparison.violations == 0;
+        is_close &= comparison.verdict != ToleranceVerdict::Beyond && comparison.violations == 0;
         print(&comparison, arguments.json)?;
     }
     Ok(if is_close {
@@ -177,7 +177,7 @@ fn compare(arguments: &Arguments, firmware: &Firmware, path: &Path) -> anyhow::R
     })
 }
 
-fn figure(pairs: &[Pair], of: fn(&Report) -> f64) -> Figure {
+fn figure(pairs: &[Pair], of: fn(&RunReport) -> f64) -> PairFigure {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let built_in: Vec<f64> = pairs.iter().map(|pair| of(&pair.built_in)).collect();
     let emulated: Vec<f64> = pairs.iter().map(|pair| of(&pair.emulated)).collect();
@@ -187,7 +187,7 @@ fn figure(pairs: &[Pair], of: fn(&Report) -> f64) -> Figure {
     let squares = differences.iter().map(|value| (value - difference).powi(2));
     let deviation = (squares.sum::<f64>() / freedom as f64).sqrt();
     let student = STUDENT.get(freedom - 1).unwrap_or(&STUDENT_MANY);
-    Figure {
+    PairFigure {
         built_in_mean,
         emulated_mean: mean(&emulated),
         difference: difference / built_in_mean,
@@ -195,22 +195,22 @@ fn figure(pairs: &[Pair], of: fn(&Report) -> f64) -> Figure {
     }
 }
 
-fn verdict(covered: &Figure, tolerance: f64) -> Verdict {
+fn verdict(covered: &PairFigure, tolerance: f64) -> ToleranceVerdict {
     let (seen, uncertainty) = (covered.difference.abs(), covered.uncertainty);
     if seen + uncertainty <= tolerance {
-        Verdict::Within
+        ToleranceVerdict::Within
     } else if seen <= tolerance {
-        Verdict::WithinByWhatWasSeen
+        ToleranceVerdict::WithinByWhatWasSeen
     } else if seen - uncertainty <= tolerance {
-        Verdict::Open
+        ToleranceVerdict::Open
     } else {
-        Verdict::Beyond
+        ToleranceVerdict::Beyond
     }
 }
 
 /// A run takes minutes: somebody who waits wants to see that it goes on.
 fn tell(pair: &Pair) {
-    let one = |report: &Report| {
+    let one = |report: &RunReport| {
         format!(
             "{:5.1} % covered, {:5.1} m, {:4} bumps",
             report.covered * 100.0,
@@ -257,12 +257,12 @@ fn print(comparison: &Comparison, json: bool) -> anyhow::Result<()> {
         )?;
     }
     let words = match comparison.verdict {
-        Verdict::Within => "within the tolerance",
-        Verdict::WithinByWhatWasSeen => {
+        ToleranceVerdict::Within => "within the tolerance",
+        ToleranceVerdict::WithinByWhatWasSeen => {
             "within the tolerance by what was seen; more seeds would make it sure"
         }
-        Verdict::Open => "beyond the tolerance, but chance alone can be the cause: take more seeds",
-        Verdict::Beyond => "beyond the tolerance",
+        ToleranceVerdict::Open => "beyond the tolerance, but chance alone can be the cause: take more seeds",
+        ToleranceVerdict::Beyond => "beyond the tolerance",
     };
     writeln!(out, "{words}; {} breaches", comparison.violations)?;
     Ok(())
@@ -270,17 +270,17 @@ fn print(comparison: &Comparison, json: bool) -> anyhow::Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Figure, Verdict, verdict};
+    use super::{PairFigure, ToleranceVerdict, verdict};
 
     #[test]
     fn what_is_seen_and_how_sure_it_is_decide_together() {
         for (difference, uncertainty, wanted) in [
-            (0.01, 0.02, Verdict::Within),
-            (-0.04, 0.02, Verdict::WithinByWhatWasSeen),
-            (-0.06, 0.02, Verdict::Open),
-            (0.08, 0.02, Verdict::Beyond),
+            (0.01, 0.02, ToleranceVerdict::Within),
+            (-0.04, 0.02, ToleranceVerdict::WithinByWhatWasSeen),
+            (-0.06, 0.02, ToleranceVerdict::Open),
+            (0.08, 0.02, ToleranceVerdict::Beyond),
         ] {
-            let covered = Figure {
+            let covered = PairFigure {
                 built_in_mean: 0.5,
                 emulated_mean: 0.5,
                 difference,

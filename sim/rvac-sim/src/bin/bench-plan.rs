@@ -63,7 +63,7 @@ impl From<PatternArgument> for Pattern {
 
 /// Figures of one plan. Times are multiples of T0; `null` = not reached.
 #[derive(Debug, Serialize)]
-struct Figures {
+struct PlanFigures {
     home: String,
     reachable_m2: f64,
     t0_s: f64,
@@ -97,7 +97,7 @@ fn measured(
     home: &Home,
     (model, arguments): (&RobotModel, &Arguments),
     progress: impl FnMut(f64),
-) -> Figures {
+) -> PlanFigures {
     let settings = PlanSettings {
         swath_m: model.body.swath_m,
         sigma_m: arguments.sigma_m,
@@ -122,7 +122,7 @@ fn measured(
             .map(|(time_s, _)| time_s / t0_s)
     };
     let turn_rad: f64 = plan.pieces.iter().map(|piece| piece.turn_rad.abs()).sum();
-    Figures {
+    PlanFigures {
         home: home.name().to_owned(),
         reachable_m2: home.reachable_area_m2(),
         t0_s,
@@ -188,7 +188,7 @@ fn ground(home: &Home, radius_m: f64) -> Raster<bool> {
 
 /// Time in seconds and swept share of the reachable floor, place by place.
 fn curve(home: &Home, plan: &CoveragePlan, settings: &PlanSettings) -> Vec<(f64, f64)> {
-    let mut floor = Floor {
+    let mut floor = SweptFloor {
         home,
         swept: vec![false; home.grid().cells.len()],
         count: 0,
@@ -210,14 +210,14 @@ fn curve(home: &Home, plan: &CoveragePlan, settings: &PlanSettings) -> Vec<(f64,
 }
 
 /// What was swept.
-struct Floor<'home> {
+struct SweptFloor<'home> {
     home: &'home Home,
     swept: Vec<bool>,
     count: usize,
     radius_m: f64,
 }
 
-impl Floor<'_> {
+impl SweptFloor<'_> {
     fn sweep(&mut self, pose: Pose2) {
         let grid = self.home.grid();
         let span = |middle_m: f64, count: usize| {
@@ -238,7 +238,7 @@ impl Floor<'_> {
     }
 }
 
-fn print(figures: &Figures, json: bool) -> anyhow::Result<()> {
+fn print(figures: &PlanFigures, json: bool) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
     if json {
         serde_json::to_writer(&mut out, figures)?;

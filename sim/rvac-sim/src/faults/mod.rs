@@ -1,7 +1,7 @@
-//! A thousand households in trouble: random faults from seeds, the safety monitor in every millisecond.
+//! A thousand households with faults: random faults from seeds, checked by the safety monitor in every millisecond.
 //!
 //! A *trial* is one seed: its home, its noise, its faults and their times all follow from the number, so a violation is
-//! replayed by naming it. Trials share nothing and run on as many threads as there are cores.
+//! replayed by its seed. Trials share nothing and run on as many threads as there are cores.
 
 mod draw;
 mod homes;
@@ -20,17 +20,17 @@ use crate::Firmware;
 pub use draw::FaultKind;
 use homes::Homes;
 pub use summary::Summary;
-pub use trial::{Outcome, TrialSettings};
+pub use trial::{FaultOutcome, TrialSettings};
 
 /// What all trials have in common: the homes, the model of robot and its firmware.
 #[derive(Clone, Debug)]
-pub struct Campaign {
+pub struct FaultCampaign {
     homes: Homes,
     model: RobotModel,
     firmware: Firmware,
 }
 
-impl Campaign {
+impl FaultCampaign {
     /// Prepares trials of this model with this firmware.
     ///
     /// # Errors
@@ -45,18 +45,18 @@ impl Campaign {
 
     /// Runs one seed.
     #[must_use]
-    pub fn trial(&self, settings: TrialSettings) -> Outcome {
+    pub fn trial(&self, settings: TrialSettings) -> FaultOutcome {
         trial::run(self, settings)
     }
 }
 
-/// Runs the trials of all `seeds` for `duration_ms` each. `progress` is told how many are done. Outcomes come in the order
-/// of their seeds.
+/// Runs the trials of all `seeds` for `duration_ms` each. `progress` is told how many are done. Outcomes come in the
+/// order of their seeds.
 pub fn trials(
-    campaign: &Campaign,
+    campaign: &FaultCampaign,
     (seeds, duration_ms): (Range<u64>, u64),
     progress: &(dyn Fn(u64) + Sync),
-) -> Vec<Outcome> {
+) -> Vec<FaultOutcome> {
     let done = AtomicU64::new(0);
     seeds
         .into_par_iter()

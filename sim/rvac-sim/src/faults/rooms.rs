@@ -6,7 +6,7 @@ use home::Pcg;
 
 /// The text of a home in the project's own format. The same seed gives the same text.
 pub(crate) fn floorplan(seed: u64) -> String {
-    let mut draw = Draw {
+    let mut draw = RoomDraw {
         random: Pcg::new(seed, STREAM),
         text: format!("format = \"librervac-home\"\nversion = 1\nname = \"drawn-{seed}\"\n"),
     };
@@ -23,12 +23,12 @@ const DOOR_M: f64 = 0.85;
 /// Free floor around the dock, which stands in the first room at the left wall.
 const DOCK_CLEAR_M: f64 = 1.0;
 
-struct Draw {
+struct RoomDraw {
     random: Pcg,
     text: String,
 }
 
-impl Draw {
+impl RoomDraw {
     fn home(&mut self) {
         let depth = self.between(DEPTH_MIN_M, DEPTH_MIN_M + DEPTH_SPREAD_M);
         let rooms = 1 + self.random.below(3);

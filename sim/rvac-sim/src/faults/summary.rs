@@ -1,4 +1,4 @@
-//! What all trials came to, as a table and as JSON.
+//! Outcomes of all trials, as a table and as JSON.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use rvac_protocol::message::Inhibit;
 use serde_json::{Map, Value, json};
 
 use super::draw::FaultKind;
-use super::trial::Outcome;
+use super::trial::FaultOutcome;
 
 /// Totals over many trials.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Summary {
 impl Summary {
     /// Adds up. `duration_ms` is what each trial simulated.
     #[must_use]
-    pub fn of(outcomes: &[Outcome], duration_ms: u64, wall_s: f64) -> Self {
+    pub fn of(outcomes: &[FaultOutcome], duration_ms: u64, wall_s: f64) -> Self {
         let mut summary = Self {
             trials: outcomes.len() as u64,
             sim_s: outcomes.len() as f64 * duration_ms as f64 / 1000.0,
@@ -41,7 +41,7 @@ impl Summary {
         summary
     }
 
-    fn add(&mut self, outcome: &Outcome) {
+    fn add(&mut self, outcome: &FaultOutcome) {
         self.path_m += outcome.path_m;
         for (total, count) in self.faults.iter_mut().zip(outcome.faults) {
             *total += u64::from(count);

@@ -1,4 +1,4 @@
-//! One seed: a home, a household, ten minutes of misfortune.
+//! One seed: a home, a household, ten minutes of faults.
 
 use brain::SensorLayout;
 use brain::command::StrategyName;
@@ -9,13 +9,13 @@ use rvac_api::RequestBody;
 use rvac_protocol::message::{Inhibit, Inhibits};
 use vthal_core::{Checkpoints, CoreConfig};
 
-use super::Campaign;
+use super::FaultCampaign;
 use super::draw::{Fault, FaultDraw, FaultKind};
 use crate::{Host, Household};
 
-/// What came of a seed.
+/// Outcome of a seed.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outcome {
+pub struct FaultOutcome {
     /// The seed.
     pub seed: u64,
     /// Name of the home.
@@ -28,7 +28,7 @@ pub struct Outcome {
     pub violations: Vec<String>,
     /// How many violations there were.
     pub violation_count: u32,
-    /// True way in metres.
+    /// True path length in metres.
     pub path_m: f64,
     /// The state of everything at the end, as one number.
     pub state_hash: u64,
@@ -47,7 +47,7 @@ pub struct TrialSettings {
 
 /// What ends by itself, some time after it began.
 #[derive(Clone, Debug)]
-enum End {
+enum EffectEnd {
     Noise,
     Host(Box<CoreConfig>),
     Sensor(SensorId),
@@ -55,25 +55,25 @@ enum End {
     Button(u8),
 }
 
-/// Milliseconds between two looks at what keeps the robot from moving: the host hears of it 50 times a second.
+/// Milliseconds between two readings of the inhibits: the host receives them 50 times a second.
 const STOPS_MS: u64 = 20;
-/// Milliseconds between two looks of the person who wants the robot to clean.
+/// Milliseconds between two checks by the person who wants the robot to clean.
 const LOOK_MS: u64 = 1_000;
 const STREAM: u64 = 0x7E57;
 
-struct Trial {
+struct FaultTrial {
     household: Household,
     sensors: SensorLayout,
     draw: FaultDraw,
-    ends: Vec<(u64, End)>,
+    ends: Vec<(u64, EffectEnd)>,
     next_fault_ms: u64,
     inhibits: Inhibits,
     settings: TrialSettings,
-    outcome: Outcome,
+    outcome: FaultOutcome,
 }
 
 /// Runs one seed.
-pub(crate) fn run(campaign: &Campaign, settings: TrialSettings) -> Outcome {
+pub(crate) fn run(campaign: &FaultCampaign, settings: TrialSettings) -> FaultOutcome {
     let mut random = Pcg::new(settings.seed, STREAM);
     let noise = [Noise::ideal(), Noise::good(), Noise::nominal(), Noise::bad()][random.below(4) as usize];
     let scene = campaign
@@ -90,7 +90,7 @@ pub(crate) fn run(campaign: &Campaign, settings: TrialSettings) -> Outcome {
     );
     let sensors = scene.sensors();
     let host = Host::start(0, config(settings.seed, sensors, None));
-    let mut trial = Trial {
+    let mut trial = FaultTrial {
         household: Household::new(robot, host),
         sensors,
         draw: FaultDraw::new(settings.seed),
@@ -98,10 +98,10 @@ pub(crate) fn run(campaign: &Campaign, settings: TrialSettings) -> Outcome {
         next_fault_ms: 2_000,
         inhibits: Inhibits::NONE,
         settings,
-        outcome: Outcome {
+        outcome: FaultOutcome {
             seed: settings.seed,
             home: scene.home().name().to_owned(),
-            ..Outcome::default()
+            ..FaultOutcome::default()
         },
     };
     while trial.household.robot().now_ms() < settings.duration_ms {
@@ -122,7 +122,7 @@ fn config(seed: u64, sensors: SensorLayout, before: Option<&Host>) -> CoreConfig
     }
 }
 
-impl Trial {
+impl FaultTrial {
     fn tick(&mut self) {
         self.household.tick();
         let now_ms = self.household.robot().now_ms();
@@ -171,7 +171,7 @@ impl Trial {
         match fault {
             Fault::Noise { rates, ms } => {
                 robot.set_line_rates(rates);
-                self.ends.push((now_ms + ms, End::Noise));
+                self.ends.push((now_ms + ms, EffectEnd::Noise));
             }
             Fault::CutOut { ms } => robot.cut_line(ms),
             Fault::Delay { ms } => robot.hold_line(ms),
@@ -179,19 +179,19 @@ impl Trial {
             Fault::HostDeath { ms } => {
                 let dead = self.household.kill_host();
                 let heir = config(self.settings.seed, self.sensors, dead.as_ref());
-                self.ends.push((now_ms + ms, End::Host(Box::new(heir))));
+                self.ends.push((now_ms + ms, EffectEnd::Host(Box::new(heir))));
             }
             Fault::Sensor { sensor, lie, ms } => {
                 robot.world_mut().set_fault(sensor, Some(lie));
-                self.ends.push((now_ms + ms, End::Sensor(sensor)));
+                self.ends.push((now_ms + ms, EffectEnd::Sensor(sensor)));
             }
             Fault::Lift { ms } => {
                 robot.world_mut().lift();
-                self.ends.push((now_ms + ms, End::Lift));
+                self.ends.push((now_ms + ms, EffectEnd::Lift));
             }
             Fault::Button { button, ms } => {
                 robot.world_mut().press_button(button);
-                self.ends.push((now_ms + ms, End::Button(button)));
+                self.ends.push((now_ms + ms, EffectEnd::Button(button)));
             }
             Fault::Request(body) => self.household.ask(body),
         }
@@ -202,11 +202,11 @@ impl Trial {
         self.ends.iter().any(|(_, end)| {
             matches!(
                 (end, fault),
-                (End::Noise, Fault::Noise { .. })
-                    | (End::Host(_), Fault::HostDeath { .. })
-                    | (End::Sensor(_), Fault::Sensor { .. })
-                    | (End::Lift, Fault::Lift { .. })
-                    | (End::Button(_), Fault::Button { .. })
+                (EffectEnd::Noise, Fault::Noise { .. })
+                    | (EffectEnd::Host(_), Fault::HostDeath { .. })
+                    | (EffectEnd::Sensor(_), Fault::Sensor { .. })
+                    | (EffectEnd::Lift, Fault::Lift { .. })
+                    | (EffectEnd::Button(_), Fault::Button { .. })
             )
         })
     }
@@ -216,19 +216,19 @@ impl Trial {
             let (_, end) = self.ends.remove(index);
             let robot = self.household.robot_mut();
             match end {
-                End::Noise => robot.set_line_rates(FaultRates::NONE),
-                End::Host(config) => {
+                EffectEnd::Noise => robot.set_line_rates(FaultRates::NONE),
+                EffectEnd::Host(config) => {
                     let now_us = self.household.now_us();
                     self.household.revive_host(Host::start(now_us, *config));
                 }
-                End::Sensor(sensor) => robot.world_mut().set_fault(sensor, None),
-                End::Lift => robot.world_mut().put_down(),
-                End::Button(button) => robot.world_mut().release_button(button),
+                EffectEnd::Sensor(sensor) => robot.world_mut().set_fault(sensor, None),
+                EffectEnd::Lift => robot.world_mut().put_down(),
+                EffectEnd::Button(button) => robot.world_mut().release_button(button),
             }
         }
     }
 
-    /// A person who wants the robot to clean does what the panel asks for.
+    /// A person who wants the robot to clean follows the panel.
     fn look(&mut self) {
         let Some(status) = self.household.host().map(Host::status) else {
             return;
@@ -245,10 +245,10 @@ impl Trial {
         }
     }
 
-    fn finish(self) -> Outcome {
+    fn finish(self) -> FaultOutcome {
         let robot = self.household.robot();
         let monitor = robot.monitor();
-        Outcome {
+        FaultOutcome {
             violations: monitor.violations().iter().map(ToString::to_string).collect(),
             violation_count: monitor.count(),
             path_m: robot.world().truth().path_m,

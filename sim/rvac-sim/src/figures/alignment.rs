@@ -1,5 +1,5 @@
-//! How well the believed way fits the true one when it is laid over it as a whole: an error of the map's frame, which the
-//! robot's own map shares, is none to the robot.
+//! Error of the estimated path after a rigid alignment with the true path: an error of the map's frame, which the
+//! robot's map shares, does not affect the robot.
 
 use home::Pose;
 
@@ -18,12 +18,12 @@ pub(super) struct Alignment {
     /// Of the products along, and of those across.
     dot: f64,
     cross: f64,
-    kept: Vec<Kept>,
+    kept: Vec<AlignmentSample>,
 }
 
 /// One moment.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct AlignmentSample {
     time_ms: u64,
     believed: [f64; 2],
     is: [f64; 2],
@@ -50,7 +50,7 @@ impl Alignment {
         self.cross += a * y - b * x;
         let last = self.kept.last();
         if last.is_none_or(|last| now_ms >= last.time_ms + KEEP_MS) {
-            self.kept.push(Kept {
+            self.kept.push(AlignmentSample {
                 time_ms: now_ms,
                 believed: [a, b],
                 is: [x, y],
@@ -70,7 +70,7 @@ impl Alignment {
         Some(((squares - 2.0 * dot.hypot(cross)) / self.count).max(0.0).sqrt())
     }
 
-    /// Cosine and sine of the turn that lays the believed way over the true one, times a common length.
+    /// Cosine and sine of the rotation that aligns the estimated path with the true one, times a common length.
     fn turn(&self) -> (f64, f64) {
         let ([a, b], [x, y]) = (self.believed, self.is);
         (

@@ -1,9 +1,9 @@
-//! Whether the robot knows when it does not know its place.
+//! Consistency of the pose estimate: whether the reported uncertainty covers the true error.
 
 /// Wrong by more than this, metres.
 pub(super) const WRONG_M: f64 = 0.5;
 
-/// Time in which what the robot says of its place is not so.
+/// Time in which the reported uncertainty does not cover the error.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct HonestyWatch {
     before_ms: u64,

@@ -1,4 +1,4 @@
-//! Whether the robot is lost: its believed place is wrong by more than it can work with, for longer than a moment.
+//! Whether the robot is lost: its pose error is too large to work with, for longer than a moment.
 
 use serde::Serialize;
 

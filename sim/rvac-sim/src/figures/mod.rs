@@ -1,8 +1,8 @@
-//! Figures of navigation: how fast a run covers the floor against the lower bound, and how well the robot knows its place.
+//! Figures of navigation: how fast a run covers the floor compared with the lower bound, and how accurate the pose is.
 //!
-//! *Job*: begins when the host says that it cleans, and lasts until it stops saying so (docking, docked, idle, stuck), or
-//! until the run's end. A pause belongs to it. All figures of time, turning and bumps are of the job; those of the pose are
-//! of the whole run, since the robot must know its way home too.
+//! *Job*: begins when the host reports that it cleans, and lasts until it reports another state (docking, docked, idle, stuck)
+//! or until the run's end. A pause belongs to it. All figures of time, turning and bumps are of the job; those of the
+//! pose are of the whole run, because the robot needs its pose to return home too.
 
 mod alignment;
 mod honesty;
@@ -43,15 +43,19 @@ pub struct Figures {
     pub share_at_t0: Option<f64>,
     /// Share that was swept after 1.8 T0.
     pub share_at_1_8_t0: Option<f64>,
-    /// Share that the host said it had swept, in the last minute of its job; `null` = it said none.
-    pub share_told: Option<f64>,
-    /// Low bound that it gave to that.
-    pub share_told_low: Option<f64>,
-    /// Most by which that low bound was above the true share in any minute; below 0 where it never was.
-    pub told_low_over_true: Option<f64>,
+    /// Swept share that the host reported in the last minute of its job; `null` = none.
+    #[serde(rename = "share_told")]
+    pub reported_share: Option<f64>,
+    /// Lower bound of that share.
+    #[serde(rename = "share_told_low")]
+    pub reported_share_low: Option<f64>,
+    /// Largest excess of that lower bound over the true share in any minute; below 0 if there was none.
+    #[serde(rename = "told_low_over_true")]
+    pub reported_low_over_true: Option<f64>,
     /// Length of the job over the lower bound; `null` = it was not over.
     pub job_over_t0: Option<f64>,
-    /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it never was.
+    /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it
+    /// never was.
     pub away_s: Option<f64>,
     /// Seconds on the charger in the middle of the job; no other figure counts them.
     pub charging_s: f64,
@@ -61,8 +65,8 @@ pub struct Figures {
     pub turn_deg_per_m2: f64,
     /// Contacts during the job for each square metre of reachable floor.
     pub bumps_per_m2: f64,
-    /// Root mean square of the distance between believed and true place in the two minutes before this minute of the job;
-    /// `null` = the run was shorter.
+    /// Root mean square of the distance between believed and true place in the two minutes before this minute of the
+    /// job; `null` = the run was shorter.
     pub pose_rmse_10_min_m: Option<f64>,
     /// The same at 30 minutes.
     pub pose_rmse_30_min_m: Option<f64>,
@@ -70,11 +74,11 @@ pub struct Figures {
     pub pose_rmse_60_min_m: Option<f64>,
     /// The same at 120 minutes.
     pub pose_rmse_120_min_m: Option<f64>,
-    /// Root mean square of the distance that is left when the believed way is laid over the true one as a whole.
+    /// Root mean square of the distance after rigid alignment of the estimated path with the true one.
     pub pose_rmse_aligned_m: Option<f64>,
     /// Largest distance between believed and true place.
     pub pose_error_max_m: f64,
-    /// The same when the believed way is laid over the true one as a whole.
+    /// The same after rigid alignment of the estimated path with the true one.
     pub pose_error_max_aligned_m: f64,
     /// Root mean square of the error of the heading, degrees.
     pub heading_rmse_deg: Option<f64>,
@@ -86,12 +90,12 @@ pub struct Figures {
     pub lost_stretches: Vec<LostStretch>,
     /// Seconds with the place wrong by more than half a metre of which the robot did not say that it is lost.
     pub lost_unnoticed_s: f64,
-    /// The same when the believed way is laid over the true one as a whole.
+    /// The same after rigid alignment of the estimated path with the true one.
     pub lost_unnoticed_aligned_s: f64,
     /// Seconds in which the robot said that it is lost, and its place was right within half a metre.
     pub lost_false_alarm_s: f64,
-    /// Agreement of the robot's free floor with the true one, 0..1: what it rightly knows over that, what it does not know of
-    /// the reachable floor, and what it wrongly takes for free. `null` = it has no map.
+    /// Agreement of the robot's free floor with the true one, 0..1 (intersection over union with the reachable floor).
+    /// `null` = it has no map.
     pub map_iou: Option<f64>,
     /// The same when the map is laid over the home as a whole, as its walls fit best.
     pub map_iou_aligned: Option<f64>,
@@ -99,8 +103,8 @@ pub struct Figures {
     pub wall_error_m: Option<f64>,
     /// The same when the map is laid over the home as a whole.
     pub wall_error_aligned_m: Option<f64>,
-    /// Share of the rug floor under the swath that the robot's map has as carpet; `null` = the swath was on no rug, or the robot does
-    /// not measure what its motors draw.
+    /// Share of the rug floor under the swath that the robot's map has as carpet; `null` = the swath was on no rug, or
+    /// the robot does not measure what its motors draw.
     pub carpet_recall: Option<f64>,
     /// Share of the carpet in its map that lies on a rug; `null` = it has none.
     pub carpet_precision: Option<f64>,
@@ -108,7 +112,7 @@ pub struct Figures {
     pub estimate_error: Option<f64>,
     /// The robot stood on its dock at the end.
     pub docked: bool,
-    /// Last state that the host told.
+    /// Last state that the host reported.
     pub state: String,
 }
 
@@ -124,18 +128,18 @@ pub(crate) struct Belief {
 
 /// What the figures are of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Floor {
+pub(crate) struct MeasuredFloor {
     pub(crate) reachable_m2: f64,
     pub(crate) t0_s: f64,
     /// Speed at which the robot cleans.
     pub(crate) cruise_m_per_s: f64,
 }
 
-/// Collects what the figures need.
+/// Collects the data of the figures.
 #[derive(Clone, Debug)]
 pub(crate) struct Collector {
-    floor: Floor,
-    job: Job,
+    floor: MeasuredFloor,
+    job: JobFigures,
     reached_s: [Option<f64>; SHARES.len()],
     share_at: [Option<f64>; MULTIPLES.len()],
     begun_at: Option<Pose>,
@@ -149,20 +153,20 @@ pub(crate) struct Collector {
     honesty: HonestyWatch,
     alignment: Alignment,
     time: TimeWatch,
-    told: Told,
+    reported: ReportedShare,
     last: Option<BehaviorState>,
     docked: bool,
 }
 
-/// What the host says of the floor that it has swept.
+/// The swept share as the host reports it.
 #[derive(Clone, Copy, Debug, Default)]
-struct Told {
+struct ReportedShare {
     last: Option<SweptShare>,
     low_over_true: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Job {
+struct JobFigures {
     begun_ms: Option<u64>,
     ended_ms: Option<u64>,
     /// Time on the charger in the middle of the job.
@@ -171,7 +175,7 @@ struct Job {
     charges: bool,
 }
 
-impl Job {
+impl JobFigures {
     fn follow(&mut self, now_ms: u64, belief: &Belief) {
         use BehaviorState::{Cleaning, Docked, Docking, Error, Idle, Spot, Stuck};
         let passed_ms = now_ms - self.last_ms.replace(now_ms).unwrap_or(now_ms);
@@ -194,7 +198,7 @@ impl Job {
         }
     }
 
-    /// It is under way; on the charger it is not.
+    /// It is running; on the charger it is not.
     fn runs(self) -> bool {
         self.begun_ms.is_some() && self.ended_ms.is_none() && !self.charges
     }
@@ -206,10 +210,10 @@ impl Job {
 }
 
 impl Collector {
-    pub(crate) fn new(floor: Floor) -> Self {
+    pub(crate) fn new(floor: MeasuredFloor) -> Self {
         Self {
             floor,
-            job: Job::default(),
+            job: JobFigures::default(),
             reached_s: [None; SHARES.len()],
             share_at: [None; MULTIPLES.len()],
             begun_at: None,
@@ -223,7 +227,7 @@ impl Collector {
             honesty: HonestyWatch::default(),
             alignment: Alignment::default(),
             time: TimeWatch::new(&floor),
-            told: Told::default(),
+            reported: ReportedShare::default(),
             last: None,
             docked: false,
         }
@@ -269,11 +273,15 @@ impl Collector {
     }
 
     /// The host has just said how much it has swept; `swept_share` is the truth.
-    pub(crate) fn note_told(&mut self, told: Option<SweptShare>, swept_share: f64) {
-        let Some(share) = told else { return };
+    pub(crate) fn note_reported(&mut self, reported: Option<SweptShare>, swept_share: f64) {
+        let Some(share) = reported else { return };
         let over = share.share_low - swept_share;
-        self.told.last = told;
-        self.told.low_over_true = Some(self.told.low_over_true.map_or(over, |before| before.max(over)));
+        self.reported.last = reported;
+        self.reported.low_over_true = Some(
+            self.reported
+                .low_over_true
+                .map_or(over, |before| before.max(over)),
+        );
     }
 
     /// Seconds since the job began, without those on the charger.
@@ -300,8 +308,8 @@ impl Collector {
         }
     }
 
-    /// The share swept `multiple` x T0 after the job began; a job that was over earlier has what it had at its end, and one that
-    /// waits for charge what it has now.
+    /// The share swept `multiple` x T0 after the job began; a job that was over earlier has what it had at its end, and
+    /// one that waits for charge what it has now.
     fn share_at(&self, number: usize, now: &Truth) -> Option<f64> {
         let rests = self.job.rests();
         self.share_at[number].or(rests.then_some(now.swept_share))
@@ -321,9 +329,9 @@ impl Collector {
             t95_over_t0: t95,
             share_at_t0: self.share_at(0, now),
             share_at_1_8_t0: self.share_at(1, now),
-            share_told: self.told.last.map(|told| told.share),
-            share_told_low: self.told.last.map(|told| told.share_low),
-            told_low_over_true: self.told.low_over_true,
+            reported_share: self.reported.last.map(|reported| reported.share),
+            reported_share_low: self.reported.last.map(|reported| reported.share_low),
+            reported_low_over_true: self.reported.low_over_true,
             job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
             charging_s: self.job.charging_ms as f64 / 1000.0,
             away_s: self.away_s,
@@ -378,7 +386,7 @@ impl Collector {
 
 #[cfg(test)]
 mod tests {
-    use super::{Belief, Collector, Floor};
+    use super::{Belief, Collector, MeasuredFloor};
     use brain::BehaviorState;
     use home::{Home, Noise, Pose, RobotModel, Truth, World};
     use std::sync::Arc;
@@ -393,7 +401,7 @@ mod tests {
     }
 
     fn collector() -> Collector {
-        Collector::new(Floor {
+        Collector::new(MeasuredFloor {
             reachable_m2: 2.0,
             t0_s: 10.0,
             cruise_m_per_s: 0.25,

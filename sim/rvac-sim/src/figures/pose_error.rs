@@ -1,8 +1,8 @@
-//! Distances between where the robot believes to be and where it is.
+//! Distances between the robot's estimated and true pose.
 
 use crate::report::RootMeanSquare;
 
-/// Moments of the job whose error is told, seconds.
+/// Moments of the job whose error is reported, seconds.
 const MARKS_S: [f64; 4] = [600.0, 1_800.0, 3_600.0, 7_200.0];
 /// The error at a moment is that of so many seconds before it.
 const WINDOW_S: f64 = 120.0;

@@ -1,12 +1,12 @@
-//! What the seconds of a job were spent on.
+//! How the time of a job was spent.
 //!
-//! Each sample belongs to one way of moving, by the true motion of the robot. *Contact*: from a contact until the robot cruises
-//! again. Beside these, *again*: seconds of moving ahead over floor that was swept before.
+//! Each sample belongs to one kind of motion, by the true motion of the robot. *Contact*: from a contact until the
+//! robot cruises again. Beside these, *again*: seconds of moving ahead over floor that was swept before.
 
 use home::Truth;
 use serde::Serialize;
 
-use super::Floor;
+use super::MeasuredFloor;
 
 /// Seconds by cause. All but `again_s` add up to the length of the job.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -29,13 +29,13 @@ pub struct TimeSpent {
     pub again_s: f64,
 }
 
-/// Slower than this is no way ahead, m/s.
+/// Slower motion does not count as moving ahead, m/s.
 const STILL_M_PER_S: f64 = 0.03;
-/// Slower than this is no turn, rad/s.
+/// Slower rotation does not count as turning, rad/s.
 const STRAIGHT_RAD_PER_S: f64 = 0.25;
 /// Share of the cruise speed from which the robot cruises.
 const CRUISE_SHARE: f64 = 0.9;
-/// Share of the floor under the way that must be new.
+/// Share of the floor under the path that must be new.
 const NEW_SHARE: f64 = 0.2;
 
 /// Collects them.
@@ -51,7 +51,7 @@ pub(super) struct TimeWatch {
 }
 
 impl TimeWatch {
-    pub(super) fn new(floor: &Floor) -> Self {
+    pub(super) fn new(floor: &MeasuredFloor) -> Self {
         Self {
             swath_m: floor.reachable_m2 / (floor.t0_s * floor.cruise_m_per_s),
             cruise_m_per_s: floor.cruise_m_per_s,
@@ -106,7 +106,7 @@ impl TimeWatch {
 
 #[cfg(test)]
 mod tests {
-    use super::{Floor, TimeWatch};
+    use super::{MeasuredFloor, TimeWatch};
     use home::{Home, Noise, Pose, RobotModel, Truth, World};
     use std::sync::Arc;
 
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn each_second_of_the_job_has_one_cause() {
-        let mut watch = TimeWatch::new(&Floor {
+        let mut watch = TimeWatch::new(&MeasuredFloor {
             reachable_m2: 3.0,
             t0_s: 40.0,
             cruise_m_per_s: 0.25,

@@ -1,11 +1,11 @@
-//! The home with the robot's way, and beside it the map that the robot made.
+//! The home with the robot's path, and beside it the robot's map.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::trace::{DROP, Drawing, FLOOR, KeptRun, NOTHING, OUT_OF_REACH, RUG, SOLID, Sample};
 
-/// Colours of the way from its beginning to its end.
+/// Colours of the path from its beginning to its end.
 const WAY: [&str; 5] = ["#9ecae1", "#6baed6", "#4292c6", "#2171b5", "#084594"];
 
 /// Both pictures of a run, with what they show.
@@ -51,12 +51,12 @@ fn verdict(run: &KeptRun) -> String {
     format!("{iou}{wall}{carpet}")
 }
 
-/// The home with the way, bumps and the dock.
+/// The home with the path, bumps and the dock.
 pub(super) fn truth(run: &KeptRun) -> String {
     let content = format!(
         "{}{}{}{}",
         cells(&run.plan),
-        way(&run.trace.samples),
+        path(&run.trace.samples),
         bumps(&run.trace.bumps),
         dock(run.dock)
     );
@@ -166,7 +166,7 @@ fn rows(drawing: &Drawing) -> Vec<Vec<(u32, usize, usize)>> {
     rows
 }
 
-fn way(samples: &[Sample]) -> String {
+fn path(samples: &[Sample]) -> String {
     let mut svg = String::new();
     let length = samples.len().div_ceil(WAY.len()).max(1);
     for (number, colour) in WAY.iter().enumerate() {

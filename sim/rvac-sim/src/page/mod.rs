@@ -1,5 +1,5 @@
-//! One HTML page of several runs: how fast each covered its home, how well the robot knew its place, its way, and its map
-//! beside the truth. Everything is drawn as SVG in the page itself; it needs no network and no scripts.
+//! One HTML page of several runs: coverage over time, pose error, the path, and the robot's map beside the ground
+//! truth. Everything is drawn as SVG in the page itself; it needs no network and no scripts.
 
 mod chart;
 mod map;
@@ -13,7 +13,7 @@ use crate::trace::KeptRun;
 use chart::{Chart, Curve};
 pub use pictures::{Picture, pictures};
 
-/// Colours of the runs of a home, told apart by most people who see colours differently, too (Okabe and Ito 2008).
+/// Colours of the runs of a home, suitable for colour-blind readers (Okabe and Ito 2008).
 const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
 /// Longest time that a chart of coverage shows, multiples of T0.
 pub(crate) const LONGEST: f64 = 8.0;

@@ -1,4 +1,4 @@
-//! Clients of the simulator's socket: bounded queues, and nobody waits for anybody.
+//! Clients of the simulator's socket, with bounded queues: no client can block another.
 
 use std::io::{self, Read, Write};
 use std::os::unix::net::UnixStream;
@@ -7,7 +7,7 @@ use rvac_api::{Failure, SEPARATOR};
 use serde::Serialize;
 
 use super::request::SimulatorRequest;
-use super::socket::Listener;
+use super::socket::SocketListener;
 
 /// Most clients at once; later ones are turned away.
 const CLIENTS_MAX: usize = 64;
@@ -51,7 +51,7 @@ impl Clients {
     }
 
     /// Takes all who wait.
-    pub(crate) fn accept(&mut self, listener: &Listener) -> io::Result<()> {
+    pub(crate) fn accept(&mut self, listener: &SocketListener) -> io::Result<()> {
         while let Some(stream) = listener.accept()? {
             if self.clients.len() < CLIENTS_MAX {
                 self.next += 1;

@@ -1,54 +1,54 @@
-//! A person's hand, which pushes the robot over the floor, turns it on the spot, or turns a wheel of a lifted one.
+//! A person's hand that pushes the robot over the floor, turns it on the spot, or turns a wheel of a lifted robot.
 
 use home::{World, wrap_angle};
 
-use super::request::Wheel;
+use super::request::WheelChoice;
 
-/// Speed of the rims, m/s: so slow that no encoder loses a count, so fast that nobody gets bored.
+/// Speed of the rims, m/s: slow enough for every encoder.
 const RIM_M_PER_S: f64 = 0.4;
-/// A hand that meets a wall gives up after this many times the time that the way takes.
+/// A hand that is blocked stops after this multiple of the movement's time.
 const PATIENCE: f64 = 2.0;
 
-/// A way of the hand.
+/// A movement of the hand.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Way {
+pub(super) enum HandPath {
     /// So many metres over the floor, straight ahead positive.
     Push(f64),
     /// So many turns on the spot, counter-clockwise positive.
     Turn(f64),
     /// So many metres of the rim of one wheel, forward positive.
-    Roll(Wheel, f64),
+    Roll(WheelChoice, f64),
 }
 
-/// How a way ended.
+/// How a movement ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
+pub(super) enum PathEnd {
     /// All of it was made.
     Done,
-    /// Something is in the way.
+    /// The robot is blocked.
     Blocked,
 }
 
-/// A hand on its way.
+/// A hand in motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hand {
-    way: Way,
+    path: HandPath,
     /// Metres or radians that are left.
     left: f64,
     left_ms: u64,
-    before: Standing,
+    before: MotionBaseline,
 }
 
-/// What the way is measured by.
+/// Positions at the start of the movement.
 #[derive(Clone, Copy, Debug)]
-struct Standing {
+struct MotionBaseline {
     x_m: f64,
     y_m: f64,
     heading_rad: f64,
     rims_m: [f64; 2],
 }
 
-impl Standing {
+impl MotionBaseline {
     fn of(world: &World) -> Self {
         let pose = world.truth().pose;
         Self {
@@ -64,43 +64,47 @@ impl Standing {
 
 impl Hand {
     /// Takes hold.
-    pub(super) fn grip(way: Way, world: &mut World) -> Self {
+    pub(super) fn grip(path: HandPath, world: &mut World) -> Self {
         let half_track_m = 0.5 * world.model().drive.track_m;
-        let (left, rim_m, sign, rims) = match way {
-            Way::Push(way_m) => (way_m.abs(), way_m.abs(), way_m, [1.0, 1.0]),
-            Way::Turn(turns) => {
+        let (left, rim_m, sign, rims) = match path {
+            HandPath::Push(distance_m) => (distance_m.abs(), distance_m.abs(), distance_m, [1.0, 1.0]),
+            HandPath::Turn(turns) => {
                 let angle = turns.abs() * std::f64::consts::TAU;
                 (angle, angle * half_track_m, turns, [-1.0, 1.0])
             }
-            Way::Roll(Wheel::Left, way_m) => (way_m.abs(), way_m.abs(), way_m, [1.0, 0.0]),
-            Way::Roll(Wheel::Right, way_m) => (way_m.abs(), way_m.abs(), way_m, [0.0, 1.0]),
+            HandPath::Roll(WheelChoice::Left, distance_m) => {
+                (distance_m.abs(), distance_m.abs(), distance_m, [1.0, 0.0])
+            }
+            HandPath::Roll(WheelChoice::Right, distance_m) => {
+                (distance_m.abs(), distance_m.abs(), distance_m, [0.0, 1.0])
+            }
         };
         let speed = RIM_M_PER_S.copysign(sign);
         world.turn_wheels(Some(rims.map(|share| share * speed)));
         Self {
-            way,
+            path,
             left,
             left_ms: (PATIENCE * 1000.0 * rim_m / RIM_M_PER_S) as u64 + 1,
-            before: Standing::of(world),
+            before: MotionBaseline::of(world),
         }
     }
 
     /// A millisecond has passed; lets go at the end.
-    pub(super) fn follow(&mut self, world: &mut World) -> Option<End> {
-        let now = Standing::of(world);
-        self.left -= match self.way {
-            Way::Push(_) => (now.x_m - self.before.x_m).hypot(now.y_m - self.before.y_m),
-            Way::Turn(_) => wrap_angle(now.heading_rad - self.before.heading_rad).abs(),
-            Way::Roll(wheel, _) => {
-                let side = usize::from(wheel == Wheel::Right);
+    pub(super) fn follow(&mut self, world: &mut World) -> Option<PathEnd> {
+        let now = MotionBaseline::of(world);
+        self.left -= match self.path {
+            HandPath::Push(_) => (now.x_m - self.before.x_m).hypot(now.y_m - self.before.y_m),
+            HandPath::Turn(_) => wrap_angle(now.heading_rad - self.before.heading_rad).abs(),
+            HandPath::Roll(wheel, _) => {
+                let side = usize::from(wheel == WheelChoice::Right);
                 (now.rims_m[side] - self.before.rims_m[side]).abs()
             }
         };
         self.left_ms = self.left_ms.saturating_sub(1);
         self.before = now;
         let end = match (self.left <= 0.0, self.left_ms) {
-            (true, _) => End::Done,
-            (false, 0) => End::Blocked,
+            (true, _) => PathEnd::Done,
+            (false, 0) => PathEnd::Blocked,
             (false, _) => return None,
         };
         world.turn_wheels(None);

@@ -1,7 +1,7 @@
 //! A simulated robot behind a pseudoterminal, for a daemon in another process.
 //!
-//! One thread, one loop: sleep until the next millisecond or until somebody writes, carry bytes, advance the robot to the
-//! present. The wall clock enters here and nowhere below.
+//! One thread, one loop: it sleeps until the next millisecond or until bytes arrive, transfers bytes, and advances the
+//! robot to the present. Only this level uses the wall clock.
 
 mod clients;
 mod hand;
@@ -23,18 +23,18 @@ use robot::RobotSettings;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rvac_api::Update;
 
-use crate::report::{Driven, Report, StuckWatch};
+use crate::report::{Driven, RunReport, StuckWatch};
 use crate::{Robot, Scene, SceneError, plan};
 use clients::{Clients, Number};
-use hand::{End, Hand, Way};
-use pace::Pace;
+use hand::{Hand, HandPath, PathEnd};
+use pace::Pacer;
 use pty::{Peer, Pty, PtyError};
 use radio::Radio;
-use request::{Answer, SimulatorRequest, blocked};
-use socket::{Listener, SocketError};
+use request::{RequestReply, SimulatorRequest, blocked};
+use socket::{SocketError, SocketListener};
 use speedometer::Speedometer;
 
-/// What the server is told.
+/// Settings of the server.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ServeSettings {
     /// Seed of everything random.
@@ -51,7 +51,7 @@ pub struct ServeSettings {
     pub radio: Option<RadioSettings>,
 }
 
-/// The module, and what it hears.
+/// The module and its measurements.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RadioSettings {
     /// Where the symbolic link to its terminal goes.
@@ -79,8 +79,8 @@ pub enum ServeError {
 
 /// Truths a client gets in a second of the wall clock.
 const TRUTHS_PER_S: u32 = 10;
-/// Longest time on the wall for the ticks of one turn, so that clients and the terminal are served however slow the machine
-/// is.
+/// Longest time on the wall for the ticks of one turn, so that clients and the terminal are served however slow the
+/// machine is.
 const TURN_MAX: Duration = Duration::from_millis(20);
 /// How long a press of a button lasts, simulated.
 const PRESS_MS: u64 = 200;
@@ -109,9 +109,9 @@ struct Server {
     robot: Robot,
     pty: Pty,
     radio: Option<Radio>,
-    listener: Listener,
+    listener: SocketListener,
     clients: Clients,
-    pace: Pace,
+    pace: Pacer,
     speedometer: Speedometer,
     map_from_plan: Pose,
     stuck: StuckWatch,
@@ -141,10 +141,10 @@ impl Server {
         let started = Instant::now();
         Ok(Self {
             radio: radio.transpose()?,
-            listener: Listener::open(&settings.socket)?,
+            listener: SocketListener::open(&settings.socket)?,
             pty: Pty::open(&settings.link)?,
             clients: Clients::new(&greeting),
-            pace: Pace::starting(started, settings.speed),
+            pace: Pacer::starting(started, settings.speed),
             speedometer: Speedometer::starting(started, settings.speed),
             robot,
             map_from_plan,
@@ -216,8 +216,8 @@ impl Server {
         Ok(())
     }
 
-    /// Does these ticks, or as many of them as there is time for. The others are given up: simulated time passes more slowly
-    /// then, and nothing else changes.
+    /// Does these ticks, or as many of them as there is time for. The others are given up: simulated time passes more
+    /// slowly then, and nothing else changes.
     fn advance(&mut self, due: u64) {
         let begun = Instant::now();
         let mut done = 0;
@@ -232,7 +232,7 @@ impl Server {
             done += 1;
         }
         if let Some(notice) = self.speedometer.pass(Instant::now(), done) {
-            // When standard error is gone there is nobody left to tell.
+            // If standard error is closed, nobody can be informed.
             writeln!(io::stderr(), "rvac-sim: {notice}").ok();
         }
     }
@@ -259,8 +259,8 @@ impl Server {
         };
         let answer = match hand.follow(self.robot.world_mut()) {
             None => return,
-            Some(End::Done) => Answer::Done,
-            Some(End::Blocked) => blocked("something is in the way"),
+            Some(PathEnd::Done) => RequestReply::Done,
+            Some(PathEnd::Blocked) => blocked("something is in the way"),
         };
         self.clients.answer(*client, &answer);
         self.hand = None;
@@ -270,19 +270,19 @@ impl Server {
         for (client, request) in self.clients.requests() {
             match request {
                 Ok(request) => self.obey(client, request),
-                Err(refusal) => self.clients.answer(client, &Answer::Failed(refusal)),
+                Err(refusal) => self.clients.answer(client, &RequestReply::Failed(refusal)),
             }
         }
     }
 
     fn obey(&mut self, client: Number, request: SimulatorRequest) {
         match request {
-            SimulatorRequest::Report => {
-                let report = Report {
+            SimulatorRequest::RunReport => {
+                let report = RunReport {
                     wall_seconds: self.started.elapsed().as_secs_f64(),
-                    ..Report::of(&self.robot, &self.stuck)
+                    ..RunReport::of(&self.robot, &self.stuck)
                 };
-                self.clients.answer(client, &Answer::Report(report));
+                self.clients.answer(client, &RequestReply::RunReport(report));
             }
             SimulatorRequest::Truth => {
                 let truth = plan::truth(&self.robot, self.map_from_plan);
@@ -291,11 +291,12 @@ impl Server {
             SimulatorRequest::Meters => {
                 let truth = self.robot.world().truth();
                 let (pack_v, drawn_a) = (truth.battery_v, -truth.battery_a);
-                self.clients.answer(client, &Answer::Meters { pack_v, drawn_a });
+                self.clients
+                    .answer(client, &RequestReply::Meters { pack_v, drawn_a });
             }
-            SimulatorRequest::Push { way } => self.grip(client, Way::Push(way)),
-            SimulatorRequest::Turn { turns } => self.grip(client, Way::Turn(turns)),
-            SimulatorRequest::Roll { wheel, way } => self.grip(client, Way::Roll(wheel, way)),
+            SimulatorRequest::Push { distance } => self.grip(client, HandPath::Push(distance)),
+            SimulatorRequest::Turn { turns } => self.grip(client, HandPath::Turn(turns)),
+            SimulatorRequest::Roll { wheel, distance } => self.grip(client, HandPath::Roll(wheel, distance)),
             SimulatorRequest::Lift
             | SimulatorRequest::PutDown
             | SimulatorRequest::Press { .. }
@@ -304,7 +305,7 @@ impl Server {
             | SimulatorRequest::Hair { .. }
             | SimulatorRequest::Place { .. } => {
                 self.touch(request);
-                self.clients.answer(client, &Answer::Done);
+                self.clients.answer(client, &RequestReply::Done);
             }
         }
     }
@@ -350,12 +351,12 @@ impl Server {
         }
     }
 
-    fn grip(&mut self, client: Number, way: Way) {
+    fn grip(&mut self, client: Number, distance: HandPath) {
         if self.hand.is_some() {
             self.clients
                 .answer(client, &blocked("the hand is still on its way"));
         } else {
-            self.hand = Some((client, Hand::grip(way, self.robot.world_mut())));
+            self.hand = Some((client, Hand::grip(distance, self.robot.world_mut())));
         }
     }
 }

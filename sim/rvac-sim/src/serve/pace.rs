@@ -1,10 +1,10 @@
-//! How many simulated milliseconds are due.
+//! Number of simulated milliseconds that are due.
 
 use std::time::{Duration, Instant};
 
 /// Turns the wall clock into ticks.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pace {
+pub(crate) struct Pacer {
     started: Instant,
     speed: u32,
     done: u64,
@@ -14,7 +14,7 @@ pub(crate) struct Pace {
 const CATCH_UP: Duration = Duration::from_millis(250);
 const NS_PER_MS: u128 = 1_000_000;
 
-impl Pace {
+impl Pacer {
     pub(crate) fn starting(started: Instant, speed: u32) -> Self {
         Self {
             started,
@@ -46,13 +46,13 @@ impl Pace {
 
 #[cfg(test)]
 mod tests {
-    use super::Pace;
+    use super::Pacer;
     use std::time::{Duration, Instant};
 
     #[test]
     fn ticks_follow_the_clock_times_speed() {
         let started = Instant::now();
-        let mut pace = Pace::starting(started, 20);
+        let mut pace = Pacer::starting(started, 20);
         assert_eq!(pace.until_next(started), Duration::from_millis(1));
         assert_eq!(pace.take_due(started + Duration::from_micros(1_500)), 30);
         assert_eq!(pace.take_due(started + Duration::from_micros(1_540)), 0);
@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn a_long_pause_is_given_up() {
         let started = Instant::now();
-        let mut pace = Pace::starting(started, 2);
+        let mut pace = Pacer::starting(started, 2);
         assert_eq!(pace.take_due(started + Duration::from_secs(60)), 500);
         assert_eq!(pace.take_due(started + Duration::from_secs(60)), 0);
         assert_eq!(pace.take_due(started + Duration::from_millis(60_001)), 2);

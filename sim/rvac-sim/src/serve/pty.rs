@@ -1,4 +1,4 @@
-//! The pseudoterminal behind which the simulated robot stands.
+//! The pseudoterminal of the simulated robot.
 
 use std::fs;
 use std::io::{self, Read, Write};
@@ -22,8 +22,8 @@ pub(crate) struct Pty {
 }
 
 impl Pty {
-    /// Opens a pseudoterminal and makes `link` a symbolic link to its slave side. A symbolic link that stands there already is
-    /// replaced: it is what a killed simulator leaves behind. Anything else there is left alone.
+    /// Opens a pseudoterminal and makes `link` a symbolic link to its slave side. A symbolic link that stands there
+    /// already is replaced: it is what a killed simulator leaves behind. Anything else there is left alone.
     ///
     /// # Errors
     /// The system has no pseudoterminal left, or the link cannot be made.
@@ -46,7 +46,7 @@ impl Pty {
             Ok(count) => Ok(Peer::Present(count)),
             Err(error) if error.kind() == io::ErrorKind::WouldBlock => Ok(Peer::Present(0)),
             Err(error) if error.kind() == io::ErrorKind::Interrupted => Ok(Peer::Present(0)),
-            // Linux says EIO while nobody has the slave open.
+            // Linux returns EIO while the slave is not open.
             Err(error) if error.raw_os_error() == Some(Errno::IO.raw_os_error()) => Ok(Peer::Absent),
             Err(error) => Err(error),
         }
@@ -92,7 +92,7 @@ pub(crate) enum Peer {
     Absent,
 }
 
-/// Why there is no pseudoterminal.
+/// Why the pseudoterminal cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum PtyError {
     /// The system refuses.

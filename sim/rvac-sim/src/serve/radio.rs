@@ -1,8 +1,8 @@
-//! A DWM1001 module on the Linux board, behind a terminal of its own: what its stock firmware answers and prints, with the
-//! distances of simulated beacons.
+//! A DWM1001 module on the Linux board, behind a terminal of its own: answers and output of its stock firmware, with
+//! the distances of simulated beacons.
 //!
-//! Words and output are those of the DWM1001 Firmware API Guide 2.2, as far as a tag needs them. The module begins with its
-//! binary interface, of which only the refusal is here; two returns within a second open the shell. A return alone
+//! Words and output are those of the DWM1001 Firmware API Guide 2.2, as far as a tag needs them. The module begins with
+//! its binary interface, of which only the refusal is here; two returns within a second open the shell. A return alone
 //! repeats the last command, which is what makes `lec` a switch that is easily pressed twice.
 
 use std::io;
@@ -19,7 +19,7 @@ const TOGETHER_MS: u64 = 1_000;
 const LINE_MS: u64 = 100;
 /// Anchors that the module measures for a line.
 const ANCHORS: usize = 4;
-/// What the binary interface answers to bytes that are no request.
+/// Answer of the binary interface to an invalid request.
 const REFUSAL: &[u8] = &[0x40, 0x01, 0x01];
 /// Longest command; the rest of a longer one is dropped.
 const COMMAND_MAX: usize = 64;
@@ -41,7 +41,7 @@ impl Radio {
         })
     }
 
-    /// Takes what the daemon has written, and gives it what the module said.
+    /// Reads bytes from the daemon and writes the module's output.
     pub(super) fn carry(&mut self, now_ms: u64) -> io::Result<()> {
         let mut buffer = [0; 256];
         match self.pty.read(&mut buffer)? {
@@ -72,7 +72,7 @@ impl Radio {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-enum Mode {
+enum RadioMode {
     #[default]
     Binary,
     Shell,
@@ -81,7 +81,7 @@ enum Mode {
 /// What the module's firmware does with bytes and distances.
 #[derive(Debug, Default)]
 struct Module {
-    mode: Mode,
+    mode: RadioMode,
     returned_ms: Option<u64>,
     command: Vec<u8>,
     last: Vec<u8>,
@@ -95,8 +95,8 @@ impl Module {
     fn take(&mut self, now_ms: u64, bytes: &[u8]) {
         for &byte in bytes {
             match self.mode {
-                Mode::Binary => self.take_binary(now_ms, byte),
-                Mode::Shell => self.take_letter(byte),
+                RadioMode::Binary => self.take_binary(now_ms, byte),
+                RadioMode::Shell => self.take_letter(byte),
             }
         }
     }
@@ -110,7 +110,7 @@ impl Module {
         let before_ms = self.returned_ms.replace(now_ms);
         if before_ms.is_some_and(|before_ms| now_ms <= before_ms + TOGETHER_MS) {
             self.returned_ms = None;
-            self.mode = Mode::Shell;
+            self.mode = RadioMode::Shell;
             self.say("\r\n DWM1001 TWR Real Time Location System\r\n\r\ndwm> ");
         }
     }
@@ -131,13 +131,13 @@ impl Module {
         match self.last.as_slice() {
             b"lec" => self.prints = !self.prints,
             b"quit" => {
-                self.mode = Mode::Binary;
+                self.mode = RadioMode::Binary;
                 self.last.clear();
             }
             b"" => {}
             _ => self.say("unknown command\r\n"),
         }
-        if self.mode == Mode::Shell {
+        if self.mode == RadioMode::Shell {
             self.say("dwm> ");
         }
     }
@@ -147,14 +147,15 @@ impl Module {
         self.measured.push((beacon, range_m));
     }
 
-    /// Prints what was measured since the last line. Places of the anchors are those of a network that nobody has set up.
+    /// Prints what was measured since the last line. Positions of the anchors are those of a network without
+    /// configuration.
     fn print(&mut self) {
         let measured = std::mem::take(&mut self.measured);
         if !self.prints || measured.is_empty() {
             return;
         }
-        let told = measured.len().min(ANCHORS);
-        let mut line = format!("DIST,{told}");
+        let reported = measured.len().min(ANCHORS);
+        let mut line = format!("DIST,{reported}");
         for (number, (beacon, range_m)) in measured.iter().take(ANCHORS).enumerate() {
             let address = 0xDEC0 + beacon;
             line.push_str(&format!(",AN{number},{address:04X},0.00,0.00,0.00,{range_m:.2}"));
@@ -170,7 +171,7 @@ impl Module {
 
 #[cfg(test)]
 mod tests {
-    use super::{Mode, Module, REFUSAL};
+    use super::{Module, REFUSAL, RadioMode};
 
     fn said(module: &mut Module) -> String {
         String::from_utf8(std::mem::take(&mut module.said)).unwrap()
@@ -182,7 +183,7 @@ mod tests {
         module.take(0, b"lec\r");
         assert_eq!(module.said, REFUSAL.repeat(3));
         module.take(1_500, b"\r");
-        assert_eq!(module.mode, Mode::Binary, "too late");
+        assert_eq!(module.mode, RadioMode::Binary, "too late");
         module.take(1_600, b"\r");
         assert!(said(&mut module).ends_with("dwm> "));
         module.take(1_700, b"lec\r");
@@ -199,6 +200,6 @@ mod tests {
         module.print();
         assert_eq!(said(&mut module), "", "switched off again");
         module.take(1_900, b"quit\r");
-        assert_eq!(module.mode, Mode::Binary);
+        assert_eq!(module.mode, RadioMode::Binary);
     }
 }

@@ -1,16 +1,16 @@
-//! What clients of the simulator may ask, and the answers.
+//! Requests of the simulator's clients, and the answers.
 
 use rvac_api::Failure;
 use serde::{Deserialize, Serialize};
 
-use crate::Report;
+use crate::RunReport;
 
 /// A request, for example `{"c":"report"}`, `{"c":"lift"}` or `{"c":"press","button":0}`; the book has them all.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(tag = "c", rename_all = "kebab-case")]
 pub(crate) enum SimulatorRequest {
     /// The figures so far.
-    Report,
+    RunReport,
     /// Where the robot is now, without waiting for the next of the ten words a second.
     Truth,
     /// Lifts the robot.
@@ -28,7 +28,8 @@ pub(crate) enum SimulatorRequest {
     /// Pushes the robot over the floor; answered at the end, as `turn` and `roll` are.
     Push {
         /// Straight ahead, metres.
-        way: f64,
+        #[serde(alias = "way")]
+        distance: f64,
     },
     /// Turns it on the spot.
     Turn {
@@ -38,9 +39,10 @@ pub(crate) enum SimulatorRequest {
     /// Turns a wheel of a lifted robot.
     Roll {
         /// Which.
-        wheel: Wheel,
-        /// Way of the rim, forward positive, metres.
-        way: f64,
+        wheel: WheelChoice,
+        /// Distance of the rim, forward positive, metres.
+        #[serde(alias = "way")]
+        distance: f64,
     },
     /// Holds both wheels fast, or lets go of them.
     Hold {
@@ -55,7 +57,7 @@ pub(crate) enum SimulatorRequest {
     },
     /// Winds hair around the main brush.
     Hair {
-        /// What its motor draws then, over what it draws without.
+        /// Factor on the current of its motor.
         times: f64,
     },
     /// Puts the robot somewhere else, in the frame of the plan that the socket gives.
@@ -74,7 +76,7 @@ pub(crate) enum SimulatorRequest {
 /// A wheel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Wheel {
+pub(crate) enum WheelChoice {
     /// The left one.
     Left,
     /// The right one.
@@ -84,9 +86,9 @@ pub(crate) enum Wheel {
 /// An answer.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "e", rename_all = "kebab-case", rename_all_fields = "kebab-case")]
-pub(crate) enum Answer {
+pub(crate) enum RequestReply {
     /// To `report`.
-    Report(Report),
+    RunReport(RunReport),
     /// To `meters`.
     Meters {
         /// At the pack's contacts, volts.
@@ -94,15 +96,15 @@ pub(crate) enum Answer {
         /// Out of the pack, ampere.
         drawn_a: f64,
     },
-    /// To what a hand does: to `push`, `turn` and `roll` when the whole way was made, to all else at once.
+    /// Answer to a request of a hand: to `push`, `turn` and `roll` at the end of the movement, to others at once.
     Done,
     /// To what could not be understood or done.
     Failed(Failure),
 }
 
 /// The answer to a hand that met a wall, or to a second hand.
-pub(crate) fn blocked(text: &str) -> Answer {
-    Answer::Failed(Failure {
+pub(crate) fn blocked(text: &str) -> RequestReply {
+    RequestReply::Failed(Failure {
         id: None,
         reason: "blocked".to_owned(),
         text: text.to_owned(),
@@ -125,7 +127,7 @@ impl SimulatorRequest {
 
 #[cfg(test)]
 mod tests {
-    use super::{SimulatorRequest, Wheel};
+    use super::{SimulatorRequest, WheelChoice};
 
     #[test]
     fn requests_are_read_exactly() {
@@ -140,9 +142,13 @@ mod tests {
         assert_eq!(
             SimulatorRequest::read(br#"{"c":"roll","wheel":"left","way":-0.1}"#),
             Ok(SimulatorRequest::Roll {
-                wheel: Wheel::Left,
-                way: -0.1
+                wheel: WheelChoice::Left,
+                distance: -0.1
             })
+        );
+        assert_eq!(
+            SimulatorRequest::read(br#"{"c":"roll","wheel":"left","distance":-0.1}"#),
+            SimulatorRequest::read(br#"{"c":"roll","wheel":"left","way":-0.1}"#)
         );
         for wrong in [&b"{}"[..], b"", b"\xff", br#"{"c":"press"}"#, br#"{"c":"rep"}"#] {
             assert_eq!(SimulatorRequest::read(wrong).unwrap_err().reason, "unknown");

@@ -8,12 +8,12 @@ use std::path::{Path, PathBuf};
 
 /// A listening socket; its file goes with the value.
 #[derive(Debug)]
-pub(crate) struct Listener {
+pub(crate) struct SocketListener {
     listener: UnixListener,
     path: PathBuf,
 }
 
-/// Why there is no socket.
+/// Why the socket cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum SocketError {
     /// Somebody listens there.
@@ -32,8 +32,8 @@ pub enum SocketError {
     },
 }
 
-impl Listener {
-    /// Listens on `path`. A socket that nobody listens on any more is what a killed simulator leaves behind, and is
+impl SocketListener {
+    /// Listens on `path`. A socket without a listener was left by a killed simulator, and is
     /// replaced.
     pub(crate) fn open(path: &Path) -> Result<Self, SocketError> {
         clear(path)?;
@@ -83,13 +83,13 @@ fn clear(path: &Path) -> Result<(), SocketError> {
     })
 }
 
-impl AsFd for Listener {
+impl AsFd for SocketListener {
     fn as_fd(&self) -> BorrowedFd<'_> {
         self.listener.as_fd()
     }
 }
 
-impl Drop for Listener {
+impl Drop for SocketListener {
     fn drop(&mut self) {
         // Best effort: the folder may be gone already.
         std::fs::remove_file(&self.path).ok();
@@ -98,24 +98,24 @@ impl Drop for Listener {
 
 #[cfg(test)]
 mod tests {
-    use super::{Listener, SocketError};
+    use super::{SocketError, SocketListener};
 
     #[test]
     fn a_dead_socket_is_replaced_and_a_living_one_is_not() {
         let path = std::env::temp_dir().join(format!("rvac-sim-{}-socket", std::process::id()));
-        let first = Listener::open(&path).unwrap();
-        assert!(matches!(Listener::open(&path), Err(SocketError::InUse(_))));
+        let first = SocketListener::open(&path).unwrap();
+        assert!(matches!(SocketListener::open(&path), Err(SocketError::InUse(_))));
         // What is left when a process is killed: the file without the listener.
-        let Listener { .. } = &first;
+        let SocketListener { .. } = &first;
         let kept = path.with_extension("kept");
         std::fs::hard_link(&path, &kept).unwrap();
         drop(first);
         assert!(!path.exists());
         std::fs::rename(&kept, &path).unwrap();
-        drop(Listener::open(&path).unwrap());
+        drop(SocketListener::open(&path).unwrap());
         assert!(!path.exists());
         std::fs::write(&path, "precious").unwrap();
-        assert!(matches!(Listener::open(&path), Err(SocketError::Taken(_))));
+        assert!(matches!(SocketListener::open(&path), Err(SocketError::Taken(_))));
         std::fs::remove_file(&path).unwrap();
     }
 }

@@ -26,6 +26,7 @@ fn covered(scene: &Scene, turned_rad: f64) -> f64 {
 }
 
 #[test]
+#[ignore = "campaign: whole runs in three ways of standing; cargo xtask test --all"]
 fn it_sweeps_as_much_as_one_that_was_put_down_along_the_walls() {
     let scene = flat::scene();
     let along = covered(&scene, 0.0);

@@ -37,6 +37,7 @@ fn without_machine(value: &mut Value) {
 }
 
 #[test]
+#[ignore = "campaign: whole runs, three times; cargo xtask test --all"]
 fn figures_do_not_depend_on_the_number_of_threads() {
     let on_threads = |threads| {
         let modes = ["--modes", "bounce,first-run", "--seeds", "2"];
@@ -67,6 +68,7 @@ fn each_run_takes_the_map_of_the_one_before() {
 }
 
 #[test]
+#[ignore = "campaign: a whole run; cargo xtask test --all"]
 fn work_goes_on_after_the_job() {
     let object = bench(&["--modes", "known-map", "--seeds", "1", "--work-minutes", "12"]);
     let run = &object["runs"][0];

@@ -3,7 +3,7 @@
 use crate::flat;
 use crate::flat::scene;
 use brain::BehaviorState;
-use home::{DockBeams, Pose};
+use home::{BeamStrengths, Pose};
 use rvac_api::RequestBody;
 use rvac_sim::{Host, Household, Scene};
 
@@ -28,7 +28,7 @@ fn it_comes_home_through_poor_beams_to_a_dock_that_was_pushed() {
     for (seed, heading_rad) in [(1, 0.0), (2, 2.0), (3, -2.5)] {
         let mut household = flat::household(&scene, Some(before_the_dock(&scene, 0.3, heading_rad)), seed);
         let world = household.robot_mut().world_mut();
-        world.set_dock_beams(DockBeams::POOR);
+        world.set_dock_beams(BeamStrengths::POOR);
         world.push_dock(0.05, 0.05);
         let seconds = seconds_home(&mut household, 240);
         assert!(

@@ -129,6 +129,7 @@ fn check(offs: &[Option<(f64, f64)>], least: usize) {
 }
 
 #[test]
+#[ignore = "campaign: a whole run; cargo xtask test --all"]
 fn a_robot_that_was_carried_along_with_its_dock_finds_out_where_it_stands() {
     let scene = scene();
     let offs: Vec<Option<(f64, f64)>> = (0..8)

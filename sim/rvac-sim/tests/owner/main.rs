@@ -1,16 +1,16 @@
-//! An owner calibrates a robot: the real firmware in the emulated chip with an empty record, the real `rvac`, hands through
-//! the simulator's socket. What is found must be what the emulated board was built with.
+//! An owner calibrates a robot: the real firmware in the emulated chip with an empty record, the real `rvac`, hands
+//! through the simulator's socket. What is found must be what the emulated board was built with.
 //!
 //! `cargo xtask test --only emulator` names firmware and program in `RVAC_FIRMWARE` and `RVAC_PROGRAM`.
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
-mod workshop;
+mod fixture;
 
 use std::fs;
 
-use pic32::board::{Calibration, GyroLayout};
+use fixture::{OwnerFixture, Terminal};
+use pic32::board::{CalibrationValues, GyroLayout};
 use serde_json::{Value, json};
-use workshop::{Terminal, Workshop};
 
 /// Free floor of the flat, two metres before the robot, in the frame of the plan.
 const FREE_FLOOR: [f64; 3] = [-0.5, 0.06, std::f64::consts::PI];
@@ -21,7 +21,7 @@ const HOLD_MS: u32 = 8_000;
 
 /// An owner who does what the screen says.
 struct Owner {
-    workshop: Workshop,
+    fixture: OwnerFixture,
     screen: Terminal,
     item: String,
 }
@@ -57,13 +57,13 @@ impl Owner {
             }
             self.enter();
         } else {
-            self.obey_wish(line);
+            self.obey_request(line);
         }
     }
 
-    fn obey_wish(&mut self, line: &str) {
+    fn obey_request(&mut self, line: &str) {
         if line.starts_with("Push it straight ahead") {
-            self.do_then_enter(json!({"c": "push", "way": PUSHED_MM / 1e3}));
+            self.do_then_enter(json!({"c": "push", "distance": PUSHED_MM / 1e3}));
         } else if line.starts_with("How far did it go") {
             self.screen.answer(&PUSHED_MM.to_string());
         } else if line.starts_with("Turn it ten times") {
@@ -75,7 +75,7 @@ impl Owner {
                 "right"
             };
             self.touch(json!({"c": "lift"}));
-            self.do_then_enter(json!({"c": "roll", "wheel": wheel, "way": 0.1}));
+            self.do_then_enter(json!({"c": "roll", "wheel": wheel, "distance": 0.1}));
         } else if line.contains("over the edge of a table") {
             self.touch(json!({"c": "lift"}));
             self.enter();
@@ -87,7 +87,7 @@ impl Owner {
             self.touch(json!({"c": "hold", "on": true}));
             self.enter();
             // The needle comes to rest.
-            self.workshop.pass(1.5);
+            self.fixture.pass(1.5);
             self.type_meter("drawn-a");
         } else if line.starts_with("What did the ammeter") {
             self.touch(json!({"c": "hold", "on": false}));
@@ -105,18 +105,16 @@ impl Owner {
     }
 
     fn touch(&mut self, request: Value) {
-        self.workshop.touch(&request);
+        self.fixture.touch(&request);
     }
 
     fn do_then_enter(&mut self, request: Value) {
-        assert_eq!(self.workshop.ask(&request)["e"], "done");
+        assert_eq!(self.fixture.ask(&request)["e"], "done");
         self.enter();
     }
 
     fn meter(&mut self, which: &str) -> f64 {
-        self.workshop.ask(&json!({"c": "meters"}))[which]
-            .as_f64()
-            .unwrap()
+        self.fixture.ask(&json!({"c": "meters"}))[which].as_f64().unwrap()
     }
 
     /// Reads thousandths off an instrument and types them.
@@ -129,31 +127,32 @@ impl Owner {
 /// Calibrates these values, each to be found within so much of what the board was built with.
 fn calibrate(name: &str, wanted: &[(&'static str, i32)]) {
     // On an even floor: how far wheels slip under a hand is no question to the program.
-    let Some(mut workshop) = Workshop::open(name, &["--uncalibrated", "--noise", "ideal"]) else {
+    let Some(mut fixture) = OwnerFixture::open(name, &["--uncalibrated", "--noise", "ideal"]) else {
         return;
     };
     let [x, y, heading] = FREE_FLOOR;
-    workshop.touch(&json!({"c": "place", "x": x, "y": y, "heading": heading}));
-    let file = workshop.file("mine.toml");
+    fixture.touch(&json!({"c": "place", "x": x, "y": y, "heading": heading}));
+    let file = fixture.file("mine.toml");
     let mut arguments = vec!["calibrate", "--file", file.to_str().unwrap()];
     arguments.extend(wanted.iter().map(|(name, _)| *name));
-    let screen = workshop.rvac(&arguments);
+    let screen = fixture.rvac(&arguments);
     let mut owner = Owner {
-        workshop,
+        fixture,
         screen,
         item: String::new(),
     };
     owner.obey();
-    let Owner { screen, workshop, .. } = owner;
+    let Owner { screen, fixture, .. } = owner;
     assert_eq!(screen.end(), (true, String::new()));
     let record = fs::read_to_string(&file).unwrap();
-    drop(workshop);
-    let built_with = Calibration::sr8730().unwrap();
+    drop(fixture);
+    let built_with = CalibrationValues::sr8730().unwrap();
     for (name, tolerance) in wanted {
         let row = record.lines().find_map(|line| line.strip_prefix(name));
         let found: i32 = row.unwrap()[3..].split(' ').next().unwrap().parse().unwrap();
         let true_value = match *name {
-            // Half of what stands between the simulator's floors and its drops; the table's own value is merely one below.
+            // Half of what stands between the simulator's floors and its drops; the table's own value is merely one
+            // below.
             "cliff-floor-level" => 320,
             name => built_with.value(name).unwrap(),
         };
@@ -170,7 +169,7 @@ fn wheels() {
     calibrate(
         "wheels",
         &[
-            ("wheel-count-way", 15_000),
+            ("wheel-distance-per-count", 15_000),
             ("wheel-track", 9_000),
             ("wheel-left-order", 0),
             ("wheel-right-order", 0),
@@ -225,13 +224,13 @@ fn sensors_of_light() {
 fn a_gyro_that_nobody_knows() {
     const NUMBER: u64 = 2;
     let layout = GyroLayout::unknown(NUMBER);
-    let Some(mut workshop) = Workshop::open("gyro", &["--uncalibrated", "--gyro", "2"]) else {
+    let Some(mut fixture) = OwnerFixture::open("gyro", &["--uncalibrated", "--gyro", "2"]) else {
         return;
     };
     let [x, y, heading] = FREE_FLOOR;
-    workshop.touch(&json!({"c": "place", "x": x, "y": y, "heading": heading}));
-    let file = workshop.file("gyro.bin");
-    let mut screen = workshop.rvac(&["probe", "gyro", "--file", file.to_str().unwrap()]);
+    fixture.touch(&json!({"c": "place", "x": x, "y": y, "heading": heading}));
+    let file = fixture.file("gyro.bin");
+    let mut screen = fixture.rvac(&["probe", "gyro", "--file", file.to_str().unwrap()]);
     let mut said = String::new();
     while let Some(line) = screen.read() {
         println!("{line}");
@@ -241,8 +240,8 @@ fn a_gyro_that_nobody_knows() {
             let turns = [("to the left", 1), ("to the right", -1)];
             for (_, turns) in turns.into_iter().filter(|(way, _)| line.contains(way)) {
                 // A breath before it, as a person takes one.
-                workshop.pass(0.7);
-                workshop.ask(&json!({"c": "turn", "turns": turns}));
+                fixture.pass(0.7);
+                fixture.ask(&json!({"c": "turn", "turns": turns}));
             }
         }
         said.push_str(&line);
@@ -282,11 +281,11 @@ fn a_gyro_that_nobody_knows() {
 
 #[test]
 fn a_gyro_that_says_nothing() {
-    let Some(workshop) = Workshop::open("silent", &["--uncalibrated", "--gyro", "none"]) else {
+    let Some(fixture) = OwnerFixture::open("silent", &["--uncalibrated", "--gyro", "none"]) else {
         return;
     };
-    let file = workshop.file("gyro.bin");
-    let mut screen = workshop.rvac(&["probe", "gyro", "--file", file.to_str().unwrap()]);
+    let file = fixture.file("gyro.bin");
+    let mut screen = fixture.rvac(&["probe", "gyro", "--file", file.to_str().unwrap()]);
     while screen.read().is_some() {}
     let (ended_well, complaint) = screen.end();
     assert!(!ended_well && !file.exists());

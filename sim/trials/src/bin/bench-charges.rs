@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use rayon::prelude::*;
-use trials::charges::{Charge, charge};
-use trials::{CampaignError, Workshop, conclude};
+use trials::charges::{ChargeResult, charge};
+use trials::{CampaignError, Fixture, conclude};
 
 /// Charges packs with a firmware.
 #[derive(Debug, Parser)]
@@ -37,12 +37,12 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
-    let workshop = Workshop::open(&arguments.firmware)?;
+    let fixture = Fixture::open(&arguments.firmware)?;
     let mut out = io::stdout().lock();
     let mut all_good = arguments.count > 0;
     let seeds: Vec<u64> = (arguments.seed..arguments.seed + arguments.count).collect();
     for seeds in seeds.chunks(rayon::current_num_threads()) {
-        let charges = seeds.par_iter().map(|seed| charge(&workshop, *seed));
+        let charges = seeds.par_iter().map(|seed| charge(&fixture, *seed));
         for charge in charges.collect::<Result<Vec<_>, _>>()? {
             all_good &= charge.is_good();
             tell(&mut out, arguments, &charge)?;
@@ -51,7 +51,7 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     Ok(all_good)
 }
 
-fn tell(out: &mut impl Write, arguments: &Arguments, charge: &Charge) -> io::Result<()> {
+fn tell(out: &mut impl Write, arguments: &Arguments, charge: &ChargeResult) -> io::Result<()> {
     if arguments.json {
         serde_json::to_writer(&mut *out, charge).map_err(io::Error::from)?;
         return writeln!(out);
@@ -61,7 +61,7 @@ fn tell(out: &mut impl Write, arguments: &Arguments, charge: &Charge) -> io::Res
         out,
         "{:>5} {:<18} {:.2} Ah  {:>5.2} A  {:>5.1} C  {ended:>9}  {} breaches{}{}",
         charge.seed,
-        format!("{:?}", charge.trouble),
+        format!("{:?}", charge.disturbance),
         charge.capacity_ah,
         charge.highest_a,
         charge.hottest_c,

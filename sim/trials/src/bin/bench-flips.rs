@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use trials::flips::{Breach, Fate, Plan, Storage, Tally, flip_bits};
-use trials::{CampaignError, Workshop, conclude};
+use trials::flips::{BitStorage, Breach, Fate, FlipPlan, FlipTally, flip_bits};
+use trials::{CampaignError, Fixture, conclude};
 
 /// Flips bits of a firmware's memory.
 #[derive(Debug, Parser)]
@@ -45,20 +45,24 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
-    let workshop = Workshop::open(&arguments.firmware)?;
-    let plan = Plan {
+    let fixture = Fixture::open(&arguments.firmware)?;
+    let plan = FlipPlan {
         count: arguments.count,
         seed: arguments.seed,
         courses: arguments.courses,
         image_checks: arguments.image_checks,
     };
-    let mut told = 0;
-    let tally = flip_bits(&workshop, &plan, |tally| {
+    let mut shown_breaches = 0;
+    let tally = flip_bits(&fixture, &plan, |tally| {
         if arguments.progress {
             let (flips, tried) = (tally.flips, tally.tried);
             writeln!(io::stderr(), "{flips} flips, {tried} tried").ok();
-            tell_breaches(&mut io::stderr(), tally.breaches.get(told..).unwrap_or_default()).ok();
-            told = tally.breaches.len();
+            tell_breaches(
+                &mut io::stderr(),
+                tally.breaches.get(shown_breaches..).unwrap_or_default(),
+            )
+            .ok();
+            shown_breaches = tally.breaches.len();
         }
     })?;
     let mut out = io::stdout().lock();
@@ -71,7 +75,7 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     Ok(tally.is_safe())
 }
 
-fn print(out: &mut impl Write, tally: &Tally) -> io::Result<()> {
+fn print(out: &mut impl Write, tally: &FlipTally) -> io::Result<()> {
     let row = |fates: &std::collections::BTreeMap<Fate, u32>| -> String {
         let number = |fate| fates.get(fate).copied().unwrap_or_default();
         Fate::ALL
@@ -84,7 +88,7 @@ fn print(out: &mut impl Write, tally: &Tally) -> io::Result<()> {
         .map(|fate| format!("{:>12}", format!("{fate:?}").to_lowercase()))
         .collect();
     writeln!(out, "{:<16}{names}", "")?;
-    for storage in Storage::ALL {
+    for storage in BitStorage::ALL {
         if let Some(fates) = tally.fates.get(&storage) {
             writeln!(out, "{:<16}{}", storage.name(), row(fates))?;
         }

@@ -1,41 +1,41 @@
-//! A stretch of a robot's life without any fault, to compare with those in which a bit has flipped.
+//! A reference run of the robot without any fault, for comparison with runs in which a bit has flipped.
 
 use std::collections::HashMap;
 
 use monitor::Bridges;
-use pic32::board::{CYCLES_PER_MS, Contact, EmulatedRobot, Hold, Motor};
+use pic32::board::{CYCLES_PER_MS, Contact, EmulatedRobot, Hold, MotorOutput};
 use pic32::machine::{Machine, Touch};
 use rvac_protocol::message::{Command, Inhibits};
 use rvac_units::{AngularSpeed, Speed, Throttle};
 use serde::Serialize;
 
-use crate::stage::{Stage, StageError, Workshop};
-use crate::trial::Scene;
+use crate::testbed::{Fixture, Testbed, TestbedError};
+use crate::trial::OperatingState;
 
-use super::place::{Place, Storage};
+use super::place::{BitLocation, BitStorage};
 
-/// Bits flip within so many milliseconds. Then something happens after which all motors, or the charger, must be off, or
-/// may not start.
+/// Bits flip within this many milliseconds. Then an event requires all motors or the charger to be off, or not to
+/// start.
 pub(super) const FLIP_MS: usize = 150;
-/// Longest time for which the judge looks on, see [`Situation::look_ms`].
+/// Longest time for which the monitor observes, see [`Situation::look_ms`].
 const LOOK_MS_MAX: usize = 450;
-/// A robot that was reset and whose memory is whole again is looked at for so long while all is off.
+/// Observation time of a robot after a reset with correct memory, while everything is off.
 const AFTER_RESET_MS: u32 = 60;
 /// With a bit of flash still flipped it must have started again, too: 30 ms for the checks of all memories and a
 /// hundred for all else; and what happens must have happened.
 const AFTER_START_MS: u32 = 130;
 /// A charger begins within this time on the dock.
 const CHARGE_BEGINS_MS: u64 = 60_000;
-/// Current that tells that it has begun, ampere.
+/// Current above which it has begun, ampere.
 const CHARGING_A: f64 = 0.3;
 
 /// What the robot does when bits flip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Situation {
-    /// It stands, not armed.
+    /// At rest, not armed.
     Idle,
-    /// It stands, armed.
+    /// At rest, armed.
     Standing,
     /// It drives.
     Driving,
@@ -67,23 +67,23 @@ impl Situation {
         }
     }
 
-    fn set(self, workshop: &Workshop, seed: u64, late_cycles: u64) -> Result<Stage, StageError> {
+    fn set(self, fixture: &Fixture, seed: u64, late_cycles: u64) -> Result<Testbed, TestbedError> {
         match self {
-            Self::Standing => Scene::Standing.set(workshop, seed, late_cycles),
-            Self::Driving => Scene::Driving.set(workshop, seed, late_cycles),
-            Self::Cleaning => Scene::Cleaning.set(workshop, seed, late_cycles),
+            Self::Standing => OperatingState::Standing.set(fixture, seed, late_cycles),
+            Self::Driving => OperatingState::Driving.set(fixture, seed, late_cycles),
+            Self::Cleaning => OperatingState::Cleaning.set(fixture, seed, late_cycles),
             Self::Idle => {
-                let mut stage = workshop.stage(seed, Bridges::Sound, late_cycles);
-                stage.connect()?;
-                stage.run(200);
-                Ok(stage)
+                let mut testbed = fixture.testbed(seed, Bridges::Sound, late_cycles);
+                testbed.connect()?;
+                testbed.run(200);
+                Ok(testbed)
             }
-            Self::Charging => charging(workshop, seed, late_cycles),
+            Self::Charging => charging(fixture, seed, late_cycles),
         }
     }
 
-    /// How long the judge looks on after that, ms: longer than the watchdog's 256 ms and the reaction to what happens,
-    /// as the monitor counts it.
+    /// Observation time after the event, ms: longer than the watchdog's 256 ms and the reaction to the event, as the
+    /// monitor counts it.
     const fn look_ms(self, number: usize) -> usize {
         match (self, number % 4) {
             (Self::Driving | Self::Cleaning, 3) => LOOK_MS_MAX,
@@ -92,62 +92,64 @@ impl Situation {
         }
     }
 
-    /// What happens after the flip; `number` chooses.
-    fn provoke(self, stage: &mut Stage, number: usize) {
-        let now = stage.robot().cycle();
-        let wheel_hangs = |stage: &mut Stage| {
-            stage
+    /// The event after the flip, chosen by `number`.
+    fn provoke(self, testbed: &mut Testbed, number: usize) {
+        let now = testbed.robot().cycle();
+        let wheel_hangs = |testbed: &mut Testbed| {
+            testbed
                 .robot_mut()
                 .hold_contact(Contact::WheelDropLeft, Hold::On, now);
         };
-        let wants_to_drive = |stage: &mut Stage| {
-            stage.drive(Some((Speed(150_000), AngularSpeed(0))));
-            stage.clean(Throttle::saturating_from_millionths(800_000));
+        let wants_to_drive = |testbed: &mut Testbed| {
+            testbed.drive(Some((Speed(150_000), AngularSpeed(0))));
+            testbed.clean(Throttle::saturating_from_millionths(800_000));
         };
         match (self, number % 4) {
-            (Self::Idle, _) => wants_to_drive(stage),
+            (Self::Idle, _) => wants_to_drive(testbed),
             (Self::Standing, _) => {
-                wheel_hangs(stage);
-                wants_to_drive(stage);
+                wheel_hangs(testbed);
+                wants_to_drive(testbed);
             }
-            (Self::Driving | Self::Cleaning, 0) => wheel_hangs(stage),
+            (Self::Driving | Self::Cleaning, 0) => wheel_hangs(testbed),
             (Self::Driving | Self::Cleaning, 1) => {
-                stage.drive(None);
-                stage.clean(Throttle::ZERO);
-                stage.say(Command::Stop);
+                testbed.drive(None);
+                testbed.clean(Throttle::ZERO);
+                testbed.say(Command::Stop);
             }
             (Self::Driving | Self::Cleaning, 2) => {
-                stage.robot_mut().hold_contact(Contact::BumperLeft, Hold::On, now);
+                testbed
+                    .robot_mut()
+                    .hold_contact(Contact::BumperLeft, Hold::On, now);
             }
-            (Self::Driving | Self::Cleaning, _) => stage.set_speaking(false),
-            (Self::Charging, 0 | 2) => stage.robot_mut().world_mut().lift(),
-            (Self::Charging, _) => wants_to_drive(stage),
+            (Self::Driving | Self::Cleaning, _) => testbed.set_speaking(false),
+            (Self::Charging, 0 | 2) => testbed.robot_mut().world_mut().lift(),
+            (Self::Charging, _) => wants_to_drive(testbed),
         }
     }
 }
 
 /// On the dock with a pack that is neither full nor empty.
-fn charging(workshop: &Workshop, seed: u64, late_cycles: u64) -> Result<Stage, StageError> {
-    let mut stage = workshop.stage(seed, Bridges::Sound, late_cycles);
-    let world = stage.robot_mut().world_mut();
+fn charging(fixture: &Fixture, seed: u64, late_cycles: u64) -> Result<Testbed, TestbedError> {
+    let mut testbed = fixture.testbed(seed, Bridges::Sound, late_cycles);
+    let world = testbed.robot_mut().world_mut();
     let dock = world.home().start();
     world.put_down_at(dock);
     world.set_battery_charge(0.4);
-    stage.connect()?;
+    testbed.connect()?;
     for _ in 0..CHARGE_BEGINS_MS {
-        stage.tick();
-        if stage.robot().world().truth().battery_a > CHARGING_A {
+        testbed.tick();
+        if testbed.robot().world().truth().battery_a > CHARGING_A {
             // Until the current has settled.
-            stage.run(1_000);
-            return Ok(stage);
+            testbed.run(1_000);
+            return Ok(testbed);
         }
     }
-    Err(StageError::Scene("it does not charge"))
+    Err(TestbedError::OperatingState("it does not charge"))
 }
 
-/// Everything that decides how a robot goes on, as far as it can be seen from outside.
+/// The whole state of a robot, as far as it can be read from outside.
 #[derive(Clone, Debug)]
-struct Look {
+struct Snapshot {
     ram: Vec<u8>,
     core: [u32; 35],
     chip: Vec<u32>,
@@ -156,7 +158,7 @@ struct Look {
     wheels: [f64; 2],
 }
 
-impl Look {
+impl Snapshot {
     fn of(robot: &mut EmulatedRobot, registers: &[u32]) -> Self {
         let machine = robot.machine_mut();
         let chip = registers
@@ -172,8 +174,8 @@ impl Look {
         }
     }
 
-    /// Whether this robot goes on as the one that was looked at, whose program reads the `live` bytes of RAM before it
-    /// writes them.
+    /// Whether this robot will continue like the one of the snapshot, whose program reads the `live` bytes of RAM
+    /// before it writes them.
     fn is_met_by(&self, robot: &mut EmulatedRobot, registers: &[u32], live: impl Fn(u32) -> bool) -> bool {
         let machine = robot.machine();
         machine.cpu().cycle() == self.cycle
@@ -214,19 +216,19 @@ fn core_of(machine: &Machine) -> [u32; 35] {
     registers
 }
 
-/// What a flip comes to.
+/// Result of a flip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Fate {
-    /// The word is not touched in the time that is looked at. Flipped flash is found by the check of the image.
+    /// The word is not accessed in the observed time. Flipped flash is found by the check of the image.
     Untouched,
-    /// The word is written before anybody reads it.
+    /// The word is written before it is read.
     Overwritten,
-    /// It was read and changed nothing that can be seen outside, or the robot was soon as if nothing had happened.
+    /// It was read without a visible effect, or the robot soon was in its reference state again.
     Masked,
     /// A reset, an exception or a named inhibit.
     Detected,
-    /// The robot did something else than without the flip, within the rules.
+    /// The robot behaved differently than without the flip, within the rules.
     Lawful,
     /// Against the rules, but ended within the watchdog's time.
     Ended,
@@ -247,10 +249,10 @@ impl Fate {
     ];
 }
 
-/// What was seen of a flip that was tried.
+/// Observation of a flip that was tried.
 #[derive(Clone, Debug)]
-pub(super) struct Trace {
-    /// What it came to.
+pub(super) struct FlipTrace {
+    /// Its result.
     pub(super) fate: Fate,
     /// Longest time that a rule was broken without a gap, ms.
     pub(super) broken_ms: u32,
@@ -258,20 +260,20 @@ pub(super) struct Trace {
     pub(super) breach: Option<String>,
 }
 
-/// A stretch of life without fault.
+/// A reference run without fault.
 #[derive(Debug)]
 pub(super) struct Course {
-    /// What the robot does in it.
+    /// Activity of the robot.
     pub(super) situation: Situation,
     number: usize,
     registers: Vec<u32>,
     /// At the beginning of each millisecond in which a bit may flip.
-    stages: Vec<Stage>,
+    testbeds: Vec<Testbed>,
     /// At the end of each millisecond.
-    looks: Vec<Look>,
-    /// Milliseconds in which a word was touched, and how first its bytes were.
+    looks: Vec<Snapshot>,
+    /// Milliseconds in which a word was accessed, and the kind of the first access to its bytes.
     touches: HashMap<u32, Vec<(usize, Touch)>>,
-    /// Everything that the robot ever gave as a reason.
+    /// All inhibits that the robot reported.
     inhibits: Vec<Inhibits>,
 }
 
@@ -279,48 +281,50 @@ pub(super) struct Course {
 const WATCHDOG_MS: u32 = 258;
 
 impl Course {
-    /// Lives it. `registers` are those of the chip that are compared.
+    /// Runs it. `registers` are the chip registers that are compared.
     ///
     /// # Errors
     /// When the robot does not get into the situation, or breaks a rule without any fault.
     pub(super) fn live(
-        workshop: &Workshop,
+        fixture: &Fixture,
         situation: Situation,
         number: usize,
         places: impl FnOnce(&mut Machine) -> Vec<u32>,
-    ) -> Result<Self, StageError> {
+    ) -> Result<Self, TestbedError> {
         // Any other phase between core and surroundings for each course.
         let late_cycles = (number as u64 * 29_741 + 1_013) % CYCLES_PER_MS;
-        let mut stage = situation.set(workshop, number as u64 + 1, late_cycles)?;
-        let registers = places(stage.robot_mut().machine_mut());
+        let mut testbed = situation.set(fixture, number as u64 + 1, late_cycles)?;
+        let registers = places(testbed.robot_mut().machine_mut());
         let mut course = Self {
             situation,
             number,
             registers,
-            stages: Vec::new(),
+            testbeds: Vec::new(),
             looks: Vec::new(),
             touches: HashMap::new(),
             inhibits: Vec::new(),
         };
         for ms in 0..course.whole_ms() {
             if ms < FLIP_MS {
-                course.stages.push(stage.clone());
+                course.testbeds.push(testbed.clone());
             }
             // A core that is followed instruction by instruction may be some cycles late, so it begins anew each time.
-            let mut noted = stage.clone();
+            let mut noted = testbed.clone();
             noted.robot_mut().machine_mut().note_touches();
             course.pass(&mut noted, ms);
-            course.pass(&mut stage, ms);
+            course.pass(&mut testbed, ms);
             for (address, touch) in noted.robot_mut().machine_mut().take_touches() {
                 course.touches.entry(address).or_default().push((ms, touch));
             }
-            course.looks.push(Look::of(stage.robot_mut(), &course.registers));
-            if course.inhibits.last() != Some(&stage.inhibits()) {
-                course.inhibits.push(stage.inhibits());
+            course
+                .looks
+                .push(Snapshot::of(testbed.robot_mut(), &course.registers));
+            if course.inhibits.last() != Some(&testbed.inhibits()) {
+                course.inhibits.push(testbed.inhibits());
             }
         }
-        if stage.robot().monitor().count() != 0 {
-            return Err(StageError::Scene("it breaks a rule without any fault"));
+        if testbed.robot().monitor().count() != 0 {
+            return Err(TestbedError::OperatingState("it breaks a rule without any fault"));
         }
         Ok(course)
     }
@@ -337,25 +341,25 @@ impl Course {
 
     /// The robot at the beginning.
     #[must_use]
-    pub(super) fn first(&self) -> Option<Stage> {
-        self.stages.first().cloned()
+    pub(super) fn first(&self) -> Option<Testbed> {
+        self.testbeds.first().cloned()
     }
 
-    fn pass(&self, stage: &mut Stage, ms: usize) {
+    fn pass(&self, testbed: &mut Testbed, ms: usize) {
         if ms == FLIP_MS {
-            self.situation.provoke(stage, self.number);
+            self.situation.provoke(testbed, self.number);
         }
-        stage.tick();
+        testbed.tick();
     }
 
     /// What a flip at this millisecond surely comes to without trying it.
     #[must_use]
-    pub(super) fn foreseen(&self, place: Place, at_ms: usize) -> Option<Fate> {
+    pub(super) fn foreseen(&self, place: BitLocation, at_ms: usize) -> Option<Fate> {
         match place.storage {
-            Storage::Core | Storage::Chip => None,
+            BitStorage::Core | BitStorage::Chip => None,
             // The first instructions of handlers are not seen, and configuration words act without being read.
-            Storage::Flash if place.address < 0x1D00_1000 || place.address >= 0x1FC0_2FF0 => None,
-            Storage::Ram | Storage::Flash => match self.next_touch(place.byte(), at_ms) {
+            BitStorage::Flash if place.address < 0x1D00_1000 || place.address >= 0x1FC0_2FF0 => None,
+            BitStorage::Ram | BitStorage::Flash => match self.next_touch(place.byte(), at_ms) {
                 Next::Nothing => Some(Fate::Untouched),
                 Next::Written => Some(Fate::Overwritten),
                 Next::Read => None,
@@ -365,7 +369,7 @@ impl Course {
 
     /// Whether the word is executed.
     #[must_use]
-    pub(super) fn executes(&self, place: Place) -> bool {
+    pub(super) fn executes(&self, place: BitLocation) -> bool {
         let touches = self.touches.get(&place.address);
         touches.is_some_and(|all| all.iter().any(|(_, touch)| touch.executed))
     }
@@ -386,33 +390,33 @@ impl Course {
 
     /// Flips the bit at this millisecond and looks what comes of it.
     #[must_use]
-    pub(super) fn try_out(&self, place: Place, at_ms: usize) -> Trace {
-        let Some(mut stage) = self.stages.get(at_ms).cloned() else {
-            return Trace::of(Fate::Untouched);
+    pub(super) fn try_out(&self, place: BitLocation, at_ms: usize) -> FlipTrace {
+        let Some(mut testbed) = self.testbeds.get(at_ms).cloned() else {
+            return FlipTrace::of(Fate::Untouched);
         };
-        let before = stage.robot().machine().exception_count();
-        let resets = stage.robot().machine().reset_count();
-        place.flip(stage.robot_mut().machine_mut());
+        let before = testbed.robot().machine().exception_count();
+        let resets = testbed.robot().machine().reset_count();
+        place.flip(testbed.robot_mut().machine_mut());
         let (mut broken_ms, mut longest_ms, mut off_ms) = (0, 0, 0);
         let mut is_detected = false;
         for ms in at_ms..self.whole_ms() {
-            self.pass(&mut stage, ms);
-            let is_broken = stage.robot().monitor().is_broken();
+            self.pass(&mut testbed, ms);
+            let is_broken = testbed.robot().monitor().is_broken();
             broken_ms = if is_broken { broken_ms + 1 } else { 0 };
             longest_ms = longest_ms.max(broken_ms);
-            is_detected |= self.gives_another_reason(&stage);
-            let is_new = stage.robot().machine().reset_count() != resets;
-            off_ms = if is_new && is_off(&stage) { off_ms + 1 } else { 0 };
+            is_detected |= self.gives_another_reason(&testbed);
+            let is_new = testbed.robot().machine().reset_count() != resets;
+            off_ms = if is_new && is_off(&testbed) { off_ms + 1 } else { 0 };
             let enough_ms = match place.storage {
-                Storage::Flash if ms < FLIP_MS => u32::MAX,
-                Storage::Flash => AFTER_START_MS,
-                Storage::Ram | Storage::Core | Storage::Chip => AFTER_RESET_MS,
+                BitStorage::Flash if ms < FLIP_MS => u32::MAX,
+                BitStorage::Flash => AFTER_START_MS,
+                BitStorage::Ram | BitStorage::Core | BitStorage::Chip => AFTER_RESET_MS,
             };
-            if off_ms > enough_ms || self.is_as_before(place, ms, &mut stage) {
+            if off_ms > enough_ms || self.is_as_before(place, ms, &mut testbed) {
                 break;
             }
         }
-        let robot = stage.robot();
+        let robot = testbed.robot();
         is_detected |= robot.machine().exception_count() != before || robot.machine().reset_count() != resets;
         let same = self
             .looks
@@ -425,7 +429,7 @@ impl Course {
             1..=WATCHDOG_MS => Fate::Ended,
             _ => Fate::Unsafe,
         };
-        Trace {
+        FlipTrace {
             fate,
             broken_ms: longest_ms,
             breach: robot.monitor().violations().first().map(ToString::to_string),
@@ -433,26 +437,26 @@ impl Course {
     }
 
     fn end_ms(&self) -> u64 {
-        self.stages
+        self.testbeds
             .first()
-            .map_or(0, |stage| stage.robot().now_ms() + self.whole_ms() as u64)
+            .map_or(0, |testbed| testbed.robot().now_ms() + self.whole_ms() as u64)
     }
 
-    fn gives_another_reason(&self, stage: &Stage) -> bool {
-        stage
+    fn gives_another_reason(&self, testbed: &Testbed) -> bool {
+        testbed
             .inhibits()
             .iter()
             .any(|inhibit| !self.inhibits.iter().any(|known| known.contains(inhibit)))
     }
 
     /// Whether the robot is as if the bit had not flipped, and will not come across it again.
-    fn is_as_before(&self, place: Place, ms: usize, stage: &mut Stage) -> bool {
+    fn is_as_before(&self, place: BitLocation, ms: usize, testbed: &mut Testbed) -> bool {
         let is_over =
-            place.storage != Storage::Flash || self.next_touch(place.byte(), ms + 1) == Next::Nothing;
+            place.storage != BitStorage::Flash || self.next_touch(place.byte(), ms + 1) == Next::Nothing;
         is_over
             && self.looks.get(ms).is_some_and(|look| {
                 let live = |address| self.next_touch(address, ms + 1) == Next::Read;
-                look.is_met_by(stage.robot_mut(), &self.registers, live)
+                look.is_met_by(testbed.robot_mut(), &self.registers, live)
             })
     }
 }
@@ -466,13 +470,13 @@ enum Next {
 }
 
 /// Neither a motor nor the charger is driven.
-pub(super) fn is_off(stage: &Stage) -> bool {
-    let robot = stage.robot();
+pub(super) fn is_off(testbed: &Testbed) -> bool {
+    let robot = testbed.robot();
     let charges = robot.world().truth().battery_a > 0.0;
-    !charges && Motor::ALL.into_iter().all(|motor| robot.duty(motor) == 0.0)
+    !charges && MotorOutput::ALL.into_iter().all(|motor| robot.duty(motor) == 0.0)
 }
 
-impl Trace {
+impl FlipTrace {
     const fn of(fate: Fate) -> Self {
         Self {
             fate,

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 use monitor::Bridges;
 use pic32::image::{Image, SymbolKind};
 
-use crate::stage::{Stage, Workshop};
+use crate::testbed::{Fixture, Testbed};
 
 /// A robot starts, greets and describes itself within this time.
 const START_MS: u64 = 600;
@@ -13,25 +13,25 @@ const START_MS: u64 = 600;
 /// Physical addresses of instructions that are executed neither when a robot starts, nor when it finds its image damaged and
 /// starts again.
 #[must_use]
-pub(super) fn idle_code(workshop: &Workshop) -> HashSet<u32> {
-    let mut stage = workshop.stage(1, Bridges::Sound, 0);
-    let mut idle: HashSet<u32> = instructions(workshop.image()).collect();
-    leave_idle(&mut idle, &mut stage);
+pub(super) fn idle_code(fixture: &Fixture) -> HashSet<u32> {
+    let mut testbed = fixture.testbed(1, Bridges::Sound, 0);
+    let mut idle: HashSet<u32> = instructions(fixture.image()).collect();
+    leave_idle(&mut idle, &mut testbed);
     // The order of a set is random, the least member is not.
     if let Some(address) = idle.iter().min() {
-        let machine = stage.robot_mut().machine_mut();
+        let machine = testbed.robot_mut().machine_mut();
         // An instruction of the image is in flash.
         machine.flip_flash_bit(*address, 0).unwrap_or_default();
     }
-    leave_idle(&mut idle, &mut stage);
+    leave_idle(&mut idle, &mut testbed);
     idle
 }
 
 /// Leaves those in the set that are not executed while the robot starts.
-fn leave_idle(idle: &mut HashSet<u32>, stage: &mut Stage) {
-    stage.robot_mut().machine_mut().note_touches();
-    stage.run(START_MS);
-    for (address, touch) in stage.robot_mut().machine_mut().take_touches() {
+fn leave_idle(idle: &mut HashSet<u32>, testbed: &mut Testbed) {
+    testbed.robot_mut().machine_mut().note_touches();
+    testbed.run(START_MS);
+    for (address, touch) in testbed.robot_mut().machine_mut().take_touches() {
         if touch.executed {
             idle.remove(&address);
         }

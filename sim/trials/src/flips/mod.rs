@@ -1,11 +1,11 @@
 //! Single bits that flip in memory and registers while the robot stands, drives, cleans or charges (S21).
 //!
-//! Each flip is tried from a snapshot: the bit flips at the beginning of a millisecond (each course has another phase
-//! between the core and the surroundings' milliseconds), at most 150 ms later something happens after which
-//! motors or charger must be off, and the judge looks on for longer than the watchdog's time. Bytes that the same robot
-//! does not read in this time without the flip need not be tried: the program cannot take another way because of them. Nor
-//! need instructions that it executes neither in this time nor after a reset: the running check of the image finds them.
-//! One in fifty of both is tried all the same.
+//! Each flip is tried from a snapshot. The bit flips at the beginning of a millisecond (each course has another phase
+//! between the core and the surroundings' milliseconds). At most 150 ms later an event requires motors or charger to be
+//! off, and the monitor observes for longer than the watchdog's time. Bytes that the robot does not read in this time
+//! without the flip are not tried, because they cannot change the program's path. Instructions that it executes neither
+//! in this time nor after a reset are not tried either: the running check of the image finds them. As a check, one in
+//! fifty of both is tried.
 
 mod course;
 mod idle_code;
@@ -19,27 +19,27 @@ use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
 pub use course::{Fate, Situation};
-pub use place::{Place, Storage};
+pub use place::{BitLocation, BitStorage};
 
-use crate::stage::{StageError, Workshop};
+use crate::testbed::{Fixture, TestbedError};
 use course::{Course, FLIP_MS};
 use idle_code::idle_code;
-use place::Places;
+use place::BitLocations;
 
 const DRAWS: u64 = 0xF11B;
-/// Of the flips that need not be tried so many are tried all the same, one in so many.
+/// Of the flips that need not be tried, one in this many is tried as a check.
 const CHECKED_EACH: u32 = 50;
-/// A flipped bit in flash must be found within this time, ms: the image is gone over every ten seconds.
+/// A flipped bit in flash must be found within this time, ms: the image is checked every ten seconds.
 const FOUND_MS: u64 = 13_000;
-/// A chip that was reset so often in that time gets no further than its start-up code.
+/// A chip with this many resets in that time does not get beyond its start-up code.
 const STARTS_OVER: u64 = 10;
 
 /// How a campaign is drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Plan {
+pub struct FlipPlan {
     /// Flips.
     pub count: u32,
-    /// Of everything random.
+    /// Seed of all random choices.
     pub seed: u64,
     /// Courses of each situation.
     pub courses: usize,
@@ -57,10 +57,10 @@ pub struct Breach {
     /// Millisecond of the course.
     pub at_ms: usize,
     /// The bit.
-    pub place: Place,
+    pub place: BitLocation,
     /// The function or variable that it belongs to.
     pub name: String,
-    /// What it came to.
+    /// Its result.
     pub fate: Fate,
     /// For how long a rule was broken, ms.
     pub broken_ms: u32,
@@ -68,11 +68,11 @@ pub struct Breach {
     pub breach: String,
 }
 
-/// A flip of flash that was left alone and not reported in time.
+/// A flip of flash that was not reported in time.
 #[derive(Clone, Debug, Serialize)]
 pub struct Unreported {
     /// Which bit.
-    pub place: Place,
+    pub place: BitLocation,
     /// The function or variable that it belongs to.
     pub name: String,
     /// Resets of the chip since the flip.
@@ -81,23 +81,23 @@ pub struct Unreported {
     pub is_off: bool,
 }
 
-/// What came of a campaign.
+/// Results of a campaign.
 #[derive(Clone, Debug, Default, Serialize)]
-pub struct Tally {
+pub struct FlipTally {
     /// Flips.
     pub flips: u32,
-    /// Flips that were tried in the emulator; those of the others are certain without.
+    /// Flips that were tried in the emulator; the results of the others are certain.
     pub tried: u32,
     /// Flips by storage and fate.
-    pub fates: BTreeMap<Storage, BTreeMap<Fate, u32>>,
+    pub fates: BTreeMap<BitStorage, BTreeMap<Fate, u32>>,
     /// Flips by situation and fate.
     pub situations: BTreeMap<Situation, BTreeMap<Fate, u32>>,
-    /// Flips that were certain and were tried all the same, and how many of them were not as foreseen.
+    /// Certain flips that were tried as a check, and how many of them had another result.
     pub foreseen_checked: (u32, u32),
     /// Flips of flash that were left until the check of the image had to find them.
     pub image_checked: u32,
-    /// Those of them that the robot could not report, since its start-up code is what was hit: the check found them, and the
-    /// chip has been starting over and over since, with motors and charger off.
+    /// Those of them in the start-up code, which the robot could not report: the check found them, and the chip
+    /// restarts repeatedly, with motors and charger off.
     pub starting_over: Vec<Unreported>,
     /// Those of them that were neither reported nor ended the program.
     pub image_missed: Vec<Unreported>,
@@ -105,20 +105,20 @@ pub struct Tally {
     pub breaches: Vec<Breach>,
 }
 
-impl Tally {
+impl FlipTally {
     /// Flips with this fate.
     #[must_use]
     pub fn of(&self, fate: Fate) -> u32 {
         self.fates.values().filter_map(|fates| fates.get(&fate)).sum()
     }
 
-    /// Whether nothing is left to explain.
+    /// Whether no result is unexplained.
     #[must_use]
     pub fn is_safe(&self) -> bool {
         self.of(Fate::Unsafe) == 0 && self.foreseen_checked.1 == 0 && self.image_missed.is_empty()
     }
 
-    fn count(&mut self, situation: Situation, storage: Storage, fate: Fate) {
+    fn count(&mut self, situation: Situation, storage: BitStorage, fate: Fate) {
         self.flips += 1;
         *self.fates.entry(storage).or_default().entry(fate).or_default() += 1;
         *self
@@ -130,32 +130,32 @@ impl Tally {
     }
 }
 
-/// Flips bits. `progress` is told the tally after each course.
+/// Flips bits. Calls `progress` with the tally after each course.
 ///
 /// # Errors
 /// When the robot does not get into a situation without any fault.
 pub fn flip_bits(
-    workshop: &Workshop,
-    plan: &Plan,
-    mut progress: impl FnMut(&Tally),
-) -> Result<Tally, StageError> {
+    fixture: &Fixture,
+    plan: &FlipPlan,
+    mut progress: impl FnMut(&FlipTally),
+) -> Result<FlipTally, TestbedError> {
     let mut random = Pcg::new(plan.seed, DRAWS);
-    let mut tally = Tally::default();
+    let mut tally = FlipTally::default();
     let all = plan.courses * Situation::ALL.len();
-    let idle_code = idle_code(workshop);
+    let idle_code = idle_code(fixture);
     for number in 0..all {
         let Some(situation) = Situation::ALL.get(number % Situation::ALL.len()) else {
             continue;
         };
-        let variables_end = variables_end(workshop.image());
+        let variables_end = variables_end(fixture.image());
         let mut places = None;
-        let course = Course::live(workshop, *situation, number / Situation::ALL.len(), |machine| {
-            let found = Places::of(machine, variables_end);
+        let course = Course::live(fixture, *situation, number / Situation::ALL.len(), |machine| {
+            let found = BitLocations::of(machine, variables_end);
             places.insert(found).chip().to_vec()
         })?;
         let Some(places) = places else { continue };
-        let ground = Ground {
-            image: workshop.image(),
+        let ground = FlipContext {
+            image: fixture.image(),
             course: &course,
             places: &places,
             idle_code: &idle_code,
@@ -172,25 +172,25 @@ pub fn flip_bits(
     Ok(tally)
 }
 
-/// A stretch of life and the bits that can flip in it.
-struct Ground<'a> {
+/// A course and the bits that can flip in it.
+struct FlipContext<'a> {
     image: &'a Image,
     course: &'a Course,
-    places: &'a Places,
+    places: &'a BitLocations,
     idle_code: &'a HashSet<u32>,
 }
 
-impl Ground<'_> {
-    /// What a flip surely comes to without trying it.
-    fn foreseen(&self, place: Place, at_ms: usize) -> Option<Fate> {
+impl FlipContext<'_> {
+    /// The result of a flip that is certain without trying it.
+    fn foreseen(&self, place: BitLocation, at_ms: usize) -> Option<Fate> {
         let is_only_checked = self.idle_code.contains(&place.address) && !self.course.executes(place);
         match self.course.foreseen(place, at_ms) {
-            None if place.storage == Storage::Flash && is_only_checked => Some(Fate::Detected),
+            None if place.storage == BitStorage::Flash && is_only_checked => Some(Fate::Detected),
             foreseen => foreseen,
         }
     }
 
-    fn flip_one(&self, random: &mut Pcg, tally: &mut Tally) {
+    fn flip_one(&self, random: &mut Pcg, tally: &mut FlipTally) {
         let course = self.course;
         let place = self.places.draw(random);
         let at_ms = random.below(FLIP_MS as u32) as usize;
@@ -229,27 +229,27 @@ impl Ground<'_> {
         }
     }
 
-    /// Leaves a flipped bit alone until the robot reports it; what became of the robot if it does not.
-    fn leave(&self, place: Place) -> Option<Unreported> {
-        let mut stage = self.course.first()?;
-        let resets = stage.robot().machine().reset_count();
-        place.flip(stage.robot_mut().machine_mut());
+    /// Waits until the robot reports a flipped bit; returns the state of the robot if it does not.
+    fn leave(&self, place: BitLocation) -> Option<Unreported> {
+        let mut testbed = self.course.first()?;
+        let resets = testbed.robot().machine().reset_count();
+        place.flip(testbed.robot_mut().machine_mut());
         for _ in 0..FOUND_MS {
-            stage.tick();
-            if stage.inhibits().contains(Inhibit::Memory) {
+            testbed.tick();
+            if testbed.inhibits().contains(Inhibit::Memory) {
                 return None;
             }
         }
         Some(Unreported {
             place,
             name: name_of(self.image, place),
-            resets: stage.robot().machine().reset_count() - resets,
-            is_off: course::is_off(&stage),
+            resets: testbed.robot().machine().reset_count() - resets,
+            is_off: course::is_off(&testbed),
         })
     }
 
-    /// Leaves flipped bits of flash alone until the robot has found them.
-    fn check_image(&self, mut left: u32, random: &mut Pcg, tally: &mut Tally) {
+    /// Waits until the robot has found flipped bits of flash.
+    fn check_image(&self, mut left: u32, random: &mut Pcg, tally: &mut FlipTally) {
         while left > 0 {
             let place = self.places.draw(random);
             // What is behind the image is no part of it: the calibration record has a check of its own, at the start.
@@ -281,10 +281,12 @@ fn variables_end(image: &Image) -> u32 {
 }
 
 /// The function or variable that the bit belongs to.
-fn name_of(image: &Image, place: Place) -> String {
+fn name_of(image: &Image, place: BitLocation) -> String {
     let segment = match place.storage {
-        Storage::Ram | Storage::Flash => 0x8000_0000,
-        Storage::Core | Storage::Chip => return format!("{} {:#x}", place.storage.name(), place.address),
+        BitStorage::Ram | BitStorage::Flash => 0x8000_0000,
+        BitStorage::Core | BitStorage::Chip => {
+            return format!("{} {:#x}", place.storage.name(), place.address);
+        }
     };
     let address = segment + place.address;
     let holds = |start: u32, size: u32| (start..start + size.max(4)).contains(&address);

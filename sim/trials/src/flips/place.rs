@@ -1,13 +1,13 @@
-//! Where a bit can flip.
+//! Locations of flipped bits.
 
 use home::Pcg;
 use pic32::machine::Machine;
 use serde::Serialize;
 
-/// What kind of storage a bit is in.
+/// Kind of storage of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Storage {
+pub enum BitStorage {
     /// RAM that the program uses: its variables, and the stack down to the deepest place it has reached.
     Ram,
     /// Flash that the image fills, boot flash, configuration words and calibration record included.
@@ -18,7 +18,7 @@ pub enum Storage {
     Chip,
 }
 
-impl Storage {
+impl BitStorage {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Ram, Self::Flash, Self::Core, Self::Chip];
 
@@ -36,9 +36,9 @@ impl Storage {
 
 /// One bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Place {
-    /// What it is in.
-    pub storage: Storage,
+pub struct BitLocation {
+    /// Its storage.
+    pub storage: BitStorage,
     /// Physical address of its word; of a core register its number (32 HI, 33 LO, 34 the program counter).
     pub address: u32,
     /// Bit of the word, 0 to 31.
@@ -57,21 +57,21 @@ const REGISTERS: std::ops::Range<u32> = 0x1F80_0000..0x1F89_0000;
 /// The calibration record and the configuration words.
 const CALIBRATION: u32 = 0x1D03_F000;
 const CONFIGURATION: u32 = 0x1FC0_2FF0;
-/// Registers are so far apart; between them are their CLR, SET and INV.
+/// Distance of registers; between them are their CLR, SET and INV.
 const REGISTER_STEP: usize = 16;
-/// Of a hundred flips so many hit RAM, flash and the core's registers; the rest hit those of the chip.
+/// Percentages of flips in RAM, flash and the core's registers; the rest hit registers of the chip.
 const SHARES: [u32; 3] = [45, 45, 5];
 
-/// All words that are worth a flip.
+/// All words in which bits are flipped.
 #[derive(Clone, Debug)]
-pub(super) struct Places {
+pub(super) struct BitLocations {
     ram: Vec<u32>,
     flash: Vec<u32>,
     chip: Vec<u32>,
 }
 
-impl Places {
-    /// Of a machine whose program has run for a while, and whose variables end at this physical address.
+impl BitLocations {
+    /// The words of a machine whose program has run for a while, and whose variables end at this physical address.
     #[must_use]
     pub(super) fn of(machine: &mut Machine, variables_end: u32) -> Self {
         let stack = machine.deepest_stack().unwrap_or(RAM_BYTES) & 0x7FFC;
@@ -101,7 +101,7 @@ impl Places {
     }
 
     /// Any bit, each of its storage alike.
-    pub(super) fn draw(&self, random: &mut Pcg) -> Place {
+    pub(super) fn draw(&self, random: &mut Pcg) -> BitLocation {
         let [ram, flash, core] = SHARES;
         let number = random.below(100);
         let mut any = |words: &[u32]| {
@@ -109,12 +109,12 @@ impl Places {
             words.get(number).copied().unwrap_or_default()
         };
         let (storage, address) = match number {
-            _ if number < ram => (Storage::Ram, any(&self.ram)),
-            _ if number < ram + flash => (Storage::Flash, any(&self.flash)),
-            _ if number < ram + flash + core => (Storage::Core, 1 + random.below(PROGRAM_COUNTER)),
-            _ => (Storage::Chip, any(&self.chip)),
+            _ if number < ram => (BitStorage::Ram, any(&self.ram)),
+            _ if number < ram + flash => (BitStorage::Flash, any(&self.flash)),
+            _ if number < ram + flash + core => (BitStorage::Core, 1 + random.below(PROGRAM_COUNTER)),
+            _ => (BitStorage::Chip, any(&self.chip)),
         };
-        Place {
+        BitLocation {
             storage,
             address,
             bit: random.below(32) as u8,
@@ -122,11 +122,11 @@ impl Places {
     }
 }
 
-impl Place {
+impl BitLocation {
     /// Whether it belongs to what the firmware checks of its image: all but configuration words and calibration record.
     #[must_use]
     pub(super) const fn is_in_image(self) -> bool {
-        matches!(self.storage, Storage::Flash)
+        matches!(self.storage, BitStorage::Flash)
             && (self.address < CALIBRATION || self.address >= BOOT.start && self.address < CONFIGURATION)
     }
 
@@ -142,10 +142,10 @@ impl Place {
         let byte = self.byte();
         match self.storage {
             // The places were taken from the machine itself, so they are there.
-            Storage::Ram => machine.flip_ram_bit(byte, self.bit % 8).unwrap_or_default(),
-            Storage::Flash => machine.flip_flash_bit(byte, self.bit % 8).unwrap_or_default(),
-            Storage::Core => self.flip_core(machine, mask),
-            Storage::Chip => {
+            BitStorage::Ram => machine.flip_ram_bit(byte, self.bit % 8).unwrap_or_default(),
+            BitStorage::Flash => machine.flip_flash_bit(byte, self.bit % 8).unwrap_or_default(),
+            BitStorage::Core => self.flip_core(machine, mask),
+            BitStorage::Chip => {
                 let value = machine.peek_register(self.address).unwrap_or_default();
                 machine.write_register(self.address, value ^ mask);
             }

@@ -1,33 +1,45 @@
-//! What the device told, and what the core makes of it.
+//! What the device told, and who hears of it.
 
-use rvac_api::LogLevel;
+use brain::Command;
+use rvac_api::{LogLevel, RunAsker};
 
-use super::{Core, recorder};
-use crate::device::{Description, DeviceEvent, Greeting, Report, SlowFacts};
-use crate::journal::Part;
-use crate::mind::Mind;
-use crate::{Outputs, RunEnd, cut_short};
+use super::Core;
+use crate::desk::arbiter::Source;
+use crate::desk::button_desk::{ButtonEdge, Doing};
+use crate::desk::journal::Part;
+use crate::device::{Description, DeviceEvent, Greeting, Report};
+use crate::mind::{Mind, Recorder};
+use crate::{Checkpoint, Outputs, RunEnd, cut_short};
+
+/// The firmware stops by itself when a button is pressed in motion; by the time the press arrives here the state may have
+/// changed for that very press. A press so soon after a change means the state before.
+const AFTER_CHANGE_US: u64 = 500_000;
 
 impl Core {
-    pub(super) fn device_events(
-        &mut self,
-        now_us: u64,
-        events: &mut Vec<DeviceEvent>,
-        outputs: &mut Outputs,
-    ) {
+    pub(super) fn take_events(&mut self, now_us: u64, mut events: Vec<DeviceEvent>, outputs: &mut Outputs) {
         for event in events.drain(..) {
-            self.device_event(now_us, event, outputs);
+            self.take_event(now_us, event, outputs);
         }
+        self.link.reuse(events);
     }
 
-    fn device_event(&mut self, now_us: u64, event: DeviceEvent, outputs: &mut Outputs) {
-        let line = match event {
+    fn take_event(&mut self, now_us: u64, event: DeviceEvent, outputs: &mut Outputs) {
+        let (level, part, text) = match event {
             DeviceEvent::Report(report) => return self.take_report(now_us, report, outputs),
-            DeviceEvent::Slow(facts) => return self.take_slow_facts(facts),
+            DeviceEvent::Slow(facts) => {
+                if let Some(mind) = &mut self.mind {
+                    mind.observer.take_battery(facts.battery.as_ref());
+                }
+                return self.link.take_slow_facts(facts);
+            }
             DeviceEvent::Opened(greeting) => self.greeted(&greeting),
-            DeviceEvent::Described(description) => self.described(now_us, &description, outputs),
+            DeviceEvent::Described(description) => {
+                self.described(now_us, &description, outputs);
+                let text = format!("{} has described itself", description.identity.device);
+                (LogLevel::Info, Part::Link, text)
+            }
             DeviceEvent::Button { button, pressed } => {
-                self.button_turned(now_us, (button, pressed), outputs);
+                self.button_turned(now_us, ButtonEdge { button, pressed }, outputs);
                 if !pressed {
                     return;
                 }
@@ -48,11 +60,10 @@ impl Core {
                 let text = format!("the robot refused command{number}: {reason}");
                 (LogLevel::Warn, Part::Firmware, text)
             }
-            DeviceEvent::Unanswered(number) => (
-                LogLevel::Warn,
-                Part::Link,
-                format!("the robot did not answer command {number}"),
-            ),
+            DeviceEvent::Unanswered(number) => {
+                let text = format!("the robot did not answer command {number}");
+                (LogLevel::Warn, Part::Link, text)
+            }
             DeviceEvent::ControlLost(reason) => {
                 let text = format!("the robot took its wheels back: {reason}");
                 (LogLevel::Warn, Part::Firmware, text)
@@ -78,12 +89,12 @@ impl Core {
                 (LogLevel::Error, Part::Link, text)
             }
         };
-        self.log(now_us, line, outputs);
+        self.teller(now_us, outputs).log(level, part, text);
     }
 
     fn greeted(&mut self, greeting: &Greeting) -> (LogLevel, Part, String) {
         self.buttons.forget();
-        self.facts.greeted(greeting);
+        self.link.greeted(greeting);
         let Greeting { device, firmware, .. } = greeting;
         if !greeting.was_reset {
             let text = format!("session with {device} {firmware}");
@@ -97,70 +108,83 @@ impl Core {
         (LogLevel::Warn, Part::Link, text)
     }
 
-    fn described(
-        &mut self,
-        now_us: u64,
-        description: &Description,
-        outputs: &mut Outputs,
-    ) -> (LogLevel, Part, String) {
+    /// Another robot than the one before begins with a brain of its own.
+    fn described(&mut self, now_us: u64, description: &Description, outputs: &mut Outputs) {
         let device = &description.identity.device;
-        if self.mind.as_ref().is_none_or(|mind| mind.device() != device) {
-            let recording = self.config.recording;
-            self.keep_learnt(outputs);
-            if let Some(mut old) = self.mind.take() {
-                let over = self.runs.change_robot(now_us, old.brain());
-                old.end_run(now_us, RunEnd::OtherRobot, &mut recorder(recording, outputs));
-                self.keep_run(over, outputs);
-            }
-            self.tell_learnt(now_us, device, outputs);
-            let mut mind = Mind::new(description, &self.config, &self.floors);
-            let mut resumed = None;
-            match self.config.resume.take() {
-                Some(checkpoint) if checkpoint.device == *device => resumed = Some(checkpoint),
-                Some(others) => self.keep_run(cut_short(others), outputs),
-                None => {}
-            }
-            if let Some(checkpoint) = &resumed {
-                let line = match checkpoint.brain.job {
-                    Some(_) => "resumed-after-restart: goes on with the interrupted job",
-                    None => "takes up pose and map from before the restart",
-                };
-                let floor = checkpoint.floor.filter(|floor| self.floors.get(*floor).is_some());
-                mind.resume(
-                    now_us,
-                    (checkpoint.brain.clone(), floor),
-                    &mut recorder(recording, outputs),
-                );
-                self.log(now_us, (LogLevel::Info, Part::Vthal, line.to_owned()), outputs);
-            }
-            self.mind = Some(mind);
-            if let Some(checkpoint) = resumed {
-                self.resume_run(now_us, checkpoint, outputs);
-            }
+        if self.mind.as_ref().is_some_and(|mind| mind.device() == device) {
+            return;
         }
-        (
-            LogLevel::Info,
-            Part::Link,
-            format!("{device} has described itself"),
-        )
+        let recording = self.config.recording;
+        self.keep_learnt(outputs);
+        if let Some(mut old) = self.mind.take() {
+            let over = self.history.change_robot(now_us, old.brain());
+            old.end_run(now_us, RunEnd::OtherRobot, &mut Recorder::new(recording, outputs));
+            self.history.keep(over, None, outputs);
+        }
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.learnt.introduce(device, &mut teller);
+        let learnt = self.learnt.of(device);
+        let mut mind = Mind::new(description, learnt, &self.config, self.floors.floors());
+        match self.config.resume.take() {
+            Some(checkpoint) if checkpoint.device == *device => {
+                self.resume(now_us, (&mut mind, checkpoint), outputs);
+            }
+            Some(others) => self.history.keep(cut_short(others), None, outputs),
+            None => {}
+        }
+        self.mind = Some(mind);
+    }
+
+    /// Goes on with what a daemon before this one was doing.
+    fn resume(&mut self, now_us: u64, (mind, checkpoint): (&mut Mind, Checkpoint), outputs: &mut Outputs) {
+        let line = match checkpoint.brain.job {
+            Some(_) => "resumed-after-restart: goes on with the interrupted job",
+            None => "takes up pose and map from before the restart",
+        };
+        let floors = self.floors.floors();
+        let floor = checkpoint.floor.filter(|floor| floors.get(*floor).is_some());
+        let mut recorder = Recorder::new(self.config.recording, outputs);
+        mind.resume(now_us, (checkpoint.brain.clone(), floor), &mut recorder);
+        self.teller(now_us, outputs)
+            .log(LogLevel::Info, Part::Vthal, line.to_owned());
+        if let Some(run) = self.history.resume(now_us, checkpoint, mind.brain()) {
+            self.history.keep(Some(run), mind.floor(), outputs);
+        }
     }
 
     fn take_report(&mut self, now_us: u64, report: Report, outputs: &mut Outputs) {
-        self.facts.take_report(now_us, report);
-        if let Some(gesture) = self.buttons.take_report(now_us, report.buttons) {
-            self.held(now_us, (gesture, report.uptime_ms), outputs);
-        }
-        let description = self.device.as_ref().and_then(|device| device.description());
-        if let (Some(mind), Some(description)) = (&mut self.mind, description) {
+        self.link.take_report(now_us, report);
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.buttons.reported(&report, &mut teller);
+        if let (Some(mind), Some(description)) = (&mut self.mind, self.link.description()) {
             mind.observer.take_report(now_us, &report, description);
             self.think(now_us, outputs);
         }
     }
 
-    fn take_slow_facts(&mut self, facts: SlowFacts) {
-        if let Some(mind) = &mut self.mind {
-            mind.observer.take_battery(facts.battery.as_ref());
+    fn button_turned(&mut self, now_us: u64, edge: ButtonEdge, outputs: &mut Outputs) {
+        let usual_strategy = self.start_facts().usual_strategy;
+        let doing = self.mind.as_ref().map(|mind| Doing {
+            status: mind.brain().status(),
+            is_new: self.feed.state_changed_within(now_us, AFTER_CHANGE_US),
+            usual_strategy,
+        });
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        if let Some(command) = self.buttons.turned(edge, doing.as_ref(), &mut teller) {
+            self.command_by_button(now_us, command, outputs);
         }
-        self.facts.slow = Some(facts);
+    }
+
+    fn command_by_button(&mut self, now_us: u64, command: Command, outputs: &mut Outputs) {
+        if self.driver.admit(now_us, Source::Button).is_err() {
+            return;
+        }
+        self.driver.arbiter.preempt();
+        let is_admitted = |mind: &Mind| mind.brain().admit(&command).is_ok();
+        if self.mind.as_ref().is_some_and(is_admitted) {
+            let brain = self.mind.as_ref().map(Mind::brain);
+            self.history.order(RunAsker::Button, &command, brain);
+            self.command_brain(now_us, command, outputs);
+        }
     }
 }

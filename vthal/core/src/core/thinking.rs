@@ -1,85 +1,136 @@
 //! One step of the brain, and what it asks for.
 
 use brain::action::Decision;
-use brain::command::StrategyName;
 use brain::{Actions, BehaviorState, Command, Motion};
-use rvac_api::{LogLevel, Topic, Update};
+use rvac_api::{Evidence, LogLevel};
 
-use super::standstill::is_standstill;
-use super::{Core, recorder, refusal};
-use crate::device::{CleanerDrive, DeviceCommand, LeaveDock, Supervisor, Tone, Verdict};
-use crate::journal::Part;
-use crate::observe::LinkView;
-use crate::outputs::{Delivery, Recipients};
+use super::Core;
+use crate::desk::evidence::Perceived;
+use crate::desk::health::Drive;
+use crate::desk::journal::Part;
+use crate::desk::room_power::cleaner_power;
+use crate::desk::standstills::{Stand, is_standstill};
+use crate::device::{CleanerDrive, CleanerPower, DeviceCommand, LeaveDock, Tone};
+use crate::history::Moment;
+use crate::mind::{FloorNews, Mind, Recorder};
 use crate::{ClientId, Outputs};
 
 /// How long a drive command of the brain is valid: the default of the device model.
 const VALID_FOR_US: u64 = 250_000;
-impl Core {
-    pub(super) fn link_view(&self, now_us: u64) -> LinkView {
-        let attached = self.device.as_ref().filter(|device| device.is_attached());
-        let up = attached
-            .and_then(Supervisor::fresh_us)
-            .is_some_and(|fresh_us| self.facts.is_fresh(now_us, fresh_us));
-        let verdict = self
-            .device
-            .as_ref()
-            .map(|device| device.link_quality().verdict)
-            .unwrap_or_default();
-        let speed_share = match verdict {
-            Verdict::Good => 1.0,
-            Verdict::Poor => 0.5,
-            Verdict::Bad => 0.0,
-        };
-        LinkView { up, speed_share }
-    }
 
+impl Core {
     /// Lets the brain see the present observation and does what it says.
     pub(super) fn think(&mut self, now_us: u64, outputs: &mut Outputs) {
-        self.stepped_us = now_us;
+        self.pace.stepped_us = now_us;
         if self.ended {
             return;
         }
-        let link = self.link_view(now_us);
+        let link = self.link.view(now_us);
         let recording = self.config.recording;
         let Some(mind) = &mut self.mind else { return };
-        mind.observer.stamp(now_us, link);
-        let news = mind.look_for_floor(now_us, &self.floors, &mut recorder(recording, outputs));
+        mind.stamp(now_us, link);
+        let floors = self.floors.floors();
+        let news = mind.look_for_floor(now_us, floors, &mut Recorder::new(recording, outputs));
         let before = mind.brain().status().state;
         let was_recorded = mind.is_recorded();
-        self.commands_wait = mind.holds_commands();
-        self.feel();
-        self.weigh_loads(now_us, outputs);
+        self.pace.commands_wait = mind.holds_commands();
+        self.feel(now_us, outputs);
         let Some(mind) = &mut self.mind else { return };
-        let actions = mind.step(&mut recorder(recording, outputs));
+        let actions = mind.step(&mut Recorder::new(recording, outputs));
         if was_recorded && !mind.is_recorded() {
             outputs.home = mind.home_to_keep();
             self.keep_learnt(outputs);
         }
         self.follow_run(now_us, &actions.decisions, outputs);
-        self.note_kept_home(outputs);
-        self.keep_edits(outputs);
-        let Some(mind) = &self.mind else { return };
-        let after = mind.brain().status().state;
-        if before != after {
-            self.feed.state_changed(now_us);
-            if before == BehaviorState::Manual {
-                self.arbiter.preempt();
-            }
+        if let Some(kept) = &outputs.home {
+            self.floors.note_kept(kept);
         }
+        self.keep_edits(outputs);
+        self.follow_state(now_us, before);
         if let Some(news) = news {
-            self.log_floor(now_us, news, outputs);
+            self.announce(now_us, news, outputs);
         }
         self.perform(now_us, actions, outputs);
     }
 
-    fn perform(&mut self, now_us: u64, actions: Actions, outputs: &mut Outputs) {
-        for decision in &actions.decisions {
-            self.log_decision(now_us, decision, outputs);
-            if is_standstill(decision) {
-                self.tell_standstill(now_us, decision, outputs);
+    /// What the robot feels and what its motors draw in this step.
+    fn feel(&mut self, now_us: u64, outputs: &mut Outputs) {
+        let (Some(mind), Some(description)) = (&self.mind, self.link.description()) else {
+            return;
+        };
+        let perceived = Perceived {
+            observation: mind.observer.observation(),
+            edges: mind.edges(),
+            currents_a: self.link.currents_a(),
+        };
+        self.standstills.feel(&perceived, description.drive.track_m);
+        if mind.brain().status().state != BehaviorState::Cleaning {
+            return;
+        }
+        if let Some(report) = self.link.report() {
+            let drive = Drive {
+                report,
+                wheel_speeds: self.link.wheel_speeds(),
+                power: self.cleaner_power(),
+            };
+            let mut teller = self.audience.teller(self.now(now_us), outputs);
+            self.health.weigh(&drive, &mut teller);
+        }
+    }
+
+    fn follow_run(&mut self, now_us: u64, decisions: &[Decision], outputs: &mut Outputs) {
+        let Some(mind) = &self.mind else { return };
+        let evidence = if decisions.iter().any(is_standstill) {
+            self.standstills.evidence(now_us, self.track_m())
+        } else {
+            Evidence::default()
+        };
+        let moment = Moment {
+            now_us,
+            brain: mind.brain(),
+            charge: mind.observer.observation().battery_charge,
+            decisions,
+            evidence: &evidence,
+            recorded: mind.recorded_run(),
+            commands_wait: self.pace.commands_wait,
+        };
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.history.follow(&moment, mind.floor(), &mut teller);
+    }
+
+    /// After the step in which the brain took up what clients say of the home: its map goes to the disk.
+    fn keep_edits(&mut self, outputs: &mut Outputs) {
+        if !self.home.is_waited_for() || self.pace.commands_wait {
+            return;
+        }
+        self.feed.tell_home_now();
+        let home = self.mind.as_ref().and_then(Mind::home_to_keep);
+        if let Some(kept) = &home {
+            self.floors.note_kept(kept);
+        }
+        self.home.keep(home.as_ref(), outputs);
+    }
+
+    fn follow_state(&mut self, now_us: u64, before: BehaviorState) {
+        let Some(mind) = &self.mind else { return };
+        if before != mind.brain().status().state {
+            self.feed.state_changed(now_us);
+            if before == BehaviorState::Manual {
+                self.driver.arbiter.preempt();
             }
         }
+    }
+
+    fn announce(&mut self, now_us: u64, news: FloorNews, outputs: &mut Outputs) {
+        if !matches!(news, FloorNews::Asked(_)) {
+            self.feed.tell_home_now();
+        }
+        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        self.floors.announce(news, &mut teller);
+    }
+
+    fn perform(&mut self, now_us: u64, actions: Actions, outputs: &mut Outputs) {
+        self.tell_decisions(now_us, &actions.decisions, outputs);
         if let Some(arm) = actions.arm {
             let leave_dock = if arm.undock {
                 LeaveDock::Leave
@@ -116,53 +167,41 @@ impl Core {
         self.device_command(now_us, DeviceCommand::Cleaners(cleaners), outputs);
     }
 
-    fn log_decision(&mut self, now_us: u64, decision: &Decision, outputs: &mut Outputs) {
-        let is_refusal = decision.what == "refuse";
-        let level = if is_refusal || decision.what.starts_with("state-") {
-            LogLevel::Info
-        } else {
-            LogLevel::Debug
-        };
-        let value = if decision.value == 0.0 {
-            String::new()
-        } else {
-            format!(" {:.2}", decision.value)
-        };
-        let told = if is_refusal || is_standstill(decision) {
-            format!(": {}", refusal::text(decision.reason))
-        } else {
-            String::new()
-        };
-        let text = format!("{} ({}){value}{told}", decision.what, decision.reason);
-        self.log(now_us, (level, Part::Brain, text), outputs);
-        let entry = self.diary.write(now_us, decision);
-        if self.clients.any(Topic::Decisions) {
-            outputs.deliveries.push(Delivery {
-                to: Recipients::Followers(Topic::Decisions),
-                update: Update::Decision(entry),
-            });
+    fn tell_decisions(&mut self, now_us: u64, decisions: &[Decision], outputs: &mut Outputs) {
+        let (now, track_m) = (self.now(now_us), self.track_m());
+        let Some(mind) = &self.mind else { return };
+        let mut teller = self.audience.teller(now, outputs);
+        for decision in decisions {
+            self.standstills.decided(decision, &mut teller);
+            if is_standstill(decision) {
+                let estimate = mind.brain().estimate();
+                let stand = Stand { estimate, track_m };
+                self.standstills.stands(decision, stand, &mut teller);
+            }
         }
+    }
+
+    fn cleaner_power(&self) -> CleanerPower {
+        let brain = self.mind.as_ref().map(Mind::brain);
+        brain.map_or(CleanerPower::FULL, |brain| {
+            cleaner_power(brain, self.driver.power())
+        })
     }
 
     /// Gives a command to the brain with its next step.
     pub(super) fn command_brain(&mut self, now_us: u64, command: Command, outputs: &mut Outputs) {
-        let recording = self.config.recording;
         if let Some(mind) = &mut self.mind {
-            mind.command(now_us, command, &mut recorder(recording, outputs));
+            let mut recorder = Recorder::new(self.config.recording, outputs);
+            mind.command(now_us, command, &mut recorder);
         }
-    }
-
-    /// Strategy of a job that names none.
-    pub(super) fn usual_strategy(&self) -> StrategyName {
-        let suits = || self.mind.as_ref().map(|mind| mind.brain().usual_strategy());
-        self.config.strategy.or_else(suits).unwrap_or_default()
     }
 
     /// The driver's lease ended without a word: stand at once, the brain hears it too.
     pub(super) fn lease_ended(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
-        let text = format!("lease of driver {} ended: wheels stop", self.clients.name(client));
         // Nobody steers any more: the ramp of a stick that was let go would roll on for half a second.
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
-        self.log(now_us, (LogLevel::Info, Part::Client, text), outputs);
+        let mut teller = self.teller(now_us, outputs);
+        let text = format!("lease of driver {} ended: wheels stop", teller.name(client));
+        teller.log(LogLevel::Info, Part::Client, text);
     }
 }

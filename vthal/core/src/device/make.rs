@@ -160,8 +160,11 @@ pub struct Make {
 /// How the line to a robot is opened. What is said over it then is the business of [`Device::open`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Opening {
-    /// Rate in bits per second unless the configuration names another.
-    pub baud: u32,
+    /// Rates in bits per second, the likeliest first. Unless the configuration names one, each is tried in turn until a robot
+    /// answers.
+    pub rates_baud: &'static [u32],
+    /// A robot at the right rate has described itself after so long.
+    pub answer_within_ms: u16,
     /// The line RTS is low for so long, to wake the robot; 0 = it needs no waking.
     pub wake_pulse_ms: u16,
     /// Pause before the first byte.

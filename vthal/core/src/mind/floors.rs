@@ -5,22 +5,37 @@ use brain::{Brain, Checkpoint, ReadyHome, StoreyPose};
 
 use super::next_run::FloorOnItsWay;
 use super::{Mind, Recorder};
+use crate::edges::Sign;
 use crate::floors::Floors;
 use crate::quest::{Quest, Question};
 use crate::{RunCause, RunEnd};
 
-/// Whether hands had the robot since its floor was known.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Carried {
-    #[default]
-    No,
-    /// A wheel hangs since then, microseconds.
-    Hangs(u64),
-    Yes,
-}
-
 /// A wheel that hangs for so long hangs because somebody holds the robot.
 const LIFTED_US: u64 = 1_000_000;
+
+/// Whether hands had the robot since its floor was known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Hands {
+    had_it: bool,
+    /// Since when it is watched without a gap, microseconds.
+    watched_us: Option<u64>,
+}
+
+impl Hands {
+    /// The robot stands on a dock at rest.
+    fn rest(&mut self, hangs_since_us: Option<u64>) {
+        if hangs_since_us.is_none() {
+            self.watched_us = None;
+        }
+    }
+
+    /// The robot may be held in hands. A wheel hangs since then, if one does.
+    fn watch(&mut self, now_us: u64, hangs_since_us: Option<u64>) {
+        let watched_us = *self.watched_us.get_or_insert(now_us);
+        let is_held = |since_us: u64| now_us >= since_us.max(watched_us) + LIFTED_US;
+        self.had_it |= hangs_since_us.is_some_and(is_held);
+    }
+}
 
 /// What has become known of the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,10 +76,11 @@ impl Mind {
         let under_way = self.on_its_way.take();
         let observation = self.observer.observation();
         if self.run.is_none() && observation.docked && observation.link_up {
+            self.hands.rest(self.edges.since_us(Sign::WheelDrop));
             let news = self.know_dock(floors, under_way);
             return news.or_else(|| self.new_question(asked_before));
         }
-        self.watch_hands(now_us);
+        self.hands.watch(now_us, self.edges.since_us(Sign::WheelDrop));
         self.run?;
         let is_lost_among_several = self.brain.estimate().lost && floors.homes().nth(1).is_some();
         if self.floor.is_some() && !is_lost_among_several {
@@ -95,7 +111,7 @@ impl Mind {
     /// The robot stands on a dock at rest.
     fn know_dock(&mut self, floors: &Floors, under_way: Option<FloorOnItsWay>) -> Option<FloorNews> {
         let docks = floors.homes().filter(|(_, home)| home.dock().is_some()).count();
-        if self.floor.is_some() && self.carried == Carried::Yes && docks > 1 {
+        if self.floor.is_some() && self.hands.had_it && docks > 1 {
             self.forget_floor(None);
         }
         if self.floor.is_some() {
@@ -106,7 +122,7 @@ impl Mind {
         self.begin_with(Brain::with_home(self.config, self.seed, home));
         self.floor = Some(number);
         self.quest = None;
-        self.carried = Carried::No;
+        self.hands = Hands::default();
         Some(FloorNews::Docked(number))
     }
 
@@ -118,17 +134,6 @@ impl Mind {
             self.on_its_way = Some(floor);
         }
         ready
-    }
-
-    fn watch_hands(&mut self, now_us: u64) {
-        let hangs = self.observer.observation().wheel_drop;
-        self.carried = match (self.carried, hangs) {
-            (Carried::Yes, _) => Carried::Yes,
-            (_, false) => Carried::No,
-            (Carried::No, true) => Carried::Hangs(now_us),
-            (Carried::Hangs(since_us), true) if now_us >= since_us + LIFTED_US => Carried::Yes,
-            (hanging @ Carried::Hangs(_), true) => hanging,
-        };
     }
 
     /// The robot is at a place of a floor: what it does goes on there.
@@ -147,7 +152,7 @@ impl Mind {
         self.go_on_with(now_us, (checkpoint, Some(ready)), recorder);
         self.floor = Some(place.floor);
         self.quest = None;
-        self.carried = Carried::No;
+        self.hands = Hands::default();
     }
 
     /// What the brain is doing, without any map.
@@ -206,7 +211,7 @@ impl Mind {
         }
         self.floor = Some(number);
         self.quest = None;
-        self.carried = Carried::No;
+        self.hands = Hands::default();
     }
 
     /// The map of a floor is another one now. If the robot is there, it is taken up when it stands on its dock; a run that has nothing

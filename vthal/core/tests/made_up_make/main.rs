@@ -241,6 +241,23 @@ fn experts_speak_its_own_words_and_everybody_reads_them() {
     assert_eq!(pair.ask(raw).as_deref(), Some("expert-off"));
 }
 
+#[test]
+fn a_line_on_which_nobody_answers_is_opened_at_another_rate() {
+    let mut core = Core::new(CoreConfig {
+        make: MAKE,
+        ..CoreConfig::default()
+    });
+    let mut outputs = Outputs::default();
+    core.handle(0, Input::LinkOpened, &mut outputs);
+    core.handle(499_000, Input::Wake, &mut outputs);
+    assert!(!outputs.next_rate);
+    core.handle(500_000, Input::Wake, &mut outputs);
+    assert!(outputs.next_rate);
+    outputs.clear();
+    core.handle(600_000, Input::Wake, &mut outputs);
+    assert!(!outputs.next_rate, "it is told once");
+}
+
 /// The supervisor without the daemon around it.
 struct Alone {
     supervisor: Supervisor,

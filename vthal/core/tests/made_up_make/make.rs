@@ -20,7 +20,8 @@ pub(crate) const TRACK_M: f64 = 0.24;
 pub(crate) const MAKE: Make = Make {
     name: "pebble",
     opening: Opening {
-        baud: 19_200,
+        rates_baud: &[19_200, 9_600],
+        answer_within_ms: 500,
         wake_pulse_ms: 100,
         settle_ms: 20,
     },

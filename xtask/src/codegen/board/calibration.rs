@@ -19,6 +19,8 @@ const VALUES_MAX: usize = 256;
 pub(crate) struct Item {
     /// Our name, in lower case with hyphens.
     pub(crate) name: String,
+    /// Its former name, which files of measured values may still have.
+    former_name: Option<String>,
     /// Unit of the stored whole number.
     pub(crate) unit: String,
     /// Least and greatest value that can be true.
@@ -42,10 +44,10 @@ pub(crate) struct Calibration {
     pub(crate) items: Vec<Item>,
 }
 
-/// A figure of robot.toml that the simulator uses, and the calibration value that must agree with it: table, key, value,
-/// stored units in one unit of the figure.
+/// A figure of robot.toml that the simulator uses, and the calibration value that must agree with it: table, key,
+/// value, stored units in one unit of the figure.
 const TWINS: [(&str, &str, &str, f64); 5] = [
-    ("drive", "count-way", "wheel-count-way", 1e6),
+    ("drive", "distance-per-count", "wheel-distance-per-count", 1e6),
     ("drive", "track", "wheel-track", 1e6),
     ("wheel-motor", "free-speed", "wheel-free-speed", 1e3),
     ("wheel-motor", "dead-band-brake", "wheel-dead-band", 1e3),
@@ -92,9 +94,12 @@ impl Calibration {
         faults
     }
 
-    /// The value of this name.
+    /// The value of this name, or of this former name.
     pub(crate) fn find(&self, name: &str) -> Option<(usize, &Item)> {
-        self.items.iter().enumerate().find(|(_, item)| item.name == name)
+        self.items
+            .iter()
+            .enumerate()
+            .find(|(_, item)| item.name == name || item.former_name.as_deref() == Some(name))
     }
 
     /// The simulated robot is one robot: a figure that stands in two places is the same in both.
@@ -162,8 +167,6 @@ impl Calibrated {
 pub struct Entry {
     /// Which one.
     pub value: Calibrated,
-    /// Its name in `robot.toml`.
-    pub name: &'static str,
     /// Least value that can be true.
     pub low: i32,
     /// Greatest value that can be true.
@@ -216,9 +219,8 @@ impl Item {
             None => "None".to_owned(),
         };
         format!(
-            "Entry {{ value: Calibrated::{}, name: \"{}\", low: {}, high: {}, assumed: {assumed} }}",
+            "Entry {{ value: Calibrated::{}, low: {}, high: {}, assumed: {assumed} }}",
             rust_name::camel(&self.name),
-            self.name,
             rust_name::number(low),
             rust_name::number(high)
         )
@@ -272,7 +274,7 @@ mod tests {
         for part in [
             "pub const COUNT: usize = 2;",
             "    /// Wheel track (um). Needed for drive.\n    WheelTrack,",
-            "Entry { value: Calibrated::WheelTrack, name: \"wheel-track\", low: 100_000, high: 500_000, assumed: None }",
+            "Entry { value: Calibrated::WheelTrack, low: 100_000, high: 500_000, assumed: None }",
             "assumed: Some(200_000) }",
         ] {
             assert!(source.contains(part), "{part}\n{source}");

@@ -1,6 +1,6 @@
 //! How deep within the floor that is ringed each cell lies.
 
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::Ground;
 
 /// Depths are whole fifths of a cell: with steps of 5, 7 and 11 they are right to 2 %.
@@ -12,7 +12,7 @@ const VISIT_WORK: usize = 8;
 
 /// The depth of each cell. Cells beside what the body cannot take are one cell deep; where floor of another kind begins the
 /// first ring keeps off by what a lane sweeps to its side.
-pub(super) async fn depths(ground: &Ground, ringed: &[bool], pace: &mut Pace) -> Vec<i32> {
+pub(super) async fn depths(ground: &Ground, ringed: &[bool], budget: &mut StepBudget) -> Vec<i32> {
     let beyond = -CELL * ground.reach as i32;
     let mut depths: Vec<i32> = ground
         .free
@@ -44,7 +44,7 @@ pub(super) async fn depths(ground: &Ground, ringed: &[bool], pace: &mut Pace) ->
             depths[index] = through.into_iter().fold(depths[index], i32::min);
         }
         if index.is_multiple_of(width) {
-            pace.spend(VISIT_WORK * width).await;
+            budget.spend(VISIT_WORK * width).await;
         }
     }
     for index in inner.rev() {
@@ -53,7 +53,7 @@ pub(super) async fn depths(ground: &Ground, ringed: &[bool], pace: &mut Pace) ->
             depths[index] = through.into_iter().fold(depths[index], i32::min);
         }
         if index.is_multiple_of(width) {
-            pace.spend(VISIT_WORK * width).await;
+            budget.spend(VISIT_WORK * width).await;
         }
     }
     depths

@@ -18,7 +18,7 @@ mod tests;
 use super::course::Course;
 use super::settings::Departure;
 use crate::mapping::Cell;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::Ground;
 use crate::navigation::router::Router;
 use order::{Drive, RingWay};
@@ -44,7 +44,7 @@ impl RingFloor {
     pub(super) async fn of(
         ground: &Ground,
         course: impl Fn(Cell) -> Option<Course>,
-        pace: &mut Pace,
+        budget: &mut StepBudget,
     ) -> Option<Self> {
         let mut floor = Self {
             cells: vec![false; ground.free.len()],
@@ -60,7 +60,7 @@ impl RingFloor {
                     floor.is_outwards |= course == Some(Course::Outwards);
                 }
             }
-            pace.spend(ASK_WORK * ground.width).await;
+            budget.spend(ASK_WORK * ground.width).await;
         }
         (floor.floor > 0).then_some(floor)
     }
@@ -81,21 +81,21 @@ pub(super) async fn ring_way(
     ground: &Ground,
     floor: &RingFloor,
     (departure, origin): (&Departure, usize),
-    pace: &mut Pace,
+    budget: &mut StepBudget,
 ) -> RingWay {
-    let depths = depth::depths(ground, &floor.cells, pace).await;
-    let rings = rings::rings(ground, &depths, pace).await;
+    let depths = depth::depths(ground, &floor.cells, budget).await;
+    let rings = rings::rings(ground, &depths, budget).await;
     let sweeper = Sweeper::new(ground);
     let mut runs: Vec<Run> = Vec::new();
     for ring in rings {
-        runs.extend(sweeper.runs(ring, pace).await);
+        runs.extend(sweeper.runs(ring, budget).await);
     }
     let is_fresh = floor.is_fresh(&ground.open);
-    let router = Router::new(ground, pace).await;
+    let router = Router::new(ground, budget).await;
     let mut drive = Drive::new(&router, (sweeper, runs), (departure, origin));
     if is_fresh {
-        drive.begin(floor.is_outwards, pace).await;
+        drive.begin(floor.is_outwards, budget).await;
     }
-    drive.go_through(pace).await;
+    drive.go_through(budget).await;
     drive.way()
 }

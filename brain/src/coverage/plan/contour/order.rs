@@ -7,7 +7,7 @@ use super::shape::corners;
 use crate::coverage::plan::Departure;
 use crate::coverage::plan::timing::way_s;
 use crate::model::geometry::Point2;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
 use crate::navigation::router::{Router, Spread};
 
@@ -74,23 +74,23 @@ impl<'plan> Drive<'plan> {
     }
 
     /// Drives one of the outermost runs, or of the innermost ones.
-    pub(super) async fn begin(&mut self, is_innermost: bool, pace: &mut Pace) {
+    pub(super) async fn begin(&mut self, is_innermost: bool, budget: &mut StepBudget) {
         let levels = self.runs.iter().map(|run| run.level);
         let Some(level) = (if is_innermost { levels.max() } else { levels.min() }) else {
             return;
         };
         let mut spread = self.router.spread();
         let is_eligible = |run: &Run| run.level == level;
-        if let Some(entry) = self.nearest(&mut spread, is_eligible, pace).await {
-            self.enter(entry, &spread, pace).await;
+        if let Some(entry) = self.nearest(&mut spread, is_eligible, budget).await {
+            self.enter(entry, &spread, budget).await;
         }
     }
 
     /// Drives all that is worth it.
-    pub(super) async fn go_through(&mut self, pace: &mut Pace) {
+    pub(super) async fn go_through(&mut self, budget: &mut StepBudget) {
         let mut spread = self.router.spread();
-        while let Some(entry) = self.nearest(&mut spread, |_| true, pace).await {
-            self.enter(entry, &spread, pace).await;
+        while let Some(entry) = self.nearest(&mut spread, |_| true, budget).await {
+            self.enter(entry, &spread, budget).await;
         }
     }
 
@@ -134,7 +134,7 @@ impl<'plan> Drive<'plan> {
         &self,
         spread: &mut Spread,
         is_eligible: impl Fn(&Run) -> bool,
-        pace: &mut Pace,
+        budget: &mut StepBudget,
     ) -> Option<Entry> {
         let mut found: Vec<(usize, usize)> = Vec::new();
         let enough = |block| {
@@ -151,7 +151,7 @@ impl<'plan> Drive<'plan> {
         if self.entries.is_empty() {
             return None;
         }
-        self.router.explore(self.at, (spread, pace), enough).await;
+        self.router.explore(self.at, (spread, budget), enough).await;
         let mut best: Option<(f32, Entry)> = None;
         for (run, place) in found {
             let way = self.router.way(spread, self.at, self.runs[run].cells[place]);
@@ -161,7 +161,7 @@ impl<'plan> Drive<'plan> {
                     best = Some((cost, entry));
                 }
             }
-            pace.spend(WAY_WORK).await;
+            budget.spend(WAY_WORK).await;
         }
         best.map(|(_, entry)| entry)
     }
@@ -203,13 +203,14 @@ impl<'plan> Drive<'plan> {
 
     /// Drives along a run from an entry, as far as that is worth it. If less of it is worth it than was when it was found,
     /// its parts take its place instead.
-    async fn enter(&mut self, entry: Entry, spread: &Spread, pace: &mut Pace) {
+    async fn enter(&mut self, entry: Entry, spread: &Spread, budget: &mut StepBudget) {
         let run = self.remove(entry.run);
-        pace.spend(LOOK_WORK * (run.cells.len() + self.entries.len()))
+        budget
+            .spend(LOOK_WORK * (run.cells.len() + self.entries.len()))
             .await;
         let count = run.cells.len();
         let was_closed = run.is_closed;
-        let parts = self.sweeper.parts(run, pace).await;
+        let parts = self.sweeper.parts(run, budget).await;
         let (mut run, is_whole) = match <[Run; 1]>::try_from(parts) {
             Ok([only]) => {
                 let is_whole = only.cells.len() == count && only.is_closed == was_closed;
@@ -234,11 +235,11 @@ impl<'plan> Drive<'plan> {
             }
         }
         run.is_closed = false;
-        let driven = self.sweeper.sweep(&run, pace).await;
+        let driven = self.sweeper.sweep(&run, budget).await;
         if driven > 0 {
             self.follow(&run.cells[..driven], spread);
             run.cells.drain(..driven);
-            for part in self.sweeper.parts(run, pace).await {
+            for part in self.sweeper.parts(run, budget).await {
                 self.add(part);
             }
         }

@@ -1,7 +1,7 @@
 //! Rows of cells along the borders of each level.
 
 use super::depth::CELL;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::Ground;
 
 /// Work of looking at a cell, and of a step along a border.
@@ -15,7 +15,7 @@ pub(super) struct Ring {
 }
 
 /// The rings of all levels.
-pub(super) async fn rings(ground: &Ground, depths: &[i32], pace: &mut Pace) -> Vec<Ring> {
+pub(super) async fn rings(ground: &Ground, depths: &[i32], budget: &mut StepBudget) -> Vec<Ring> {
     let spacing = CELL * (2 * ground.reach as i32 + 1);
     // Each border has a cell that lies deep enough above one that does not; as depths of neighbours differ by a cell at
     // most and levels by more, that pair belongs to one level only.
@@ -23,7 +23,7 @@ pub(super) async fn rings(ground: &Ground, depths: &[i32], pace: &mut Pace) -> V
     let mut rings = Vec::new();
     for index in ground.width..depths.len() {
         if index.is_multiple_of(ground.width) {
-            pace.spend(LOOK_WORK * ground.width).await;
+            budget.spend(LOOK_WORK * ground.width).await;
         }
         if depths[index] < CELL || is_seen[index] {
             continue;
@@ -33,7 +33,7 @@ pub(super) async fn rings(ground: &Ground, depths: &[i32], pace: &mut Pace) -> V
         if depths[index - ground.width] < least {
             let is_in = |cell: usize| depths[cell] >= least;
             let cells = border(index, ground.width, is_in, &mut is_seen);
-            pace.spend(STEP_WORK * cells.len()).await;
+            budget.spend(STEP_WORK * cells.len()).await;
             rings.push(Ring {
                 level: level as usize,
                 cells,

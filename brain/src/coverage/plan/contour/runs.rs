@@ -1,7 +1,7 @@
 //! Which parts of a ring are worth driving.
 
 use super::rings::Ring;
-use crate::model::gradual::Pace;
+use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::Ground;
 
 /// Least share of what a ring sweeps over wholly open floor that makes it worth driving: as that of a lane of the first round.
@@ -43,20 +43,20 @@ impl Sweeper {
     }
 
     /// The parts of a ring that are worth it.
-    pub(super) async fn runs(&self, ring: Ring, pace: &mut Pace) -> Vec<Run> {
+    pub(super) async fn runs(&self, ring: Ring, budget: &mut StepBudget) -> Vec<Run> {
         let whole = Run {
             level: ring.level,
             cells: ring.cells,
             is_closed: true,
         };
-        self.parts(whole, pace).await
+        self.parts(whole, budget).await
     }
 
     /// The parts of a run that are still worth it: that run itself, shorter ones or none. Gaps of less than a swath are
     /// driven through; what is shorter than two is left to lanes.
-    pub(super) async fn parts(&self, run: Run, pace: &mut Pace) -> Vec<Run> {
+    pub(super) async fn parts(&self, run: Run, budget: &mut StepBudget) -> Vec<Run> {
         let count = run.cells.len();
-        pace.spend(COUNT_WORK * count).await;
+        budget.spend(COUNT_WORK * count).await;
         let is_worth: Vec<bool> = run
             .cells
             .iter()
@@ -119,7 +119,7 @@ impl Sweeper {
 
     /// Drives along a run and closes what that sweeps. Gives how many of its cells are driven: it ends where more than a
     /// swath's length would bring next to nothing.
-    pub(super) async fn sweep(&mut self, run: &Run, pace: &mut Pace) -> usize {
+    pub(super) async fn sweep(&mut self, run: &Run, budget: &mut StepBudget) -> usize {
         let (mut driven, mut vain) = (0, 0_usize);
         for (place, cell) in run.cells.iter().enumerate() {
             let worth = WORTH_PERCENT * self.swath * (vain + 1).min(self.swath) / 100;
@@ -134,7 +134,7 @@ impl Sweeper {
             if vain > self.swath {
                 break;
             }
-            pace.spend(2 * COUNT_WORK).await;
+            budget.spend(2 * COUNT_WORK).await;
         }
         driven
     }

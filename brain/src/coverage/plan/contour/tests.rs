@@ -5,7 +5,7 @@ use super::rings::{Ring, rings};
 use crate::coverage::plan::{Course, CoveragePlan, Departure, PlanSettings, plan_area, reach_cells};
 use crate::mapping::{CELL_M, Cell, Raster};
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::gradual::{Pace, at_once};
+use crate::model::gradual::{StepBudget, at_once};
 use crate::navigation::configuration_space::Ground;
 
 const SETTINGS: PlanSettings = PlanSettings {
@@ -28,13 +28,13 @@ fn room(is_furnished: bool) -> Raster<bool> {
 }
 
 fn found(room: &Raster<bool>) -> (Ground, Vec<Ring>) {
-    let pace = &mut Pace::at_once();
-    let mut ground = at_once(Ground::new(room, reach_cells(&SETTINGS), pace));
-    let origin = at_once(ground.origin_near(Point2::default(), pace)).unwrap();
-    at_once(ground.keep_connected(origin, pace));
+    let budget = &mut StepBudget::unlimited();
+    let mut ground = at_once(Ground::new(room, reach_cells(&SETTINGS), budget));
+    let origin = at_once(ground.origin_near(Point2::default(), budget)).unwrap();
+    at_once(ground.keep_connected(origin, budget));
     let ringed = ground.free.clone();
-    let depths = at_once(depths(&ground, &ringed, pace));
-    let rings = at_once(rings(&ground, &depths, pace));
+    let depths = at_once(depths(&ground, &ringed, budget));
+    let rings = at_once(rings(&ground, &depths, budget));
     (ground, rings)
 }
 
@@ -93,7 +93,12 @@ fn planned(course: Course, start: Point2) -> CoveragePlan {
         settings: SETTINGS,
     };
     let whole = (|_: Cell| Some(course), |_: Cell| false);
-    at_once(plan_area(&room(false), whole, departure, &mut Pace::at_once()))
+    at_once(plan_area(
+        &room(false),
+        whole,
+        departure,
+        &mut StepBudget::unlimited(),
+    ))
 }
 
 /// Distance of a place from the wall of the empty room.
@@ -124,9 +129,12 @@ fn a_plan_made_in_steps_is_the_same() {
         start,
         settings: SETTINGS,
     };
-    let in_steps = |pace: &mut Pace| {
+    let in_steps = |budget: &mut StepBudget| {
         let whole = (|_: Cell| Some(Course::Inwards), |_: Cell| false);
-        at_once(plan_area(&room(true), whole, departure, pace))
+        at_once(plan_area(&room(true), whole, departure, budget))
     };
-    assert_eq!(in_steps(&mut Pace::at_once()), in_steps(&mut Pace::in_steps()));
+    assert_eq!(
+        in_steps(&mut StepBudget::unlimited()),
+        in_steps(&mut StepBudget::limited())
+    );
 }

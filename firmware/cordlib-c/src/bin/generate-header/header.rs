@@ -1,7 +1,7 @@
 //! From `pub extern "C" fn` and `pub const CORD_...` in Rust to prototypes and macros in C, with their documentation.
 //!
-//! It reads the regular form that rustfmt gives and refuses what it does not know, so that the header never says
-//! something else than the source.
+//! It reads the regular form that rustfmt produces and refuses anything else, so that the header cannot differ from the
+//! source.
 
 use std::fmt::Write as _;
 use std::path::Path;

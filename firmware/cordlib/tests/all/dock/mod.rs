@@ -7,7 +7,7 @@
 
 use cordlib::PackParameters;
 use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, ThermistorFault};
-use cordlib::charge::{ChargeContext, ChargeController, ChargeOutput, Motors};
+use cordlib::charge::{ChargeContext, ChargeController, ChargeOutput, MotorActivity};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use rvac_units::{Temperature, Tick};
 
@@ -26,7 +26,7 @@ pub struct Dock {
     pub age_ms: u32,
     pub adapter: bool,
     pub docked: bool,
-    pub motors: Motors,
+    pub motors: MotorActivity,
     pub output: ChargeOutput,
     pub step_ms: u32,
     /// A count of noise, as converters have; without it nothing ever changes.
@@ -50,7 +50,7 @@ impl Dock {
             age_ms: 0,
             adapter: true,
             docked: true,
-            motors: Motors::Idle,
+            motors: MotorActivity::Idle,
             output: ChargeOutput::default(),
             step_ms: 20,
             dither: true,

@@ -13,7 +13,7 @@ pub use parts::LIMITS;
 use parts::{Memory, board};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Command, Description, Drive, EdgeKind, Gyro, Inhibit, Inhibits, Motor, MotorCommand, Move,
+    BinaryKinds, Command, Description, Drive, Event, Gyro, Inhibit, Inhibits, Motor, MotorCommand, Move,
     MoveEnd, Refusal, Report, Sequence, State,
 };
 use rvac_protocol::session::{HostEvent, HostSession};
@@ -43,8 +43,8 @@ pub struct Rig {
     /// Speeds of the rims in m/s.
     pub rims: [f64; 2],
     /// Ways of the rims in m.
-    pub ways: [f64; 2],
-    pub edges: Vec<EdgeKind>,
+    pub distances: [f64; 2],
+    pub edges: Vec<Event>,
     pub reports: Vec<Report>,
     pub refusals: Vec<Refusal>,
     pub described: Option<Description>,
@@ -106,7 +106,7 @@ impl Rig {
             host: HostSession::new(BinaryKinds::default(), Tick(0)),
             mechanics: Mechanics::default(),
             rims: [0.0; 2],
-            ways: [0.0; 2],
+            distances: [0.0; 2],
             edges: Vec::new(),
             reports: Vec::new(),
             refusals: Vec::new(),
@@ -250,14 +250,14 @@ impl Rig {
             board.wheels.left.duty().millionths(),
             board.wheels.right.duty().millionths(),
         );
-        let standing = self.cord.standing();
+        let permit = self.cord.motion_permit();
         if left != 0 || right != 0 {
             assert!(
-                standing.armed && standing.fresh,
+                permit.armed && permit.fresh,
                 "unarmed or stale motion at {:?}",
                 self.now()
             );
-            let mut hard = standing.inhibits;
+            let mut hard = permit.inhibits;
             for telling in [
                 Inhibit::BatteryLow,
                 Inhibit::BatteryWeak,
@@ -279,7 +279,7 @@ impl Rig {
         }
         let cleaners = [&board.brush_main, &board.brush_sides, &board.vacuum];
         if cleaners.iter().any(|brush| brush.duty != Throttle::ZERO) {
-            assert!(standing.armed, "unarmed brush");
+            assert!(permit.armed, "unarmed brush");
             for inhibit in [
                 Inhibit::WheelDrop,
                 Inhibit::Stopped,
@@ -287,7 +287,7 @@ impl Rig {
                 Inhibit::Docked,
             ] {
                 assert!(
-                    !standing.inhibits.contains(inhibit),
+                    !permit.inhibits.contains(inhibit),
                     "brush in spite of {inhibit:?}"
                 );
             }
@@ -311,12 +311,12 @@ impl Rig {
             if self.mechanics.blocked[side] {
                 self.rims[side] = 0.0;
             }
-            self.ways[side] += self.rims[side] / 1_000.0;
+            self.distances[side] += self.rims[side] / 1_000.0;
         }
         if !self.mechanics.silent {
             let sign = if self.mechanics.swapped { -1.0 } else { 1.0 };
             let counts = self
-                .ways
+                .distances
                 .map(|way| (sign * way * 1e9 / f64::from(LIMITS.count_nm)).floor() as i32);
             (board.encoders.0.left, board.encoders.0.right) = (counts[0], counts[1]);
         }
@@ -338,7 +338,7 @@ impl Rig {
         }
         for event in events {
             match event {
-                HostEvent::Report(Report::Edge(edge)) => self.edges.push(edge.kind),
+                HostEvent::Report(Report::Event(edge)) => self.edges.push(edge.kind),
                 HostEvent::Report(report) => self.reports.push(report),
                 HostEvent::Described(table) => self.described = Some(table),
                 HostEvent::Answered {
@@ -353,7 +353,7 @@ impl Rig {
 
     /// Gives the gyro what the ideal body does.
     pub fn follow_gyro(&mut self) {
-        let heading = (self.ways[1] - self.ways[0]) / LIMITS.track.as_m();
+        let heading = (self.distances[1] - self.distances[0]) / LIMITS.track.as_m();
         self.cord.board_mut().gyro.0 = Some(Gyro {
             heading: Angle::from_rad(heading),
             rate: AngularSpeed::ZERO,
@@ -399,7 +399,7 @@ impl Rig {
         self.edges
             .iter()
             .filter_map(|edge| match edge {
-                EdgeKind::MoveFinished(end) => Some(*end),
+                Event::MoveFinished(end) => Some(*end),
                 _ => None,
             })
             .collect()
@@ -409,7 +409,7 @@ impl Rig {
         self.edges
             .iter()
             .filter_map(|edge| match edge {
-                EdgeKind::Inhibits(set) => Some(*set),
+                Event::Inhibits(set) => Some(*set),
                 _ => None,
             })
             .collect()

@@ -6,8 +6,8 @@ use std::collections::VecDeque;
 use cordlib::board::{
     Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
     CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
-    Encoders, HeadingSensor, Lights, Link, Parts, Probe, ProximitySensors, Received, ResetRecord, Watchdog,
-    WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
+    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord,
+    Watchdog, WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use rvac_protocol::message::{
     Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, Limits, PROBE_CHANNELS,
@@ -458,7 +458,7 @@ pub struct Pins {
     pub opened: u32,
 }
 
-impl Probe for Pins {
+impl PinProbe for Pins {
     const PRESENT: bool = true;
 
     fn analog(&mut self) -> [u16; PROBE_CHANNELS] {

@@ -1,7 +1,7 @@
-//! Receiving by edges: change notice on RC13, at any rate up to 230,400 baud, found from the other side's `U`.
+//! Receiving by edges: change notice on RC13, at any rate up to 230,400 baud, measured from the other side's `U`.
 //!
-//! One interrupt serves all change notices: those that are not of the link come to the handler here, to count the pulses of
-//! the main brush.
+//! One interrupt serves all change notices. Those of other pins go to the handler here, which counts the pulses of the
+//! main brush.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -15,9 +15,9 @@ use soft_uart::{Baud, Level, Queued, Receiver};
 use crate::board::off::mask;
 use crate::generated::pins;
 use crate::logic::edges::EdgeQueue;
-use crate::logic::storm::Budget;
+use crate::logic::interrupt_rate::InterruptRateLimit;
 
-/// Counts of the core timer a second, by which edges are stamped.
+/// Counts of the core timer per second; it timestamps the edges.
 const CORE_HZ: u32 = 40_000_000;
 /// Changes of the brush in a millisecond; a brush makes a few hundred in a second.
 const BRUSH_PER_MS: u32 = 20;
@@ -25,7 +25,7 @@ const BRUSH_PER_MS: u32 = 20;
 /// Edges of the input, from the interrupt in `link.S` to the main loop.
 pub static EDGES: EdgeQueue = EdgeQueue::new();
 
-static BRUSH_BUDGET: Budget = Budget::new(BRUSH_PER_MS);
+static BRUSH_BUDGET: InterruptRateLimit = InterruptRateLimit::new(BRUSH_PER_MS);
 static BRUSH_PIN: HandlerCell<vector::CHANGE_NOTICE, Pin<'B', 5, Input>> = HandlerCell::empty();
 static BRUSH_LEVEL: AtomicU32 = AtomicU32::new(0);
 static BRUSH_PULSES: AtomicU32 = AtomicU32::new(0);
@@ -36,8 +36,7 @@ const BRUSH: u16 = mask(pins::BRUSH_MAIN_ENCODER);
 // The interrupt is written for this pin.
 const _: () = assert!(RECEIVE == 1 << 13);
 
-/// A change that was not the link's. If one of the link came together with it, the request stays up and the interrupt comes
-/// again.
+/// A change of another pin. If the link changed at the same time, the request stays set and the interrupt comes again.
 fn on_other_change(context: &mut Context<vector::CHANGE_NOTICE>) {
     let level = u32::from(Port::B.read() & BRUSH);
     Source::ChangeNotice.clear();
@@ -57,7 +56,7 @@ fn on_other_change(context: &mut Context<vector::CHANGE_NOTICE>) {
 }
 interrupt!(CHANGE_NOTICE, on_other_change);
 
-/// Events that one edge led to; a byte that ended and an error at most, so four are plenty.
+/// Events of one edge: at most the end of a byte and an error, so four are enough.
 #[derive(Debug, Default)]
 struct Events {
     events: [Option<Received>; 4],
@@ -99,7 +98,7 @@ pub struct EdgeInput {
 }
 
 impl EdgeInput {
-    /// Starts receiving at a rate, until a `U` tells another one.
+    /// Starts receiving at a rate, until a `U` shows another one.
     #[must_use]
     pub fn take(mut parts: EdgeParts, baud: Baud) -> Self {
         watch(parts.brush, parts.notice);
@@ -112,12 +111,12 @@ impl EdgeInput {
         }
     }
 
-    /// What came next.
+    /// The next event.
     pub fn next_event(&mut self) -> Option<Received> {
         if let Some(event) = self.events.pop() {
             return Some(event);
         }
-        // Read before the queue is emptied: every edge before it has been seen when `poll` says that a byte has ended.
+        // Read before the queue is emptied: when `poll` ends a byte, all edges before that time have been decoded.
         let now = cpu::count();
         let events = &mut self.events;
         while let Some(queued) = EDGES.pop() {
@@ -136,7 +135,7 @@ impl EdgeInput {
         self.events.pop()
     }
 
-    /// The rate at which the other side speaks.
+    /// The rate of the other side.
     #[must_use]
     pub fn rate(&self) -> Option<Baud> {
         self.receiver.rate()
@@ -153,7 +152,7 @@ pub(super) fn watch(mut brush: Pin<'B', 5, Input>, mut notice: ChangeNotice) {
     interrupt::set_priority(Vector::ChangeNotice, Priority::Level6, SubPriority::Sub2).ok();
 }
 
-/// Lets the interrupt come, from the level that the line has now.
+/// Enables the interrupt, from the present level of the line.
 pub(super) fn listen() {
     let high = Port::C.read() & RECEIVE != 0;
     EDGES.set_level(if high { Level::High } else { Level::Low });
@@ -161,7 +160,7 @@ pub(super) fn listen() {
     Source::ChangeNotice.enable();
 }
 
-/// To be called once in a millisecond: a brush whose line was switched off for noise gets another chance.
+/// Called once a millisecond: enables the brush's line again if it was disabled for noise.
 pub(super) fn service_brush() {
     if BRUSH_BUDGET.renew() {
         Source::ChangeNotice.request();
@@ -174,8 +173,8 @@ pub fn brush_pulses() -> u32 {
     BRUSH_PULSES.load(Ordering::Relaxed)
 }
 
-/// The levels of port C. Reading the port tells the change notice that they are known, which could swallow an edge of the link
-/// that comes at this very moment; so the interrupt is called if there was one.
+/// The levels of port C. Reading the port updates the reference of the change notice, which could hide an edge of the
+/// link at this moment; so the interrupt is triggered if there was one.
 #[must_use]
 pub fn port_c() -> u16 {
     let word = Port::C.read();

@@ -1,7 +1,7 @@
-//! Receiving by samples, for a board on which RC13 does not reach the connector: RB6 (PGC2) can tell nobody that it changed,
-//! so Timer5 reads it at three times 57,600 baud. One rate, no `U`.
+//! Receiving by samples, for a board on which RC13 does not reach the connector: RB6 (PGC2) has no change notice, so
+//! Timer5 reads it at three times 57,600 baud. One rate, no `U`.
 //!
-//! Timer5 is the second clock of the self-checks, too; the number of samples stands for it then.
+//! Timer5 is also the second clock of the self-checks; the number of samples replaces it.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 
@@ -26,7 +26,7 @@ pub const CORE_HALVES_PER_SAMPLE: u32 = SAMPLE_COUNTS;
 const RECEIVE: u16 = mask(pins::LINK_RECEIVE_SAMPLED);
 
 static RECEIVED: ByteRing<256> = ByteRing::new();
-/// Bytes without stop bit, and bytes that found no room.
+/// Bytes without stop bit, and bytes lost because the queue was full.
 static BROKEN: AtomicU32 = AtomicU32::new(0);
 static LOST: AtomicU32 = AtomicU32::new(0);
 static SAMPLES: AtomicU32 = AtomicU32::new(0);
@@ -69,7 +69,7 @@ pub struct SampledInput {
 }
 
 impl SampledInput {
-    /// Starts receiving at the one rate; another one is not listened to.
+    /// Starts receiving at the fixed rate.
     #[must_use]
     pub fn take(mut parts: SampledParts, _: Baud) -> Self {
         by_edges::watch(parts.brush, parts.notice);
@@ -82,7 +82,7 @@ impl SampledInput {
         Self { broken: 0, lost: 0 }
     }
 
-    /// What came next; errors after the bytes that are there.
+    /// The next event; errors after the bytes that were received.
     pub fn next_event(&mut self) -> Option<Received> {
         if let Some(byte) = RECEIVED.pop() {
             return Some(Received::Byte(byte));

@@ -1,8 +1,9 @@
-//! The serial link to the Linux board, made by software: receive on RC13 by change notice, send on RB7 by Timer4.
+//! The serial link to the Linux board, a software UART: it receives on RC13 by change notice and sends on RB7 by
+//! Timer4.
 //!
-//! Both interrupts are in `link.S`. What they take and leave is in [`by_edges::EDGES`] and [`RUNS`]; decoding and encoding are
-//! the main loop's. If a board's RC13 does not reach the connector, the feature `link-sampled` receives on RB6 instead
-//! ([`by_samples`]).
+//! Both interrupts are in `link.S`. They exchange data with the main loop through [`by_edges::EDGES`] and [`RUNS`]; the
+//! main loop decodes and encodes. If a board's RC13 does not reach the connector, the feature `link-sampled` receives
+//! on RB6 instead ([`by_samples`]).
 
 pub mod by_edges;
 #[cfg(feature = "link-sampled")]
@@ -24,15 +25,15 @@ pub use by_edges::{EdgeInput as Input, EdgeParts as InputParts};
 #[cfg(feature = "link-sampled")]
 pub use by_samples::{SampledInput as Input, SampledParts as InputParts};
 
-/// Rate until the other side's `U` tells another one: what the daemon uses if nobody changes its settings.
+/// Rate until the other side's `U` shows another one: the daemon's default.
 #[cfg(not(feature = "link-sampled"))]
 const BAUD: Baud = Baud::B230400;
-/// The one rate of a sampled input.
+/// The fixed rate of a sampled input.
 #[cfg(feature = "link-sampled")]
 const BAUD: Baud = by_samples::BAUD;
 /// Counts of Timer4 a second, prescaler 2: nine equal bits at 9600 baud are 37,500 counts then, which fit into 16 bits.
 const TIMER_HZ: u32 = 40_000_000;
-/// Counts until the first bit of a message: as soon as can be.
+/// Counts until the first bit of a message: the shortest possible time.
 const BEGIN_COUNTS: u32 = 100;
 
 /// Levels and times of the output, from the main loop to the interrupt in `link.S`.
@@ -66,12 +67,12 @@ impl SerialLink {
         }
     }
 
-    /// To be called once in a millisecond.
+    /// Called once a millisecond.
     pub fn service(&mut self) {
         by_edges::service_brush();
     }
 
-    /// A new rate is taken over between two messages, so that none is torn.
+    /// Applies a new rate between two messages, so that none is damaged.
     fn follow_rate(&mut self) {
         if let Some(baud) = self.input.rate()
             && baud != self.baud
@@ -94,7 +95,7 @@ impl Link for SerialLink {
 
     fn transmit(&mut self, bytes: &[u8]) -> usize {
         let taken = RUNS.push(&mut self.transmitter, bytes);
-        // When the interrupt comes between, it finds nothing and stops the timer, or goes on with what was pushed.
+        // If the interrupt comes in between, it finds nothing and stops the timer, or continues with the pushed words.
         if cpu::without_interrupts(|| RUNS.must_start()) {
             self.timer.start(Prescaler::By2, BEGIN_COUNTS);
         }

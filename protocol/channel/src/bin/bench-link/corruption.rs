@@ -6,7 +6,7 @@ use rvac_channel::{Channel, FaultRates, Pcg32, ReceivedByte, switched_on};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{BinaryKinds, Command, HostHello, ProtocolVersion, Report, State};
 use rvac_protocol::session::{Mode, RobotEvent, RobotSession};
-use rvac_protocol::text::write_sealed_command;
+use rvac_protocol::text::write_command_with_crc;
 use rvac_units::Tick;
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ use crate::traffic::Traffic;
 
 /// What came of the packets of one kind of fault.
 #[derive(Debug, Default, Serialize)]
-pub(crate) struct Outcome {
+pub(crate) struct CorruptionOutcome {
     /// Damaged packets.
     packets: u64,
     /// Commands carried out that the host never gave in this session with that number.
@@ -28,7 +28,7 @@ pub(crate) struct Outcome {
 /// The whole run.
 #[derive(Debug)]
 pub(crate) struct Corruption {
-    pub(crate) kinds: BTreeMap<&'static str, Outcome>,
+    pub(crate) kinds: BTreeMap<&'static str, CorruptionOutcome>,
     /// Whole packets among the damaged ones.
     pub(crate) valid_packets: u64,
     /// Whole packets that were not carried out although a separator stood between them and the damage.
@@ -50,7 +50,7 @@ impl Corruption {
             "fault", "packets", "wrong", "unharmed", "stops"
         );
         for (kind, outcome) in &self.kinds {
-            let Outcome {
+            let CorruptionOutcome {
                 packets,
                 wrong,
                 right,
@@ -69,7 +69,7 @@ impl Corruption {
 }
 
 /// A kind of fault and how many of a thousand damaged packets have it.
-struct Kind {
+struct CorruptionKind {
     name: &'static str,
     share: u32,
     damage: Damage,
@@ -84,7 +84,7 @@ enum Damage {
     Replay,
 }
 
-const KINDS: [Kind; 14] = [
+const KINDS: [CorruptionKind; 14] = [
     line(
         "bit-error-1e-2",
         180,
@@ -158,35 +158,35 @@ const KINDS: [Kind; 14] = [
             ..FaultRates::NONE
         },
     ),
-    Kind {
+    CorruptionKind {
         name: "splice",
         share: 80,
         damage: Damage::Splice,
     },
-    Kind {
+    CorruptionKind {
         name: "echo",
         share: 30,
         damage: Damage::Echo,
     },
-    Kind {
+    CorruptionKind {
         name: "earlier-session",
         share: 40,
         damage: Damage::EarlierSession,
     },
-    Kind {
+    CorruptionKind {
         name: "middle",
         share: 30,
         damage: Damage::Middle,
     },
-    Kind {
+    CorruptionKind {
         name: "replay",
         share: 20,
         damage: Damage::Replay,
     },
 ];
 
-const fn line(name: &'static str, share: u32, rates: FaultRates) -> Kind {
-    Kind {
+const fn line(name: &'static str, share: u32, rates: FaultRates) -> CorruptionKind {
+    CorruptionKind {
         name,
         share,
         damage: Damage::Line(rates),
@@ -196,9 +196,9 @@ const fn line(name: &'static str, share: u32, rates: FaultRates) -> Kind {
 /// A whole packet goes after this many damaged ones: it keeps the session open and shows that the robot still listens.
 const VALID_EVERY: u64 = 16;
 
-/// Feeds `packets` damaged packets to a robot in sealed mode.
+/// Feeds `packets` damaged packets to a robot in checked mode.
 pub(crate) fn run(packets: u64, seed: u64) -> Corruption {
-    let mut bench = Bench::new(seed);
+    let mut bench = CorruptionBench::new(seed);
     for index in 0..packets {
         bench.damaged();
         if index % VALID_EVERY == 0 {
@@ -208,7 +208,7 @@ pub(crate) fn run(packets: u64, seed: u64) -> Corruption {
     bench.result
 }
 
-struct Bench {
+struct CorruptionBench {
     random: Pcg32,
     channels: Vec<Option<Channel>>,
     robot: RobotSession,
@@ -221,7 +221,7 @@ struct Bench {
     result: Corruption,
 }
 
-impl Bench {
+impl CorruptionBench {
     fn new(seed: u64) -> Self {
         let now = Tick(1_000);
         let robot = open_robot(now);
@@ -240,7 +240,10 @@ impl Bench {
             last: Vec::new(),
             received: Vec::new(),
             result: Corruption {
-                kinds: KINDS.iter().map(|kind| (kind.name, Outcome::default())).collect(),
+                kinds: KINDS
+                    .iter()
+                    .map(|kind| (kind.name, CorruptionOutcome::default()))
+                    .collect(),
                 valid_packets: 0,
                 valid_packets_lost: 0,
             },
@@ -325,9 +328,9 @@ impl Bench {
     }
 
     fn feed_and_judge(&mut self, kind: usize) {
-        let mut outcome = Outcome {
+        let mut outcome = CorruptionOutcome {
             packets: 1,
-            ..Outcome::default()
+            ..CorruptionOutcome::default()
         };
         let received = std::mem::take(&mut self.received);
         for byte in received.iter().chain(&[ReceivedByte::Byte(0x1F)]) {
@@ -408,7 +411,7 @@ pub(crate) fn open_robot(now: Tick) -> RobotSession {
         binary: BinaryKinds::ALL,
     });
     let mut buffer = PacketBuffer::new();
-    write_sealed_command(&hello, 0, &mut buffer).expect("a hello fits");
+    write_command_with_crc(&hello, 0, &mut buffer).expect("a hello fits");
     for byte in buffer.as_bytes() {
         assert!(
             robot
@@ -416,7 +419,7 @@ pub(crate) fn open_robot(now: Tick) -> RobotSession {
                 .is_none_or(|event| event == RobotEvent::SessionOpened)
         );
     }
-    assert_eq!(robot.mode(), Mode::Sealed);
+    assert_eq!(robot.mode(), Mode::Checked);
     robot
 }
 

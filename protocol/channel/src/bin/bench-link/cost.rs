@@ -7,11 +7,11 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail};
 use rvac_channel::switched_on;
 use rvac_protocol::PacketBuffer;
-use rvac_protocol::binary::{read_drive, write_drive, write_sealed_drive};
+use rvac_protocol::binary::{read_drive, write_drive, write_drive_with_crc};
+use rvac_protocol::crc::{Digest, Direction, from_hex};
 use rvac_protocol::message::{Command, Drive, Motor, MotorCommand, Sequence};
-use rvac_protocol::seal::{Digest, Direction, from_hex};
 use rvac_protocol::session::RobotSession;
-use rvac_protocol::text::{Form, read_command, write_command, write_sealed_command};
+use rvac_protocol::text::{Form, read_command, write_command, write_command_with_crc};
 use rvac_units::{AngularSpeed, Speed, Throttle, Tick};
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,7 @@ const COUNTED_MANY: u64 = 11_000;
 
 /// What is measured.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Reader {
+enum MeasuredReader {
     Motor2016,
     Motor2016Serde,
     Motor2016Session,
@@ -43,7 +43,7 @@ enum Reader {
     DriveBinarySession,
 }
 
-impl Reader {
+impl MeasuredReader {
     const ALL: [Self; 11] = [
         Self::Motor2016,
         Self::Motor2016Serde,
@@ -76,17 +76,17 @@ impl Reader {
 
     const fn meaning(self) -> &'static str {
         match self {
-            Self::Motor2016 => "50-byte motor packet of 2016 in memory: seal checked, parsed, ranges checked",
-            Self::Motor2016Serde => "the same JSON by serde_json into a struct, no seal",
-            Self::Motor2016Session => "the same byte by byte through a session in hand mode, with its seal",
+            Self::Motor2016 => "50-byte motor packet of 2016 in memory: CRC checked, parsed, ranges checked",
+            Self::Motor2016Serde => "the same JSON by serde_json into a struct, no CRC",
+            Self::Motor2016Session => "the same byte by byte through a session in hand mode, with its CRC",
             Self::MotorText => {
-                "motor packet with ttl, n and t in memory: seal checked, parsed, ranges checked"
+                "motor packet with ttl, n and t in memory: CRC checked, parsed, ranges checked"
             }
-            Self::MotorSerde => "the same JSON by serde_json into a struct, no seal",
-            Self::MotorSession => "the same byte by byte through a robot's session: framing, seal, freshness",
-            Self::DriveText => "drive packet in memory: seal checked, parsed, ranges checked",
-            Self::DriveSerde => "the same JSON by serde_json into a struct, no seal",
-            Self::DriveBinary => "its binary twin in memory: seal checked, read, ranges checked",
+            Self::MotorSerde => "the same JSON by serde_json into a struct, no CRC",
+            Self::MotorSession => "the same byte by byte through a robot's session: framing, CRC, freshness",
+            Self::DriveText => "drive packet in memory: CRC checked, parsed, ranges checked",
+            Self::DriveSerde => "the same JSON by serde_json into a struct, no CRC",
+            Self::DriveBinary => "its binary twin in memory: CRC checked, read, ranges checked",
             Self::DriveTextSession => "drive packet byte by byte through a robot's session",
             Self::DriveBinarySession => "its binary twin byte by byte through a robot's session",
         }
@@ -106,11 +106,11 @@ pub(crate) struct Cost {
 
 /// Measures all readers.
 pub(crate) fn measure() -> Result<Vec<Cost>> {
-    Reader::ALL.into_iter().map(measure_one).collect()
+    MeasuredReader::ALL.into_iter().map(measure_one).collect()
 }
 
-fn measure_one(reader: Reader) -> Result<Cost> {
-    let mut work = Work::new(reader);
+fn measure_one(reader: MeasuredReader) -> Result<Cost> {
+    let mut work = MeasuredWork::new(reader);
     work.repeat(TIMED / 10);
     // The best of several runs: on a shared machine the others measure the neighbours.
     let mut best_ns = f64::INFINITY;
@@ -130,22 +130,25 @@ fn measure_one(reader: Reader) -> Result<Cost> {
 
 /// Reads a packet `count` times.
 pub(crate) fn repeat(reader: &str, count: u64) -> Result<()> {
-    let Some(reader) = Reader::ALL.into_iter().find(|known| known.name() == reader) else {
+    let Some(reader) = MeasuredReader::ALL
+        .into_iter()
+        .find(|known| known.name() == reader)
+    else {
         bail!("{reader}: no such reader; the table of costs lists them");
     };
-    Work::new(reader).repeat(count);
+    MeasuredWork::new(reader).repeat(count);
     Ok(())
 }
 
 /// Two runs of different length: what is before and after the loop cancels out.
-fn count_instructions(reader: Reader) -> Result<Option<u64>> {
+fn count_instructions(reader: MeasuredReader) -> Result<Option<u64>> {
     let (Some(few), Some(many)) = (collected(reader, COUNTED_FEW)?, collected(reader, COUNTED_MANY)?) else {
         return Ok(None);
     };
     Ok(Some((many - few) / (COUNTED_MANY - COUNTED_FEW)))
 }
 
-fn collected(reader: Reader, count: u64) -> Result<Option<u64>> {
+fn collected(reader: MeasuredReader, count: u64) -> Result<Option<u64>> {
     let program = std::env::current_exe().context("cannot find this program to run it under valgrind")?;
     let run = Process::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
@@ -206,17 +209,17 @@ struct DriveSerde<'a> {
 }
 
 /// Packets and what reads them.
-struct Work {
-    reader: Reader,
+struct MeasuredWork {
+    reader: MeasuredReader,
     packets: Vec<Vec<u8>>,
     robot: RobotSession,
     start: Digest,
     next: usize,
 }
 
-impl Work {
-    fn new(reader: Reader) -> Self {
-        let robot = if reader == Reader::Motor2016Session {
+impl MeasuredWork {
+    fn new(reader: MeasuredReader) -> Self {
+        let robot = if reader == MeasuredReader::Motor2016Session {
             switched_on(NOW)
         } else {
             open_robot(NOW)
@@ -242,15 +245,17 @@ impl Work {
             let packet = &self.packets[self.next];
             self.next = (self.next + 1) % self.packets.len();
             match self.reader {
-                Reader::Motor2016 => read_sealed(packet, self.start, Form::Hand { now: NOW }),
-                Reader::MotorText | Reader::DriveText => read_sealed(packet, self.start, Form::Sealed),
-                Reader::Motor2016Serde | Reader::MotorSerde => read_motor_serde(packet),
-                Reader::DriveSerde => read_drive_serde(packet),
-                Reader::DriveBinary => read_drive_binary(packet, self.start),
-                Reader::Motor2016Session
-                | Reader::MotorSession
-                | Reader::DriveTextSession
-                | Reader::DriveBinarySession => {
+                MeasuredReader::Motor2016 => read_checked(packet, self.start, Form::Hand { now: NOW }),
+                MeasuredReader::MotorText | MeasuredReader::DriveText => {
+                    read_checked(packet, self.start, Form::Checked)
+                }
+                MeasuredReader::Motor2016Serde | MeasuredReader::MotorSerde => read_motor_serde(packet),
+                MeasuredReader::DriveSerde => read_drive_serde(packet),
+                MeasuredReader::DriveBinary => read_drive_binary(packet, self.start),
+                MeasuredReader::Motor2016Session
+                | MeasuredReader::MotorSession
+                | MeasuredReader::DriveTextSession
+                | MeasuredReader::DriveBinarySession => {
                     let mut events = 0;
                     for byte in packet {
                         events += u32::from(self.robot.receive(black_box(*byte), NOW).is_some());
@@ -262,7 +267,7 @@ impl Work {
     }
 }
 
-fn packet(reader: Reader, sequence: Sequence, session: u16) -> Vec<u8> {
+fn packet(reader: MeasuredReader, sequence: Sequence, session: u16) -> Vec<u8> {
     let motor = Command::Motor(MotorCommand {
         motor: Motor::WheelLeft,
         throttle: Throttle::saturating_from_millionths(750_000),
@@ -279,17 +284,21 @@ fn packet(reader: Reader, sequence: Sequence, session: u16) -> Vec<u8> {
     };
     let mut buffer = PacketBuffer::new();
     let written = match reader {
-        Reader::Motor2016 => return seal_text(MOTOR_2016, SESSION),
-        Reader::Motor2016Session => return [seal_text(MOTOR_2016, 0).as_slice(), &[0x1F]].concat(),
-        Reader::Motor2016Serde => return MOTOR_2016.to_vec(),
-        Reader::DriveBinary => return seal_binary(&drive),
-        Reader::MotorText => return seal_text(&text(&motor), SESSION),
-        Reader::DriveText => return seal_text(&text(&Command::Drive(drive)), SESSION),
-        Reader::MotorSerde => return text(&motor),
-        Reader::DriveSerde => return text(&Command::Drive(drive)),
-        Reader::MotorSession => write_sealed_command(&motor, session, &mut buffer),
-        Reader::DriveTextSession => write_sealed_command(&Command::Drive(drive), session, &mut buffer),
-        Reader::DriveBinarySession => write_sealed_drive(&drive, session, &mut buffer),
+        MeasuredReader::Motor2016 => return with_text_crc(MOTOR_2016, SESSION),
+        MeasuredReader::Motor2016Session => {
+            return [with_text_crc(MOTOR_2016, 0).as_slice(), &[0x1F]].concat();
+        }
+        MeasuredReader::Motor2016Serde => return MOTOR_2016.to_vec(),
+        MeasuredReader::DriveBinary => return with_binary_crc(&drive),
+        MeasuredReader::MotorText => return with_text_crc(&text(&motor), SESSION),
+        MeasuredReader::DriveText => return with_text_crc(&text(&Command::Drive(drive)), SESSION),
+        MeasuredReader::MotorSerde => return text(&motor),
+        MeasuredReader::DriveSerde => return text(&Command::Drive(drive)),
+        MeasuredReader::MotorSession => write_command_with_crc(&motor, session, &mut buffer),
+        MeasuredReader::DriveTextSession => {
+            write_command_with_crc(&Command::Drive(drive), session, &mut buffer)
+        }
+        MeasuredReader::DriveBinarySession => write_drive_with_crc(&drive, session, &mut buffer),
     };
     written.expect("the packets of the benchmark are within their ranges");
     buffer.as_bytes().to_vec()
@@ -301,35 +310,35 @@ fn text(command: &Command) -> Vec<u8> {
     buffer.as_bytes().to_vec()
 }
 
-fn seal_text(text: &[u8], session: u16) -> Vec<u8> {
-    let seal = rvac_protocol::seal::seal(Direction::HostToRobot, session, text);
-    [text, b"*", &rvac_protocol::seal::to_hex(seal)].concat()
+fn with_text_crc(text: &[u8], session: u16) -> Vec<u8> {
+    let crc = rvac_protocol::crc::packet_crc(Direction::HostToRobot, session, text);
+    [text, b"*", &rvac_protocol::crc::to_hex(crc)].concat()
 }
 
-fn seal_binary(drive: &Drive) -> Vec<u8> {
+fn with_binary_crc(drive: &Drive) -> Vec<u8> {
     let packet = write_drive(drive).expect("the packets of the benchmark are within their ranges");
-    let seal = rvac_protocol::seal::seal(Direction::HostToRobot, SESSION, &packet);
-    [packet.as_slice(), &seal.to_le_bytes()].concat()
+    let crc = rvac_protocol::crc::packet_crc(Direction::HostToRobot, SESSION, &packet);
+    [packet.as_slice(), &crc.to_le_bytes()].concat()
 }
 
-fn read_sealed(packet: &[u8], start: Digest, form: Form) {
+fn read_checked(packet: &[u8], start: Digest, form: Form) {
     let (text, digits) = black_box(packet)
         .split_last_chunk::<8>()
-        .expect("the packet is sealed");
+        .expect("the packet has a CRC");
     let text = &text[..text.len() - 1];
     let mut digest = start;
     digest.extend(text);
-    assert_eq!(from_hex(*digits), Some(digest.seal()), "the seal is right");
+    assert_eq!(from_hex(*digits), Some(digest.crc()), "the CRC is right");
     black_box(read_command(text, form)).expect("the packet is right");
 }
 
 fn read_drive_binary(packet: &[u8], start: Digest) {
-    let (packet, seal) = black_box(packet)
+    let (packet, crc) = black_box(packet)
         .split_last_chunk::<4>()
-        .expect("the packet is sealed");
+        .expect("the packet has a CRC");
     let mut digest = start;
     digest.extend(packet);
-    assert_eq!(u32::from_le_bytes(*seal), digest.seal(), "the seal is right");
+    assert_eq!(u32::from_le_bytes(*crc), digest.crc(), "the CRC is right");
     black_box(read_drive(&packet[1..])).expect("the packet is right");
 }
 

@@ -2,14 +2,14 @@
 
 use rvac_channel::Pcg32;
 use rvac_protocol::PacketBuffer;
-use rvac_protocol::binary::write_sealed_drive;
+use rvac_protocol::binary::write_drive_with_crc;
 use rvac_protocol::message::{
     Beep, Command, Drive, Inhibit, Led, LedPattern, Motor, MotorCommand, Move, Parameter, Sequence,
 };
-use rvac_protocol::text::write_sealed_command;
+use rvac_protocol::text::write_command_with_crc;
 use rvac_units::{AngularSpeed, Frequency, Length, Ratio, Speed, Throttle, Tick};
 
-/// A host that seals its commands for one session and remembers them.
+/// A host that sends its commands in one session and remembers them.
 pub(crate) struct Traffic {
     session: u16,
     next: Sequence,
@@ -36,9 +36,9 @@ impl Traffic {
         let mut buffer = PacketBuffer::new();
         let written = match &command {
             Command::Drive(drive) if random.below(2) == 0 => {
-                write_sealed_drive(drive, self.session, &mut buffer)
+                write_drive_with_crc(drive, self.session, &mut buffer)
             }
-            _ => write_sealed_command(&command, self.session, &mut buffer),
+            _ => write_command_with_crc(&command, self.session, &mut buffer),
         };
         written.expect("drawn commands are within their ranges");
         buffer.as_bytes().to_vec()
@@ -109,9 +109,9 @@ fn draw_command(random: &mut Pcg32, sequence: Sequence, now: Tick) -> Command {
 #[cfg(test)]
 mod tests {
     use rvac_channel::Pcg32;
+    use rvac_protocol::crc::Direction;
     use rvac_protocol::frame::{Framed, Framer};
     use rvac_protocol::message::{Command, Sequence};
-    use rvac_protocol::seal::Direction;
     use rvac_protocol::text::{Form, read_command};
     use rvac_units::{Speed, Tick};
 
@@ -126,10 +126,10 @@ mod tests {
         let mut drives = 0;
         for _ in 0..200 {
             for byte in traffic.packet(&mut random, Tick(5)) {
-                let Some(Framed::Sealed(text)) = framer.push(byte) else {
+                let Some(Framed::Checked(text)) = framer.push(byte) else {
                     continue;
                 };
-                let command = read_command(text, Form::Sealed).expect("traffic is well-formed");
+                let command = read_command(text, Form::Checked).expect("traffic is well-formed");
                 assert!(traffic.has_said(&command));
                 if let Command::Drive(drive) = command {
                     drives += 1;

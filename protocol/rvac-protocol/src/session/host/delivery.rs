@@ -8,7 +8,7 @@ use crate::session::COMMANDS_UNDER_WAY;
 
 /// Pause between repeats.
 pub(super) const REPEAT_MS: u32 = 100;
-/// How often a command is sent before it is given up.
+/// How often a command is sent before it counts as unanswered.
 const SENDS_MAX: u8 = 10;
 
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ struct UnderWay {
     sends: u8,
 }
 
-/// The commands under way.
+/// The pending commands.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Delivery {
     commands: Vec<UnderWay, COMMANDS_UNDER_WAY>,
@@ -42,7 +42,7 @@ impl Delivery {
             sent: now,
             sends: 1,
         };
-        // The sender has asked `is_full` before.
+        // The sender has checked `is_full` before.
         self.commands.push(under_way).ok();
     }
 
@@ -57,7 +57,7 @@ impl Delivery {
         Some(due.command)
     }
 
-    /// Takes out a command that was sent often enough without an answer.
+    /// Removes a command that was sent the maximum number of times without an answer.
     pub(super) fn take_hopeless(&mut self, now: Tick) -> Option<Sequence> {
         let index = self
             .commands
@@ -66,12 +66,12 @@ impl Delivery {
         Some(self.commands.remove(index).sequence)
     }
 
-    /// Takes out any command: the session is over.
+    /// Removes any command, when the session is over.
     pub(super) fn take_any(&mut self) -> Option<Sequence> {
         self.commands.pop().map(|entry| entry.sequence)
     }
 
-    /// Whether this answers a command under way; if it was sent only once, the round trip.
+    /// Whether this answers a pending command; the round trip, if that was sent only once.
     pub(super) fn answered(&mut self, sequence: Sequence, now: Tick) -> Option<Option<u32>> {
         let index = self
             .commands

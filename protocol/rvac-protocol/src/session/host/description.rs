@@ -1,25 +1,25 @@
-//! Gathering the rows of the robot's description.
+//! Collects the rows of the robot's description.
 
 use rvac_units::Tick;
 
 use crate::message::{Capabilities, CommandNames, DescribeRow, Description, Limits, RowContent};
 
-/// Pause before a row is asked for again.
+/// Pause before a row is requested again.
 pub(super) const ASK_AGAIN_MS: u32 = 250;
-/// How often a row is asked for before the rest is left unknown.
+/// Number of requests for a row before the rest stays unknown.
 const ASKS_MAX: u8 = 20;
 
-/// What has come so far.
+/// The rows received so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Gathering {
-    progress: Progress,
+    progress: GatheringProgress,
     limits: Option<Limits>,
     capabilities: Option<Capabilities>,
     commands: CommandNames,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-enum Progress {
+enum GatheringProgress {
     #[default]
     Finished,
     Asking {
@@ -33,7 +33,7 @@ impl Gathering {
     /// Begins with row 0.
     pub(super) fn begin() -> Self {
         Self {
-            progress: Progress::Asking {
+            progress: GatheringProgress::Asking {
                 row: 0,
                 asked: None,
                 asks: 0,
@@ -42,18 +42,18 @@ impl Gathering {
         }
     }
 
-    /// The row to ask for now.
+    /// The row to request now.
     pub(super) fn take_due(&mut self, now: Tick) -> Option<u8> {
-        let Progress::Asking { row, asked, asks } = self.progress else {
+        let GatheringProgress::Asking { row, asked, asks } = self.progress else {
             return None;
         };
         if asked.is_some_and(|asked| now.since(asked) < ASK_AGAIN_MS) {
             return None;
         }
         self.progress = if asks == ASKS_MAX {
-            Progress::Finished
+            GatheringProgress::Finished
         } else {
-            Progress::Asking {
+            GatheringProgress::Asking {
                 row,
                 asked: Some(now),
                 asks: asks + 1,
@@ -62,9 +62,9 @@ impl Gathering {
         Some(row)
     }
 
-    /// Takes a row; gives the whole description with the last one.
+    /// Takes a row; returns the whole description with the last one.
     pub(super) fn take(&mut self, row: &DescribeRow) -> Option<Description> {
-        let Progress::Asking { row: expected, .. } = self.progress else {
+        let GatheringProgress::Asking { row: expected, .. } = self.progress else {
             return None;
         };
         if row.row != expected {
@@ -77,14 +77,14 @@ impl Gathering {
             RowContent::Parameter { .. } | RowContent::Unknown => {}
         }
         if row.row.saturating_add(1) < row.rows {
-            self.progress = Progress::Asking {
+            self.progress = GatheringProgress::Asking {
                 row: row.row + 1,
                 asked: None,
                 asks: 0,
             };
             return None;
         }
-        self.progress = Progress::Finished;
+        self.progress = GatheringProgress::Finished;
         Some(Description {
             capabilities: self.capabilities?,
             limits: self.limits?,
@@ -96,6 +96,6 @@ impl Gathering {
     }
 
     pub(super) fn is_finished(&self) -> bool {
-        matches!(self.progress, Progress::Finished)
+        matches!(self.progress, GatheringProgress::Finished)
     }
 }

@@ -1,34 +1,34 @@
-//! What comes from the robot.
+//! Packets from the robot.
 
 use rvac_units::Tick;
 
-use super::edges::{Arrival, EdgeOrder};
+use super::event_order::{Arrival, EventOrder};
 use super::{
-    Core, GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostEvent, LinkCounters, PING_MS, Phase,
+    GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostCore, HostEvent, HostPhase, LinkCounters, PING_MS,
     SILENCE_MS,
 };
 use crate::binary;
+use crate::crc::{Direction, packet_crc};
 use crate::frame::{Framed, PACKET_BYTES_MAX, Poison};
 use crate::message::{
-    Acknowledgement, BinaryKinds, Edge, Info, ProtocolVersion, Report, RobotHello, Sequence, State,
+    Acknowledgement, BinaryKinds, Info, NumberedEvent, ProtocolVersion, Report, RobotHello, Sequence, State,
 };
-use crate::seal::{Direction, seal};
 use crate::session::BAD_IN_ROW_MAX;
 use crate::text::{InfoPart, ReportPacket, read_report};
 
-impl Core {
+impl HostCore {
     pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<HostEvent> {
         self.now = now;
         match framed {
-            Framed::Sealed(text) => {
+            Framed::Checked(text) => {
                 self.good();
                 self.take_text(text)
             }
             Framed::Binary { kind, body } => self.take_binary(kind, body),
-            Framed::Missealed { text, seal } => self.take_missealed(text, seal),
-            // A robot seals whatever it says; an open packet has lost its seal on the way.
-            Framed::Open(_) | Framed::BinaryMissealed => {
-                count(&mut self.counters.bad_seal);
+            Framed::BadCrc { text, crc } => self.take_bad_crc(text, crc),
+            // A robot sends a CRC with every packet: one that arrives without it was damaged on the line.
+            Framed::Unchecked(_) | Framed::BinaryBadCrc => {
+                count(&mut self.counters.bad_crc);
                 self.bad()
             }
             Framed::Poisoned(poison) => {
@@ -41,15 +41,15 @@ impl Core {
         }
     }
 
-    fn take_missealed(&mut self, text: &[u8], found: u32) -> Option<HostEvent> {
+    fn take_bad_crc(&mut self, text: &[u8], found: u32) -> Option<HostEvent> {
         if self.session != 0
-            && found == seal(Direction::RobotToHost, 0, text)
+            && found == packet_crc(Direction::RobotToHost, 0, text)
             && let Ok(ReportPacket::Report(Report::Hello(hello))) = read_report(text)
         {
             self.good();
             return self.take_hello(hello);
         }
-        count(&mut self.counters.bad_seal);
+        count(&mut self.counters.bad_crc);
         self.bad()
     }
 
@@ -77,11 +77,11 @@ impl Core {
             Report::Hello(hello) => self.take_hello(hello),
             Report::Describe(row) => self.gathering.take(&row).map(HostEvent::Described),
             Report::State(state) => {
-                // A robot that has agreed on a binary form and writes text has left it, and so do we.
+                // A robot that agreed on a binary form and sends text has stopped using it, and so does the host.
                 self.binary_left |= self.binary.state;
                 self.take_state(state)
             }
-            Report::Edge(edge) => self.take_edge(edge),
+            Report::Event(event) => self.take_event(event),
             Report::Acknowledgement(answer) => self.take_answer(answer),
             Report::Info(_) | Report::Probed(_) | Report::Log { .. } => Some(HostEvent::Report(report)),
         }
@@ -93,12 +93,12 @@ impl Core {
         Some(HostEvent::Report(Report::State(state)))
     }
 
-    fn take_edge(&mut self, edge: Edge) -> Option<HostEvent> {
-        self.hear_tick(edge.tick);
-        match self.edges.take(edge.number, self.now) {
-            Arrival::Next => Some(HostEvent::Report(Report::Edge(edge))),
+    fn take_event(&mut self, event: NumberedEvent) -> Option<HostEvent> {
+        self.hear_tick(event.tick);
+        match self.event_order.take(event.number, self.now) {
+            Arrival::Next => Some(HostEvent::Report(Report::Event(event))),
             Arrival::Hold => None,
-            Arrival::Lost(count) => Some(HostEvent::EdgesLost { count }),
+            Arrival::Lost(count) => Some(HostEvent::EventsLost { count }),
         }
     }
 
@@ -122,18 +122,18 @@ impl Core {
         })))
     }
 
-    /// What the robot has counted since its last `info` is the quality of our packets on their way.
+    /// Outbound quality follows from the robot's counters since its last `info`.
     fn judge_outbound(&mut self, link: LinkCounters) {
         let old = self.info_link;
         if old == LinkCounters::default() {
             return;
         }
         let good = link.accepted.checked_sub(old.accepted);
-        let seals = link.bad_seal.checked_sub(old.bad_seal);
+        let bad_crcs = link.bad_crc.checked_sub(old.bad_crc);
         let resyncs = link.resync.checked_sub(old.resync);
-        if let (Some(good), Some(seals), Some(resyncs)) = (good, seals, resyncs) {
+        if let (Some(good), Some(bad_crcs), Some(resyncs)) = (good, bad_crcs, resyncs) {
             self.outbound
-                .record(good, seals.saturating_add(resyncs), self.now);
+                .record(good, bad_crcs.saturating_add(resyncs), self.now);
         }
     }
 
@@ -149,7 +149,7 @@ impl Core {
                 return Some(HostEvent::Answered { sequence, refusal });
             }
         }
-        // The answer to a repeat whose first answer has come already says nothing new.
+        // An answer to a repeat after the first answer is redundant.
         refusal
             .is_some()
             .then_some(HostEvent::Answered { sequence, refusal })
@@ -161,13 +161,13 @@ impl Core {
         if !common {
             return self.take_incompatible(&hello);
         }
-        if hello.session == self.session && self.phase == Phase::Open {
+        if hello.session == self.session && self.phase == HostPhase::Open {
             return None;
         }
         if hello.session != 0 {
             return Some(self.open(hello));
         }
-        let was_open = self.phase == Phase::Open;
+        let was_open = self.phase == HostPhase::Open;
         if was_open {
             self.close();
             return Some(HostEvent::Closed(hello));
@@ -176,19 +176,19 @@ impl Core {
     }
 
     fn take_incompatible(&mut self, hello: &RobotHello) -> Option<HostEvent> {
-        let told = matches!(
+        let already_reported = matches!(
             self.phase,
-            Phase::Greeting {
-                told_incompatible: true,
+            HostPhase::Greeting {
+                reported_incompatible: true,
                 ..
             }
         );
         self.close();
-        self.phase = Phase::Greeting {
+        self.phase = HostPhase::Greeting {
             due: self.now.after(GREETING_INCOMPATIBLE_MS),
-            told_incompatible: true,
+            reported_incompatible: true,
         };
-        (!told).then_some(HostEvent::Incompatible {
+        (!already_reported).then_some(HostEvent::Incompatible {
             version_min: hello.version_min,
             version_max: hello.version_max,
         })
@@ -196,7 +196,7 @@ impl Core {
 
     fn open(&mut self, hello: RobotHello) -> HostEvent {
         self.close();
-        self.phase = Phase::Open;
+        self.phase = HostPhase::Open;
         self.session = hello.session;
         self.packet_max = usize::from(hello.packet_max);
         self.binary = self.binary_wanted.common(hello.binary);
@@ -206,14 +206,14 @@ impl Core {
         HostEvent::Opened(hello)
     }
 
-    /// Forgets the session; the next greeting is due at once.
+    /// Drops the session; the next greeting is due at once.
     fn close(&mut self) {
         while let Some(sequence) = self.delivery.take_any() {
             self.events.push_back(HostEvent::Unanswered(sequence)).ok();
         }
-        self.phase = Phase::Greeting {
+        self.phase = HostPhase::Greeting {
             due: self.now,
-            told_incompatible: false,
+            reported_incompatible: false,
         };
         self.session = 0;
         self.packet_max = PACKET_BYTES_MAX;
@@ -221,7 +221,7 @@ impl Core {
         self.binary_left = false;
         self.bad_in_row = 0;
         self.robot_tick = None;
-        self.edges = EdgeOrder::default();
+        self.event_order = EventOrder::default();
         self.gathering = Gathering::default();
         self.ping.under_way = None;
         self.state_wanted = false;
@@ -235,7 +235,7 @@ impl Core {
         if let Some(event) = self.events.pop_front() {
             return Some(event);
         }
-        if self.phase != Phase::Open {
+        if self.phase != HostPhase::Open {
             return None;
         }
         if now.since(self.heard) > SILENCE_MS {
@@ -250,14 +250,16 @@ impl Core {
             return self.now;
         }
         match self.phase {
-            Phase::Greeting { due, .. } => due,
-            Phase::Open if !self.delivery.is_empty() => self.now.after(super::delivery::REPEAT_MS),
-            Phase::Open if !self.gathering.is_finished() => self.now.after(super::description::ASK_AGAIN_MS),
-            Phase::Open => self.ping.due,
+            HostPhase::Greeting { due, .. } => due,
+            HostPhase::Open if !self.delivery.is_empty() => self.now.after(super::delivery::REPEAT_MS),
+            HostPhase::Open if !self.gathering.is_finished() => {
+                self.now.after(super::description::ASK_AGAIN_MS)
+            }
+            HostPhase::Open => self.ping.due,
         }
     }
 
-    /// The newest tick counts; a repeated edge brings an old one.
+    /// Keeps the newest tick; a repeated event carries an old one.
     fn hear_tick(&mut self, tick: Tick) {
         let newer = self.robot_tick.is_none_or(|(known, _)| tick.reached(known));
         if newer {
@@ -281,7 +283,7 @@ impl Core {
         None
     }
 
-    /// Whole, but of a newer robot: counted, and no sign of a bad line.
+    /// Undamaged, but of a newer robot: counted, but not as a fault of the line.
     fn unreadable(&mut self) -> Option<HostEvent> {
         count(&mut self.counters.refused);
         None
@@ -295,8 +297,8 @@ impl Core {
     }
 
     /// When to greet again after a greeting.
-    pub(super) fn greeting_pause_ms(told_incompatible: bool) -> u32 {
-        if told_incompatible {
+    pub(super) fn greeting_pause_ms(reported_incompatible: bool) -> u32 {
+        if reported_incompatible {
             GREETING_INCOMPATIBLE_MS
         } else {
             GREETING_MS

@@ -2,7 +2,7 @@
 
 mod delivery;
 mod description;
-mod edges;
+mod event_order;
 mod inbound;
 mod outbound;
 
@@ -11,26 +11,26 @@ use rvac_units::Tick;
 
 use self::delivery::Delivery;
 use self::description::Gathering;
-use self::edges::EdgeOrder;
+use self::event_order::EventOrder;
 use crate::buffer::{EncodeError, PacketBuffer};
+use crate::crc::Direction;
 use crate::frame::{Framer, PACKET_BYTES_MAX, Poison};
 use crate::message::{
     Battery, BinaryKinds, Command, CommandNames, Description, LinkCounters, ProtocolVersion, Refusal, Report,
     RobotHello, Sequence,
 };
-use crate::quality::{LinkQuality, Window};
-use crate::seal::Direction;
+use crate::quality::{LinkQuality, QualityWindow};
 
-/// What the host learns.
+/// An event for the host.
 #[derive(Clone, Debug, PartialEq)]
 pub enum HostEvent {
     /// A session is open; commands can be sent.
     Opened(RobotHello),
-    /// The robot has told everything about itself. Comes some packets after `Opened`.
+    /// The robot's description is complete. Comes some packets after `Opened`.
     Described(Description),
-    /// `Info`, `State`, `Log`, or an `Edge` that was not delivered before. Edges come in order and once.
+    /// `Info`, `State`, `Log`, or an `Event` that was not delivered before. Events come in order and once.
     Report(Report),
-    /// The robot has answered a numbered command: carried out (`None`) or refused. Refused `drive` and `motor` are
+    /// The robot has answered a numbered command: executed (`None`) or refused. Refused `drive` and `motor` are
     /// answered too.
     Answered {
         /// The number that [`HostSession::send`] gave; `None` if the robot could not read it.
@@ -38,16 +38,16 @@ pub enum HostEvent {
         /// Why it was refused.
         refusal: Option<Refusal>,
     },
-    /// A command that must arrive was not answered in time. It may or may not have been carried out.
+    /// A command that must arrive was not answered in time. It may or may not have been executed.
     Unanswered(Sequence),
-    /// Edges were lost: the robot's queue overflowed. Levels are in the next `State`.
-    EdgesLost {
+    /// Events were lost: the robot's queue overflowed. Levels are in the next `State`.
+    EventsLost {
         /// How many.
         count: u16,
     },
-    /// The session is over: the robot was reset, or it went back to hand mode. The session opens a new one by itself.
+    /// The session is over: the robot was reset or returned to hand mode. A new one is opened automatically.
     Closed(RobotHello),
-    /// Nothing valid came for 2 s. The session opens a new one by itself, for ever.
+    /// Nothing valid came for 2 s. A new session is tried automatically, without end.
     Silent,
     /// No common version. `hello`, `info`, `log` and `stop` still work.
     Incompatible {
@@ -65,9 +65,9 @@ pub enum SendError {
     NotOpen,
     /// Too many commands wait for their answer (at most 8).
     Busy,
-    /// A number is outside of what the wire allows, or the packet is longer than this robot takes.
+    /// A number is out of range, or the packet is longer than this robot accepts.
     Range,
-    /// `Hello`, `Hand`, `Describe`, `Ping` and `Seen` are the session's own.
+    /// Only the session itself sends `Hello`, `Hand`, `Describe`, `Ping` and `Seen`.
     Reserved,
 }
 
@@ -79,13 +79,13 @@ impl From<EncodeError> for SendError {
 
 /// Pause between greetings.
 const GREETING_MS: u32 = 250;
-/// Pause between greetings once the robot has turned out to speak no common version.
+/// Pause between greetings if there is no common version.
 const GREETING_INCOMPATIBLE_MS: u32 = 5_000;
 /// Pause between pings, which keep the session alive and measure the round trip.
 const PING_MS: u32 = 500;
 /// The link is dead after this long without a valid packet.
 const SILENCE_MS: u32 = 2_000;
-/// If the robot's clock was last heard this long ago, motion would soon be refused as stale: ask for a `state`.
+/// If the newest tick of the robot is older than this, motion would soon be refused as stale: ask for a `state`.
 const TICK_OLD_MS: u32 = 150;
 /// Events that wait for `poll`.
 const EVENTS: usize = 12;
@@ -94,16 +94,16 @@ const EVENTS: usize = 12;
 #[derive(Clone, Debug)]
 pub struct HostSession {
     framer: Framer,
-    core: Core,
+    core: HostCore,
 }
 
 /// Everything but the receiver, so that a packet can be read in the receiver's buffer while the session changes.
 #[derive(Clone, Debug)]
-struct Core {
+struct HostCore {
     binary_wanted: BinaryKinds,
-    phase: Phase,
+    phase: HostPhase,
     session: u16,
-    /// Longest command the robot takes, in bytes without the separator.
+    /// Longest command that the robot accepts, in bytes without the separator.
     packet_max: usize,
     now: Tick,
     counters: LinkCounters,
@@ -113,13 +113,13 @@ struct Core {
     robot_tick: Option<(Tick, Tick)>,
     delivery: Delivery,
     gathering: Gathering,
-    edges: EdgeOrder,
+    event_order: EventOrder,
     ping: Ping,
     state_wanted: bool,
     info_battery: Option<Battery>,
     info_link: LinkCounters,
-    inbound: Window,
-    outbound: Window,
+    inbound: QualityWindow,
+    outbound: QualityWindow,
     round_trip_ms: Option<u32>,
     binary: BinaryKinds,
     binary_left: bool,
@@ -129,8 +129,8 @@ struct Core {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
-    Greeting { due: Tick, told_incompatible: bool },
+enum HostPhase {
+    Greeting { due: Tick, reported_incompatible: bool },
     Open,
 }
 
@@ -144,13 +144,13 @@ impl HostSession {
     /// A session that is about to send `U`, a separator and its `hello`. `binary` are the kinds to agree upon.
     #[must_use]
     pub fn new(binary: BinaryKinds, now: Tick) -> Self {
-        let mut inbound = Window::default();
+        let mut inbound = QualityWindow::default();
         inbound.turn(now);
-        let core = Core {
+        let core = HostCore {
             binary_wanted: binary,
-            phase: Phase::Greeting {
+            phase: HostPhase::Greeting {
                 due: now,
-                told_incompatible: false,
+                reported_incompatible: false,
             },
             session: 0,
             packet_max: PACKET_BYTES_MAX,
@@ -161,7 +161,7 @@ impl HostSession {
             robot_tick: None,
             delivery: Delivery::default(),
             gathering: Gathering::default(),
-            edges: EdgeOrder::default(),
+            event_order: EventOrder::default(),
             ping: Ping {
                 due: now,
                 under_way: None,
@@ -206,7 +206,7 @@ impl HostSession {
         self.framer.poison(Poison::Overrun);
     }
 
-    /// Lets time pass; call until it gives `None`.
+    /// Handles time; call it until it returns `None`.
     #[must_use]
     pub fn poll(&mut self, now: Tick) -> Option<HostEvent> {
         let event = self.core.poll(now);
@@ -214,13 +214,13 @@ impl HostSession {
         event
     }
 
-    /// When `poll` and [`next_packet`](Self::next_packet) have something to do at the latest.
+    /// The latest time of the next call of `poll` and [`next_packet`](Self::next_packet).
     #[must_use]
     pub fn next_poll(&self) -> Tick {
         self.core.next_poll()
     }
 
-    /// Writes the next packet that the session itself wants sent (handshake, repeats, confirmations, keep-alive) into
+    /// Writes the next packet of the session itself (handshake, repeats, confirmations, keep-alive) into
     /// `buffer`, replacing its content. `false` = nothing to send. Call it after `receive`, `poll` and `send`.
     #[must_use]
     pub fn next_packet(&mut self, buffer: &mut PacketBuffer) -> bool {
@@ -228,9 +228,9 @@ impl HostSession {
         self.core.next_packet(buffer).unwrap_or(false)
     }
 
-    /// Writes `command` into `buffer`, replacing its content, with the session's own `sequence` and `seen_tick` whatever
-    /// the caller put there. Commands that must arrive are repeated until they are answered. Gives the number, if the
-    /// command carries one. `Stop` and `Info` can be sent at any time, open session or not.
+    /// Writes `command` into `buffer`, replacing its content. The session overwrites `sequence` and `seen_tick`.
+    /// Commands that must arrive are repeated until they are answered. Returns the number, if the command has one.
+    /// `Stop` and `Info` can be sent at any time, with or without a session.
     ///
     /// # Errors
     /// See [`SendError`]; the buffer is empty then.
@@ -248,7 +248,7 @@ impl HostSession {
     /// Whether a session is open.
     #[must_use]
     pub fn is_open(&self) -> bool {
-        self.core.phase == Phase::Open
+        self.core.phase == HostPhase::Open
     }
 
     /// Number of the open session, 0 = none.
@@ -257,13 +257,13 @@ impl HostSession {
         self.core.session
     }
 
-    /// What the robot understands, as far as its description has come; empty before.
+    /// The commands that the robot understands, as far as its description has been received.
     #[must_use]
     pub fn understood(&self) -> CommandNames {
         self.core.gathering.understood()
     }
 
-    /// The robot's clock: newest tick heard and when that was on the host's clock.
+    /// The robot's clock: newest received tick and its time on the host's clock.
     #[must_use]
     pub fn robot_tick(&self) -> Option<(Tick, Tick)> {
         self.core.robot_tick
@@ -282,7 +282,7 @@ impl HostSession {
         }
     }
 
-    /// Totals of what this end received.
+    /// Totals received at this end.
     #[must_use]
     pub fn counters(&self) -> LinkCounters {
         self.core.counters

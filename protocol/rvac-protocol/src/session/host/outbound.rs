@@ -1,14 +1,14 @@
-//! What goes to the robot.
+//! Packets to the robot.
 
-use super::{Core, PING_MS, Phase, SendError, TICK_OLD_MS};
+use super::{HostCore, HostPhase, PING_MS, SendError, TICK_OLD_MS};
 use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::SEPARATOR;
 use crate::message::{Command, HostHello, ProtocolVersion, Sequence};
 use crate::session::{BAUD_RATE_PATTERN, FLUSH_AFTER_MS};
-use crate::text::write_sealed_command;
+use crate::text::write_command_with_crc;
 
-impl Core {
+impl HostCore {
     pub(super) fn send(
         &mut self,
         command: Command,
@@ -18,7 +18,7 @@ impl Core {
             return Err(SendError::Reserved);
         }
         let always = matches!(command, Command::Stop | Command::Info);
-        if self.phase != Phase::Open && !always {
+        if self.phase != HostPhase::Open && !always {
             return Err(SendError::NotOpen);
         }
         if command.must_arrive() && self.delivery.is_full() {
@@ -92,14 +92,14 @@ impl Core {
         }
     }
 
-    /// What the session itself has to send: `Ok(false)` = nothing.
+    /// Writes a packet of the session itself: `Ok(false)` = nothing to send.
     pub(super) fn next_packet(&mut self, buffer: &mut PacketBuffer) -> Result<bool, EncodeError> {
-        if let Phase::Greeting {
+        if let HostPhase::Greeting {
             due,
-            told_incompatible,
+            reported_incompatible,
         } = self.phase
         {
-            return self.greet(due, told_incompatible, buffer);
+            return self.greet(due, reported_incompatible, buffer);
         }
         let Some(command) = self.next_command() else {
             return Ok(false);
@@ -110,15 +110,15 @@ impl Core {
     fn greet(
         &mut self,
         due: rvac_units::Tick,
-        told_incompatible: bool,
+        reported_incompatible: bool,
         buffer: &mut PacketBuffer,
     ) -> Result<bool, EncodeError> {
         if !self.now.reached(due) {
             return Ok(false);
         }
-        self.phase = Phase::Greeting {
-            due: self.now.after(Self::greeting_pause_ms(told_incompatible)),
-            told_incompatible,
+        self.phase = HostPhase::Greeting {
+            due: self.now.after(Self::greeting_pause_ms(reported_incompatible)),
+            reported_incompatible,
         };
         self.sent = Some(self.now);
         buffer.push(BAUD_RATE_PATTERN)?;
@@ -128,12 +128,12 @@ impl Core {
             version_max: ProtocolVersion::CURRENT,
             binary: self.binary_wanted,
         });
-        write_sealed_command(&hello, 0, buffer).map(|()| true)
+        write_command_with_crc(&hello, 0, buffer).map(|()| true)
     }
 
     fn next_command(&mut self) -> Option<Command> {
-        if let Some(edge) = self.edges.take_confirmation() {
-            return Some(Command::Seen { edge });
+        if let Some(event) = self.event_order.take_confirmation() {
+            return Some(Command::Seen { event });
         }
         if let Some(command) = self.delivery.take_due(self.now) {
             return Some(command);
@@ -163,11 +163,11 @@ impl Core {
         let start = buffer.length();
         match command {
             Command::Drive(drive) if self.binary.drive && !self.binary_left => {
-                binary::write_sealed_drive(drive, self.session, buffer)
+                binary::write_drive_with_crc(drive, self.session, buffer)
             }
-            _ => write_sealed_command(command, self.session, buffer),
+            _ => write_command_with_crc(command, self.session, buffer),
         }?;
-        // Stuffing and separator do not count, so this refuses a little too early rather than too late.
+        // Stuffing and separator do not count towards the limit, so this may refuse slightly too early, never too late.
         if buffer.length() - start > self.packet_max + 1 {
             return Err(EncodeError::TooLong);
         }

@@ -1,4 +1,4 @@
-//! Which numbered commands were carried out, so that a repeat is answered again and not carried out again.
+//! The numbered commands that were executed, so that a repeat is answered again and not executed again.
 
 use heapless::Vec;
 use rvac_units::Tick;
@@ -7,18 +7,18 @@ use crate::message::{Refusal, Sequence};
 
 /// Commands that are remembered.
 const REMEMBERED: usize = crate::session::COMMANDS_UNDER_WAY;
-/// After this long a number may be taken again: it has gone round, or its sender is long gone.
+/// After this long a number may be used again: the counter has wrapped, or its sender is gone.
 pub(super) const MEMORY_MS: u32 = 10_000;
 
 #[derive(Clone, Copy, Debug)]
 struct Remembered {
     sequence: Sequence,
     since: Tick,
-    answer: Answer,
+    answer: StoredAnswer,
 }
 
 #[derive(Clone, Copy, Debug)]
-enum Answer {
+enum StoredAnswer {
     Pending,
     Given(Option<Refusal>),
 }
@@ -26,13 +26,13 @@ enum Answer {
 /// What is known of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Known {
-    /// Never seen: carry it out. It is remembered from now on.
+    /// New: execute it. It is remembered from now on.
     New,
-    /// Carried out at this moment; the answer will come.
+    /// Being executed; the answer will come.
     Pending,
-    /// Answer this again.
+    /// A repeat: send this answer again.
     Answered(Option<Refusal>),
-    /// Older than all that is remembered: refuse it.
+    /// Older than all remembered numbers: refuse it.
     Forgotten,
 }
 
@@ -48,14 +48,14 @@ impl Answers {
         self.remembered.retain(|entry| now.since(entry.since) < MEMORY_MS);
         if let Some(entry) = self.remembered.iter().find(|entry| entry.sequence == sequence) {
             return match entry.answer {
-                Answer::Pending => Known::Pending,
-                Answer::Given(refusal) => Known::Answered(refusal),
+                StoredAnswer::Pending => Known::Pending,
+                StoredAnswer::Given(refusal) => Known::Answered(refusal),
             };
         }
         let entry = Remembered {
             sequence,
             since: now,
-            answer: Answer::Pending,
+            answer: StoredAnswer::Pending,
         };
         if let Err(entry) = self.remembered.push(entry) {
             match self.lowest_below(sequence) {
@@ -73,7 +73,7 @@ impl Answers {
             .iter_mut()
             .find(|entry| entry.sequence == sequence);
         if let Some(entry) = entry {
-            entry.answer = Answer::Given(refusal);
+            entry.answer = StoredAnswer::Given(refusal);
         }
     }
 

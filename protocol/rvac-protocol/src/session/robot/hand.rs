@@ -1,4 +1,4 @@
-//! What a person at a terminal may make the robot do.
+//! Limits of hand mode, for a person at a terminal.
 
 use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
@@ -15,7 +15,7 @@ const HAND_THROTTLE_MAX: i32 = 250_000;
 /// Longest `move` in hand mode: 0.1 m/s for 500 ms.
 const HAND_MOVE_MAX: i32 = 50_000;
 
-/// The command with its motion clamped; everything but motion stays.
+/// The command with its motion clamped; other commands stay unchanged.
 pub(super) fn clamp(command: Command) -> Command {
     match command {
         Command::Drive(mut drive) => {

@@ -1,33 +1,33 @@
-//! What comes from the host.
+//! Packets from the host.
 
 use rvac_units::Tick;
 
 use super::answers::{Known, MEMORY_MS};
-use super::{BAD_IN_ROW_MAX, Core, FRESHNESS_MS, Mode, Reply, RobotEvent, SessionEnd, count, hand};
+use super::{BAD_IN_ROW_MAX, FRESHNESS_MS, Mode, Reply, RobotCore, RobotEvent, SessionEnd, count, hand};
 use crate::binary;
+use crate::crc::{Direction, packet_crc};
 use crate::frame::{Framed, Poison};
 use crate::message::{Acknowledgement, Command, HostHello, ProtocolVersion, Refusal, Sequence};
-use crate::seal::{Direction, seal};
 use crate::session::BAUD_RATE_PATTERN;
 use crate::text::{Form, RefusedCommand, is_stop, read_command};
 
-/// Whether the packet carried a right seal.
+/// Whether the packet carried the right CRC.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Trust {
-    Sealed,
-    Open,
+enum PacketTrust {
+    Checked,
+    Unchecked,
 }
 
-impl Core {
+impl RobotCore {
     pub(super) fn take(&mut self, framed: Framed<'_>, now: Tick) -> Option<RobotEvent> {
         self.now = now;
         match framed {
-            Framed::Sealed(text) => self.take_sealed(text),
+            Framed::Checked(text) => self.take_checked(text),
             Framed::Binary { kind, body } => self.take_binary(kind, body),
-            Framed::Open(text) => self.take_open(text),
-            Framed::Missealed { text, seal } => self.take_missealed(text, seal),
-            Framed::BinaryMissealed => {
-                count(&mut self.counters.bad_seal);
+            Framed::Unchecked(text) => self.take_unchecked(text),
+            Framed::BadCrc { text, crc } => self.take_bad_crc(text, crc),
+            Framed::BinaryBadCrc => {
+                count(&mut self.counters.bad_crc);
                 self.bad()
             }
             Framed::Poisoned(poison) => {
@@ -40,13 +40,13 @@ impl Core {
         }
     }
 
-    fn take_sealed(&mut self, text: &[u8]) -> Option<RobotEvent> {
+    fn take_checked(&mut self, text: &[u8]) -> Option<RobotEvent> {
         self.good();
         match read_command(text, self.form()) {
             Ok(command) => {
-                // A host that has agreed on a binary form and writes text has left it, and so do we.
+                // A host that agreed on a binary form and sends text has stopped using it, and so does the robot.
                 self.binary_left |= self.binary.drive && matches!(command, Command::Drive(_));
-                self.accept(command, Trust::Sealed)
+                self.accept(command, PacketTrust::Checked)
             }
             Err(refused) => self.refuse(refused),
         }
@@ -58,56 +58,56 @@ impl Core {
             return self.refuse_with(None, Refusal::Unknown);
         }
         match binary::read_drive(body) {
-            Ok(drive) => self.accept(Command::Drive(drive), Trust::Sealed),
+            Ok(drive) => self.accept(Command::Drive(drive), PacketTrust::Checked),
             Err(refusal) => self.refuse_with(None, refusal),
         }
     }
 
-    fn take_open(&mut self, text: &[u8]) -> Option<RobotEvent> {
+    fn take_unchecked(&mut self, text: &[u8]) -> Option<RobotEvent> {
         if text.iter().all(|byte| *byte == BAUD_RATE_PATTERN) {
             return None;
         }
         if is_stop(text) {
-            return self.accept(Command::Stop, Trust::Open);
+            return self.accept(Command::Stop, PacketTrust::Unchecked);
         }
-        if self.mode == Mode::Sealed {
+        if self.mode == Mode::Checked {
             self.bad();
-            return self.refuse_with(None, Refusal::Unsealed);
+            return self.refuse_with(None, Refusal::NoCrc);
         }
         match read_command(text, self.form()) {
-            Ok(command) => self.accept(command, Trust::Open),
+            Ok(command) => self.accept(command, PacketTrust::Unchecked),
             Err(refused) => self.refuse(refused),
         }
     }
 
-    /// A seal that is not this session's: `stop` counts anyway, and a `hello` is always sealed for session 0.
-    fn take_missealed(&mut self, text: &[u8], found: u32) -> Option<RobotEvent> {
+    /// The CRC is not that of this session. `stop` counts anyway, and a `hello` always has the CRC of session 0.
+    fn take_bad_crc(&mut self, text: &[u8], found: u32) -> Option<RobotEvent> {
         if is_stop(text) {
-            return self.accept(Command::Stop, Trust::Open);
+            return self.accept(Command::Stop, PacketTrust::Unchecked);
         }
         if self.session != 0
-            && found == seal(Direction::HostToRobot, 0, text)
+            && found == packet_crc(Direction::HostToRobot, 0, text)
             && let Ok(command @ Command::Hello(_)) = read_command(text, self.form())
         {
-            return self.accept(command, Trust::Sealed);
+            return self.accept(command, PacketTrust::Checked);
         }
-        count(&mut self.counters.bad_seal);
+        count(&mut self.counters.bad_crc);
         self.bad()
     }
 
     fn form(&self) -> Form {
         match self.mode {
-            Mode::Sealed => Form::Sealed,
+            Mode::Checked => Form::Checked,
             Mode::Hand => Form::Hand { now: self.now },
         }
     }
 
-    fn accept(&mut self, command: Command, trust: Trust) -> Option<RobotEvent> {
+    fn accept(&mut self, command: Command, trust: PacketTrust) -> Option<RobotEvent> {
         match command {
             Command::Hello(hello) => self.greet(hello, trust),
             Command::Hand => {
                 self.accepted();
-                (self.mode == Mode::Sealed).then(|| self.close(SessionEnd::Hand))
+                (self.mode == Mode::Checked).then(|| self.close(SessionEnd::Hand))
             }
             Command::Describe { row } => self.describe(row),
             Command::Ping { sequence } => {
@@ -115,9 +115,9 @@ impl Core {
                 self.reply_answer(Some(sequence), None);
                 None
             }
-            Command::Seen { edge } => {
+            Command::Seen { event } => {
                 self.accepted();
-                self.edges.confirm(edge);
+                self.events.confirm(event);
                 None
             }
             Command::Drive(drive) => {
@@ -140,10 +140,10 @@ impl Core {
         }
     }
 
-    /// A command that must arrive: carried out once, answered as often as it is asked.
+    /// A command that must arrive: executed once, answered for each repeat.
     fn accept_once(&mut self, command: Command) -> Option<RobotEvent> {
         let sequence = command.sequence()?;
-        if self.mode == Mode::Sealed {
+        if self.mode == Mode::Checked {
             match self.answers.note(sequence, self.now) {
                 Known::New => {}
                 Known::Pending => {
@@ -175,12 +175,12 @@ impl Core {
         self.accepted();
         Some(RobotEvent::Command(match self.mode {
             Mode::Hand => hand::clamp(command),
-            Mode::Sealed => command,
+            Mode::Checked => command,
         }))
     }
 
-    /// Whether motion is meant for now. Numbers compare with those of the last seconds only: what is older is kept out by
-    /// its tick, and after hours of rest a number may have gone half way round.
+    /// Whether motion is fresh. Numbers are compared with those of the last seconds only: ticks exclude older packets,
+    /// and after hours without motion the counter may have advanced by half its range.
     fn fresh(&mut self, sequence: Sequence, seen: Tick) -> Result<(), Refusal> {
         if self.now.since(seen) > FRESHNESS_MS {
             return Err(Refusal::Stale);
@@ -198,22 +198,22 @@ impl Core {
         Ok(())
     }
 
-    fn greet(&mut self, hello: HostHello, trust: Trust) -> Option<RobotEvent> {
+    fn greet(&mut self, hello: HostHello, trust: PacketTrust) -> Option<RobotEvent> {
         self.accepted();
         self.reply(Reply::Hello);
         let common =
             hello.version_min <= ProtocolVersion::CURRENT && hello.version_max >= ProtocolVersion::MIN;
         let repeated = self.opened_by == Some(hello);
-        if trust == Trust::Open || !common || repeated {
+        if trust == PacketTrust::Unchecked || !common || repeated {
             return None;
         }
         self.session = self.new_session_number();
-        self.mode = Mode::Sealed;
+        self.mode = Mode::Checked;
         self.binary = hello.binary.common(self.identity.binary);
         self.binary_left = false;
         self.motion = None;
         self.answers.clear();
-        self.edges.restart();
+        self.events.restart();
         self.good();
         self.opened_by = Some(hello);
         Some(RobotEvent::SessionOpened)
@@ -223,7 +223,7 @@ impl Core {
     fn new_session_number(&self) -> u16 {
         let [s0, s1, s2, s3] = self.identity.session_seed.to_le_bytes();
         let [t0, t1, t2, t3] = self.now.0.to_le_bytes();
-        let mixed = seal(
+        let mixed = packet_crc(
             Direction::RobotToHost,
             self.session,
             &[s0, s1, s2, s3, t0, t1, t2, t3],
@@ -275,11 +275,11 @@ impl Core {
     }
 
     pub(super) fn reply(&mut self, reply: Reply) {
-        // A full queue drops the answer; the host repeats its question.
+        // A full queue drops the answer; the host repeats its command.
         self.replies.push_back(reply).ok();
     }
 
-    /// A valid sealed packet.
+    /// A valid checked packet.
     fn good(&mut self) {
         self.heard = self.now;
         self.bad_in_row = 0;

@@ -1,7 +1,7 @@
 //! The robot's end.
 
 mod answers;
-mod edges;
+mod event_queue;
 mod hand;
 mod inbound;
 mod outbound;
@@ -12,45 +12,45 @@ use heapless::Deque;
 use rvac_units::Tick;
 
 use self::answers::Answers;
-use self::edges::Edges;
+use self::event_queue::EventQueue;
 use crate::buffer::{EncodeError, PacketBuffer};
+use crate::crc::Direction;
 use crate::frame::{Framer, Poison};
 use crate::message::{
-    Acknowledgement, BinaryKinds, Command, Description, EdgeKind, HostHello, LinkCounters, Name, Refusal,
+    Acknowledgement, BinaryKinds, Command, Description, Event, HostHello, LinkCounters, Name, Refusal,
     Report, ResetCause, Sequence,
 };
-use crate::seal::Direction;
 use crate::session::{BAD_IN_ROW_MAX, FLUSH_AFTER_MS};
 
-/// Who the robot is; fixed from reset on.
+/// Identity of the robot; constant after a reset.
 #[derive(Clone, Debug)]
 pub struct RobotIdentity {
     /// Device, for example `sr8730`.
     pub device: Name,
     /// Firmware version.
     pub firmware: Name,
-    /// Starts since the firmware was written, as far as the board can count.
+    /// Starts since the firmware was written, as far as the board counts them.
     pub boot_count: u32,
     /// Why it started.
     pub reset_cause: ResetCause,
-    /// Anything that differs from start to start (boot count, noise of an analogue input, memory after power-on): session
-    /// numbers grow from it and from the moment of the `hello`.
+    /// Any value that differs between starts (boot count, noise of an analogue input, memory after power-on). Session
+    /// numbers are derived from it and from the time of the `hello`.
     pub session_seed: u32,
     /// Binary kinds the firmware can read and write.
     pub binary: BinaryKinds,
-    /// What `describe` tells.
+    /// Content of `describe`.
     pub description: Description,
 }
 
-/// Who may command, and how far.
+/// Who may send commands, and with which limits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mode {
-    /// A person may type without seals; motion is slow: 0.1 m/s, 0.5 rad/s, a quarter of the wheels' throttle, leases of at
-    /// most 500 ms, moves of at most 5 cm. The session has clamped what it can see; the speed of a `move` is the
-    /// firmware's part ([`HAND_SPEED_MAX`], [`HAND_TURN_MAX`]).
+    /// A person may type without CRCs; motion is slow: 0.1 m/s, 0.5 rad/s, a quarter of the wheels' throttle, leases of
+    /// at most 500 ms, moves of at most 5 cm. The session clamps the values in the packet; the firmware limits the
+    /// speed of a `move` ([`HAND_SPEED_MAX`], [`HAND_TURN_MAX`]).
     Hand,
-    /// Only the host of this session, sealed.
-    Sealed,
+    /// Only the host of this session commands, and every packet has a CRC.
+    Checked,
 }
 
 /// Why a session ended.
@@ -58,54 +58,56 @@ pub enum Mode {
 pub enum SessionEnd {
     /// `{"c":"hand"}` was commanded.
     Hand,
-    /// No valid sealed packet for 2 s.
+    /// No valid checked packet for 2 s.
     Silence,
 }
 
-/// What the firmware has to act upon.
+/// An event that the firmware must handle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RobotEvent {
-    /// Carry this out. It is checked: well-formed, in range, sealed as the mode wants it, fresh, not seen before, and in
-    /// hand mode clamped. Never `Hello`, `Hand`, `Describe`, `Ping` or `Seen`, which the session handles itself.
+    /// Execute this command. It is checked: well-formed, in range, with the CRC that the mode requires, fresh, no
+    /// repeat, and clamped in hand mode. Never `Hello`, `Hand`, `Describe`, `Ping` or `Seen`, which the session handles
+    /// itself.
     ///
-    /// A command that must arrive ([`Command::must_arrive`]) wants one call of [`RobotSession::answer`], a refused `drive`
-    /// or `motor` too. `Info` and `State` want a report.
+    /// A command that must arrive ([`Command::must_arrive`]) requires one call of [`RobotSession::answer`], and so does
+    /// a refused `drive` or `motor`. `Info` and `State` require a report.
     Command(Command),
-    /// A host has opened a session: leases of before are void.
+    /// A host has opened a session: earlier leases are void.
     SessionOpened,
-    /// Back to hand mode: leases of before are void.
+    /// Back to hand mode: earlier leases are void.
     SessionClosed(SessionEnd),
 }
 
-/// A session ends after this long without a valid sealed packet.
+/// A session ends after this long without a valid checked packet.
 pub const SESSION_SILENCE_MS: u32 = 2_000;
 /// Motion whose `t` is older is refused.
 pub const FRESHNESS_MS: u32 = 400;
-/// Answers that wait for room on the line. More are dropped; the host repeats its question.
+/// Answers that wait for room on the line. Further ones are dropped; the host repeats its command.
 const REPLIES: usize = 8;
 
 /// The robot's end of the link.
 #[derive(Clone, Debug)]
 pub struct RobotSession {
     framer: Framer,
-    core: Core,
+    core: RobotCore,
 }
 
 /// Everything but the receiver, so that a packet can be read in the receiver's buffer while the session changes.
 #[derive(Clone, Debug)]
-struct Core {
+struct RobotCore {
     identity: RobotIdentity,
     mode: Mode,
     session: u16,
     now: Tick,
     counters: LinkCounters,
-    /// When the last valid sealed packet came.
+    /// When the last valid checked packet came.
     heard: Tick,
-    /// What opened the session, until another sealed packet comes: a repeat of it does not open another one.
+    /// The `hello` that opened the session, until another checked packet comes: a repeat of it does not open another
+    /// session.
     opened_by: Option<HostHello>,
     motion: Option<(Sequence, Tick)>,
     answers: Answers,
-    edges: Edges,
+    events: EventQueue,
     replies: Deque<Reply, REPLIES>,
     binary: BinaryKinds,
     binary_left: bool,
@@ -121,10 +123,10 @@ enum Reply {
 }
 
 impl RobotSession {
-    /// A session after reset, in hand mode. The first packets are a separator and an unasked `hello`.
+    /// A session after reset, in hand mode. The first packets are a separator and an unrequested `hello`.
     #[must_use]
     pub fn new(identity: RobotIdentity, now: Tick) -> Self {
-        let mut core = Core {
+        let mut core = RobotCore {
             identity,
             mode: Mode::Hand,
             session: 0,
@@ -134,7 +136,7 @@ impl RobotSession {
             opened_by: None,
             motion: None,
             answers: Answers::default(),
-            edges: Edges::default(),
+            events: EventQueue::default(),
             replies: Deque::new(),
             binary: BinaryKinds::NONE,
             binary_left: false,
@@ -170,8 +172,8 @@ impl RobotSession {
         self.framer.poison(Poison::Overrun);
     }
 
-    /// Lets time pass: silence ends a session, unconfirmed edges become due again. Cheap; call it in every pass of the main
-    /// loop or at [`next_poll`](Self::next_poll).
+    /// Handles time: silence ends a session, unconfirmed events become due again. Cheap; call it in every pass of the
+    /// main loop or at [`next_poll`](Self::next_poll).
     #[must_use]
     pub fn poll(&mut self, now: Tick) -> Option<RobotEvent> {
         self.core.now = now;
@@ -184,18 +186,18 @@ impl RobotSession {
         Some(event)
     }
 
-    /// When `poll` or [`next_packet`](Self::next_packet) has something to do at the latest.
+    /// The latest time of the next call of `poll` or [`next_packet`](Self::next_packet).
     #[must_use]
     pub fn next_poll(&self) -> Tick {
-        if self.core.edges.is_empty() && self.core.mode == Mode::Sealed {
+        if self.core.events.is_empty() && self.core.mode == Mode::Checked {
             self.core.heard.after(SESSION_SILENCE_MS + 1)
         } else {
-            self.core.now.after(edges::REPEAT_MS)
+            self.core.now.after(event_queue::REPEAT_MS)
         }
     }
 
-    /// Writes the next packet that the session itself wants sent (handshake, acknowledgements, rows of the description,
-    /// edges) into `buffer`, replacing its content. `false` = nothing to send.
+    /// Writes the next packet of the session itself (handshake, acknowledgements, rows of the description,
+    /// events) into `buffer`, replacing its content. `false` = nothing to send.
     #[must_use]
     pub fn next_packet(&mut self, buffer: &mut PacketBuffer) -> bool {
         buffer.clear();
@@ -205,8 +207,8 @@ impl RobotSession {
         self.core.write(&report, buffer).is_ok()
     }
 
-    /// Writes a report of the firmware (`State`, `Info`, `Log`) into `buffer`, replacing its content: sealed, in binary if
-    /// that is agreed, with a separator before it if the line was silent.
+    /// Writes a report of the firmware (`State`, `Info`, `Log`) into `buffer`, replacing its content: with its CRC, in
+    /// binary if that is agreed, with a separator before it if the line was silent.
     ///
     /// # Errors
     /// [`EncodeError`] if the report does not fit; the buffer is empty then. Every `State`, `Info` and `Log` fits.
@@ -215,7 +217,7 @@ impl RobotSession {
         self.core.write(report, buffer).inspect_err(|_| buffer.clear())
     }
 
-    /// Answers a numbered command: done (`None`) or refused.
+    /// Answers a numbered command: executed (`None`) or refused.
     pub fn answer(&mut self, sequence: Sequence, refusal: Option<Refusal>) {
         self.core.answers.give(sequence, refusal);
         if refusal.is_some() {
@@ -224,12 +226,12 @@ impl RobotSession {
         self.core.reply_answer(Some(sequence), refusal);
     }
 
-    /// Queues an edge. The session numbers it and repeats it until the host confirms it.
-    pub fn queue_edge(&mut self, kind: EdgeKind, tick: Tick) {
-        self.core.edges.queue(kind, tick);
+    /// Queues an event. The session numbers it and repeats it until the host confirms it.
+    pub fn queue_event(&mut self, kind: Event, tick: Tick) {
+        self.core.events.queue(kind, tick);
     }
 
-    /// Hand or sealed mode.
+    /// Hand or checked mode.
     #[must_use]
     pub fn mode(&self) -> Mode {
         self.core.mode

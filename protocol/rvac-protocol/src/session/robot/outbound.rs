@@ -1,25 +1,25 @@
 //! What goes to the host.
 
-use super::{Core, FLUSH_AFTER_MS, Reply};
+use super::{FLUSH_AFTER_MS, Reply, RobotCore};
 use crate::binary;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::frame::{PACKET_BYTES_MAX, SEPARATOR};
 use crate::message::{CommandNames, DescribeRow, Parameter, ProtocolVersion, Report, RobotHello, RowContent};
-use crate::text::write_sealed_report;
+use crate::text::write_report_with_crc;
 
 /// Rows of the description before the parameters.
 const FIRST_ROWS: u8 = 3;
 /// Rows of the description.
 pub(super) const ROWS: u8 = FIRST_ROWS + Parameter::ALL.len() as u8;
 
-impl Core {
+impl RobotCore {
     /// The next report that the session itself has to send.
     pub(super) fn next_report(&mut self) -> Option<Report> {
         match self.replies.pop_front() {
             Some(Reply::Hello) => Some(Report::Hello(self.hello())),
             Some(Reply::Row(row)) => Some(Report::Describe(self.row(row))),
             Some(Reply::Answer(answer)) => Some(Report::Acknowledgement(answer)),
-            None => self.edges.take_due(self.mode, self.now).map(Report::Edge),
+            None => self.events.take_due(self.mode, self.now).map(Report::Event),
         }
     }
 
@@ -33,11 +33,11 @@ impl Core {
         self.sent = Some(self.now);
         match report {
             Report::State(state) if self.binary.state && !self.binary_left => {
-                binary::write_sealed_state(state, self.session, buffer)
+                binary::write_state_with_crc(state, self.session, buffer)
             }
-            // The host must be able to read it whatever session it believes in.
-            Report::Hello(_) => write_sealed_report(report, 0, buffer),
-            _ => write_sealed_report(report, self.session, buffer),
+            // The host must be able to read it in any session state.
+            Report::Hello(_) => write_report_with_crc(report, 0, buffer),
+            _ => write_report_with_crc(report, self.session, buffer),
         }
     }
 

@@ -14,7 +14,7 @@ const THRESHOLD_DRAG_N_PER_M: f64 = 250.0;
 const THRESHOLD_SLIP: f64 = 0.05;
 
 /// Draws things given in the file's frame.
-pub(super) struct Drawing<'a> {
+pub(super) struct FloorplanPainter<'a> {
     pub(super) corner: (f64, f64),
     pub(super) grid: &'a mut Grid,
     pub(super) surfaces: SurfaceMap,
@@ -24,7 +24,7 @@ fn solid(cells: &mut [Cell], index: usize) {
     cells[index] = Cell::Obstacle;
 }
 
-impl Drawing<'_> {
+impl FloorplanPainter<'_> {
     pub(super) fn place(&self, point: Point) -> (f64, f64) {
         (point[0] - self.corner.0, point[1] - self.corner.1)
     }
@@ -119,7 +119,8 @@ impl Drawing<'_> {
         marked
     }
 
-    /// Who stands in the way is like a door that closes for a while, and waits for the robot to leave the place.
+    /// A person who blocks the way is like a door that closes for a while, and waits until the robot has left the
+    /// place.
     pub(super) fn visitors(&mut self, visitors: &[RawVisitor]) -> Vec<Door> {
         visitors.iter().map(|visitor| self.visitor(visitor)).collect()
     }

@@ -10,7 +10,7 @@ use super::{DockWish, Draft, HomeError, MARGIN_CELLS, WalkerWish, check_cells, s
 use crate::plan::{Cell, Grid, SurfaceMap, WalkerKind};
 use crate::pose::Pose;
 use check::Check;
-use draw::Drawing;
+use draw::FloorplanPainter;
 use raw::{RawDock, RawPlan, RawWalkerKind};
 
 pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeError> {
@@ -18,7 +18,7 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
     let check = Check { path };
     check.plan(&plan)?;
     let (mut grid, corner) = blank(path, &plan)?;
-    let mut drawing = Drawing {
+    let mut drawing = FloorplanPainter {
         corner,
         grid: &mut grid,
         surfaces: SurfaceMap::hard(),

@@ -1,4 +1,4 @@
-//! What a pack is made of, new or old.
+//! Properties of a pack, new or old.
 
 use crate::Pcg;
 use crate::model;
@@ -79,7 +79,7 @@ impl PackMake {
 
     /// The pack of a robot's description.
     #[must_use]
-    pub fn of(part: &model::Battery) -> Self {
+    pub fn of(part: &model::BatteryModel) -> Self {
         Self {
             cells: part.cells,
             capacity_ah: part.capacity_ah,
@@ -88,7 +88,7 @@ impl PackMake {
         }
     }
 
-    /// A sound pack as they come and grow older: 1.6 to 2.4 Ah, up to twice the resistance.
+    /// A good pack, new or aged: 1.6 to 2.4 Ah, up to twice the resistance.
     #[must_use]
     pub fn sound(random: &mut Pcg) -> Self {
         Self {

@@ -1,15 +1,15 @@
-//! A NiMH pack under load, on a charger, and when it grows old.
+//! A NiMH pack under load, on a charger, and with age.
 //!
 //! *Charge* is what the cells hold, 0 empty, 1 their rated full. A charging current splits: one part is *stored*, the other
-//! makes oxygen that recombines to heat. The second part is small until the cells are nearly full and all of the current
-//! in the end. From that follow the three signs by which chargers stop: the temperature rises fast, the voltage passes a
-//! peak and falls with the temperature, and it does not rise any more.
+//! makes oxygen that recombines to heat. The second part is small until the cells are nearly full and all of the
+//! current in the end. From that follow the three termination criteria of chargers: the temperature rises fast (dT/dt),
+//! the voltage passes a peak and falls with the temperature (-dV), and it stops rising (0dV).
 //!
-//! No figure here comes from a data sheet of the SR8730's cells, of which none is known. The shapes are those of makers'
-//! curves of sub-C cells; what they leave open is spread over the packs of a campaign (see [`PackMake`]).
+//! No figure here comes from a data sheet of the SR8730's cells, of which none is known. The shapes are those of
+//! makers' curves of sub-C cells; what they leave open is spread over the packs of a campaign (see [`PackMake`]).
 //!
-//! A pack is lumped: all cells alike, and at most one [`OddCell`]. Heat is kept at three places: the pack, the odd cell, and
-//! the sensor, which lags behind.
+//! A pack is lumped: all cells alike, and at most one [`OddCell`]. Heat is kept at three places: the pack, the odd
+//! cell, and the sensor, which lags behind.
 
 mod make;
 mod supply;
@@ -129,8 +129,8 @@ impl Pack {
         self.sensor_c += (self.temperature_c - self.sensor_c) * lag;
     }
 
-    /// Stores what so many ampere seconds more would store, without their time and heat: for simulations that cannot wait for
-    /// a charge. Above `HASTE_MAX` nothing is hastened, so that the signs of a full pack come as they do.
+    /// Stores what so many ampere seconds more would store, without their time and heat: for simulations that cannot
+    /// wait for a charge. Above `HASTE_MAX` nothing is hastened, so that the signs of a full pack come as they do.
     pub(crate) fn hasten(&mut self, ampere_s: f64) {
         if self.charge < HASTE_MAX {
             let per_as = 1.0 / (SECONDS_PER_H * self.make.capacity_ah);
@@ -247,7 +247,7 @@ impl Pack {
         self.temperature_c + self.odd_excess_k.max(0.0)
     }
 
-    /// What a sensor on the pack feels, degrees Celsius.
+    /// Temperature of a sensor on the pack, degrees Celsius.
     #[must_use]
     pub const fn sensor_c(&self) -> f64 {
         self.sensor_c

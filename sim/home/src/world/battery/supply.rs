@@ -1,4 +1,4 @@
-//! What feeds the robot's charging switch: an adapter in the dock.
+//! The supply of the robot's charging switch: an adapter in the dock.
 
 /// A supply behind the robot's switch. The switch conducts for short pulses in a share of its envelope; what flows on
 /// average is that share of what would flow if all pulses were given.

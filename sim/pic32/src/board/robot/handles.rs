@@ -1,4 +1,4 @@
-//! What the world around an emulated robot can do to it and see of it.
+//! Interface of an emulated robot to the world around it.
 
 use home::{RobotModel, World};
 use monitor::Monitor;
@@ -8,7 +8,7 @@ use rvac_protocol::message::ResetCause;
 use super::EmulatedRobot;
 use crate::board::CYCLES_PER_MS;
 use crate::board::contacts::{Contact, Hold};
-use crate::board::motors::{Drive, Motor};
+use crate::board::motors::{DriveInterval, MotorOutput};
 use crate::board::wiring::Wiring;
 use crate::machine::{Machine, ResetSource};
 
@@ -64,14 +64,14 @@ impl EmulatedRobot {
         &mut self.world
     }
 
-    /// Somebody else than the home says how a switch stands, from this cycle on (one of the past counts as the next tick's
-    /// first).
+    /// The caller instead of the home sets the state of a switch, from this cycle on (one of the past counts as the
+    /// next tick's first).
     pub fn hold_contact(&mut self, contact: Contact, hold: Hold, cycle: u64) {
         self.contacts.plan(contact, hold, cycle);
     }
 
-    /// An analog input (0 to 15) reads so many counts from `from` up to but without `until`, whatever its circuit says: a
-    /// broken wire, a sensor that sticks, or a drop at a known moment.
+    /// An analog input (0 to 15) reads so many counts from `from` up to but without `until`, whatever its circuit says:
+    /// a broken wire, a sensor that sticks, or a drop at a known moment.
     pub fn hold_analog(&mut self, channel: u8, counts: u16, (from, until): (u64, u64)) {
         self.circuit.hold(channel, counts, (from, until));
     }
@@ -86,7 +86,7 @@ impl EmulatedRobot {
         &mut self.machine
     }
 
-    /// From now on [`Self::drives`] tells to the cycle when each motor was driven.
+    /// From now on [`Self::drives`] returns to the cycle when each motor was driven.
     pub fn watch_motors(&mut self) {
         self.motors.watch(&mut self.machine);
     }
@@ -145,20 +145,20 @@ impl EmulatedRobot {
     /// Whether a wheel was driven in the last millisecond.
     #[must_use]
     pub fn wheels_driven(&self) -> bool {
-        [Motor::WheelLeft, Motor::WheelRight]
+        [MotorOutput::WheelLeft, MotorOutput::WheelRight]
             .into_iter()
             .any(|motor| self.duty(motor) != 0.0)
     }
 
     /// Mean duty of a motor in the last millisecond, -1..=1, forward positive.
     #[must_use]
-    pub fn duty(&self, motor: Motor) -> f64 {
+    pub fn duty(&self, motor: MotorOutput) -> f64 {
         self.motors.duty(motor, &self.machine)
     }
 
     /// When the motor was driven, to the cycle, since [`Self::watch_motors`].
     #[must_use]
-    pub fn drives(&self, motor: Motor) -> &[Drive] {
+    pub fn drives(&self, motor: MotorOutput) -> &[DriveInterval] {
         self.motors.drives(motor)
     }
 
@@ -180,14 +180,14 @@ impl EmulatedRobot {
         self.ear.codes()
     }
 
-    /// A number that stands for everything that happened: every byte on the wire and the true pose ten times a second.
+    /// A hash of everything that happened: every byte on the wire and the true pose ten times a second.
     #[must_use]
     pub fn state_hash(&self) -> u64 {
         self.digest.value()
     }
 }
 
-/// The chip tells apart fewer causes than the wire.
+/// The chip distinguishes fewer causes than the wire.
 const fn source_of(cause: ResetCause) -> ResetSource {
     match cause {
         ResetCause::PowerOn => ResetSource::PowerOn,

@@ -3,9 +3,9 @@
 mod handles;
 mod settings;
 
-pub use settings::{Blueprint, BlueprintError, EmulatedSettings, Record};
+pub use settings::{Blueprint, BlueprintError, CalibrationChoice, EmulatedSettings};
 
-use home::{Actuation, Digest, RobotModel, World};
+use home::{Actuation, Fnv1a, RobotModel, World};
 use monitor::{Bridges, Charging, Drives, Monitor, Pins};
 use rvac_channel::ReceivedByte;
 
@@ -14,12 +14,12 @@ use crate::board::beams::Beams;
 use crate::board::circuit::Circuit;
 use crate::board::contacts::{Contact, Contacts};
 use crate::board::dock_code::DockEar;
-use crate::board::encoder::{BrushEncoder, Edge, Encoder, Position};
-use crate::board::gyro::GyroModule;
-use crate::board::light::{Lights, Sound};
-use crate::board::motors::{Motor, Motors};
+use crate::board::encoder::{BrushEncoder, Encoder, Position, ScheduledEdge};
+use crate::board::gyro::EmulatedGyro;
+use crate::board::light::{LampTimes, SpeakerTone};
+use crate::board::motors::{MotorOutput, MotorOutputs};
 use crate::board::power::{Feed, SLICE, SwitchUse};
-use crate::board::serial::{HostPort, Receiver, Sender};
+use crate::board::serial::{BitReceiver, HostPort, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
 use crate::pins::Level;
@@ -28,7 +28,7 @@ use crate::pins::Level;
 const FRONT: u8 = 3;
 /// A lit cliff receiver below this has no floor before it, out of 255: floors give about 180, drops about 10.
 const NO_FLOOR_LEVEL: u8 = 20;
-/// Time after a change of the emitters in which cliff levels mean nothing.
+/// Time after a change of the emitters in which cliff levels are not valid.
 const CLIFF_SETTLE_MS: u32 = 3;
 /// The charger's envelope: its mean over less says nothing.
 const ENVELOPE_MS: u64 = 20;
@@ -50,19 +50,19 @@ pub struct EmulatedRobot {
     encoders: [Encoder; 2],
     brush: BrushEncoder,
     beams: Beams,
-    gyro: GyroModule,
-    motors: Motors,
+    gyro: EmulatedGyro,
+    motors: MotorOutputs,
     ear: DockEar,
     emitter_selected: bool,
-    lights: Lights,
-    sound: Sound,
+    lights: LampTimes,
+    sound: SpeakerTone,
     to_robot: Sender,
-    robot_hears: Receiver,
+    robot_hears: BitReceiver,
     to_host: HostPort,
     monitor: Monitor,
-    digest: Digest,
+    digest: Fnv1a,
     actuation: Actuation,
-    edges: Vec<Edge>,
+    edges: Vec<ScheduledEdge>,
     line_edges: Vec<(u64, Level)>,
     charge_cycles: u64,
     /// The last millisecond in which the charging switch was closed.
@@ -93,17 +93,17 @@ impl EmulatedRobot {
             encoders: [encoder(0), encoder(1)],
             brush: BrushEncoder::new(wiring.brush_encoder, particulars.brush_pulses_per_s),
             beams: Beams::new(wiring.beam_receivers, particulars.beams, particulars.beam_unit_us),
-            gyro: GyroModule::new(wiring, (particulars, blueprint.gyro), seed),
-            motors: Motors::new(wiring, settings.bridges == Bridges::DeafToBrake),
+            gyro: EmulatedGyro::new(wiring, (particulars, blueprint.gyro), seed),
+            motors: MotorOutputs::new(wiring, settings.bridges == Bridges::DeafToBrake),
             ear: DockEar::new(particulars.dock_code_ones),
             emitter_selected: false,
-            lights: Lights::new(wiring),
-            sound: Sound::new(wiring),
+            lights: LampTimes::new(wiring),
+            sound: SpeakerTone::new(wiring),
             to_robot: Sender::new(settings.rate, seed),
-            robot_hears: Receiver::new(settings.rate.bit_cycles()),
+            robot_hears: BitReceiver::new(settings.rate.bit_cycles()),
             to_host: HostPort::new(settings.rate, seed.wrapping_add(1)),
             monitor: Monitor::new(),
-            digest: Digest::default(),
+            digest: Fnv1a::default(),
             actuation: Actuation {
                 charge_a: Some(0.0),
                 ..Actuation::default()
@@ -125,7 +125,7 @@ impl EmulatedRobot {
         robot
     }
 
-    /// Puts every line at the level it has at rest, and looks at those that must be seen to the cycle.
+    /// Sets every line to its level at rest, and watches those that must be observed to the cycle.
     fn connect(&mut self) {
         let now = self.machine.cycle();
         let mut edges = self.contacts.levels(now).to_vec();
@@ -148,7 +148,7 @@ impl EmulatedRobot {
         ]) {
             self.machine.watch(pin);
         }
-        // The host's UART holds its input high while nobody drives it.
+        // The host's UART holds its input high while it is not driven.
         let host_input = [self.wiring.link_transmit.pin];
         for pin in self.wiring.pulled_up.iter().chain(&host_input) {
             self.machine.pull_up(*pin);
@@ -157,8 +157,8 @@ impl EmulatedRobot {
         self.sound.watch(&mut self.machine);
     }
 
-    /// Advances one millisecond: the home, then what it does to the pins, then 80,000 cycles of the chip, then what the chip
-    /// did. What reaches the host's receiver is appended to `to_host`.
+    /// Advances one millisecond: the home, then what it does to the pins, then 80,000 cycles of the chip, then what the
+    /// chip did. What reaches the host's receiver is appended to `to_host`.
     pub fn tick(&mut self, to_host: &mut Vec<u8>) {
         let from = self.now_ms * CYCLES_PER_MS;
         self.now_ms += 1;
@@ -337,12 +337,12 @@ impl EmulatedRobot {
         let machine = &self.machine;
         let emitters = self.wiring.cliff_emitters;
         self.actuation = Actuation {
-            wheel_left: self.motors.bridge(Motor::WheelLeft, machine),
-            wheel_right: self.motors.bridge(Motor::WheelRight, machine),
-            brush_main: self.motors.duty(Motor::BrushMain, machine),
-            brush_sides: self.motors.duty(Motor::BrushSides, machine) != 0.0,
-            vacuum: self.motors.duty(Motor::Vacuum, machine) != 0.0,
-            // The circuit knows whether they are lit at the moment of a sample; the home tells both levels.
+            wheel_left: self.motors.bridge(MotorOutput::WheelLeft, machine),
+            wheel_right: self.motors.bridge(MotorOutput::WheelRight, machine),
+            brush_main: self.motors.duty(MotorOutput::BrushMain, machine),
+            brush_sides: self.motors.duty(MotorOutput::BrushSides, machine) != 0.0,
+            vacuum: self.motors.duty(MotorOutput::Vacuum, machine) != 0.0,
+            // The circuit knows whether they are lit at the moment of a sample; the home provides both levels.
             cliff_emitter: true,
             dock_signal: self.ear.is_content(end),
             charge_a: self.actuation.charge_a,
@@ -413,8 +413,13 @@ impl EmulatedRobot {
     fn driven(&self) -> Drives {
         let millionths = |motor| (self.motors.duty(motor, &self.machine) * 1e6) as i32;
         Drives {
-            wheels: [Motor::WheelLeft, Motor::WheelRight].map(millionths),
-            cleaners: [Motor::BrushMain, Motor::BrushSides, Motor::Vacuum].map(millionths),
+            wheels: [MotorOutput::WheelLeft, MotorOutput::WheelRight].map(millionths),
+            cleaners: [
+                MotorOutput::BrushMain,
+                MotorOutput::BrushSides,
+                MotorOutput::Vacuum,
+            ]
+            .map(millionths),
         }
     }
 }

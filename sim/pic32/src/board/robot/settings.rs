@@ -3,16 +3,16 @@
 use monitor::Bridges;
 
 use crate::board::BoardError;
-use crate::board::calibration::{Calibration, Particulars, erase_record, has_record, put_record};
+use crate::board::calibration::{CalibrationValues, Particulars, erase_record, has_record, put_record};
 use crate::board::gyro_frame::GyroFitted;
 use crate::board::pinout::Pinout;
-use crate::board::serial::Rate;
+use crate::board::serial::HostRate;
 use crate::board::wiring::Wiring;
 use crate::image::{Image, ImageError};
 
 /// Which calibration record the robot's flash holds.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum Record {
+pub enum CalibrationChoice {
     /// What the image brings along; if it brings nothing, everything was measured.
     #[default]
     Complete,
@@ -26,7 +26,7 @@ pub enum Record {
 #[derive(Clone, Debug, PartialEq)]
 pub struct EmulatedSettings {
     /// Speed of the host's UART.
-    pub rate: Rate,
+    pub rate: HostRate,
     /// Seed of the line's damage, of the converter's noise and of bounces.
     pub seed: u64,
     /// Contacts bounce for up to so many microseconds after a change; 0 = not at all.
@@ -38,7 +38,7 @@ pub struct EmulatedSettings {
 impl Default for EmulatedSettings {
     fn default() -> Self {
         Self {
-            rate: Rate::exact(230_400),
+            rate: HostRate::exact(230_400),
             seed: 1,
             bounce_us: 0,
             bridges: Bridges::Sound,
@@ -72,16 +72,16 @@ impl Blueprint {
     ///
     /// # Errors
     /// When the project's own description of the board is wrong.
-    pub fn sr8730(mut image: Image, record: &Record) -> Result<Self, BlueprintError> {
-        let calibration = Calibration::sr8730()?;
+    pub fn sr8730(mut image: Image, record: &CalibrationChoice) -> Result<Self, BlueprintError> {
+        let calibration = CalibrationValues::sr8730()?;
         match record {
-            Record::Complete if has_record(&image) => {}
-            Record::Complete => put_record(&mut image, &calibration.record())?,
-            Record::Without(unknown) => {
+            CalibrationChoice::Complete if has_record(&image) => {}
+            CalibrationChoice::Complete => put_record(&mut image, &calibration.record())?,
+            CalibrationChoice::Without(unknown) => {
                 let unknown: Vec<&str> = unknown.iter().map(String::as_str).collect();
                 put_record(&mut image, &calibration.record_without(&unknown))?;
             }
-            Record::Absent => erase_record(&mut image)?,
+            CalibrationChoice::Absent => erase_record(&mut image)?,
         }
         Ok(Self {
             image,

@@ -4,15 +4,15 @@ use std::collections::VecDeque;
 
 use rvac_channel::{Channel, FaultRates, ReceivedByte};
 
-use super::receiver::Arrival;
-use super::{Rate, Receiver};
+use super::receiver::TimedByte;
+use super::{BitReceiver, HostRate};
 use crate::pins::Level;
 
 /// A UART on the robot's transmit pin, a driver behind it, and the damage between.
 #[derive(Clone, Debug)]
 pub struct HostPort {
-    receiver: Receiver,
-    arrivals: Vec<Arrival>,
+    receiver: BitReceiver,
+    arrivals: Vec<TimedByte>,
     channel: Channel,
     faulty: bool,
     held_until: u64,
@@ -24,9 +24,9 @@ pub struct HostPort {
 impl HostPort {
     /// A port on an idle line; damage follows from `seed`.
     #[must_use]
-    pub fn new(rate: Rate, seed: u64) -> Self {
+    pub fn new(rate: HostRate, seed: u64) -> Self {
         Self {
-            receiver: Receiver::new(rate.bit_cycles()),
+            receiver: BitReceiver::new(rate.bit_cycles()),
             arrivals: Vec::new(),
             channel: Channel::new(seed, FaultRates::NONE),
             faulty: false,
@@ -54,7 +54,7 @@ impl HostPort {
     }
 
     /// Takes the robot's edges of a millisecond that ends at `end`. Gives what a perfect receiver has heard in it.
-    pub fn take(&mut self, edges: &[(u64, Level)], end: u64) -> &[Arrival] {
+    pub fn take(&mut self, edges: &[(u64, Level)], end: u64) -> &[TimedByte] {
         self.arrivals.clear();
         for (cycle, level) in edges {
             self.receiver.edge(*cycle, *level, &mut self.arrivals);
@@ -92,14 +92,14 @@ impl HostPort {
 
 #[cfg(test)]
 mod tests {
-    use super::{HostPort, Level, Rate};
+    use super::{HostPort, HostRate, Level};
 
     /// The edges of an `x` that begins at `from`, 115,200 bits per second.
     fn letter(from: u64) -> Vec<(u64, Level)> {
         let levels = u16::from(b'x') << 1 | 1 << 9;
         (0..10)
             .map(|bit| {
-                let cycle = from + (f64::from(bit) * Rate::exact(115_200).bit_cycles()) as u64;
+                let cycle = from + (f64::from(bit) * HostRate::exact(115_200).bit_cycles()) as u64;
                 (cycle, Level::of(levels >> bit & 1 == 1))
             })
             .collect()
@@ -107,7 +107,7 @@ mod tests {
 
     #[test]
     fn bytes_come_out_unless_the_cable_is_out_or_slow() {
-        let mut port = HostPort::new(Rate::exact(115_200), 1);
+        let mut port = HostPort::new(HostRate::exact(115_200), 1);
         let mut bytes = Vec::new();
         assert_eq!(port.take(&letter(100), 80_000).len(), 1);
         port.give_out(80_000, &mut bytes);

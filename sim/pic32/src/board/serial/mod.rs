@@ -1,6 +1,6 @@
 //! The serial line between host and robot, as levels at cycles.
 //!
-//! [`Sender`] is the host's UART: it turns bytes into edges on the robot's pin. [`Receiver`] is a UART that samples in the
+//! [`Sender`] is the host's UART: it turns bytes into edges on the robot's pin. [`BitReceiver`] is a UART that samples in the
 //! middle of each bit, as the host's does with the robot's edges. Both run at the host's own rate, which is a little
 //! beside the nominal one when the host's crystal is.
 
@@ -9,7 +9,7 @@ mod receiver;
 mod sender;
 
 pub use host::HostPort;
-pub use receiver::Receiver;
+pub use receiver::BitReceiver;
 pub use sender::Sender;
 
 use super::CYCLES_PER_S;
@@ -19,14 +19,14 @@ const FRAME_BITS: u32 = 10;
 
 /// How fast the host's UART runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rate {
+pub struct HostRate {
     /// Nominal bits per second, 300 to 1,000,000.
     pub baud: u32,
     /// How much faster the host's crystal makes it, in parts per thousand; -20 to 20 is what UARTs must bear.
     pub error_permille: f64,
 }
 
-impl Rate {
+impl HostRate {
     /// This rate, exactly.
     #[must_use]
     pub const fn exact(baud: u32) -> Self {

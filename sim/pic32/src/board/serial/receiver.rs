@@ -1,21 +1,21 @@
-//! A UART's receiver that looks at a pin.
+//! A UART's receiver that samples a pin.
 
 use rvac_channel::ReceivedByte;
 
 use super::FRAME_BITS;
 use crate::pins::Level;
 
-/// A receiver for 8N1 that starts with a falling edge and samples each bit in its middle. After a wrong stop bit it waits
-/// for a high line.
+/// A receiver for 8N1 that starts with a falling edge and samples each bit in its middle. After a wrong stop bit it
+/// waits for a high line.
 #[derive(Clone, Debug)]
-pub struct Receiver {
+pub struct BitReceiver {
     bit_cycles: f64,
     line: Level,
-    state: State,
+    state: ReceiverState,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
+enum ReceiverState {
     Idle,
     /// The start bit began at `start`; `taken` bits were sampled into `bits`, the first in the lowest place.
     Frame {
@@ -27,40 +27,40 @@ enum State {
 }
 
 /// What was received, and the cycle in which the receiver knew it.
-pub(super) type Arrival = (u64, ReceivedByte);
+pub(super) type TimedByte = (u64, ReceivedByte);
 
-impl Receiver {
+impl BitReceiver {
     /// A receiver on an idle line.
     #[must_use]
     pub const fn new(bit_cycles: f64) -> Self {
         Self {
             bit_cycles,
             line: Level::High,
-            state: State::Idle,
+            state: ReceiverState::Idle,
         }
     }
 
     /// The line changes to `level` at `cycle`, which is not before earlier ones.
-    pub fn edge(&mut self, cycle: u64, level: Level, arrivals: &mut Vec<Arrival>) {
+    pub fn edge(&mut self, cycle: u64, level: Level, arrivals: &mut Vec<TimedByte>) {
         self.advance(cycle, arrivals);
         let falls = self.line.is_high() && !level.is_high();
         self.line = level;
         match self.state {
-            State::Idle if falls => {
-                self.state = State::Frame {
+            ReceiverState::Idle if falls => {
+                self.state = ReceiverState::Frame {
                     start: cycle as f64,
                     taken: 0,
                     bits: 0,
                 };
             }
-            State::WaitForHigh if level.is_high() => self.state = State::Idle,
-            State::Idle | State::Frame { .. } | State::WaitForHigh => {}
+            ReceiverState::WaitForHigh if level.is_high() => self.state = ReceiverState::Idle,
+            ReceiverState::Idle | ReceiverState::Frame { .. } | ReceiverState::WaitForHigh => {}
         }
     }
 
     /// Time passes up to `cycle`, which it does not include.
-    pub fn advance(&mut self, cycle: u64, arrivals: &mut Vec<Arrival>) {
-        while let State::Frame { start, taken, bits } = self.state {
+    pub fn advance(&mut self, cycle: u64, arrivals: &mut Vec<TimedByte>) {
+        while let ReceiverState::Frame { start, taken, bits } = self.state {
             let sampled = start + (f64::from(taken) + 0.5) * self.bit_cycles;
             if sampled >= cycle as f64 {
                 return;
@@ -68,19 +68,19 @@ impl Receiver {
             let bits = bits | u16::from(self.line.is_high()) << taken;
             self.state = if taken == 0 && self.line.is_high() {
                 // The start bit was shorter than half a bit: noise.
-                State::Idle
+                ReceiverState::Idle
             } else if taken + 1 < FRAME_BITS {
-                State::Frame {
+                ReceiverState::Frame {
                     start,
                     taken: taken + 1,
                     bits,
                 }
             } else if self.line.is_high() {
                 arrivals.push((sampled as u64, ReceivedByte::Byte((bits >> 1) as u8)));
-                State::Idle
+                ReceiverState::Idle
             } else {
                 arrivals.push((sampled as u64, ReceivedByte::FramingError));
-                State::WaitForHigh
+                ReceiverState::WaitForHigh
             };
         }
     }
@@ -88,14 +88,14 @@ impl Receiver {
 
 #[cfg(test)]
 mod tests {
-    use super::{Arrival, Level, ReceivedByte, Receiver};
+    use super::{BitReceiver, Level, ReceivedByte, TimedByte};
 
     const BIT: f64 = 347.2;
 
     /// Sends bytes with bits of `bit` cycles and one stop bit to a receiver for bits of [`BIT`].
     fn receive(bytes: &[u8], bit: f64) -> Vec<ReceivedByte> {
-        let mut receiver = Receiver::new(BIT);
-        let mut arrivals: Vec<Arrival> = Vec::new();
+        let mut receiver = BitReceiver::new(BIT);
+        let mut arrivals: Vec<TimedByte> = Vec::new();
         let mut at = 1000.0;
         for byte in bytes {
             let levels = u16::from(*byte) << 1 | 1 << 9;
@@ -121,7 +121,7 @@ mod tests {
 
     #[test]
     fn a_low_line_is_one_framing_error() {
-        let mut receiver = Receiver::new(BIT);
+        let mut receiver = BitReceiver::new(BIT);
         let mut arrivals = Vec::new();
         receiver.edge(1000, Level::Low, &mut arrivals);
         receiver.advance(1_000_000, &mut arrivals);
@@ -133,7 +133,7 @@ mod tests {
 
     #[test]
     fn a_spike_is_no_start_bit() {
-        let mut receiver = Receiver::new(BIT);
+        let mut receiver = BitReceiver::new(BIT);
         let mut arrivals = Vec::new();
         receiver.edge(1000, Level::Low, &mut arrivals);
         receiver.edge(1100, Level::High, &mut arrivals);

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use home::Pcg;
 use rvac_channel::{Channel, FaultRates};
 
-use super::{FRAME_BITS, Rate};
+use super::{FRAME_BITS, HostRate};
 use crate::board::CYCLES_PER_MS;
 use crate::pins::Level;
 
@@ -38,7 +38,7 @@ const STREAM: u64 = 0x11AE;
 impl Sender {
     /// An idle line; damage and moments follow from `seed`.
     #[must_use]
-    pub fn new(rate: Rate, seed: u64) -> Self {
+    pub fn new(rate: HostRate, seed: u64) -> Self {
         Self {
             queue: VecDeque::new(),
             bit_cycles: rate.bit_cycles(),
@@ -141,12 +141,12 @@ impl Sender {
 mod tests {
     use rvac_channel::ReceivedByte;
 
-    use super::{CYCLES_PER_MS, FaultRates, Level, Rate, Sender};
-    use crate::board::serial::Receiver;
+    use super::{CYCLES_PER_MS, FaultRates, HostRate, Level, Sender};
+    use crate::board::serial::BitReceiver;
 
     /// What a perfect receiver hears of `sender` in so many milliseconds, by millisecond.
-    fn heard(sender: &mut Sender, rate: Rate, ms: u64) -> Vec<Vec<ReceivedByte>> {
-        let mut receiver = Receiver::new(rate.bit_cycles());
+    fn heard(sender: &mut Sender, rate: HostRate, ms: u64) -> Vec<Vec<ReceivedByte>> {
+        let mut receiver = BitReceiver::new(rate.bit_cycles());
         (0..ms)
             .map(|now| {
                 let (mut edges, mut arrivals): (Vec<(u64, Level)>, _) = (Vec::new(), Vec::new());
@@ -162,7 +162,7 @@ mod tests {
 
     #[test]
     fn bytes_take_their_time_and_arrive_whole() {
-        let rate = Rate::exact(230_400);
+        let rate = HostRate::exact(230_400);
         let mut sender = Sender::new(rate, 1);
         let sent: Vec<u8> = (0..=255).rev().collect();
         assert_eq!(sender.send(&sent), 256);
@@ -177,7 +177,7 @@ mod tests {
 
     #[test]
     fn a_held_line_carries_later_and_a_cut_one_never() {
-        let rate = Rate::exact(115_200);
+        let rate = HostRate::exact(115_200);
         let mut sender = Sender::new(rate, 2);
         sender.hold_until(3 * CYCLES_PER_MS);
         sender.send(b"abc");
@@ -192,7 +192,7 @@ mod tests {
 
     #[test]
     fn an_idle_line_with_noise_is_not_silent() {
-        let rate = Rate::exact(115_200);
+        let rate = HostRate::exact(115_200);
         let mut sender = Sender::new(rate, 3);
         assert!(heard(&mut sender, rate, 50).iter().all(Vec::is_empty));
         let mut sender = Sender::new(rate, 3);
@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn the_driver_keeps_what_fits_and_forgets_with_its_host() {
-        let mut sender = Sender::new(Rate::exact(9_600), 4);
+        let mut sender = Sender::new(HostRate::exact(9_600), 4);
         assert_eq!(sender.send(&[b'x'; 5000]), 4096);
         assert_eq!(sender.room(), 0);
         sender.flush();

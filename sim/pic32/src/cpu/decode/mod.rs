@@ -10,13 +10,13 @@ mod uses;
 
 use super::STACK_POINTER;
 use super::operation::{Condition, Loaded, Operation, Uncommon};
-use super::registers::{Source, Target};
+use super::registers::{Source, WriteTarget};
 
 /// The fields of an instruction word.
 #[derive(Clone, Copy, Debug)]
-struct Fields(u32);
+struct InstructionFields(u32);
 
-impl Fields {
+impl InstructionFields {
     /// Bits `low..low + 5`.
     fn five(self, low: u32) -> u32 {
         self.0 >> low & 31
@@ -30,12 +30,12 @@ impl Fields {
         Source::new(self.0 >> 16)
     }
 
-    fn rt_target(self) -> Target {
-        Target::new(self.0 >> 16)
+    fn rt_target(self) -> WriteTarget {
+        WriteTarget::new(self.0 >> 16)
     }
 
-    fn rd(self) -> Target {
-        Target::new(self.0 >> 11)
+    fn rd(self) -> WriteTarget {
+        WriteTarget::new(self.0 >> 11)
     }
 
     fn function(self) -> u32 {
@@ -54,7 +54,7 @@ impl Fields {
         self.0 & 0xFFFF
     }
 
-    /// The way from the branch to its target in words.
+    /// The distance from the branch to its target in words.
     fn words(self) -> i32 {
         i32::from(self.signed()) + 1
     }
@@ -76,7 +76,7 @@ pub(crate) fn decode_at(word: impl Fn(usize) -> Option<u32>, index: usize) -> Op
 
 /// One word by itself.
 pub(crate) fn decode(word: u32) -> Operation {
-    let fields = Fields(word);
+    let fields = InstructionFields(word);
     match word >> 26 {
         0x00 => special::special(fields),
         0x01 => system::immediate_conditions(fields),
@@ -115,7 +115,7 @@ pub(crate) fn decode(word: u32) -> Operation {
     }
 }
 
-fn branch(fields: Fields) -> Operation {
+fn branch(fields: InstructionFields) -> Operation {
     let (rs, rt, words) = (fields.rs(), fields.rt(), fields.words());
     match fields.0 >> 26 {
         0x04 => Operation::Beq { rs, rt, words },
@@ -125,7 +125,7 @@ fn branch(fields: Fields) -> Operation {
     }
 }
 
-fn branch_likely(fields: Fields) -> Uncommon {
+fn branch_likely(fields: InstructionFields) -> Uncommon {
     let (condition, rt) = match fields.0 >> 26 {
         0x14 => (Condition::Equal, fields.rt()),
         0x15 => (Condition::NotEqual, fields.rt()),
@@ -140,7 +140,7 @@ fn branch_likely(fields: Fields) -> Uncommon {
     }
 }
 
-fn immediate(fields: Fields) -> Operation {
+fn immediate(fields: InstructionFields) -> Operation {
     let (rt, rs) = (fields.rt_target(), fields.rs());
     let value = fields.extended();
     let unsigned = fields.unsigned();
@@ -180,7 +180,7 @@ fn immediate(fields: Fields) -> Operation {
     }
 }
 
-fn add_immediate(fields: Fields) -> Operation {
+fn add_immediate(fields: InstructionFields) -> Operation {
     let (rt, rs, value) = (fields.rt_target(), fields.rs(), fields.extended());
     let is_stack = rs == Source::new(STACK_POINTER) && rt.is_read_by(rs);
     match rs.number() {
@@ -192,7 +192,7 @@ fn add_immediate(fields: Fields) -> Operation {
     }
 }
 
-fn load(fields: Fields) -> Operation {
+fn load(fields: InstructionFields) -> Operation {
     let (base, offset) = (fields.rs(), fields.extended());
     let to = Loaded {
         rt: fields.rt_target(),
@@ -209,7 +209,7 @@ fn load(fields: Fields) -> Operation {
     }
 }
 
-fn store(fields: Fields) -> Operation {
+fn store(fields: InstructionFields) -> Operation {
     let (rt, base, offset) = (fields.rt(), fields.rs(), fields.extended());
     match fields.0 >> 26 {
         0x28 => Operation::Sb { rt, base, offset },

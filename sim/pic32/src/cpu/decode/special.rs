@@ -1,11 +1,11 @@
 //! The opcodes SPECIAL, SPECIAL2 and SPECIAL3: register arithmetic, shifts, multiplications, bit fields.
 
-use super::Fields;
+use super::InstructionFields;
 use crate::cpu::operation::{Condition, Multiply, Operation, Uncommon};
 
 const RESERVED: Operation = Operation::Uncommon(Uncommon::Reserved);
 
-pub(super) fn special(fields: Fields) -> Operation {
+pub(super) fn special(fields: InstructionFields) -> Operation {
     let (rd, rs, rt) = (fields.rd(), fields.rs(), fields.rt());
     match fields.function() {
         0x00 | 0x02..=0x04 | 0x06 | 0x07 => shift(fields),
@@ -50,7 +50,7 @@ pub(super) fn special(fields: Fields) -> Operation {
     }
 }
 
-fn shift(fields: Fields) -> Operation {
+fn shift(fields: InstructionFields) -> Operation {
     let (rd, rs, rt) = (fields.rd(), fields.rs(), fields.rt());
     let shift = fields.five(6) as u8;
     match (fields.function(), fields.five(21), fields.five(6)) {
@@ -68,7 +68,7 @@ fn shift(fields: Fields) -> Operation {
     }
 }
 
-fn trap(fields: Fields) -> Operation {
+fn trap(fields: InstructionFields) -> Operation {
     let condition = match fields.function() {
         0x30 => Condition::GreaterEqual,
         0x31 => Condition::GreaterEqualUnsigned,
@@ -84,7 +84,7 @@ fn trap(fields: Fields) -> Operation {
     })
 }
 
-pub(super) fn special2(fields: Fields) -> Operation {
+pub(super) fn special2(fields: InstructionFields) -> Operation {
     let (rd, rs, rt) = (fields.rd(), fields.rs(), fields.rt());
     match fields.function() {
         0x00 => Operation::Multiply {
@@ -115,7 +115,7 @@ pub(super) fn special2(fields: Fields) -> Operation {
     }
 }
 
-pub(super) fn special3(fields: Fields) -> Operation {
+pub(super) fn special3(fields: InstructionFields) -> Operation {
     let (rt, rs) = (fields.rt_target(), fields.rs());
     let (upper, lower) = (fields.five(11), fields.five(6));
     match fields.function() {

@@ -1,10 +1,10 @@
 //! The opcodes REGIMM (branches and traps against zero or an immediate) and COP0 (privileged instructions).
 
-use super::Fields;
+use super::InstructionFields;
 use crate::cpu::operation::{Condition, Operation, Uncommon};
 use crate::cpu::registers::Source;
 
-pub(super) fn immediate_conditions(fields: Fields) -> Operation {
+pub(super) fn immediate_conditions(fields: InstructionFields) -> Operation {
     let rs = fields.rs();
     let zero = Source::new(0);
     let words = fields.signed();
@@ -67,7 +67,7 @@ pub(super) fn immediate_conditions(fields: Fields) -> Operation {
     Operation::Uncommon(uncommon)
 }
 
-pub(super) fn coprocessor_zero(fields: Fields) -> Operation {
+pub(super) fn coprocessor_zero(fields: InstructionFields) -> Operation {
     let (rt, rd) = (fields.rt(), fields.rd());
     let register = fields.five(11) as u8;
     let select = (fields.0 & 7) as u8;

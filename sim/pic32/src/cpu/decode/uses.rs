@@ -2,7 +2,7 @@
 
 use crate::cpu::STACK_POINTER;
 use crate::cpu::operation::{Loaded, Operation, Uncommon};
-use crate::cpu::registers::{Source, Target};
+use crate::cpu::registers::{Source, WriteTarget};
 
 /// Where a load puts what it loads.
 pub(super) fn loaded(operation: &mut Operation) -> Option<&mut Loaded> {
@@ -41,7 +41,7 @@ pub(super) fn has_delay_slot(operation: Operation) -> bool {
 }
 
 /// Whether the instruction needs the register at its begin.
-pub(super) fn reads(operation: Operation, loaded: Target) -> bool {
+pub(super) fn reads(operation: Operation, loaded: WriteTarget) -> bool {
     let (first, second) = sources(operation);
     let is_read = |source: Option<Source>| source.is_some_and(|source| loaded.is_read_by(source));
     let inserted = matches!(operation, Operation::Ins { rt, .. } if rt == loaded);

@@ -9,9 +9,9 @@ use rvac_sim::run::{core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
 use serde::Serialize;
 
-/// What came of one job.
+/// Outcome of one job.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Job {
+pub(crate) struct JobOutcome {
     pub(crate) home: String,
     pub(crate) seed: u64,
     /// Ways home for charge, those that ended on the dock, and those after which the job went on.
@@ -44,9 +44,9 @@ const LOW: f64 = 0.15;
 /// Longest simulated time of a job.
 const LONGEST_MS: u64 = 4 * 3_600_000;
 
-impl Job {
-    /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would. `progress` is
-    /// told about how much of all of it is done.
+impl JobOutcome {
+    /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would.
+    /// `progress` is told about how much of all of it is done.
     pub(crate) fn of(scene: &Scene, seed: u64, speed: f64, mut progress: impl FnMut(f64)) -> Self {
         let settings = RobotSettings {
             seed,
@@ -72,7 +72,7 @@ impl Job {
     }
 
     fn finish(household: &mut Household, seed: u64, mut progress: impl FnMut(f64)) -> Self {
-        let mut watch = Watch::default();
+        let mut watch = SecondSample::default();
         while household.robot().now_ms() < LONGEST_MS {
             household.pass_ms(1_000);
             progress(household.robot().world().truth().swept_share);
@@ -131,7 +131,7 @@ fn again_without_break(scene: &Scene, (seed, from_share): (u64, f64), mut progre
 
 /// What is noted each second.
 #[derive(Default)]
-struct Watch {
+struct SecondSample {
     goes_home: bool,
     waits: bool,
     put_off: u32,
@@ -142,7 +142,7 @@ struct Watch {
     swept_before: Option<f64>,
 }
 
-impl Watch {
+impl SecondSample {
     /// A second is over; `true` when the job is.
     fn second(&mut self, household: &mut Household) -> bool {
         let Some(brain) = household.host().and_then(Host::brain) else {
@@ -186,7 +186,7 @@ impl Watch {
 
 /// The figures of all jobs.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Summary {
+pub(crate) struct JobsSummary {
     runs: usize,
     /// Jobs whose battery was low before their end.
     put_off: usize,
@@ -214,16 +214,16 @@ pub(crate) struct Summary {
 
 const AGAIN_MAX: f64 = 0.05;
 
-impl Summary {
-    pub(crate) fn of(jobs: &[Job]) -> Self {
-        let put_off: Vec<&Job> = jobs.iter().filter(|job| job.put_off > 0).collect();
-        let count = |is: fn(&Job) -> bool| put_off.iter().filter(|job| is(job)).count();
-        let sorted = |figure: fn(&Job) -> f64| {
+impl JobsSummary {
+    pub(crate) fn of(jobs: &[JobOutcome]) -> Self {
+        let put_off: Vec<&JobOutcome> = jobs.iter().filter(|job| job.put_off > 0).collect();
+        let count = |is: fn(&JobOutcome) -> bool| put_off.iter().filter(|job| is(job)).count();
+        let sorted = |figure: fn(&JobOutcome) -> f64| {
             let mut values: Vec<f64> = put_off.iter().map(|job| figure(job)).collect();
             values.sort_by(f64::total_cmp);
             values
         };
-        let median = |figure: fn(&Job) -> f64| {
+        let median = |figure: fn(&JobOutcome) -> f64| {
             let values = sorted(figure);
             values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
         };
@@ -254,7 +254,7 @@ impl Summary {
 }
 
 /// How much more a job without a break cleaned again than another one in the same home.
-fn control(jobs: &[&Job]) -> Vec<f64> {
+fn control(jobs: &[&JobOutcome]) -> Vec<f64> {
     let same_home = jobs.windows(2).filter_map(|pair| match pair {
         [first, second] if first.home == second.home => Some((first, second)),
         _ => None,
@@ -264,7 +264,7 @@ fn control(jobs: &[&Job]) -> Vec<f64> {
         .collect()
 }
 
-impl fmt::Display for Summary {
+impl fmt::Display for JobsSummary {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             formatter,

@@ -18,10 +18,10 @@ use home::generate::{GeneratedHome, Half};
 use home::{Home, Noise, RobotModel};
 use rvac_sim::Scene;
 
-use low_battery::{Job, Summary};
+use low_battery::{JobOutcome, JobsSummary};
 use progress::Progress;
-use run::{Obstacle, Run, Situation};
-use table::Table;
+use run::{DockingRun, DockingStart, Obstacle};
+use table::DockingTable;
 
 /// Measures docking in generated homes.
 #[derive(Debug, Parser)]
@@ -70,21 +70,21 @@ fn main() -> anyhow::Result<()> {
     let scene_of = |number: usize| -> anyhow::Result<Scene> {
         let place = homes.get(number).context("a home of the set")?;
         let home = match place {
-            Place::Generated(number) => GeneratedHome::number(*number).home(&model)?,
-            Place::File(path) => Home::load(Path::new(path), &model)?,
+            DockingHome::Generated(number) => GeneratedHome::number(*number).home(&model)?,
+            DockingHome::File(path) => Home::load(Path::new(path), &model)?,
         };
         Ok(Scene::new(Arc::new(home), model.clone(), noise))
     };
     let output = if arguments.low_battery {
         low_batteries(&arguments, homes.len(), scene_of)?
     } else {
-        ways_home(&arguments, homes.len(), (obstacle, &scene_of))?
+        trips_home(&arguments, homes.len(), (obstacle, &scene_of))?
     };
     writeln!(io::stdout(), "{output}").context("cannot write to standard output")
 }
 
 /// Where a home comes from.
-enum Place {
+enum DockingHome {
     Generated(u32),
     File(&'static str),
 }
@@ -93,9 +93,9 @@ enum Place {
 const SMALL: [&str; 2] = ["homes/furnished-room.toml", "homes/two-room-flat.toml"];
 
 impl Arguments {
-    fn homes(&self) -> anyhow::Result<Vec<Place>> {
+    fn homes(&self) -> anyhow::Result<Vec<DockingHome>> {
         if self.homes == "small" {
-            return Ok(SMALL.into_iter().map(Place::File).collect());
+            return Ok(SMALL.into_iter().map(DockingHome::File).collect());
         }
         let half = Half::named(&self.homes).with_context(|| {
             format!(
@@ -103,7 +103,7 @@ impl Arguments {
                 self.homes
             )
         })?;
-        Ok(half.numbers().map(Place::Generated).collect())
+        Ok(half.numbers().map(DockingHome::Generated).collect())
     }
 
     /// The seeds that fall to a home.
@@ -112,12 +112,12 @@ impl Arguments {
     }
 }
 
-fn ways_home(
+fn trips_home(
     arguments: &Arguments,
     homes: usize,
     (obstacle, scene_of): (Obstacle, &dyn Fn(usize) -> anyhow::Result<Scene>),
 ) -> anyhow::Result<String> {
-    let situations = Situation::list(&arguments.situations)?;
+    let situations = DockingStart::list(&arguments.situations)?;
     let progress = Progress::new("docking");
     let count = situations.len() as f64 * arguments.runs as f64;
     let mut runs = Vec::new();
@@ -125,7 +125,7 @@ fn ways_home(
         let scene = scene_of(number)?;
         for seed in arguments.seeds(number, homes) {
             for situation in &situations {
-                let run = Run::of(&scene, (*situation, seed), obstacle);
+                let run = DockingRun::of(&scene, (*situation, seed), obstacle);
                 if arguments.explain && !run.docked {
                     run.explain()?;
                 }
@@ -135,7 +135,7 @@ fn ways_home(
         }
     }
     progress.clear();
-    let table = Table::of(&runs, &situations);
+    let table = DockingTable::of(&runs, &situations);
     Ok(if arguments.json {
         serde_json::json!({
             "homes": arguments.homes,
@@ -160,13 +160,13 @@ fn low_batteries(
         let scene = scene_of(number)?;
         for seed in arguments.seeds(number, homes) {
             let done = jobs.len() as f64;
-            jobs.push(Job::of(&scene, seed, arguments.charging_speed, |share| {
+            jobs.push(JobOutcome::of(&scene, seed, arguments.charging_speed, |share| {
                 progress.show((done + share) / arguments.runs as f64);
             }));
         }
     }
     progress.clear();
-    let summary = Summary::of(&jobs);
+    let summary = JobsSummary::of(&jobs);
     Ok(if arguments.json {
         serde_json::json!({ "homes": arguments.homes, "low_battery": summary, "runs": jobs }).to_string()
     } else {

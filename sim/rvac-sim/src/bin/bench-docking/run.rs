@@ -1,10 +1,10 @@
-//! One way home.
+//! One return to the dock.
 
 use std::io::{self, Write};
 
 use brain::BehaviorState;
 use brain::command::StrategyName;
-use home::{DockBeams, Pcg, wrap_angle};
+use home::{BeamStrengths, Pcg, wrap_angle};
 use robot::RobotSettings;
 use rvac_api::{LogEntry, RequestBody};
 use rvac_sim::run::{core_config, start_cleaning};
@@ -16,7 +16,7 @@ use crate::place;
 /// From where the robot has to come home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Situation {
+pub(crate) enum DockingStart {
     Map,
     Lifted,
     Anywhere,
@@ -30,10 +30,10 @@ pub(crate) struct Obstacle {
     pub(crate) bad_noise: bool,
 }
 
-/// What came of it.
+/// Outcome of the run.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Run {
-    pub(crate) situation: Situation,
+pub(crate) struct DockingRun {
+    pub(crate) situation: DockingStart,
     pub(crate) home: String,
     pub(crate) seed: u64,
     pub(crate) docked: bool,
@@ -62,7 +62,7 @@ const PUSHED_RAD: f64 = 0.052;
 /// Stream of the draws of this bench.
 const STREAM: u64 = 77;
 
-impl Situation {
+impl DockingStart {
     const ALL: [Self; 3] = [Self::Map, Self::Lifted, Self::Anywhere];
 
     pub(crate) const fn name(self) -> &'static str {
@@ -96,8 +96,8 @@ impl Obstacle {
     }
 }
 
-impl Run {
-    pub(crate) fn of(scene: &Scene, (situation, seed): (Situation, u64), obstacle: Obstacle) -> Self {
+impl DockingRun {
+    pub(crate) fn of(scene: &Scene, (situation, seed): (DockingStart, u64), obstacle: Obstacle) -> Self {
         let mut random = Pcg::new(seed, STREAM);
         let radius_m = 0.175;
         let there = place::draw(scene.home(), radius_m, &mut random);
@@ -105,17 +105,17 @@ impl Run {
             seed,
             ..RobotSettings::default()
         };
-        let start = (situation != Situation::Lifted).then_some(there);
+        let start = (situation != DockingStart::Lifted).then_some(there);
         let robot = scene.robot_at(start, seed, &settings);
         let config = core_config(scene, seed, StrategyName::Systematic);
         let mut host = Host::start(0, config);
         host.keep_log();
         let mut household = Household::new(robot, host);
-        if situation != Situation::Anywhere {
+        if situation != DockingStart::Anywhere {
             household = household.with_known_map();
         }
         obstacle.apply(&mut household, &mut random);
-        if situation == Situation::Lifted {
+        if situation == DockingStart::Lifted {
             start_cleaning(&mut household, StrategyName::Systematic);
             household.pass_ms(WORK_MS);
             household.robot_mut().world_mut().lift();
@@ -128,7 +128,7 @@ impl Run {
         Self::home(&mut household, (situation, seed))
     }
 
-    fn home(household: &mut Household, (situation, seed): (Situation, u64)) -> Self {
+    fn home(household: &mut Household, (situation, seed): (DockingStart, u64)) -> Self {
         let from = household.robot().world().truth().pose;
         let dock = household.robot().world().docked_pose().unwrap_or(from);
         let begun_ms = household.robot().now_ms();
@@ -205,7 +205,7 @@ impl Obstacle {
     fn apply(self, household: &mut Household, random: &mut Pcg) {
         let world = household.robot_mut().world_mut();
         if self.beams {
-            world.set_dock_beams(DockBeams::POOR);
+            world.set_dock_beams(BeamStrengths::POOR);
         }
         if self.pushed {
             let side = if random.below(2) == 0 { 1.0 } else { -1.0 };

@@ -4,12 +4,12 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::run::{Run, Situation};
+use crate::run::{DockingRun, DockingStart};
 
 /// The figures of a situation.
 #[derive(Clone, Debug, Serialize)]
-struct Row {
-    situation: Situation,
+struct DockingRow {
+    situation: DockingStart,
     runs: usize,
     docked: usize,
     share: f64,
@@ -26,26 +26,27 @@ struct Row {
 
 /// A row for each situation.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Table(Vec<Row>);
+pub(crate) struct DockingTable(Vec<DockingRow>);
 
 const NEAR_M: f64 = 2.0;
 
-impl Table {
-    pub(crate) fn of(runs: &[Run], situations: &[Situation]) -> Self {
+impl DockingTable {
+    pub(crate) fn of(runs: &[DockingRun], situations: &[DockingStart]) -> Self {
         Self(
             situations
                 .iter()
-                .map(|situation| Row::of(runs, *situation))
+                .map(|situation| DockingRow::of(runs, *situation))
                 .collect(),
         )
     }
 }
 
-impl Row {
-    fn of(runs: &[Run], situation: Situation) -> Self {
-        let all: Vec<&Run> = runs.iter().filter(|run| run.situation == situation).collect();
-        let docked: Vec<&Run> = all.iter().copied().filter(|run| run.docked).collect();
-        let of_docked = |figure: fn(&Run) -> f64| docked.iter().copied().map(figure).collect::<Vec<_>>();
+impl DockingRow {
+    fn of(runs: &[DockingRun], situation: DockingStart) -> Self {
+        let all: Vec<&DockingRun> = runs.iter().filter(|run| run.situation == situation).collect();
+        let docked: Vec<&DockingRun> = all.iter().copied().filter(|run| run.docked).collect();
+        let of_docked =
+            |figure: fn(&DockingRun) -> f64| docked.iter().copied().map(figure).collect::<Vec<_>>();
         // A robot that did not come home needed for ever.
         let times: Vec<f64> = all
             .iter()
@@ -85,7 +86,7 @@ fn rank(values: &[f64], share: f64) -> Option<f64> {
     value.filter(|value| value.is_finite())
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for DockingTable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             formatter,

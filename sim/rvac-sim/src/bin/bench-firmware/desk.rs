@@ -1,12 +1,12 @@
-//! A robot with its real firmware, and a host that speaks the protocol and nothing else.
+//! A robot with its real firmware, and a host that only implements the protocol.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, bail};
 use home::{Home, Noise, Pose, RobotModel, World};
-use pic32::board::serial::Rate;
-use pic32::board::{Blueprint, CYCLES_PER_MS, EmulatedRobot, EmulatedSettings, Record};
+use pic32::board::serial::HostRate;
+use pic32::board::{Blueprint, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings};
 use pic32::image::Image;
 use pic32::machine::Machine;
 use rvac_protocol::PacketBuffer;
@@ -55,7 +55,7 @@ impl Shop {
             Image::from_elf(&bytes).with_context(|| format!("the firmware {}", firmware.display()))?;
         let model = RobotModel::by_name("sr8730")?;
         Ok(Self {
-            blueprint: Blueprint::sr8730(image.clone(), &Record::Complete)?,
+            blueprint: Blueprint::sr8730(image.clone(), &CalibrationChoice::Complete)?,
             image,
             home: Arc::new(Home::load(home, &model)?),
             model,
@@ -72,7 +72,7 @@ impl Shop {
             Some(START),
         );
         let settings = EmulatedSettings {
-            rate: Rate::exact(baud),
+            rate: HostRate::exact(baud),
             ..EmulatedSettings::default()
         };
         let robot = EmulatedRobot::new(&self.blueprint, world, &settings);
@@ -223,7 +223,7 @@ impl Desk {
         self.robot.machine()
     }
 
-    /// Begins the chip's accounts anew.
+    /// Resets the chip's accounting.
     pub(crate) fn restart_accounts(&mut self) {
         self.robot.machine_mut().restart_accounting();
     }
@@ -233,7 +233,7 @@ impl Desk {
         self.robot.now_ms() * CYCLES_PER_MS
     }
 
-    /// What this end has counted of damage on its way in.
+    /// Counts of damaged inbound packets.
     pub(crate) fn counters(&self) -> LinkCounters {
         self.session.counters()
     }

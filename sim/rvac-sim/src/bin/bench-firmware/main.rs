@@ -1,4 +1,4 @@
-//! `bench-firmware`: what the robot's real firmware takes of its chip, in the emulator: the main loop's pace, interrupts, the
+//! `bench-firmware`: how much of its chip the robot's real firmware uses, in the emulator: the main loop's pace, interrupts, the
 //! serial line by software, the stack; and how fast the emulator is. `cargo xtask bench firmware` builds and runs it.
 #![forbid(unsafe_code)]
 
@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use measure::Plan;
+use measure::MeasurementPlan;
 
 /// Measures a firmware in the emulated chip.
 #[derive(Debug, Parser)]
@@ -39,7 +39,7 @@ struct Arguments {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let plan = Plan {
+    let plan = MeasurementPlan {
         firmware: arguments.firmware,
         free_running: arguments.free_running,
         home: arguments.home,
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
 }
 
 fn complain(what: &str) -> ExitCode {
-    // When even standard error is gone there is nobody left to tell.
+    // If standard error is closed, nobody can be informed.
     writeln!(io::stderr(), "bench-firmware: {what}").ok();
     ExitCode::FAILURE
 }

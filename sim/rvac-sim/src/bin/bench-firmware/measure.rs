@@ -11,11 +11,11 @@ use std::sync::Arc;
 
 use crate::desk::{Desk, Shop};
 use crate::profile::Profile;
-use crate::report::{Line, Report, Vector};
+use crate::report::{FirmwareReport, MeasuredLineRate, Vector};
 
 /// What is measured with what.
 #[derive(Debug)]
-pub(crate) struct Plan {
+pub(crate) struct MeasurementPlan {
     /// The firmware.
     pub(crate) firmware: PathBuf,
     /// The same with a main loop that does not sleep.
@@ -44,15 +44,15 @@ const CHANGE_NOTICE: u8 = 26;
 const TIMER_4: u8 = 16;
 
 /// Runs everything.
-pub(crate) fn measure(plan: &Plan) -> anyhow::Result<Report> {
+pub(crate) fn measure(plan: &MeasurementPlan) -> anyhow::Result<FirmwareReport> {
     let free_running = Shop::open(&plan.free_running, &plan.home)?;
     let shop = Shop::open(&plan.firmware, &plan.home)?;
     let (idle_hz, driving_hz) = main_loop(&free_running)?;
-    let mut report = Report {
+    let mut report = FirmwareReport {
         main_loop_idle_hz: idle_hz,
         main_loop_driving_hz: driving_hz,
         host_built_real_time: host_built(&plan.home)?,
-        ..Report::default()
+        ..FirmwareReport::default()
     };
     driving(&shop, &mut report)?;
     for baud in RATES {
@@ -69,7 +69,7 @@ const PROFILE_MS: u64 = 10_000;
 type Pass = fn(&mut Desk);
 
 /// Prints in which functions the time goes.
-pub(crate) fn profile(plan: &Plan) -> anyhow::Result<()> {
+pub(crate) fn profile(plan: &MeasurementPlan) -> anyhow::Result<()> {
     let shop = Shop::open(&plan.firmware, &plan.home)?;
     let situations: [(&str, Pass); 3] = [
         ("standing", |desk| desk.pass_ms(1)),
@@ -111,7 +111,7 @@ fn must_drive(desk: &Desk) -> anyhow::Result<()> {
 }
 
 /// Driving: where the time goes, how late interrupts are, how deep the stack gets, and how fast all this is emulated.
-fn driving(shop: &Shop, report: &mut Report) -> anyhow::Result<()> {
+fn driving(shop: &Shop, report: &mut FirmwareReport) -> anyhow::Result<()> {
     let mut desk = shop.desk(BAUD);
     desk.connect()?;
     desk.circle_ms(1_000);
@@ -140,7 +140,7 @@ fn driving(shop: &Shop, report: &mut Report) -> anyhow::Result<()> {
 }
 
 /// One rate of the line, both ways at full load.
-fn line(shop: &Shop, baud: u32) -> anyhow::Result<Line> {
+fn line(shop: &Shop, baud: u32) -> anyhow::Result<MeasuredLineRate> {
     let mut desk = shop.desk(baud);
     desk.connect()?;
     desk.flood_ms(1_000);
@@ -156,7 +156,7 @@ fn line(shop: &Shop, baud: u32) -> anyhow::Result<Line> {
             .map_or(0.0, |vector| vector.cycles as f64 / total)
     };
     let full = f64::from(baud) / 10.0 * RATE_MS as f64 / 1e3;
-    Ok(Line {
+    Ok(MeasuredLineRate {
         baud,
         receive_load: (sent_after - sent) as f64 / full,
         transmit_load: (heard_after - heard) as f64 / full,
@@ -167,7 +167,7 @@ fn line(shop: &Shop, baud: u32) -> anyhow::Result<Line> {
 }
 
 /// Full load both ways for long: nothing may be lost.
-fn flood(shop: &Shop, ms: u64, report: &mut Report) -> anyhow::Result<()> {
+fn flood(shop: &Shop, ms: u64, report: &mut FirmwareReport) -> anyhow::Result<()> {
     let mut desk = shop.desk(BAUD);
     desk.connect()?;
     let before = desk.ask_info()?.link;
@@ -180,9 +180,9 @@ fn flood(shop: &Shop, ms: u64, report: &mut Report) -> anyhow::Result<()> {
     report.uart_flood_seconds = ms as f64 / 1e3;
     report.uart_bytes_checked = heard + sent;
     let in_robot =
-        after.overrun - before.overrun + after.framing - before.framing + after.bad_seal - before.bad_seal;
+        after.overrun - before.overrun + after.framing - before.framing + after.bad_crc - before.bad_crc;
     report.uart_bytes_lost = u64::from(in_robot + after.malformed - before.malformed)
-        + u64::from(host.bad_seal + host.framing + host.overrun + host.malformed);
+        + u64::from(host.bad_crc + host.framing + host.overrun + host.malformed);
     let latencies = desk
         .machine()
         .accounting()

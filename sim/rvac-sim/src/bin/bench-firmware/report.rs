@@ -6,7 +6,7 @@ use serde::Serialize;
 
 /// Everything that was measured, as one JSON object.
 #[derive(Debug, Default, Serialize)]
-pub(crate) struct Report {
+pub(crate) struct FirmwareReport {
     /// Passes of a main loop that does not sleep in a second, standing.
     pub(crate) main_loop_idle_hz: u32,
     /// The same while driving, with 50 reports a second at 230,400 baud.
@@ -38,7 +38,7 @@ pub(crate) struct Report {
     /// Interrupts while driving.
     pub(crate) vectors: Vec<Vector>,
     /// The serial line by software.
-    pub(crate) uart: Vec<Line>,
+    pub(crate) uart: Vec<MeasuredLineRate>,
 }
 
 /// One interrupt vector.
@@ -58,7 +58,7 @@ pub(crate) struct Vector {
 
 /// One rate of the serial line.
 #[derive(Debug, Serialize)]
-pub(crate) struct Line {
+pub(crate) struct MeasuredLineRate {
     /// Bits a second.
     pub(crate) baud: u32,
     /// How full the line to the robot was.
@@ -76,7 +76,7 @@ pub(crate) struct Line {
 /// What the software of 2016 reached while standing.
 const IDLE_2016_HZ: u32 = 60_000;
 
-impl Report {
+impl FirmwareReport {
     /// What may not be.
     pub(crate) fn faults(&self) -> Vec<String> {
         let table = [

@@ -22,8 +22,8 @@ use home::{Noise, RobotModel};
 use rvac_sim::Scene;
 
 use progress::Progress;
-use table::Table;
-use trial::{Floor, Kept, Trial};
+use table::FloorsTable;
+use trial::{FloorsTrial, HostMemory, MappedFloor};
 
 /// Measures the recognition of floors in generated homes.
 #[derive(Debug, Parser)]
@@ -56,14 +56,14 @@ fn main() -> anyhow::Result<()> {
     let count = floors.len() as f64 * arguments.seeds as f64;
     for number in 0..floors.len() {
         for seed in 1..=arguments.seeds {
-            for kept in Kept::ALL {
-                trials.extend(Trial::of(&floors, number, (kept, seed)));
+            for kept in HostMemory::ALL {
+                trials.extend(FloorsTrial::of(&floors, number, (kept, seed)));
             }
             progress.show((number as f64 * arguments.seeds as f64 + seed as f64) / count);
         }
     }
     progress.clear();
-    let table = Table::of(&trials);
+    let table = FloorsTable::of(&trials);
     let output = if arguments.json {
         serde_json::json!({ "homes": arguments.homes, "summary": table, "trials": trials }).to_string()
     } else {
@@ -73,7 +73,7 @@ fn main() -> anyhow::Result<()> {
 }
 
 impl Arguments {
-    fn floors(&self) -> anyhow::Result<Vec<Floor>> {
+    fn floors(&self) -> anyhow::Result<Vec<MappedFloor>> {
         let half = Half::named(&self.homes)
             .with_context(|| format!("`{}` is no set of homes: give tuning or report", self.homes))?;
         let model = RobotModel::by_name("sr8730")?;
@@ -84,7 +84,7 @@ impl Arguments {
         for number in &numbers {
             let home = GeneratedHome::number(*number).home(&model)?;
             let scene = Scene::new(Arc::new(home), model.clone(), noise);
-            floors.push(Floor::learnt(scene, u64::from(*number), self.minutes)?);
+            floors.push(MappedFloor::learnt(scene, u64::from(*number), self.minutes)?);
             progress.show(floors.len() as f64 / numbers.len() as f64);
         }
         progress.clear();

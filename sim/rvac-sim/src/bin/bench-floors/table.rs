@@ -4,17 +4,17 @@ use core::fmt;
 
 use serde::Serialize;
 
-use crate::trial::{Kept, Outcome, Trial};
+use crate::trial::{FloorsOutcome, FloorsTrial, HostMemory};
 
 /// One line for each kind of trial.
 #[derive(Debug, Serialize)]
-pub(crate) struct Table {
-    rows: Vec<Row>,
+pub(crate) struct FloorsTable {
+    rows: Vec<FloorsRow>,
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
-    kept: Kept,
+struct FloorsRow {
+    kept: HostMemory,
     trials: usize,
     right: usize,
     misplaced: usize,
@@ -27,18 +27,18 @@ struct Row {
     off_m: [Option<f64>; 2],
 }
 
-impl Table {
-    pub(crate) fn of(trials: &[Trial]) -> Self {
-        let rows = Kept::ALL.map(|kept| Row::of(kept, trials));
+impl FloorsTable {
+    pub(crate) fn of(trials: &[FloorsTrial]) -> Self {
+        let rows = HostMemory::ALL.map(|kept| FloorsRow::of(kept, trials));
         Self { rows: rows.into() }
     }
 }
 
-impl Row {
-    fn of(kept: Kept, trials: &[Trial]) -> Self {
+impl FloorsRow {
+    fn of(kept: HostMemory, trials: &[FloorsTrial]) -> Self {
         let own = || trials.iter().filter(move |trial| trial.kept == kept);
-        let count = |outcome: Outcome| own().filter(|trial| trial.outcome == outcome).count();
-        let right = || own().filter(|trial| trial.outcome == Outcome::Right);
+        let count = |outcome: FloorsOutcome| own().filter(|trial| trial.outcome == outcome).count();
+        let right = || own().filter(|trial| trial.outcome == FloorsOutcome::Right);
         let mut times: Vec<f64> = right().map(|trial| trial.time_s).collect();
         let mut offs: Vec<f64> = right().filter_map(|trial| trial.off_m).collect();
         times.sort_by(f64::total_cmp);
@@ -46,11 +46,11 @@ impl Row {
         Self {
             kept,
             trials: own().count(),
-            right: count(Outcome::Right),
-            misplaced: count(Outcome::Misplaced),
-            wrong: count(Outcome::Wrong),
-            asked: count(Outcome::Asked),
-            silent: count(Outcome::Silent),
+            right: count(FloorsOutcome::Right),
+            misplaced: count(FloorsOutcome::Misplaced),
+            wrong: count(FloorsOutcome::Wrong),
+            asked: count(FloorsOutcome::Asked),
+            silent: count(FloorsOutcome::Silent),
             known_s: [share(&times, 0.5), share(&times, 0.9)],
             off_m: [share(&offs, 0.5), offs.last().copied()],
         }
@@ -63,7 +63,7 @@ fn share(sorted: &[f64], share: f64) -> Option<f64> {
     sorted.get(place.min(sorted.len().saturating_sub(1))).copied()
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for FloorsTable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             formatter,
@@ -71,8 +71,8 @@ impl fmt::Display for Table {
         )?;
         for row in &self.rows {
             let name = match row.kept {
-                Kept::Present => "kept",
-                Kept::Absent => "unknown",
+                HostMemory::Present => "kept",
+                HostMemory::Absent => "unknown",
             };
             let number = |value: Option<f64>, digits: usize| {
                 value.map_or_else(|| "-".to_owned(), |value| format!("{value:.digits$}"))

@@ -23,7 +23,7 @@ const PLACE_M: f64 = 0.5;
 
 /// A floor with the map that the robot has made of it.
 #[derive(Debug)]
-pub(crate) struct Floor {
+pub(crate) struct MappedFloor {
     scene: Scene,
     map: StoredMap,
     map_from_plan: Pose,
@@ -32,17 +32,17 @@ pub(crate) struct Floor {
 /// What the host keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Kept {
+pub(crate) enum HostMemory {
     /// The floor on which the robot is, and others.
     Present,
     /// Others alone.
     Absent,
 }
 
-/// What came of it.
+/// Outcome of the trial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Outcome {
+pub(crate) enum FloorsOutcome {
     /// The robot knows floor and place.
     Right,
     /// It knows the floor, and takes its place for another one.
@@ -57,18 +57,18 @@ pub(crate) enum Outcome {
 
 /// A robot that was put down.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Trial {
+pub(crate) struct FloorsTrial {
     pub(crate) home: String,
     pub(crate) seed: u64,
-    pub(crate) kept: Kept,
-    pub(crate) outcome: Outcome,
+    pub(crate) kept: HostMemory,
+    pub(crate) outcome: FloorsOutcome,
     /// From the start until the robot knew, or had asked, seconds.
     pub(crate) time_s: f64,
     /// How far the place was off when it knew, metres.
     pub(crate) off_m: Option<f64>,
 }
 
-impl Floor {
+impl MappedFloor {
     /// Learnt on a run from the dock.
     pub(crate) fn learnt(scene: Scene, seed: u64, minutes: u64) -> anyhow::Result<Self> {
         let settings = RunSettings {
@@ -90,7 +90,7 @@ impl Floor {
     }
 }
 
-impl Kept {
+impl HostMemory {
     pub(crate) const ALL: [Self; 2] = [Self::Present, Self::Absent];
 
     const fn first(self) -> usize {
@@ -101,9 +101,9 @@ impl Kept {
     }
 }
 
-impl Trial {
+impl FloorsTrial {
     /// Number of the floor 1 is the true one if it is kept.
-    pub(crate) fn of(floors: &[Floor], number: usize, (kept, seed): (Kept, u64)) -> Option<Self> {
+    pub(crate) fn of(floors: &[MappedFloor], number: usize, (kept, seed): (HostMemory, u64)) -> Option<Self> {
         let floor = floors.get(number)?;
         let near = (0..FLOORS).map(|step| (number + kept.first() + step) % floors.len());
         let maps = near.enumerate().filter_map(|(place, near)| {
@@ -128,11 +128,11 @@ impl Trial {
         let ended_ms = household.robot().now_ms();
         let off_m = here.map(|_| off_m(&household, floor));
         let outcome = match (here, kept, off_m) {
-            (Some(1), Kept::Present, Some(off_m)) if off_m < PLACE_M => Outcome::Right,
-            (Some(1), Kept::Present, _) => Outcome::Misplaced,
-            (Some(_), _, _) => Outcome::Wrong,
-            (None, _, _) if asked_ms.is_some() => Outcome::Asked,
-            (None, _, _) => Outcome::Silent,
+            (Some(1), HostMemory::Present, Some(off_m)) if off_m < PLACE_M => FloorsOutcome::Right,
+            (Some(1), HostMemory::Present, _) => FloorsOutcome::Misplaced,
+            (Some(_), _, _) => FloorsOutcome::Wrong,
+            (None, _, _) if asked_ms.is_some() => FloorsOutcome::Asked,
+            (None, _, _) => FloorsOutcome::Silent,
         };
         let until_ms = here.map_or(asked_ms.unwrap_or(ended_ms), |_| ended_ms);
         Some(Self {
@@ -146,7 +146,7 @@ impl Trial {
     }
 }
 
-fn put_down(floor: &Floor, seed: u64, floors: Vec<KeptFloor>) -> Household {
+fn put_down(floor: &MappedFloor, seed: u64, floors: Vec<KeptFloor>) -> Household {
     let scene = &floor.scene;
     let mut random = Pcg::new(seed, STREAM);
     let start = place::draw(scene.home(), 0.175, &mut random);
@@ -163,7 +163,7 @@ fn put_down(floor: &Floor, seed: u64, floors: Vec<KeptFloor>) -> Household {
 }
 
 /// How far the believed place is from the true one in the map of the floor.
-fn off_m(household: &Household, floor: &Floor) -> f64 {
+fn off_m(household: &Household, floor: &MappedFloor) -> f64 {
     let truth = floor.map_from_plan.then(household.robot().world().truth().pose);
     let believed = household.host().map(Host::pose).unwrap_or_default();
     Pose::new(believed.x, believed.y, believed.heading).distance_m(truth)

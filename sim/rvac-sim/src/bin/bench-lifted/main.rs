@@ -20,8 +20,8 @@ use home::{Home, Noise, RobotModel};
 use rvac_sim::Scene;
 
 use progress::Progress;
-use table::Table;
-use trial::{Radio, Trial, Work};
+use table::LiftedTable;
+use trial::{LiftedTrial, Preparation, RadioFitted};
 
 /// Measures how a lifted robot finds itself in generated homes.
 #[derive(Debug, Parser)]
@@ -54,22 +54,22 @@ fn main() -> anyhow::Result<()> {
     let homes = arguments.homes()?;
     let progress = Progress::new("lifting");
     let count = homes.len() as f64 * arguments.seeds as f64;
-    let work = Work {
+    let work = Preparation {
         minutes: arguments.minutes,
         radio: match arguments.beacons {
-            0 => Radio::Absent,
-            beacons => Radio::Strengths(beacons),
+            0 => RadioFitted::Absent,
+            beacons => RadioFitted::Strengths(beacons),
         },
     };
     let mut trials = Vec::new();
     for scene in &homes {
         for seed in 1..=arguments.seeds {
-            trials.push(Trial::of(scene, seed, work));
+            trials.push(LiftedTrial::of(scene, seed, work));
             progress.show(trials.len() as f64 / count);
         }
     }
     progress.clear();
-    let table = Table::of(&trials);
+    let table = LiftedTable::of(&trials);
     let output = if arguments.json {
         serde_json::json!({ "homes": arguments.homes, "summary": table, "trials": trials }).to_string()
     } else {

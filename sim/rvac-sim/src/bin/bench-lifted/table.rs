@@ -4,11 +4,11 @@ use core::fmt;
 
 use serde::Serialize;
 
-use crate::trial::Trial;
+use crate::trial::LiftedTrial;
 
 /// Shares and times over all trials.
 #[derive(Debug, Serialize)]
-pub(crate) struct Table {
+pub(crate) struct LiftedTable {
     trials: usize,
     right: usize,
     /// Trials in which it believed for a while to be where it was not.
@@ -20,8 +20,8 @@ pub(crate) struct Table {
     violations: usize,
 }
 
-impl Table {
-    pub(crate) fn of(trials: &[Trial]) -> Self {
+impl LiftedTable {
+    pub(crate) fn of(trials: &[LiftedTrial]) -> Self {
         let mut times: Vec<u64> = trials.iter().filter_map(|trial| trial.right_s).collect();
         times.sort_unstable();
         let below = |share: f64| times.get((trials.len() as f64 * share) as usize).copied();
@@ -36,7 +36,7 @@ impl Table {
     }
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for LiftedTable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let number = |value: Option<u64>| value.map_or_else(|| "-".to_owned(), |value| value.to_string());
         writeln!(

@@ -26,7 +26,7 @@ const STREAM: u64 = 79;
 
 /// What the robot has on its Linux board.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Radio {
+pub(crate) enum RadioFitted {
     Absent,
     /// It receives so many beacons, and knows how strongly.
     Strengths(u8),
@@ -34,14 +34,14 @@ pub(crate) enum Radio {
 
 /// What comes before.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Work {
+pub(crate) struct Preparation {
     pub(crate) minutes: u64,
-    pub(crate) radio: Radio,
+    pub(crate) radio: RadioFitted,
 }
 
-/// What came of it.
+/// Outcome of the trial.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Trial {
+pub(crate) struct LiftedTrial {
     pub(crate) home: String,
     pub(crate) seed: u64,
     /// From the button until it knew its right place, seconds.
@@ -51,8 +51,8 @@ pub(crate) struct Trial {
     pub(crate) violations: usize,
 }
 
-impl Trial {
-    pub(crate) fn of(scene: &Scene, seed: u64, work: Work) -> Self {
+impl LiftedTrial {
+    pub(crate) fn of(scene: &Scene, seed: u64, work: Preparation) -> Self {
         let mut random = Pcg::new(seed, STREAM);
         let there = place::draw(scene.home(), RADIUS_M, &mut random);
         let mut household = household(scene, seed, work.radio);
@@ -102,7 +102,7 @@ fn go_on(household: &mut Household) {
     }
 }
 
-fn household(scene: &Scene, seed: u64, radio: Radio) -> Household {
+fn household(scene: &Scene, seed: u64, radio: RadioFitted) -> Household {
     let settings = RobotSettings {
         seed,
         ..RobotSettings::default()
@@ -111,8 +111,8 @@ fn household(scene: &Scene, seed: u64, radio: Radio) -> Household {
     let host = Host::start(0, core_config(scene, seed, StrategyName::Systematic));
     let household = Household::new(robot, host).with_known_map();
     match radio {
-        Radio::Absent => household,
-        Radio::Strengths(beacons) => {
+        RadioFitted::Absent => household,
+        RadioFitted::Strengths(beacons) => {
             household.with_beacons(scene.beacons(seed, usize::from(beacons)).by_strength())
         }
     }

@@ -1,4 +1,4 @@
-//! Work that is spread over threads; what comes of it stands in the order of the work, whoever did it.
+//! Work spread over threads; results are in the order of the work.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
@@ -10,15 +10,15 @@ use crate::progress::Progress;
 ///
 /// # Errors
 /// One that came up; work that was not begun by then is left.
-pub(crate) fn in_order<Desk: Default, Done: Send>(
+pub(crate) fn in_order<WorkerHome: Default, Done: Send>(
     count: usize,
     threads: usize,
-    work: impl Fn(&mut Desk, usize) -> anyhow::Result<Done> + Sync,
+    work: impl Fn(&mut WorkerHome, usize) -> anyhow::Result<Done> + Sync,
 ) -> anyhow::Result<Vec<Done>> {
     let next = AtomicUsize::new(0);
     let results = Mutex::new(Vec::new());
     let toil = || {
-        let mut desk = Desk::default();
+        let mut desk = WorkerHome::default();
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
             if number >= count {

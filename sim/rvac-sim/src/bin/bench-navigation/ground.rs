@@ -1,4 +1,4 @@
-//! What a run begins with: a robot in a home, and the host that drives it.
+//! Start of a run: a robot in a home, and the host that drives it.
 
 use std::sync::Arc;
 
@@ -8,26 +8,26 @@ use rvac_sim::run::core_config;
 use rvac_sim::{Host, Household, PoseSource, Scene};
 use vthal_core::CoreConfig;
 
-use crate::mode::Mode;
+use crate::mode::CleaningMode;
 
 /// What all runs have in common.
 #[derive(Clone, Debug)]
 pub(crate) struct Setup {
     pub(crate) model: RobotModel,
     pub(crate) noise: Noise,
-    pub(crate) board_gyro: BoardGyro,
+    pub(crate) board_gyro: GyroFitting,
 }
 
 /// Whether the robot's Linux board has a gyro.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum BoardGyro {
+pub(crate) enum GyroFitting {
     Absent,
     Fitted,
 }
 
 /// A home as it is and as it was when an old map of it was made.
 #[derive(Clone, Debug)]
-pub(crate) struct Ground {
+pub(crate) struct HomeWithHistory {
     pub(crate) scene: Scene,
     first_day: Arc<Home>,
 }
@@ -35,7 +35,7 @@ pub(crate) struct Ground {
 /// Longest job that the host allows itself in these runs, seconds.
 const BUDGET_S: u32 = 86_400;
 
-impl Ground {
+impl HomeWithHistory {
     pub(crate) fn new(home: Arc<Home>, first_day: Arc<Home>, setup: &Setup) -> Self {
         Self {
             scene: Scene::new(home, setup.model.clone(), setup.noise),
@@ -44,7 +44,7 @@ impl Ground {
     }
 
     /// A robot and a host for a mode.
-    pub(crate) fn household(&self, setup: &Setup, (mode, seed): (Mode, u64)) -> Household {
+    pub(crate) fn household(&self, setup: &Setup, (mode, seed): (CleaningMode, u64)) -> Household {
         let settings = RobotSettings {
             seed,
             ..RobotSettings::default()
@@ -52,18 +52,18 @@ impl Ground {
         let robot = self.scene.robot(seed, &settings);
         let household = Household::new(robot, Host::start(0, self.config((mode, seed))));
         let household = match setup.board_gyro {
-            BoardGyro::Absent => household,
-            BoardGyro::Fitted => household.with_board_gyro(self.scene.board_gyro(seed)),
+            GyroFitting::Absent => household,
+            GyroFitting::Fitted => household.with_board_gyro(self.scene.board_gyro(seed)),
         };
         match mode {
-            Mode::Bounce | Mode::FirstRun | Mode::LearntMap => household,
-            Mode::KnownMap => household.with_known_map(),
-            Mode::OldMap => household.with_map_of(&self.first_day),
-            Mode::PerfectPose => household.with_known_map().with_pose_source(PoseSource::Truth),
+            CleaningMode::Bounce | CleaningMode::FirstRun | CleaningMode::LearntMap => household,
+            CleaningMode::KnownMap => household.with_known_map(),
+            CleaningMode::OldMap => household.with_map_of(&self.first_day),
+            CleaningMode::PerfectPose => household.with_known_map().with_pose_source(PoseSource::Truth),
         }
     }
 
-    fn config(&self, (mode, seed): (Mode, u64)) -> CoreConfig {
+    fn config(&self, (mode, seed): (CleaningMode, u64)) -> CoreConfig {
         CoreConfig {
             task_budget_s: BUDGET_S,
             ..core_config(&self.scene, seed, mode.strategy())
@@ -79,8 +79,8 @@ mod tests {
     use rvac_sim::run::core_config;
     use vthal_core::CoreConfig;
 
-    use super::{BUDGET_S, BoardGyro, Ground, Setup};
-    use crate::mode::Mode;
+    use super::{BUDGET_S, GyroFitting, HomeWithHistory, Setup};
+    use crate::mode::CleaningMode;
 
     const PLAN: &str =
         "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0, 0], [2, 0], [2, 2], [0, 2]]\n";
@@ -93,16 +93,16 @@ mod tests {
             let setup = Setup {
                 model,
                 noise: Noise::ideal(),
-                board_gyro: BoardGyro::Absent,
+                board_gyro: GyroFitting::Absent,
             };
-            let ground = Ground::new(Arc::clone(&home), home, &setup);
-            let single = core_config(&ground.scene, 3, Mode::FirstRun.strategy());
+            let ground = HomeWithHistory::new(Arc::clone(&home), home, &setup);
+            let single = core_config(&ground.scene, 3, CleaningMode::FirstRun.strategy());
             assert_eq!(single.sensors, ground.scene.sensors(), "{name}");
             let wanted = CoreConfig {
                 task_budget_s: BUDGET_S,
                 ..single
             };
-            let told = ground.config((Mode::FirstRun, 3));
+            let told = ground.config((CleaningMode::FirstRun, 3));
             assert_eq!(format!("{told:?}"), format!("{wanted:?}"), "{name}");
         }
     }

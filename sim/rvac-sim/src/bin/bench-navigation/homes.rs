@@ -8,17 +8,17 @@ use home::generate::{GeneratedHome, Half, PUBLISHED};
 use home::traps::Trap;
 use home::{Home, RobotModel};
 
-use crate::ground::{Ground, Setup};
+use crate::ground::{HomeWithHistory, Setup};
 
 /// Where a home comes from.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Place {
+pub(crate) enum NavigationHome {
     File(PathBuf),
     Generated(GeneratedHome),
     Trap(Trap),
 }
 
-impl Place {
+impl NavigationHome {
     /// Reads a list of sets.
     pub(crate) fn list(text: &str) -> anyhow::Result<Vec<Self>> {
         let mut places = Vec::new();
@@ -58,7 +58,7 @@ impl Place {
     }
 
     /// The home, and how it was on its first day, empty, where there is another day.
-    pub(crate) fn ground(&self, setup: &Setup) -> anyhow::Result<Ground> {
+    pub(crate) fn ground(&self, setup: &Setup) -> anyhow::Result<HomeWithHistory> {
         let home = Arc::new(self.home(&setup.model)?);
         let first_day = match self {
             Self::Generated(today) if *today != GeneratedHome::number(today.number) => {
@@ -66,7 +66,7 @@ impl Place {
             }
             Self::Generated(_) | Self::File(_) | Self::Trap(_) => Arc::clone(&home),
         };
-        Ok(Ground::new(home, first_day, setup))
+        Ok(HomeWithHistory::new(home, first_day, setup))
     }
 
     fn home(&self, model: &RobotModel) -> anyhow::Result<Home> {
@@ -80,7 +80,7 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use super::Place;
+    use super::NavigationHome;
 
     #[test]
     fn sets_are_read() {
@@ -91,7 +91,7 @@ mod tests {
             ("generated:7/1+people", 1),
             ("trap:sofa/3", 1),
         ] {
-            assert_eq!(Place::list(text).unwrap().len(), count, "{text}");
+            assert_eq!(NavigationHome::list(text).unwrap().len(), count, "{text}");
         }
         for wrong in [
             "",
@@ -101,7 +101,7 @@ mod tests {
             "generated:a..b",
             "trap:sea",
         ] {
-            assert!(Place::list(wrong).is_err(), "{wrong}");
+            assert!(NavigationHome::list(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -23,11 +23,11 @@ use home::RobotModel;
 use home::traps::{Trap, TrapKind};
 
 use crew::{SharedProgress, in_order};
-use ground::{BoardGyro, Ground, Setup};
-use homes::Place;
-use mode::Mode;
-use run::{Length, Run, rounds};
-use table::Table;
+use ground::{GyroFitting, HomeWithHistory, Setup};
+use homes::NavigationHome;
+use mode::CleaningMode;
+use run::{Length, NavigationRun, rounds};
+use table::NavigationTable;
 use traps::{TrapRun, TrapTable};
 
 /// Measures coverage and localization in simulated homes.
@@ -83,9 +83,9 @@ impl Arguments {
             model: RobotModel::by_name(&self.robot)?,
             noise: self.noise.parse()?,
             board_gyro: if self.board_gyro {
-                BoardGyro::Fitted
+                GyroFitting::Fitted
             } else {
-                BoardGyro::Absent
+                GyroFitting::Absent
             },
         })
     }
@@ -105,8 +105,8 @@ impl Arguments {
     }
 
     /// What each thing is measured with: modes and seeds, in the order of the output.
-    fn ways(&self, modes: &[Mode]) -> Vec<(Mode, u64)> {
-        let seeds = |mode: &Mode| {
+    fn ways(&self, modes: &[CleaningMode]) -> Vec<(CleaningMode, u64)> {
+        let seeds = |mode: &CleaningMode| {
             let mode = *mode;
             (1..=self.seeds).map(move |seed| (mode, seed))
         };
@@ -117,26 +117,26 @@ impl Arguments {
 fn main() -> anyhow::Result<()> {
     let arguments = Arguments::parse();
     let setup = arguments.setup()?;
-    let modes = Mode::list(&arguments.modes)?;
+    let modes = CleaningMode::list(&arguments.modes)?;
     if arguments.traps {
         return measure_traps(&arguments, &setup, &modes);
     }
-    let places = Place::list(&arguments.homes)?;
+    let places = NavigationHome::list(&arguments.homes)?;
     let runs = runs_in(&places, (&arguments, &setup), &arguments.ways(&modes))?;
     print(&arguments, (&places, &modes), &runs)
 }
 
 /// What a thread has before it: the home that it was in last, with its number.
-type Desk = Option<(usize, Ground)>;
+type WorkerHome = Option<(usize, HomeWithHistory)>;
 
 fn runs_in(
-    places: &[Place],
+    places: &[NavigationHome],
     (arguments, setup): (&Arguments, &Setup),
-    ways: &[(Mode, u64)],
-) -> anyhow::Result<Vec<Run>> {
+    ways: &[(CleaningMode, u64)],
+) -> anyhow::Result<Vec<NavigationRun>> {
     let count = places.len() * ways.len();
     let progress = SharedProgress::new("navigation", count);
-    let runs = in_order(count, arguments.threads(), |desk: &mut Desk, number| {
+    let runs = in_order(count, arguments.threads(), |desk: &mut WorkerHome, number| {
         let (place, way) = (number / ways.len(), number % ways.len());
         if desk.as_ref().is_none_or(|(other, _)| *other != place) {
             *desk = Some((place, places[place].ground(setup)?));
@@ -149,8 +149,12 @@ fn runs_in(
     Ok(runs?.concat())
 }
 
-fn print(arguments: &Arguments, (places, modes): (&[Place], &[Mode]), runs: &[Run]) -> anyhow::Result<()> {
-    let table = Table::of(runs, modes);
+fn print(
+    arguments: &Arguments,
+    (places, modes): (&[NavigationHome], &[CleaningMode]),
+    runs: &[NavigationRun],
+) -> anyhow::Result<()> {
+    let table = NavigationTable::of(runs, modes);
     let peak_mib = memory::peak_mib();
     let mut out = io::stdout().lock();
     if arguments.json {
@@ -187,7 +191,7 @@ fn print(arguments: &Arguments, (places, modes): (&[Place], &[Mode]), runs: &[Ru
     Ok(())
 }
 
-fn measure_traps(arguments: &Arguments, setup: &Setup, modes: &[Mode]) -> anyhow::Result<()> {
+fn measure_traps(arguments: &Arguments, setup: &Setup, modes: &[CleaningMode]) -> anyhow::Result<()> {
     let ways = arguments.ways(modes);
     let count = TrapKind::ALL.len() * ways.len();
     let progress = SharedProgress::new("traps", count);

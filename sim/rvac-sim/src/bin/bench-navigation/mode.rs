@@ -1,13 +1,13 @@
-//! What is compared.
+//! The compared modes.
 
 use brain::command::StrategyName;
 use rvac_sim::run::RunEnd;
 use serde::Serialize;
 
-/// A way of cleaning, and what the robot knows of the home.
+/// A cleaning pattern, and the robot's knowledge of the home.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Mode {
+pub(crate) enum CleaningMode {
     Bounce,
     KnownMap,
     OldMap,
@@ -16,7 +16,7 @@ pub(crate) enum Mode {
     PerfectPose,
 }
 
-impl Mode {
+impl CleaningMode {
     const ALL: [Self; 6] = [
         Self::Bounce,
         Self::KnownMap,

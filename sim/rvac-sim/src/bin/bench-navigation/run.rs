@@ -5,16 +5,16 @@ use std::time::Instant;
 use brain::StoredMap;
 use brain::command::StrategyName;
 use rvac_sim::run::{keep_working, start_cleaning};
-use rvac_sim::{Figures, Host, HostCost, Household, Report};
+use rvac_sim::{Figures, Host, HostCost, Household, RunReport};
 use serde::Serialize;
 
-use crate::ground::{Ground, Setup};
-use crate::mode::Mode;
+use crate::ground::{HomeWithHistory, Setup};
+use crate::mode::CleaningMode;
 
 /// The figures of a run.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Run {
-    pub(crate) mode: Mode,
+pub(crate) struct NavigationRun {
+    pub(crate) mode: CleaningMode,
     /// Which run in this home it was, from 1.
     pub(crate) round: u32,
     pub(crate) home: String,
@@ -50,11 +50,11 @@ const SPARE_MS: u64 = 1_200_000;
 
 /// All runs of a mode in a home with a seed, one after the other.
 pub(crate) fn rounds(
-    (ground, setup): (&Ground, &Setup),
-    (mode, seed): (Mode, u64),
+    (ground, setup): (&HomeWithHistory, &Setup),
+    (mode, seed): (CleaningMode, u64),
     length: Length,
     mut progress: impl FnMut(f64),
-) -> Vec<Run> {
+) -> Vec<NavigationRun> {
     let mut map: Option<StoredMap> = None;
     let mut runs = Vec::new();
     for round in 1..=mode.rounds() {
@@ -66,7 +66,7 @@ pub(crate) fn rounds(
         let run = one(&mut household, (mode, seed), length, |share| {
             progress((before + share) / f64::from(mode.rounds()));
         });
-        runs.push(Run { round, ..run });
+        runs.push(NavigationRun { round, ..run });
         let brain = household.host().and_then(Host::brain);
         map = brain.map(|brain| brain.map().stored());
     }
@@ -75,10 +75,10 @@ pub(crate) fn rounds(
 
 fn one(
     household: &mut Household,
-    (mode, seed): (Mode, u64),
+    (mode, seed): (CleaningMode, u64),
     length: Length,
     progress: impl FnMut(f64),
-) -> Run {
+) -> NavigationRun {
     let started = Instant::now();
     if let Some(host) = household.host_mut() {
         host.measure_cost();
@@ -94,7 +94,7 @@ fn one(
     let last = household.report();
     let figures = figures(first.as_ref().unwrap_or(&last), &last);
     let report = first.unwrap_or_else(|| last.clone());
-    Run {
+    NavigationRun {
         mode,
         round: 1,
         home: report.home,
@@ -113,7 +113,11 @@ fn one(
     }
 }
 
-fn one_job(household: &mut Household, (mode, longest_over_t0): (Mode, f64), mut progress: impl FnMut(f64)) {
+fn one_job(
+    household: &mut Household,
+    (mode, longest_over_t0): (CleaningMode, f64),
+    mut progress: impl FnMut(f64),
+) {
     let t0_s = household.robot().world().home().t0_s();
     let duration_ms = (t0_s * longest_over_t0 * 1000.0) as u64 + SPARE_MS;
     while household.robot().now_ms() < duration_ms && !mode.end().is_reached(household) {
@@ -128,7 +132,7 @@ fn work(
     household: &mut Household,
     (strategy, minutes): (StrategyName, f64),
     mut progress: impl FnMut(f64),
-) -> (Option<Report>, u32) {
+) -> (Option<RunReport>, u32) {
     let length_s = 60.0 * minutes;
     let duration_ms = (1000.0 * length_s) as u64 + SPARE_MS;
     let (mut first, mut jobs, mut was_over) = (None, 1, false);
@@ -156,8 +160,8 @@ fn second(household: &mut Household) {
 }
 
 /// How well a job was done is told of the first one; how well the robot knew its place, and its map, of the whole run.
-fn figures(first: &Report, last: &Report) -> Figures {
-    let of = |report: &Report| report.figures.as_deref().cloned().unwrap_or_default();
+fn figures(first: &RunReport, last: &RunReport) -> Figures {
+    let of = |report: &RunReport| report.figures.as_deref().cloned().unwrap_or_default();
     let (job, run) = (of(first), of(last));
     Figures {
         t80_over_t0: job.t80_over_t0,

@@ -5,8 +5,8 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use crate::lost::LostShares;
-use crate::mode::Mode;
-use crate::run::Run;
+use crate::mode::CleaningMode;
+use crate::run::NavigationRun;
 
 /// A figure over all runs of a mode.
 #[derive(Clone, Debug, Serialize)]
@@ -20,10 +20,10 @@ struct Spread {
 }
 
 /// How a figure is taken from a run, and what it is called.
-struct Figure {
+struct FigureColumn {
     name: &'static str,
     better: Better,
-    of: fn(&Run) -> Option<f64>,
+    of: fn(&NavigationRun) -> Option<f64>,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [Figure; 35] = [
+const FIGURES: [FigureColumn; 35] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -76,16 +76,16 @@ const FIGURES: [Figure; 35] = [
     more("times_real_time", |run| Some(run.sim_seconds / run.wall_seconds)),
 ];
 
-const fn less(name: &'static str, of: fn(&Run) -> Option<f64>) -> Figure {
-    Figure {
+const fn less(name: &'static str, of: fn(&NavigationRun) -> Option<f64>) -> FigureColumn {
+    FigureColumn {
         name,
         better: Better::Less,
         of,
     }
 }
 
-const fn more(name: &'static str, of: fn(&Run) -> Option<f64>) -> Figure {
-    Figure {
+const fn more(name: &'static str, of: fn(&NavigationRun) -> Option<f64>) -> FigureColumn {
+    FigureColumn {
         name,
         better: Better::More,
         of,
@@ -93,7 +93,7 @@ const fn more(name: &'static str, of: fn(&Run) -> Option<f64>) -> Figure {
 }
 
 /// All modes side by side; where several runs follow each other in a home, the first, the second and so on apart.
-pub(crate) struct Table {
+pub(crate) struct NavigationTable {
     columns: Vec<Column>,
 }
 
@@ -104,8 +104,8 @@ struct Column {
     lost: LostShares,
 }
 
-impl Table {
-    pub(crate) fn of(runs: &[Run], modes: &[Mode]) -> Self {
+impl NavigationTable {
+    pub(crate) fn of(runs: &[NavigationRun], modes: &[CleaningMode]) -> Self {
         let columns = modes
             .iter()
             .flat_map(|mode| (1..=mode.rounds()).map(|round| Column::of(runs, (*mode, round))));
@@ -116,8 +116,8 @@ impl Table {
 }
 
 impl Column {
-    fn of(runs: &[Run], (mode, round): (Mode, u32)) -> Self {
-        let runs: Vec<&Run> = runs
+    fn of(runs: &[NavigationRun], (mode, round): (CleaningMode, u32)) -> Self {
+        let runs: Vec<&NavigationRun> = runs
             .iter()
             .filter(|run| (run.mode, run.round) == (mode, round))
             .collect();
@@ -156,7 +156,7 @@ fn spread(values: &[Option<f64>], better: Better) -> Spread {
     }
 }
 
-impl Serialize for Table {
+impl Serialize for NavigationTable {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_map(self.columns.iter().map(|column| {
             let figures: serde_json::Map<String, serde_json::Value> = FIGURES
@@ -173,7 +173,7 @@ impl Serialize for Table {
     }
 }
 
-impl fmt::Display for Table {
+impl fmt::Display for NavigationTable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.row(formatter, "", |column| column.name.clone())?;
         self.row(formatter, "lower bound (T0)", |_| "1.00".to_owned())?;
@@ -193,7 +193,7 @@ impl fmt::Display for Table {
     }
 }
 
-impl Table {
+impl NavigationTable {
     fn row(
         &self,
         formatter: &mut fmt::Formatter<'_>,

@@ -1,4 +1,5 @@
-//! Traps: whether the robot comes free of places in which robots get stuck, and whether it ends where there is no way out.
+//! Traps: whether the robot frees itself from places in which robots get stuck, and whether it stops where there is no
+//! exit.
 //!
 //! *Free*: its middle has left the trap. *Ended*: free, or it said by itself that it cannot go on: stuck, a fault, or the job's
 //! end.
@@ -13,8 +14,8 @@ use rvac_sim::run::start_cleaning;
 use serde::Serialize;
 
 use crate::ground::Setup;
-use crate::homes::Place;
-use crate::mode::Mode;
+use crate::homes::NavigationHome;
+use crate::mode::CleaningMode;
 
 /// Nobody waits longer for an end.
 const LONGEST_S: u64 = 2_400;
@@ -22,7 +23,7 @@ const LONGEST_S: u64 = 2_400;
 /// What became of a robot in a trap.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct TrapRun {
-    mode: Mode,
+    mode: CleaningMode,
     kind: &'static str,
     seed: u32,
     can_be_left: bool,
@@ -37,8 +38,8 @@ pub(crate) struct TrapRun {
 }
 
 impl TrapRun {
-    pub(crate) fn of(trap: Trap, setup: &Setup, mode: Mode) -> anyhow::Result<Self> {
-        let ground = Place::Trap(trap).ground(setup)?;
+    pub(crate) fn of(trap: Trap, setup: &Setup, mode: CleaningMode) -> anyhow::Result<Self> {
+        let ground = NavigationHome::Trap(trap).ground(setup)?;
         let mut household = ground.household(setup, (mode, u64::from(trap.seed)));
         anyhow::ensure!(
             start_cleaning(&mut household, mode.strategy()),
@@ -89,14 +90,14 @@ fn gave_up(household: &Household) -> bool {
 /// Shares and times of each mode and kind.
 pub(crate) struct TrapTable<'runs> {
     runs: &'runs [TrapRun],
-    modes: &'runs [Mode],
+    modes: &'runs [CleaningMode],
 }
 
 /// Figures over some runs.
 #[derive(Clone, Debug, Serialize)]
 struct TrapFigures {
     runs: usize,
-    /// Share of the runs in traps with a way out in which the robot came free; `null` = there was none.
+    /// Share of the runs in traps with an exit in which the robot came free; `null` = there was none.
     freed: Option<f64>,
     /// Share of all runs that ended.
     ended: f64,
@@ -133,11 +134,11 @@ impl TrapFigures {
 }
 
 impl<'runs> TrapTable<'runs> {
-    pub(crate) const fn of(runs: &'runs [TrapRun], modes: &'runs [Mode]) -> Self {
+    pub(crate) const fn of(runs: &'runs [TrapRun], modes: &'runs [CleaningMode]) -> Self {
         Self { runs, modes }
     }
 
-    fn rows(&self) -> Vec<(String, Mode, TrapFigures)> {
+    fn rows(&self) -> Vec<(String, CleaningMode, TrapFigures)> {
         let mut rows = Vec::new();
         let kinds = TrapKind::ALL.iter().map(|kind| Some(kind.name()));
         for kind in kinds.chain([None]) {

@@ -1,4 +1,4 @@
-//! World and brain apart from the rest: they get what they were given in a run, and give the same again.
+//! World and brain in isolation: they get the inputs of a recorded run and produce the same outputs.
 
 use anyhow::ensure;
 use brain::command::StrategyName;
@@ -10,7 +10,7 @@ use serde::Serialize;
 use vthal_core::Record;
 
 /// A household that works, and copies of two of its parts that do the same as they.
-pub(crate) struct Parts {
+pub(crate) struct HouseholdCopies {
     household: Household,
     world: World,
     world_s: f64,
@@ -35,7 +35,7 @@ pub(crate) struct Shares {
     pub(crate) brain_s: f64,
 }
 
-/// Readings by which the time of a reading is told.
+/// Number of clock readings from which the cost of one reading is computed.
 const READINGS: u32 = 100_000;
 
 /// Seconds that one reading of the clock takes.
@@ -45,7 +45,7 @@ pub(crate) fn clock_s() -> f64 {
     (last_s - began_s) / f64::from(READINGS)
 }
 
-impl Parts {
+impl HouseholdCopies {
     /// A household that is asked to clean.
     pub(crate) fn begin(mut household: Household, strategy: StrategyName) -> Self {
         start_cleaning(&mut household, strategy);

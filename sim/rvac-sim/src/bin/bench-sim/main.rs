@@ -19,12 +19,12 @@ use brain::command::StrategyName;
 use clap::Parser;
 use robot::RobotSettings;
 use rvac_sim::run::{core_config, keep_working, start_cleaning};
-use rvac_sim::{GyroFitted, Host, Household, Record, Scene, SceneSettings, thread_processor_s};
+use rvac_sim::{CalibrationChoice, GyroFitted, Host, Household, Scene, SceneSettings, thread_processor_s};
 use vthal_core::{CoreConfig, Recording};
 
-use apart::{Parts, clock_s};
+use apart::{HouseholdCopies, clock_s};
 use progress::Progress;
-use table::{Figures, table};
+use table::{CaseFigures, table};
 
 /// Measures the simulator.
 #[derive(Debug, Parser)]
@@ -104,7 +104,7 @@ fn main() -> anyhow::Result<()> {
         robot: arguments.robot.clone(),
         noise: "nominal".to_owned(),
         firmware: None,
-        record: Record::Complete,
+        record: CalibrationChoice::Complete,
         gyro: GyroFitted::Placeholder,
     })?;
     let progress = Progress::new("simulator");
@@ -139,7 +139,7 @@ fn measure(
     scene: &Scene,
     (case, arguments): (Case, &Arguments),
     mut progress: impl FnMut(f64),
-) -> anyhow::Result<Figures> {
+) -> anyhow::Result<CaseFigures> {
     let passes = if arguments.parts { 3.0 } else { 1.0 };
     let work = (case, 60 * arguments.minutes);
     let mut household = case.household(scene, (arguments.seed, Recording::Off));
@@ -155,7 +155,7 @@ fn measure(
         parts.shares(hash, (processor_s, host_s))
     });
     let sim_seconds = household.robot().now_ms() as f64 / 1000.0;
-    Ok(Figures {
+    Ok(CaseFigures {
         case: case.name(),
         sim_seconds,
         wall_seconds,
@@ -185,8 +185,12 @@ fn host_s(household: &mut Household, work: (Case, u64), progress: impl FnMut(f64
     cost.processor_s - f64::from(cost.steps) * clock_s()
 }
 
-fn taken_apart(household: Household, (case, seconds): (Case, u64), mut progress: impl FnMut(f64)) -> Parts {
-    let mut parts = Parts::begin(household, case.strategy());
+fn taken_apart(
+    household: Household,
+    (case, seconds): (Case, u64),
+    mut progress: impl FnMut(f64),
+) -> HouseholdCopies {
+    let mut parts = HouseholdCopies::begin(household, case.strategy());
     for second in 0..seconds {
         parts.second(case.strategy());
         progress(second as f64 / seconds as f64);

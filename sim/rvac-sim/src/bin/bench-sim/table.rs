@@ -8,7 +8,7 @@ use crate::apart::Shares;
 
 /// The figures of a case.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Figures {
+pub(crate) struct CaseFigures {
     pub(crate) case: &'static str,
     pub(crate) sim_seconds: f64,
     pub(crate) wall_seconds: f64,
@@ -21,7 +21,7 @@ pub(crate) struct Figures {
 }
 
 /// One line a case, and where the time goes.
-pub(crate) fn table(figures: &[Figures]) -> String {
+pub(crate) fn table(figures: &[CaseFigures]) -> String {
     let mut text = format!(
         "{:<24} {:>16} {:>12} {:>12}   of the processor: world, firmware with line and monitor, link and daemon's core, brain\n",
         "", "times real time", "processor s", "on the wall"

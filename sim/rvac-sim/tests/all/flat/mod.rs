@@ -3,7 +3,7 @@
 use brain::command::StrategyName;
 use home::Pose;
 use robot::RobotSettings;
-use rvac_sim::{GyroFitted, Host, Household, Record, Scene, SceneSettings};
+use rvac_sim::{CalibrationChoice, GyroFitted, Host, Household, Scene, SceneSettings};
 use vthal_core::CoreConfig;
 
 const HOME: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../homes/two-room-flat.toml");
@@ -15,7 +15,7 @@ pub(crate) fn scene() -> Scene {
         robot: "sr8730".to_owned(),
         noise: "nominal".to_owned(),
         firmware: None,
-        record: Record::Complete,
+        record: CalibrationChoice::Complete,
         gyro: GyroFitted::Placeholder,
     })
     .unwrap()

@@ -1,6 +1,6 @@
 //! What the session gives, as events of the device model.
 
-use rvac_protocol::message::{Edge, EdgeKind, Report, RobotHello, State};
+use rvac_protocol::message::{Event, NumberedEvent, Report, RobotHello, State};
 use rvac_protocol::session::HostEvent;
 use rvac_units::Tick;
 
@@ -41,7 +41,7 @@ impl Cordlib {
                 reason: refusal.name(),
             },
             HostEvent::Unanswered(sequence) => DeviceEvent::Unanswered(sequence.0.into()),
-            HostEvent::EdgesLost { count } => DeviceEvent::EventsLost(count.into()),
+            HostEvent::EventsLost { count } => DeviceEvent::EventsLost(count.into()),
             HostEvent::Closed(_) | HostEvent::Silent => DeviceEvent::Closed,
             HostEvent::Incompatible {
                 version_min,
@@ -81,7 +81,7 @@ impl Cordlib {
         match report {
             Report::State(state) => Some(DeviceEvent::Report(self.state(&state))),
             Report::Info(info) => Some(DeviceEvent::Slow(to_model::slow_facts(&info))),
-            Report::Edge(edge) => of_edge(&edge),
+            Report::Event(event) => of_event(&event),
             Report::Log { level, text } => Some(DeviceEvent::Log {
                 level: to_model::log_level(level),
                 text: text.as_str().to_owned(),
@@ -105,16 +105,14 @@ impl Cordlib {
     }
 }
 
-/// Levels of the other edges come with each report.
-fn of_edge(edge: &Edge) -> Option<DeviceEvent> {
-    match edge.kind {
-        EdgeKind::Button { button, pressed } => Some(DeviceEvent::Button { button, pressed }),
-        EdgeKind::Stall(motor) => Some(DeviceEvent::MotorStopped(motor.name())),
-        EdgeKind::Docked(docked) => Some(DeviceEvent::Docked(docked)),
-        EdgeKind::Bump(_)
-        | EdgeKind::Cliff(_)
-        | EdgeKind::Lift(_)
-        | EdgeKind::MoveFinished(_)
-        | EdgeKind::Inhibits(_) => None,
+/// Levels of the others come with each report.
+fn of_event(event: &NumberedEvent) -> Option<DeviceEvent> {
+    match event.kind {
+        Event::Button { button, pressed } => Some(DeviceEvent::Button { button, pressed }),
+        Event::Stall(motor) => Some(DeviceEvent::MotorStopped(motor.name())),
+        Event::Docked(docked) => Some(DeviceEvent::Docked(docked)),
+        Event::Bump(_) | Event::Cliff(_) | Event::Lift(_) | Event::MoveFinished(_) | Event::Inhibits(_) => {
+            None
+        }
     }
 }

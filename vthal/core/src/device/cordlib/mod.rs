@@ -35,7 +35,8 @@ const CLEANER_LEASE_MS: u16 = 1000;
 pub const MAKE: Make = Make {
     name: "cordlib",
     opening: Opening {
-        baud: 230_400,
+        rates_baud: &[230_400],
+        answer_within_ms: 5_000,
         wake_pulse_ms: 0,
         settle_ms: 0,
     },

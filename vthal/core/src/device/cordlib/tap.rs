@@ -2,9 +2,9 @@
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary;
+use rvac_protocol::crc;
 use rvac_protocol::frame::{Framed, Framer};
 use rvac_protocol::message::{Command, Report};
-use rvac_protocol::seal;
 use rvac_protocol::text;
 
 use crate::Direction;
@@ -20,7 +20,7 @@ struct Line {
 }
 
 impl Line {
-    fn new(direction: seal::Direction) -> Self {
+    fn new(direction: crc::Direction) -> Self {
         Self {
             framer: Framer::new(direction),
             session: 0,
@@ -51,8 +51,8 @@ pub(super) struct Tap {
 impl Default for Tap {
     fn default() -> Self {
         Self {
-            from_robot: Line::new(seal::Direction::RobotToHost),
-            to_robot: Line::new(seal::Direction::HostToRobot),
+            from_robot: Line::new(crc::Direction::RobotToHost),
+            to_robot: Line::new(crc::Direction::HostToRobot),
         }
     }
 }
@@ -80,14 +80,14 @@ impl Tap {
 
 fn shown(framed: Framed<'_>, twin: impl Fn(u8, &[u8]) -> Option<PacketBuffer>) -> String {
     match framed {
-        Framed::Open(text) | Framed::Sealed(text) | Framed::Missealed { text, .. } => {
+        Framed::Unchecked(text) | Framed::Checked(text) | Framed::BadCrc { text, .. } => {
             String::from_utf8_lossy(text).into_owned()
         }
         Framed::Binary { kind, body } => twin(kind, body).map_or_else(
             || UNREADABLE.to_owned(),
             |buffer| String::from_utf8_lossy(buffer.as_bytes()).into_owned(),
         ),
-        Framed::BinaryMissealed | Framed::Poisoned(_) => UNREADABLE.to_owned(),
+        Framed::BinaryBadCrc | Framed::Poisoned(_) => UNREADABLE.to_owned(),
     }
 }
 
@@ -109,7 +109,7 @@ fn drive_twin(kind: u8, body: &[u8]) -> Option<PacketBuffer> {
 mod tests {
     use rvac_protocol::PacketBuffer;
     use rvac_protocol::message::{Command, Inhibit, Sequence};
-    use rvac_protocol::text::write_sealed_command;
+    use rvac_protocol::text::write_command_with_crc;
 
     use super::Tap;
     use crate::Direction;
@@ -121,7 +121,7 @@ mod tests {
             sequence: Sequence(7),
             inhibit: Inhibit::WheelStall,
         };
-        write_sealed_command(&clear, 5, &mut buffer).expect("fits");
+        write_command_with_crc(&clear, 5, &mut buffer).expect("fits");
         let mut packets = Vec::new();
         let mut tap = Tap::default();
         let (first, rest) = buffer.as_bytes().split_at(9);

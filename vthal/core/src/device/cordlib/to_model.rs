@@ -221,9 +221,9 @@ fn battery(battery: &message::Battery) -> Battery {
 pub(super) fn link_quality(wire: quality::LinkQuality, is_binary: bool) -> LinkQuality {
     LinkQuality {
         verdict: match wire.verdict {
-            quality::Verdict::Good => Verdict::Good,
-            quality::Verdict::Poor => Verdict::Poor,
-            quality::Verdict::Bad => Verdict::Bad,
+            quality::LinkVerdict::Good => Verdict::Good,
+            quality::LinkVerdict::Poor => Verdict::Poor,
+            quality::LinkVerdict::Bad => Verdict::Bad,
         },
         bad_share: f64::from(wire.bad) / f64::from(wire.packets.max(1)),
         round_trip_ms: wire.round_trip_ms.map(f64::from),

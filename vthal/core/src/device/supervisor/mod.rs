@@ -8,7 +8,7 @@ use super::reflex::{HostReflexes, fresh_us};
 use super::wheel_watch::WheelWatch;
 use super::{
     CleanerDrive, CommandError, Description, Device, DeviceCommand, DeviceIo, Drive, LeaveDock, Level,
-    LinkQuality, Make,
+    LinkQuality, Make, Opening,
 };
 use crate::Direction;
 
@@ -23,6 +23,7 @@ const RELEASE_AFTER_US: u64 = 5_000_000;
 #[derive(Debug)]
 pub struct Supervisor {
     device: Box<dyn Device>,
+    opening: Opening,
     duties: Duties,
     watch: WheelWatch,
 }
@@ -30,6 +31,8 @@ pub struct Supervisor {
 /// What is under way since the line was opened.
 #[derive(Debug)]
 struct Duties {
+    /// When the robot must have described itself if this is its rate; `None` if it has, or has no other rate.
+    answer_until_us: Option<u64>,
     /// As the make tells, but no faster than the host reacts.
     description: Option<Description>,
     reflexes: Option<HostReflexes>,
@@ -50,6 +53,7 @@ struct Duties {
 impl Duties {
     const fn new(now_us: u64) -> Self {
         Self {
+            answer_until_us: None,
             description: None,
             reflexes: None,
             in_control: false,
@@ -77,6 +81,7 @@ impl Supervisor {
     pub fn new(make: &Make) -> Self {
         Self {
             device: (make.connect)(),
+            opening: make.opening,
             duties: Duties::new(0),
             watch: WheelWatch::default(),
         }
@@ -86,6 +91,9 @@ impl Supervisor {
     /// and by the robot.
     pub fn open(&mut self, io: &mut DeviceIo<'_>) {
         self.duties = Duties::new(io.now_us);
+        let patience_us = 1000 * u64::from(self.opening.answer_within_ms);
+        let has_others = self.opening.rates_baud.len() > 1;
+        self.duties.answer_until_us = has_others.then_some(io.now_us + patience_us);
         self.watch.rebase();
         self.device.open(io);
         self.device.release(io);
@@ -155,6 +163,18 @@ impl Supervisor {
         self.renew(io);
     }
 
+    /// Whether the robot does not answer at the rate of the line, and may at another one. Says so once.
+    pub fn gives_up_rate(&mut self, now_us: u64) -> bool {
+        if self.duties.description.is_some() {
+            self.duties.answer_until_us = None;
+        }
+        let gives_up = self.duties.answer_until_us.is_some_and(|end_us| now_us >= end_us);
+        if gives_up {
+            self.duties.answer_until_us = None;
+        }
+        gives_up
+    }
+
     /// When [`Supervisor::poll`] has something to do at the latest.
     #[must_use]
     pub fn next_wake_us(&self) -> u64 {
@@ -165,7 +185,8 @@ impl Supervisor {
             (CleanerDrive::On(_), Some(told_us)) => told_us + CLEANER_REPEAT_US,
             (_, None) | (CleanerDrive::Off, Some(_)) => u64::MAX,
         };
-        device_us.min(wheels_us).min(cleaners_us)
+        let answer_us = duties.answer_until_us.unwrap_or(u64::MAX);
+        device_us.min(wheels_us).min(cleaners_us).min(answer_us)
     }
 
     /// Carries out a command.

@@ -1,0 +1,165 @@
+//! Reaction to a shorted transistor of the charger (S18). The current cannot be switched off; only leaving the dock ends
+//! it. The robot reports the fault at once. If the host does nothing the robot warns with three beeps, waits 2 s and backs
+//! off by itself, up to 0.2 m, at most three times.
+
+use rvac_protocol::message::{
+    Beep, Command, Drive, LogLevel, Motor, MotorCommand, MoveEnd, Refusal, Sequence,
+};
+use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Throttle, Tick};
+
+use crate::board::Parts;
+use crate::cord::Cord;
+use crate::timing::{Deadline, HoldTimer, Periodic};
+
+const TRIES_MAX: u8 = 3;
+const WARNING_MS: u32 = 2_000;
+/// A try lasts no longer: 0.2 m. The same time passes before the next one.
+const TRY_MS: u32 = 2_000;
+const SPEED: Speed = Speed(-100_000);
+/// Without encoders the speed is not known: a duty that moves any robot, not fast.
+const BLIND_DUTY: i32 = -450_000;
+/// The motion is renewed at this period, and its lease is a little longer.
+const RENEW_MS: u32 = 100;
+const LEASE_MS: u16 = 150;
+/// The contacts must have been open for this long: the robot is then some centimetres away.
+const OPEN_MS: u32 = 400;
+
+/// Stage of the escape.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum EscapeStage {
+    #[default]
+    Resting,
+    Warning,
+    Backing,
+}
+
+/// Backing off a dock whose current cannot be switched off.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DockEscape {
+    stage: EscapeStage,
+    deadline: Deadline,
+    renew: Periodic,
+    open: HoldTimer,
+    tries: u8,
+}
+
+impl DockEscape {
+    pub(crate) fn starting_at(now: Tick) -> Self {
+        Self {
+            stage: EscapeStage::Resting,
+            deadline: Deadline::NONE,
+            renew: Periodic::starting_at(now),
+            open: HoldTimer::default(),
+            tries: 0,
+        }
+    }
+
+    /// Whether the robot is backing off.
+    pub(crate) fn is_backing(&self) -> bool {
+        self.stage == EscapeStage::Backing
+    }
+}
+
+impl<P: Parts> Cord<P> {
+    /// Backs off the dock if current flows that nothing else can stop.
+    pub(crate) fn escape_shorted_dock(&mut self, now: Tick) {
+        // A host that has armed the robot on the dock drives it off itself.
+        let led = self.reflexes.host.is_armed() && !self.dock_escape.is_backing();
+        let held = self.is_charger_shorted() && self.reflexes.dock.is_docked() && !led;
+        let over = self.dock_escape.deadline.has_come(now);
+        match self.dock_escape.stage {
+            EscapeStage::Resting if !held => self.dock_escape.tries = 0,
+            EscapeStage::Resting
+                if self.dock_escape.tries < TRIES_MAX && !self.dock_escape.deadline.is_running() =>
+            {
+                self.warn(now);
+            }
+            EscapeStage::Resting => {}
+            EscapeStage::Warning if over && held => self.begin_backing(now),
+            EscapeStage::Warning if over => self.dock_escape.stage = EscapeStage::Resting,
+            EscapeStage::Warning => {}
+            EscapeStage::Backing => self.back_off(over, now),
+        }
+    }
+
+    /// Ends when the contacts are open or the time is over; the robot is then disarmed.
+    fn back_off(&mut self, over: bool, now: Tick) {
+        let open = !self.senses.docked;
+        let away = self.dock_escape.open.for_at_least(open, now, OPEN_MS);
+        if !over && !away && self.dock_escape.renew.is_due(now, RENEW_MS) {
+            let answer = self.push_back(now);
+            if let Err(refusal) = answer {
+                self.journal
+                    .note(LogLevel::Error, "cannot leave the dock:", refusal.name());
+            }
+        }
+        if over || away {
+            self.dock_escape.stage = EscapeStage::Resting;
+            self.dock_escape.deadline = Deadline::at(now.after(TRY_MS));
+            self.reflexes.host.disarm();
+            self.reflexes.dock.stay();
+            self.stop_all(MoveEnd::Inhibited);
+        }
+    }
+
+    fn warn(&mut self, now: Tick) {
+        self.dock_escape.stage = EscapeStage::Warning;
+        self.dock_escape.deadline = Deadline::at(now.after(WARNING_MS));
+        self.dock_escape.tries = self.dock_escape.tries.saturating_add(1);
+        self.journal.note(
+            LogLevel::Error,
+            "charger does not switch off:",
+            "leaving the dock",
+        );
+        for pitch in [880, 0, 880, 0, 880] {
+            self.sound.queue(Beep {
+                pitch: Frequency(pitch),
+                duration_ms: 200,
+                volume: Ratio::ONE,
+            });
+        }
+    }
+
+    /// Goes through the same code as a command of the host, so that the permit and every reflex apply.
+    fn begin_backing(&mut self, now: Tick) {
+        self.dock_escape.stage = EscapeStage::Backing;
+        self.dock_escape.deadline = Deadline::at(now.after(TRY_MS));
+        self.dock_escape.renew = Periodic::starting_at(now);
+        self.dock_escape.open.restart();
+        let undock = Command::Arm {
+            sequence: Sequence(0),
+            undock: true,
+        };
+        if let Err(refusal) = self.carry_out(&undock, now) {
+            self.journal
+                .note(LogLevel::Error, "cannot leave the dock:", refusal.name());
+        }
+    }
+
+    fn push_back(&mut self, now: Tick) -> Result<(), Refusal> {
+        let sequence = Sequence(0);
+        if self.fitted.encoders {
+            return self.carry_out(
+                &Command::Drive(Drive {
+                    speed: SPEED,
+                    turn: AngularSpeed::ZERO,
+                    lease_ms: LEASE_MS,
+                    sequence,
+                    seen_tick: now,
+                }),
+                now,
+            );
+        }
+        for motor in [Motor::WheelLeft, Motor::WheelRight] {
+            let back = MotorCommand {
+                motor,
+                throttle: Throttle::saturating_from_millionths(BLIND_DUTY),
+                lease_ms: LEASE_MS,
+                sequence,
+                seen_tick: now,
+            };
+            self.carry_out(&Command::Motor(back), now)?;
+        }
+        Ok(())
+    }
+}

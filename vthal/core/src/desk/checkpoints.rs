@@ -1,0 +1,100 @@
+//! Checkpoints for the disk, made in steps while the robot drives.
+
+use brain::{BehaviorState, CheckpointWork};
+
+use rvac_api::RunRecord;
+
+use crate::Checkpoint;
+use crate::mind::Mind;
+
+/// Pause between two checkpoints of a small map.
+const CHECKPOINT_US: u64 = 1_000_000;
+/// Each entry of the map lengthens that pause by this much, so that a large one does not wear out the disk.
+const CHECKPOINT_US_PER_ENTRY: u64 = 100;
+
+/// When the next one is due, and the one that is being made.
+#[derive(Debug, Default)]
+pub(crate) struct CheckpointClock {
+    next_us: u64,
+    had_job: bool,
+    on_its_way: Option<CheckpointOnItsWay>,
+}
+
+/// A checkpoint of which the home is still being written down.
+#[derive(Debug)]
+struct CheckpointOnItsWay {
+    /// All but the brain.
+    rest: Checkpoint,
+    brain: CheckpointWork,
+}
+
+impl CheckpointOnItsWay {
+    fn go_on(&mut self) -> Option<Checkpoint> {
+        let brain = self.brain.go_on()?;
+        Some(Checkpoint {
+            brain,
+            ..self.rest.clone()
+        })
+    }
+}
+
+impl CheckpointClock {
+    /// Makes a checkpoint when one is due, and goes on with one that is being made. `run` is the record of the run that goes on.
+    pub(crate) fn follow(
+        &mut self,
+        now_us: u64,
+        mind: &Mind,
+        run: impl FnOnce() -> Option<RunRecord>,
+    ) -> Option<Checkpoint> {
+        if let Some(work) = &mut self.on_its_way {
+            let checkpoint = work.go_on()?;
+            self.on_its_way = None;
+            return Some(checkpoint);
+        }
+        if now_us < self.next_us {
+            return None;
+        }
+        let has_job = works(mind);
+        if has_job || self.had_job {
+            self.had_job = has_job;
+            self.on_its_way = Some(CheckpointOnItsWay {
+                rest: Checkpoint {
+                    device: mind.device().to_owned(),
+                    floor: mind.floor(),
+                    brain: brain::Checkpoint::default(),
+                    run: run().map(Box::new),
+                },
+                brain: mind.brain().begin_checkpoint(),
+            });
+        }
+        let map = mind.brain().map().snapshot();
+        let home_cells = mind.brain().map().knowledge().values().len();
+        let entries = (map.swept.len() / 8 + map.path.len() + map.marks.len() + home_cells / 8) as u64;
+        self.next_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
+        None
+    }
+}
+
+/// Whether a job runs or waits.
+pub(crate) fn works(mind: &Mind) -> bool {
+    let status = mind.brain().status();
+    let active = matches!(
+        status.state,
+        BehaviorState::Starting | BehaviorState::Cleaning | BehaviorState::Spot | BehaviorState::Docking
+    );
+    active || status.resumable
+}
+
+/// Pose and map without a job: an orderly end is not an interruption.
+pub(crate) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
+    let brain = brain::Checkpoint {
+        job: None,
+        ..mind.brain().checkpoint()
+    };
+    Checkpoint {
+        device: mind.device().to_owned(),
+        floor: mind.floor(),
+        brain,
+        run: None,
+    }
+}

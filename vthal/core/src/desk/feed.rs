@@ -1,0 +1,289 @@
+//! What clients are told, and how often.
+
+use brain::{MapCursor, SweptShare};
+use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedWay, Pose, Status, Topic, Update};
+
+use super::audience::Teller;
+use super::clients::Clients;
+use super::sources::Sources;
+use crate::mind::Mind;
+use crate::swept_sigma::SweptSigma;
+use crate::{Record, to_api};
+
+/// Poses go out at most this often.
+const POSE_US: u64 = 50_000;
+/// The device table goes out this often.
+const DEVICE_US: u64 = 500_000;
+/// The device table goes to a recording this often.
+const RECORDED_DEVICE_US: u64 = 1_000_000;
+/// Map deltas go out at most this often.
+const MAP_US: u64 = 200_000;
+/// A status whose figures alone changed goes out at most this often.
+const FIGURES_US: u64 = 1_000_000;
+/// Pause between two views of the home: walls are looked for in each.
+const HOME_US: u64 = 5_000_000;
+/// Estimates go out at most this often.
+const ESTIMATE_US: u64 = 500_000;
+/// Pause between two looks at how much is swept: cells are counted in each.
+const SHARE_US: u64 = 5_000_000;
+/// Changes of an estimate that nobody would see: metres or radians, and shares.
+const UNSEEN: f64 = 0.002;
+/// Planned ways go out at most this often.
+const WAY_US: u64 = 2_000_000;
+
+/// When each kind of update last went out.
+#[derive(Debug, Default)]
+pub(crate) struct Feed {
+    status: Option<Status>,
+    status_us: u64,
+    pose: Pose,
+    pose_us: u64,
+    device_us: u64,
+    recorded_device_us: u64,
+    map_us: u64,
+    map_cursor: MapCursor,
+    map_number: u32,
+    swept_us: u64,
+    swept_cursor: MapCursor,
+    swept_number: u32,
+    swept_sigma: SweptSigma,
+    home_us: u64,
+    home_revision: u32,
+    estimate_us: u64,
+    estimate: Estimate,
+    share_us: u64,
+    share: Option<SweptShare>,
+    floors: Option<FloorsView>,
+    way_us: u64,
+    way: PlannedWay,
+    state_changed_us: Option<u64>,
+}
+
+impl Feed {
+    /// The behaviour state has changed.
+    pub(crate) fn state_changed(&mut self, now_us: u64) {
+        self.state_changed_us = Some(now_us);
+    }
+
+    /// A person has changed the home and waits to see it: it is told at once.
+    pub(crate) fn tell_home_now(&mut self) {
+        self.home_us = 0;
+    }
+
+    /// Whether it has changed within the last `span_us`.
+    pub(crate) fn state_changed_within(&self, now_us: u64, span_us: u64) -> bool {
+        self.state_changed_us
+            .is_some_and(|then_us| now_us < then_us + span_us)
+    }
+
+    /// When something is due that no report of the robot would bring.
+    pub(crate) fn next_wake_us(&self, clients: &Clients) -> Option<u64> {
+        clients.any(Topic::Device).then_some(self.device_us + DEVICE_US)
+    }
+
+    /// Tells followers and the recording what is due.
+    pub(crate) fn feed(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
+        let now_us = teller.now_us;
+        if teller.has_any_follower() || teller.records_run() {
+            self.feed_status(sources, teller);
+            self.feed_pose(sources, teller);
+        }
+        if teller.has_followers(Topic::Device) && now_us >= self.device_us + DEVICE_US {
+            self.device_us = now_us;
+            teller.tell(Topic::Device, Update::Device(sources.device_table(now_us)));
+        }
+        if teller.records_run() && now_us >= self.recorded_device_us + RECORDED_DEVICE_US {
+            self.recorded_device_us = now_us;
+            teller.record(|| Record::Device {
+                time_us: now_us,
+                table: Box::new(sources.device_table(now_us)),
+            });
+        }
+        // Whether or not anybody looks: later nobody knows how sure the robot was.
+        if now_us >= self.swept_us + MAP_US {
+            self.swept_us = now_us;
+            self.note_swept(sources.mind);
+        }
+        self.feed_home_and_way(sources, teller);
+    }
+
+    fn feed_home_and_way(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
+        let now_us = teller.now_us;
+        if teller.has_followers(Topic::Map) && now_us >= self.map_us + MAP_US {
+            self.map_us = now_us;
+            self.feed_map(sources.mind, teller);
+        }
+        if teller.has_followers(Topic::Home) && now_us >= self.home_us + HOME_US {
+            self.home_us = now_us;
+            self.feed_home(sources.mind, teller);
+        }
+        if teller.has_followers(Topic::Estimate) && now_us >= self.estimate_us + ESTIMATE_US {
+            self.estimate_us = now_us;
+            self.feed_estimate(sources.mind, teller);
+        }
+        if teller.has_followers(Topic::Way) && now_us >= self.way_us + WAY_US {
+            self.way_us = now_us;
+            self.feed_way(sources.mind, teller);
+        }
+        if teller.has_followers(Topic::Floors) {
+            self.feed_floors(sources, teller);
+        }
+    }
+
+    fn feed_estimate(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
+        let Some(mind) = mind else { return };
+        if teller.now_us >= self.share_us + SHARE_US {
+            self.share_us = teller.now_us;
+            self.share = mind.brain().swept_share();
+        }
+        let estimate = to_api::estimate(mind.brain(), self.share);
+        if !looks_alike(&self.estimate, &estimate) {
+            self.estimate = estimate;
+            teller.tell(Topic::Estimate, Update::Estimate(estimate));
+        }
+    }
+
+    fn feed_floors(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
+        if sources.floors.is_news(self.floors.as_ref(), sources.mind) {
+            let floors = sources.floors.view(sources.mind);
+            self.floors = Some(floors.clone());
+            teller.tell(Topic::Floors, Update::Floors(floors));
+        }
+    }
+
+    fn feed_way(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
+        let Some(mind) = mind else { return };
+        let way = to_api::way(mind.brain());
+        if way != self.way {
+            self.way = way.clone();
+            teller.tell(Topic::Way, Update::Way(way));
+        }
+    }
+
+    fn feed_home(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
+        let Some(mind) = mind else { return };
+        let revision = mind.home_revision();
+        if revision != self.home_revision {
+            self.home_revision = revision;
+            teller.tell(Topic::Home, Update::Home(mind.home_view()));
+        }
+    }
+
+    fn feed_status(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
+        let now_us = teller.now_us;
+        let status = sources.status();
+        let due = match &self.status {
+            Some(old) if is_same_situation(old, &status) => {
+                *old != status && now_us >= self.status_us + FIGURES_US
+            }
+            _ => true,
+        };
+        if !due {
+            return;
+        }
+        self.status_us = now_us;
+        self.status = Some(status.clone());
+        teller.record(|| Record::Status {
+            time_us: now_us,
+            status: status.clone(),
+        });
+        if teller.has_followers(Topic::Status) {
+            teller.tell(Topic::Status, Update::Status(status));
+        }
+    }
+
+    fn feed_pose(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
+        if teller.now_us < self.pose_us + POSE_US {
+            return;
+        }
+        let pose = sources.pose();
+        let moved = Pose {
+            t: self.pose.t,
+            ..pose
+        } != self.pose;
+        if !moved {
+            return;
+        }
+        self.pose = pose;
+        self.pose_us = teller.now_us;
+        teller.record(|| Record::Pose(pose));
+        if teller.has_followers(Topic::Pose) {
+            teller.tell(Topic::Pose, Update::Pose(pose));
+        }
+    }
+
+    /// Notes how sure the robot was of its place when it swept what is new.
+    fn note_swept(&mut self, mind: Option<&Mind>) {
+        let Some(mind) = mind else { return };
+        let (number, map) = (mind.map_number(), mind.brain().map());
+        let new = (number == self.swept_number)
+            .then(|| map.since(self.swept_cursor))
+            .flatten();
+        self.swept_cursor = mind.map_cursor();
+        self.swept_number = number;
+        let present_m = mind.brain().estimate().sigma_m;
+        if let Some(part) = new {
+            self.swept_sigma.add(part.swept.len(), present_m);
+            return;
+        }
+        // Drawn anew or read from the disk: the home remembers how surely it was seen.
+        self.swept_sigma = SweptSigma::default();
+        for cell in map.snapshot().swept {
+            let sigma_m = map.sigma_m(*cell).unwrap_or(present_m);
+            self.swept_sigma.add(1, sigma_m);
+        }
+    }
+
+    fn feed_map(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
+        self.note_swept(mind);
+        let Some(mind) = mind else { return };
+        let number = mind.map_number();
+        let delta = (number == self.map_number)
+            .then(|| mind.brain().map().since(self.map_cursor))
+            .flatten();
+        self.map_cursor = mind.map_cursor();
+        self.map_number = number;
+        let update = match delta {
+            Some(part) if part.swept.is_empty() && part.path.is_empty() && part.marks.is_empty() => return,
+            Some(part) => Update::MapDelta(to_api::map_delta(number, &part, &self.swept_sigma)),
+            None => Update::Map(self.whole_map(mind)),
+        };
+        teller.tell(Topic::Map, update);
+    }
+
+    fn whole_map(&self, mind: &Mind) -> MapSnapshot {
+        let snapshot = mind.brain().map().snapshot();
+        to_api::map_snapshot(mind.map_number(), &snapshot, &self.swept_sigma)
+    }
+
+    /// What a new follower of the map gets at once. Others first hear what is new, so that one cursor serves all.
+    pub(crate) fn first_map(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) -> Option<Update> {
+        self.feed_map(mind, teller);
+        mind.map(|mind| Update::Map(self.whole_map(mind)))
+    }
+}
+
+/// Whether two estimates are the same for people.
+fn looks_alike(old: &Estimate, new: &Estimate) -> bool {
+    let near = |one: f64, other: f64| (one - other).abs() < UNSEEN;
+    let both = |one: Option<f64>, other: Option<f64>| match (one, other) {
+        (Some(one), Some(other)) => near(one, other),
+        (one, other) => one.is_none() && other.is_none(),
+    };
+    old.lost == new.lost
+        && near(old.sigma_m, new.sigma_m)
+        && near(old.sigma_rad, new.sigma_rad)
+        && both(old.agreement, new.agreement)
+        && both(old.covered, new.covered)
+        && both(old.covered_low, new.covered_low)
+}
+
+/// Whether only figures differ, which change all the time.
+fn is_same_situation(old: &Status, new: &Status) -> bool {
+    old.state == new.state
+        && old.reason == new.reason
+        && old.strategy == new.strategy
+        && old.inhibits == new.inhibits
+        && old.driver == new.driver
+        && old.bumps == new.bumps
+}

@@ -1,0 +1,129 @@
+//! Floor that clients forbid.
+
+use brain::zone::FAR_M;
+use brain::{Brain, Command, NoGo, Point2, Reason};
+use rvac_api::NoGoShape;
+
+use super::{Edit, known_home};
+use crate::desk::words::{to_name, to_zone};
+use crate::mind::Mind;
+use crate::refusal::Refusal;
+
+/// What clients say of forbidden floor.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum NoGoRequest {
+    /// Forbids floor.
+    Add { shape: NoGoShape, name: Option<String> },
+    /// Allows it again.
+    Remove { number: u16 },
+    /// Names it, or takes its name away.
+    Name { number: u16, name: Option<String> },
+    /// Forbids other floor under its number and name.
+    Reshape { number: u16, shape: NoGoShape },
+}
+
+impl NoGoRequest {
+    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+        match self {
+            Self::Add { shape, name } => {
+                let name = name.as_deref().map(to_name).transpose()?;
+                let no_go = to_no_go(shape)?.with_name(name);
+                let brain = known_home(mind)?.brain();
+                let command = Command::AddNoGo { no_go };
+                Edit::admitted(brain, command, "forbids floor of the map")
+                    .map_err(|reason| of_forbidden(reason, brain))
+            }
+            Self::Remove { number } => {
+                let brain = known_home(mind)?.brain();
+                let command = Command::RemoveNoGo { number: *number };
+                Edit::admitted(brain, command, "allows floor of the map again")
+                    .map_err(|reason| Refusal::because(reason, no_such_no_go(*number, brain)))
+            }
+            Self::Name { number, name } => {
+                let name = name.as_deref().map(to_name).transpose()?;
+                let brain = known_home(mind)?.brain();
+                let command = Command::NameNoGo {
+                    number: *number,
+                    name,
+                };
+                Edit::admitted(brain, command, "names forbidden floor").map_err(|reason| match reason {
+                    Reason::NameTaken => another_no_go(),
+                    _ => Refusal::because(reason, no_such_no_go(*number, brain)),
+                })
+            }
+            Self::Reshape { number, shape } => {
+                let no_go = to_no_go(shape)?;
+                let brain = known_home(mind)?.brain();
+                let command = Command::ReshapeNoGo {
+                    number: *number,
+                    no_go,
+                };
+                Edit::admitted(brain, command, "reshapes forbidden floor").map_err(|reason| match reason {
+                    Reason::NoSuchNoGo => Refusal::because(reason, no_such_no_go(*number, brain)),
+                    _ => of_forbidden(reason, brain),
+                })
+            }
+        }
+    }
+}
+
+pub(crate) fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
+    match shape {
+        NoGoShape::Zone(corners) => Ok(NoGo::zone(&to_zone("The no-go zone", corners)?)?),
+        NoGoShape::Wall([[x, y], [to_x, to_y]]) => {
+            let (from, to) = (
+                Point2 { x_m: *x, y_m: *y },
+                Point2 {
+                    x_m: *to_x,
+                    y_m: *to_y,
+                },
+            );
+            NoGo::wall(from, to).map_err(|reason| {
+                let text = format!(
+                    "The virtual wall from x {x} m, y {y} m to x {to_x} m, y {to_y} m cannot be: its ends must be two \
+                     places within {FAR_M} m."
+                );
+                Refusal::because(reason, text)
+            })
+        }
+    }
+}
+
+/// Why floor is not forbidden.
+fn of_forbidden(reason: Reason, brain: &Brain) -> Refusal {
+    match reason {
+        Reason::NoFloorThere => Refusal::no_floor_there("in it", brain),
+        Reason::DockInside => Refusal::because(reason, dock_inside(brain)),
+        Reason::NameTaken => another_no_go(),
+        _ => Refusal::from(reason),
+    }
+}
+
+fn dock_inside(brain: &Brain) -> String {
+    let place = brain.map().dock().unwrap_or_default();
+    format!(
+        "The dock stands there (x {:.2} m, y {:.2} m), and the robot could not reach it any more: leave room around it.",
+        place.x_m, place.y_m
+    )
+}
+
+fn another_no_go() -> Refusal {
+    let text = "Another no-go zone or virtual wall is called so: take another name.";
+    Refusal::because(Reason::NameTaken, text.to_owned())
+}
+
+fn no_such_no_go(number: u16, brain: &Brain) -> String {
+    let numbers: Vec<String> = brain
+        .map()
+        .annotations()
+        .no_go()
+        .map(|(number, _)| number.to_string())
+        .collect();
+    if numbers.is_empty() {
+        return format!("There is no no-go zone {number}: the map has none.");
+    }
+    format!(
+        "There is no no-go zone {number}: the map has {}.",
+        numbers.join(", ")
+    )
+}

@@ -1,0 +1,201 @@
+//! What clients say of rooms, and where the dock stands. What rooms there are, and the dock, change only while the robot rests.
+
+use brain::CutLine;
+use brain::zone::FAR_M;
+use brain::{Brain, Command, Point2, Pose2, Reason};
+use rvac_api::{RoomNaming, RoomSettings, RoomSplitting};
+
+use super::{Edit, known_home};
+use crate::desk::room_power::to_brain;
+use crate::desk::words::to_name;
+use crate::mind::Mind;
+use crate::refusal::Refusal;
+
+/// What clients say of rooms.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum RoomRequest {
+    /// Names a room, or takes its name away.
+    Name(RoomNaming),
+    /// Says how it is cleaned; without settings as any other.
+    Set {
+        room: u16,
+        settings: Option<RoomSettings>,
+    },
+    /// Cuts it in two along a line.
+    Split(RoomSplitting),
+    /// Makes two rooms one.
+    Join { rooms: [u16; 2] },
+    /// Takes a change of the rooms back.
+    Undo { number: u16 },
+}
+
+impl RoomRequest {
+    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+        match self {
+            Self::Name(naming) => name_room(naming, mind),
+            Self::Set { room, settings } => set_room(*room, *settings, mind),
+            Self::Split(splitting) => split_room(splitting, mind),
+            Self::Join { rooms } => join_rooms(*rooms, mind),
+            Self::Undo { number } => undo_room_change(*number, mind),
+        }
+    }
+}
+
+fn name_room(naming: &RoomNaming, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    let room = naming.room;
+    let name = naming.name.as_deref().map(to_name).transpose()?;
+    let brain = known_home(mind)?.brain();
+    let command = Command::NameRoom { room, name };
+    Edit::admitted(brain, command, "names a room").map_err(|reason| match reason {
+        Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
+        Reason::NameTaken => {
+            Refusal::because(reason, "Another room is called so: take another name.".to_owned())
+        }
+        _ => Refusal::from(reason),
+    })
+}
+
+fn set_room(room: u16, settings: Option<RoomSettings>, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    let settings = settings.map(to_brain).transpose()?;
+    let brain = known_home(mind)?.brain();
+    let command = Command::SetRoom { room, settings };
+    Edit::admitted(brain, command, "says how a room is cleaned").map_err(|reason| match reason {
+        Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
+        _ => Refusal::from(reason),
+    })
+}
+
+fn split_room(splitting: &RoomSplitting, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    let line = to_line(splitting.line)?;
+    let room = splitting.room;
+    let brain = resting_home(mind)?.brain();
+    let command = Command::SplitRoom { room, line };
+    Edit::admitted(brain, command, "splits a room").map_err(|reason| match (reason, room) {
+        (Reason::NoSuchRoom, Some(room)) => Refusal::no_such_room(room, brain),
+        (Reason::LineMissesRoom, Some(room)) => Refusal::because(
+            reason,
+            format!(
+                "The line from {} does not cut room {room}: draw it across the room, from one wall to the other.",
+                ends(splitting.line)
+            ),
+        ),
+        _ => of_line(reason, splitting.line),
+    })
+}
+
+fn join_rooms(rooms: [u16; 2], mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    let brain = resting_home(mind)?.brain();
+    let command = Command::JoinRooms { rooms };
+    Edit::admitted(brain, command, "joins two rooms").map_err(|reason| match reason {
+        Reason::NoSuchRoom => {
+            let is_known = |id: u16| brain.map().rooms().rooms().iter().any(|room| room.id == id);
+            let missing = rooms.into_iter().find(|id| !is_known(*id));
+            Refusal::no_such_room(missing.unwrap_or_default(), brain)
+        }
+        Reason::RoomsApart => Refusal::because(reason, rooms_apart(rooms, brain)),
+        _ => Refusal::from(reason),
+    })
+}
+
+fn undo_room_change(number: u16, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    let brain = resting_home(mind)?.brain();
+    let command = Command::UndoRoomChange { number };
+    Edit::admitted(brain, command, "takes a change of the rooms back")
+        .map_err(|reason| Refusal::because(reason, not_undone(reason, number, brain)))
+}
+
+fn not_undone(reason: Reason, number: u16, brain: &Brain) -> String {
+    let changes = brain.map().annotations().room_changes();
+    if let (Reason::RoomChangeInUse, Some(later)) = (reason, changes.built_on(number)) {
+        return format!("Change {later} of the rooms builds on change {number}: take {later} back first.");
+    }
+    let numbers: Vec<String> = changes.made().map(|(number, _)| number.to_string()).collect();
+    let known = if numbers.is_empty() {
+        "the rooms are as the robot found them".to_owned()
+    } else {
+        format!("there are {}", numbers.join(", "))
+    };
+    format!("There is no change {number} of the rooms: {known}.")
+}
+
+pub(super) fn move_dock(pose: Pose2, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    let brain = resting_home(mind)?.brain();
+    let command = Command::MoveDock { pose };
+    Edit::admitted(brain, command, "says where the dock stands").map_err(|reason| match reason {
+        Reason::NoFloorThere => Refusal::no_floor_there(&format!("under {}", robot_at(pose)), brain),
+        Reason::DockInside => Refusal::because(
+            reason,
+            format!(
+                "A no-go zone lies under {}: put the dock beside it, or remove the zone first.",
+                robot_at(pose)
+            ),
+        ),
+        _ => Refusal::from(reason),
+    })
+}
+
+/// Rooms are looked for anew with each change, and a job keeps the rooms and the dock that it has.
+fn resting_home(mind: Option<&Mind>) -> Result<&Mind, Refusal> {
+    let mind = known_home(mind)?;
+    if !mind.rests() || mind.holds_commands() {
+        return Err("job-runs".into());
+    }
+    Ok(mind)
+}
+
+fn robot_at(pose: Pose2) -> String {
+    format!("a robot on a dock at x {:.2} m, y {:.2} m", pose.x_m, pose.y_m)
+}
+
+fn to_line(line: [[f64; 2]; 2]) -> Result<CutLine, Refusal> {
+    let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
+    CutLine::new(from, to).map_err(|reason| of_line(reason, line))
+}
+
+fn of_line(reason: Reason, line: [[f64; 2]; 2]) -> Refusal {
+    let ends = ends(line);
+    let text = match reason {
+        Reason::BadLine => {
+            format!("The line from {ends} cannot be: its ends must be two places within {FAR_M} m.")
+        }
+        Reason::LineMissesRoom => {
+            format!(
+                "The line from {ends} lies in no room: draw it across a room, from one wall to the other."
+            )
+        }
+        Reason::LineEndsInRoom => format!(
+            "The line from {ends} leaves a way round it: draw it across the whole room, from one wall to the other."
+        ),
+        Reason::PartTooSmall => format!(
+            "The line from {ends} cuts off less than half a square metre: draw it farther from the wall."
+        ),
+        _ => return Refusal::from(reason),
+    };
+    Refusal::because(reason, text)
+}
+
+fn ends([[x, y], [to_x, to_y]]: [[f64; 2]; 2]) -> String {
+    format!("x {x:.2} m, y {y:.2} m to x {to_x:.2} m, y {to_y:.2} m")
+}
+
+fn rooms_apart([one, other]: [u16; 2], brain: &Brain) -> String {
+    if one == other {
+        return format!("Room {one} is one room: name two rooms that lie beside each other.");
+    }
+    let doors = brain.map().rooms().doors().iter();
+    let beside: Vec<String> = doors
+        .filter(|door| door.rooms.contains(&one))
+        .flat_map(|door| door.rooms)
+        .filter(|id| *id != one)
+        .map(|id| id.to_string())
+        .collect();
+    if beside.is_empty() {
+        return format!(
+            "Rooms {one} and {other} do not lie beside each other: no room lies beside room {one}."
+        );
+    }
+    format!(
+        "Rooms {one} and {other} do not lie beside each other: beside room {one} lie {}.",
+        beside.join(", ")
+    )
+}

@@ -1,0 +1,151 @@
+//! What the robot has learnt of itself: it goes to the disk after each run, a robot that was seen before begins with it, and
+//! people may look at it and have it forgotten.
+
+use brain::{Learnt, LearntPart};
+use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
+
+use super::audience::{Asker, Asking, Teller};
+use super::awaited::Awaited;
+use super::journal::Part;
+use crate::Outputs;
+use crate::learnt::{Kept, Learnings, StoredLearnings, told};
+use crate::outputs::LearntOrder;
+use crate::refusal::Refusal;
+
+/// Seconds of an hour.
+const HOUR_S: f64 = 3600.0;
+
+/// What clients ask of what was learnt.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum LearntRequest {
+    /// What is kept.
+    Show,
+    /// A robot shall learn something anew.
+    Forget(Forgetting),
+}
+
+/// What a robot shall forget.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Forgetting {
+    /// The robot's name.
+    pub(crate) device: String,
+    /// What; `None` = all.
+    pub(crate) part: Option<rvac_api::LearntPart>,
+}
+
+impl Forgetting {
+    pub(crate) fn parts(&self) -> &'static [LearntPart] {
+        match self.part {
+            Some(rvac_api::LearntPart::Gyro) => &[LearntPart::Gyro],
+            Some(rvac_api::LearntPart::Energy) => &[LearntPart::Energy],
+            None => &[LearntPart::Gyro, LearntPart::Energy],
+        }
+    }
+}
+
+/// What robots have learnt, and those who wait until the disk has forgotten, with what was kept before.
+#[derive(Debug, Default)]
+pub(crate) struct LearntDesk {
+    learnings: Learnings,
+    forgetting: Awaited<Kept>,
+}
+
+impl LearntDesk {
+    pub(crate) fn new(learnings: Learnings) -> Self {
+        Self {
+            learnings,
+            ..Self::default()
+        }
+    }
+
+    /// What a robot of this name begins with.
+    pub(crate) fn of(&self, device: &str) -> Learnt {
+        self.learnings.of(device)
+    }
+
+    /// Tells what a robot of this name begins with.
+    pub(crate) fn introduce(&self, device: &str, teller: &mut Teller<'_>) {
+        if let Some(text) = told(&self.of(device)) {
+            teller.log(LogLevel::Info, Part::Vthal, text);
+        }
+    }
+
+    /// Hands out what the robot has learnt, if it is news.
+    pub(crate) fn keep(&mut self, kept: Kept, outputs: &mut Outputs) {
+        if self.learnings.take(kept) {
+            self.write(outputs);
+        }
+    }
+
+    fn write(&mut self, outputs: &mut Outputs) {
+        outputs.learnt = Some(LearntOrder {
+            number: self.forgetting.next_order(),
+            learnt: StoredLearnings::from(&self.learnings),
+        });
+    }
+
+    /// What is kept; `here` is the robot that is attached.
+    pub(crate) fn show(&self, asker: Asker, here: Option<&str>) -> Update {
+        Update::Learnt {
+            id: asker.id,
+            devices: self.learnings.iter().map(|kept| view(kept, here)).collect(),
+        }
+    }
+
+    /// Forgets something of a robot. Whoever asked is answered when the disk has it. The robot that is here may have learnt
+    /// something that is not kept yet.
+    ///
+    /// # Errors
+    /// Nothing is known of the robot.
+    pub(crate) fn forget(
+        &mut self,
+        Asking { asker, request }: &Asking<Forgetting>,
+        here: Option<&str>,
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let known = self.learnings.forget(&request.device, request.parts());
+        let before = match known {
+            Some(before) => before,
+            None if here == Some(&request.device) => Kept::default(),
+            None => return Err("nothing-learnt".into()),
+        };
+        self.write(outputs);
+        self.forgetting.wait(*asker, before);
+        Ok(())
+    }
+
+    /// The disk has what it was given under this number, or says why it has not. The robot that is here learns anew all the same,
+    /// and with its next run the disk hears of that.
+    pub(crate) fn kept(&mut self, number: u64, result: Result<(), String>, teller: &mut Teller<'_>) {
+        let result = result.map_err(|text| Refusal {
+            reason: "learnt-unwritable",
+            text,
+        });
+        for before in self.forgetting.kept(number, result, teller) {
+            self.learnings.take(before);
+        }
+    }
+}
+
+fn view(kept: &Kept, here: Option<&str>) -> LearntView {
+    let Kept {
+        device,
+        learnt,
+        learnt_s,
+    } = kept;
+    LearntView {
+        device: device.clone(),
+        here: here == Some(device),
+        learnt_s: *learnt_s,
+        gyro: learnt.gyro.map(|gyro| GyroLearnt {
+            scale: gyro.scale,
+            scale_sigma: gyro.scale_sigma,
+            bias_rad_per_s: gyro.bias_rad_per_s,
+        }),
+        energy: (learnt.energy.seen_s > 0.0).then_some(EnergyLearnt {
+            cleaning_per_h: HOUR_S * learnt.energy.cleaning_per_s,
+            driving_per_h: HOUR_S * learnt.energy.driving_per_s,
+            seen_s: learnt.energy.seen_s,
+        }),
+    }
+}

@@ -1,0 +1,34 @@
+//! The desks of the daemon. Each owns what it knows, takes the time and the facts of others as plain arguments, and says
+//! what there is to say through a [`audience::Teller`]; none can reach the state of another. [`crate::Core`] holds them all
+//! and routes inputs and requests between them.
+
+pub(crate) mod arbiter;
+pub(crate) mod audience;
+mod awaited;
+pub(crate) mod button_desk;
+mod buttons;
+pub(crate) mod checkpoints;
+mod client_inputs;
+mod clients;
+pub(crate) mod driver;
+pub(crate) mod evidence;
+pub(crate) mod feed;
+pub(crate) mod floors;
+pub(crate) mod health;
+pub(crate) mod history;
+pub(crate) mod home;
+pub(crate) mod input_desk;
+pub(crate) mod jobs;
+pub(crate) mod journal;
+pub(crate) mod learnt;
+pub(crate) mod link;
+mod link_facts;
+pub(crate) mod readiness;
+mod refusal_log;
+pub(crate) mod reply;
+pub(crate) mod room_power;
+mod scheduler;
+pub(crate) mod schedules;
+pub(crate) mod sources;
+pub(crate) mod standstills;
+pub(crate) mod words;

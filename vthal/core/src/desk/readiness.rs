@@ -1,0 +1,139 @@
+//! What decides whether a job may start now.
+
+use brain::{Command, StrategyName};
+use rvac_api::ScheduledJob;
+
+use super::checkpoints::works;
+use super::floors::FloorDesk;
+use super::jobs::clean_command;
+use crate::mind::Mind;
+use crate::refusal::{Refusal, Refused};
+use crate::schedule::{Entry, Keeping};
+
+/// The robot is on another floor than the one for which an entry is.
+const OTHER_FLOOR: &str = "other-floor";
+
+/// What of it is known at once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StartFacts {
+    /// Why no robot can be told anything.
+    pub(crate) robot: Result<(), Refused>,
+    /// Why a schedule may not command: everybody else comes before it (S27).
+    pub(crate) schedule: Result<(), Refused>,
+    /// Strategy of a job that names none.
+    pub(crate) usual_strategy: StrategyName,
+}
+
+/// All of it, with what the brain and the floors say.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Readiness<'a> {
+    facts: StartFacts,
+    mind: Option<&'a Mind>,
+    pub(crate) floors: &'a FloorDesk,
+}
+
+impl<'a> Readiness<'a> {
+    pub(crate) fn new(facts: StartFacts, mind: Option<&'a Mind>, floors: &'a FloorDesk) -> Self {
+        Self { facts, mind, floors }
+    }
+
+    /// The floor on which the robot is.
+    pub(crate) fn floor(&self) -> Option<u16> {
+        self.mind.and_then(Mind::floor)
+    }
+
+    /// # Errors
+    /// There is no strategy of this name.
+    pub(crate) fn strategy_named(&self, name: Option<&str>) -> Result<StrategyName, Refused> {
+        match name {
+            None => Ok(self.facts.usual_strategy),
+            Some(name) => StrategyName::from_name(name).ok_or("unknown-strategy"),
+        }
+    }
+
+    /// # Errors
+    /// Why the brain would not obey.
+    pub(crate) fn admit(&self, command: &Command) -> Result<(), Refused> {
+        let mind = self.mind.ok_or("no-robot")?;
+        mind.admit(command).map_err(brain::Reason::name)
+    }
+
+    /// What the brain is told to start the job of a schedule, because a person wants it now.
+    ///
+    /// # Errors
+    /// Why it may not start.
+    pub(crate) fn command_now(&self, entry: &Entry) -> Result<Command, Refusal> {
+        self.facts.robot?;
+        self.require_floor_of(entry)?;
+        self.command_of(&entry.plan().job)
+    }
+
+    /// What the brain is told when a schedule starts its job now, if it may: everybody else comes before it (S27), and what
+    /// keeps any motion from starting keeps it, too (S25).
+    ///
+    /// # Errors
+    /// Why it may not start.
+    pub(crate) fn scheduled_command(&self, entry: &Entry) -> Result<Command, Refused> {
+        self.facts.robot?;
+        self.facts.schedule?;
+        if self.mind.is_some_and(works) {
+            return Err("job-runs");
+        }
+        self.require_floor_of(entry).map_err(|refusal| refusal.reason)?;
+        let command = self
+            .command_of(&entry.plan().job)
+            .map_err(|refusal| refusal.reason)?;
+        match self.mind {
+            Some(mind) if mind.rests() => Ok(command),
+            _ => Err("job-runs"),
+        }
+    }
+
+    /// What the brain is told to start a job; refused as the brain would refuse it.
+    fn command_of(&self, job: &ScheduledJob) -> Result<Command, Refusal> {
+        match job {
+            ScheduledJob::Start { strategy } => {
+                let strategy = self.strategy_named(strategy.as_deref())?;
+                let command = Command::Clean { strategy };
+                self.admit(&command)?;
+                Ok(command)
+            }
+            ScheduledJob::Clean(order) => clean_command(order, self.mind),
+        }
+    }
+
+    /// Whether the robot is on the floor of an entry.
+    fn require_floor_of(&self, entry: &Entry) -> Result<(), Refusal> {
+        match (entry.plan().floor, self.floor()) {
+            (None, _) => Ok(()),
+            (Some(_), None) => Err("map-not-taken-up".into()),
+            (Some(floor), Some(here)) if floor == here => Ok(()),
+            (Some(floor), Some(here)) => Err(self.on_other_floor(floor, here)),
+        }
+    }
+
+    fn on_other_floor(&self, floor: u16, here: u16) -> Refusal {
+        let title = |number| match self.floors.floors().get(number) {
+            Some(floor) => floor.title(),
+            None => format!("floor {number}, which is not there any more"),
+        };
+        Refusal {
+            reason: OTHER_FLOOR,
+            text: format!(
+                "The schedule is for {}, and the robot is on {}: carry it there, or choose rooms of this floor.",
+                title(floor),
+                title(here)
+            ),
+        }
+    }
+}
+
+impl Keeping for Readiness<'_> {
+    fn ready(&self, entry: &Entry) -> Result<(), &'static str> {
+        self.scheduled_command(entry).map(drop)
+    }
+
+    fn on_floor(&self, entry: &Entry) -> Result<(), &'static str> {
+        self.require_floor_of(entry).map_err(|refusal| refusal.reason)
+    }
+}

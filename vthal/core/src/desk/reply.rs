@@ -1,0 +1,25 @@
+//! What a desk says to a request that it does not refuse, and when the client hears it.
+
+use rvac_api::Update;
+
+/// The answer to a request. A desk cannot serve one without saying who answers, and when.
+#[derive(Debug)]
+pub(crate) enum Reply {
+    /// It is done: the client hears so at once, if it gave a number.
+    Done,
+    /// This is the answer, at once.
+    Told(Box<Update>),
+    /// The shell answers when it has carried out the order.
+    ByShell,
+    /// The desk answers when the shell says that the disk has the change or has not.
+    WhenKept,
+    /// The shell answers when it has kept the map that the brain's next step changes; if that step leaves none to keep, the desk
+    /// does.
+    AfterStep,
+}
+
+impl From<Update> for Reply {
+    fn from(update: Update) -> Self {
+        Self::Told(Box::new(update))
+    }
+}

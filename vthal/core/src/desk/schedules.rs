@@ -1,0 +1,262 @@
+//! Schedules: what people want of them, what the clock wants, and what the robot says to that.
+
+use rvac_api::{LogLevel, QuietHours, ScheduleEntry, ScheduledJob, Schedules, Topic, Update};
+
+use super::audience::{Asking, Teller};
+use super::home::with_any_places;
+use super::journal::Part;
+use super::readiness::Readiness;
+use super::reply::Reply;
+use super::scheduler::{Scheduler, Task};
+use super::words::to_order;
+use crate::refusal::Refusal;
+use crate::schedule::{Book, Edit, Entry, Outcome, Plan, ScheduleError, Verdict, Zone};
+
+/// What the robot could start changes without a word; followers hear of it within this time.
+const TOLD_US: u64 = 5_000_000;
+
+/// What clients want changed of the schedules.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum ScheduleRequest {
+    /// A new one.
+    Add(ScheduleEntry),
+    /// Another one in its place.
+    Change { number: u32, entry: ScheduleEntry },
+    /// It is removed.
+    Remove { number: u32 },
+    /// It starts by itself, or no longer.
+    Enable { number: u32, enabled: bool },
+    /// Its next run is left out, or no longer.
+    SkipNext { number: u32, skip: bool },
+    /// When nothing starts.
+    SetQuiet(Option<QuietHours>),
+    /// The time zone by its name; `None` = the system's.
+    SetZone(Option<String>),
+}
+
+impl From<ScheduleError> for Refusal {
+    fn from(error: ScheduleError) -> Self {
+        Self {
+            reason: error.name(),
+            text: error.to_string(),
+        }
+    }
+}
+
+/// What came of a decision about a run.
+pub(crate) struct Decided<'a> {
+    pub(crate) verdict: &'a Verdict,
+    pub(crate) entry: &'a Entry,
+    pub(crate) outcome: Outcome,
+}
+
+/// The schedules, and what followers were told of them.
+#[derive(Debug)]
+pub(crate) struct ScheduleDesk {
+    scheduler: Scheduler,
+    told: Option<Schedules>,
+    told_us: u64,
+    /// The daemon ends: nothing starts any more.
+    ended: bool,
+}
+
+impl ScheduleDesk {
+    /// With schedules as they were kept; of marks that are distrusted the newest may be lost.
+    pub(crate) fn new(book: Book, system_zone: Zone, distrusts_marks: bool) -> Self {
+        Self {
+            scheduler: Scheduler::new(book, system_zone, distrusts_marks),
+            told: None,
+            told_us: 0,
+            ended: false,
+        }
+    }
+
+    /// All schedules, and what is to be expected of them.
+    pub(crate) fn view(&self, readiness: &Readiness<'_>) -> Schedules {
+        self.scheduler.view(readiness)
+    }
+
+    /// What the clock on the wall shows, if it was ever set.
+    pub(crate) fn clock_s(&self) -> Option<i64> {
+        self.scheduler.set_clock_s()
+    }
+
+    /// The daemon ends.
+    pub(crate) fn end(&mut self) {
+        self.ended = true;
+    }
+
+    /// The clock on the wall shows this.
+    pub(crate) fn set_clock(&mut self, utc_s: i64, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
+        self.scheduler.set_clock(utc_s);
+        self.run(readiness, teller);
+        if teller.has_followers(Topic::Schedules) && teller.now_us >= self.told_us + TOLD_US {
+            self.tell(readiness, teller);
+        }
+    }
+
+    /// A client wants schedules changed. It is answered when the disk has the change.
+    ///
+    /// # Errors
+    /// Why the request is refused.
+    pub(crate) fn serve(
+        &mut self,
+        Asking { asker, request }: Asking<ScheduleRequest>,
+        readiness: &Readiness<'_>,
+        teller: &mut Teller<'_>,
+    ) -> Result<Reply, Refusal> {
+        let edit = match request {
+            ScheduleRequest::Add(entry) => Edit::Add(plan(Plan::from_api(entry)?, readiness)?),
+            ScheduleRequest::Change { number, entry } => {
+                Edit::Change(number, plan(Plan::from_api(entry)?, readiness)?)
+            }
+            ScheduleRequest::Remove { number } => Edit::Remove(number),
+            ScheduleRequest::Enable { number, enabled } => Edit::Enable(number, enabled),
+            ScheduleRequest::SkipNext { number, skip } => Edit::SkipNext(number, skip),
+            ScheduleRequest::SetQuiet(quiet) => Edit::quiet_from_api(quiet.as_ref())?,
+            ScheduleRequest::SetZone(zone) => Edit::zone_from_api(zone.as_deref())?,
+        };
+        if !self.scheduler.take(asker, edit) {
+            return Err("disk-busy".into());
+        }
+        self.run(readiness, teller);
+        Ok(Reply::WhenKept)
+    }
+
+    /// The entry of this number.
+    ///
+    /// # Errors
+    /// There is none.
+    pub(crate) fn entry(&self, number: u32) -> Result<&Entry, Refusal> {
+        Ok(self.scheduler.book().entry(number).map_err(ScheduleError::from)?)
+    }
+
+    /// The disk has the schedules that it was given under this number, or says why it has not. Gives a decision about a run, of
+    /// which the robot may hear now.
+    pub(crate) fn kept(
+        &mut self,
+        number: u64,
+        result: Result<(), String>,
+        teller: &mut Teller<'_>,
+    ) -> Option<Verdict> {
+        match self.scheduler.kept(number, result)? {
+            Task::Decided(verdict) => Some(verdict),
+            task => {
+                do_task(task, teller);
+                None
+            }
+        }
+    }
+
+    /// A run that was decided upon has this outcome.
+    pub(crate) fn note(&mut self, decided: Decided<'_>, teller: &mut Teller<'_>) {
+        let Decided {
+            verdict,
+            entry,
+            outcome,
+        } = decided;
+        if verdict.outcome == Outcome::Starting {
+            do_task(self.scheduler.follow_up(verdict, outcome.clone()), teller);
+        }
+        let why = match &outcome {
+            Outcome::Refused(reason) => format!(" ({reason})"),
+            _ => String::new(),
+        };
+        let name = &entry.plan().name;
+        let text = format!(
+            "schedule {} ({name}) of {}: {}{why}",
+            verdict.entry,
+            verdict.date,
+            outcome.name()
+        );
+        teller.log(LogLevel::Info, Part::Vthal, text);
+    }
+
+    /// The disk is free again.
+    pub(crate) fn go_on(&mut self, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
+        self.tell(readiness, teller);
+        self.run(readiness, teller);
+    }
+
+    fn run(&mut self, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
+        if self.ended {
+            return;
+        }
+        loop {
+            let task = match self.scheduler.next_change() {
+                Some(task) => task,
+                None => match self
+                    .scheduler
+                    .due(|entry| readiness.scheduled_command(entry).map(drop))
+                {
+                    Some(verdict) => self.scheduler.decide(verdict),
+                    None => return,
+                },
+            };
+            do_task(task, teller);
+        }
+    }
+
+    fn tell(&mut self, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
+        self.told_us = teller.now_us;
+        if !teller.has_followers(Topic::Schedules) {
+            return;
+        }
+        let schedules = self.view(readiness);
+        if self.told.as_ref() != Some(&schedules) {
+            self.told = Some(schedules.clone());
+            teller.tell(Topic::Schedules, Update::Schedules(schedules));
+        }
+    }
+}
+
+/// Hands a task to the disk, or tells whoever waits for it what came of it.
+fn do_task(task: Task, teller: &mut Teller<'_>) {
+    let (asker, answer) = match task {
+        Task::Keep(order) => {
+            teller.outputs.schedules = Some(order);
+            return;
+        }
+        Task::Undecided(text) => {
+            let line = format!("{text} Nothing starts by itself until it can.");
+            return teller.log(LogLevel::Error, Part::Vthal, line);
+        }
+        // Only the disk's word brings one.
+        Task::Decided(_) => return,
+        Task::Done(asker) => (asker, Ok(Reply::Done)),
+        Task::Refused(asker, error) => (asker, Err((error.name(), error.to_string()))),
+        Task::Unkept(asker, text) => (asker, Err(("schedules-unwritable", text))),
+    };
+    teller.answer(asker, answer.map_err(|(reason, text)| Refusal { reason, text }));
+}
+
+/// What a job says must make sense at once; whether its rooms are there is asked when it starts.
+fn plan(plan: Plan, readiness: &Readiness<'_>) -> Result<Plan, Refusal> {
+    match &plan.job {
+        ScheduledJob::Start { strategy } => {
+            readiness.strategy_named(strategy.as_deref())?;
+        }
+        ScheduledJob::Clean(order) => {
+            to_order(&with_any_places(order))?;
+        }
+    }
+    let floor = floor_of(&plan, readiness)?;
+    Ok(Plan { floor, ..plan })
+}
+
+/// The floor for which a plan is: as it says, or, if it names places, the one on which the robot is. Of one floor alone nobody
+/// need say it.
+fn floor_of(plan: &Plan, readiness: &Readiness<'_>) -> Result<Option<u16>, Refusal> {
+    if let Some(number) = plan.floor {
+        return Ok(Some(readiness.floors.named(number)?.number));
+    }
+    if !plan.job.names_places() {
+        return Ok(None);
+    }
+    let floors = readiness.floors.floors();
+    let only = Some(floors.first()).filter(|_| floors.present().nth(1).is_none());
+    match readiness.floor().or(only) {
+        Some(number) => Ok(Some(number)),
+        None => Err("floor-unknown".into()),
+    }
+}

@@ -1,0 +1,98 @@
+//! What clients can be shown at this moment, put together from what the desks know.
+
+use brain::{BehaviorState, Brain};
+use rvac_api::{API_VERSION, DeviceTable, Pose, RoomHere, Status, Topic, Update};
+
+use super::floors::FloorDesk;
+use super::link::LinkDesk;
+use crate::mind::Mind;
+use crate::{CoreConfig, ExpertAccess, to_api};
+
+/// Where it comes from.
+#[derive(Clone, Debug)]
+pub(crate) struct Sources<'a> {
+    pub(crate) mind: Option<&'a Mind>,
+    pub(crate) link: &'a LinkDesk,
+    pub(crate) floors: &'a FloorDesk,
+    /// The name of whoever drives.
+    pub(crate) driver: Option<String>,
+    pub(crate) config: &'a CoreConfig,
+}
+
+impl Sources<'_> {
+    /// Where the brain believes the robot to be.
+    pub(crate) fn pose(&self) -> Pose {
+        self.mind.map_or_else(Pose::default, |mind| {
+            to_api::pose(mind.brain().pose(), mind.observer.observation().time_us)
+        })
+    }
+
+    /// What the robot is doing.
+    pub(crate) fn status(&self) -> Status {
+        let Some(mind) = self.mind else {
+            return Status {
+                state: BehaviorState::Disconnected.name().to_owned(),
+                reason: "no-robot".to_owned(),
+                ..Status::default()
+            };
+        };
+        let mut status = to_api::status(mind.brain().status(), mind.brain().job());
+        let inhibits = mind.observer.observation().inhibits;
+        status.inhibits = inhibits.names().map(str::to_owned).collect();
+        status.room = room_here(mind.brain());
+        status.driver.clone_from(&self.driver);
+        status
+    }
+
+    pub(crate) fn device_table(&self, now_us: u64) -> DeviceTable {
+        self.link.table(now_us, &self.config.version)
+    }
+
+    /// Answer to `hello`.
+    pub(crate) fn greeting(&self) -> Update {
+        Update::Hello {
+            api: API_VERSION,
+            versions: self.link.versions(&self.config.version),
+            robot: self.link.description().map(to_api::robot),
+            strategies: brain::StrategyName::ALL
+                .iter()
+                .map(|strategy| strategy.name().to_owned())
+                .collect(),
+            expert: self.config.expert == ExpertAccess::Allowed,
+        }
+    }
+
+    /// What a new follower of a topic gets at once, if that is known here.
+    pub(crate) fn first(&self, topic: Topic, now_us: u64) -> Option<Update> {
+        match topic {
+            Topic::Status => Some(Update::Status(self.status())),
+            Topic::Pose => Some(Update::Pose(self.pose())),
+            Topic::Device => Some(Update::Device(self.device_table(now_us))),
+            Topic::Floors => Some(Update::Floors(self.floors.view(self.mind))),
+            Topic::Home => self.mind.map(|mind| Update::Home(mind.home_view())),
+            Topic::Estimate => self.mind.map(|mind| {
+                let brain = mind.brain();
+                Update::Estimate(to_api::estimate(brain, brain.swept_share()))
+            }),
+            Topic::Way => self.mind.map(|mind| Update::Way(to_api::way(mind.brain()))),
+            Topic::Map
+            | Topic::Log
+            | Topic::Decisions
+            | Topic::Schedules
+            | Topic::Standstills
+            | Topic::Inputs
+            | Topic::Packets
+            | Topic::Runs
+            | Topic::Buttons => None,
+        }
+    }
+}
+
+fn room_here(brain: &Brain) -> Option<RoomHere> {
+    let id = brain.room()?;
+    let name = brain.map().annotations().name(id);
+    Some(RoomHere {
+        id,
+        name: name.map(|name| name.as_str().to_owned()),
+    })
+}

@@ -1,0 +1,140 @@
+//! What the robot decided and felt, and why it stands by itself: told to clients with what it felt and what it tried.
+
+use brain::PoseEstimate;
+use brain::action::Decision;
+use rvac_api::{Evidence, LogLevel, Standstill, Topic, Update, remedy};
+
+use super::audience::Teller;
+use super::evidence::{Perceived, Sensations};
+use super::journal::Part;
+use crate::diary::{Diary, sentence};
+use crate::newest::Newest;
+use crate::{refusal, to_api};
+
+/// Standstills that are kept for clients that come later.
+const KEPT: usize = 10;
+/// What was tried is told from so long ago on, and so many decisions of it.
+const TRIED_S: f64 = 30.0;
+const TRIED_MAX: usize = 12;
+
+/// The newest standstills, decisions and sensations.
+#[derive(Debug, Default)]
+pub(crate) struct StandstillDesk {
+    standstills: Newest<Standstill, KEPT>,
+    diary: Diary,
+    felt: Sensations,
+}
+
+/// Where a robot stands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stand {
+    pub(crate) estimate: PoseEstimate,
+    /// Between its wheels, once it is known.
+    pub(crate) track_m: Option<f64>,
+}
+
+/// Whether the robot stops with this decision although nobody told it to.
+pub(crate) fn is_standstill(decision: &Decision) -> bool {
+    let waits = matches!(
+        decision.what,
+        "state-paused" | "state-stuck" | "state-error" | "state-disconnected"
+    );
+    let is_told = matches!(decision.reason, "command" | "start-up" | "restored" | "stopped");
+    // Without a job, and not because that is done.
+    let gave_up = decision.what == "state-idle"
+        && !matches!(
+            decision.reason,
+            "finished" | "released" | "link-restored" | "docked"
+        );
+    !is_told && (waits || gave_up)
+}
+
+impl StandstillDesk {
+    /// The standstills that are kept, oldest first.
+    pub(crate) fn standstills(&self) -> impl Iterator<Item = &Standstill> {
+        self.standstills.entries()
+    }
+
+    /// The decisions that are kept, oldest first.
+    pub(crate) fn decisions(&self) -> impl Iterator<Item = &rvac_api::Decision> {
+        self.diary.entries()
+    }
+
+    /// What the robot perceives in this step.
+    pub(crate) fn feel(&mut self, perceived: &Perceived<'_>, track_m: f64) {
+        self.felt.take(perceived, track_m);
+    }
+
+    /// What a robot of this track felt and tried up to now; nothing while its track is not known.
+    pub(crate) fn evidence(&self, now_us: u64, track_m: Option<f64>) -> Evidence {
+        let Some(track_m) = track_m else {
+            return Evidence::default();
+        };
+        let since_s = to_api::seconds(now_us) - TRIED_S;
+        let mut tried: Vec<_> = self
+            .decisions()
+            .filter(|entry| entry.t >= since_s && !entry.what.starts_with("state-"))
+            .cloned()
+            .collect();
+        tried.drain(..tried.len().saturating_sub(TRIED_MAX));
+        Evidence {
+            felt: self.felt.before(now_us, track_m),
+            tried,
+        }
+    }
+
+    /// Takes in a decision of the brain and tells it.
+    pub(crate) fn decided(&mut self, decision: &Decision, teller: &mut Teller<'_>) {
+        let is_refusal = decision.what == "refuse";
+        let level = if is_refusal || decision.what.starts_with("state-") {
+            LogLevel::Info
+        } else {
+            LogLevel::Debug
+        };
+        let value = if decision.value == 0.0 {
+            String::new()
+        } else {
+            format!(" {:.2}", decision.value)
+        };
+        let told = if is_refusal || is_standstill(decision) {
+            format!(": {}", refusal::text(decision.reason))
+        } else {
+            String::new()
+        };
+        let text = format!("{} ({}){value}{told}", decision.what, decision.reason);
+        teller.log(level, Part::Brain, text);
+        let entry = self.diary.write(teller.now_us, decision);
+        if teller.has_followers(Topic::Decisions) {
+            teller.tell(Topic::Decisions, Update::Decision(entry));
+        }
+    }
+
+    /// Tells of a stop that nobody wanted.
+    pub(crate) fn stands(
+        &mut self,
+        decision: &Decision,
+        Stand { estimate, track_m }: Stand,
+        teller: &mut Teller<'_>,
+    ) {
+        let now_us = teller.now_us;
+        let evidence = self.evidence(now_us, track_m);
+        let told = self.standstills.keep(|number| Standstill {
+            number,
+            t: to_api::seconds(now_us),
+            state: decision
+                .what
+                .strip_prefix("state-")
+                .unwrap_or(decision.what)
+                .to_owned(),
+            reason: decision.reason.to_owned(),
+            text: sentence(decision),
+            remedy: remedy(decision.reason).to_owned(),
+            place: to_api::pose(estimate.pose, now_us),
+            lost: estimate.lost,
+            evidence,
+        });
+        if teller.has_followers(Topic::Standstills) {
+            teller.tell(Topic::Standstills, Update::Standstill(Box::new(told)));
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! What a robot feels that comes and goes: bumpers, cliffs, a wheel that hangs, the dock, the link. The one place where levels
+//! become edges; whoever asks since when something is felt asks here.
+
+use brain::Observation;
+
+/// Something that comes and goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sign {
+    BumperLeft,
+    BumperRight,
+    CliffLeft,
+    CliffFront,
+    CliffRight,
+    WheelDrop,
+    Docked,
+    LinkLost,
+}
+
+impl Sign {
+    /// All of them, in the order in which they are told.
+    const ALL: [Self; 8] = [
+        Self::BumperLeft,
+        Self::BumperRight,
+        Self::CliffLeft,
+        Self::CliffFront,
+        Self::CliffRight,
+        Self::WheelDrop,
+        Self::Docked,
+        Self::LinkLost,
+    ];
+
+    /// As clients and records name it.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::BumperLeft => "bumper-left",
+            Self::BumperRight => "bumper-right",
+            Self::CliffLeft => "cliff-left",
+            Self::CliffFront => "cliff-front",
+            Self::CliffRight => "cliff-right",
+            Self::WheelDrop => "wheel-drop",
+            Self::Docked => "docked",
+            Self::LinkLost => "link-lost",
+        }
+    }
+
+    const fn is_in(self, observation: &Observation) -> bool {
+        match self {
+            Self::BumperLeft => observation.contacts.left,
+            Self::BumperRight => observation.contacts.right,
+            Self::CliffLeft => observation.cliffs.left,
+            Self::CliffFront => observation.cliffs.middle,
+            Self::CliffRight => observation.cliffs.right,
+            Self::WheelDrop => observation.wheel_drop,
+            Self::Docked => observation.docked,
+            Self::LinkLost => !observation.link_up,
+        }
+    }
+}
+
+/// The edges of what is felt: when each sign that is there came.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Edges {
+    /// Host time in microseconds, in the order of [`Sign::ALL`]; `None` = it is not there.
+    came_us: [Option<u64>; Sign::ALL.len()],
+}
+
+impl Edges {
+    /// Takes in what is felt now.
+    pub(crate) fn take(&mut self, now_us: u64, observation: &Observation) {
+        for (sign, came_us) in Sign::ALL.into_iter().zip(&mut self.came_us) {
+            *came_us = sign.is_in(observation).then(|| came_us.unwrap_or(now_us));
+        }
+    }
+
+    /// Since when a sign is there; `None` = it is not.
+    pub(crate) fn since_us(&self, sign: Sign) -> Option<u64> {
+        let mut all = Sign::ALL.into_iter().zip(self.came_us);
+        all.find(|(other, _)| *other == sign)?.1
+    }
+
+    /// The signs that are there.
+    pub(crate) fn present(&self) -> impl Iterator<Item = Sign> {
+        let all = Sign::ALL.into_iter().zip(self.came_us);
+        all.filter_map(|(sign, came_us)| came_us.map(|_| sign))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::Observation;
+
+    use super::{Edges, Sign};
+
+    #[test]
+    fn a_sign_that_stays_came_once_and_one_that_comes_back_comes_anew() {
+        let mut edges = Edges::default();
+        let felt = |wheel_drop, docked| Observation {
+            wheel_drop,
+            docked,
+            link_up: true,
+            ..Observation::default()
+        };
+        for (now_us, wheel_drop, docked, since_us) in [
+            (10, true, false, Some(10)),
+            (20, true, true, Some(10)),
+            (30, false, true, None),
+            (40, true, true, Some(40)),
+        ] {
+            edges.take(now_us, &felt(wheel_drop, docked));
+            assert_eq!(edges.since_us(Sign::WheelDrop), since_us);
+        }
+        assert_eq!(edges.since_us(Sign::Docked), Some(20));
+        let present: Vec<Sign> = edges.present().collect();
+        assert_eq!(present, [Sign::WheelDrop, Sign::Docked]);
+    }
+}

@@ -1,0 +1,136 @@
+//! Why a request is refused: a name for programs, and a sentence for people that says what was wrong, where, and what to
+//! do.
+
+use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Reason};
+use rvac_api::{Explanation, explain};
+
+/// Why a request is refused, by name.
+pub(crate) type Refused = &'static str;
+
+/// A refusal for which nobody has words.
+const NOT_NOW: &str = "The robot cannot do this in its present state; the reason has the name of the cause.";
+
+/// A refusal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Refusal {
+    pub(crate) reason: &'static str,
+    pub(crate) text: String,
+}
+
+impl From<&'static str> for Refusal {
+    fn from(reason: &'static str) -> Self {
+        Self {
+            reason,
+            text: text(reason),
+        }
+    }
+}
+
+impl From<Reason> for Refusal {
+    fn from(reason: Reason) -> Self {
+        Self::from(reason.name())
+    }
+}
+
+impl Refusal {
+    pub(crate) fn because(reason: Reason, text: String) -> Self {
+        Self {
+            reason: reason.name(),
+            text,
+        }
+    }
+
+    /// No room of this identity; the sentence names those that there are.
+    pub(crate) fn no_such_room(room: u16, brain: &Brain) -> Self {
+        let names = brain.map().annotations();
+        let rooms = brain.map().rooms().rooms().iter();
+        let known: Vec<String> = rooms
+            .map(|room| match names.name(room.id) {
+                Some(name) => format!("{} ({})", room.id, name.as_str()),
+                None => room.id.to_string(),
+            })
+            .collect();
+        let text = if known.is_empty() {
+            format!("The map has no room {room}: it has no rooms yet, let the robot clean once.")
+        } else {
+            format!(
+                "The map has no room {room}: it has the rooms {}.",
+                known.join(", ")
+            )
+        };
+        Self::because(Reason::NoSuchRoom, text)
+    }
+
+    /// A part of an order lies where the map knows no floor.
+    pub(crate) fn no_floor_there(what: &str, brain: &Brain) -> Self {
+        let known = brain.map().knowledge();
+        let free = (0..known.values().len())
+            .filter(|index| known.values().get(*index) == Some(&CellKnowledge::Free))
+            .map(|index| known.cell(index));
+        let span = free.fold(None, |span: Option<(Cell, Cell)>, cell| {
+            let (low, high) = span.unwrap_or((cell, cell));
+            Some((
+                Cell {
+                    x: low.x.min(cell.x),
+                    y: low.y.min(cell.y),
+                },
+                Cell {
+                    x: high.x.max(cell.x),
+                    y: high.y.max(cell.y),
+                },
+            ))
+        });
+        let text = match span {
+            Some((low, high)) => format!(
+                "The map knows no floor {what}: its floor spans x {} and y {}.",
+                metres(low.x, high.x),
+                metres(low.y, high.y)
+            ),
+            None => "The robot has no map yet: let it clean once.".to_owned(),
+        };
+        Self::because(Reason::NoFloorThere, text)
+    }
+
+    /// What is wrong with an order that the brain refuses.
+    pub(crate) fn of_order(reason: Reason, order: &CleaningOrder, brain: &Brain) -> Self {
+        let rooms = brain.map().rooms().rooms();
+        let is_missing = |part: &brain::HomePart| match part {
+            brain::HomePart::Room(id) if rooms.iter().all(|room| room.id != *id) => Some(*id),
+            _ => None,
+        };
+        match (reason, order.parts().iter().find_map(is_missing)) {
+            (Reason::NoSuchRoom, Some(room)) => Self::no_such_room(room, brain),
+            (Reason::NoFloorThere, _) => Self::no_floor_there("in one of the zones and spots", brain),
+            _ => Self::from(reason),
+        }
+    }
+}
+
+/// The sentences of a named reason: what, and what to do.
+pub(crate) fn text(reason: &str) -> String {
+    explain(reason).map_or_else(|| NOT_NOW.to_owned(), Explanation::text)
+}
+
+/// From the lower edge of one cell to the upper edge of another.
+fn metres(low: i32, high: i32) -> String {
+    let from_m = f64::from(low) * CELL_M;
+    let to_m = (f64::from(high) + 1.0) * CELL_M;
+    format!("{from_m:.1} to {to_m:.1} m")
+}
+
+#[cfg(test)]
+mod tests {
+    use brain::{Inhibit, Reason};
+    use rvac_api::explain;
+
+    #[test]
+    fn everything_that_stops_the_robot_or_refuses_is_explained() {
+        let reasons = Reason::ALL.iter().map(|reason| reason.name());
+        let inhibits = Inhibit::ALL.iter().map(|inhibit| inhibit.name());
+        let missing: Vec<&str> = reasons
+            .chain(inhibits)
+            .filter(|code| explain(code).is_none())
+            .collect();
+        assert!(missing.is_empty(), "{missing:?}");
+    }
+}

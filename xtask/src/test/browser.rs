@@ -1,0 +1,51 @@
+//! The stage that drives the panel in a browser, and what it fetches for that.
+
+use super::extent::Extent;
+use super::runner::{Result, cargo, tests};
+use crate::panel::{self, Page};
+use crate::workspace::{self, Profile};
+use crate::{firmware, process, system};
+use std::path::PathBuf;
+use std::process::Command;
+
+/// The tests take turns in one process: those that measure a time have the machine for themselves.
+pub(super) fn browser(extent: Extent) -> Result {
+    system::need("chromium", &["chromium"])?;
+    system::need("chromedriver", &["chromium-driver"])?;
+    let assets = panel::build(Page::Release)?;
+    let elf = firmware::usual_elf()?;
+    workspace::build(&["rvac-sim", "vthal", "panel-server", "rvac"], Profile::Dev)?;
+    let screenshots = workspace::target().join("screenshots");
+    std::fs::create_dir_all(&screenshots).map_err(anyhow::Error::from)?;
+    let axe = axe()?;
+    let mut command = cargo(&["test", "--locked", "--test", "browser", "--", "--nocapture"]);
+    command
+        .env("RVAC_AXE", axe)
+        .env("RVAC_BROWSER_TESTS", "1")
+        .env("RVAC_LOSSES", extent.pick("1", "1", "100"))
+        .env("RVAC_WATCH_MINUTES", extent.pick("0.2", "0.2", "60"))
+        .env("RVAC_PANEL", assets)
+        .env("RVAC_FIRMWARE", elf)
+        .env("RVAC_SCREENSHOTS", screenshots);
+    tests(&mut command)
+}
+
+/// Fetches axe-core, which looks for faults of accessibility; the lock file beside its manifest names version and checksum.
+fn axe() -> anyhow::Result<PathBuf> {
+    system::need("npm", &["npm"])?;
+    let folder = workspace::target().join("axe");
+    let script = folder.join("node_modules/axe-core/axe.min.js");
+    std::fs::create_dir_all(&folder)?;
+    let lists = workspace::root().join("clients/panel-server/tests/axe");
+    for list in ["package.json", "package-lock.json"] {
+        std::fs::copy(lists.join(list), folder.join(list))?;
+    }
+    let mut npm = Command::new("npm");
+    npm.args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"])
+        .current_dir(&folder);
+    process::run("fetch axe-core", &mut npm)?;
+    if !script.is_file() {
+        anyhow::bail!("npm has fetched axe-core but {} is missing", script.display());
+    }
+    Ok(script)
+}

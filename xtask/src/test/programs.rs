@@ -1,0 +1,95 @@
+//! Stages that run the tests of the workspace and of the panel's logic.
+
+use super::extent::Extent;
+use super::runner::{Result, all, cargo, check, tests};
+use crate::system;
+use crate::workspace::{self, Profile};
+use std::process::Command;
+
+/// Prepares what tests start: programs of the workspace, a C compiler, Raku. What needs the firmware of a robot or another
+/// emulator passes itself over here, and has a stage of its own.
+pub(super) fn workspace_tests(extent: Extent) -> Result {
+    system::need("cc", &["gcc", "libc6-dev"])?;
+    system::need("raku", &["rakudo"])?;
+    system::need("socat", &["socat"])?;
+    system::need("curl", &["curl"])?;
+    let build = check(&mut cargo(&["build", "--workspace", "--locked", "--all-targets"]));
+    let run = tests(&mut runner(extent));
+    let zones = (extent == Extent::Long).then(|| tests(&mut cargo(&ALL_ZONES)));
+    all([build, run].into_iter().chain(zones))
+}
+
+/// The words behind `--` mean the same to both runners.
+fn runner(extent: Extent) -> Command {
+    let mut command = if system::find("cargo-nextest").is_some() {
+        cargo(&["nextest", "run", "--workspace", "--locked", "--no-fail-fast"])
+    } else {
+        cargo(&[
+            "test",
+            "--workspace",
+            "--locked",
+            "--all-targets",
+            "--no-fail-fast",
+        ])
+    };
+    if extent.has_campaigns() {
+        command.args(["--", "--include-ignored"]);
+        command.args(LONG_ONLY.map(|name| ["--skip", name]).concat());
+    }
+    command
+}
+
+/// Tests that are too long for `--all`. All others that are marked `#[ignore]` are campaigns and run there.
+const LONG_ONLY: [&str; 2] = [
+    "many_random_programs_end_alike",
+    "each_local_time_fires_once_a_day_at_every_change",
+];
+
+/// Every change of the clock of every time zone, for every kind of schedule.
+const ALL_ZONES: [&str; 7] = [
+    "test",
+    "--release",
+    "--locked",
+    "--test",
+    "schedule",
+    "--",
+    "--ignored",
+];
+
+/// No package is named: with one cargo would choose other features for what all share, and build it a second time.
+const ATTACKS: [&str; 5] = ["test", "--quiet", "--locked", "--test", "attacks"];
+
+/// Each line of the attack table, against a real server on real sockets.
+pub(super) fn attacks(_extent: Extent) -> Result {
+    workspace::build(&["rvac-sim", "vthal"], Profile::Dev)?;
+    check(&mut cargo(&ATTACKS))
+}
+
+/// The same for programs: nothing but the table goes to the output.
+pub(super) fn attacks_as_json() -> anyhow::Result<()> {
+    workspace::build(&["rvac-sim", "vthal"], Profile::Dev)?;
+    let mut command = cargo(&ATTACKS);
+    command.args(["--", "--json"]);
+    let status = command.status()?;
+    anyhow::ensure!(
+        status.success(),
+        "some attacks came out otherwise than they should"
+    );
+    Ok(())
+}
+
+/// The panel's logic, which needs no browser.
+pub(super) fn panel(_extent: Extent) -> Result {
+    let mut command = cargo(&[
+        "test",
+        "--locked",
+        "--manifest-path",
+        "clients/panel/Cargo.toml",
+        "--package",
+        "panel-logic",
+    ]);
+    command
+        .arg("--target-dir")
+        .arg(workspace::target().join("panel-logic"));
+    tests(&mut command)
+}
