@@ -289,7 +289,7 @@ impl Tracker {
         if let Some(search) = &mut self.global_localizer {
             search.follow(advance);
         }
-        let began = self.new_contacts(observation);
+        let (contacts, edges) = self.new_contacts(observation);
         self.lift.update(observation, advance);
         if self.lift.is_put_down() {
             self.history.forget();
@@ -297,11 +297,11 @@ impl Tracker {
             return Some(self.estimate());
         }
         self.history.sample(observation, &self.layout.proximity);
-        self.history.touch(began.0, self.radius_m);
+        self.history.touch(contacts, self.radius_m);
         let due = self.pending.distance_m >= WEIGH_M
             || self.pending_turn_rad >= WEIGH_RAD
-            || began.0.any()
-            || began.1.any();
+            || contacts.any()
+            || edges.any();
         if !due || observation.wheel_drop {
             return None;
         }
@@ -319,8 +319,8 @@ impl Tracker {
         self.filter.follow(self.pending);
         let ranges = core::mem::take(&mut self.ranges);
         let measurements = Measurements {
-            contacts: began.0,
-            edges: began.1,
+            contacts,
+            edges,
             ranges: &ranges,
             measured_bias: self.measured_bias.take(),
         };
