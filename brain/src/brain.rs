@@ -54,7 +54,7 @@ impl Brain {
         let rim_max_m_per_s =
             config.speeds.max_m_per_s + 0.5 * config.body.track_m * config.speeds.turn_max_rad_per_s;
         let mut localization = Localization::new(config.body.track_m, rim_max_m_per_s);
-        localization.survey(&config);
+        localization.start_line_slam(&config);
         Self {
             config,
             localization,
@@ -120,7 +120,8 @@ impl Brain {
         if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
             self.map.insert(&estimate, observation);
         }
-        self.localization.look(observation, advance, &self.config);
+        self.localization
+            .check_against_map(observation, advance, &self.config);
         let correction = self
             .localization
             .learn(&self.map, &self.config, observation.time_us);
@@ -408,9 +409,9 @@ impl Brain {
     /// Follows the pose in the map as it is now; in one that is not worth it, by walls.
     fn track(&mut self) {
         self.localization
-            .track(&self.map, &self.config, self.mind.random.state());
+            .start_monte_carlo(&self.map, &self.config, self.mind.random.state());
         if self.map_agreement().is_none() {
-            self.localization.survey(&self.config);
+            self.localization.start_line_slam(&self.config);
         }
     }
 

@@ -18,7 +18,7 @@ pub use behavior::{BehaviorState, JobCheckpoint, JobFigures, JobKind, Status};
 pub use brain::checkpoint::{Checkpoint, CheckpointWork};
 pub use brain::{Brain, checkpoint};
 pub use coverage::JobEstimate;
-pub use localization::{Finding, FloorFinder, FloorPlace, TrackingCheckpoint};
+pub use localization::{StoreyFinder, StoreyFinding, StoreyPose, TrackingCheckpoint};
 pub use mapping::{
     CELL_M, Cell, CellKnowledge, CellPasses, DistanceField, Hazard, HazardKind, Keyframe, LoadedHome, Map,
     MapCursor, MapLoader, MapPart, PathPoint, Raster, StoredMap, StoredMapError, SurfaceKind, SweptRun,

@@ -15,7 +15,7 @@ impl Brain {
     pub(super) fn correct_map(&mut self, correction: Option<MapCorrection>) {
         match correction {
             Some(MapCorrection::Redraw { keyframes }) => self.map.redraw(&keyframes),
-            Some(MapCorrection::Withdraw { since_us, keyframes }) => {
+            Some(MapCorrection::RollBack { since_us, keyframes }) => {
                 self.map.roll_back(since_us, &keyframes);
                 self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
             }

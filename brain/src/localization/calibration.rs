@@ -1,64 +1,63 @@
-//! Scale and bias of the gyro, learnt at rest and from a filter that knows the heading by the walls.
+//! Calibrates scale and bias of the gyro, at rest and by headings that an estimator corrected.
 //!
-//! Over some ten seconds the heading that the filter gained and the heading that the gyro counted differ by what is wrong
-//! with the gyro: `gained = (1 + scale) * (counted - bias * time)`. A Kalman filter of these two numbers takes the difference
-//! of each such window, and what the gyro shows while the wheels stand still ([`super::rest`]). It is one filter for both: a
-//! bias that walls have told and a later rest denies would stay otherwise.
+//! Over some ten seconds the true change of heading and the one that the gyro counted differ by the gyro's errors: `gained = (1 +
+//! scale) * (counted - bias * time)`. A Kalman filter of these two numbers uses the difference of each such window, and the
+//! zero-velocity updates ([`super::stationary`]). One filter does both, so that a later rest corrects a wrong bias from walls.
 
-use super::gyro_belief::{BiasTold, GyroBelief};
-use super::rest::Rested;
+use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
+use super::stationary::StationaryInterval;
 use crate::model::advance::Advance;
 use crate::model::learnt::GyroLearnt;
 
 /// Length of a window in seconds.
 const WINDOW_S: f64 = 20.0;
-/// Deviations before anything is known: 1 %, and some tenths of a degree a second.
+/// Prior standard deviations: 1 %, and some tenths of a degree a second.
 const SCALE_SIGMA: f64 = 0.008;
 const BIAS_SIGMA_RAD_PER_S: f64 = 5.0e-3;
 /// Noise of the heading, rad per square root of a second: 0.03 degrees, between a usual gyro and a bad one.
 const WALK_RAD_PER_SQRT_S: f64 = 5.0e-4;
-/// What the robot swings out and what the gyro's steps hide in any rest, radians.
+/// Error of any rest by swinging and by the resolution of the gyro, radians.
 const SWING_RAD: f64 = 8.0e-4;
-/// A rest that differs by more deviations than this counts the less the more it does: the bias of a gyro wanders slowly.
+/// A rest that is off by more standard deviations than this loses weight, because the bias of a gyro changes slowly.
 const REST_GATE: f64 = 4.0;
-/// By how much a scale that was learnt before may have changed: the gyro was perhaps colder then.
+/// Possible change of a scale that was learned before: the gyro may have been colder.
 const RESUMED_SIGMA: f64 = 0.002;
-/// A scale that is known no better than this is not worth keeping.
+/// A scale with a larger standard deviation than this is not worth keeping.
 const LEARNT_SIGMA: f64 = 0.006;
-/// How fast the bias wanders, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
+/// Random walk of the bias, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
 pub(super) const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
-/// A window that differs by more deviations than this is not believed.
+/// A window that is off by more standard deviations than this is rejected.
 const GATE: f64 = 3.5;
-/// Largest scale error and bias that are believed.
+/// Largest accepted scale error and bias.
 const SCALE_MAX: f64 = 0.05;
 const BIAS_MAX_RAD_PER_S: f64 = 0.03;
 
-/// What is wrong with the gyro, and the window that is being filled.
+/// Estimated errors of the gyro, and the window in progress.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Calibration {
     scale: f64,
     bias_rad_per_s: f64,
-    /// Covariance: of the scale, of both, of the bias.
+    /// Covariance: scale, both, bias.
     covariance: [f64; 3],
-    window: Window,
+    window: CalibrationWindow,
 }
 
-/// What was counted and gained between two moments at which the heading was known.
+/// Counted and true turn between two moments at which the heading was known.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Gain {
+pub(super) struct HeadingGain {
     pub(super) time_s: f64,
     pub(super) counted_rad: f64,
     pub(super) gained_rad: f64,
-    /// Variance of what was gained, square radians.
+    /// Variance of the true turn, square radians.
     pub(super) variance_rad2: f64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Window {
+struct CalibrationWindow {
     time_s: f64,
     counted_rad: f64,
     gained_rad: f64,
-    /// Variance of the heading at the beginning, square radians; `None` = no window is open.
+    /// Variance of the heading at the start, square radians; `None` = no window is open.
     variance_rad2: Option<f64>,
 }
 
@@ -72,13 +71,13 @@ impl Default for Calibration {
                 0.0,
                 BIAS_SIGMA_RAD_PER_S * BIAS_SIGMA_RAD_PER_S,
             ],
-            window: Window::default(),
+            window: CalibrationWindow::default(),
         }
     }
 }
 
 impl Calibration {
-    /// Goes on with a scale and a bias that were learnt before; the bias may have wandered since.
+    /// Starts with a scale and a bias that were learned before. The bias may have changed since.
     pub(super) fn resumed(learnt: GyroLearnt) -> Self {
         let GyroLearnt {
             scale, scale_sigma, ..
@@ -95,7 +94,7 @@ impl Calibration {
         resumed
     }
 
-    /// What is worth keeping; `None` while little is known.
+    /// What is worth keeping; `None` while the uncertainty is large.
     pub(super) fn learnt(&self) -> Option<GyroLearnt> {
         let scale_sigma = self.scale_sigma();
         (scale_sigma <= LEARNT_SIGMA).then_some(GyroLearnt {
@@ -105,9 +104,9 @@ impl Calibration {
         })
     }
 
-    /// All that is believed of the gyro.
-    pub(super) fn belief(&self) -> GyroBelief {
-        GyroBelief {
+    /// The whole estimate.
+    pub(super) fn belief(&self) -> GyroEstimate {
+        GyroEstimate {
             scale: self.scale,
             scale_sigma: self.scale_sigma(),
             bias_rad_per_s: self.bias_rad_per_s,
@@ -115,26 +114,26 @@ impl Calibration {
         }
     }
 
-    /// Somebody who has weighed all that was seen knows this.
-    pub(super) fn know(&mut self, belief: GyroBelief) {
-        self.know_scale(belief.scale, belief.scale_sigma);
+    /// An estimator that has used all measurements sets the calibration.
+    pub(super) fn set(&mut self, belief: GyroEstimate) {
+        self.set_scale(belief.scale, belief.scale_sigma);
         self.bias_rad_per_s = belief
             .bias_rad_per_s
             .clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
         self.covariance[2] = belief.bias_sigma_rad_per_s * belief.bias_sigma_rad_per_s;
     }
 
-    /// Error of the scale, relative, and bias, rad/s.
-    pub(super) fn found(&self) -> (f64, f64) {
+    /// Scale error, relative, and bias, rad/s.
+    pub(super) fn scale_and_bias(&self) -> (f64, f64) {
         (self.scale, self.bias_rad_per_s)
     }
 
-    /// Deviation of the scale, relative.
+    /// Standard deviation of the scale, relative.
     pub(super) fn scale_sigma(&self) -> f64 {
         libm::sqrt(self.covariance[0].max(0.0))
     }
 
-    /// Deviation of the bias, rad/s.
+    /// Standard deviation of the bias, rad/s.
     pub(super) fn bias_sigma_rad_per_s(&self) -> f64 {
         libm::sqrt(self.covariance[2].max(0.0))
     }
@@ -144,29 +143,29 @@ impl Calibration {
         (counted_rad - self.bias_rad_per_s * time_s) * (1.0 + self.scale)
     }
 
-    /// Takes in what the gyro showed while the wheels stood still. Gives what that says of the bias.
-    pub(super) fn rest(&mut self, rested: Rested) -> BiasTold {
+    /// Zero-velocity update: takes the turn rate at rest. Returns it as a measurement of the bias.
+    pub(super) fn update_at_rest(&mut self, interval: StationaryInterval) -> BiasMeasurement {
         let [ss, sb, bb] = self.covariance;
-        let swing_rad_per_s = SWING_RAD / rested.time_s;
+        let swing_rad_per_s = SWING_RAD / interval.time_s;
         let noise =
-            WALK_RAD_PER_SQRT_S * WALK_RAD_PER_SQRT_S / rested.time_s + swing_rad_per_s * swing_rad_per_s;
-        let off_rad_per_s = rested.rad_per_s - self.bias_rad_per_s;
+            WALK_RAD_PER_SQRT_S * WALK_RAD_PER_SQRT_S / interval.time_s + swing_rad_per_s * swing_rad_per_s;
+        let off_rad_per_s = interval.rad_per_s - self.bias_rad_per_s;
         let variance = bb + noise;
         let surprise = off_rad_per_s * off_rad_per_s / (REST_GATE * REST_GATE * variance);
-        // A robot that slides along what it touches turns slowly, too, while its wheels rest.
+        // A robot that slides along an obstacle turns slowly, too, while its wheels rest.
         let doubt = surprise.max(1.0);
         let weight = 1.0 / (variance * doubt);
         let (gain_scale, gain_bias) = (sb * weight, bb * weight);
         self.move_by(gain_scale * off_rad_per_s, gain_bias * off_rad_per_s);
         self.covariance = [ss - gain_scale * sb, sb - gain_scale * bb, bb - gain_bias * bb];
-        BiasTold {
-            rad_per_s: rested.rad_per_s,
+        BiasMeasurement {
+            rad_per_s: interval.rad_per_s,
             variance_rad2_per_s2: variance * doubt - bb,
         }
     }
 
-    /// Somebody who has weighed all that was seen knows the scale this well.
-    pub(super) fn know_scale(&mut self, scale: f64, sigma: f64) {
+    /// An estimator that has used all measurements sets the scale.
+    pub(super) fn set_scale(&mut self, scale: f64, sigma: f64) {
         self.scale = scale.clamp(-SCALE_MAX, SCALE_MAX);
         let [_, _, bias] = self.covariance;
         self.covariance = [sigma * sigma, 0.0, bias];
@@ -178,7 +177,7 @@ impl Calibration {
             (self.bias_rad_per_s + bias_rad_per_s).clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
     }
 
-    /// What the gyro counted (already corrected) in one step.
+    /// Takes the (already corrected) turn of one step.
     pub(super) fn count(&mut self, advance: Advance) {
         self.covariance[2] += BIAS_DRIFT_RAD2_PER_S3 * advance.time_s;
         match advance.gyro_turn_rad {
@@ -187,49 +186,49 @@ impl Calibration {
                 self.window.counted_rad += turn_rad;
                 self.window.gained_rad += turn_rad;
             }
-            None => self.window = Window::default(),
+            None => self.window = CalibrationWindow::default(),
         }
     }
 
-    /// The filter turned the pose by `correction_rad`, and knows the heading with this variance.
+    /// An estimator turned the pose by `correction_rad`, and knows the heading with this variance.
     pub(super) fn correct(&mut self, correction_rad: f64, variance_rad2: f64) {
         self.window.gained_rad += correction_rad;
         let Some(began_rad2) = self.window.variance_rad2 else {
-            self.window = Window {
+            self.window = CalibrationWindow {
                 variance_rad2: Some(variance_rad2),
-                ..Window::default()
+                ..CalibrationWindow::default()
             };
             return;
         };
         if self.window.time_s < WINDOW_S {
             return;
         }
-        let Window {
+        let CalibrationWindow {
             time_s,
             counted_rad,
             gained_rad,
             ..
         } = self.window;
-        self.learn(Gain {
+        self.learn(HeadingGain {
             time_s,
             counted_rad,
             gained_rad,
             variance_rad2: began_rad2 + variance_rad2,
         });
-        self.window = Window {
+        self.window = CalibrationWindow {
             variance_rad2: Some(variance_rad2),
-            ..Window::default()
+            ..CalibrationWindow::default()
         };
     }
 
-    /// The filter lost its way: what it says of the heading is worth nothing.
+    /// The estimator is lost, so its heading is useless.
     pub(super) fn interrupt(&mut self) {
-        self.window = Window::default();
+        self.window = CalibrationWindow::default();
     }
 
-    /// Takes in how the heading changed between two moments at which it was known.
-    pub(super) fn learn(&mut self, gain: Gain) {
-        let Gain {
+    /// Updates with the change of heading between two moments at which it was known.
+    pub(super) fn learn(&mut self, gain: HeadingGain) {
+        let HeadingGain {
             time_s,
             counted_rad,
             gained_rad,
@@ -240,7 +239,7 @@ impl Calibration {
         let by_scale = ss * counted_rad - sb * time_s;
         let by_bias = sb * counted_rad - bb * time_s;
         let variance = counted_rad * by_scale - time_s * by_bias + noise_rad2;
-        // Written so that NaN is not learnt.
+        // Written so that NaN is rejected.
         let believable = off_rad * off_rad <= GATE * GATE * variance;
         if !believable {
             return;
@@ -257,30 +256,30 @@ impl Calibration {
 
 #[cfg(test)]
 mod tests {
-    use super::{Calibration, Gain, LEARNT_SIGMA, RESUMED_SIGMA, Rested, SCALE_SIGMA};
-    use crate::localization::gyro_belief::BiasTold;
+    use super::{Calibration, HeadingGain, LEARNT_SIGMA, RESUMED_SIGMA, SCALE_SIGMA, StationaryInterval};
+    use crate::localization::gyro_estimate::BiasMeasurement;
     use crate::model::learnt::GyroLearnt;
 
-    fn told(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasTold {
-        BiasTold {
+    fn measurement(rad_per_s: f64, sigma_rad_per_s: f64) -> BiasMeasurement {
+        BiasMeasurement {
             rad_per_s,
             variance_rad2_per_s2: sigma_rad_per_s * sigma_rad_per_s,
         }
     }
 
     #[test]
-    fn two_rests_tell_more_than_one_and_the_surer_one_the_most() {
-        let both = told(1e-3, 1e-4).and(told(2e-3, 1e-4));
+    fn measurements_combine_by_their_variances() {
+        let both = measurement(1e-3, 1e-4).and(measurement(2e-3, 1e-4));
         assert!((both.rad_per_s - 1.5e-3).abs() < 1e-12, "{both:?}");
         assert!((both.variance_rad2_per_s2 - 5e-9).abs() < 1e-18, "{both:?}");
-        let both = told(1e-3, 1e-4).and(told(2e-3, 1e-2));
+        let both = measurement(1e-3, 1e-4).and(measurement(2e-3, 1e-2));
         assert!((both.rad_per_s - 1e-3).abs() < 1e-6, "{both:?}");
     }
 
     fn rests(calibration: &mut Calibration, times: u32, rad_per_s: f64) {
         for _ in 0..times {
             calibration.covariance[2] += 100.0 * super::BIAS_DRIFT_RAD2_PER_S3;
-            calibration.rest(Rested {
+            calibration.update_at_rest(StationaryInterval {
                 rad_per_s,
                 time_s: 2.0,
             });
@@ -288,49 +287,49 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_is_turned_slowly_at_rest_does_not_unlearn_the_bias() {
+    fn a_slow_turn_at_rest_does_not_change_the_bias() {
         let mut calibration = Calibration::default();
         rests(&mut calibration, 3, 0.001);
-        let (_, learnt) = calibration.found();
+        let (_, learnt) = calibration.scale_and_bias();
         assert!((learnt - 0.001).abs() < 1e-4, "{learnt}");
         rests(&mut calibration, 1, 0.02);
-        let (_, after) = calibration.found();
+        let (_, after) = calibration.scale_and_bias();
         assert!((after - learnt).abs() < 2e-4, "{after} after {learnt}");
-        // One that has really changed is learnt all the same.
+        // A bias that has really changed is learned all the same.
         rests(&mut calibration, 20, 0.004);
-        let (_, changed) = calibration.found();
+        let (_, changed) = calibration.scale_and_bias();
         assert!((changed - 0.004).abs() < 5e-4, "{changed}");
     }
 
     #[test]
-    fn a_bias_that_walls_have_told_goes_when_rests_deny_it() {
+    fn a_wrong_bias_from_walls_is_corrected_by_rests() {
         let mut calibration = Calibration::default();
         rests(&mut calibration, 3, 0.001);
         for _ in 0..60 {
-            calibration.learn(Gain {
+            calibration.learn(HeadingGain {
                 time_s: 20.0,
                 counted_rad: 0.1,
                 gained_rad: 0.1 - 20.0 * 0.001,
                 variance_rad2: 0.002,
             });
         }
-        let (_, told) = calibration.found();
-        assert!(told > 0.0014, "{told}");
+        let (_, wrong) = calibration.scale_and_bias();
+        assert!(wrong > 0.0014, "{wrong}");
         rests(&mut calibration, 20, 0.001);
-        let (_, denied) = calibration.found();
-        assert!((denied - 0.001).abs() < 2e-4, "{denied}");
+        let (_, corrected) = calibration.scale_and_bias();
+        assert!((corrected - 0.001).abs() < 2e-4, "{corrected}");
     }
 
     #[test]
-    fn what_was_learnt_is_the_beginning_and_a_little_less_sure() {
+    fn a_resumed_calibration_is_a_little_less_sure() {
         let fresh = Calibration::default();
         assert_eq!(fresh.learnt(), None, "nothing is known");
         let mut before = fresh;
-        before.know_scale(0.012, 0.0005);
+        before.set_scale(0.012, 0.0005);
         before.move_by(0.0, 0.001);
         let learnt = before.learnt().expect("it is well known");
         let after = Calibration::resumed(learnt);
-        assert_eq!(after.found(), before.found());
+        assert_eq!(after.scale_and_bias(), before.scale_and_bias());
         assert!(after.scale_sigma() > before.scale_sigma());
         assert!((RESUMED_SIGMA..LEARNT_SIGMA).contains(&after.scale_sigma()));
         for scale_sigma in [0.5, f64::NAN] {
@@ -346,20 +345,20 @@ mod tests {
     }
 
     #[test]
-    fn the_scale_is_learnt_from_turns_and_the_bias_from_ways() {
+    fn turns_calibrate_the_scale_and_straight_paths_the_bias() {
         let mut calibration = Calibration::default();
         for number in 0..40 {
             let counted_rad = if number % 2 == 0 { 6.0 } else { 0.0 };
-            let (scale, bias) = calibration.found();
+            let (scale, bias) = calibration.scale_and_bias();
             let gained_rad = counted_rad * (1.0 + 0.01 - scale) - 20.0 * (0.002 - bias);
-            calibration.learn(Gain {
+            calibration.learn(HeadingGain {
                 time_s: 20.0,
                 counted_rad,
                 gained_rad,
                 variance_rad2: 1e-4,
             });
         }
-        let (scale, bias) = calibration.found();
+        let (scale, bias) = calibration.scale_and_bias();
         assert!((scale - 0.01).abs() < 5e-4, "{scale}");
         assert!((bias - 0.002).abs() < 5e-5, "{bias}");
     }

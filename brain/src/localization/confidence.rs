@@ -1,27 +1,27 @@
-//! Whether the robot is where it believes to be: does the map explain what the sensors show?
+//! How far the map explains the sensors, and so whether the pose can be right.
 
-use super::particles::Fit;
+use super::particles::BeamScore;
 
-/// Beams over which the share of explained ones is averaged: a long memory tells whether the robot is lost, so that one
-/// door that opened does not, a short one whether something is wrong here.
+/// Informative beams over which the share of consistent ones is averaged. A long average shows whether the robot is lost, and
+/// ignores a door that was opened. A short one shows whether something is wrong here.
 const LONG_BEAMS: f64 = 220.0;
 const SHORT_BEAMS: f64 = 50.0;
-/// Below this share the robot is lost. A home whose doors and chairs moved explains 80 to 90 % of the beams, a wrong place
-/// 10 to 40 %.
+/// Below this share the robot is lost. A home whose doors and chairs moved explains 80 to 90 % of the beams, a wrong pose 10 to 40
+/// %.
 const LOST_BELOW: f64 = 0.5;
-/// Below this share the guesses are spread a little.
+/// Below this share the particles are spread a little.
 const DOUBT_BELOW: f64 = 0.6;
-/// Above this share guesses hold on to what they have learnt.
+/// Above this share particles keep what they have learned.
 const HOLD_FROM: f64 = 0.75;
-/// From this share on there is no doubt: more than in a home whose doors and chairs moved.
+/// From this share on the pose is confirmed: more than in a home whose doors and chairs moved.
 const CONFIRM_FROM: f64 = 0.88;
-/// Beams that must have been told for that since the robot was placed: it has driven since.
+/// Informative beams since the robot was placed that a confirmation needs: the robot must have driven.
 const CONFIRM_BEAMS: u32 = 20;
-/// From this share on a lost robot has found itself.
+/// From this share on a lost robot is found.
 const FOUND_FROM: f64 = 0.8;
-/// Beams that must have been told since the robot was lost.
+/// Informative beams since the robot was lost that this needs.
 const FOUND_BEAMS: u32 = 60;
-/// What is believed of a place that nothing was compared with yet.
+/// Share before anything was compared.
 const START: f64 = 0.9;
 
 /// Share of the beams that the map explains.
@@ -29,18 +29,18 @@ const START: f64 = 0.9;
 pub(super) struct Confidence {
     explained: f64,
     recently: f64,
-    /// Beams since the last reset.
+    /// Informative beams since the last reset.
     beams: u32,
 }
 
-/// What to make of it.
+/// The conclusion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Verdict {
-    /// The map explains what is seen.
+    /// The map explains what the sensors show.
     Sure,
-    /// Not all of it.
+    /// It does not explain all of it.
     Doubtful,
-    /// It does not.
+    /// It does not explain it.
     Wrong,
 }
 
@@ -55,7 +55,7 @@ impl Default for Confidence {
 }
 
 impl Confidence {
-    /// Of a robot that does not know where it is.
+    /// Of a lost robot.
     pub(super) fn none() -> Self {
         Self {
             explained: LOST_BELOW,
@@ -64,19 +64,19 @@ impl Confidence {
         }
     }
 
-    pub(super) fn take(&mut self, fit: Fit) {
-        let (told, agreed) = (f64::from(fit.told), f64::from(fit.agreed));
-        self.explained += (agreed - told * self.explained) / LONG_BEAMS;
-        self.recently += (agreed - told * self.recently) / SHORT_BEAMS;
-        self.beams = self.beams.saturating_add(fit.told);
+    pub(super) fn take(&mut self, score: BeamScore) {
+        let (informative, consistent) = (f64::from(score.informative), f64::from(score.consistent));
+        self.explained += (consistent - informative * self.explained) / LONG_BEAMS;
+        self.recently += (consistent - informative * self.recently) / SHORT_BEAMS;
+        self.beams = self.beams.saturating_add(score.informative);
     }
 
-    /// Whether nothing speaks against what has been learnt lately.
+    /// Whether nothing contradicts what was learned lately.
     pub(super) fn holds(self) -> bool {
         self.explained >= HOLD_FROM && self.recently >= HOLD_FROM
     }
 
-    /// Whether enough was told since the robot was put there, and speaks clearly for it.
+    /// Whether enough beams since the start clearly confirm the pose.
     pub(super) fn confirms(self) -> bool {
         self.explained >= CONFIRM_FROM && self.beams >= CONFIRM_BEAMS
     }
@@ -91,7 +91,7 @@ impl Confidence {
         }
     }
 
-    /// Whether a lost robot may believe its best guess.
+    /// Whether a lost robot is found.
     pub(super) fn is_found(self) -> bool {
         self.recently >= FOUND_FROM && self.beams >= FOUND_BEAMS
     }

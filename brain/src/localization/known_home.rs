@@ -1,4 +1,4 @@
-//! A robot with bad wheels and a bad gyro drives about in a flat whose map it has.
+//! Tests with a robot with bad wheels and a bad gyro that drives in a flat with a known map.
 
 use super::{Localization, MapCorrection};
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, StoredMap};
@@ -14,8 +14,8 @@ pub(super) const TRACK_M: f64 = 0.23;
 const STEP_S: f64 = 0.02;
 const SPEED_M_PER_S: f64 = 0.25;
 const TURN_RAD_PER_S: f64 = 1.2;
-/// What is wrong with wheels and gyro.
-const WAY_FACTOR: f64 = 1.012;
+/// Errors of wheels and gyro.
+const DISTANCE_FACTOR: f64 = 1.012;
 const GYRO_SCALE: f64 = 1.008;
 const GYRO_BIAS_RAD_PER_S: f64 = 4.0e-4;
 
@@ -84,8 +84,8 @@ pub(super) fn flat() -> Map {
     map
 }
 
-/// The real robot: drives until it touches, then turns by a random angle.
-pub(super) struct Truth<'map> {
+/// The true robot: drives until it touches something, then turns by a random angle.
+pub(super) struct SimulatedRobot<'map> {
     map: &'map Map,
     pub(super) pose: Pose2,
     random: Random,
@@ -93,7 +93,7 @@ pub(super) struct Truth<'map> {
     view: Observation,
 }
 
-impl<'map> Truth<'map> {
+impl<'map> SimulatedRobot<'map> {
     pub(super) fn new(map: &'map Map, pose: Pose2) -> Self {
         Self {
             map,
@@ -113,7 +113,7 @@ impl<'map> Truth<'map> {
     }
 
     pub(super) fn step(&mut self) -> &Observation {
-        let (way_m, turn_rad) = if self.turn_left_rad == 0.0 {
+        let (distance_m, turn_rad) = if self.turn_left_rad == 0.0 {
             (SPEED_M_PER_S * STEP_S, 0.0)
         } else {
             let most = TURN_RAD_PER_S * STEP_S;
@@ -121,21 +121,21 @@ impl<'map> Truth<'map> {
             self.turn_left_rad -= turn_rad;
             (0.0, turn_rad)
         };
-        self.drive(way_m, turn_rad)
+        self.drive(distance_m, turn_rad)
     }
 
-    /// One step of this way and turn, unless something is in the way.
-    pub(super) fn drive(&mut self, way_m: f64, turn_rad: f64) -> &Observation {
+    /// One step of this distance and turn, unless an obstacle blocks it.
+    pub(super) fn drive(&mut self, distance_m: f64, turn_rad: f64) -> &Observation {
         self.view.time_us += 20_000;
-        let next = self.pose.after_arc(way_m, turn_rad);
+        let next = self.pose.after_arc(distance_m, turn_rad);
         let touches = self.clear_m(next.position()) < RADIUS_M;
         if touches {
             self.turn_left_rad = self.random.between(1.2, 3.0) * if self.random.coin() { 1.0 } else { -1.0 };
         } else {
             self.pose = next;
             let rim_m = 0.5 * TRACK_M * turn_rad;
-            self.view.travel_left_m += way_m / WAY_FACTOR - rim_m;
-            self.view.travel_right_m += way_m / WAY_FACTOR + rim_m;
+            self.view.travel_left_m += distance_m / DISTANCE_FACTOR - rim_m;
+            self.view.travel_right_m += distance_m / DISTANCE_FACTOR + rim_m;
         }
         let counted_rad = turn_rad * GYRO_SCALE + GYRO_BIAS_RAD_PER_S * STEP_S;
         self.view.gyro_heading_rad = self.view.gyro_heading_rad.map(|before| before + counted_rad);
@@ -143,25 +143,28 @@ impl<'map> Truth<'map> {
             left: touches,
             right: touches,
         };
-        self.look();
+        self.sense();
         &self.view
     }
 
-    fn look(&mut self) {
+    fn sense(&mut self) {
         let layout = config().sensors.proximity;
         for (number, sensor) in layout.sensors().iter().enumerate() {
             let beam = self.pose * *sensor;
-            let mut way_m = 0.0;
-            while way_m < layout.response.range_m {
-                let at = beam.transform(Point2 { x_m: way_m, y_m: 0.0 });
+            let mut distance_m = 0.0;
+            while distance_m < layout.response.range_m {
+                let at = beam.transform(Point2 {
+                    x_m: distance_m,
+                    y_m: 0.0,
+                });
                 let clear_m = self.clear_m(at);
-                if clear_m < 0.09 * way_m + 0.002 {
+                if clear_m < 0.09 * distance_m + 0.002 {
                     break;
                 }
-                way_m += clear_m.max(0.005);
+                distance_m += clear_m.max(0.005);
             }
             let noise = 1.0 + 0.08 * self.random.normal();
-            self.view.proximity[number] = (layout.response.level(way_m) * noise) as f32;
+            self.view.proximity[number] = (layout.response.level(distance_m) * noise) as f32;
         }
     }
 
@@ -179,7 +182,7 @@ pub(super) const START: Pose2 = Pose2 {
 pub(super) fn placed(map: &Map, at: Pose2) -> Localization {
     let mut localization = Localization::new(TRACK_M, 0.5);
     localization.place_at(at);
-    localization.track(map, &config(), 5);
+    localization.start_monte_carlo(map, &config(), 5);
     localization
 }
 
@@ -189,9 +192,9 @@ pub(super) fn take(localization: &mut Localization, view: &Observation) {
 }
 
 #[test]
-fn in_a_known_home_the_pose_stays_right_where_odometry_drifts_away() {
+fn in_a_known_home_the_pose_does_not_drift() {
     let map = flat();
-    let mut truth = Truth::new(&map, START);
+    let mut truth = SimulatedRobot::new(&map, START);
     let mut localization = placed(&map, START);
     let mut odometry = Localization::new(TRACK_M, 0.5);
     odometry.place_at(START);
@@ -216,12 +219,12 @@ fn in_a_known_home_the_pose_stays_right_where_odometry_drifts_away() {
 }
 
 #[test]
-fn in_an_unknown_home_the_walls_keep_the_pose_and_the_map_is_drawn_again_with_better_ones() {
+fn in_an_unknown_home_line_slam_keeps_the_pose_and_redraws_the_map() {
     let home = flat();
-    let mut truth = Truth::new(&home, START);
+    let mut truth = SimulatedRobot::new(&home, START);
     let mut localization = Localization::new(TRACK_M, 0.5);
     localization.place_at(START);
-    localization.survey(&config());
+    localization.start_line_slam(&config());
     let mut odometry = Localization::new(TRACK_M, 0.5);
     odometry.place_at(START);
     let mut drawn = Map::new(config().body, config().sensors);
@@ -268,7 +271,7 @@ fn take_and_draw(localization: &mut Localization, map: &mut Map, view: &Observat
 }
 
 #[test]
-fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
+fn an_unknown_room_of_a_known_home_is_learned() {
     let home = flat();
     let mut half = home.knowledge().clone();
     for index in 0..half.values().len() {
@@ -278,7 +281,7 @@ fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
     }
     let mut map = Map::new(config().body, config().sensors);
     map.load(&StoredMap::from_raster(&half, None));
-    let mut truth = Truth::new(&home, START);
+    let mut truth = SimulatedRobot::new(&home, START);
     let mut localization = placed(&map, START);
     let steps = 60 * 50 * 25;
     let (mut squares, mut beyond) = (0.0, 0);
@@ -294,19 +297,19 @@ fn in_a_home_of_which_one_room_is_known_the_other_one_is_learnt() {
     assert!(rmse_m < 0.06, "{rmse_m} m");
 }
 
-/// A map that knows the same of the home.
+/// A map with the same knowledge.
 fn same(map: &Map) -> Map {
     let mut same = Map::new(config().body, config().sensors);
     same.load(&map.stored());
     same
 }
 
-/// What a robot knows that is lifted after twenty minutes of its first run, and what it sees then.
+/// A robot that is lifted after twenty minutes of its first run: its localization, its map and its last observation.
 fn lifted_in_first_run(home: &Map) -> (Localization, Map, Observation) {
-    let mut truth = Truth::new(home, START);
+    let mut truth = SimulatedRobot::new(home, START);
     let mut localization = Localization::new(TRACK_M, 0.5);
     localization.place_at(START);
-    localization.survey(&config());
+    localization.start_line_slam(&config());
     let mut map = Map::new(config().body, config().sensors);
     for _ in 0..60 * 50 * 20 {
         let view = truth.step().clone();
@@ -322,11 +325,11 @@ fn lifted_in_first_run(home: &Map) -> (Localization, Map, Observation) {
 }
 
 #[test]
-fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it_has_made() {
+fn a_robot_carried_away_in_its_first_run_relocalizes_in_its_own_map() {
     let home = flat();
     let mut offs_m = Vec::new();
     for (x_m, y_m, heading_rad) in [(4.6, 0.8, -2.0), (1.2, 2.0, 1.0), (2.8, 0.6, 3.0)] {
-        let mut truth = Truth::new(
+        let mut truth = SimulatedRobot::new(
             &home,
             Pose2 {
                 x_m,
@@ -339,7 +342,7 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
         truth.view = held;
         truth.view.wheel_drop = false;
         let mut map = same(&map);
-        // Half of the home looks like the other half: a find counts when it holds.
+        // Half of the home looks like the other half, so the pose counts when it lasts.
         let (mut steps, mut known) = (0, 0);
         while known < 1_000 {
             let view = truth.step().clone();
@@ -363,9 +366,9 @@ fn a_robot_that_is_carried_away_in_its_first_run_finds_itself_in_the_map_that_it
 }
 
 #[test]
-fn a_robot_that_was_carried_away_knows_it_and_finds_itself() {
+fn a_kidnapped_robot_is_lost_and_relocalizes() {
     let map = flat();
-    let mut truth = Truth::new(&map, START);
+    let mut truth = SimulatedRobot::new(&map, START);
     let mut localization = placed(&map, START);
     for _ in 0..2_000 {
         take(&mut localization, truth.step());
@@ -398,9 +401,9 @@ fn a_robot_that_was_carried_away_knows_it_and_finds_itself() {
 }
 
 #[test]
-fn a_robot_that_starts_at_a_wrong_place_notices_it() {
+fn a_wrong_initial_pose_is_noticed() {
     let map = flat();
-    let mut truth = Truth::new(&map, START);
+    let mut truth = SimulatedRobot::new(&map, START);
     let wrong = Pose2 {
         x_m: 4.8,
         y_m: 1.5,
@@ -415,9 +418,9 @@ fn a_robot_that_starts_at_a_wrong_place_notices_it() {
 }
 
 #[test]
-fn two_that_take_up_the_same_checkpoint_go_on_alike_to_the_last_bit() {
+fn equal_checkpoints_continue_bit_identically() {
     let map = flat();
-    let mut truth = Truth::new(&map, START);
+    let mut truth = SimulatedRobot::new(&map, START);
     let mut before = placed(&map, START);
     for _ in 0..3_000 {
         take(&mut before, truth.step());
@@ -462,9 +465,9 @@ fn nothing_from_outside_upsets_the_filter() {
 }
 
 #[test]
-fn a_map_that_odometry_alone_has_drawn_is_not_compared_with() {
+fn a_map_drawn_by_odometry_alone_is_not_used() {
     let home = flat();
-    let mut truth = Truth::new(&home, START);
+    let mut truth = SimulatedRobot::new(&home, START);
     let mut odometry = Localization::new(TRACK_M, 0.5);
     odometry.place_at(START);
     let mut drawn = Map::new(config().body, config().sensors);

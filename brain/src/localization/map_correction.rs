@@ -1,20 +1,20 @@
-//! What the map has to do when the robot finds out where it was.
+//! Corrections of the map when past poses turn out to be wrong.
 
 use crate::mapping::Keyframe;
 
-/// A correction of what was drawn up to now.
+/// A correction of what was drawn so far.
 #[derive(Clone, Debug)]
 pub enum MapCorrection {
-    /// The map is to be drawn again with better poses of the past.
+    /// Redraw the map with better past poses.
     Redraw {
-        /// Where the robot was.
+        /// The corrected poses.
         keyframes: Vec<Keyframe>,
     },
-    /// What was drawn by a robot that was not where it believed to be is to be taken back.
-    Withdraw {
-        /// All that was seen from this time on, microseconds.
+    /// Roll back what was drawn at a wrong pose.
+    RollBack {
+        /// Everything seen from this time on, microseconds.
         since_us: u64,
-        /// Where the robot was before.
+        /// The poses before that time.
         keyframes: Vec<Keyframe>,
     },
 }

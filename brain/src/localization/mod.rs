@@ -1,39 +1,41 @@
-//! Where the robot believes to be.
+//! Localization: estimates the pose.
 //!
 //! Frames follow REP-105: *odom* is smooth and drifts, *map* is right on average and may jump; `pose = map_from_odom *
-//! odom_from_base`. Odometry makes the second factor. In a map that is known, a [`tracker`] with a particle filter corrects
-//! the first one, learns what is wrong with the gyro, notices when the robot is lost and finds it again. Without a known map
-//! radio [`beacons`] do, where there are such.
+//! odom_from_base`. Odometry gives the second factor. One of three estimators corrects the first one: line SLAM ([`line_slam`]) in
+//! a home that is not known yet, Monte Carlo localization ([`tracker`]) in a known map, or radio [`beacons`] where there are some.
+//! Monte Carlo localization also calibrates the gyro, notices when the robot is lost, and finds it again. The [`localizer`]
+//! combines them.
 
 mod beacons;
 mod calibration;
+mod candidates;
 mod confidence;
 mod drift;
-mod floors;
-mod gyro_belief;
-#[cfg(test)]
-mod known_floors;
+mod global_localizer;
+mod gyro_estimate;
 #[cfg(test)]
 mod known_home;
+#[cfg(test)]
+mod known_storeys;
+mod lift;
+mod line_slam;
 mod localizer;
 mod map_correction;
 mod odometry;
 mod particles;
-mod places;
-mod rest;
-mod retreat;
-mod search;
+mod reference_map;
+mod reverse_budget;
+mod rssi_fingerprint;
+mod scan_history;
 mod skyline;
-mod stand;
-mod strengths;
-mod survey;
-mod terrain;
+mod standstill;
+mod stationary;
+mod storey_finder;
 mod totals;
 mod tracker;
 mod tracking_checkpoint;
-mod trail;
 
-pub use floors::{Finding, FloorFinder, FloorPlace};
 pub use localizer::Localization;
 pub use map_correction::MapCorrection;
+pub use storey_finder::{StoreyFinder, StoreyFinding, StoreyPose};
 pub use tracking_checkpoint::TrackingCheckpoint;

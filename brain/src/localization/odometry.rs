@@ -1,8 +1,8 @@
-//! Dead reckoning from wheel travel, with the gyro's heading where there is one.
+//! Odometry: dead reckoning from wheel encoders, with the gyro's heading where there is one.
 
 use super::calibration::Calibration;
-use super::gyro_belief::BiasTold;
-use super::rest::RestWatch;
+use super::gyro_estimate::BiasMeasurement;
+use super::stationary::StationaryDetector;
 use super::totals::Totals;
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
@@ -15,15 +15,15 @@ pub(super) struct Odometry {
     rim_max_m_per_s: f64,
     odom_from_base: Pose2,
     last: Option<Totals>,
-    rest: RestWatch,
-    /// What a rest has told that the last observation ended.
-    told: Option<BiasTold>,
+    stationary: StationaryDetector,
+    /// Bias by the zero-velocity update that the last observation ended.
+    bias: Option<BiasMeasurement>,
     pub(super) calibration: Calibration,
 }
 
-/// A rim is believed to have turned up to this many times its highest speed; more is a jump of the totals.
+/// A wheel is believed to turn up to this many times its highest speed. More is a jump of the counters.
 const JUMP_FACTOR: f64 = 3.0;
-/// Way that is believed however short the time, in metres: telemetry comes in bunches.
+/// Distance that is believed however short the time is, metres: telemetry comes in bursts.
 const JUMP_FLOOR_M: f64 = 0.05;
 
 impl Odometry {
@@ -33,8 +33,8 @@ impl Odometry {
             rim_max_m_per_s,
             odom_from_base: Pose2::IDENTITY,
             last: None,
-            rest: RestWatch::default(),
-            told: None,
+            stationary: StationaryDetector::default(),
+            bias: None,
             calibration: Calibration::default(),
         }
     }
@@ -43,12 +43,12 @@ impl Odometry {
         self.odom_from_base
     }
 
-    /// Error of the gyro's scale, relative, and its bias in rad/s.
+    /// Scale error of the gyro, relative, and its bias in rad/s.
     pub(super) fn gyro(&self) -> (f64, f64) {
-        self.calibration.found()
+        self.calibration.scale_and_bias()
     }
 
-    /// Takes up what [`Self::gyro`] said before a restart.
+    /// Restores [`Self::gyro`] after a restart.
     pub(super) fn resume_gyro(&mut self, scale: f64, bias_rad_per_s: f64) {
         self.calibration = Calibration::resumed(GyroLearnt {
             scale,
@@ -57,9 +57,9 @@ impl Odometry {
         });
     }
 
-    /// What a rest has told that the last observation ended.
-    pub(super) fn told_bias(&self) -> Option<BiasTold> {
-        self.told
+    /// Bias by the zero-velocity update that the last observation ended.
+    pub(super) fn measured_bias(&self) -> Option<BiasMeasurement> {
+        self.bias
     }
 
     pub(super) fn update(&mut self, observation: &Observation) -> Advance {
@@ -70,7 +70,7 @@ impl Odometry {
             gyro_rad: observation.gyro_heading_rad,
         };
         if let Some(last) = self.last {
-            self.watch_rest(last, now);
+            self.update_stationary(last, now);
         }
         let advance = self
             .last
@@ -85,14 +85,14 @@ impl Odometry {
         advance
     }
 
-    fn watch_rest(&mut self, last: Totals, now: Totals) {
+    fn update_stationary(&mut self, last: Totals, now: Totals) {
         let ended = if last.wheels_agree_with(now) {
             None
         } else {
-            self.rest.end(last)
+            self.stationary.end(last)
         };
-        let rested = ended.or(self.rest.observe(now));
-        self.told = rested.map(|rested| self.calibration.rest(rested));
+        let interval = ended.or(self.stationary.observe(now));
+        self.bias = interval.map(|interval| self.calibration.update_at_rest(interval));
     }
 
     fn advance(&self, last: Totals, now: Totals) -> Advance {
@@ -120,7 +120,7 @@ impl Odometry {
 
     fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
         let seen_rad = now.gyro_rad? - last.gyro_rad?;
-        if self.rest.stands_still(now, seen_rad, time_s) {
+        if self.stationary.is_stationary(now, seen_rad, time_s) {
             return Some(0.0);
         }
         let turn_rad = self.calibration.corrected_rad(seen_rad, time_s);
@@ -152,12 +152,12 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_at_rest_does_not_turn_by_its_gyros_bias_however_often_it_reports() {
+    fn bias_does_not_turn_a_robot_at_rest_however_often_it_reports() {
         let step_rad = 0.01_f64.to_radians();
         let mut odometry = Odometry::new(0.2, 0.5);
         let mut seen = Vec::new();
         for report in 0..60_000_u64 {
-            // Two reports in 25 ms: one soon after the other.
+            // Two reports in 25 ms, one soon after the other.
             let time_us = report / 2 * 25_000 + report % 2 * 3_000;
             let heading_rad = (1e-3 * time_us as f64 * 1e-6 / step_rad).round() * step_rad;
             odometry.update(&Observation {
@@ -186,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn jumps_of_the_totals_are_not_ways() {
+    fn jumps_of_the_totals_are_not_motion() {
         let mut odometry = Odometry::new(0.2, 0.5);
         odometry.update(&at(0, 0.0, 0.0));
         odometry.update(&at(20_000, -57.0, 3.0));

@@ -1,17 +1,17 @@
-//! A symmetric positive definite system of equations whose rows begin late: a chain of poses and, below it, the things that many
-//! of them saw. Cholesky's factor of such a matrix begins no earlier in any row (skyline storage).
+//! Cholesky solver for symmetric positive definite systems in skyline storage. The rows of such systems begin late: a chain of
+//! poses and, below it, the things that many poses observe. The Cholesky factor begins no earlier in any row.
 
 use crate::model::gradual::StepBudget;
 
-/// What an entry takes besides the multiplications.
+/// Work of an entry besides the multiplications.
 const ENTRY_WORK: usize = 10;
 
-/// How products are added up; it decides about the last bits of a solution.
+/// How products are summed up. It determines the last bits of a solution.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Summation {
     /// One after the other.
     InOrder,
-    /// In four sums side by side, since processors wait for one: for long rows.
+    /// In four parallel sums, because a single sum makes processors wait: for long rows.
     Interleaved,
 }
 
@@ -21,7 +21,7 @@ struct Skyline {
     summation: Summation,
     /// Column in which each row begins.
     first: Vec<usize>,
-    /// Where each row begins in `values`.
+    /// Index of each row's first entry in `values`.
     start: Vec<usize>,
     values: Vec<f64>,
 }
@@ -33,13 +33,13 @@ pub(super) struct System {
     right: Vec<f64>,
 }
 
-/// Cholesky's factor of a matrix.
+/// The Cholesky factor of a matrix.
 #[derive(Clone, Debug)]
 pub(super) struct Factor {
     matrix: Skyline,
 }
 
-/// What solves a system, and what solves it for other right sides.
+/// The solution of a system, and the factor for other right sides.
 #[derive(Clone, Debug)]
 pub(super) struct Solution {
     pub(super) values: Vec<f64>,
@@ -67,8 +67,8 @@ impl Skyline {
         }
     }
 
-    /// Makes an entry of the factor, all before it being made. Gives the number of multiplications; `None` when the matrix is not
-    /// positive definite.
+    /// Computes an entry of the factor; all entries before it must be done. Returns the number of multiplications; `None` when the
+    /// matrix is not positive definite.
     fn factor_entry(&mut self, row: usize, column: usize) -> Option<usize> {
         let first = *self.first.get(row)?;
         let start = *self.start.get(row)?;
@@ -114,7 +114,7 @@ impl System {
         }
     }
 
-    /// Adds the square of a residual `value + sum(slopes * x)` of this weight: it wants to become zero.
+    /// Adds the squared residual `value + sum(slopes * x)` with this weight.
     pub(super) fn add_residual(&mut self, slopes: &[(usize, f64)], value: f64, weight: f64) {
         for (row, slope) in slopes {
             if let Some(right) = self.right.get_mut(*row) {
@@ -161,13 +161,13 @@ impl Factor {
         Some(values)
     }
 
-    /// Standard deviation of the last unknown, if weights are inverse variances: all others are free to follow it.
+    /// Standard deviation of the last unknown if weights are inverse variances. All other unknowns are marginalized.
     pub(super) fn last_sigma(&self) -> f64 {
         let last = self.matrix.values.last();
         last.map_or(f64::INFINITY, |last| 1.0 / last)
     }
 
-    /// One row of the way from the first unknown to the last. Gives the number of multiplications.
+    /// One row of the forward substitution. Returns the number of multiplications.
     fn substitute_forward(&self, row: usize, values: &mut [f64]) -> Option<usize> {
         let first = *self.matrix.first.get(row)?;
         let (diagonal, before) = self.matrix.row(row).split_last()?;
@@ -177,7 +177,7 @@ impl Factor {
         Some(before.len())
     }
 
-    /// One row of the way back.
+    /// One row of the back substitution.
     fn substitute_back(&self, row: usize, values: &mut [f64]) -> Option<usize> {
         let first = *self.matrix.first.get(row)?;
         let (diagonal, before) = self.matrix.row(row).split_last()?;
@@ -218,7 +218,7 @@ mod tests {
         at_once(system.solve(&mut StepBudget::unlimited()))
     }
 
-    /// The solution, made in steps of so much work, and how many steps that took.
+    /// The solution in steps of so much work, and the number of steps.
     fn solved_in_steps(system: System, step: usize) -> (Option<Solution>, u32) {
         let mut solving = Gradual::new(async move { system.solve(&mut StepBudget::of(step)).await });
         let mut steps = 1;
@@ -231,15 +231,15 @@ mod tests {
     }
 
     #[test]
-    fn the_solution_makes_all_residuals_least() {
-        makes_all_residuals_least(Summation::InOrder);
-        makes_all_residuals_least(Summation::Interleaved);
+    fn the_solution_minimizes_the_residuals() {
+        minimizes_the_residuals(Summation::InOrder);
+        minimizes_the_residuals(Summation::Interleaved);
     }
 
-    fn makes_all_residuals_least(summation: Summation) {
+    fn minimizes_the_residuals(summation: Summation) {
         let mut random = Random::new(7);
         let count = 30;
-        // A chain, and every fifth unknown seen by all before it.
+        // A chain, and every fifth unknown observed by all before it.
         let first = (0..count).map(|row| if row % 5 == 4 { 0 } else { usize::max(row, 2) - 2 });
         let mut system = System::new(first.collect(), summation);
         let truth: Vec<f64> = (0..count).map(|_| random.normal()).collect();
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn the_last_unknown_is_as_sure_as_all_that_leads_to_it() {
+    fn the_deviation_of_the_last_unknown_is_marginal() {
         let mut system = System::new(vec![0, 0], Summation::Interleaved);
         system.add_residual(&[(0, 1.0)], -3.0, 1.0 / 16.0);
         system.add_residual(&[(0, -1.0), (1, 1.0)], -2.0, 1.0 / 9.0);
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_determined_has_no_solution() {
+    fn an_underdetermined_system_has_no_solution() {
         let mut system = System::new(vec![0, 0], Summation::Interleaved);
         system.add_residual(&[(0, 1.0), (1, 1.0)], 1.0, 1.0);
         assert!(solved(system).is_none());

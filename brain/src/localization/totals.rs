@@ -1,6 +1,6 @@
-//! What the odometer and the gyro have counted up to an observation.
+//! Totals of wheel encoders and gyro at an observation.
 
-/// Totals of the last observation.
+/// Totals at the last observation.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Totals {
     pub(super) time_us: u64,

@@ -1,21 +1,24 @@
-//! When the filter is moved and weighed, and what its answer is worth.
+//! Monte Carlo localization over time: when to move and weigh the particle filter, and how far to trust its estimate.
 //!
-//! A robot is *lost* when the map does not explain what it sees, or when somebody had it in the hands. Then the guesses
-//! are spread over all free floor, and it is *found* when one cluster of them is left that the map explains.
+//! A robot is *lost* when the map does not explain its observations, or when somebody has lifted it. Then the particles are spread
+//! over all free floor. It is *found* when one cluster of particles remains that the map explains.
 
-mod doubt;
+mod drift_check;
 
-use super::beacons::Heard;
+use super::beacons::LocatedRange;
+use super::candidates::{is_alone, is_among, near_if_as_good};
 use super::confidence::{Confidence, Verdict};
 use super::drift::{WHEEL_TURN_SCALE, turn_variance};
-use super::gyro_belief::{BiasTold, GyroBelief};
+use super::global_localizer::{GlobalLocalizer, PoseCandidate};
+use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
+use super::lift::Lift;
 use super::odometry::Odometry;
-use super::particles::{Felt, Fit, Manner, Motion, ParticleFilter, Spread, Surroundings};
-use super::places::{is_alone, is_among, near_if_as_good};
-use super::search::{Candidate, Search};
-use super::stand::Stand;
-use super::strengths::{Hearing, StrengthMap, Strengths};
-use super::trail::Trail;
+use super::particles::{
+    BeamScore, FilterMode, Measurements, MotionDelta, ParticleFilter, PoseSpread, Surroundings,
+};
+use super::rssi_fingerprint::{FingerprintMap, FingerprintMatcher, RssiFingerprints};
+use super::scan_history::ScanHistory;
+use super::standstill::Standstill;
 use crate::model::advance::Advance;
 use crate::model::pose_estimate::PoseEstimate;
 use std::sync::Arc;
@@ -24,110 +27,109 @@ use crate::model::config::SensorLayout;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{Cliffs, Contacts, Observation};
 
-/// With fewer proximity sensors than this a robot cannot keep its place in a map by wheels alone: tried, it is metres off
+/// With fewer proximity sensors than this a robot with odometry cannot keep its pose in a map: in experiments it was metres off
 /// within minutes.
 pub(super) const SENSORS_MIN: usize = 3;
-/// The filter is weighed after this way, metres, or this turn, radians: more often tells nothing new.
+/// The filter is weighed after this distance, metres, or this turn, radians. More often gives no new information.
 const WEIGH_M: f64 = 0.05;
 const WEIGH_RAD: f64 = 0.15;
-/// A wrong scale errs the same way in all weighings of a turn; guesses err by chance, so they must err more.
+/// A wrong scale has the same effect in all weighings of a turn. Particles draw independent errors, so theirs must be larger by
+/// this factor.
 const CORRELATED: f64 = 3.0;
-/// A wheel that hangs for so long hangs because somebody holds the robot.
-const LIFTED_S: f64 = 1.0;
-/// How far a robot is put from where it was lifted by people who put it back.
-const PUT_BACK: Spread = Spread {
+/// Distance between the place where people lift the robot and the place where they put it back.
+const CARRIED_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.3,
     sigma_rad: 0.5,
 };
-/// How far the guesses of a doubtful robot are spread: as far as walls of a map that a robot has drawn itself are wrong. With 0.15 m
-/// and 0.12 rad a robot in such a map jumped to other furniture when it touched a leg that the map does not have.
-const DOUBT: Spread = Spread {
+/// Spread of the particles of a doubtful robot: the error of walls in a map that a robot has drawn. With 0.15 m and 0.12 rad a
+/// robot jumped to other furniture when it touched a leg that the map does not have.
+const DOUBT_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.04,
     sigma_rad: 0.03,
 };
-/// The same for one that competes with others on other floors, which must not be sure too soon.
-const RIVAL_DOUBT: Spread = Spread {
+/// The same for a hypothesis that competes with other storeys. It must not become sure too soon.
+const COMPETITOR_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.15,
     sigma_rad: 0.12,
 };
 /// Weighings between two such spreads.
 const DOUBT_WEIGHINGS: u32 = 40;
-/// A lost robot has found itself when so much of its guesses is in one cluster that is so narrow.
+/// A lost robot is found when this share of its particles is in a cluster this narrow.
 const FOUND_SHARE: f64 = 0.9;
 const FOUND_SIGMA_M: f64 = 0.2;
-/// A robot that is as wide spread as this does not know where it is, metres.
+/// A robot with a larger spread than this is lost, metres.
 const LOST_SIGMA_M: f64 = 0.8;
-/// A lost robot searches the map when its trail is so long, metres, and again after as much more.
+/// Global localization starts when the history has this length, metres, and again after so many more metres.
 const SEARCH_FROM_M: f64 = 4.0;
 const SEARCH_EVERY_M: f64 = 2.5;
-/// The same of one that receives beacons: strengths forbid most of what a few metres leave open.
-const HEARING_FROM_M: f64 = 2.5;
-const HEARING_EVERY_M: f64 = 1.5;
-/// How far the guesses around a searched place are spread.
-const SEARCHED: Spread = Spread {
+/// The same with RSSI fingerprints, which exclude most of the poses that a few metres leave open.
+const RSSI_SEARCH_FROM_M: f64 = 2.5;
+const RSSI_SEARCH_EVERY_M: f64 = 1.5;
+/// Spread of the particles around a candidate pose.
+const CANDIDATE_SPREAD: PoseSpread = PoseSpread {
     sigma_m: 0.06,
     sigma_rad: 0.03,
 };
-/// Until so many beams were told since, a robot that has found itself must not be where nothing is known: it looked for itself
-/// in what is known only, and a wrong find leads out of it soon.
-pub(super) const PROBATION_BEAMS: u32 = 200;
+/// Number of informative beams after which a found pose counts as confirmed. Until then it must not lie in unknown space: global
+/// localization searches known space only, and a wrong pose leads out of it soon.
+pub(super) const CONFIRMATION_BEAMS: u32 = 200;
 
-/// What the robot moved in a step, and what it believes.
+/// The motion of a step, and the estimate.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moved {
+pub(super) struct MotionUpdate {
     pub(super) advance: Advance,
     /// Pose by odometry since the last estimate.
     pub(super) pose: Pose2,
-    /// With what odometry has put right what the gyro counted.
-    pub(super) gyro: GyroBelief,
-    /// What a rest that has just ended says of its bias.
-    pub(super) told: Option<BiasTold>,
+    /// The calibration with which odometry corrected the gyro.
+    pub(super) gyro: GyroEstimate,
+    /// Bias by a zero-velocity update that has just ended.
+    pub(super) measured_bias: Option<BiasMeasurement>,
 }
 
-impl Moved {
-    /// The last step that odometry counted.
+impl MotionUpdate {
+    /// The last step of odometry.
     pub(super) fn of(odometry: &Odometry, advance: Advance, pose: Pose2) -> Self {
         Self {
             advance,
             pose,
             gyro: odometry.calibration.belief(),
-            told: odometry.told_bias(),
+            measured_bias: odometry.measured_bias(),
         }
     }
 }
 
-/// A robot that follows its pose in a map.
+/// Monte Carlo localization of a robot in a map.
 #[derive(Clone, Debug)]
 pub(super) struct Tracker {
     filter: ParticleFilter,
-    pending: Motion,
+    pending: MotionDelta,
     pending_turn_rad: f64,
     contacts_before: Contacts,
     cliffs_before: Cliffs,
-    hanging_s: f64,
+    lift: Lift,
     confidence: Confidence,
     lost: bool,
-    /// It is lost because the map explains too little, and not because somebody had it in the hands.
+    /// The robot is lost because the map explains too little, and not because somebody lifted it.
     has_drifted: bool,
     weighings: u32,
     /// Ranges to beacons since the last weighing.
-    heard: Vec<Heard>,
-    /// What a rest has told of the gyro since the last weighing.
-    told: Option<BiasTold>,
-    stand: Stand,
-    trail: Trail,
-    /// While it is lost: how strongly beacons are received where.
-    strengths: Option<Arc<StrengthMap>>,
-    /// Way until the next search of a lost robot, metres.
+    ranges: Vec<LocatedRange>,
+    /// Bias by zero-velocity updates since the last weighing.
+    measured_bias: Option<BiasMeasurement>,
+    standstill: Standstill,
+    history: ScanHistory,
+    /// While the robot is lost: the RSSI fingerprints.
+    fingerprints: Option<Arc<FingerprintMap>>,
+    /// Distance until the next global localization of a lost robot, metres.
     search_in_m: f64,
-    /// The search that is under way.
-    searching: Option<Box<Search>>,
-    /// How the map fitted since the robot found itself.
-    since_found: Fit,
-    /// Beams until a find is not on probation any more.
-    probation: u32,
-    /// It competes with others on other floors: what speaks against its floor must not be explained away.
-    is_rival: bool,
+    /// The global localization in progress.
+    global_localizer: Option<Box<GlobalLocalizer>>,
+    /// Score of the map since the robot was found.
+    since_found: BeamScore,
+    /// Informative beams until a found pose is confirmed.
+    unconfirmed: u32,
+    /// It competes with other storeys, so contradictions of its map must not be explained away.
+    competes: bool,
     radius_m: f64,
     layout: SensorLayout,
 }
@@ -137,224 +139,224 @@ impl Tracker {
     pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
         Self {
             filter: ParticleFilter::new(radius_m, layout, seed),
-            pending: Motion::default(),
+            pending: MotionDelta::default(),
             pending_turn_rad: 0.0,
             contacts_before: Contacts::default(),
             cliffs_before: Cliffs::default(),
-            hanging_s: 0.0,
+            lift: Lift::default(),
             confidence: Confidence::default(),
             lost: false,
             has_drifted: false,
             weighings: 0,
-            heard: Vec::new(),
-            told: None,
-            stand: Stand::default(),
-            trail: Trail::default(),
-            strengths: None,
+            ranges: Vec::new(),
+            measured_bias: None,
+            standstill: Standstill::default(),
+            history: ScanHistory::default(),
+            fingerprints: None,
             search_in_m: 0.0,
-            searching: None,
-            since_found: Fit::default(),
-            probation: 0,
-            is_rival: false,
+            global_localizer: None,
+            since_found: BeamScore::default(),
+            unconfirmed: 0,
+            competes: false,
             radius_m,
             layout,
         }
     }
 
-    /// One of several, each in the map of another floor.
-    pub(super) fn into_rival(self) -> Self {
+    /// One of several, each in the map of another storey.
+    pub(super) fn into_competitor(self) -> Self {
         Self {
-            is_rival: true,
+            competes: true,
             ..self
         }
     }
 
-    /// What it has learnt of the gyro.
-    pub(super) fn gyro(&self) -> Option<GyroBelief> {
+    /// Estimate of the gyro.
+    pub(super) fn gyro(&self) -> Option<GyroEstimate> {
         self.filter.gyro()
     }
 
-    /// The robot stands at `pose`, give or take these deviations.
+    /// The robot is at `pose`, with these standard deviations.
     pub(super) fn place_at(&mut self, pose: Pose2, sigma_m: f64, sigma_rad: f64) {
-        self.filter.gather(pose, Spread { sigma_m, sigma_rad });
+        self.filter.gather(pose, PoseSpread { sigma_m, sigma_rad });
         self.forget_motion();
         self.confidence = Confidence::default();
-        self.searching = None;
-        self.probation = 0;
-        // Hands that have put it there do not carry it away from there.
-        self.hanging_s = 0.0;
+        self.global_localizer = None;
+        self.unconfirmed = 0;
+        // A person who has placed it there does not carry it away.
+        self.lift = Lift::OnFloor;
         self.lost = false;
     }
 
-    /// Nothing but the word of a person says that the robot stands where it was placed: until so many beams were told, it must not
-    /// be where nothing is known, and learns nothing that a wrong place would teach.
-    pub(super) fn doubt_for(&mut self, beams: u32) {
-        self.probation = beams;
+    /// Only a person says where the robot is. Until so many informative beams have confirmed it, the pose must not lie in unknown
+    /// space, and the filter learns nothing that a wrong pose would teach.
+    pub(super) fn require_confirmation(&mut self, beams: u32) {
+        self.unconfirmed = beams;
     }
 
-    /// Whether what the sensors show speaks clearly for the robot's place.
+    /// Whether the sensors clearly confirm the pose.
     pub(super) fn is_confirmed(&self) -> bool {
-        !self.lost && self.probation == 0 && self.confidence.confirms()
+        !self.lost && self.unconfirmed == 0 && self.confidence.confirms()
     }
 
-    /// Beams until the robot's place counts as confirmed.
+    /// Informative beams until the pose is confirmed.
     pub(super) fn unconfirmed_beams(&self) -> u32 {
-        self.probation
+        self.unconfirmed
     }
 
-    /// The robot may be anywhere. Until a search tells better, the guesses stay around `pose`.
+    /// The robot may be anywhere. Until global localization finds it, the particles stay around `pose`.
     pub(super) fn lose(&mut self, pose: Pose2) {
-        self.filter.gather(pose, PUT_BACK);
+        self.filter.gather(pose, CARRIED_SPREAD);
         self.forget_motion();
         self.confidence = Confidence::none();
-        self.search_in_m = (SEARCH_FROM_M - self.trail.length_m()).max(0.0);
-        self.searching = None;
-        self.since_found = Fit::default();
+        self.search_in_m = (SEARCH_FROM_M - self.history.length_m()).max(0.0);
+        self.global_localizer = None;
+        self.since_found = BeamScore::default();
         self.lost = true;
         self.has_drifted = false;
     }
 
-    /// Proximity sensors that it compares with the map.
+    /// Number of proximity sensors that are compared with the map.
     pub(super) fn sensor_count(&self) -> usize {
         self.layout.proximity.sensors().len()
     }
 
-    /// Whether the robot does not know where it is.
+    /// Whether the robot is lost.
     pub(super) fn is_lost(&self) -> bool {
         self.lost
     }
 
-    /// Share of what the sensors show that the map explains, 0..1.
+    /// Share of the sensor readings that the map explains, 0..1.
     pub(super) fn explained(&self) -> f64 {
         self.confidence.explained()
     }
 
-    /// Takes in ranges to beacons whose places are known.
-    pub(super) fn hear(&mut self, heard: &[Heard]) {
-        self.heard.extend_from_slice(heard);
+    /// Takes ranges to beacons whose positions are known.
+    pub(super) fn add_ranges(&mut self, ranges: &[LocatedRange]) {
+        self.ranges.extend_from_slice(ranges);
     }
 
-    /// Takes in how strongly beacons are received. Only where a lost robot may be follows from that.
-    pub(super) fn receive(&mut self, strengths: &Strengths) {
-        self.trail.receive(strengths.fresh());
+    /// Takes signal strengths. They only restrict where a lost robot may be.
+    pub(super) fn receive(&mut self, fingerprints: &RssiFingerprints) {
+        self.history.receive(fingerprints.fresh());
         if !self.lost {
-            self.strengths = None;
-        } else if self.strengths.is_none() && !strengths.is_empty() {
-            self.strengths = Some(strengths.map());
-            let from_m = (HEARING_FROM_M - self.trail.length_m()).max(0.0);
+            self.fingerprints = None;
+        } else if self.fingerprints.is_none() && !fingerprints.is_empty() {
+            self.fingerprints = Some(fingerprints.map());
+            let from_m = (RSSI_SEARCH_FROM_M - self.history.length_m()).max(0.0);
             self.search_in_m = self.search_in_m.min(from_m);
         }
     }
 
-    /// Whether the robot is where it believes to be, and is not still on probation.
+    /// Whether the pose is known and confirmed.
     pub(super) fn is_settled(&self) -> bool {
-        !self.lost && self.probation == 0 && self.hanging_s <= 0.0
+        !self.lost && self.unconfirmed == 0 && self.lift.hanging_s() <= 0.0
     }
 
-    /// Does a step of the search of a lost robot, before each [`Self::follow`] or now and then.
-    pub(super) fn search_on(&mut self, map: &impl Surroundings) {
-        if let Some(search) = &mut self.searching {
+    /// Does a step of the global localization of a lost robot, before each [`Self::follow`] or now and then.
+    pub(super) fn step_search(&mut self, map: &impl Surroundings) {
+        if let Some(search) = &mut self.global_localizer {
             search.go_on(map);
         }
     }
 
-    /// How the map fitted what the sensors showed since the robot found itself.
-    pub(super) fn since_found(&self) -> Fit {
+    /// Score of the map since the robot was found.
+    pub(super) fn since_found(&self) -> BeamScore {
         self.since_found
     }
 
-    /// A search for all places where the last metres can have been, whatever the robot believes.
-    pub(super) fn second_look(&self, map: &impl Surroundings) -> Option<Search> {
-        Search::of(&Whole(map), &self.trail, self.radius_m)
+    /// A search for all poses that the last metres allow, whatever the estimate is.
+    pub(super) fn second_look(&self, map: &impl Surroundings) -> Option<GlobalLocalizer> {
+        GlobalLocalizer::of(&Whole(map), &self.history, self.radius_m)
     }
 
-    /// Takes in what the robot moved and perceived, and what it believes. Gives the estimate when the sensors
-    /// had their say.
+    /// Takes motion, observation and the pose by odometry. Returns the estimate after each weighing.
     pub(super) fn follow(
         &mut self,
         map: &impl Surroundings,
         observation: &Observation,
-        moved: Moved,
+        moved: MotionUpdate,
     ) -> Option<PoseEstimate> {
-        let Moved { advance, pose, .. } = moved;
-        self.filter.know_gyro(moved.gyro);
+        let MotionUpdate { advance, pose, .. } = moved;
+        self.filter.set_gyro_prior(moved.gyro);
         self.collect(advance, moved.gyro);
-        let told = [self.told, moved.told];
-        self.told = told.into_iter().flatten().reduce(BiasTold::and);
-        if self.stand.ends_long(advance) {
+        let measured = [self.measured_bias, moved.measured_bias];
+        self.measured_bias = measured.into_iter().flatten().reduce(BiasMeasurement::and);
+        if self.standstill.ends_long(advance) {
             self.filter.draw_bias(moved.gyro);
-            self.told = None;
+            self.measured_bias = None;
         }
-        if let Some(search) = &mut self.searching {
+        if let Some(search) = &mut self.global_localizer {
             search.follow(advance);
         }
-        let felt = self.felt(observation);
-        if self.was_lifted(observation, advance) {
-            self.trail.forget();
+        let (contacts, edges) = self.new_contacts(observation);
+        self.lift.update(observation, advance);
+        if self.lift.is_put_down() {
+            self.history.forget();
             self.lose(pose);
             return Some(self.estimate());
         }
-        self.trail.note(observation, &self.layout.proximity);
-        self.trail.touch(felt.0, self.radius_m);
-        let due = self.pending.way_m >= WEIGH_M
+        self.history.sample(observation, &self.layout.proximity);
+        self.history.touch(contacts, self.radius_m);
+        let due = self.pending.distance_m >= WEIGH_M
             || self.pending_turn_rad >= WEIGH_RAD
-            || felt.0.any()
-            || felt.1.any();
+            || contacts.any()
+            || edges.any();
         if !due || observation.wheel_drop {
             return None;
         }
-        let manner = self.manner();
-        let scale_sigma = match (advance.gyro_turn_rad, manner) {
+        let mode = self.mode();
+        let scale_sigma = match (advance.gyro_turn_rad, mode) {
             (None, _) => Some(WHEEL_TURN_SCALE),
-            (Some(_), Manner::Searching) => Some(moved.gyro.scale_sigma),
-            (Some(_), Manner::Holding) => None,
+            (Some(_), FilterMode::Searching) => Some(moved.gyro.scale_sigma),
+            (Some(_), FilterMode::Holding) => None,
         };
         if let Some(scale_sigma) = scale_sigma {
             let scale_rad = CORRELATED * scale_sigma * self.pending_turn_rad;
             self.pending.turn_variance += scale_rad * scale_rad;
         }
-        self.filter.take_manner(manner);
+        self.filter.set_mode(mode);
         self.filter.follow(self.pending);
-        let heard = core::mem::take(&mut self.heard);
-        let felt = Felt {
-            contacts: felt.0,
-            edges: felt.1,
-            heard: &heard,
-            told: self.told.take(),
+        let ranges = core::mem::take(&mut self.ranges);
+        let measurements = Measurements {
+            contacts,
+            edges,
+            ranges: &ranges,
+            measured_bias: self.measured_bias.take(),
         };
         self.forget_motion();
         self.weighings = self.weighings.saturating_add(1);
         if self.lost {
             let map = &Whole(map);
-            self.filter.weigh(map, observation, &felt);
+            self.filter.weigh(map, observation, &measurements);
             Some(self.search(map, pose))
         } else {
-            self.filter.weigh(map, observation, &felt);
+            self.filter.weigh(map, observation, &measurements);
             Some(self.judge(map))
         }
     }
 
-    /// Guesses hold on to what they have learnt only where the robot is known to be.
-    fn manner(&self) -> Manner {
-        let is_known = !self.lost && self.probation == 0 && !self.is_rival;
+    /// Particles hold what they have learned only while the pose is known.
+    fn mode(&self) -> FilterMode {
+        let is_known = !self.lost && self.unconfirmed == 0 && !self.competes;
         if is_known && self.confidence.holds() {
-            Manner::Holding
+            FilterMode::Holding
         } else {
-            Manner::Searching
+            FilterMode::Searching
         }
     }
 
-    /// Compares the estimate with what the sensors show, and draws the consequences.
+    /// Compares the estimate with the sensors, and draws the consequences.
     fn judge(&mut self, map: &impl Surroundings) -> PoseEstimate {
         let estimate = self.filter.estimate();
-        let fit = self.filter.fit(map, estimate.pose);
-        self.since_found = self.since_found.and(fit);
-        if self.probation > 0 {
-            let fit = self.filter.fit(&Whole(map), estimate.pose);
-            self.probation = self.probation.saturating_sub(fit.told);
-            self.confidence.take(fit);
+        let score = self.filter.score(map, estimate.pose);
+        self.since_found = self.since_found.and(score);
+        if self.unconfirmed > 0 {
+            let score = self.filter.score(&Whole(map), estimate.pose);
+            self.unconfirmed = self.unconfirmed.saturating_sub(score.informative);
+            self.confidence.take(score);
         } else {
-            self.confidence.take(fit);
+            self.confidence.take(score);
         }
         let verdict = self.confidence.verdict();
         if estimate.sigma_m > LOST_SIGMA_M {
@@ -362,10 +364,14 @@ impl Tracker {
         } else if verdict == Verdict::Wrong {
             self.doubt(map, estimate.pose);
         } else {
-            // What a look around would say is of a doubt that is over.
-            self.searching = None;
+            // The doubt is over, so a search that it started is obsolete.
+            self.global_localizer = None;
             if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
-                let doubt = if self.is_rival { RIVAL_DOUBT } else { DOUBT };
+                let doubt = if self.competes {
+                    COMPETITOR_SPREAD
+                } else {
+                    DOUBT_SPREAD
+                };
                 self.filter.widen(estimate.pose, doubt);
                 self.weighings = 0;
             }
@@ -376,34 +382,38 @@ impl Tracker {
         }
     }
 
-    /// Looks for a robot that is at `carried` if it was where it believed to be.
+    /// Searches for a robot that would be at `carried` by odometry.
     fn search(&mut self, map: &impl Surroundings, carried: Pose2) -> PoseEstimate {
         let (estimate, share) = self.filter.cluster();
-        self.confidence.take(self.filter.fit(map, estimate.pose));
+        self.confidence.take(self.filter.score(map, estimate.pose));
         let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
-        if self.searching.is_none() && self.search_in_m <= 0.0 {
-            self.search_in_m = match self.strengths {
-                Some(_) => HEARING_EVERY_M,
+        if self.global_localizer.is_none() && self.search_in_m <= 0.0 {
+            self.search_in_m = match self.fingerprints {
+                Some(_) => RSSI_SEARCH_EVERY_M,
                 None => SEARCH_EVERY_M,
             };
-            let hearing = self.strengths.clone();
-            let hearing = hearing.map(|map| Hearing::new(self.trail.received(), map));
-            self.searching =
-                Search::of(map, &self.trail, self.radius_m).map(|search| Box::new(search.hearing(hearing)));
+            let matcher = self.fingerprints.clone();
+            let matcher = matcher.map(|map| FingerprintMatcher::new(self.history.received(), map));
+            self.global_localizer = GlobalLocalizer::of(map, &self.history, self.radius_m)
+                .map(|search| Box::new(search.with_rssi(matcher)));
         }
-        if let Some(places) = self.searching.as_ref().and_then(|search| search.places()) {
-            self.searching = None;
-            let places = if self.has_drifted {
-                near_if_as_good(places, carried)
+        if let Some(candidates) = self
+            .global_localizer
+            .as_ref()
+            .and_then(|search| search.candidates())
+        {
+            self.global_localizer = None;
+            let candidates = if self.has_drifted {
+                near_if_as_good(candidates, carried)
             } else {
-                places
+                candidates
             };
-            if gathered && self.confidence.is_found() && is_alone(&places, estimate.pose) {
+            if gathered && self.confidence.is_found() && is_alone(&candidates, estimate.pose) {
                 self.lost = false;
                 self.weighings = 0;
-                self.probation = PROBATION_BEAMS;
-            } else if !gathered || !is_among(&places, estimate.pose) {
-                self.try_places(&places);
+                self.unconfirmed = CONFIRMATION_BEAMS;
+            } else if !gathered || !is_among(&candidates, estimate.pose) {
+                self.scatter_around(&candidates);
             }
         }
         PoseEstimate {
@@ -412,12 +422,12 @@ impl Tracker {
         }
     }
 
-    fn try_places(&mut self, places: &[Candidate]) {
-        if places.is_empty() {
+    fn scatter_around(&mut self, candidates: &[PoseCandidate]) {
+        if candidates.is_empty() {
             return;
         }
-        let poses: Vec<Pose2> = places.iter().map(|place| place.pose).collect();
-        self.filter.scatter(&poses, SEARCHED);
+        let poses: Vec<Pose2> = candidates.iter().map(|candidate| candidate.pose).collect();
+        self.filter.scatter(&poses, CANDIDATE_SPREAD);
         self.confidence = Confidence::none();
     }
 
@@ -429,7 +439,7 @@ impl Tracker {
     }
 
     /// Contacts and cliffs that begin now.
-    fn felt(&mut self, observation: &Observation) -> (Contacts, Cliffs) {
+    fn new_contacts(&mut self, observation: &Observation) -> (Contacts, Cliffs) {
         let (contacts, cliffs) = (observation.contacts, observation.cliffs);
         let first_contacts = if self.contacts_before.any() {
             Contacts::default()
@@ -445,36 +455,24 @@ impl Tracker {
         (first_contacts, first_cliffs)
     }
 
-    /// Whether the robot has just been put down by hands.
-    fn was_lifted(&mut self, observation: &Observation, advance: Advance) -> bool {
-        if observation.wheel_drop {
-            self.hanging_s += advance.time_s;
-            return false;
-        }
-        let lifted = self.hanging_s >= LIFTED_S;
-        self.hanging_s = 0.0;
-        lifted
-    }
-
-    fn collect(&mut self, advance: Advance, gyro: GyroBelief) {
+    fn collect(&mut self, advance: Advance, gyro: GyroEstimate) {
         self.pending.gyro.add(advance, gyro);
         self.pending.step = self.pending.step.after_arc(advance.distance_m, advance.turn_rad);
-        self.pending.way_m += advance.distance_m.abs();
+        self.pending.distance_m += advance.distance_m.abs();
         self.pending.turn_variance += turn_variance(advance);
         self.pending_turn_rad += advance.turn_rad.abs();
-        self.trail.advance(advance);
+        self.history.advance(advance);
         self.search_in_m -= advance.distance_m.abs();
     }
 
     fn forget_motion(&mut self) {
-        self.heard.clear();
-        self.pending = Motion::default();
+        self.ranges.clear();
+        self.pending = MotionDelta::default();
         self.pending_turn_rad = 0.0;
     }
 }
 
-/// A map to which nothing is unknown. A lost robot looks for itself in what is known only: every place would do where
-/// nothing is.
+/// A map without unknown space. A lost robot searches known space only, because any pose would do in unknown space.
 struct Whole<'map, M>(&'map M);
 
 impl<M: Surroundings> Surroundings for Whole<'_, M> {
@@ -490,7 +488,7 @@ impl<M: Surroundings> Surroundings for Whole<'_, M> {
         true
     }
 
-    fn places(&self) -> Vec<Point2> {
-        self.0.places()
+    fn positions(&self) -> Vec<Point2> {
+        self.0.positions()
     }
 }

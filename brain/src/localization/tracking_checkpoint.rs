@@ -1,18 +1,18 @@
-//! What of the tracked pose must survive a restart of the daemon.
+//! The part of Monte Carlo localization that survives a restart of the daemon.
 
-/// How sure a robot is of its pose in the map of its home, and what it has learnt of its gyro.
+/// Uncertainty of the pose in the map, and what the robot has learned of its gyro.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TrackingCheckpoint {
-    /// Standard deviation of the place, metres.
+    /// Standard deviation of the position, metres.
     pub sigma_m: f64,
     /// Standard deviation of the heading, radians.
     pub sigma_rad: f64,
-    /// It did not know where it was.
+    /// The robot was lost.
     pub lost: bool,
-    /// Error of the gyro's scale, relative.
+    /// Scale error of the gyro, relative.
     pub gyro_scale: f64,
     /// Bias of the gyro, rad/s.
     pub gyro_bias_rad_per_s: f64,
-    /// Beams that must still tell something before it counts as known where it is.
+    /// Informative beams until the pose is confirmed.
     pub unconfirmed_beams: u32,
 }

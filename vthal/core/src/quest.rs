@@ -4,7 +4,7 @@
 //! tells the floor, so a person should.
 
 use brain::config::BrainConfig;
-use brain::{Finding, FloorFinder, FloorPlace, Observation};
+use brain::{Observation, StoreyFinder, StoreyFinding, StoreyPose};
 
 use crate::floors::Floors;
 
@@ -31,7 +31,7 @@ impl Question {
 pub(crate) struct Quest {
     pub(crate) chosen: Option<u16>,
     pub(crate) asked: Option<Question>,
-    finder: Option<Box<FloorFinder>>,
+    finder: Option<Box<StoreyFinder>>,
 }
 
 impl Quest {
@@ -47,18 +47,18 @@ impl Quest {
         &mut self,
         observation: &Observation,
         (floors, config, seed): (&Floors, &BrainConfig, u64),
-    ) -> Option<FloorPlace> {
+    ) -> Option<StoreyPose> {
         let chosen = self.chosen;
         let finder = self.finder.get_or_insert_with(|| {
             let homes = floors
                 .homes()
                 .filter(|(number, _)| chosen.is_none_or(|chosen| chosen == *number));
-            Box::new(FloorFinder::new(config, seed, homes))
+            Box::new(StoreyFinder::new(config, seed, homes))
         });
         match finder.follow(observation) {
-            Finding::Open => None,
-            Finding::Found(place) => Some(place),
-            Finding::Unclear => {
+            StoreyFinding::Open => None,
+            StoreyFinding::Found(place) => Some(place),
+            StoreyFinding::Unclear => {
                 self.asked = Some(Question::FloorUnknown);
                 None
             }

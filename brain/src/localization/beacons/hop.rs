@@ -1,55 +1,55 @@
-//! Motion and ranges, gathered into hops.
+//! Collects motion and ranges into hops.
 
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{BeaconRange, BeaconSignal, Observation};
 
-/// Beacons that are followed; more than enough for a home.
+/// Most beacons; more than enough for a home.
 pub(super) const BEACONS_MAX: usize = 8;
-/// A hop ends after this way, metres, or this turn, radians.
+/// A hop ends after this distance, metres, or this turn, radians.
 const HOP_M: f64 = 0.15;
 const HOP_RAD: f64 = 0.5;
-/// Error of a range that stays the same around a place, metres: walls in the way. However often a hop measures, its mean
-/// is not better; and several hops lie in one such place, so each counts for less than it is worth alone.
+/// Range error that stays the same around a place, metres, because of walls in the path. The mean of many ranges of a hop is no
+/// better than this. Several hops lie in one such place, so each counts less than it would alone.
 const PLACE_SIGMA_M: f64 = 0.45;
-/// Greatest range and deviation that are believed, metres.
+/// Greatest accepted range and standard deviation, metres.
 const RANGE_MAX_M: f64 = 100.0;
 const SIGMA_MAX_M: f64 = 10.0;
-/// Smallest deviation of one range that is believed, metres.
+/// Least accepted standard deviation of one range, metres.
 const SIGMA_MIN_M: f64 = 0.02;
-/// Slip along the way, metres per square root of a metre, and what each hop adds.
+/// Slip, metres per square root of a metre, and what each hop adds, metres.
 const SLIP_M_PER_SQRT_M: f64 = 0.012;
 const JITTER_M: f64 = 0.004;
-/// Error of the heading by wheels: slip on the way, per square root of a metre; and on turns, per square root of a radian:
-/// coarse encoders lose a count at each reversal.
+/// Heading error of the wheels: slip per square root of a metre, and turns per square root of a radian. Coarse encoders lose a
+/// count at each reversal.
 const SLIP_RAD_PER_SQRT_M: f64 = 0.01;
 const TURN_RAD_PER_SQRT_RAD: f64 = 0.015;
-/// Error of the heading by a gyro, radians per hop and per radian turned.
+/// Heading error of a gyro, radians per hop and per radian turned.
 const GYRO_RAD: f64 = 0.002;
 const GYRO_SCALE: f64 = 0.006;
 
-/// What was moved and heard.
+/// Motion and ranges of a hop.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hop {
-    /// From the pose before to the one after, by odometry.
+    /// Motion by odometry.
     pub(super) step: Pose2,
-    /// Way of the centre, backwards negative, metres.
-    pub(super) way_m: f64,
-    /// Way, backwards counted too, metres.
+    /// Distance of the centre, negative when reversing, metres.
+    pub(super) distance_m: f64,
+    /// Distance driven, also backwards, metres.
     pub(super) length_m: f64,
-    /// Turn that the wheels counted, radians; 0 where a gyro did.
+    /// Turn that the wheels counted, radians.
     pub(super) wheel_turn_rad: f64,
-    /// Variance of the way and of the turn.
-    pub(super) way_variance_m2: f64,
+    /// Variances of distance and turn.
+    pub(super) distance_variance_m2: f64,
     pub(super) turn_variance_rad2: f64,
     /// The turn comes from a gyro.
     pub(super) by_gyro: bool,
-    /// Mean range and its deviation, of each beacon that was heard.
+    /// Mean range to each beacon and its standard deviation.
     pub(super) ranges: Vec<BeaconRange>,
 }
 
 impl Hop {
-    /// Where the hop's middle is, seen from its end: ranges were measured all along it.
+    /// The hop's middle, seen from its end. Ranges are measured all along the hop.
     pub(super) fn middle(&self) -> Point2 {
         let back = self.step.inverse();
         Point2 {
@@ -58,14 +58,14 @@ impl Hop {
         }
     }
 
-    /// The same when the wheels turn more by `scale` and by `bend_rad_per_m` of way, and go further by `stretch`.
+    /// The motion after a correction of the wheels: more turn by `scale` and by `bend_rad_per_m`, more distance by `stretch`.
     pub(super) fn corrected(&self, [bend_rad_per_m, scale, stretch]: [f64; 3]) -> Pose2 {
         let (bend_rad_per_m, scale) = if self.by_gyro {
             (0.0, 0.0)
         } else {
             (bend_rad_per_m, scale)
         };
-        let more_rad = scale * self.wheel_turn_rad + bend_rad_per_m * self.way_m;
+        let more_rad = scale * self.wheel_turn_rad + bend_rad_per_m * self.distance_m;
         let (sin, cos) = libm::sincos(0.5 * more_rad);
         let longer = 1.0 + stretch;
         Pose2 {
@@ -76,28 +76,28 @@ impl Hop {
     }
 }
 
-/// A hop that is not over yet.
+/// A hop in progress.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Gathering {
+pub(super) struct HopBuilder {
     hop: Hop,
     turned_rad: f64,
-    sums: Vec<Sum>,
+    sums: Vec<RangeSum>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Sum {
+struct RangeSum {
     beacon: u16,
     count: u32,
     range_m: f64,
     sigma_m: f64,
 }
 
-impl Gathering {
-    /// Adds a step; the hop, if it is over now.
+impl HopBuilder {
+    /// Adds a step. Returns the hop if it ends here.
     pub(super) fn take(&mut self, observation: &Observation, advance: Advance) -> Option<Hop> {
         let hop = &mut self.hop;
         hop.step = hop.step.after_arc(advance.distance_m, advance.turn_rad);
-        hop.way_m += advance.distance_m;
+        hop.distance_m += advance.distance_m;
         hop.length_m += advance.distance_m.abs();
         hop.by_gyro = advance.gyro_turn_rad.is_some();
         hop.wheel_turn_rad += advance.wheel_turn_rad;
@@ -112,7 +112,7 @@ impl Gathering {
     }
 
     fn add(&mut self, range: BeaconRange) {
-        // Written so that NaN is not believed.
+        // Written so that NaN is rejected.
         let believable = range.range_m >= 0.0
             && range.range_m <= RANGE_MAX_M
             && range.sigma_m > 0.0
@@ -128,7 +128,7 @@ impl Gathering {
                 sum.range_m += range.range_m;
                 sum.sigma_m = sum.sigma_m.max(range.sigma_m);
             }
-            None if room => self.sums.push(Sum {
+            None if room => self.sums.push(RangeSum {
                 beacon: range.beacon,
                 count: 1,
                 range_m: range.range_m,
@@ -141,7 +141,7 @@ impl Gathering {
     fn end(&mut self) -> Hop {
         let mut hop = core::mem::take(&mut self.hop);
         let turned_rad = core::mem::take(&mut self.turned_rad);
-        hop.way_variance_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * hop.length_m + JITTER_M * JITTER_M;
+        hop.distance_variance_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * hop.length_m + JITTER_M * JITTER_M;
         hop.turn_variance_rad2 = if hop.by_gyro {
             let scale_rad = GYRO_SCALE * turned_rad;
             GYRO_RAD * GYRO_RAD + scale_rad * scale_rad
@@ -149,13 +149,13 @@ impl Gathering {
             SLIP_RAD_PER_SQRT_M * SLIP_RAD_PER_SQRT_M * hop.length_m
                 + TURN_RAD_PER_SQRT_RAD * TURN_RAD_PER_SQRT_RAD * turned_rad
         };
-        hop.ranges = self.sums.drain(..).map(Sum::mean).collect();
+        hop.ranges = self.sums.drain(..).map(RangeSum::mean).collect();
         hop.ranges.sort_by_key(|range| range.beacon);
         hop
     }
 }
 
-impl Sum {
+impl RangeSum {
     fn mean(self) -> BeaconRange {
         let count = f64::from(self.count);
         let own_m2 = self.sigma_m * self.sigma_m / count;

@@ -1,114 +1,112 @@
-//! Where the robot is by its distances to radio beacons whose places nobody has told.
+//! Localization by ranges to radio beacons whose positions are unknown at first.
 //!
-//! Terms. *Hop*: the motion between two moments at which ranges are taken in. *First look*: the first metres, kept whole
-//! and solved at once for the way, the wheels' errors and the places of the beacons ([`first_look`]). *Follower*: what
-//! carries all of these on from there, hop by hop ([`follower`]). Until the first look has an answer the robot goes by its
-//! odometry.
+//! *Hop*: the motion between two moments at which ranges are used. *Initialization*: the first metres, solved as one batch for the
+//! path, the wheels' errors and the positions of the beacons ([`initialization`]). *Filter*: estimates all of these from there on,
+//! hop by hop ([`filter`]). Odometry gives the pose until the initialization has a solution.
 //!
-//! Ranges lie: walls lengthen them, and some come by a detour. So what is far off counts little, and what is measured
-//! twenty times at one place counts as little more than once.
+//! Ranges have large errors: walls lengthen them, and some take a detour. So outliers have little weight, and twenty ranges at one
+//! place count little more than one.
 
-mod first_look;
-mod follower;
-mod guess;
-mod heard;
+mod filter;
 mod hop;
-mod sight;
+mod initialization;
+mod located_range;
+mod multilateration;
+mod range_prediction;
 mod weight;
 
+use super::lift::Lift;
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
-use first_look::FirstLook;
-use follower::Follower;
-pub(super) use heard::Heard;
-use hop::Gathering;
+use filter::BeaconFilter;
+use hop::HopBuilder;
+use initialization::BatchInitializer;
+pub(super) use located_range::LocatedRange;
 
-/// Wheels that hang for so long hang because somebody carries the robot, seconds.
-const CARRIED_S: f64 = 1.0;
-
-/// Pose by beacons.
+/// Localization by beacons.
 #[derive(Clone, Debug)]
 pub(super) struct Beacons {
-    gathering: Gathering,
-    stage: Stage,
-    hanging_s: f64,
-    heard: Vec<Heard>,
+    gathering: HopBuilder,
+    stage: BeaconStage,
+    lift: Lift,
+    located_ranges: Vec<LocatedRange>,
 }
 
 #[derive(Clone, Debug)]
-enum Stage {
+enum BeaconStage {
     /// No beacon was heard yet.
     Silent,
-    Looking(Box<FirstLook>),
-    Following(Box<Follower>),
-    /// Somebody carried the robot: where to is not known.
+    Initializing(Box<BatchInitializer>),
+    Following(Box<BeaconFilter>),
+    /// Somebody carried the robot to an unknown place.
     Carried,
 }
 
 impl Beacons {
     pub(super) fn new() -> Self {
         Self {
-            gathering: Gathering::default(),
-            stage: Stage::Silent,
-            hanging_s: 0.0,
-            heard: Vec::new(),
+            gathering: HopBuilder::default(),
+            stage: BeaconStage::Silent,
+            lift: Lift::default(),
+            located_ranges: Vec::new(),
         }
     }
 
-    /// Takes in what the robot moved and heard; `before` is where it believes to be. Gives the estimate at the end of each
-    /// hop once the beacons are known.
+    /// Takes the motion and ranges of a step; `before` is the present estimate. Returns an estimate at the end of each hop once the
+    /// beacons are located.
     pub(super) fn follow(
         &mut self,
         observation: &Observation,
         advance: Advance,
         before: PoseEstimate,
     ) -> Option<PoseEstimate> {
-        self.heard.clear();
+        self.located_ranges.clear();
         if self.was_carried(observation, advance) {
             return None;
         }
         let hop = self.gathering.take(observation, advance)?;
         match &mut self.stage {
-            Stage::Carried => None,
-            Stage::Silent => {
+            BeaconStage::Carried => None,
+            BeaconStage::Silent => {
                 if !hop.ranges.is_empty() {
-                    self.stage = Stage::Looking(Box::new(FirstLook::new(before)));
+                    self.stage = BeaconStage::Initializing(Box::new(BatchInitializer::new(before)));
                 }
                 None
             }
-            Stage::Looking(look) => {
-                let Some(found) = look.take(hop) else {
-                    if look.is_hopeless() {
-                        **look = FirstLook::new(before);
+            BeaconStage::Initializing(batch) => {
+                let Some(found) = batch.take(hop) else {
+                    if batch.is_hopeless() {
+                        **batch = BatchInitializer::new(before);
                     }
                     return None;
                 };
                 let estimate = found.estimate();
-                self.stage = Stage::Following(Box::new(found));
+                self.stage = BeaconStage::Following(Box::new(found));
                 Some(estimate)
             }
-            Stage::Following(follower) => {
+            BeaconStage::Following(follower) => {
                 follower.take(&hop);
-                follower.hear(&hop, &mut self.heard);
+                follower.locate_ranges(&hop, &mut self.located_ranges);
                 Some(follower.estimate())
             }
         }
     }
 
     fn was_carried(&mut self, observation: &Observation, advance: Advance) -> bool {
+        self.lift.update(observation, advance);
         if observation.wheel_drop {
-            self.hanging_s += advance.time_s;
             return true;
         }
-        let carried = self.hanging_s >= CARRIED_S;
-        self.hanging_s = 0.0;
+        let carried = self.lift.is_put_down();
         if carried {
-            self.gathering = Gathering::default();
-            self.stage = match core::mem::replace(&mut self.stage, Stage::Silent) {
-                Stage::Silent => Stage::Silent,
-                Stage::Looking(_) | Stage::Following(_) | Stage::Carried => Stage::Carried,
+            self.gathering = HopBuilder::default();
+            self.stage = match core::mem::replace(&mut self.stage, BeaconStage::Silent) {
+                BeaconStage::Silent => BeaconStage::Silent,
+                BeaconStage::Initializing(_) | BeaconStage::Following(_) | BeaconStage::Carried => {
+                    BeaconStage::Carried
+                }
             };
         }
         carried
@@ -116,34 +114,34 @@ impl Beacons {
 
     /// Whether there are beacons at all.
     pub(super) fn are_heard(&self) -> bool {
-        !matches!(self.stage, Stage::Silent)
+        !matches!(self.stage, BeaconStage::Silent)
     }
 
-    /// Whether the way of the robot follows from beacons.
+    /// Whether beacons determine the pose.
     pub(super) fn is_following(&self) -> bool {
-        matches!(self.stage, Stage::Following(_))
+        matches!(self.stage, BeaconStage::Following(_))
     }
 
-    /// What the last hop heard of beacons whose places are known; empty between hops.
-    pub(super) fn heard(&self) -> &[Heard] {
-        &self.heard
+    /// Ranges of the last hop to located beacons; empty between hops.
+    pub(super) fn located_ranges(&self) -> &[LocatedRange] {
+        &self.located_ranges
     }
 
-    /// Somebody who knows better says where the robot is.
+    /// Another estimator gives the pose.
     pub(super) fn place_at(&mut self, pose: Pose2) {
         match &mut self.stage {
-            Stage::Following(follower) => follower.place_at(pose),
-            Stage::Looking(_) | Stage::Carried => self.stage = Stage::Silent,
-            Stage::Silent => {}
+            BeaconStage::Following(follower) => follower.place_at(pose),
+            BeaconStage::Initializing(_) | BeaconStage::Carried => self.stage = BeaconStage::Silent,
+            BeaconStage::Silent => {}
         }
     }
 
-    /// Numbers and places of the beacons that are known, and how sure they are, metres.
+    /// Number, position and standard deviation in metres of each located beacon.
     #[cfg(test)]
     pub(super) fn places(&self) -> Vec<(u16, crate::model::geometry::Point2, f64)> {
         match &self.stage {
-            Stage::Following(follower) => follower.places(),
-            Stage::Silent | Stage::Looking(_) | Stage::Carried => Vec::new(),
+            BeaconStage::Following(follower) => follower.places(),
+            BeaconStage::Silent | BeaconStage::Initializing(_) | BeaconStage::Carried => Vec::new(),
         }
     }
 }

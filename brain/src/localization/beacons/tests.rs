@@ -1,4 +1,4 @@
-//! A robot with bad wheels and no gyro drives about between beacons.
+//! A robot with bad wheels and no gyro drives between beacons.
 
 use super::super::Localization;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
@@ -14,18 +14,18 @@ const BEACONS: [Point2; 4] = [
     Point2 { x_m: -0.4, y_m: 4.6 },
 ];
 
-/// The real robot: drives until it meets the border of a room of 6 x 4 m, then turns by a random angle.
-struct Truth {
+/// The true robot: drives until it reaches the border of a room of 6 x 4 m, then turns by a random angle.
+struct BeaconRobot {
     pose: Pose2,
     random: Random,
     turn_left_rad: f64,
     view: Observation,
     steps: usize,
-    /// Added to each range to the first beacon, metres: a wall in the way.
+    /// Added to each range to the first beacon, metres: a wall in the path.
     delay_m: f64,
 }
 
-impl Truth {
+impl BeaconRobot {
     fn new(seed: u64) -> Self {
         Self {
             pose: Pose2 {
@@ -44,11 +44,11 @@ impl Truth {
     fn step(&mut self) -> &Observation {
         self.view.time_us += 50_000;
         self.steps += 1;
-        let (way_m, turn_rad) = self.motion();
-        let next = self.pose.after_arc(way_m, turn_rad);
+        let (distance_m, turn_rad) = self.motion();
+        let next = self.pose.after_arc(distance_m, turn_rad);
         if (0.0..=6.0).contains(&next.x_m) && (0.0..=4.0).contains(&next.y_m) {
             self.pose = next;
-            self.count(way_m, turn_rad);
+            self.count(distance_m, turn_rad);
         } else {
             let side = if self.random.coin() { 1.0 } else { -1.0 };
             self.turn_left_rad = side * self.random.between(1.4, 3.0);
@@ -67,13 +67,13 @@ impl Truth {
         (0.0, turn_rad)
     }
 
-    /// The wheels count a bend of 0.4 degrees a metre that was not driven, turns 2 % too small, and slip.
-    fn count(&mut self, way_m: f64, turn_rad: f64) {
-        let slip_rad = 0.009 * way_m.abs().sqrt() * self.random.normal();
-        let counted_rad = 0.98 * turn_rad + 0.007 * way_m + slip_rad;
+    /// The wheels count a curvature of 0.4 degrees a metre that was not driven, count turns 2 % too small, and slip.
+    fn count(&mut self, distance_m: f64, turn_rad: f64) {
+        let slip_rad = 0.009 * distance_m.abs().sqrt() * self.random.normal();
+        let counted_rad = 0.98 * turn_rad + 0.007 * distance_m + slip_rad;
         let rim_m = 0.5 * TRACK_M * counted_rad;
-        self.view.travel_left_m += way_m - rim_m;
-        self.view.travel_right_m += way_m + rim_m;
+        self.view.travel_left_m += distance_m - rim_m;
+        self.view.travel_right_m += distance_m + rim_m;
     }
 
     fn range(&mut self) {
@@ -113,9 +113,9 @@ fn take(localization: &mut Localization, view: &Observation) {
 }
 
 #[test]
-fn ranges_give_a_robot_without_gyro_its_place_and_heading() {
+fn ranges_give_a_robot_without_gyro_its_pose() {
     for seed in 1..=4 {
-        let mut truth = Truth::new(seed);
+        let mut truth = BeaconRobot::new(seed);
         let mut localization = placed(truth.pose);
         let mut odometry = placed(truth.pose);
         let (mut squares, mut turned_squares, mut counted_squares, mut counted) = (0.0, 0.0, 0.0, 0.0);
@@ -156,8 +156,8 @@ fn ranges_give_a_robot_without_gyro_its_place_and_heading() {
 }
 
 #[test]
-fn a_wall_before_one_beacon_does_not_push_the_robot_away() {
-    let mut truth = Truth::new(9);
+fn a_wall_in_the_path_of_one_beacon_does_not_shift_the_pose() {
+    let mut truth = BeaconRobot::new(9);
     let mut localization = placed(truth.pose);
     for _ in 0..20 * 60 * 8 {
         take(&mut localization, truth.step());
@@ -172,8 +172,8 @@ fn a_wall_before_one_beacon_does_not_push_the_robot_away() {
 }
 
 #[test]
-fn a_robot_that_hears_nothing_goes_by_its_wheels() {
-    let mut truth = Truth::new(2);
+fn without_beacons_the_pose_is_odometry() {
+    let mut truth = BeaconRobot::new(2);
     let (mut localization, mut odometry) = (placed(truth.pose), placed(truth.pose));
     for _ in 0..5_000 {
         let mut view = truth.step().clone();
@@ -185,7 +185,7 @@ fn a_robot_that_hears_nothing_goes_by_its_wheels() {
 }
 
 #[test]
-fn nothing_from_outside_upsets_it() {
+fn the_pose_stays_finite_with_any_input() {
     let mut localization = placed(Pose2::IDENTITY);
     let mut random = Random::new(3);
     let odd = [f64::NAN, f64::INFINITY, -1.0, 0.0, 0.5, 1e300];

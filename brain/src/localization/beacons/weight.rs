@@ -1,6 +1,6 @@
-//! How much a range counts.
+//! Robust weight of a range.
 
-/// How much a range counts that is off by so many deviations: that of Student's t with three degrees of freedom.
+/// Weight of a range that is off by so many standard deviations, of Student's t with three degrees of freedom.
 pub(super) fn weight(off: f64) -> f64 {
     4.0 / (3.0 + off * off)
 }

@@ -1,13 +1,13 @@
-//! Whether a robot on its first run can be where it believes to be.
+//! Checks whether a robot on its first run can be where line SLAM places it.
 //!
-//! Its map of some minutes ago bears witness. A wall that is seen a few centimetres or decimetres off is drift, which the survey
-//! mends. What is seen or touched in the midst of floor on which nothing stood, and a body in the midst of what was solid, for
-//! metres of way, mean that the robot is elsewhere: somebody has moved it without lifting it, or its wheels turned on something.
+//! The reference is the robot's own map of a few minutes ago. A wall that is a few centimetres or decimetres off is drift, which
+//! line SLAM corrects. Obstacles in the middle of floor that was free, and a body inside what was solid, for metres of driving,
+//! mean that the robot is elsewhere: somebody moved it without lifting it, or its wheels turned on something.
 
 use super::{LEARN_US, Localization};
 use crate::localization::MapCorrection;
 use crate::localization::particles::Surroundings;
-use crate::localization::terrain::Terrain;
+use crate::localization::reference_map::ReferenceMap;
 use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
@@ -15,117 +15,128 @@ use crate::model::geometry::Point2;
 use crate::model::observation::{Contacts, Observation};
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Way between two looks, metres.
-const LOOK_M: f64 = 0.1;
-/// What is seen in known floor this far from anything solid is not there, metres, and so many deviations of the pose more: that a
-/// survey is off by that is no secret.
+/// Distance between two checks, metres.
+const STEP_M: f64 = 0.1;
+/// An obstacle in known floor contradicts the map when it is this far from anything solid, metres, plus this many standard
+/// deviations of the pose. Line SLAM may be off by less.
 const ELSEWHERE_M: f64 = 0.35;
 const SIGMAS: f64 = 2.0;
-/// Floor is known around what is denied as far as this, metres. A wall that is met from the front for the first time may have been
-/// looked past before: the floor up to it is known then, the wall and what is behind it are not (a first run of home 17 took that
-/// for another place).
-const MIDST_M: f64 = 0.15;
-/// Looks over which the share of denied ones is averaged, of those that tell anything: two and a half metres along a wall.
-const LOOKS: f64 = 25.0;
-/// Above this share the robot is elsewhere. In first runs of generated homes that nobody disturbed it stayed below 0.1.
-const DENIED_ABOVE: f64 = 0.2;
-/// Above this share something is wrong: the present map is no witness, and what was drawn since is withdrawn if it turns out to be.
+/// The floor must be known this far around an obstacle that contradicts the map, metres. A beam may have passed a wall that the
+/// robot later sees from the front: then the floor before the wall is known, the wall and what is behind it are not (this happened
+/// in a first run of home 17).
+const SURROUNDINGS_M: f64 = 0.15;
+/// Number of checks over which the share of contradictions is averaged, without those where nothing is known: two and a half metres
+/// along a wall.
+const AVERAGED_CHECKS: f64 = 25.0;
+/// Above this share the robot is elsewhere. In undisturbed first runs of generated homes it stayed below 0.1.
+const CONTRADICTED_ABOVE: f64 = 0.2;
+/// Above this share something is wrong. The present map is no reference, and is rolled back to this moment if the robot turns out
+/// to be elsewhere.
 const DOUBTED_ABOVE: f64 = 0.1;
-/// What was drawn so long before that is withdrawn, too, microseconds: not each place tells at once.
-const BEFORE_US: u64 = 20_000_000;
+/// The rollback begins this much earlier, microseconds, because not every place shows a contradiction at once.
+const ROLLBACK_LEAD_US: u64 = 20_000_000;
 
-/// The map of some minutes ago, and how often what was seen since denies it.
+/// The map of a few minutes ago, and the share of recent checks that contradict it.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Witness {
-    terrain: Option<Box<Terrain>>,
-    kept_us: u64,
+pub(super) struct ConsistencyMonitor {
+    reference_map: Option<Box<ReferenceMap>>,
+    updated_us: u64,
     redrawn: u32,
-    way_m: f64,
+    distance_m: f64,
     contacts_before: Contacts,
-    denied: f64,
-    good_us: u64,
+    contradicted: f64,
+    consistent_us: u64,
 }
 
-impl Witness {
-    /// Takes in what is seen where the robot believes to be.
-    pub(super) fn look(
+impl ConsistencyMonitor {
+    /// Checks what the sensors show at the estimated pose.
+    pub(super) fn observe(
         &mut self,
         (observation, advance): (&Observation, Advance),
         estimate: &PoseEstimate,
         config: &BrainConfig,
     ) {
-        self.way_m += advance.distance_m.abs();
+        self.distance_m += advance.distance_m.abs();
         let touches = observation.contacts.any() && !self.contacts_before.any();
         self.contacts_before = observation.contacts;
-        let Some(terrain) = &self.terrain else { return };
-        if self.way_m < LOOK_M && !touches {
+        let Some(reference_map) = &self.reference_map else {
+            return;
+        };
+        if self.distance_m < STEP_M && !touches {
             return;
         }
-        self.way_m = 0.0;
-        let solid = solid_in_base((observation, touches), config);
+        self.distance_m = 0.0;
+        let solid = solid_in_base(observation, touches, config);
         let far_m = ELSEWHERE_M + SIGMAS * estimate.sigma_m;
-        if let Some(denied) = denied(terrain, (estimate, &solid), far_m) {
-            self.denied += (denied - self.denied) / LOOKS;
+        if let Some(contradicted) = contradicted(reference_map, estimate, &solid, far_m) {
+            self.contradicted += (contradicted - self.contradicted) / AVERAGED_CHECKS;
         }
-        if self.denied <= DOUBTED_ABOVE {
-            self.good_us = observation.time_us;
-        }
-    }
-
-    /// Keeps the map as it is now, now and then and when it was drawn again, while nothing speaks against it. One in which the robot
-    /// could not look for itself is no witness: a survey that it ended would leave the robot with nothing.
-    pub(super) fn keep(&mut self, map: &Map, time_us: u64) {
-        let is_due = time_us >= self.kept_us.saturating_add(LEARN_US) || map.redrawn() != self.redrawn;
-        if is_due && self.denied <= DOUBTED_ABOVE {
-            (self.kept_us, self.redrawn) = (time_us, map.redrawn());
-            self.terrain = Terrain::is_trustworthy(map).then(|| Box::new(Terrain::of(map)));
+        if self.contradicted <= DOUBTED_ABOVE {
+            self.consistent_us = observation.time_us;
         }
     }
 
-    /// The map that is denied, and since when: what was drawn later is in the wrong place.
-    pub(super) fn take_denied(&mut self) -> Option<(Box<Terrain>, u64)> {
-        if self.denied <= DENIED_ABOVE {
+    /// Takes the present map as the reference, periodically and after each redraw, while nothing contradicts the map. A map in
+    /// which the robot could not relocalize is no reference, because the robot would be left with nothing.
+    pub(super) fn update_reference(&mut self, map: &Map, time_us: u64) {
+        let is_due = time_us >= self.updated_us.saturating_add(LEARN_US) || map.redrawn() != self.redrawn;
+        if is_due && self.contradicted <= DOUBTED_ABOVE {
+            (self.updated_us, self.redrawn) = (time_us, map.redrawn());
+            self.reference_map = ReferenceMap::is_trustworthy(map).then(|| Box::new(ReferenceMap::of(map)));
+        }
+    }
+
+    /// The contradicted map, and the time since which the robot drew in the wrong place.
+    pub(super) fn take_contradicted(&mut self) -> Option<(Box<ReferenceMap>, u64)> {
+        if self.contradicted <= CONTRADICTED_ABOVE {
             return None;
         }
-        let since_us = self.good_us.saturating_sub(BEFORE_US);
-        let terrain = core::mem::take(self).terrain?;
-        Some((terrain, since_us))
+        let since_us = self.consistent_us.saturating_sub(ROLLBACK_LEAD_US);
+        let reference_map = core::mem::take(self).reference_map?;
+        Some((reference_map, since_us))
     }
 }
 
 impl Localization {
-    /// A survey that the robot's own map denies is over: the robot looks for itself in that map, and takes back what it has drawn
-    /// since.
-    pub(super) fn hear_witness(
+    /// When the robot's own map contradicts the pose, line SLAM ends. The robot relocalizes in that map, and what it has drawn
+    /// since is rolled back.
+    pub(super) fn check_consistency(
         &mut self,
         map: &Map,
         config: &BrainConfig,
         time_us: u64,
     ) -> Option<MapCorrection> {
-        let Some((terrain, since_us)) = self.witness.take_denied() else {
-            self.witness.keep(map, time_us);
+        let first_run = self.estimator.first_run_mut()?;
+        let Some((reference_map, since_us)) = first_run.monitor.take_contradicted() else {
+            first_run.monitor.update_reference(map, time_us);
             return None;
         };
-        let mut keyframes = self
-            .survey
-            .as_ref()
-            .map_or_else(Vec::new, |survey| survey.keyframes());
+        let mut keyframes = first_run.slam.keyframes();
         keyframes.retain(|keyframe| keyframe.time_us <= since_us);
-        self.lose_in(*terrain, config, time_us);
-        Some(MapCorrection::Withdraw { since_us, keyframes })
+        self.lose_in_map(*reference_map, config, time_us);
+        Some(MapCorrection::RollBack { since_us, keyframes })
     }
 
-    /// Takes in what is seen where the robot believes to be, for a robot on its first run.
-    pub(crate) fn look(&mut self, observation: &Observation, advance: Advance, config: &BrainConfig) {
-        if self.survey.is_some() && !observation.wheel_drop {
-            let estimate = self.estimate();
-            self.witness.look((observation, advance), &estimate, config);
+    /// Checks what the sensors show against the map, for a robot on its first run.
+    pub(crate) fn check_against_map(
+        &mut self,
+        observation: &Observation,
+        advance: Advance,
+        config: &BrainConfig,
+    ) {
+        let estimate = self.estimate();
+        if let Some(first_run) = self.estimator.first_run_mut()
+            && !observation.wheel_drop
+        {
+            first_run
+                .monitor
+                .observe((observation, advance), &estimate, config);
         }
     }
 }
 
-/// Solid points in the frame of the robot: what infrared shows, and where the bumper has just closed.
-fn solid_in_base((observation, touches): (&Observation, bool), config: &BrainConfig) -> Vec<Point2> {
+/// Solid points in the frame of the robot: infrared readings, and the front when the bumper has just closed.
+fn solid_in_base(observation: &Observation, touches: bool, config: &BrainConfig) -> Vec<Point2> {
     let layout = &config.sensors.proximity;
     let seen = layout.sensors().iter().zip(&observation.proximity);
     let mut solid: Vec<Point2> = seen
@@ -146,48 +157,54 @@ fn solid_in_base((observation, touches): (&Observation, bool), config: &BrainCon
     solid
 }
 
-/// Share of what is seen that the map denies, 0..=1; `None` where it says nothing of it.
-fn denied(terrain: &Terrain, (estimate, solid): (&PoseEstimate, &[Point2]), far_m: f64) -> Option<f64> {
+/// Share of the points that contradict the map, 0..=1; `None` where the map knows nothing.
+fn contradicted(
+    reference_map: &ReferenceMap,
+    estimate: &PoseEstimate,
+    solid: &[Point2],
+    far_m: f64,
+) -> Option<f64> {
     let here = estimate.pose.position();
-    if terrain.is_known(here) && terrain.clearance_m(here) < -2.0 * estimate.sigma_m {
+    if reference_map.is_known(here) && reference_map.clearance_m(here) < -2.0 * estimate.sigma_m {
         return Some(1.0);
     }
-    let (mut told, mut denied) = (0_u32, 0_u32);
+    let (mut known, mut contradicted) = (0_u32, 0_u32);
     for at in solid.iter().map(|at| estimate.pose.transform(*at)) {
-        if terrain.is_known(at) {
-            told += 1;
-            denied += u32::from(terrain.clearance_m(at) > far_m && is_in_midst(terrain, at));
+        if reference_map.is_known(at) {
+            known += 1;
+            contradicted +=
+                u32::from(reference_map.clearance_m(at) > far_m && is_surrounded_by_known(reference_map, at));
         }
     }
-    (told > 0).then(|| f64::from(denied) / f64::from(told))
+    (known > 0).then(|| f64::from(contradicted) / f64::from(known))
 }
 
-/// Whether it is known what lies on all sides of this place.
-fn is_in_midst(terrain: &Terrain, at: Point2) -> bool {
+/// Whether the floor on all sides of this point is known.
+fn is_surrounded_by_known(reference_map: &ReferenceMap, at: Point2) -> bool {
     let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
     sides.iter().all(|(x, y)| {
-        terrain.is_known(Point2 {
-            x_m: at.x_m + MIDST_M * x,
-            y_m: at.y_m + MIDST_M * y,
+        reference_map.is_known(Point2 {
+            x_m: at.x_m + SURROUNDINGS_M * x,
+            y_m: at.y_m + SURROUNDINGS_M * y,
         })
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LEARN_US, PoseEstimate, Witness};
-    use crate::localization::known_home::{START, TRACK_M, Truth, config, flat};
-    use crate::localization::terrain::Terrain;
+    use super::{ConsistencyMonitor, LEARN_US, PoseEstimate};
+    use crate::localization::known_home::{START, SimulatedRobot, TRACK_M, config, flat};
+    use crate::localization::reference_map::ReferenceMap;
     use crate::localization::{Localization, MapCorrection};
     use crate::mapping::{Cell, CellKnowledge, Keyframe, Map, Raster, StoredMap};
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
 
-    /// Looks of a robot that drives about in the flat and believes to be as far off the truth as `believed_off` says.
-    fn denied(home: &Map, believed_off: Pose2, steps: u32) -> f64 {
-        let mut truth = Truth::new(home, START);
-        let mut witness = Witness::default();
-        witness.keep(home, LEARN_US);
+    /// Checks of a robot that drives through the flat with a pose that is off by `believed_off`. Returns the greatest share.
+    fn contradicted(home: &Map, believed_off: Pose2, steps: u32) -> f64 {
+        let mut truth = SimulatedRobot::new(home, START);
+        let mut monitor = ConsistencyMonitor::default();
+        monitor.update_reference(home, LEARN_US);
         let mut greatest: f64 = 0.0;
         for _ in 0..steps {
             let before = truth.pose;
@@ -201,21 +218,21 @@ mod tests {
                 distance_m: before.position().distance_m(truth.pose.position()),
                 ..Advance::default()
             };
-            witness.look((&view, advance), &estimate, &config());
-            greatest = greatest.max(witness.denied);
+            monitor.observe((&view, advance), &estimate, &config());
+            greatest = greatest.max(monitor.contradicted);
         }
         greatest
     }
 
     #[test]
-    fn a_wall_that_is_met_where_what_is_known_ends_is_not_denied() {
+    fn a_wall_at_the_border_of_known_space_is_no_contradiction() {
         let mut knowledge = Raster::filled(Cell { x: 0, y: 0 }, 160, 160, CellKnowledge::Unknown);
         for index in 0..80 * 160 {
             knowledge.values_mut()[index] = CellKnowledge::Free;
         }
         let mut map = Map::new(config().body, config().sensors);
         map.load(&StoredMap::from_raster(&knowledge, None));
-        let terrain = Terrain::of(&map);
+        let reference_map = ReferenceMap::of(&map);
         let below = |solid_m: f64| {
             let estimate = PoseEstimate {
                 pose: Pose2 {
@@ -226,7 +243,7 @@ mod tests {
                 ..PoseEstimate::default()
             };
             let solid = Point2 { x_m: 0.2, y_m: 0.0 };
-            super::denied(&terrain, (&estimate, &[solid]), super::ELSEWHERE_M)
+            super::contradicted(&reference_map, &estimate, &[solid], super::ELSEWHERE_M)
         };
         assert_eq!(below(1.99), Some(0.0), "in the last cells that are known");
         assert_eq!(below(1.5), Some(1.0), "in the midst of floor");
@@ -234,7 +251,7 @@ mod tests {
     }
 
     #[test]
-    fn what_drift_shows_is_not_denied_and_another_place_is() {
+    fn drift_is_no_contradiction_and_another_place_is() {
         let home = flat();
         let off = |x_m: f64, y_m: f64, heading_rad: f64| Pose2 {
             x_m,
@@ -243,24 +260,27 @@ mod tests {
         };
         let steps = 50 * 300;
         for drift in [off(0.0, 0.0, 0.0), off(0.15, -0.1, 0.0), off(-0.1, 0.1, 0.03)] {
-            let greatest = denied(&home, drift, steps);
+            let greatest = contradicted(&home, drift, steps);
             assert!(greatest < super::DOUBTED_ABOVE, "{greatest} with {drift:?}");
         }
         for elsewhere in [off(1.6, 0.9, 0.0), off(4.2, 3.6, 3.0), off(-0.9, 1.0, -0.6)] {
-            let greatest = denied(&home, elsewhere, steps);
-            assert!(greatest > super::DENIED_ABOVE, "{greatest} with {elsewhere:?}");
+            let greatest = contradicted(&home, elsewhere, steps);
+            assert!(
+                greatest > super::CONTRADICTED_ABOVE,
+                "{greatest} with {elsewhere:?}"
+            );
         }
     }
 
     /// One step of a robot on its first run, whose map is the flat's.
-    fn step(localization: &mut Localization, truth: &mut Truth<'_>, home: &Map) -> bool {
+    fn step(localization: &mut Localization, truth: &mut SimulatedRobot<'_>, home: &Map) -> bool {
         let view = truth.step().clone();
         let advance = localization.update(&view);
         localization.refine(&view, advance);
-        localization.look(&view, advance, &config());
+        localization.check_against_map(&view, advance, &config());
         let correction = localization.learn(home, &config(), view.time_us);
         assert_eq!(
-            matches!(correction, Some(MapCorrection::Withdraw { .. })),
+            matches!(correction, Some(MapCorrection::RollBack { .. })),
             localization.estimate().lost,
             "{correction:?}"
         );
@@ -268,27 +288,27 @@ mod tests {
     }
 
     #[test]
-    fn a_survey_that_the_map_denies_ends_and_the_robot_is_lost_in_that_map() {
+    fn line_slam_that_contradicts_its_map_ends_with_a_lost_robot() {
         let home = flat();
         let at = |x_m: f64, y_m: f64| Pose2 { x_m, y_m, ..START };
         let mut noticed = 0;
         for begins in [START, at(2.2, 1.6), at(2.6, 2.2), at(1.6, 1.8)] {
-            let mut truth = Truth::new(&home, begins);
+            let mut truth = SimulatedRobot::new(&home, begins);
             let mut localization = Localization::new(TRACK_M, 0.5);
             localization.place_at(START);
-            localization.survey(&config());
+            localization.start_line_slam(&config());
             localization.learn(&home, &config(), LEARN_US);
             let lost = (0..50 * 240).any(|_| step(&mut localization, &mut truth, &home));
-            assert!(!lost || begins != START, "it is where it believes to be");
+            assert!(!lost || begins != START, "its pose is right");
             assert_eq!(localization.explained().is_some(), lost, "compares with the map");
             noticed += u32::from(lost);
         }
-        // Walls that run as others do are taken for them: not each of them tells.
+        // Walls that run alike are confused, so not every start shows a contradiction.
         assert!(noticed >= 1, "{noticed} of three");
     }
 
-    /// What is known of the flat when so many steps of the first robot were drawn, which is as sure of its place as `sigma_m` says.
-    fn drawn(map: &mut Map, (truth, sigma_m): (&mut Truth<'_>, f64), steps: u32) -> usize {
+    /// Draws so many steps of a robot whose pose has this standard deviation. Returns the number of known cells.
+    fn drawn(map: &mut Map, (truth, sigma_m): (&mut SimulatedRobot<'_>, f64), steps: u32) -> usize {
         for _ in 0..steps {
             let view = truth.step().clone();
             let estimate = PoseEstimate {
@@ -313,21 +333,21 @@ mod tests {
     }
 
     #[test]
-    fn a_map_in_which_the_robot_could_not_find_itself_is_no_witness() {
+    fn a_map_in_which_the_robot_could_not_relocalize_is_no_reference() {
         let home = flat();
-        for (sigma_m, is_witness) in [(0.02, true), (0.4, false)] {
+        for (sigma_m, is_trusted) in [(0.02, true), (0.4, false)] {
             let mut map = Map::new(config().body, config().sensors);
-            drawn(&mut map, (&mut Truth::new(&home, START), sigma_m), 6_000);
-            let mut witness = Witness::default();
-            witness.keep(&map, LEARN_US);
-            assert_eq!(witness.terrain.is_some(), is_witness, "{sigma_m} m");
+            drawn(&mut map, (&mut SimulatedRobot::new(&home, START), sigma_m), 6_000);
+            let mut monitor = ConsistencyMonitor::default();
+            monitor.update_reference(&map, LEARN_US);
+            assert_eq!(monitor.reference_map.is_some(), is_trusted, "{sigma_m} m");
         }
     }
 
     #[test]
-    fn what_is_withdrawn_was_never_seen() {
+    fn a_rollback_removes_what_was_seen_since() {
         let home = flat();
-        let mut truth = Truth::new(&home, START);
+        let mut truth = SimulatedRobot::new(&home, START);
         let mut map = Map::new(config().body, config().sensors);
         let before = drawn(&mut map, (&mut truth, 0.02), 1_000);
         let later = drawn(&mut map, (&mut truth, 0.02), 6_000);

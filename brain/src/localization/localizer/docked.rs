@@ -1,66 +1,67 @@
-//! What docking tells of the robot's place, and its place of the dock.
+//! What docking tells about the robot's pose, and the pose about the dock.
 //!
-//! A dock of which nobody but a person has said where it is tells the robot's place by and large; a robot that is sure of its place
-//! tells where the dock is.
+//! A dock whose position only a person has given tells the robot's pose roughly. A robot that is sure of its pose tells where the
+//! dock is.
 
-use super::{Localization, START_SIGMA_M, START_SIGMA_RAD, Tracked};
+use super::estimator::{Estimator, KnownMap};
+use super::{Localization, START_SIGMA_M, START_SIGMA_RAD};
 use crate::localization::TrackingCheckpoint;
 use crate::localization::drift::Drift;
-use crate::localization::tracker::PROBATION_BEAMS;
+use crate::localization::tracker::CONFIRMATION_BEAMS;
 use crate::mapping::{DockLocation, Map};
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
 
-/// How well a pose is known that a person has pointed out, metres and radians.
-const TOLD_SIGMA_M: f64 = 0.3;
-const TOLD_SIGMA_RAD: f64 = 0.4;
-/// A pose that is as sure as this may lead others, metres.
+/// Standard deviations of a pose that a person has pointed out, metres and radians.
+const ROUGH_SIGMA_M: f64 = 0.3;
+const ROUGH_SIGMA_RAD: f64 = 0.4;
+/// A pose with a smaller standard deviation than this may be used as a reference, metres.
 const CONFIRMED_M: f64 = 0.15;
 
 impl Localization {
-    /// A person says that the robot stands at `pose` in `map`, by eye. Until its sensors have confirmed that it counts as unsure.
+    /// A person says that the robot is at `pose` in `map`, by eye. The pose counts as unsure until the sensors have confirmed it.
     pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
         self.place_at(pose);
-        self.track(map, config, seed);
-        if self.tracked.is_none() {
-            self.survey(config);
+        self.start_monte_carlo(map, config, seed);
+        if self.estimator.known_map().is_none() {
+            self.start_line_slam(config);
         }
         self.begin_roughly_at(pose);
     }
 
     pub(super) fn begin_roughly_at(&mut self, pose: Pose2) {
-        self.put_at(pose);
+        self.set_pose(pose);
         self.odometry.calibration.interrupt();
         self.drift = Drift {
-            sigma_m: TOLD_SIGMA_M,
-            sigma_rad: TOLD_SIGMA_RAD,
+            sigma_m: ROUGH_SIGMA_M,
+            sigma_rad: ROUGH_SIGMA_RAD,
         };
-        if let Some(tracked) = &mut self.tracked {
-            tracked.tracker.place_at(pose, TOLD_SIGMA_M, TOLD_SIGMA_RAD);
-            tracked.tracker.doubt_for(PROBATION_BEAMS);
+        if let Some(known) = self.estimator.known_map_mut() {
+            known.tracker.place_at(pose, ROUGH_SIGMA_M, ROUGH_SIGMA_RAD);
+            known.tracker.require_confirmation(CONFIRMATION_BEAMS);
         }
     }
 
-    /// The dock is known to be elsewhere.
+    /// The dock has another position.
     pub fn put_dock(&mut self, dock: DockLocation) {
-        if let Some(tracked) = &mut self.tracked {
-            tracked.terrain.put_dock(dock);
+        if let Some(known) = self.estimator.known_map_mut() {
+            known.reference_map.put_dock(dock);
         }
     }
 
-    /// Whether the pose is so sure that others may be led by it: what the sensors show confirms it, or walls that were followed
-    /// from the beginning do.
+    /// Whether the pose may be used as a reference: the sensors confirm it, or line SLAM has tracked it from the start.
     #[must_use]
     pub fn is_confirmed(&self) -> bool {
         let is_narrow = self.drift.sigma_m <= CONFIRMED_M;
         is_narrow
-            && match &self.tracked {
-                Some(tracked) => tracked.tracker.is_confirmed(),
-                None => self.survey.is_some(),
+            && match &self.estimator {
+                Estimator::MonteCarlo(known) => known.tracker.is_confirmed(),
+                Estimator::LineSlam(_) => true,
+                Estimator::Odometry => false,
             }
     }
 
-    /// Whether the dock's contacts closed at the last observation: a robot that wakes on its dock has felt nothing yet.
+    /// Whether the dock's contacts closed at the last observation. A robot that wakes on its dock has not docked.
     #[must_use]
     pub fn has_just_docked(&self) -> bool {
         self.has_just_docked
@@ -72,7 +73,7 @@ impl Localization {
         self.was_docked
     }
 
-    /// How a robot that stands on its dock begins to compare with the map that it has made, with what it has learnt of its gyro.
+    /// How a robot on its dock starts to localize in the map that it has made, with what it has learned of its gyro.
     #[must_use]
     pub fn tracking_on_dock(&self) -> TrackingCheckpoint {
         let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
@@ -85,11 +86,11 @@ impl Localization {
         }
     }
 
-    /// Whether what is seen may be drawn where the robot believes to be. One that was told by eye where it stands must have found
-    /// its place first.
+    /// Whether the robot may draw what it sees at its estimated pose. After a person has given the pose by eye, the sensors must
+    /// confirm it first.
     #[must_use]
     pub fn may_draw(&self) -> bool {
-        let is_told = |tracked: &Tracked| tracked.tracker.unconfirmed_beams() > 0;
-        !self.tracked.as_deref().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
+        let is_told = |known: &KnownMap| known.tracker.unconfirmed_beams() > 0;
+        !self.estimator.known_map().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
     }
 }

@@ -1,42 +1,42 @@
-//! Joins the estimators to one pose.
+//! Combines the estimators to one pose.
 
 mod consistency_monitor;
 mod docked;
+mod estimator;
 mod gyro_knowledge;
 mod relocalization;
 
 use super::TrackingCheckpoint;
 use super::beacons::Beacons;
 use super::drift::{Drift, WHEEL_TURN_SCALE};
-use super::gyro_belief::GyroBelief;
+use super::lift::Lift;
+use super::line_slam::{OdometryStep, ScaleEstimate, TurnCalibration};
 use super::map_correction::MapCorrection;
 use super::odometry::Odometry;
-use super::retreat::Retreat;
-use super::strengths::Strengths;
-use super::survey::{Survey, TurnCounting};
-use super::terrain::Terrain;
-use super::tracker::{Moved, SENSORS_MIN, Tracker};
+use super::reverse_budget::ReverseBudget;
+use super::rssi_fingerprint::RssiFingerprints;
+use super::tracker::{MotionUpdate, SENSORS_MIN};
 use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
-use consistency_monitor::Witness;
+use estimator::{Estimator, EstimatorKind, KnownMap};
 
-/// How well a pose on the dock is known, metres and radians: the dock is wider than the robot's contacts.
+/// Standard deviations of a pose on the dock, metres and radians: the dock is wider than the robot's contacts.
 const START_SIGMA_M: f64 = 0.02;
 const START_SIGMA_RAD: f64 = 0.03;
-/// Widest deviation that is taken up, metres and radians.
+/// Greatest standard deviation that is accepted, metres and radians.
 const SIGMA_MAX: f64 = 1.0;
-/// A place nearer than this to the present one is no news for the filter, metres and radians.
+/// A given pose that is closer than this to the present one does not reset the filter, metres and radians.
 const PLACED_M: f64 = 0.05;
 const PLACED_RAD: f64 = 0.05;
 
-/// A gyro that was silent for so long is not there, microseconds.
+/// A gyro that was silent for so long counts as missing, microseconds.
 const GYRO_GONE_US: u64 = 10_000_000;
 
-/// A deviation from outside, or at least this one; what is not a number is wide.
+/// Bounds a standard deviation from outside. NaN becomes the greatest one.
 fn finite(sigma: f64, least: f64) -> f64 {
     if sigma.is_finite() {
         sigma.clamp(least, SIGMA_MAX)
@@ -45,159 +45,106 @@ fn finite(sigma: f64, least: f64) -> f64 {
     }
 }
 
-/// A robot whose place is less sure than this does not learn how strongly beacons are received there, metres.
-const HEARD_SIGMA_M: f64 = 0.3;
+/// A robot with a larger standard deviation than this does not learn RSSI fingerprints, metres.
+const RSSI_SIGMA_M: f64 = 0.3;
 
-/// What was unknown is taken into the map that the filter compares with this often, microseconds,
+/// The reference map takes over new parts this often, microseconds,
 const LEARN_US: u64 = 120_000_000;
-/// as long as the map explains so much of what the sensors show.
+/// while the map explains at least this share of the sensor readings.
 const LEARN_EXPLAINED: f64 = 0.75;
-/// A wheel that hangs for so long hangs because somebody holds the robot, seconds.
-const LIFTED_S: f64 = 1.0;
-
-/// A filter and the map that it compares with.
-#[derive(Clone, Debug)]
-pub(super) struct Tracked {
-    pub(super) tracker: Tracker,
-    pub(super) terrain: Terrain,
-}
-
-/// Pose estimate.
+/// The pose estimate.
 #[derive(Debug)]
 pub struct Localization {
     pub(super) odometry: Odometry,
     map_from_odom: Pose2,
-    retreat: Retreat,
+    reverse_budget: ReverseBudget,
     drift: Drift,
-    pub(super) tracked: Option<Box<Tracked>>,
-    pub(super) survey: Option<Box<Survey>>,
-    witness: Witness,
+    pub(super) estimator: Estimator,
     pub(super) beacons: Beacons,
-    strengths: Strengths,
-    /// When the first observation came.
+    fingerprints: RssiFingerprints,
+    /// Time of the first observation.
     began_us: Option<u64>,
-    /// When a gyro spoke last.
+    /// Time of the last gyro reading.
     gyro_us: Option<u64>,
     was_docked: bool,
     was_off_dock: bool,
     has_just_docked: bool,
-    hanging_s: f64,
+    lift: Lift,
     learnt_us: u64,
 }
 
 impl Localization {
-    /// At the origin of the map, for wheels `track_m` apart that turn at most `rim_max_m_per_s` fast.
+    /// Starts at the origin of the map. The wheels are `track_m` apart and turn at most `rim_max_m_per_s` fast.
     #[must_use]
     pub fn new(track_m: f64, rim_max_m_per_s: f64) -> Self {
         Self {
             odometry: Odometry::new(track_m, rim_max_m_per_s),
             map_from_odom: Pose2::IDENTITY,
-            retreat: Retreat::default(),
+            reverse_budget: ReverseBudget::default(),
             drift: Drift::default(),
-            tracked: None,
-            survey: None,
-            witness: Witness::default(),
+            estimator: Estimator::Odometry,
             beacons: Beacons::new(),
-            strengths: Strengths::default(),
+            fingerprints: RssiFingerprints::default(),
             began_us: None,
             gyro_us: None,
             was_docked: false,
             was_off_dock: false,
             has_just_docked: false,
-            hanging_s: 0.0,
+            lift: Lift::default(),
             learnt_us: 0,
         }
     }
 
-    /// Takes in an observation and says how far the robot moved since the last one.
+    /// Takes an observation and returns the motion since the last one.
     pub fn update(&mut self, observation: &Observation) -> Advance {
         let advance = self.odometry.update(observation);
         if observation.gyro_heading_rad.is_some() {
             self.gyro_us = Some(observation.time_us);
         }
-        self.retreat.follow(advance);
+        self.reverse_budget.follow(advance);
         self.drift.grow(advance);
         advance
     }
 
-    /// From now on [`Self::refine`] compares with `map` as it is now, for a robot whose pose is known as well as
-    /// [`Self::estimate`] says. Equal seeds give equal poses. What is drawn into the map later is not taken up before the
-    /// next call. Nothing happens for a robot without proximity sensors, which could only feel its way, and in a map that
-    /// odometry alone has drawn.
-    pub fn track(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
-        self.tracked = None;
-        self.survey = None;
-        if config.sensors.proximity.sensors().is_empty() || !Terrain::is_trustworthy(map) {
-            return;
-        }
-        let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
-        tracker.place_at(
-            self.pose(),
-            self.drift.sigma_m.max(START_SIGMA_M),
-            self.drift.sigma_rad.max(START_SIGMA_RAD),
-        );
-        self.follow_in(Terrain::of(map), tracker);
-    }
-
-    fn follow_in(&mut self, terrain: Terrain, tracker: Tracker) {
-        self.survey = None;
-        self.tracked = Some(Box::new(Tracked { tracker, terrain }));
-    }
-
-    /// From now on [`Self::refine`] finds out how the walls run in a home of which nothing is known yet, beginning where the
-    /// robot stands. Nothing happens for a robot without proximity sensors.
-    pub fn survey(&mut self, config: &BrainConfig) {
-        let layout = config.sensors.proximity;
-        self.tracked = None;
-        self.witness = Witness::default();
-        self.survey = (!layout.sensors().is_empty())
-            .then(|| Box::new(Survey::new(layout, self.pose(), self.odometry.odom_from_base())));
-    }
-
-    /// Takes up what has become known of the home since: a tracked robot compares with it, too, and one that was carried away
-    /// in the midst of a survey looks for itself in the map that it has made, if that is any good. Says what the map must take
-    /// back.
+    /// Uses what has become known of the home since. Monte Carlo localization takes over new parts of the map. A robot that was
+    /// carried away during line SLAM relocalizes in the map that it has made, if that is good enough. Returns a correction of the
+    /// map.
     pub fn learn(&mut self, map: &Map, config: &BrainConfig, time_us: u64) -> Option<MapCorrection> {
-        if self.survey.is_some() && self.hanging_s < 0.0 {
-            self.hanging_s = 0.0;
-            self.recover(map, config, time_us);
-            return None;
-        }
-        if self.survey.is_some() {
-            return self.hear_witness(map, config, time_us);
-        }
-        self.learn_tracked(map, time_us);
-        None
-    }
-
-    fn learn_tracked(&mut self, map: &Map, time_us: u64) {
-        let Some(tracked) = &mut self.tracked else {
-            return;
-        };
-        let Tracked { tracker, terrain } = &mut **tracked;
-        let is_due = time_us >= self.learnt_us.saturating_add(LEARN_US);
-        if is_due && !tracker.is_lost() && tracker.explained() >= LEARN_EXPLAINED {
-            self.learnt_us = time_us;
-            terrain.grow(map);
+        match &mut self.estimator {
+            Estimator::Odometry => None,
+            Estimator::LineSlam(_) if self.lift.take_put_down() => {
+                self.relocalize(map, config, time_us);
+                None
+            }
+            Estimator::LineSlam(_) => self.check_consistency(map, config, time_us),
+            Estimator::MonteCarlo(known) => {
+                let is_due = time_us >= self.learnt_us.saturating_add(LEARN_US);
+                let tracker = &known.tracker;
+                if is_due && !tracker.is_lost() && tracker.explained() >= LEARN_EXPLAINED {
+                    self.learnt_us = time_us;
+                    known.reference_map.grow(map);
+                }
+                None
+            }
         }
     }
 
-    /// What must survive a restart of a robot that is tracked.
+    /// What must survive a restart during Monte Carlo localization.
     #[must_use]
     pub fn checkpoint(&self) -> Option<TrackingCheckpoint> {
-        let tracked = self.tracked.as_ref()?;
+        let tracker = &self.estimator.known_map()?.tracker;
         let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
         Some(TrackingCheckpoint {
             sigma_m: self.drift.sigma_m,
             sigma_rad: self.drift.sigma_rad,
-            lost: tracked.tracker.is_lost(),
+            lost: tracker.is_lost(),
             gyro_scale,
             gyro_bias_rad_per_s,
-            unconfirmed_beams: tracked.tracker.unconfirmed_beams(),
+            unconfirmed_beams: tracker.unconfirmed_beams(),
         })
     }
 
-    /// Takes up what [`Self::checkpoint`] said before a restart, after [`Self::track`] and at the same pose.
+    /// Restores [`Self::checkpoint`] after a restart, after [`Self::start_monte_carlo`] and at the same pose.
     pub fn resume_tracking(&mut self, before: TrackingCheckpoint) {
         self.odometry
             .resume_gyro(before.gyro_scale, before.gyro_bias_rad_per_s);
@@ -206,62 +153,71 @@ impl Localization {
             sigma_m: finite(before.sigma_m, START_SIGMA_M),
             sigma_rad: finite(before.sigma_rad, START_SIGMA_RAD),
         };
-        let Some(tracked) = &mut self.tracked else {
+        let Some(KnownMap { tracker, .. }) = self.estimator.known_map_mut() else {
             return;
         };
         let Drift { sigma_m, sigma_rad } = self.drift;
-        tracked.tracker.place_at(pose, sigma_m, sigma_rad);
-        tracked.tracker.doubt_for(before.unconfirmed_beams);
+        tracker.place_at(pose, sigma_m, sigma_rad);
+        tracker.require_confirmation(before.unconfirmed_beams);
         if before.lost {
-            tracked.tracker.lose(pose);
+            tracker.lose(pose);
         }
     }
 
-    /// Compares what was perceived with the map, and corrects [`Self::pose`]. Unless [`Self::track`] was asked for there is
-    /// no map; then only ranges to beacons count. Says with which poses the map should be drawn again.
+    /// Corrects [`Self::pose`] with the active estimator. Returns the poses with which the map should be redrawn.
     pub fn refine(&mut self, observation: &Observation, advance: Advance) -> Option<MapCorrection> {
-        self.strengths.listen(observation, advance);
-        self.find_place(observation, advance);
-        if self.is_placed() {
+        self.fingerprints.listen(observation, advance);
+        self.update_pose(observation, advance);
+        if self.may_learn_rssi() {
             let at = self.pose().position();
-            self.strengths.learn(at);
+            self.fingerprints.learn(at);
         }
-        let keyframes = self.survey.as_mut()?.redraw(observation.time_us)?;
+        let first_run = self.estimator.first_run_mut()?;
+        let keyframes = first_run.slam.redraw(observation.time_us)?;
         Some(MapCorrection::Redraw { keyframes })
     }
 
-    /// Whether what is received here may be learnt as that of the place where the robot believes to be.
-    fn is_placed(&self) -> bool {
-        let is_followed = match &self.tracked {
-            Some(tracked) => tracked.tracker.is_settled(),
-            None => self.survey.is_some() && self.hanging_s >= 0.0,
+    /// Whether RSSI fingerprints may be learned at the estimated pose.
+    fn may_learn_rssi(&self) -> bool {
+        let is_followed = match &self.estimator {
+            Estimator::MonteCarlo(known) => known.tracker.is_settled(),
+            Estimator::LineSlam(_) => !self.lift.is_put_down(),
+            Estimator::Odometry => false,
         };
-        is_followed && self.drift.sigma_m <= HEARD_SIGMA_M
+        is_followed && self.drift.sigma_m <= RSSI_SIGMA_M
     }
 
-    fn find_place(&mut self, observation: &Observation, advance: Advance) {
+    fn update_pose(&mut self, observation: &Observation, advance: Advance) {
         let by_beacons = self.beacons.follow(observation, advance, self.estimate());
-        self.leave_hopeless_map(observation.time_us);
-        let moved = Moved::of(&self.odometry, advance, self.pose());
+        self.leave_useless_map(observation.time_us);
+        let moved = MotionUpdate::of(&self.odometry, advance, self.pose());
         let docks = observation.docked && !self.was_docked;
         self.was_docked = observation.docked;
         self.was_off_dock |= !observation.docked;
         self.has_just_docked = docks && self.was_off_dock;
-        let Some(tracked) = &mut self.tracked else {
-            if let Some(estimate) = by_beacons {
-                return self.adopt(estimate);
+        match (self.active_estimator(), by_beacons) {
+            (EstimatorKind::MonteCarlo, _) => self.follow_monte_carlo(observation, moved, docks),
+            (_, Some(estimate)) => self.adopt(estimate),
+            (EstimatorKind::Beacons, None) => {}
+            (EstimatorKind::LineSlam | EstimatorKind::Odometry, None) => {
+                self.follow_line_slam(observation, advance);
             }
-            if self.beacons.is_following() {
-                return;
-            }
-            return self.follow_walls(observation, advance);
+        }
+    }
+
+    fn follow_monte_carlo(&mut self, observation: &Observation, moved: MotionUpdate, docks: bool) {
+        let Some(KnownMap {
+            tracker,
+            reference_map,
+        }) = self.estimator.known_map_mut()
+        else {
+            return;
         };
-        let Tracked { tracker, terrain } = &mut **tracked;
-        tracker.hear(self.beacons.heard());
-        tracker.receive(&self.strengths);
-        tracker.search_on(terrain);
-        // Where the dock is not known better than the robot knows its own place, that one stays.
-        let place = terrain.dock();
+        tracker.add_ranges(self.beacons.located_ranges());
+        tracker.receive(&self.fingerprints);
+        tracker.step_search(reference_map);
+        // The dock corrects the pose only where it is known better than the pose.
+        let place = reference_map.dock();
         let is_better = !place.is_reported() && (place.is_converged() || !tracker.is_confirmed());
         if docks
             && is_better
@@ -270,52 +226,37 @@ impl Localization {
             tracker.place_at(dock, START_SIGMA_M, START_SIGMA_RAD);
             self.odometry.calibration.interrupt();
             self.beacons.place_at(dock);
-            self.put_at(dock);
+            self.set_pose(dock);
         } else if docks
             && tracker.is_lost()
-            && let Some(dock) = terrain.dock().pose()
+            && let Some(dock) = place.pose()
         {
             self.begin_roughly_at(dock);
-        } else if let Some(estimate) = tracker.follow(terrain, observation, moved) {
-            let gyro = tracker.gyro();
-            self.take_up(estimate, gyro);
+        } else if let Some(estimate) = tracker.follow(reference_map, observation, moved) {
+            self.adopt_tracked(estimate);
         }
     }
 
-    fn follow_walls(&mut self, observation: &Observation, advance: Advance) {
+    fn follow_line_slam(&mut self, observation: &Observation, advance: Advance) {
+        self.lift.update(observation, advance);
         if observation.wheel_drop {
-            self.hanging_s += advance.time_s;
             return;
         }
-        // Below zero: it was put down, and nobody has drawn the consequences yet.
-        self.hanging_s = if self.hanging_s >= LIFTED_S { -1.0 } else { 0.0 };
-        let odom = self.odometry.odom_from_base();
-        // Asked of the gyro and not of this advance, which the first one after a start is not of: what was learnt of the gyro
-        // before counts from the first step on.
-        let turns = if self.has_gyro(observation.time_us) {
-            TurnCounting {
-                scale: self.odometry.gyro().0,
-                scale_sigma: self.odometry.calibration.scale_sigma(),
-                bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
-            }
-        } else {
-            TurnCounting {
-                scale: 0.0,
-                scale_sigma: WHEEL_TURN_SCALE,
-                bias_sigma_rad_per_s: 0.0,
-            }
+        let turns = self.turn_calibration(observation.time_us);
+        let step = OdometryStep {
+            odom: self.odometry.odom_from_base(),
+            advance,
         };
-        let Some(fix) = self
-            .survey
-            .as_mut()
-            .and_then(|survey| survey.follow(odom, (advance, turns), observation))
-        else {
+        let Some(first_run) = self.estimator.first_run_mut() else {
+            return;
+        };
+        let Some(fix) = first_run.slam.follow(step, turns, observation) else {
             return;
         };
         if advance.gyro_turn_rad.is_some()
-            && let Some((scale, sigma)) = fix.scale
+            && let Some(ScaleEstimate { scale, sigma }) = fix.scale
         {
-            self.odometry.calibration.know_scale(scale, sigma);
+            self.odometry.calibration.set_scale(scale, sigma);
         }
         self.correct(fix.map_from_odom);
         self.drift = Drift {
@@ -324,21 +265,42 @@ impl Localization {
         };
     }
 
-    /// Whether anything but its wheels tells the robot where it is heading: a gyro, beacons, or a map that it can compare
-    /// with. Without, it is lost within minutes, and what it draws is no map.
+    /// The calibration of turns. It asks whether there is a gyro and not whether this advance has a turn of it: the first advance
+    /// after a start has none, and what was learned of the gyro before counts from the first step on.
+    fn turn_calibration(&self, now_us: u64) -> TurnCalibration {
+        if !self.has_gyro(now_us) {
+            return TurnCalibration {
+                scale: 0.0,
+                scale_sigma: WHEEL_TURN_SCALE,
+                bias_sigma_rad_per_s: 0.0,
+            };
+        }
+        TurnCalibration {
+            scale: self.odometry.gyro().0,
+            scale_sigma: self.odometry.calibration.scale_sigma(),
+            bias_sigma_rad_per_s: self.odometry.calibration.bias_sigma_rad_per_s(),
+        }
+    }
+
+    /// Whether anything besides the wheels determines the heading: a gyro, beacons or a known map. Without, the robot is lost
+    /// within minutes and its map is useless.
     #[must_use]
     pub fn knows_heading(&self, now_us: u64) -> bool {
-        self.has_gyro(now_us) || self.beacons.is_following() || self.tracked.is_some()
+        self.has_gyro(now_us)
+            || matches!(
+                self.active_estimator(),
+                EstimatorKind::Beacons | EstimatorKind::MonteCarlo
+            )
     }
 
-    /// Deviation of the gyro's scale, relative, while the robot surveys a home that it does not know; `None` = it has no gyro,
-    /// or compares with a map, which tells the scale by itself.
-    pub(crate) fn surveyed_gyro_scale_sigma(&self, now_us: u64) -> Option<f64> {
-        let surveys = self.survey.is_some() && self.has_gyro(now_us);
-        surveys.then(|| self.odometry.calibration.scale_sigma())
+    /// Standard deviation of the gyro's scale, relative, during line SLAM; `None` = no gyro, or a known map that determines the
+    /// scale by itself.
+    pub(crate) fn slam_gyro_scale_sigma(&self, now_us: u64) -> Option<f64> {
+        let is_slam = self.estimator.is_line_slam() && self.has_gyro(now_us);
+        is_slam.then(|| self.odometry.calibration.scale_sigma())
     }
 
-    /// Deviation of the gyro's bias, rad/s; `None` = it has no gyro.
+    /// Standard deviation of the gyro's bias, rad/s; `None` = no gyro.
     pub(crate) fn gyro_bias_sigma_rad_per_s(&self, now_us: u64) -> Option<f64> {
         self.has_gyro(now_us)
             .then(|| self.odometry.calibration.bias_sigma_rad_per_s())
@@ -349,20 +311,20 @@ impl Localization {
             .is_some_and(|gyro_us| now_us < gyro_us.saturating_add(GYRO_GONE_US))
     }
 
-    /// A robot with next to no sensors lets go of the map when nothing tells its heading.
-    fn leave_hopeless_map(&mut self, now_us: u64) {
+    /// A robot with almost no sensors gives up the map when nothing determines its heading.
+    fn leave_useless_map(&mut self, now_us: u64) {
         let blind = self
-            .tracked
-            .as_ref()
-            .is_some_and(|tracked| tracked.tracker.sensor_count() < SENSORS_MIN);
+            .estimator
+            .known_map()
+            .is_some_and(|known| known.tracker.sensor_count() < SENSORS_MIN);
         let began_us = *self.began_us.get_or_insert(now_us);
         let waited = now_us >= began_us.saturating_add(GYRO_GONE_US);
         if blind && waited && !self.has_gyro(now_us) && !self.beacons.are_heard() {
-            self.tracked = None;
+            self.leave_map();
         }
     }
 
-    /// Pose in the map and how sure it is. A robot that only counts its wheels is never lost: it has no map to be lost in.
+    /// Pose in the map and its uncertainty. A robot with odometry alone is never lost, because it has no map to be lost in.
     #[must_use]
     pub fn estimate(&self) -> PoseEstimate {
         PoseEstimate {
@@ -370,34 +332,34 @@ impl Localization {
             sigma_m: self.drift.sigma_m,
             sigma_rad: self.drift.sigma_rad,
             lost: self
-                .tracked
-                .as_ref()
-                .is_some_and(|tracked| tracked.tracker.is_lost()),
+                .estimator
+                .known_map()
+                .is_some_and(|known| known.tracker.is_lost()),
             odom: self.odometry.odom_from_base(),
         }
     }
 
-    /// How well the map explains what the sensors show, 0..1; `None` without a map to compare with.
+    /// Share of the sensor readings that the map explains, 0..1; `None` without a known map.
     #[must_use]
     pub fn explained(&self) -> Option<f64> {
-        self.tracked.as_ref().map(|tracked| tracked.tracker.explained())
+        self.estimator.known_map().map(|known| known.tracker.explained())
     }
 
-    /// Way back in metres that no way forward has made good, 0..=0.15: ground that nothing has seen.
+    /// Reversed distance in metres that the robot has not driven forward again, 0..=0.15: no sensor has seen that floor.
     #[must_use]
     pub fn backed_m(&self) -> f64 {
-        self.retreat.backed_m()
+        self.reverse_budget.backed_m()
     }
 
-    /// Way in metres for which backing may still be commanded before the robot has driven forward again.
+    /// Distance in metres by which the robot may still reverse before it must drive forward.
     #[must_use]
-    pub fn way_back_m(&self) -> f64 {
-        self.retreat.left_m()
+    pub fn reverse_left_m(&self) -> f64 {
+        self.reverse_budget.left_m()
     }
 
-    /// Takes up what [`Self::backed_m`] said before a restart.
+    /// Restores [`Self::backed_m`] after a restart.
     pub fn resume_backed(&mut self, backed_m: f64) {
-        self.retreat = Retreat::resumed(backed_m);
+        self.reverse_budget = ReverseBudget::resumed(backed_m);
     }
 
     /// Pose in the map.
@@ -406,20 +368,12 @@ impl Localization {
         self.map_from_odom * self.odometry.odom_from_base()
     }
 
-    /// Sets the transform that a better estimator has found.
+    /// Sets the transform that an estimator has found.
     pub fn correct(&mut self, map_from_odom: Pose2) {
         self.map_from_odom = map_from_odom;
     }
 
-    /// Takes up what guesses in a map have found, of the gyro, too.
-    fn take_up(&mut self, estimate: PoseEstimate, gyro: Option<GyroBelief>) {
-        self.adopt(estimate);
-        if let Some(gyro) = gyro.filter(|_| !estimate.lost) {
-            self.odometry.calibration.know(gyro);
-        }
-    }
-
-    /// Takes up what the filter found; the gyro learns from it.
+    /// Adopts an estimate, and calibrates the gyro with it.
     fn adopt(&mut self, estimate: PoseEstimate) {
         let correction_rad = normalize_rad(estimate.pose.heading_rad - self.pose().heading_rad);
         let found = Drift {
@@ -428,35 +382,36 @@ impl Localization {
         };
         let calibration = &mut self.odometry.calibration;
         if estimate.lost {
-            // Guesses jump about; where odometry has carried the last pose that was believed is as good as any of them.
+            // The estimate of a lost robot jumps, so odometry from the last known pose is as good.
             calibration.interrupt();
         } else {
             calibration.correct(correction_rad, estimate.sigma_rad * estimate.sigma_rad);
-            self.put_at(estimate.pose);
+            self.set_pose(estimate.pose);
         }
         self.drift = found;
     }
 
-    /// Declares that the robot now stands at `pose` in the map.
+    /// Declares that the robot is at `pose` in the map.
     pub fn place_at(&mut self, pose: Pose2) {
         let before = self.pose();
-        self.put_at(pose);
-        if let Some(survey) = &mut self.survey {
-            survey.begin_at(pose, self.odometry.odom_from_base());
+        self.set_pose(pose);
+        let odom = self.odometry.odom_from_base();
+        if let Some(first_run) = self.estimator.first_run_mut() {
+            first_run.slam.begin_at(pose, odom);
         }
         let is_there = before.position().distance_m(pose.position()) < PLACED_M
             && normalize_rad(before.heading_rad - pose.heading_rad).abs() < PLACED_RAD;
         if !is_there {
             self.beacons.place_at(pose);
         }
-        if let Some(tracked) = &mut self.tracked
+        if let Some(known) = self.estimator.known_map_mut()
             && !is_there
         {
-            tracked.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
+            known.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
         }
     }
 
-    fn put_at(&mut self, pose: Pose2) {
+    fn set_pose(&mut self, pose: Pose2) {
         self.correct(pose * self.odometry.odom_from_base().inverse());
         self.drift = Drift::default();
     }
@@ -469,7 +424,7 @@ mod tests {
     use crate::model::observation::Observation;
 
     #[test]
-    fn a_placed_robot_goes_on_from_there() {
+    fn odometry_continues_from_a_given_pose() {
         let mut localization = Localization::new(0.23, 0.5);
         localization.update(&Observation {
             time_us: 0,

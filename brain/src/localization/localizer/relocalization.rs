@@ -1,26 +1,26 @@
-//! A robot that turns out to be somewhere else in its home looks for itself in the map.
+//! Relocalizes a robot that turns out to be somewhere else.
 
 use super::{Localization, SIGMA_MAX};
-use crate::localization::terrain::Terrain;
+use crate::localization::reference_map::ReferenceMap;
 use crate::localization::tracker::Tracker;
 use crate::mapping::Map;
 use crate::model::config::BrainConfig;
 
 impl Localization {
     /// The robot was put down somewhere.
-    pub(super) fn recover(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
-        if Terrain::is_trustworthy(map) {
-            return self.lose_in(Terrain::of(map), config, seed);
+    pub(super) fn relocalize(&mut self, map: &Map, config: &BrainConfig, seed: u64) {
+        if ReferenceMap::is_trustworthy(map) {
+            return self.lose_in_map(ReferenceMap::of(map), config, seed);
         }
-        self.survey(config);
+        self.start_line_slam(config);
         self.drift.sigma_m = SIGMA_MAX;
     }
 
-    /// The robot is somewhere in this terrain.
-    pub(super) fn lose_in(&mut self, terrain: Terrain, config: &BrainConfig, seed: u64) {
+    /// The robot is somewhere in this map.
+    pub(super) fn lose_in_map(&mut self, reference_map: ReferenceMap, config: &BrainConfig, seed: u64) {
         let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
         tracker.lose(self.pose());
-        self.follow_in(terrain, tracker);
+        self.compare_with(reference_map, tracker);
         self.drift.sigma_m = SIGMA_MAX;
     }
 }

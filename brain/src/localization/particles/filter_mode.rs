@@ -1,10 +1,10 @@
-//! Whether the filter looks for the robot or holds on to it.
+//! Whether the filter searches for the pose or tracks it.
 
-/// What guesses make of what they see.
+/// How particles treat the sensor readings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::localization) enum Manner {
-    /// The robot may be elsewhere: guesses are spread, and each look at a surface counts by itself.
+pub(in crate::localization) enum FilterMode {
+    /// The robot may be elsewhere: particles are spread, and readings of a surface count independently.
     Searching,
-    /// The robot knows where it is: guesses hold headings, and know surfaces again that they have looked at.
+    /// The pose is known: particles keep their headings, and remember the reflectance of the surfaces that they see.
     Holding,
 }

@@ -1,43 +1,43 @@
-//! What a guess holds of the gyro besides its pose: a heading that is wrong after a turn is the fault of the scale, and after
-//! a long way that of the bias. Guesses that are right about both fit the walls turn after turn, so both are learnt with
-//! the pose, and as sure as the guesses agree.
+//! Calibration of the gyro by the particles. Each particle has its own scale and bias. A wrong heading after a turn comes from the
+//! scale, and after a long path from the bias. Particles with the right values fit the walls turn after turn, so the filter
+//! estimates both with the pose.
 
 use super::ParticleFilter;
 use crate::localization::calibration::BIAS_DRIFT_RAD2_PER_S3;
-use crate::localization::gyro_belief::{BiasTold, GyroBelief};
+use crate::localization::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use crate::model::advance::Advance;
 use crate::model::random::Random;
 
-/// How the scale wanders, relative per square root of a radian that was turned: no gyro has the same scale at all rates, and guesses that
-/// agreed too soon go on learning.
+/// Random walk of the scale, relative per square root of a radian turned. No gyro has the same scale at all rates, and particles
+/// that agree too soon continue to learn.
 const SCALE_WALK: f64 = 2.0e-4;
-/// When guesses are drawn anew, so much of their deviations is drawn anew, too: copies of one guess would all have its scale
-/// (J. Liu and M. West 2001: the kernel keeps mean and variance).
+/// Share of the deviations that resampling draws again, because all copies of one particle would have the same scale (J. Liu and M.
+/// West 2001: the kernel keeps mean and variance).
 const REDRAWN: f64 = 0.05;
-/// Least deviations that drawing anew keeps up, relative and radians per second.
+/// Least standard deviations after resampling, relative and radians per second.
 const SCALE_SIGMA_MIN: f64 = 3.0e-4;
 const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 5.0e-5;
 
-/// Guesses of a robot that has never rested are drawn as if a rest had told the bias this well, radians per second: some of them would turn
-/// until a strange home fits.
+/// Greatest standard deviation of the bias with which particles start, radians per second, for a robot without any zero-velocity
+/// update. With a larger one some particles would turn until a wrong home fits.
 const BIAS_SIGMA_DRAWN_MAX_RAD_PER_S: f64 = 5.0e-4;
 
-/// Least variance that a long rest is believed to have, square radians per square second: few guesses would be left, and with them few
-/// places.
-const TOLD_VARIANCE_MIN: f64 = 2.5e-8;
+/// Least variance of a zero-velocity update, square radians per square second. A smaller one would leave few particles and so few
+/// positions.
+const MEASURED_VARIANCE_MIN: f64 = 2.5e-8;
 
-/// What the gyro showed while the robot moved.
+/// What the gyro measured during a motion.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::localization) struct GyroCount {
     shown_rad: f64,
     time_s: f64,
-    /// What odometry made of it.
+    /// The same as odometry counted it.
     counted_rad: f64,
 }
 
 impl GyroCount {
-    /// Adds a move that odometry counted with this belief. A robot that stands does not count what the gyro shows.
-    pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroBelief) {
+    /// Adds a motion that odometry counted with this calibration. Odometry ignores the gyro while the robot is at rest.
+    pub(in crate::localization) fn add(&mut self, advance: Advance, belief: GyroEstimate) {
         let Some(turn_rad) = advance.gyro_turn_rad.filter(|_| !advance.is_stationary()) else {
             return;
         };
@@ -47,16 +47,16 @@ impl GyroCount {
     }
 }
 
-/// The gyro as one guess has it.
+/// The gyro as one particle models it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct GyroGuess {
+pub(super) struct ParticleGyro {
     scale: f64,
     bias_rad_per_s: f64,
 }
 
-impl GyroGuess {
-    /// A guess as good as the belief.
-    pub(super) fn drawn(belief: GyroBelief, random: &mut Random) -> Self {
+impl ParticleGyro {
+    /// Draws a particle's gyro from the estimate.
+    pub(super) fn drawn(belief: GyroEstimate, random: &mut Random) -> Self {
         Self {
             scale: belief.scale + belief.scale_sigma * random.normal(),
             bias_rad_per_s: belief.bias_rad_per_s
@@ -64,8 +64,7 @@ impl GyroGuess {
         }
     }
 
-    /// By how much the robot turned more than odometry counted, if the guess is right. Bias and scale wander
-    /// meanwhile.
+    /// Turn in addition to what odometry counted, if this particle is right. Bias and scale do a random walk meanwhile.
     pub(super) fn turned_more_rad(&mut self, count: GyroCount, random: &mut Random) -> f64 {
         if count.time_s <= 0.0 {
             return 0.0;
@@ -75,14 +74,14 @@ impl GyroGuess {
         (count.shown_rad - self.bias_rad_per_s * count.time_s) * (1.0 + self.scale) - count.counted_rad
     }
 
-    /// Likelihood of what a rest has told; 1 at best.
-    pub(super) fn likelihood(&self, told: BiasTold) -> f64 {
-        let off = told.rad_per_s - self.bias_rad_per_s;
-        libm::exp(-0.5 * off * off / told.variance_rad2_per_s2.max(TOLD_VARIANCE_MIN))
+    /// Likelihood of a zero-velocity update; 1 at best.
+    pub(super) fn likelihood(&self, measured: BiasMeasurement) -> f64 {
+        let off = measured.rad_per_s - self.bias_rad_per_s;
+        libm::exp(-0.5 * off * off / measured.variance_rad2_per_s2.max(MEASURED_VARIANCE_MIN))
     }
 
-    /// The same once more, for guesses of which some are copies.
-    pub(super) fn redrawn(self, belief: GyroBelief, random: &mut Random) -> Self {
+    /// A variation of it for resampling.
+    pub(super) fn redrawn(self, belief: GyroEstimate, random: &mut Random) -> Self {
         let kept = libm::sqrt(1.0 - REDRAWN * REDRAWN);
         let about = |value: f64, mean: f64, sigma: f64, chance: f64| {
             mean + kept * (value - mean) + REDRAWN * sigma * chance
@@ -105,32 +104,32 @@ impl GyroGuess {
 }
 
 impl ParticleFilter {
-    /// All guesses take over this belief of the gyro's bias, and keep their scales.
-    pub(in crate::localization) fn draw_bias(&mut self, belief: GyroBelief) {
+    /// All particles draw a bias from this estimate and keep their scales.
+    pub(in crate::localization) fn draw_bias(&mut self, belief: GyroEstimate) {
         for particle in &mut self.particles {
-            particle.gyro = GyroGuess {
+            particle.gyro = ParticleGyro {
                 scale: particle.gyro.scale,
-                ..GyroGuess::drawn(belief, &mut self.random)
+                ..ParticleGyro::drawn(belief, &mut self.random)
             };
         }
     }
 }
 
-/// What guesses of these weights believe together.
-pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) -> GyroBelief {
-    let sum: f64 = guesses.clone().map(|(weight, _)| weight).sum();
-    let mean = |of: &dyn Fn(GyroGuess) -> f64| {
-        let weighted = guesses.clone().map(|(weight, guess)| weight * of(guess));
+/// Weighted mean and deviation of the particles' values.
+pub(super) fn belief(gyros: impl Iterator<Item = (f64, ParticleGyro)> + Clone) -> GyroEstimate {
+    let sum: f64 = gyros.clone().map(|(weight, _)| weight).sum();
+    let mean = |of: &dyn Fn(ParticleGyro) -> f64| {
+        let weighted = gyros.clone().map(|(weight, gyro)| weight * of(gyro));
         weighted.sum::<f64>() / sum.max(1e-300)
     };
-    let scale = mean(&|guess| guess.scale);
-    let bias_rad_per_s = mean(&|guess| guess.bias_rad_per_s);
-    let scale_variance = mean(&|guess| (guess.scale - scale) * (guess.scale - scale));
-    let bias_variance = mean(&|guess| {
-        let off = guess.bias_rad_per_s - bias_rad_per_s;
+    let scale = mean(&|gyro| gyro.scale);
+    let bias_rad_per_s = mean(&|gyro| gyro.bias_rad_per_s);
+    let scale_variance = mean(&|gyro| (gyro.scale - scale) * (gyro.scale - scale));
+    let bias_variance = mean(&|gyro| {
+        let off = gyro.bias_rad_per_s - bias_rad_per_s;
         off * off
     });
-    GyroBelief {
+    GyroEstimate {
         scale,
         scale_sigma: libm::sqrt(scale_variance),
         bias_rad_per_s,
@@ -140,20 +139,20 @@ pub(super) fn belief(guesses: impl Iterator<Item = (f64, GyroGuess)> + Clone) ->
 
 #[cfg(test)]
 mod tests {
-    use super::{BiasTold, GyroCount, GyroGuess, belief};
-    use crate::localization::gyro_belief::GyroBelief;
+    use super::{BiasMeasurement, GyroCount, ParticleGyro, belief};
+    use crate::localization::gyro_estimate::GyroEstimate;
     use crate::model::advance::Advance;
     use crate::model::random::Random;
 
-    const BELIEF: GyroBelief = GyroBelief {
+    const BELIEF: GyroEstimate = GyroEstimate {
         scale: 0.01,
         scale_sigma: 0.004,
         bias_rad_per_s: 0.002,
         bias_sigma_rad_per_s: 5.0e-4,
     };
 
-    /// What odometry counts with this belief when the gyro shows a turn.
-    fn counted(shown_rad: f64, time_s: f64, belief: GyroBelief) -> Advance {
+    /// What odometry counts with this estimate when the gyro measures a turn.
+    fn counted(shown_rad: f64, time_s: f64, belief: GyroEstimate) -> Advance {
         let turn_rad = (shown_rad - belief.bias_rad_per_s * time_s) * (1.0 + belief.scale);
         Advance {
             time_s,
@@ -165,19 +164,19 @@ mod tests {
     }
 
     #[test]
-    fn a_guess_turns_by_what_the_gyro_showed_and_not_by_what_others_made_of_it() {
+    fn a_particle_turns_by_the_raw_gyro_and_its_own_calibration() {
         let mut count = GyroCount::default();
         let mut other = BELIEF;
         for _ in 0..5 {
             count.add(counted(0.5, 2.0, other), other);
-            // A rest has told another bias meanwhile.
+            // A zero-velocity update has changed the bias meanwhile.
             other.bias_rad_per_s += 0.001;
         }
-        let mut guess = GyroGuess {
+        let mut gyro = ParticleGyro {
             scale: -0.02,
             bias_rad_per_s: -0.003,
         };
-        let more_rad = guess.turned_more_rad(count, &mut Random::new(1));
+        let more_rad = gyro.turned_more_rad(count, &mut Random::new(1));
         let turned_rad = (2.5 + 0.003 * 10.0) * 0.98;
         assert!(
             (count.counted_rad + more_rad - turned_rad).abs() < 5e-3,
@@ -186,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn a_robot_that_stands_or_counts_its_wheels_only_has_no_error_of_a_gyro() {
+    fn without_gyro_or_motion_there_is_no_gyro_error() {
         let mut count = GyroCount::default();
         let standing = Advance {
             time_s: 5.0,
@@ -200,13 +199,13 @@ mod tests {
         count.add(standing, BELIEF);
         count.add(by_wheels, BELIEF);
         let mut random = Random::new(1);
-        let mut guess = GyroGuess::drawn(BELIEF, &mut random);
-        assert_eq!(guess.turned_more_rad(count, &mut random), 0.0);
+        let mut gyro = ParticleGyro::drawn(BELIEF, &mut random);
+        assert_eq!(gyro.turned_more_rad(count, &mut random), 0.0);
     }
 
-    fn guesses(random: &mut Random) -> Vec<(f64, GyroGuess)> {
+    fn gyros(random: &mut Random) -> Vec<(f64, ParticleGyro)> {
         (0..20_000)
-            .map(|_| (1.0, GyroGuess::drawn(BELIEF, random)))
+            .map(|_| (1.0, ParticleGyro::drawn(BELIEF, random)))
             .collect()
     }
 
@@ -215,16 +214,16 @@ mod tests {
     }
 
     #[test]
-    fn guesses_that_are_drawn_anew_again_and_again_believe_the_same() {
+    fn repeated_resampling_keeps_mean_and_deviation() {
         let mut random = Random::new(3);
-        let mut all = guesses(&mut random);
+        let mut gyros = gyros(&mut random);
         for _ in 0..50 {
-            let before = belief(all.iter().copied());
-            for (_, guess) in &mut all {
-                *guess = guess.redrawn(before, &mut random);
+            let before = belief(gyros.iter().copied());
+            for (_, gyro) in &mut gyros {
+                *gyro = gyro.redrawn(before, &mut random);
             }
         }
-        let after = belief(all.iter().copied());
+        let after = belief(gyros.iter().copied());
         assert!(
             about(after.scale, BELIEF.scale) && about(after.scale_sigma, BELIEF.scale_sigma),
             "{after:?}"
@@ -237,17 +236,17 @@ mod tests {
     }
 
     #[test]
-    fn a_rest_pulls_the_bias_as_far_as_it_is_sure() {
-        let mut all = guesses(&mut Random::new(4));
-        let told = BiasTold {
+    fn a_zero_velocity_update_counts_by_its_variance() {
+        let mut gyros = gyros(&mut Random::new(4));
+        let measured = BiasMeasurement {
             rad_per_s: 0.003,
             variance_rad2_per_s2: 2.5e-7,
         };
-        for (weight, guess) in &mut all {
-            *weight *= guess.likelihood(told);
+        for (weight, gyro) in &mut gyros {
+            *weight *= gyro.likelihood(measured);
         }
-        let after = belief(all.iter().copied());
-        // Rest and belief are equally sure.
+        let after = belief(gyros.iter().copied());
+        // The measurement and the estimate are equally sure.
         assert!(about(after.bias_rad_per_s, 0.0025), "{after:?}");
         assert!(
             about(after.bias_sigma_rad_per_s, 5.0e-4 / 2.0_f64.sqrt()),

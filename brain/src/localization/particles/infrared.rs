@@ -1,79 +1,79 @@
-//! How likely the infrared levels are at a place of the map: distances where something is seen, and free beams where not.
+//! Beam model: how likely the infrared readings are at a pose in the map.
 
-use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Surface, Surfaces, UNMAPPED, bell};
+use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Reflectance, Reflectances, UNMAPPED, bell};
 use super::surroundings::Surroundings;
 use crate::model::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
 use crate::model::geometry::Point2;
 
 /// Levels below this are noise of the conversion, 0..1.
 const LEVEL_MIN: f64 = 0.02;
-/// Likelihood of something seen where nothing is known yet: it speaks neither for the place nor against it.
+/// Likelihood of a reading in unknown space. It is neutral.
 const UNKNOWN: f64 = 0.5;
-/// Likelihood that nothing is seen where the map has something: drop-outs, black surfaces, what was carried away.
+/// Likelihood of no reading where the map has an obstacle: drop-outs, black surfaces, removed furniture.
 const UNSEEN: f64 = 0.08;
-/// Band around the end of the range in which it is open whether something is seen, metres.
+/// Band around the end of the range in which a reading is uncertain, metres.
 const RANGE_BAND_M: f64 = 0.02;
-/// A beam meets what is this near, metres.
+/// A beam hits an obstacle that is this close, metres.
 const MEET_M: f64 = 0.003;
 /// Smallest step along a beam, metres.
 const STEP_MIN_M: f64 = 0.012;
 /// Most steps along a beam.
 const STEPS_MAX: usize = 12;
 
-/// One sensor and what it shows.
+/// One sensor and its reading.
 #[derive(Clone, Copy, Debug, Default)]
 struct Beam {
-    /// The sensor's place in the body's frame, metres.
+    /// Position of the sensor in the body's frame, metres.
     x_m: f64,
     y_m: f64,
-    /// Its direction there.
+    /// Direction of the sensor in the body's frame.
     cos: f64,
     sin: f64,
-    seen: Option<Sight>,
+    seen: Option<BeamReading>,
 }
 
-/// Something that a sensor sees.
+/// A reading of a sensor that sees something.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Sight {
-    /// At a distance.
+enum BeamReading {
+    /// A distance.
     At(Range),
-    /// Within the range; the sensor has only one line.
+    /// Something within the range, by a sensor with one threshold only.
     Near,
 }
 
 /// All sensors at one moment.
 #[derive(Clone, Debug)]
-pub(super) struct Beams {
+pub(super) struct BeamModel {
     beams: [Beam; PROXIMITY_MAX],
     count: usize,
     range_m: f64,
     spread: f64,
-    /// Nothing farther from the centre than this can be met by any beam, metres.
+    /// No beam reaches obstacles farther from the centre than this, metres.
     reach_m: f64,
     /// Farthest sensor from the centre, metres.
     mount_m: f64,
 }
 
-/// How a place fits what the sensors show.
+/// How well the map explains the beams at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in crate::localization) struct Fit {
-    /// Beams for which map or sensor has something.
-    pub(in crate::localization) told: u32,
-    /// Those of them for which both have the same.
-    pub(in crate::localization) agreed: u32,
+pub(in crate::localization) struct BeamScore {
+    /// Beams for which the map or the sensor has an obstacle.
+    pub(in crate::localization) informative: u32,
+    /// Informative beams for which both agree.
+    pub(in crate::localization) consistent: u32,
 }
 
-impl Fit {
-    /// Both together.
+impl BeamScore {
+    /// Sum of both.
     pub(in crate::localization) fn and(self, other: Self) -> Self {
         Self {
-            told: self.told.saturating_add(other.told),
-            agreed: self.agreed.saturating_add(other.agreed),
+            informative: self.informative.saturating_add(other.informative),
+            consistent: self.consistent.saturating_add(other.consistent),
         }
     }
 }
 
-impl Beams {
+impl BeamModel {
     pub(super) fn new(layout: &ProximityLayout) -> Self {
         let mut beams = [Beam::default(); PROXIMITY_MAX];
         let mut mount_m: f64 = 0.0;
@@ -100,15 +100,20 @@ impl Beams {
     }
 
     /// Takes the levels of an observation.
-    pub(super) fn look(&mut self, levels: &[f32], response: &ProximityResponse) {
+    pub(super) fn read(&mut self, levels: &[f32], response: &ProximityResponse) {
         self.count = self.count.min(levels.len());
         for (beam, level) in self.beams.iter_mut().zip(levels) {
             beam.seen = seen(f64::from(*level), response);
         }
     }
 
-    /// Likelihood of all levels at a place; 1 at best.
-    pub(super) fn likelihood(&self, map: &impl Surroundings, place: &Place, surfaces: &mut Surfaces) -> f64 {
+    /// Likelihood of all levels at a pose; 1 at best.
+    pub(super) fn likelihood(
+        &self,
+        map: &impl Surroundings,
+        place: &BodyPose,
+        surfaces: &mut Reflectances,
+    ) -> f64 {
         let beams = self.beams.get(..self.count).unwrap_or_default();
         if place.clearance_m > self.reach_m {
             let hits = beams.iter().filter(|beam| beam.seen.is_some());
@@ -120,43 +125,48 @@ impl Beams {
         let each = beams.iter().zip(&mut surfaces.surfaces);
         each.fold(1.0, |likelihood, (beam, surface)| {
             let expected_m = self.cast(map, place, beam);
-            let told = self.beam_likelihood(beam.seen, expected_m, surface);
-            if told < UNKNOWN && looks_into_unknown(map, place, beam, expected_m) {
+            let measured = self.beam_likelihood(beam.seen, expected_m, surface);
+            if measured < UNKNOWN && looks_into_unknown(map, place, beam, expected_m) {
                 likelihood * UNKNOWN
             } else {
-                likelihood * told
+                likelihood * measured
             }
         })
     }
 
-    /// Which beams the map explains at a place.
-    pub(super) fn fit(&self, map: &impl Surroundings, place: &Place) -> Fit {
-        let mut fit = Fit::default();
+    /// Counts the beams that the map explains at a pose.
+    pub(super) fn score(&self, map: &impl Surroundings, place: &BodyPose) -> BeamScore {
+        let mut score = BeamScore::default();
         for beam in self.beams.get(..self.count).unwrap_or_default() {
             let expected_m = self
                 .cast(map, place, beam)
                 .filter(|expected_m| *expected_m < self.range_m - RANGE_BAND_M);
-            let agreed = match (beam.seen, expected_m) {
+            let consistent = match (beam.seen, expected_m) {
                 (None, None) => continue,
-                (Some(Sight::At(range)), Some(expected_m)) => {
+                (Some(BeamReading::At(range)), Some(expected_m)) => {
                     ((range.seen_m - expected_m) * range.per_sigma).abs() < 3.0
                 }
-                (Some(Sight::At(range)), None) => (self.range_m - range.seen_m) * range.per_sigma < 3.0,
-                (Some(Sight::Near), _) => self.cast(map, place, beam).is_some(),
+                (Some(BeamReading::At(range)), None) => (self.range_m - range.seen_m) * range.per_sigma < 3.0,
+                (Some(BeamReading::Near), _) => self.cast(map, place, beam).is_some(),
                 (None, Some(_)) => false,
             };
-            if !agreed && looks_into_unknown(map, place, beam, expected_m) {
+            if !consistent && looks_into_unknown(map, place, beam, expected_m) {
                 continue;
             }
-            fit.told += 1;
-            fit.agreed += u32::from(agreed);
+            score.informative += 1;
+            score.consistent += u32::from(consistent);
         }
-        fit
+        score
     }
 
-    fn beam_likelihood(&self, seen: Option<Sight>, expected_m: Option<f64>, surface: &mut Surface) -> f64 {
+    fn beam_likelihood(
+        &self,
+        seen: Option<BeamReading>,
+        expected_m: Option<f64>,
+        surface: &mut Reflectance,
+    ) -> f64 {
         if seen.is_none() {
-            *surface = Surface::default();
+            *surface = Reflectance::default();
         }
         match (seen, expected_m) {
             (None, None) => 1.0,
@@ -164,46 +174,51 @@ impl Beams {
                 let beyond = (expected_m - self.range_m) / RANGE_BAND_M + 0.5;
                 UNSEEN + (1.0 - UNSEEN) * beyond.clamp(0.0, 1.0)
             }
-            (Some(Sight::Near), Some(expected_m)) => {
+            (Some(BeamReading::Near), Some(expected_m)) => {
                 let within = (self.range_m - expected_m) / RANGE_BAND_M + 0.5;
                 UNMAPPED + (1.0 - UNMAPPED) * within.clamp(0.0, 1.0)
             }
-            (Some(Sight::Near), None) => UNMAPPED,
-            (Some(Sight::At(range)), Some(expected_m)) => surface.likelihood(range, expected_m),
-            // The map's nearest thing may lie just beyond the range.
-            (Some(Sight::At(range)), None) => {
+            (Some(BeamReading::Near), None) => UNMAPPED,
+            (Some(BeamReading::At(range)), Some(expected_m)) => surface.likelihood(range, expected_m),
+            // The nearest obstacle in the map may be just beyond the range.
+            (Some(BeamReading::At(range)), None) => {
                 let off = (self.range_m + 2.0 * RANGE_BAND_M - range.seen_m) * range.per_sigma;
                 UNMAPPED + (1.0 - UNMAPPED) * bell(off * off)
             }
         }
     }
 
-    /// Distance from the sensor to what its cone meets in the map.
-    fn cast(&self, map: &impl Surroundings, place: &Place, beam: &Beam) -> Option<f64> {
+    /// Expected distance from the sensor to the first obstacle in its cone.
+    fn cast(&self, map: &impl Surroundings, place: &BodyPose, beam: &Beam) -> Option<f64> {
         let start = place.point(beam.x_m, beam.y_m);
         let (dx, dy) = place.direction(beam.cos, beam.sin);
         let limit_m = self.range_m + RANGE_BAND_M;
-        let mut way_m = (0.95 * (place.clearance_m - self.mount_m)).max(0.0);
+        let mut distance_m = (0.95 * (place.clearance_m - self.mount_m)).max(0.0);
         for _ in 0..STEPS_MAX {
-            if way_m > limit_m {
+            if distance_m > limit_m {
                 return None;
             }
             let clear_m = map.clearance_m(Point2 {
-                x_m: start.x_m + dx * way_m,
-                y_m: start.y_m + dy * way_m,
+                x_m: start.x_m + dx * distance_m,
+                y_m: start.y_m + dy * distance_m,
             });
-            if clear_m <= self.spread * way_m + MEET_M {
-                return Some(way_m + clear_m.max(0.0));
+            if clear_m <= self.spread * distance_m + MEET_M {
+                return Some(distance_m + clear_m.max(0.0));
             }
-            way_m += (0.95 * clear_m).max(STEP_MIN_M);
+            distance_m += (0.95 * clear_m).max(STEP_MIN_M);
         }
         None
     }
 }
 
-/// Whether what a beam shows lies where nothing is known, with nothing known in front of it.
-fn looks_into_unknown(map: &impl Surroundings, place: &Place, beam: &Beam, expected_m: Option<f64>) -> bool {
-    let Some(Sight::At(Range { seen_m, .. })) = beam.seen else {
+/// Whether a beam ends in unknown space with no known obstacle in front.
+fn looks_into_unknown(
+    map: &impl Surroundings,
+    place: &BodyPose,
+    beam: &Beam,
+    expected_m: Option<f64>,
+) -> bool {
+    let Some(BeamReading::At(Range { seen_m, .. })) = beam.seen else {
         return false;
     };
     if expected_m.is_some_and(|expected_m| expected_m <= seen_m) {
@@ -217,39 +232,39 @@ fn looks_into_unknown(map: &impl Surroundings, place: &Place, beam: &Beam, expec
     })
 }
 
-fn seen(level: f64, response: &ProximityResponse) -> Option<Sight> {
-    // Written so that NaN is nothing.
+fn seen(level: f64, response: &ProximityResponse) -> Option<BeamReading> {
+    // Written so that NaN is no reading.
     let shows = level > LEVEL_MIN && response.half_level_m > 0.0;
     if !shows {
         return None;
     }
     if response.near_m.is_some() {
-        return Some(Sight::Near);
+        return Some(BeamReading::Near);
     }
     let beyond = libm::sqrt((1.0 / level - 1.0).max(0.0));
     let distance_m = response.skin_m + response.half_level_m * beyond;
-    // Derivative of the distance by the reflection; near the rim the level saturates and tells little.
+    // Derivative of the distance by the reflectance. Close to the rim the level saturates.
     let by_reflection_m = 0.5 * response.half_level_m * (1.0 + beyond * beyond) / beyond.max(0.5);
     let level_sigma_m = by_reflection_m * REFLECTION_SIGMA;
     let sigma_m = libm::sqrt(level_sigma_m * level_sigma_m + PLACE_SIGMA_M * PLACE_SIGMA_M);
-    Some(Sight::At(Range {
+    Some(BeamReading::At(Range {
         seen_m: distance_m.min(response.range_m),
         by_reflection_m,
         per_sigma: 1.0 / sigma_m,
     }))
 }
 
-/// A pose with what each sensor needs of it.
+/// A pose with everything that the sensor models need.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
+pub(super) struct BodyPose {
     pub(super) centre: Point2,
     pub(super) cos: f64,
     pub(super) sin: f64,
-    /// From the centre to the nearest solid thing, metres.
+    /// Distance from the centre to the nearest obstacle, metres.
     pub(super) clearance_m: f64,
 }
 
-impl Place {
+impl BodyPose {
     pub(super) fn point(&self, x_m: f64, y_m: f64) -> Point2 {
         let (dx, dy) = self.direction(x_m, y_m);
         Point2 {

@@ -1,9 +1,9 @@
-//! A particle filter in a map: many guesses of the pose move as odometry says, each with errors of its own, and those that
-//! fit what the sensors show multiply.
+//! Monte Carlo localization: a particle filter over the pose in a known map. Particles move by odometry, each with errors of its
+//! own, and those that explain the sensors multiply.
 //!
-//! Terms. *Place*: a pose with its cosine, sine and clearance. *Fit*: how many beams the map explains at a place.
-//! *Tempered*: a likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent:
-//! a dark cupboard is dark for all of its length.
+//! *BodyPose*: a pose with its cosine, sine and clearance. *BeamScore*: how many beams the map explains at a pose. *Tempered*: a
+//! likelihood to a power below 1, because the errors of neighbouring beams and moments are not independent: a dark cupboard is dark
+//! along its whole length.
 
 mod filter_mode;
 mod gyro;
@@ -17,95 +17,95 @@ use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::observation::{Cliffs, Contacts, Observation};
 use crate::model::random::Random;
 
-use super::beacons::Heard;
-use super::gyro_belief::{BiasTold, GyroBelief};
+use super::beacons::LocatedRange;
+use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use crate::model::pose_estimate::PoseEstimate;
-pub(super) use filter_mode::Manner;
+pub(super) use filter_mode::FilterMode;
 pub(super) use gyro::GyroCount;
-use gyro::GyroGuess;
-pub(super) use infrared::Fit;
-use infrared::{Beams, Place};
-use surface::Surfaces;
+use gyro::ParticleGyro;
+pub(super) use infrared::BeamScore;
+use infrared::{BeamModel, BodyPose};
+use surface::Reflectances;
 pub(super) use surroundings::Surroundings;
-use touch::{Touch, body_likelihood};
+use touch::{BodyModel, Touch, body_likelihood};
 
-/// Fewest guesses while the robot knows where it is.
+/// Fewest particles while the pose is known.
 const TRACKING_MIN: usize = 220;
-/// Most of them.
+/// Most particles while the pose is known.
 const TRACKING_MAX: usize = 400;
-/// Guesses around each place where a lost robot may be.
-const EACH: usize = 100;
-/// Guesses are drawn anew when the effective share of them falls below this.
+/// Particles around each candidate pose of a lost robot.
+const PARTICLES_PER_CANDIDATE: usize = 100;
+/// Particles are resampled when the effective share falls below this.
 const RESAMPLE_SHARE: f64 = 0.5;
-/// Edge of the bins whose number tells how many guesses are needed, metres.
+/// Edge of the bins for KLD sampling, metres.
 const BIN_M: f64 = 0.1;
 /// The same in heading, radians.
 const BIN_RAD: f64 = 0.17;
-/// Guesses so near to each other are one cluster, metres and radians.
+/// Particles this close to each other are one cluster, metres and radians.
 const CLUSTER_M: f64 = 0.5;
 const CLUSTER_RAD: f64 = 0.5;
-/// Bound of the error that too few guesses make (D. Fox 2003: KLD sampling), with quantile 2.33 of the normal distribution.
+/// Error bound of KLD sampling (D. Fox 2003), with quantile 2.33 of the normal distribution.
 const KLD_ERROR: f64 = 0.05;
 const KLD_QUANTILE: f64 = 2.33;
-/// Slip along the way, metres per square root of a metre.
+/// Slip, metres per square root of a metre.
 const SLIP_M_PER_SQRT_M: f64 = 0.012;
-/// What each move adds besides, metres and radians: cells, samples that are not of this moment. Guesses hold their headings: one that
-/// walls have told in one corner of a room is what a lane across the room is driven by.
+/// Noise that each motion adds, metres and radians, for cells and for samples of other moments. Particles keep their headings: a
+/// heading that walls gave in one corner of a room guides a lane across the room.
 const JITTER_M: f64 = 0.002;
 const JITTER_RAD: f64 = 0.0005;
-/// The same while the robot looks for its place: what walls have told so far may be wrong, and guesses must not hold on to it.
+/// The same while the filter searches: headings from walls may be wrong, and particles must not keep them.
 const SEARCHING_JITTER_RAD: f64 = 0.002;
-/// A few guesses turn by this much at each move, radians: all of them may hold a heading that is wrong.
-const SURPRISE_SHARE: f64 = 0.002;
-const SURPRISE_RAD: f64 = 0.03;
-/// Spread of the way's factor among robots, and how it wanders on rugs, per square root of a metre.
-const WAY_FACTOR_SIGMA: f64 = 0.01;
-const WAY_FACTOR_WALK: f64 = 0.002;
-/// Least and greatest factor that is believed.
-const WAY_FACTORS: (f64, f64) = (0.9, 1.1);
+/// Share of particles that turn by this much at each motion, radians: all particles may have a wrong heading.
+const UNCOUNTED_TURN_SHARE: f64 = 0.002;
+const UNCOUNTED_TURN_RAD: f64 = 0.03;
+/// Spread of the distance factor among robots, and its random walk on rugs, per square root of a metre.
+const DISTANCE_FACTOR_SIGMA: f64 = 0.01;
+const DISTANCE_FACTOR_WALK: f64 = 0.002;
+/// Least and greatest accepted factor.
+const DISTANCE_FACTORS: (f64, f64) = (0.9, 1.1);
 
-/// One guess.
+/// One particle.
 #[derive(Clone, Copy, Debug)]
 struct Particle {
     pose: Pose2,
-    /// True way by counted way: wheels, slip on rugs.
-    way_factor: f64,
-    gyro: GyroGuess,
-    surfaces: Surfaces,
+    /// True distance divided by counted distance: wheel size, slip on rugs.
+    distance_factor: f64,
+    gyro: ParticleGyro,
+    surfaces: Reflectances,
     weight: f64,
 }
 
-/// What the robot moved since the guesses were weighed last.
+/// Motion since the last weighing.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Motion {
+pub(super) struct MotionDelta {
     /// From the last pose to this one.
     pub(super) step: Pose2,
-    /// Way, backwards counted too, metres.
-    pub(super) way_m: f64,
+    /// Distance driven, also backwards, metres.
+    pub(super) distance_m: f64,
     /// Variance of the turn, square radians.
     pub(super) turn_variance: f64,
     pub(super) gyro: GyroCount,
 }
 
-/// What the robot noticed since the guesses were weighed last, besides what its infrared sensors show.
+/// Measurements since the last weighing, besides the infrared readings.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Felt<'noticed> {
-    /// Contacts and edges of the floor that begin now.
+pub(super) struct Measurements<'noticed> {
+    /// Contacts and cliffs that begin now.
     pub(super) contacts: Contacts,
     pub(super) edges: Cliffs,
-    pub(super) heard: &'noticed [Heard],
-    /// What rests have told of the gyro.
-    pub(super) told: Option<BiasTold>,
+    pub(super) ranges: &'noticed [LocatedRange],
+    /// Result of zero-velocity updates.
+    pub(super) measured_bias: Option<BiasMeasurement>,
 }
 
 /// Standard deviations around a pose.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Spread {
+pub(super) struct PoseSpread {
     pub(super) sigma_m: f64,
     pub(super) sigma_rad: f64,
 }
 
-/// The guesses.
+/// The particle filter.
 #[derive(Clone, Debug)]
 pub(super) struct ParticleFilter {
     particles: Vec<Particle>,
@@ -114,14 +114,14 @@ pub(super) struct ParticleFilter {
     random: Random,
     radius_m: f64,
     layout: SensorLayout,
-    beams: Beams,
-    /// With what new guesses begin.
-    gyro: GyroBelief,
-    manner: Manner,
+    beams: BeamModel,
+    /// Prior of the gyro for new particles.
+    gyro: GyroEstimate,
+    mode: FilterMode,
 }
 
 impl ParticleFilter {
-    /// All guesses at the origin.
+    /// All particles are at the origin.
     pub(super) fn new(radius_m: f64, layout: SensorLayout, seed: u64) -> Self {
         let mut filter = Self {
             particles: Vec::new(),
@@ -130,13 +130,13 @@ impl ParticleFilter {
             random: Random::new(seed),
             radius_m,
             layout,
-            beams: Beams::new(&layout.proximity),
-            gyro: GyroBelief::default(),
-            manner: Manner::Searching,
+            beams: BeamModel::new(&layout.proximity),
+            gyro: GyroEstimate::default(),
+            mode: FilterMode::Searching,
         };
         filter.gather(
             Pose2::IDENTITY,
-            Spread {
+            PoseSpread {
                 sigma_m: 0.0,
                 sigma_rad: 0.0,
             },
@@ -144,32 +144,31 @@ impl ParticleFilter {
         filter
     }
 
-    /// New guesses begin with this belief.
-    pub(super) fn know_gyro(&mut self, belief: GyroBelief) {
+    /// Sets the prior of the gyro for new particles.
+    pub(super) fn set_gyro_prior(&mut self, belief: GyroEstimate) {
         self.gyro = belief;
     }
 
-    /// From now on guesses are moved and weighed so. Those that begin to hold what they learn know no more of the gyro than was
-    /// told.
-    pub(super) fn take_manner(&mut self, manner: Manner) {
-        if manner == Manner::Holding && self.manner == Manner::Searching {
+    /// Sets the mode. When the filter begins to hold, the particles take the prior of the gyro again.
+    pub(super) fn set_mode(&mut self, mode: FilterMode) {
+        if mode == FilterMode::Holding && self.mode == FilterMode::Searching {
             for particle in &mut self.particles {
-                particle.gyro = GyroGuess::drawn(self.gyro, &mut self.random);
-                particle.surfaces = Surfaces::default();
+                particle.gyro = ParticleGyro::drawn(self.gyro, &mut self.random);
+                particle.surfaces = Reflectances::default();
             }
         }
-        self.manner = manner;
+        self.mode = mode;
     }
 
-    /// What the guesses believe of the gyro, if they have learnt anything of it.
-    pub(super) fn gyro(&self) -> Option<GyroBelief> {
-        let guesses = self.particles.iter();
-        let guesses = guesses.map(|particle| (particle.weight, particle.gyro));
-        (self.manner == Manner::Holding).then(|| gyro::belief(guesses))
+    /// Estimate of the gyro, if the particles have learned one.
+    pub(super) fn gyro(&self) -> Option<GyroEstimate> {
+        let particles = self.particles.iter();
+        let particles = particles.map(|particle| (particle.weight, particle.gyro));
+        (self.mode == FilterMode::Holding).then(|| gyro::belief(particles))
     }
 
-    /// All guesses around one pose.
-    pub(super) fn gather(&mut self, around: Pose2, spread: Spread) {
+    /// Draws all particles around one pose.
+    pub(super) fn gather(&mut self, around: Pose2, spread: PoseSpread) {
         self.particles.clear();
         for _ in 0..TRACKING_MAX {
             let particle = self.draw(around, spread);
@@ -177,24 +176,24 @@ impl ParticleFilter {
         }
     }
 
-    /// Guesses around several poses.
-    pub(super) fn scatter(&mut self, around: &[Pose2], spread: Spread) {
+    /// Draws particles around several poses.
+    pub(super) fn scatter(&mut self, around: &[Pose2], spread: PoseSpread) {
         self.particles.clear();
         for pose in around {
-            for _ in 0..EACH {
+            for _ in 0..PARTICLES_PER_CANDIDATE {
                 let particle = self.draw(*pose, spread);
                 self.particles.push(particle);
             }
         }
     }
 
-    /// Gives every third guess another place around a pose.
-    pub(super) fn widen(&mut self, around: Pose2, spread: Spread) {
+    /// Draws every third particle again around a pose.
+    pub(super) fn widen(&mut self, around: Pose2, spread: PoseSpread) {
         for index in (0..self.particles.len()).step_by(3) {
             let drawn = self.draw(around, spread);
             if let Some(particle) = self.particles.get_mut(index) {
                 *particle = Particle {
-                    way_factor: particle.way_factor,
+                    distance_factor: particle.distance_factor,
                     gyro: particle.gyro,
                     ..drawn
                 };
@@ -202,72 +201,85 @@ impl ParticleFilter {
         }
     }
 
-    fn draw(&mut self, around: Pose2, spread: Spread) -> Particle {
+    fn draw(&mut self, around: Pose2, spread: PoseSpread) -> Particle {
         Particle {
             pose: Pose2 {
                 x_m: around.x_m + spread.sigma_m * self.random.normal(),
                 y_m: around.y_m + spread.sigma_m * self.random.normal(),
                 heading_rad: normalize_rad(around.heading_rad + spread.sigma_rad * self.random.normal()),
             },
-            way_factor: 1.0 + WAY_FACTOR_SIGMA * self.random.normal(),
-            gyro: GyroGuess::drawn(self.gyro, &mut self.random),
-            surfaces: Surfaces::default(),
+            distance_factor: 1.0 + DISTANCE_FACTOR_SIGMA * self.random.normal(),
+            gyro: ParticleGyro::drawn(self.gyro, &mut self.random),
+            surfaces: Reflectances::default(),
             weight: 1.0,
         }
     }
 
-    /// Moves every guess.
-    pub(super) fn follow(&mut self, motion: Motion) {
-        let root_m = libm::sqrt(motion.way_m);
+    /// Predicts: moves every particle.
+    pub(super) fn follow(&mut self, motion: MotionDelta) {
+        let root_m = libm::sqrt(motion.distance_m);
         let along_m = SLIP_M_PER_SQRT_M * root_m + JITTER_M;
-        let (jitter_rad, kept) = match self.manner {
-            Manner::Searching => (SEARCHING_JITTER_RAD, 0.0),
-            Manner::Holding => (JITTER_RAD, Surfaces::kept_after(motion.way_m)),
+        let (jitter_rad, kept) = match self.mode {
+            FilterMode::Searching => (SEARCHING_JITTER_RAD, 0.0),
+            FilterMode::Holding => (JITTER_RAD, Reflectances::kept_after(motion.distance_m)),
         };
         let turn_rad = libm::sqrt(motion.turn_variance) + jitter_rad;
-        let walk = WAY_FACTOR_WALK * root_m;
+        let walk = DISTANCE_FACTOR_WALK * root_m;
         for particle in &mut self.particles {
             particle.surfaces.move_on(kept);
-            let uncounted_rad = match self.manner {
-                Manner::Searching => 0.0,
-                Manner::Holding => {
+            let uncounted_rad = match self.mode {
+                FilterMode::Searching => 0.0,
+                FilterMode::Holding => {
                     particle.gyro.turned_more_rad(motion.gyro, &mut self.random)
-                        + surprise_rad(&mut self.random)
+                        + uncounted_turn_rad(&mut self.random)
                 }
             };
-            let (low, high) = WAY_FACTORS;
-            particle.way_factor = (particle.way_factor + walk * self.random.normal()).clamp(low, high);
+            let (low, high) = DISTANCE_FACTORS;
+            particle.distance_factor =
+                (particle.distance_factor + walk * self.random.normal()).clamp(low, high);
             let step = Pose2 {
-                x_m: motion.step.x_m * particle.way_factor + along_m * self.random.normal(),
-                y_m: motion.step.y_m * particle.way_factor + JITTER_M * self.random.normal(),
+                x_m: motion.step.x_m * particle.distance_factor + along_m * self.random.normal(),
+                y_m: motion.step.y_m * particle.distance_factor + JITTER_M * self.random.normal(),
                 heading_rad: motion.step.heading_rad + uncounted_rad + turn_rad * self.random.normal(),
             };
             particle.pose = particle.pose * step;
         }
     }
 
-    /// Weighs every guess by what the sensors show, and draws new ones where few are left that fit.
-    pub(super) fn weigh(&mut self, map: &impl Surroundings, observation: &Observation, felt: &Felt<'_>) {
+    /// Weighs every particle by the measurements, and resamples when few particles fit.
+    pub(super) fn weigh(
+        &mut self,
+        map: &impl Surroundings,
+        observation: &Observation,
+        measured: &Measurements<'_>,
+    ) {
         self.beams
-            .look(&observation.proximity, &self.layout.proximity.response);
+            .read(&observation.proximity, &self.layout.proximity.response);
         let touch = Touch {
-            manner: self.manner,
-            contacts: felt.contacts,
-            edges: felt.edges,
+            mode: self.mode,
+            contacts: measured.contacts,
+            edges: measured.edges,
+        };
+        let body = BodyModel {
+            radius_m: self.radius_m,
+            layout: &self.layout,
         };
         let mut sum = 0.0;
         for particle in &mut self.particles {
             let place = place(map, particle.pose);
             let infrared = self.beams.likelihood(map, &place, &mut particle.surfaces);
-            let mut likelihood = tempered(infrared, self.manner);
+            let mut likelihood = tempered(infrared, self.mode);
             likelihood *= body_likelihood(place.clearance_m - self.radius_m);
-            if touch.tells() {
-                likelihood *= touch.likelihood(map, &place, (self.radius_m, &self.layout));
+            if touch.is_informative() {
+                likelihood *= touch.likelihood(map, &place, body);
             }
-            if let Some(told) = felt.told.filter(|_| self.manner == Manner::Holding) {
-                likelihood *= particle.gyro.likelihood(told);
+            if let Some(measured_bias) = measured
+                .measured_bias
+                .filter(|_| self.mode == FilterMode::Holding)
+            {
+                likelihood *= particle.gyro.likelihood(measured_bias);
             }
-            particle.weight *= likelihood * heard_likelihood(felt.heard, place.centre);
+            particle.weight *= likelihood * ranges_likelihood(measured.ranges, place.centre);
             sum += particle.weight;
         }
         self.normalize(sum);
@@ -283,12 +295,12 @@ impl ParticleFilter {
             0.0
         };
         for particle in &mut self.particles {
-            // All guesses are impossible: none of them is better than another.
+            // All particles are impossible, so none is better than another.
             particle.weight = if scale > 0.0 { particle.weight * scale } else { 1.0 };
         }
     }
 
-    /// Share of the guesses that matter; weights have the mean 1.
+    /// Effective share of the particles. Weights have the mean 1.
     fn effective_share(&self) -> f64 {
         let squares: f64 = self
             .particles
@@ -298,18 +310,18 @@ impl ParticleFilter {
         self.particles.len() as f64 / squares.max(1e-9)
     }
 
-    /// Draws as many guesses as their spread asks for, each with the chance of its weight (systematic resampling).
+    /// Systematic resampling with as many particles as their spread needs.
     fn resample(&mut self) {
-        let wanted = self.wanted();
+        let needed = self.needed();
         let gyro = self.gyro();
         let count = self.particles.len();
-        let step = count as f64 / wanted as f64;
+        let step = count as f64 / needed as f64;
         let mut pointer = self.random.between(0.0, step);
         let mut passed = 0.0;
         self.spare.clear();
         for particle in &self.particles {
             passed += particle.weight;
-            while pointer < passed && self.spare.len() < wanted {
+            while pointer < passed && self.spare.len() < needed {
                 self.spare.push(Particle {
                     weight: 1.0,
                     gyro: match gyro {
@@ -326,8 +338,8 @@ impl ParticleFilter {
         }
     }
 
-    /// Number of guesses for the bins that hold guesses of some weight.
-    fn wanted(&mut self) -> usize {
+    /// Number of particles for the occupied bins (KLD sampling).
+    fn needed(&mut self) -> usize {
         self.bins.clear();
         for particle in self.particles.iter().filter(|particle| particle.weight > 0.1) {
             self.bins.push(bin(particle.pose, 1.0));
@@ -337,17 +349,17 @@ impl ParticleFilter {
         let more = self.bins.len().saturating_sub(1).max(1) as f64;
         let shrink = 2.0 / (9.0 * more);
         let root = 1.0 - shrink + libm::sqrt(shrink) * KLD_QUANTILE;
-        let wanted = more / (2.0 * KLD_ERROR) * root * root * root;
+        let needed = more / (2.0 * KLD_ERROR) * root * root * root;
         let most = self.particles.len().max(TRACKING_MAX);
-        (wanted as usize).clamp(TRACKING_MIN, most)
+        (needed as usize).clamp(TRACKING_MIN, most)
     }
 
-    /// Mean of the guesses and their spread.
+    /// Mean of the particles and their spread.
     pub(super) fn estimate(&self) -> PoseEstimate {
         mean(&self.particles)
     }
 
-    /// Mean and spread of the greatest cluster of guesses, and its share of all weight.
+    /// Mean and spread of the largest cluster, and its share of the total weight.
     pub(super) fn cluster(&mut self) -> (PoseEstimate, f64) {
         let Some(centre) = self.densest() else {
             return (self.estimate(), 0.0);
@@ -364,7 +376,7 @@ impl ParticleFilter {
         (mean(&self.spare), share)
     }
 
-    /// A guess in the fullest bin.
+    /// A particle in the fullest bin.
     fn densest(&self) -> Option<Pose2> {
         let mut binned: Vec<(u64, usize)> = self
             .particles
@@ -389,27 +401,27 @@ impl ParticleFilter {
         self.particles.get(*index).map(|particle| particle.pose)
     }
 
-    /// How well the beams of the last weighing fit at a pose.
-    pub(super) fn fit(&self, map: &impl Surroundings, pose: Pose2) -> Fit {
-        self.beams.fit(map, &place(map, pose))
+    /// Score of the last weighing's beams at a pose.
+    pub(super) fn score(&self, map: &impl Surroundings, pose: Pose2) -> BeamScore {
+        self.beams.score(map, &place(map, pose))
     }
 }
 
-/// Likelihood of ranges to beacons at a place, with the heavy tails of Student's t: 1 at best.
-fn heard_likelihood(heard: &[Heard], centre: Point2) -> f64 {
-    heard.iter().fold(1.0, |likelihood, range| {
+/// Likelihood of ranges to beacons at a position, with the heavy tails of Student's t; 1 at best.
+fn ranges_likelihood(ranges: &[LocatedRange], centre: Point2) -> f64 {
+    ranges.iter().fold(1.0, |likelihood, range| {
         let off = (range.range_m - range.at.distance_m(centre)) / range.sigma_m;
         let body = 1.0 + off * off / 3.0;
         likelihood / (body * body)
     })
 }
 
-/// To the power of 1/2, or of 3/8 where surfaces are not known again; by roots because they are cheap.
-fn tempered(likelihood: f64, manner: Manner) -> f64 {
+/// To the power of 1/2, or of 3/8 where reflectances are not remembered. Roots are cheap.
+fn tempered(likelihood: f64, mode: FilterMode) -> f64 {
     let root = libm::sqrt(likelihood);
-    match manner {
-        Manner::Searching => libm::sqrt(root * libm::sqrt(root)),
-        Manner::Holding => root,
+    match mode {
+        FilterMode::Searching => libm::sqrt(root * libm::sqrt(root)),
+        FilterMode::Holding => root,
     }
 }
 
@@ -419,16 +431,16 @@ fn bin(pose: Pose2, factor: f64) -> u64 {
     number(pose.x_m, BIN_M) << 40 | number(pose.y_m, BIN_M) << 20 | number(pose.heading_rad, BIN_RAD)
 }
 
-/// A turn that nobody counted.
-fn surprise_rad(random: &mut Random) -> f64 {
-    if random.between(0.0, 1.0) < SURPRISE_SHARE {
-        SURPRISE_RAD * random.normal()
+/// A turn that odometry did not count.
+fn uncounted_turn_rad(random: &mut Random) -> f64 {
+    if random.between(0.0, 1.0) < UNCOUNTED_TURN_SHARE {
+        UNCOUNTED_TURN_RAD * random.normal()
     } else {
         0.0
     }
 }
 
-/// Weighted mean of guesses and their spread.
+/// Weighted mean of the particles and their spread.
 fn mean(particles: &[Particle]) -> PoseEstimate {
     let Some(first) = particles.first() else {
         return PoseEstimate::default();
@@ -465,9 +477,9 @@ fn mean(particles: &[Particle]) -> PoseEstimate {
     }
 }
 
-fn place(map: &impl Surroundings, pose: Pose2) -> Place {
+fn place(map: &impl Surroundings, pose: Pose2) -> BodyPose {
     let (sin, cos) = libm::sincos(pose.heading_rad);
-    Place {
+    BodyPose {
         centre: pose.position(),
         cos,
         sin,

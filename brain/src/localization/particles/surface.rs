@@ -1,50 +1,50 @@
-//! How likely a distance is that an infrared level tells, for a surface of which a guess has learnt how dark it is.
+//! Likelihood of an infrared distance, for a surface whose reflectance a particle has learned.
 
 use crate::model::config::PROXIMITY_MAX;
 
-/// Deviation of what a surface reflects, relative: white walls and dark furniture.
+/// Standard deviation of the reflectance, relative: white walls and dark furniture.
 pub(super) const REFLECTION_SIGMA: f64 = 0.2;
-/// Noise of a level, relative: of a usual sensor and of a bad one.
+/// Noise of a level, relative: between a usual sensor and a bad one.
 const LEVEL_SIGMA: f64 = 0.08;
-/// A sensor that looks along a wall sees another surface after this way, on average, metres.
+/// A sensor sees another surface after this distance along a wall, on average, metres.
 const SURFACE_M: f64 = 1.0;
-/// No surface reflects more or less than the usual one by more than this, relative.
+/// Greatest deviation from the usual reflectance, relative.
 const REFLECTION_MAX: f64 = 0.6;
-/// A level of which less than this share is explained by the surface tells nothing of it.
+/// A reading that is explained by less than this share teaches nothing about the surface.
 const EXPLAINED_MIN: f64 = 0.3;
-/// Error of a distance that comes from the map's cells and from the time between sample and report, metres.
+/// Error of a distance by the map's cells and by the time between sample and report, metres.
 pub(super) const PLACE_SIGMA_M: f64 = 0.015;
-/// Likelihood of a level that the map does not explain, against a perfect match: people, bags, moved chairs.
+/// Likelihood of a reading that the map does not explain, relative to a perfect match: people, bags, moved chairs.
 pub(super) const UNMAPPED: f64 = 0.12;
-/// The same for a beam that the map blocks in front of what was seen.
+/// The same for a beam that passes through an obstacle of the map.
 const THROUGH: f64 = 0.04;
 
-/// A distance that a level tells, for a surface that reflects as usual.
+/// A distance, for a surface of usual reflectance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Range {
     pub(super) seen_m: f64,
-    /// By how much it is seen too far for each unit of what the surface reflects too little, metres.
+    /// Error of the distance for each unit of missing reflectance, metres.
     pub(super) by_reflection_m: f64,
-    /// One over the deviation of the distance, if nothing is known of the surface.
+    /// Inverse standard deviation of the distance, for an unknown surface.
     pub(super) per_sigma: f64,
 }
 
-/// What a guess holds of the surfaces that the sensors look at. The same surface errs the same way as long as a sensor looks at it:
-/// its first levels tell how far away it is, as well as surfaces go, and all later ones only how the distance changes. A filter of
-/// one number for each sensor and guess (a particle filter after Rao and Blackwell).
+/// Reflectance of the surfaces that the sensors see, as one particle estimates it. A surface has the same error as long as a sensor
+/// sees it. Its first readings give its distance, as well as reflectances allow, and all later ones only the changes of the
+/// distance. One Kalman filter of one number for each sensor and particle (a Rao-Blackwellized particle filter).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surfaces {
-    pub(super) surfaces: [Surface; PROXIMITY_MAX],
+pub(super) struct Reflectances {
+    pub(super) surfaces: [Reflectance; PROXIMITY_MAX],
 }
 
-/// By how much a surface reflects too little, relative, and the variance of that.
+/// Missing reflectance of a surface, relative, and its variance.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Surface {
+pub(super) struct Reflectance {
     darkness: f32,
     variance: f32,
 }
 
-impl Default for Surface {
+impl Default for Reflectance {
     fn default() -> Self {
         Self {
             darkness: 0.0,
@@ -53,23 +53,23 @@ impl Default for Surface {
     }
 }
 
-impl Default for Surfaces {
+impl Default for Reflectances {
     fn default() -> Self {
         Self {
-            surfaces: [Surface::default(); PROXIMITY_MAX],
+            surfaces: [Reflectance::default(); PROXIMITY_MAX],
         }
     }
 }
 
-impl Surfaces {
-    /// Share of what is known of a surface that still holds after a way.
-    pub(super) fn kept_after(way_m: f64) -> f32 {
-        libm::exp(-way_m / SURFACE_M) as f32
+impl Reflectances {
+    /// Share of the knowledge of a surface that remains after a distance.
+    pub(super) fn kept_after(distance_m: f64) -> f32 {
+        libm::exp(-distance_m / SURFACE_M) as f32
     }
 
-    /// The sensors may look at other surfaces now.
+    /// The sensors may see other surfaces now.
     pub(super) fn move_on(&mut self, kept: f32) {
-        let usual = Surface::default();
+        let usual = Reflectance::default();
         for surface in &mut self.surfaces {
             surface.darkness *= kept;
             surface.variance = usual.variance + kept * (surface.variance - usual.variance);
@@ -77,8 +77,8 @@ impl Surfaces {
     }
 }
 
-impl Surface {
-    /// Likelihood of a distance where the map has a thing at another one; 1 at best. Learns from it.
+impl Reflectance {
+    /// Likelihood of a distance where the map expects another one; 1 at best. Updates the reflectance.
     pub(super) fn likelihood(&mut self, range: Range, expected_m: f64) -> f64 {
         let (slope_m, known) = (range.by_reflection_m, f64::from(self.variance));
         let off_m = range.seen_m - expected_m - slope_m * f64::from(self.darkness);
@@ -101,7 +101,7 @@ impl Surface {
     }
 }
 
-/// A bell of height 1 over the square of a deviation, with heavier tails than the normal one, without an exponential function.
+/// A bell of height 1 over a squared deviation, with heavier tails than the normal one and without an exponential function.
 pub(super) fn bell(off2: f64) -> f64 {
     let body = 1.0 + off2 * 0.25;
     1.0 / (body * body)
@@ -109,7 +109,7 @@ pub(super) fn bell(off2: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Range, Surface, Surfaces};
+    use super::{Range, Reflectance, Reflectances};
 
     const EXPECTED_M: f64 = 0.1;
 
@@ -121,9 +121,9 @@ mod tests {
         }
     }
 
-    /// Likelihood that the next level along a wall is this far off, after twenty that all were seen 2 cm too far.
+    /// Likelihood of an offset of the next reading, after twenty readings along a wall that were all 2 cm too far.
     fn after_dark_wall(off_m: f64) -> f64 {
-        let mut surface = Surface::default();
+        let mut surface = Reflectance::default();
         for _ in 0..20 {
             surface.likelihood(range(0.02), EXPECTED_M);
         }
@@ -131,24 +131,24 @@ mod tests {
     }
 
     #[test]
-    fn along_one_wall_only_a_change_of_the_distance_is_a_surprise() {
-        let first = Surface::default().likelihood(range(0.02), EXPECTED_M);
+    fn along_one_wall_only_a_change_of_distance_is_unlikely() {
+        let first = Reflectance::default().likelihood(range(0.02), EXPECTED_M);
         assert!(after_dark_wall(0.02) > 0.95 && first < 0.85, "{first}");
-        // A wall that is where it is said to be, but was dark until now, is as surprising as one that is twice as far off.
+        // A wall at the expected distance that was dark until now is as surprising as one that is twice as far off.
         let changes = [0.0, 0.04].map(after_dark_wall);
         assert!((changes[0] - changes[1]).abs() < 0.1, "{changes:?}");
         assert!(changes[0] < 0.75, "{changes:?}");
     }
 
     #[test]
-    fn another_surface_is_a_new_one() {
-        let mut surfaces = Surfaces::default();
+    fn another_surface_starts_unknown() {
+        let mut surfaces = Reflectances::default();
         surfaces.surfaces[0].likelihood(range(0.03), EXPECTED_M);
         let learnt = surfaces.surfaces[0];
         assert!(learnt.darkness > 0.1 && learnt.variance < 0.03, "{learnt:?}");
-        surfaces.move_on(Surfaces::kept_after(0.05));
+        surfaces.move_on(Reflectances::kept_after(0.05));
         assert!(surfaces.surfaces[0].darkness > 0.9 * learnt.darkness);
-        surfaces.move_on(Surfaces::kept_after(5.0));
+        surfaces.move_on(Reflectances::kept_after(5.0));
         let forgotten = surfaces.surfaces[0];
         assert!(
             forgotten.darkness < 0.01 && forgotten.variance > 0.039,
@@ -157,8 +157,8 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_wall_of_the_map_teaches_nothing_of_its_surface() {
-        let mut surface = Surface::default();
+    fn an_unmapped_obstacle_teaches_nothing_about_the_surface() {
+        let mut surface = Reflectance::default();
         let likelihood = surface.likelihood(range(-0.3), EXPECTED_M);
         assert!(likelihood < 0.2, "{likelihood}");
         assert_eq!(surface.darkness, 0.0);

@@ -1,7 +1,7 @@
 //! On which floor the robot is: found out, said by a person, or lost.
 
 use brain::mapping::StoredMap;
-use brain::{Brain, Checkpoint, FloorPlace, LoadedHome};
+use brain::{Brain, Checkpoint, LoadedHome, StoreyPose};
 
 use super::next_run::FloorOnItsWay;
 use super::{Mind, Recorder};
@@ -140,7 +140,7 @@ impl Mind {
     fn move_to(
         &mut self,
         now_us: u64,
-        (place, home, ready): (FloorPlace, &StoredMap, LoadedHome),
+        (place, home, ready): (StoreyPose, &StoredMap, LoadedHome),
         recorder: &mut Recorder<'_>,
     ) {
         let checkpoint = Checkpoint {

@@ -1,0 +1,355 @@
+//! An extended Kalman filter over the pose, the errors of the wheels and the positions of the beacons.
+
+use super::hop::{BEACONS_MAX, Hop};
+use super::located_range::LocatedRange;
+use super::multilateration::{MeasuredRange, locate_beacon};
+use super::range_prediction::RangePrediction;
+use super::weight::weight;
+use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::pose_estimate::PoseEstimate;
+
+/// Parameters of the wheels' errors: curvature of a straight path in radians a metre, scale error of turns, scale error of
+/// distances, both relative.
+pub(super) const WHEELS: usize = 3;
+/// Prior standard deviations: 0.6 degrees a metre, 3 % and 2 %, twice what robots of this class have.
+pub(super) const BEND_SIGMA: f64 = 0.0105;
+pub(super) const SCALE_SIGMA: f64 = 0.03;
+pub(super) const STRETCH_SIGMA: f64 = 0.02;
+/// Random walk of the parameters, per square root of a metre: rugs, dirt on wheels.
+const WHEELS_WALK: [f64; WHEELS] = [2.0e-4, 5.0e-4, 5.0e-4];
+/// Numbers of the pose.
+const POSE: usize = 3;
+/// Index of the first beacon in the state.
+const BEACONS: usize = POSE + WHEELS;
+/// A beacon that is heard first later is located from so many ranges.
+const LATE_RANGES: usize = 60;
+/// Standard deviation of such a position, metres.
+const LATE_SIGMA_M: f64 = 0.6;
+/// Standard deviations of a pose that another estimator gave, metres and radians.
+const PLACED_SIGMA_M: f64 = 0.03;
+const PLACED_SIGMA_RAD: f64 = 0.03;
+
+/// Result of the batch initialization.
+#[derive(Debug)]
+pub(super) struct InitialState<'batch> {
+    pub(super) pose: Pose2,
+    pub(super) wheels: [f64; WHEELS],
+    pub(super) beacons: &'batch [(u16, Point2)],
+    /// Of pose, wheels and beacons, in this order.
+    pub(super) covariance: Vec<Vec<f64>>,
+}
+
+/// The filter.
+#[derive(Clone, Debug)]
+pub(super) struct BeaconFilter {
+    pose: Pose2,
+    wheels: [f64; WHEELS],
+    beacons: Vec<(u16, Point2)>,
+    covariance: Vec<Vec<f64>>,
+    /// Ranges to beacons that are not located yet.
+    late: Vec<(u16, MeasuredRange)>,
+}
+
+impl BeaconFilter {
+    pub(super) fn begin(start: InitialState<'_>) -> Self {
+        Self {
+            pose: start.pose,
+            wheels: start.wheels,
+            beacons: start.beacons.to_vec(),
+            covariance: start.covariance,
+            late: Vec::new(),
+        }
+    }
+
+    /// Drops the beacons whose positions have a larger standard deviation than this, metres.
+    pub(super) fn forget_beyond(&mut self, sigma_m: f64) {
+        let mut number = 0;
+        while number < self.beacons.len() {
+            let at = BEACONS + 2 * number;
+            if self.widest_m(at) <= sigma_m {
+                number += 1;
+                continue;
+            }
+            self.beacons.remove(number);
+            let is_kept = |place: usize| place != at && place != at + 1;
+            let mut place = 0..;
+            self.covariance.retain(|_| place.next().is_some_and(is_kept));
+            for row in &mut self.covariance {
+                let mut place = 0..;
+                row.retain(|_| place.next().is_some_and(is_kept));
+            }
+        }
+    }
+
+    /// Predicts the motion of a hop and updates with its ranges.
+    pub(super) fn take(&mut self, hop: &Hop) {
+        self.advance(hop);
+        for range in &hop.ranges {
+            let known = self.beacons.iter().position(|beacon| beacon.0 == range.beacon);
+            match known {
+                Some(beacon) => self.compare(hop, beacon, (range.range_m, range.sigma_m)),
+                None => self.keep(
+                    range.beacon,
+                    MeasuredRange {
+                        from: self.pose.transform(hop.middle()),
+                        range_m: range.range_m,
+                    },
+                ),
+            }
+        }
+    }
+
+    fn advance(&mut self, hop: &Hop) {
+        let step = hop.corrected(self.wheels);
+        let (sin, cos) = libm::sincos(self.pose.heading_rad);
+        let (dx, dy) = (cos * step.x_m - sin * step.y_m, sin * step.x_m + cos * step.y_m);
+        let (by_bend, by_scale) = if hop.by_gyro {
+            (0.0, 0.0)
+        } else {
+            (hop.distance_m, hop.wheel_turn_rad)
+        };
+        self.pose = Pose2 {
+            x_m: self.pose.x_m + dx,
+            y_m: self.pose.y_m + dy,
+            heading_rad: normalize_rad(self.pose.heading_rad + step.heading_rad),
+        };
+        // Derivatives of the pose by the previous heading, curvature, scale and stretch.
+        let (turn_x, turn_y) = (-dy, dx);
+        let rows: [&[(usize, f64)]; POSE] = [
+            &[
+                (2, turn_x),
+                (3, 0.5 * by_bend * turn_x),
+                (4, 0.5 * by_scale * turn_x),
+                (5, dx),
+            ],
+            &[
+                (2, turn_y),
+                (3, 0.5 * by_bend * turn_y),
+                (4, 0.5 * by_scale * turn_y),
+                (5, dy),
+            ],
+            &[(3, by_bend), (4, by_scale)],
+        ];
+        self.propagate(rows);
+        let side_m2 = 0.1 * hop.distance_variance_m2;
+        let half_rad2 = 0.5 * hop.turn_variance_rad2;
+        self.grow(
+            0,
+            0,
+            cos * cos * hop.distance_variance_m2 + sin * sin * side_m2 + 0.5 * half_rad2 * turn_x * turn_x,
+        );
+        self.grow(
+            1,
+            1,
+            sin * sin * hop.distance_variance_m2 + cos * cos * side_m2 + 0.5 * half_rad2 * turn_y * turn_y,
+        );
+        let both_m2 = cos * sin * (hop.distance_variance_m2 - side_m2) + 0.5 * half_rad2 * turn_x * turn_y;
+        self.grow(0, 1, both_m2);
+        self.grow(1, 0, both_m2);
+        self.grow(2, 2, hop.turn_variance_rad2);
+        for (place, turned) in [(0, turn_x), (1, turn_y)] {
+            self.grow(place, 2, half_rad2 * turned);
+            self.grow(2, place, half_rad2 * turned);
+        }
+        for (number, walk) in WHEELS_WALK.into_iter().enumerate() {
+            self.grow(POSE + number, POSE + number, walk * walk * hop.length_m);
+        }
+    }
+
+    /// `covariance = F covariance F'` for an F that is 1 on its diagonal and has these entries beside it.
+    fn propagate(&mut self, rows: [&[(usize, f64)]; POSE]) {
+        let before = self.covariance.clone();
+        for (number, entries) in rows.iter().enumerate() {
+            let Some(row) = self.covariance.get_mut(number) else {
+                continue;
+            };
+            for (from, factor) in entries.iter() {
+                for (value, other) in row
+                    .iter_mut()
+                    .zip(before.get(*from).map_or(&[][..], Vec::as_slice))
+                {
+                    *value += factor * other;
+                }
+            }
+        }
+        for row in &mut self.covariance {
+            let before = row.clone();
+            for (number, entries) in rows.iter().enumerate() {
+                let Some(value) = row.get_mut(number) else {
+                    continue;
+                };
+                for (from, factor) in entries.iter() {
+                    *value += factor * before.get(*from).copied().unwrap_or(0.0);
+                }
+            }
+        }
+    }
+
+    fn grow(&mut self, row: usize, column: usize, by: f64) {
+        if let Some(value) = self.covariance.get_mut(row).and_then(|row| row.get_mut(column)) {
+            *value += by;
+        }
+    }
+
+    fn at(&self, row: usize, column: usize) -> f64 {
+        self.covariance
+            .get(row)
+            .and_then(|row| row.get(column))
+            .copied()
+            .unwrap_or(0.0)
+    }
+
+    fn compare(&mut self, hop: &Hop, beacon: usize, (range_m, sigma_m): (f64, f64)) {
+        let Some((_, place)) = self.beacons.get(beacon).copied() else {
+            return;
+        };
+        let predicted = RangePrediction::new(self.pose, hop.middle(), place);
+        let at = BEACONS + 2 * beacon;
+        let by = [
+            (0, predicted.by_x),
+            (1, predicted.by_y),
+            (2, predicted.by_heading),
+            (at, -predicted.by_x),
+            (at + 1, -predicted.by_y),
+        ];
+        let gains: Vec<f64> = self
+            .covariance
+            .iter()
+            .map(|row| {
+                by.iter()
+                    .map(|(place, by)| row.get(*place).unwrap_or(&0.0) * by)
+                    .sum()
+            })
+            .collect();
+        let own_m2: f64 = by
+            .iter()
+            .map(|(place, by)| gains.get(*place).copied().unwrap_or(0.0) * by)
+            .sum();
+        let off_m = range_m - predicted.away_m;
+        let noise_m2 = sigma_m * sigma_m;
+        let trust = weight(off_m / libm::sqrt(own_m2 + noise_m2));
+        let variance_m2 = own_m2 + noise_m2 / trust;
+        self.correct(&gains, off_m / variance_m2);
+        for (row, gain) in self.covariance.iter_mut().zip(&gains) {
+            for (value, other) in row.iter_mut().zip(&gains) {
+                *value -= gain * other / variance_m2;
+            }
+        }
+    }
+
+    fn correct(&mut self, gains: &[f64], by: f64) {
+        let (own, beacons) = gains.split_at(gains.len().min(BEACONS));
+        if let [x, y, heading, wheels @ ..] = own {
+            self.pose = Pose2 {
+                x_m: self.pose.x_m + x * by,
+                y_m: self.pose.y_m + y * by,
+                heading_rad: normalize_rad(self.pose.heading_rad + heading * by),
+            };
+            for (value, gain) in self.wheels.iter_mut().zip(wheels) {
+                *value += gain * by;
+            }
+        }
+        for ((_, place), gain) in self.beacons.iter_mut().zip(beacons.chunks_exact(2)) {
+            if let [x, y] = gain {
+                place.x_m += x * by;
+                place.y_m += y * by;
+            }
+        }
+    }
+
+    /// Stores a range to an unknown beacon, until its ranges locate it.
+    fn keep(&mut self, beacon: u16, ranged: MeasuredRange) {
+        if self.beacons.len() >= BEACONS_MAX {
+            return;
+        }
+        self.late.push((beacon, ranged));
+        let of_it: Vec<MeasuredRange> = self
+            .late
+            .iter()
+            .filter(|late| late.0 == beacon)
+            .map(|late| late.1)
+            .collect();
+        if of_it.len() < LATE_RANGES {
+            return;
+        }
+        self.late.retain(|late| late.0 != beacon);
+        if let Some(place) = locate_beacon(&of_it) {
+            self.add_beacon(beacon, place);
+        }
+    }
+
+    /// Adds a beacon to the state. Its position has the error of the pose and an error of its own.
+    fn add_beacon(&mut self, beacon: u16, place: Point2) {
+        self.beacons.push((beacon, place));
+        for row in &mut self.covariance {
+            let (x, y) = (row.first().copied(), row.get(1).copied());
+            row.extend([x.unwrap_or(0.0), y.unwrap_or(0.0)]);
+        }
+        for from in [0, 1] {
+            let row = self.covariance.get(from).cloned().unwrap_or_default();
+            self.covariance.push(row);
+        }
+        let at = self.covariance.len().saturating_sub(2);
+        for number in [at, at + 1] {
+            self.grow(number, number, LATE_SIGMA_M * LATE_SIGMA_M);
+        }
+    }
+
+    /// Another estimator gives the pose.
+    pub(super) fn place_at(&mut self, pose: Pose2) {
+        self.pose = pose;
+        for number in 0..POSE {
+            for other in 0..self.covariance.len() {
+                let (down, across) = (self.at(number, other), self.at(other, number));
+                self.grow(number, other, -down);
+                if other != number {
+                    self.grow(other, number, -across);
+                }
+            }
+        }
+        for (number, sigma) in [PLACED_SIGMA_M, PLACED_SIGMA_M, PLACED_SIGMA_RAD]
+            .into_iter()
+            .enumerate()
+        {
+            self.grow(number, number, sigma * sigma);
+        }
+    }
+
+    pub(super) fn estimate(&self) -> PoseEstimate {
+        PoseEstimate {
+            pose: self.pose,
+            sigma_m: self.widest_m(0),
+            sigma_rad: libm::sqrt(self.at(2, 2).max(0.0)),
+            ..PoseEstimate::default()
+        }
+    }
+
+    /// Standard deviation along the worst direction of the position at index `at`.
+    fn widest_m(&self, at: usize) -> f64 {
+        let (xx, yy, xy) = (self.at(at, at), self.at(at + 1, at + 1), self.at(at, at + 1));
+        let half = 0.5 * (xx - yy);
+        libm::sqrt((0.5 * (xx + yy) + libm::sqrt(half * half + xy * xy)).max(0.0))
+    }
+
+    /// Number, position and standard deviation of each located beacon.
+    pub(super) fn places(&self) -> Vec<(u16, Point2, f64)> {
+        self.beacons
+            .iter()
+            .enumerate()
+            .map(|(number, (beacon, place))| (*beacon, *place, self.widest_m(BEACONS + 2 * number)))
+            .collect()
+    }
+
+    /// Ranges of a hop to located beacons, for the particle filter.
+    pub(super) fn locate_ranges(&self, hop: &Hop, located_ranges: &mut Vec<LocatedRange>) {
+        located_ranges.extend(hop.ranges.iter().filter_map(|range| {
+            let number = self.beacons.iter().position(|beacon| beacon.0 == range.beacon)?;
+            let place_sigma_m = self.widest_m(BEACONS + 2 * number);
+            Some(LocatedRange {
+                at: self.beacons.get(number)?.1,
+                range_m: range.range_m,
+                sigma_m: libm::sqrt(range.sigma_m * range.sigma_m + place_sigma_m * place_sigma_m),
+            })
+        }));
+    }
+}
