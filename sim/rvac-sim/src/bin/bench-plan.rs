@@ -121,7 +121,7 @@ fn measured(
             .find(|(_, swept)| *swept >= share)
             .map(|(time_s, _)| time_s / t0_s)
     };
-    let turn_rad: f64 = plan.pieces.iter().map(|piece| piece.turn_rad.abs()).sum();
+    let turn_rad: f64 = plan.segments.iter().map(|segment| segment.turn_rad.abs()).sum();
     PlanFigures {
         home: home.name().to_owned(),
         reachable_m2: home.reachable_area_m2(),
@@ -197,14 +197,17 @@ fn curve(home: &Home, plan: &CoveragePlan, settings: &PlanSettings) -> Vec<(f64,
     let all = home.reachable().iter().filter(|cell| **cell).count().max(1) as f64;
     let mut time_s = 0.0;
     let mut curve = Vec::new();
-    for piece in &plan.pieces {
-        let steps = (piece.length_m / STEP_M).ceil().max(1.0) as u32;
+    for segment in &plan.segments {
+        let steps = (segment.length_m / STEP_M).ceil().max(1.0) as u32;
         for step in 1..=steps {
             let share = f64::from(step) / f64::from(steps);
-            floor.sweep(piece.at(share));
-            curve.push((time_s + share * settings.time_s(piece), floor.count as f64 / all));
+            floor.sweep(segment.at(share));
+            curve.push((
+                time_s + share * settings.time_s(segment),
+                floor.count as f64 / all,
+            ));
         }
-        time_s += settings.time_s(piece);
+        time_s += settings.time_s(segment);
     }
     curve
 }
