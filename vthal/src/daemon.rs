@@ -91,7 +91,7 @@ impl Daemon {
     /// Runs until a signal ends it: the wheels stand (or have had their time to), and everything is on disk.
     pub(crate) async fn run(mut self) {
         while !self.is_over() {
-            self.look_at_wall();
+            self.poll_wall_clock();
             let event = self.next_event().await;
             self.take(event);
             for _ in 1..BATCH_MAX {
@@ -117,7 +117,7 @@ impl Daemon {
         }
     }
 
-    fn look_at_wall(&mut self) {
+    fn poll_wall_clock(&mut self) {
         let now_us = self.clock.now_us();
         if now_us >= self.wall_due_us {
             self.wall_due_us = now_us + WALL_US;
@@ -213,7 +213,7 @@ impl Daemon {
         if self.clients.len() >= self.wiring.clients_max {
             let text = "As many clients are connected as may be: close one, or raise socket.clients_max.";
             let failure = refusal(None, "too-many-clients", text.to_owned());
-            socket::turn_away(&stream, &client::spell(&failure));
+            socket::turn_away(&stream, &client::encode(&failure));
             return;
         }
         let stream = match ClientStream::new(stream) {
@@ -386,7 +386,7 @@ fn refusal(id: Option<u32>, reason: &str, text: String) -> Update {
 /// Spells an update once for all who get it.
 fn deliver(core: &Core, clients: &mut BTreeMap<ClientId, Client>, delivery: &Delivery) {
     let class = Class::of(&delivery.update);
-    let message = client::spell(&delivery.update);
+    let message = client::encode(&delivery.update);
     match delivery.to {
         Recipients::One(id) => {
             if let Some(client) = clients.get_mut(&id) {

@@ -11,6 +11,9 @@ use crate::radio::RadioEvent;
 use crate::run_thread::RunAnswer;
 use crate::serial::OpenError;
 
+/// Why a thread or task that sends events ends: the daemon receives none any more.
+pub(crate) struct ReceiverGone;
+
 /// The closed set of causes.
 #[derive(Debug)]
 pub(crate) enum Event {

@@ -1,7 +1,7 @@
 //! The buttons that start and end jobs.
 
 use leptos::prelude::*;
-use panel_logic::{Offer, PauseKind};
+use panel_logic::{Offer, PauseKind, strategy_title};
 use rvac_api::RequestBody;
 
 use crate::icons::{Icon, icon};
@@ -71,7 +71,7 @@ pub(crate) fn Actions(store: Store) -> impl IntoView {
                     <select id="strategy" on:change=move |event| strategy.set(event_target_value(&event))>
                         <option value="">{words().action.robot_chooses}</option>
                         <For each=move || store.strategies.get() key=String::clone let:name>
-                            <option value=name.clone()>{name.clone()}</option>
+                            <option value=name.clone()>{strategy_title(words(), &name).to_owned()}</option>
                         </For>
                     </select>
                 </label>

@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use panel_logic::{
     Explanation, area_text, clock_text, decision_text, distance_text, explain, failure_text, percent_text,
-    place_text, room_here_text, state_title,
+    place_text, room_here_text, state_title, strategy_title,
 };
 use rvac_api::Status;
 
@@ -65,7 +65,7 @@ fn cleaning_text(status: &Status) -> String {
     let strategy = status
         .strategy
         .as_ref()
-        .map(|name| words().status.strategy.fill([name]));
+        .map(|name| words().status.strategy.fill([&strategy_title(words(), name)]));
     let room = status
         .room
         .as_ref()

@@ -1,13 +1,13 @@
 //! A radio on the Linux board that measures how far beacons are, or how strongly it receives them.
 //!
 //! Terms. *Beacon*: a radio that stands somewhere in the home; nobody needs to know where. *Form*: in which words the radio
-//! tells that ([`RadioForm`]). *Ear*: what makes signals of its bytes. *Port*: where the bytes come from.
+//! tells that ([`RadioForm`]). *RadioDecoder*: what makes signals of its bytes. *Port*: where the bytes come from.
 //!
 //! A task keeps the port open and sends signals as events. It knows nothing of the robot; what is not heard is missing, and
 //! the robot goes by its wheels.
 
+mod decoder;
 mod dwm1001;
-mod ear;
 mod json;
 mod lines;
 mod port;
@@ -23,9 +23,9 @@ use tokio::sync::mpsc::Sender;
 use tokio::sync::mpsc::error::TrySendError;
 use tokio::time::{Instant, sleep, timeout};
 
-use crate::event::Event;
+use crate::event::{Event, ReceiverGone};
+use decoder::{RadioDecoder, Refused};
 use dwm1001::Waker;
-use ear::{Ear, Refused};
 use port::Port;
 pub use reading::{BeaconName, NoName};
 
@@ -113,9 +113,6 @@ pub(crate) enum RadioEvent {
     Absent(String),
 }
 
-/// Why the task ends: nobody listens any more.
-struct Over;
-
 /// Why the port is no longer used.
 enum Loss {
     HungUp,
@@ -125,7 +122,7 @@ enum Loss {
 /// Listens until the daemon's event queue closes.
 pub(crate) async fn serve(settings: RadioSettings, events: Sender<Event>) {
     let mut listener = Listener {
-        ear: Ear::new(&settings),
+        decoder: RadioDecoder::new(&settings),
         events,
         started: Instant::now(),
         spoke_at: Duration::ZERO,
@@ -134,7 +131,7 @@ pub(crate) async fn serve(settings: RadioSettings, events: Sender<Event>) {
     loop {
         let reason = match Port::open(&settings.device, settings.baud).await {
             Ok(mut port) => match listener.listen(&mut port, settings.form).await {
-                Err(Over) => return,
+                Err(ReceiverGone) => return,
                 Ok(Loss::HungUp) => "it hung up".to_owned(),
                 Ok(Loss::Failed(error)) => error.to_string(),
             },
@@ -157,7 +154,7 @@ enum Outage {
 }
 
 struct Listener {
-    ear: Ear,
+    decoder: RadioDecoder,
     events: Sender<Event>,
     started: Instant,
     /// When it spoke of a beacon last, or the port was opened.
@@ -166,9 +163,9 @@ struct Listener {
 }
 
 impl Listener {
-    async fn listen(&mut self, port: &mut Port, form: RadioForm) -> Result<Loss, Over> {
+    async fn listen(&mut self, port: &mut Port, form: RadioForm) -> Result<Loss, ReceiverGone> {
         let mut buffer = [0; 4096];
-        self.ear.begin();
+        self.decoder.begin();
         self.spoke_at = self.started.elapsed();
         let mut waker = match form {
             RadioForm::Lines => None,
@@ -210,9 +207,9 @@ impl Listener {
     }
 
     /// Whether it spoke of a beacon.
-    async fn take(&mut self, bytes: &[u8]) -> Result<bool, Over> {
+    async fn take(&mut self, bytes: &[u8]) -> Result<bool, ReceiverGone> {
         let now = self.started.elapsed();
-        let heard = self.ear.take(now, bytes);
+        let heard = self.decoder.take(now, bytes);
         if heard.is_speaking {
             self.spoke_at = now;
             if self.outage != Outage::Speaks {
@@ -229,12 +226,12 @@ impl Listener {
         // A loop that is busy gets the next ones: an old signal says nothing of the present.
         let signals = Event::Radio(RadioEvent::Heard(heard.signals));
         match self.events.try_send(signals) {
-            Err(TrySendError::Closed(_)) => Err(Over),
+            Err(TrySendError::Closed(_)) => Err(ReceiverGone),
             Ok(()) | Err(TrySendError::Full(_)) => Ok(heard.is_speaking),
         }
     }
 
-    async fn tell_absent(&mut self, reason: String) -> Result<(), Over> {
+    async fn tell_absent(&mut self, reason: String) -> Result<(), ReceiverGone> {
         if self.outage == Outage::Absent {
             return Ok(());
         }
@@ -242,7 +239,10 @@ impl Listener {
         self.tell(RadioEvent::Absent(reason)).await
     }
 
-    async fn tell(&self, event: RadioEvent) -> Result<(), Over> {
-        self.events.send(Event::Radio(event)).await.map_err(|_| Over)
+    async fn tell(&self, event: RadioEvent) -> Result<(), ReceiverGone> {
+        self.events
+            .send(Event::Radio(event))
+            .await
+            .map_err(|_| ReceiverGone)
     }
 }

@@ -344,6 +344,9 @@ mod tests {
                 .any(|row| row.label == "Bumper" && row.value == "right" && row.alarming)
         );
         assert!(rows.iter().any(|row| row.label == "Connection" && row.alarming));
-        assert!(rows.iter().any(|row| row.label == "No floor" && !row.alarming));
+        assert!(
+            rows.iter()
+                .any(|row| row.label == "Cliff sensors" && !row.alarming)
+        );
     }
 }

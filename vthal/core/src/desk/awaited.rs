@@ -3,7 +3,7 @@
 use rvac_api::LogLevel;
 
 use super::audience::{Asker, Teller};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use crate::refusal::Refusal;
 
@@ -57,7 +57,7 @@ impl<T> Awaited<T> {
         teller: &mut Teller<'_>,
     ) -> Vec<T> {
         if let Err(refusal) = &result {
-            teller.log(LogLevel::Error, Part::Vthal, refusal.text.clone());
+            teller.log(LogLevel::Error, LogSource::Vthal, refusal.text.clone());
         }
         let mut undone = Vec::new();
         for (asker, before) in self.settle(number) {

@@ -6,7 +6,7 @@ use brain::{Brain, Command, HomePart};
 use rvac_api::{LogLevel, RoomHere, Run, RunAsker, RunJob, RunRecord, Topic, Update};
 
 use super::audience::{Asker, Teller};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use crate::history::{Asked, Moment, RunFollower};
 use crate::{Checkpoint, Outputs, Record, RunQuery, RunTask, cut_short};
@@ -146,7 +146,7 @@ impl HistoryDesk {
                 self.unkept.waiting.pop_front();
                 (self.unkept.is_complained, self.unkept.retry_us) = (false, 0);
                 let text = format!("run {number} is kept: {}", run.text);
-                teller.log(LogLevel::Info, Part::Vthal, text);
+                teller.log(LogLevel::Info, LogSource::Vthal, text);
                 if teller.has_followers(Topic::Runs) {
                     teller.tell(Topic::Runs, Update::RunKept(run));
                 }
@@ -155,7 +155,7 @@ impl HistoryDesk {
             Err(text) => {
                 self.unkept.retry_us = teller.now_us + RETRY_US;
                 if !core::mem::replace(&mut self.unkept.is_complained, true) {
-                    teller.log(LogLevel::Error, Part::Vthal, text);
+                    teller.log(LogLevel::Error, LogSource::Vthal, text);
                 }
             }
         }

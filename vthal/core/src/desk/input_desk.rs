@@ -6,7 +6,7 @@ use rvac_api::{LogLevel, Topic, Update};
 
 use super::audience::Teller;
 use super::client_inputs::{ClientInputs, InputDenied};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use crate::ClientId;
 use crate::refusal::Refusal;
@@ -44,7 +44,7 @@ impl InputDesk {
         let told = self.inputs.tell(teller.now_us, client, (values, lease_ms));
         if told.map_err(denied)? {
             let text = format!("{} tells the inputs {}", teller.name(client), names.join(", "));
-            teller.log(LogLevel::Info, Part::Client, text);
+            teller.log(LogLevel::Info, LogSource::Client, text);
         }
         Ok(Reply::Done)
     }
@@ -80,7 +80,7 @@ impl InputDesk {
 
 fn log_gone(client: ClientId, teller: &mut Teller<'_>) {
     let text = format!("the inputs of {} are gone", teller.name(client));
-    teller.log(LogLevel::Info, Part::Client, text);
+    teller.log(LogLevel::Info, LogSource::Client, text);
 }
 
 const fn denied(denied: InputDenied) -> &'static str {

@@ -6,9 +6,9 @@ use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
 
 use super::audience::{Asker, Asking, Teller};
 use super::awaited::Awaited;
-use super::journal::Part;
+use super::journal::LogSource;
 use crate::Outputs;
-use crate::learnt::{Kept, Learnings, StoredLearnings, told};
+use crate::learnt::{Learnings, RobotRecord, StoredLearnings, told};
 use crate::outputs::LearntOrder;
 use crate::refusal::Refusal;
 
@@ -47,7 +47,7 @@ impl Forgetting {
 #[derive(Debug, Default)]
 pub(crate) struct LearntDesk {
     learnings: Learnings,
-    forgetting: Awaited<Kept>,
+    forgetting: Awaited<RobotRecord>,
 }
 
 impl LearntDesk {
@@ -66,12 +66,12 @@ impl LearntDesk {
     /// Tells what a robot of this name begins with.
     pub(crate) fn introduce(&self, device: &str, teller: &mut Teller<'_>) {
         if let Some(text) = told(&self.of(device)) {
-            teller.log(LogLevel::Info, Part::Vthal, text);
+            teller.log(LogLevel::Info, LogSource::Vthal, text);
         }
     }
 
     /// Hands out what the robot has learnt, if it is news.
-    pub(crate) fn keep(&mut self, kept: Kept, outputs: &mut Outputs) {
+    pub(crate) fn keep(&mut self, kept: RobotRecord, outputs: &mut Outputs) {
         if self.learnings.take(kept) {
             self.write(outputs);
         }
@@ -106,7 +106,7 @@ impl LearntDesk {
         let known = self.learnings.forget(&request.device, request.parts());
         let before = match known {
             Some(before) => before,
-            None if here == Some(&request.device) => Kept::default(),
+            None if here == Some(&request.device) => RobotRecord::default(),
             None => return Err("nothing-learnt".into()),
         };
         self.write(outputs);
@@ -127,8 +127,8 @@ impl LearntDesk {
     }
 }
 
-fn view(kept: &Kept, here: Option<&str>) -> LearntView {
-    let Kept {
+fn view(kept: &RobotRecord, here: Option<&str>) -> LearntView {
+    let RobotRecord {
         device,
         learnt,
         learnt_s,

@@ -5,11 +5,11 @@ use rvac_api::{DeviceTable, LinkReading, LogLevel, Topic, Update, Versions};
 
 use super::audience::Teller;
 use super::driver::Brakes;
-use super::journal::Part;
+use super::journal::LogSource;
 use super::link_facts::LinkFacts;
 use crate::device::{
-    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, Make, Report, SlowFacts,
-    Supervisor, Verdict, WheelSpeeds,
+    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, LinkVerdict, Make, Report,
+    SlowFacts, Supervisor, WheelSpeeds,
 };
 use crate::observe::{LinkView, currents_a};
 use crate::refusal::Refused;
@@ -39,7 +39,7 @@ impl LinkDesk {
             events: &mut self.events,
         });
         self.facts.opened(teller.now_us);
-        teller.log(LogLevel::Info, Part::Link, "serial device open".to_owned());
+        teller.log(LogLevel::Info, LogSource::Link, "serial device open".to_owned());
     }
 
     pub(crate) fn closed(&mut self, reason: &LinkLoss, teller: &mut Teller<'_>) {
@@ -50,7 +50,7 @@ impl LinkDesk {
             LinkLoss::NoAnswer { baud } => format!("no robot answers at {baud} baud; tries the next rate"),
             LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
         };
-        teller.log(LogLevel::Warn, Part::Link, text);
+        teller.log(LogLevel::Warn, LogSource::Link, text);
     }
 
     /// The daemon ends: the robot, which was told to stop, is let go.
@@ -118,7 +118,7 @@ impl LinkDesk {
             && self.facts.is_new_error(error)
         {
             let text = format!("{command:?} was not sent: {error}");
-            teller.log(LogLevel::Debug, Part::Link, text);
+            teller.log(LogLevel::Debug, LogSource::Link, text);
         }
     }
 
@@ -143,7 +143,7 @@ impl LinkDesk {
             return Err("raw-syntax");
         }
         let text = format!("{expert} sends raw {packet}");
-        teller.log(LogLevel::Warn, Part::Client, text);
+        teller.log(LogLevel::Warn, LogSource::Client, text);
         sent.map_err(|_| "not-sent")
     }
 
@@ -218,9 +218,9 @@ impl LinkDesk {
             .map(|device| device.link_quality().verdict)
             .unwrap_or_default();
         let speed_share = match verdict {
-            Verdict::Good => 1.0,
-            Verdict::Poor => 0.5,
-            Verdict::Bad => 0.0,
+            LinkVerdict::Good => 1.0,
+            LinkVerdict::Poor => 0.5,
+            LinkVerdict::Bad => 0.0,
         };
         LinkView { up, speed_share }
     }

@@ -6,7 +6,7 @@ use rvac_api::ScheduledJob;
 use super::checkpoints::works;
 use super::floors::FloorDesk;
 use super::jobs::clean_command;
-use crate::mind::Mind;
+use crate::brain_session::BrainSession;
 use crate::refusal::{Refusal, Refused};
 use crate::schedule::{Entry, Keeping};
 
@@ -28,18 +28,26 @@ pub(crate) struct StartFacts {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Readiness<'a> {
     facts: StartFacts,
-    mind: Option<&'a Mind>,
+    brain_session: Option<&'a BrainSession>,
     pub(crate) floors: &'a FloorDesk,
 }
 
 impl<'a> Readiness<'a> {
-    pub(crate) fn new(facts: StartFacts, mind: Option<&'a Mind>, floors: &'a FloorDesk) -> Self {
-        Self { facts, mind, floors }
+    pub(crate) fn new(
+        facts: StartFacts,
+        brain_session: Option<&'a BrainSession>,
+        floors: &'a FloorDesk,
+    ) -> Self {
+        Self {
+            facts,
+            brain_session,
+            floors,
+        }
     }
 
     /// The floor on which the robot is.
     pub(crate) fn floor(&self) -> Option<u16> {
-        self.mind.and_then(Mind::floor)
+        self.brain_session.and_then(BrainSession::floor)
     }
 
     /// # Errors
@@ -54,8 +62,8 @@ impl<'a> Readiness<'a> {
     /// # Errors
     /// Why the brain would not obey.
     pub(crate) fn admit(&self, command: &Command) -> Result<(), Refused> {
-        let mind = self.mind.ok_or("no-robot")?;
-        mind.admit(command).map_err(brain::Reason::name)
+        let brain_session = self.brain_session.ok_or("no-robot")?;
+        brain_session.admit(command).map_err(brain::Reason::name)
     }
 
     /// What the brain is told to start the job of a schedule, because a person wants it now.
@@ -76,15 +84,15 @@ impl<'a> Readiness<'a> {
     pub(crate) fn scheduled_command(&self, entry: &Entry) -> Result<Command, Refused> {
         self.facts.robot?;
         self.facts.schedule?;
-        if self.mind.is_some_and(works) {
+        if self.brain_session.is_some_and(works) {
             return Err("job-runs");
         }
         self.require_floor_of(entry).map_err(|refusal| refusal.reason)?;
         let command = self
             .command_of(&entry.plan().job)
             .map_err(|refusal| refusal.reason)?;
-        match self.mind {
-            Some(mind) if mind.rests() => Ok(command),
+        match self.brain_session {
+            Some(brain_session) if brain_session.rests() => Ok(command),
             _ => Err("job-runs"),
         }
     }
@@ -98,7 +106,7 @@ impl<'a> Readiness<'a> {
                 self.admit(&command)?;
                 Ok(command)
             }
-            ScheduledJob::Clean(order) => clean_command(order, self.mind),
+            ScheduledJob::Clean(order) => clean_command(order, self.brain_session),
         }
     }
 

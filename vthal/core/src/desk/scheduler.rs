@@ -10,8 +10,8 @@ use rvac_api::Schedules;
 use super::audience::Asker;
 use crate::ScheduleOrder;
 use crate::schedule::{
-    Book, CLOCK_IS_SET_FROM_S, Edit, EditError, Entry, Keeping, Outcome, StoredBook, Verdict, Zone, verdict,
-    view,
+    Book, CLOCK_IS_SET_FROM_S, EditError, Entry, Keeping, Outcome, ScheduleEdit, StoredBook, Verdict, Zone,
+    verdict, view,
 };
 
 /// Changes of people that may wait for the disk.
@@ -30,7 +30,7 @@ pub(super) struct Scheduler {
     distrusts_marks: bool,
     writes: u64,
     writing: Option<Writing>,
-    waiting: VecDeque<(Asker, Edit)>,
+    waiting: VecDeque<(Asker, ScheduleEdit)>,
     retry_s: i64,
 }
 
@@ -106,7 +106,7 @@ impl Scheduler {
 
     /// Takes a change that a person wants; `false` when too many wait.
     #[must_use]
-    pub(super) fn take(&mut self, asker: Asker, edit: Edit) -> bool {
+    pub(super) fn take(&mut self, asker: Asker, edit: ScheduleEdit) -> bool {
         let has_room = self.waiting.len() < WAITING_MAX;
         if has_room {
             self.waiting.push_back((asker, edit));

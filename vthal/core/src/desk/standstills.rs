@@ -6,7 +6,7 @@ use rvac_api::{Evidence, LogLevel, Standstill, Topic, Update, remedy};
 
 use super::audience::Teller;
 use super::evidence::{Perceived, Sensations};
-use super::journal::Part;
+use super::journal::LogSource;
 use crate::diary::{Diary, sentence};
 use crate::newest::Newest;
 use crate::{refusal, to_api};
@@ -102,7 +102,7 @@ impl StandstillDesk {
             String::new()
         };
         let text = format!("{} ({}){value}{told}", decision.what, decision.reason);
-        teller.log(level, Part::Brain, text);
+        teller.log(level, LogSource::Brain, text);
         let entry = self.diary.write(teller.now_us, decision);
         if teller.has_followers(Topic::Decisions) {
             teller.tell(Topic::Decisions, Update::Decision(entry));

@@ -1,15 +1,15 @@
-//! Whether the wheels turn, and which way, as far as reports tell.
+//! Whether the wheels turn, and in which direction, from the reports.
 
 use super::{Drive, Odometry, Report, WheelSpeeds};
 
-/// Reports farther apart tell no speed.
+/// Reports farther apart give no speed.
 const GAP_MAX_US: u64 = 10_000_000;
 
 /// Watches the totals of the wheels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct WheelWatch {
     last: Option<Seen>,
-    /// Signed way of both rims, where the robot tells no sign.
+    /// Signed distance of both rims, where the robot reports no sign.
     sum_m: [f64; 2],
     /// Directions of the last command that turned the wheels.
     signs: [f64; 2],
@@ -17,7 +17,7 @@ pub(super) struct WheelWatch {
     still_reports: u32,
 }
 
-/// What a report told.
+/// Values of a report.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     at_us: u64,
@@ -25,7 +25,7 @@ struct Seen {
 }
 
 impl WheelWatch {
-    /// The wheels are told to turn like this. A wheel that is told to stand rolls out the way it turned.
+    /// The commanded wheel speeds. A wheel that is commanded to stop rolls out in the direction in which it turned.
     pub(super) fn commanded(&mut self, drive: Drive, track_m: f64) {
         for (sign, rim_m_per_s) in self.signs.iter_mut().zip(drive.rims_m_per_s(track_m)) {
             if rim_m_per_s != 0.0 {
@@ -34,7 +34,7 @@ impl WheelWatch {
         }
     }
 
-    /// Takes a report; gives it the sign and the speeds that the robot does not tell.
+    /// Takes a report; adds the sign and the speeds that the robot does not report.
     pub(super) fn take(&mut self, now_us: u64, report: &mut Report, odometry: Odometry) {
         let rims_m = [report.travel.left_m, report.travel.right_m];
         let before = self.last.replace(Seen {
@@ -75,7 +75,7 @@ impl WheelWatch {
         self.turned
     }
 
-    /// Reports in a row that say that nothing turns and nothing drives.
+    /// Reports in a row in which no wheel turns and none is driven.
     pub(super) const fn still_reports(&self) -> u32 {
         self.still_reports
     }

@@ -26,7 +26,7 @@ pub(super) struct OpenRun {
     /// Why the job became a way home.
     turned_home: Option<&'static str>,
     /// It stands: state and reason, and whether the newest stop of the record tells of it.
-    standing: Option<Standing>,
+    standing: Option<OngoingStop>,
     figures: JobFigures,
     /// Share of the floor that the brain says it has swept.
     covered: Option<f64>,
@@ -37,7 +37,7 @@ pub(super) struct OpenRun {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Standing {
+struct OngoingStop {
     state: &'static str,
     reason: &'static str,
     is_told: bool,
@@ -216,7 +216,7 @@ impl OpenRun {
         let state = decision.what.strip_prefix("state-").unwrap_or(decision.what);
         self.record.run.stop_count += 1;
         let is_told = self.record.stops.len() < STOPS_MAX;
-        self.standing = Some(Standing {
+        self.standing = Some(OngoingStop {
             state,
             reason: decision.reason,
             is_told,

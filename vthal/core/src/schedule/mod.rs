@@ -20,10 +20,10 @@ mod verdict;
 mod when;
 mod zone;
 
-pub use book::{Book, Edit, EditError};
+pub use book::{Book, EditError, ScheduleEdit};
 pub use entry::{Entry, Plan};
 pub use from_api::ScheduleError;
-pub use planned::{Held, Kept, Planned, planned};
+pub use planned::{Blocker, Held, Planned, planned};
 pub use quiet::Quiet;
 pub use stored::{StoredBook, StoredError};
 pub(crate) use to_api::{Keeping, view};

@@ -223,7 +223,7 @@ mod tests {
                 lasted_s: Some(12.0),
                 state: "paused".to_owned(),
                 reason: "command".to_owned(),
-                text: "Paused: somebody asked for it.".to_owned(),
+                text: "Paused: it was requested.".to_owned(),
                 remedy: String::new(),
                 by: Some("panel".to_owned()),
                 asker: None,
@@ -246,10 +246,10 @@ mod tests {
         );
         assert!(row.is_bad);
         let figures = run_figures(ENGLISH, &record.run);
-        assert!(figures.contains(&("Swept", "12.3 m² (50 % of that floor)".to_owned())));
+        assert!(figures.contains(&("Cleaned", "12.3 m² (50 % of that floor)".to_owned())));
         assert_eq!(
             stop_rows(ENGLISH, &record)[0].words,
-            "Paused: somebody asked for it. By panel. At 1:01, for 0:12."
+            "Paused: it was requested. By panel. At 1:01, for 0:12."
         );
         let estonian = Language::Estonian.words();
         assert_eq!(
