@@ -67,7 +67,7 @@ pub(crate) fn Actions(store: Store) -> impl IntoView {
             {action(store, face("clear", "primary", words().action.clear, Icon::Warning), move || store.offers().clear, clear)}
             <Show when=move || store.strategies.with(|strategies| strategies.len() > 1)>
                 <label class="field">
-                    {words().action.way_of_cleaning}
+                    {words().action.cleaning_pattern}
                     <select id="strategy" on:change=move |event| strategy.set(event_target_value(&event))>
                         <option value="">{words().action.robot_chooses}</option>
                         <For each=move || store.strategies.get() key=String::clone let:name>

@@ -23,7 +23,7 @@ pub fn room_change_rows(words: &Words, home: &HomeView) -> Vec<RoomChangeRow> {
     let row = |(place, change): (usize, &RoomChangeView)| {
         let [room, other] = change.rooms.map(|id| name_of(words, home, id));
         let text = match change.line {
-            Some(_) => words.home.was_cut.fill([&room, &other]),
+            Some(_) => words.home.was_split.fill([&room, &other]),
             None => words.home.was_joined.fill([&room, &other]),
         };
         let later = changes.iter().skip(place + 1);

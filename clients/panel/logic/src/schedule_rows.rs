@@ -145,8 +145,8 @@ pub fn zone_text(words: &Words, schedules: &Schedules) -> String {
 fn planned_text(words: &Words, run: &PlannedRun) -> String {
     let (told, at) = (&words.schedule, instant_text(words, &run.at));
     match (run.kept_by.as_deref(), run.held_by.as_deref()) {
-        (Some("skipped"), _) => told.left_out.fill([&at]),
-        (Some("quiet-hours"), _) => told.kept_by_quiet.fill([&at]),
+        (Some("skipped"), _) => told.skipped.fill([&at]),
+        (Some("quiet-hours"), _) => told.blocked_by_quiet.fill([&at]),
         (Some(reason), _) => told.kept.fill([&at, &what_of(words, reason)]),
         (None, Some("quiet-hours")) => told.after_quiet.fill([&at]),
         (None, Some(_)) => told.when_answers.fill([&at]),

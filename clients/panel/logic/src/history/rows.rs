@@ -121,7 +121,7 @@ pub fn run_figures(words: &Words, run: &Run) -> Vec<(&'static str, String)> {
         (told.duration, clock_text(run.duration_s)),
         (told.in_motion, clock_text(run.moving_s)),
         (told.swept, format!("{swept}{share}")),
-        (told.way, distance_text(words, run.path_m)),
+        (told.distance, distance_text(words, run.path_m)),
         (told.bumps, run.bumps.to_string()),
     ];
     if let (Some(start), Some(end)) = (run.charge_start, run.charge_end) {

@@ -53,8 +53,8 @@ screen! {
         missing: "Missing", "Puudub";
         bumper: "Bumper", "Põrkeraud";
         free: "Free", "Vaba";
-        no_floor: "Cliff sensors", "Servaandurid";
-        nowhere: "Clear", "Serva ei ole";
+        cliff_sensors: "Cliff sensors", "Servaandurid";
+        no_cliff: "Clear", "Serva ei ole";
         hanging: "Hanging wheel", "Rippuv ratas";
         none_hangs: "None", "Ükski";
         left: "left", "vasak";

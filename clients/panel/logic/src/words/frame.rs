@@ -66,7 +66,7 @@ screen! {
         dock: "Dock", "Dokki";
         find: "Find", "Leia";
         clear: "Clear the fault", "Tühista rike";
-        way_of_cleaning: "Cleaning pattern", "Koristusmuster";
+        cleaning_pattern: "Cleaning pattern", "Koristusmuster";
         robot_chooses: "The robot chooses", "Robot valib ise";
         random: "Random", "Juhuslik";
         random_with_walls: "Random with walls", "Juhuslik ja piki seinu";

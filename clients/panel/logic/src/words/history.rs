@@ -62,7 +62,7 @@ screen! {
         duration: "Time", "Aeg";
         in_motion: "In motion", "Liikus";
         swept: "Cleaned", "Koristatud";
-        way: "Distance", "Teekond";
+        distance: "Distance", "Teekond";
         bumps: "Bumps", "Puuted";
         map: "Map", "Kaart";
         version[1]: "version {0}", "versioon {0}";

@@ -11,7 +11,7 @@ screen! {
         room_many[1]: "{0} rooms", "{0} tuba";
         map[1]: "Map {0}", "Kaart {0}";
         in_use: "in use", "kasutusel";
-        take_up_map[1]: "Restore map {0}", "Taasta kaart {0}";
+        restore_map[1]: "Restore map {0}", "Taasta kaart {0}";
         take_up: "Restore", "Taasta";
         floors: "Floors", "Korrused";
         floor_open: "The robot finds out on which floor it is on its dock, or while it cleans.",
@@ -81,7 +81,7 @@ screen! {
         join_hint: "To make two rooms one, choose both: they must lie beside each other.",
             "Kahe toa ühendamiseks vali mõlemad: need peavad olema kõrvuti.";
         room_changes: "Rooms that were split or joined", "Poolitatud ja ühendatud toad";
-        was_cut[2]: "{1} was split from {0}", "{1} on lõigatud toast „{0}“";
+        was_split[2]: "{1} was split from {0}", "{1} on lõigatud toast „{0}“";
         was_joined[2]: "{1} is a part of {0}", "{1} on toa „{0}“ osa";
         take_back: "Undo", "Võta tagasi";
         take_back_named[1]: "Undo: {0}", "Võta tagasi: {0}";

@@ -66,15 +66,15 @@ screen! {
         everything: "Show everything", "Näita kõike";
         follow: "Follow the robot", "Jälgi robotit";
         ground: "What the map shows", "Mida kaart näitab";
-        ground_true: "Floor plan (simulated)", "Põrandaplaan (simulatsioon)";
-        ground_known: "Robot's map", "Roboti kaart";
+        floor_plan: "Floor plan (simulated)", "Põrandaplaan (simulatsioon)";
+        robot_map: "Robot's map", "Roboti kaart";
         legend: "Legend", "Leppemärgid";
         swept: "Cleaned; fainter where less certain", "Koristatud; ebakindlam koht on tuhmim";
         path: "Path", "Teekond";
         bump: "Bump", "Puude";
         planned: "Planned", "Kavas";
         door: "Door", "Uks";
-        true_place: "Actual position", "Tegelik koht";
+        actual_position: "Actual position", "Tegelik koht";
         wall_first: "Tap one end of the wall, or move it to the cross and press Enter.",
             "Puuduta seina üht otsa või nihuta see ristile ja vajuta Enter.";
         wall_second: "Now the other end.", "Nüüd teine ots.";
@@ -97,8 +97,8 @@ screen! {
         chosen: "Chosen rooms, zones and spots", "Valitud toad, alad ja kohad";
         reckons: "Calculating time and battery use.", "Arvutab aega ja akukulu.";
         join_these: "Join these rooms", "Ühenda need toad";
-        choose_none: "Clear", "Tühista valik";
-        clean_these: "Clean selected", "Korista valitud";
+        clear_choice: "Clear", "Tühista valik";
+        clean_selected: "Clean selected", "Korista valitud";
         times[1]: "{0}x", "{0}x";
         how_often: "How often each of them is cleaned", "Mitu korda igaüht koristatakse";
         // Floor, minutes, charge, pauses, share, low share.

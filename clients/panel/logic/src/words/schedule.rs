@@ -57,8 +57,8 @@ screen! {
         zone[2]: "All times are those of {0}, where it is {1}.", "Kõik ajad on vööndis {0}, kus praegu on {1}.";
         no_clock: "The robot's clock is not set, so nothing starts by itself until it is.",
             "Roboti kell on seadmata, seni ei alga midagi iseenesest.";
-        left_out[1]: "{0}, skipped", "{0}, jääb vahele";
-        kept_by_quiet[1]: "{0}, blocked by quiet hours", "{0}, jääb vaikse aja tõttu ära";
+        skipped[1]: "{0}, skipped", "{0}, jääb vahele";
+        blocked_by_quiet[1]: "{0}, blocked by quiet hours", "{0}, jääb vaikse aja tõttu ära";
         kept[2]: "{0}, blocked: {1}", "{0}, jääb ära: {1}";
         after_quiet[1]: "{0}, after the quiet hours", "{0}, pärast vaikset aega";
         when_answers[1]: "{0}, when the robot answers", "{0}, kui robot vastab";

@@ -5,19 +5,19 @@ use super::screen;
 screen! {
     /// The card with the state, and the figures of the job.
     StatusWords {
-        press_start: "Ready to clean.", "Valmis koristama.";
+        ready_to_clean: "Ready to clean.", "Valmis koristama.";
         beeps: "It beeps before its wheels turn.", "Robot annab enne liikumist helisignaali.";
         waits_for_resume: "The job waits until you resume it.", "Töö ootab, kuni seda jätkad.";
-        in_seat[1]: "In control: {0}.", "Juhib: {0}.";
+        in_control[1]: "In control: {0}.", "Juhib: {0}.";
         strategy[1]: "Cleaning pattern: {0}.", "Koristusmuster: {0}.";
         now_in[1]: "Now in {0}.", "Praegu: {0}.";
         reason[1]: "Reason: {0}.", "Põhjus: {0}.";
         swept: "Cleaned", "Koristatud";
         time: "Time", "Aeg";
-        way: "Distance", "Teekond";
+        distance: "Distance", "Teekond";
         bumps: "Bumps", "Puuted";
-        truly_covered: "Actual coverage", "Tegelikult kaetud";
-        truly_covered_long: "Share of the simulated home's reachable floor that was actually cleaned",
+        actual_coverage: "Actual coverage", "Tegelikult kaetud";
+        actual_coverage_long: "Share of the simulated home's reachable floor that was actually cleaned",
             "Simuleeritud kodu ligipääsetava põranda tegelikult kaetud osa";
         place: "Position accuracy", "Asukoha täpsus";
         place_long: "Standard deviation of the estimated position", "Hinnatud asukoha standardhälve";
