@@ -29,9 +29,9 @@ use crate::socket;
 
 /// Longest wait for the wheels to stand when the daemon ends.
 const STOP_WAIT: Duration = Duration::from_millis(500);
-/// Events handled before clients get their mail and the clock is looked at again.
+/// Events handled before clients get their mail and the clock is read again.
 const BATCH_MAX: usize = 64;
-/// Pause between two looks at the clock on the wall.
+/// Pause between two readings of the wall clock.
 const WALL_US: u64 = 1_000_000;
 
 /// Ends of the daemon's parts that the loop holds.
@@ -65,9 +65,9 @@ pub(crate) struct Daemon {
     clients: BTreeMap<ClientId, Client>,
     clients_seen: u64,
     congested: bool,
-    /// When the clock on the wall is looked at again.
+    /// When the wall clock is read again.
     wall_due_us: u64,
-    /// When the daemon gives up waiting for the wheels; `None` while nobody told it to end.
+    /// When the daemon gives up waiting for the wheels; `None` until it is ordered to end.
     ends_at: Option<Instant>,
 }
 

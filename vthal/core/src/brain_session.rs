@@ -14,7 +14,7 @@ use brain::{
 };
 pub(crate) use floors::FloorNews;
 use floors::Hands;
-use next_run::{FloorOnItsWay, NextHome, NextRun};
+use next_run::{LoadingFloor, NextHome, NextRun};
 use runs::RecordedRun;
 pub(crate) use runs::Recorder;
 use rvac_api::HomeView;
@@ -49,7 +49,7 @@ pub(crate) struct BrainSession {
     /// A run that begins as soon as its home is ready; commands wait for it.
     next: Option<NextRun>,
     /// The home of a floor that is being loaded.
-    on_its_way: Option<FloorOnItsWay>,
+    loading_floor: Option<LoadingFloor>,
     /// The floor whose map the brain has; `None` while the floor is unknown.
     floor: Option<u16>,
     /// The search for the floor: while it is not known, and while the robot is lost on one of several.
@@ -84,7 +84,7 @@ impl BrainSession {
             runs: 0,
             run: None,
             next: None,
-            on_its_way: None,
+            loading_floor: None,
             floor: floors.homes().next().is_none().then(|| floors.first()),
             storey_resolver: None,
             hands: Hands::default(),
@@ -228,7 +228,7 @@ impl BrainSession {
             && self.begins_run(cause)
         {
             // A run whose floor is being loaded begins there.
-            let is_ready = self.on_its_way.is_none() && self.brain.map().knowledge().values().is_empty();
+            let is_ready = self.loading_floor.is_none() && self.brain.map().knowledge().values().is_empty();
             if is_ready {
                 self.end_run(now_us, RunEnd::Finished, recorder);
                 let checkpoint = self.brain.checkpoint();
@@ -273,12 +273,12 @@ impl BrainSession {
 
     /// Whether [`Self::prepare`] has something to do.
     pub(crate) fn is_preparing(&self) -> bool {
-        self.next.is_some() || self.on_its_way.is_some()
+        self.next.is_some() || self.loading_floor.is_some()
     }
 
     /// Goes on with the home of a floor, then with that of the next run, and begins that when it is ready.
     pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
-        if let Some(floor) = &mut self.on_its_way {
+        if let Some(floor) = &mut self.loading_floor {
             floor.go_on();
             return;
         }

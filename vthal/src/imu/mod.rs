@@ -20,7 +20,7 @@ use turn::Turn;
 
 /// Totals are sent at most this often: twice for each of the robot's reports.
 const SEND_EVERY: Duration = Duration::from_millis(10);
-/// Pause before a lost sensor is looked for again.
+/// Pause before a lost sensor is opened again.
 const RETRY: Duration = Duration::from_secs(2);
 
 /// Which sensor and how it is mounted.
@@ -103,7 +103,7 @@ pub(crate) enum ImuEvent {
     Opened(&'static str),
     /// Total turned, microradians, wrapping.
     Turned(i32),
-    /// The sensor is not there or was lost; told once per outage, with what to do.
+    /// The sensor is not there or was lost; reported once per outage, with what to do.
     Absent(String),
 }
 

@@ -9,9 +9,9 @@ use super::reading::{LineError, Measured, Reading};
 use super::roster::{BeaconNumber, Roster};
 use super::{RadioForm, RadioSettings, dwm1001, json};
 
-/// Refused lines are told at the first, and then at most this often.
+/// Refused lines are reported at the first, and then at most this often.
 const TELL_EVERY: Duration = Duration::from_secs(60);
-/// Letters of a refused line that are told.
+/// Letters of a refused line that are reported.
 const EXCERPT: usize = 60;
 
 /// What bytes said.
@@ -19,18 +19,18 @@ const EXCERPT: usize = 60;
 pub(super) struct Heard {
     /// What was measured of beacons that count.
     pub(super) signals: Vec<BeaconSignal>,
-    /// Beacons that were heard for the first time, and their numbers.
+    /// Beacons that were received for the first time, and their numbers.
     pub(super) new: Vec<(String, u16)>,
-    /// Lines told of a beacon, whether or not it counts.
+    /// Lines named a beacon, whether or not it counts.
     pub(super) is_speaking: bool,
-    /// What there is to tell of refused lines.
+    /// Refused lines that are to be reported.
     pub(super) refused: Option<Refused>,
 }
 
 /// Lines that could not be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refused {
-    /// So many since this was told last.
+    /// So many since the last report.
     pub(crate) count: u64,
     /// The beginning of the last of them.
     pub(crate) line: String,
@@ -63,7 +63,7 @@ impl RadioDecoder {
         }
     }
 
-    /// The device was opened anew.
+    /// The device was opened again.
     pub(super) fn begin(&mut self) {
         self.lines = Lines::default();
     }

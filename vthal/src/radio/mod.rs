@@ -29,11 +29,11 @@ use dwm1001::Waker;
 use port::Port;
 pub use reading::{BeaconName, NoName};
 
-/// Pause before a lost radio is looked for again.
+/// Pause before a lost radio is opened again.
 const RETRY: Duration = Duration::from_secs(2);
 /// Bytes are fetched at most this often: twice for each of the robot's reports, so that no radio takes the processor.
 const READ_EVERY: Duration = Duration::from_millis(10);
-/// A radio that says nothing for so long is told of.
+/// A radio that is silent for this long is reported.
 const SILENCE: Duration = Duration::from_secs(60);
 /// Longest wait for a radio that does not take the words which make it speak.
 const WRITE_WAIT: Duration = Duration::from_secs(1);
@@ -45,7 +45,7 @@ pub const SIGMA_M: f64 = 0.2;
 /// Beacons that may be listed, and that get a number when none are; a home has some, and a street has hundreds.
 pub const BEACONS_MAX: usize = 32;
 
-/// In which words a radio tells what it measures.
+/// The format in which a radio reports its measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RadioForm {
     /// `{"beacon":"kitchen","range_m":3.21}` or `{"beacon":"kitchen","rssi_dbm":-63}`, a line each.
@@ -77,7 +77,7 @@ pub struct RadioSettings {
     pub form: RadioForm,
     /// Beacons that count; all when it is empty.
     pub beacons: Vec<BeaconName>,
-    /// Deviation of a range of which the radio tells none, metres.
+    /// Deviation of a range for which the radio reports none, metres.
     pub sigma_m: f64,
     /// How much higher than the robot's antenna the beacons hang, metres.
     pub height_m: f64,
@@ -101,15 +101,15 @@ impl RadioSettings {
 /// From the radio.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum RadioEvent {
-    /// It speaks: for the first time, or again.
+    /// It sends data: for the first time, or again.
     Speaks,
     /// What was measured.
     Heard(Vec<BeaconSignal>),
-    /// A beacon was heard for the first time; its name and number.
+    /// A beacon was received for the first time; its name and number.
     NewBeacon(String, u16),
     /// Lines could not be used.
     Refused(Refused),
-    /// It is not there, was lost, or says nothing of beacons; told once per outage, with the reason.
+    /// It is not there, was lost, or names no beacons; reported once per outage, with the reason.
     Absent(String),
 }
 
@@ -144,7 +144,7 @@ pub(crate) async fn serve(settings: RadioSettings, events: Sender<Event>) {
     }
 }
 
-/// What was told of the radio last.
+/// The last reported state of the radio.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outage {
     /// Nothing yet.

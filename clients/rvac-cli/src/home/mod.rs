@@ -158,7 +158,7 @@ pub(crate) fn sureness(estimate: &Estimate) -> String {
         "lost: it does not know where it is".to_owned()
     } else {
         format!(
-            "sure to {:.2} m and {:.0} deg",
+            "position known to {:.2} m, heading to {:.0} deg",
             estimate.sigma_m,
             estimate.sigma_rad.to_degrees()
         )

@@ -197,8 +197,8 @@ fn status_is_told_in_words_or_as_json() {
     );
     assert!(
         words.contains(
-            "sure to 0.05 m and 1 deg, sensors match the map: 88 %, \
-             about 50 % of the floor it knows is swept (at least 44 %)"
+            "position known to 0.05 m, heading to 1 deg, sensors match the map: 88 %, \
+             estimated coverage 50 % of the known floor (at least 44 %)"
         ),
         "{words}"
     );

@@ -3,7 +3,7 @@
 use brain::mapping::StoredMap;
 use brain::{Brain, Checkpoint, FloorPlace, ReadyHome};
 
-use super::next_run::FloorOnItsWay;
+use super::next_run::LoadingFloor;
 use super::{BrainSession, Recorder};
 use crate::edges::Sign;
 use crate::floors::Floors;
@@ -75,11 +75,11 @@ impl BrainSession {
         recorder: &mut Recorder<'_>,
     ) -> Option<FloorNews> {
         let asked_before = self.asked();
-        let under_way = self.on_its_way.take();
+        let loading_floor = self.loading_floor.take();
         let observation = self.observer.observation();
         if self.run.is_none() && observation.docked && observation.link_up {
             self.hands.rest(self.edges.since_us(Sign::WheelDrop));
-            let news = self.know_dock(floors, under_way);
+            let news = self.know_dock(floors, loading_floor);
             return news.or_else(|| self.new_question(asked_before));
         }
         self.hands.watch(now_us, self.edges.since_us(Sign::WheelDrop));
@@ -96,7 +96,7 @@ impl BrainSession {
             Some(place) if self.floor == Some(place.floor) => None,
             Some(place) => {
                 let home = floors.home(place.floor)?;
-                let ready = self.home_of(under_way, (place.floor, home))?;
+                let ready = self.home_of(loading_floor, (place.floor, home))?;
                 self.move_to(now_us, (place, home, ready), recorder);
                 Some(FloorNews::Found(place.floor))
             }
@@ -111,7 +111,7 @@ impl BrainSession {
     }
 
     /// The robot stands on a dock at rest.
-    fn know_dock(&mut self, floors: &Floors, under_way: Option<FloorOnItsWay>) -> Option<FloorNews> {
+    fn know_dock(&mut self, floors: &Floors, loading_floor: Option<LoadingFloor>) -> Option<FloorNews> {
         let docks = floors.homes().filter(|(_, home)| home.dock().is_some()).count();
         if self.floor.is_some() && self.hands.had_it && docks > 1 {
             self.forget_floor(None);
@@ -120,7 +120,7 @@ impl BrainSession {
             return None;
         }
         let number = self.storey_resolver.get_or_insert_default().by_dock(floors)?;
-        let home = self.home_of(under_way, (number, floors.home(number)?))?;
+        let home = self.home_of(loading_floor, (number, floors.home(number)?))?;
         self.begin_with(Brain::with_home(self.config, self.seed, home));
         self.floor = Some(number);
         self.storey_resolver = None;
@@ -129,11 +129,15 @@ impl BrainSession {
     }
 
     /// The home of a floor; it takes some steps until it is ready.
-    fn home_of(&mut self, under_way: Option<FloorOnItsWay>, floor: (u16, &StoredMap)) -> Option<ReadyHome> {
-        let mut floor = FloorOnItsWay::for_floor(under_way, floor, &self.config);
+    fn home_of(
+        &mut self,
+        loading_floor: Option<LoadingFloor>,
+        floor: (u16, &StoredMap),
+    ) -> Option<ReadyHome> {
+        let mut floor = LoadingFloor::for_floor(loading_floor, floor, &self.config);
         let ready = floor.take();
         if ready.is_none() {
-            self.on_its_way = Some(floor);
+            self.loading_floor = Some(floor);
         }
         ready
     }

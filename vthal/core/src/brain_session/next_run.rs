@@ -60,20 +60,20 @@ impl NextRun {
 
 /// The home of a floor that is being loaded.
 #[derive(Debug)]
-pub(super) struct FloorOnItsWay {
+pub(super) struct LoadingFloor {
     number: u16,
     home: TakingUp,
     ready: Option<ReadyHome>,
 }
 
-impl FloorOnItsWay {
+impl LoadingFloor {
     /// Goes on with the home of floor `number`, or begins with it; work on another floor's home is dropped.
     pub(super) fn for_floor(
-        under_way: Option<Self>,
+        loading_floor: Option<Self>,
         (number, stored): (u16, &StoredMap),
         config: &BrainConfig,
     ) -> Self {
-        under_way
+        loading_floor
             .filter(|floor| floor.number == number)
             .unwrap_or_else(|| Self {
                 number,

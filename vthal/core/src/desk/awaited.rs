@@ -48,7 +48,7 @@ impl<T> Awaited<T> {
             .map(|(_, asker, before)| (asker, before))
     }
 
-    /// The disk has what it was given under this number, or says why it has not; whoever waited hears of it. Gives what must be
+    /// The disk has what it was given under this number, or says why it has not; the client that waits is answered. Gives what must be
     /// taken back, the newest first.
     pub(super) fn kept(
         &mut self,

@@ -1,4 +1,4 @@
-//! What the robot does because of its buttons, and who else hears of them.
+//! What the buttons of the robot do, and whom they are reported to.
 
 use brain::{BehaviorState, Command, Status, StrategyName};
 use rvac_api::{Gesture, LogLevel, Topic, Update};

@@ -2,7 +2,7 @@
 //!
 //! Events say that a button went down or up and are never lost; reports say ever again which are down. A hold counts only as long as
 //! both agree without a gap, so that neither a broken line nor a button that was down already at the start can hold anything. Each hold is
-//! told once: a button that is stuck tells nothing more until it was let go.
+//! reported once: a button that is stuck reports nothing more until it was released.
 
 use std::collections::BTreeMap;
 

@@ -17,18 +17,18 @@ const CHECKPOINT_US_PER_ENTRY: u64 = 100;
 pub(crate) struct CheckpointClock {
     next_us: u64,
     had_job: bool,
-    on_its_way: Option<CheckpointOnItsWay>,
+    in_progress: Option<CheckpointInProgress>,
 }
 
 /// A checkpoint of which the home is still being written down.
 #[derive(Debug)]
-struct CheckpointOnItsWay {
+struct CheckpointInProgress {
     /// All but the brain.
     rest: Checkpoint,
     brain: CheckpointWork,
 }
 
-impl CheckpointOnItsWay {
+impl CheckpointInProgress {
     fn go_on(&mut self) -> Option<Checkpoint> {
         let brain = self.brain.go_on()?;
         Some(Checkpoint {
@@ -46,9 +46,9 @@ impl CheckpointClock {
         brain_session: &BrainSession,
         run: impl FnOnce() -> Option<RunRecord>,
     ) -> Option<Checkpoint> {
-        if let Some(work) = &mut self.on_its_way {
+        if let Some(work) = &mut self.in_progress {
             let checkpoint = work.go_on()?;
-            self.on_its_way = None;
+            self.in_progress = None;
             return Some(checkpoint);
         }
         if now_us < self.next_us {
@@ -57,7 +57,7 @@ impl CheckpointClock {
         let has_job = works(brain_session);
         if has_job || self.had_job {
             self.had_job = has_job;
-            self.on_its_way = Some(CheckpointOnItsWay {
+            self.in_progress = Some(CheckpointInProgress {
                 rest: Checkpoint {
                     device: brain_session.device().to_owned(),
                     floor: brain_session.floor(),

@@ -53,7 +53,7 @@ struct Open {
     currents_a: Option<[f32; 3]>,
 }
 
-/// What changes of way and heading are counted from.
+/// The origin from which changes of distance and heading are counted.
 #[derive(Clone, Copy, Debug)]
 struct MotionReference {
     time_us: u64,
@@ -208,11 +208,11 @@ mod tests {
     /// Drives straight ahead with 0.2 m/s and 50 reports a second.
     fn drive(evidence: &mut Sensations, steps: std::ops::Range<u64>, change: impl Fn(&mut Observation)) {
         for step in steps {
-            let way_m = 0.004 * step as f64;
+            let distance_m = 0.004 * step as f64;
             let mut observation = Observation {
                 time_us: step * 20_000,
-                travel_left_m: way_m,
-                travel_right_m: way_m,
+                travel_left_m: distance_m,
+                travel_right_m: distance_m,
                 link_up: true,
                 ..Observation::default()
             };

@@ -1,4 +1,4 @@
-//! What clients say of floors, and what they are told.
+//! Requests of clients about floors, and what clients receive of them.
 
 use brain::RoomName;
 use rvac_api::{FloorQuestion, FloorsView, LogLevel};
@@ -76,7 +76,7 @@ impl FloorDesk {
         }
     }
 
-    /// Whether [`Self::view`] is another one than clients were told.
+    /// Whether [`Self::view`] differs from what clients have received.
     pub(crate) fn is_news(&self, told: Option<&FloorsView>, brain_session: Option<&BrainSession>) -> bool {
         told.is_none_or(|told| {
             told.here != brain_session.and_then(BrainSession::floor)

@@ -1,4 +1,4 @@
-//! Clients tell inputs of control mixes, and those who drive by them hear of it.
+//! Clients report inputs of control mixes; drivers that use them receive the reports.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use super::reply::Reply;
 use crate::ClientId;
 use crate::refusal::Refusal;
 
-/// What a client tells, in place of all that it told before.
+/// The inputs that a client reports, in place of all that it reported before.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ToldInputs {
     pub(crate) values: BTreeMap<String, f64>,
@@ -49,7 +49,7 @@ impl InputDesk {
         Ok(Reply::Done)
     }
 
-    /// Whoever drives by what this client told hears it in the same moment.
+    /// A driver that uses this client's inputs receives them at once.
     pub(crate) fn forget(&mut self, client: ClientId, teller: &mut Teller<'_>) {
         if self.inputs.forget(client) {
             log_gone(client, teller);
@@ -70,7 +70,7 @@ impl InputDesk {
         }
     }
 
-    /// What is told now.
+    /// The inputs that are reported now.
     pub(crate) fn view(&self, now_us: u64) -> Update {
         Update::Inputs {
             inputs: self.inputs.view(now_us),

@@ -20,7 +20,7 @@ const HOUR_S: f64 = 3600.0;
 pub(crate) enum LearntRequest {
     /// What is kept.
     Show,
-    /// A robot shall learn something anew.
+    /// A robot shall learn something again.
     Forget(Forgetting),
 }
 
@@ -114,7 +114,7 @@ impl LearntDesk {
         Ok(())
     }
 
-    /// The disk has what it was given under this number, or says why it has not. The robot that is here learns anew all the same,
+    /// The disk has what it was given under this number, or says why it has not. The attached robot learns again all the same,
     /// and with its next run the disk hears of that.
     pub(crate) fn kept(&mut self, number: u64, result: Result<(), String>, teller: &mut Teller<'_>) {
         let result = result.map_err(|text| Refusal {

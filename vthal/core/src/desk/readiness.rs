@@ -16,7 +16,7 @@ const OTHER_FLOOR: &str = "other-floor";
 /// What of it is known at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StartFacts {
-    /// Why no robot can be told anything.
+    /// Why no robot can be commanded.
     pub(crate) robot: Result<(), Refused>,
     /// Why a schedule may not command: everybody else comes before it (S27).
     pub(crate) schedule: Result<(), Refused>,
@@ -66,7 +66,7 @@ impl<'a> Readiness<'a> {
         brain_session.admit(command).map_err(brain::Reason::name)
     }
 
-    /// What the brain is told to start the job of a schedule, because a person wants it now.
+    /// The command that starts the job of a schedule, because a person wants it now.
     ///
     /// # Errors
     /// Why it may not start.
@@ -76,7 +76,7 @@ impl<'a> Readiness<'a> {
         self.command_of(&entry.plan().job)
     }
 
-    /// What the brain is told when a schedule starts its job now, if it may: everybody else comes before it (S27), and what
+    /// The command when a schedule starts its job now, if it may: everybody else comes before it (S27), and what
     /// keeps any motion from starting keeps it, too (S25).
     ///
     /// # Errors
@@ -97,7 +97,7 @@ impl<'a> Readiness<'a> {
         }
     }
 
-    /// What the brain is told to start a job; refused as the brain would refuse it.
+    /// The command that starts a job; refused as the brain would refuse it.
     fn command_of(&self, job: &ScheduledJob) -> Result<Command, Refusal> {
         match job {
             ScheduledJob::Start { strategy } => {

@@ -12,7 +12,7 @@ use super::words::to_order;
 use crate::refusal::Refusal;
 use crate::schedule::{Book, Entry, Outcome, Plan, ScheduleEdit, ScheduleError, Verdict, Zone};
 
-/// What the robot could start changes without a word; followers hear of it within this time.
+/// Readiness changes without an event; followers receive it within this time.
 const TOLD_US: u64 = 5_000_000;
 
 /// What clients want changed of the schedules.
@@ -50,7 +50,7 @@ pub(crate) struct Decided<'a> {
     pub(crate) outcome: Outcome,
 }
 
-/// The schedules, and what followers were told of them.
+/// The schedules, and what followers have received of them.
 #[derive(Debug)]
 pub(crate) struct ScheduleDesk {
     scheduler: Scheduler,

@@ -20,7 +20,7 @@ pub(crate) struct Sources<'a> {
 }
 
 impl Sources<'_> {
-    /// Where the brain believes the robot to be.
+    /// The robot's pose as the brain estimates it.
     pub(crate) fn pose(&self) -> Pose {
         self.brain_session.map_or_else(Pose::default, |brain_session| {
             to_api::pose(

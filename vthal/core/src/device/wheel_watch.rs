@@ -41,30 +41,30 @@ impl WheelWatch {
             at_us: now_us,
             rims_m,
         });
-        let ways_m = before.map(|before| [0, 1].map(|rim| rims_m[rim] - before.rims_m[rim]));
-        if let Some(ways_m) = ways_m {
-            self.turned = ways_m
+        let travels_m = before.map(|before| [0, 1].map(|rim| rims_m[rim] - before.rims_m[rim]));
+        if let Some(travels_m) = travels_m {
+            self.turned = travels_m
                 .iter()
-                .any(|way_m| way_m.abs() > 0.5 * odometry.resolution_m);
+                .any(|travel_m| travel_m.abs() > 0.5 * odometry.resolution_m);
             self.still_reports = if self.turned || report.is_driven {
                 0
             } else {
                 self.still_reports.saturating_add(1)
             };
         }
-        let ways_m = match odometry.sign_reliable {
-            true => ways_m,
-            false => Some(self.sign(ways_m.unwrap_or_default(), report)),
+        let travels_m = match odometry.sign_reliable {
+            true => travels_m,
+            false => Some(self.sign(travels_m.unwrap_or_default(), report)),
         };
-        if let (None, Some(ways_m), Some(before)) = (report.travel.speeds, ways_m, before) {
-            report.travel.speeds = speeds(ways_m, now_us.saturating_sub(before.at_us));
+        if let (None, Some(travels_m), Some(before)) = (report.travel.speeds, travels_m, before) {
+            report.travel.speeds = speeds(travels_m, now_us.saturating_sub(before.at_us));
         }
     }
 
-    fn sign(&mut self, ways_m: [f64; 2], report: &mut Report) -> [f64; 2] {
-        let signed_m = [0, 1].map(|rim| self.signs[rim] * ways_m[rim].abs());
-        for (sum_m, way_m) in self.sum_m.iter_mut().zip(signed_m) {
-            *sum_m += way_m;
+    fn sign(&mut self, travels_m: [f64; 2], report: &mut Report) -> [f64; 2] {
+        let signed_m = [0, 1].map(|rim| self.signs[rim] * travels_m[rim].abs());
+        for (sum_m, travel_m) in self.sum_m.iter_mut().zip(signed_m) {
+            *sum_m += travel_m;
         }
         [report.travel.left_m, report.travel.right_m] = self.sum_m;
         signed_m

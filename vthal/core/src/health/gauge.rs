@@ -12,7 +12,7 @@ const HARD_UNTIL: f32 = 1.25;
 /// The same for a motor that has lost its load.
 const LIGHT: f32 = 0.6;
 const LIGHT_UNTIL: f32 = 0.75;
-/// Below this a motor's usual load cannot be told from the converter's noise, amperes.
+/// Below this a motor's usual load cannot be distinguished from the converter's noise, amperes.
 const LOAD_MIN_A: f32 = 0.02;
 
 /// What the load says of the part.
@@ -30,7 +30,7 @@ pub enum LoadVerdict {
 }
 
 impl LoadVerdict {
-    /// As clients hear it.
+    /// As clients receive it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

@@ -24,7 +24,7 @@ pub enum Component {
 }
 
 impl Component {
-    /// All of them, in the order in which they are told.
+    /// All of them, in the order in which they are reported.
     pub const ALL: [Self; 3] = [Self::BrushMain, Self::WheelLeft, Self::WheelRight];
 
     /// As clients name it.

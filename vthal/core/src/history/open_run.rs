@@ -21,9 +21,9 @@ pub(super) struct OpenRun {
     record: RunRecord,
     /// Host time at which it began; below 0 if that was before the daemon.
     zero_us: i64,
-    /// The first point of the map's way that belongs to it.
+    /// The first point of the map's path that belongs to it.
     path_from: usize,
-    /// Why the job became a way home.
+    /// Why the job became a return to the dock.
     turned_home: Option<&'static str>,
     /// It stands: state and reason, and whether the newest stop of the record tells of it.
     standing: Option<OngoingStop>,

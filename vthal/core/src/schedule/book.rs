@@ -256,7 +256,7 @@ impl Book {
         }
     }
 
-    /// After a start of the daemon: nobody knows whether the robot heard of a run that was noted and not followed up.
+    /// After a start of the daemon: it is unknown whether the robot received the command for a run that was noted and not followed up.
     pub fn interrupt_starting(&mut self) {
         for decision in &mut self.decisions {
             if decision.verdict.outcome == Outcome::Starting {

@@ -38,7 +38,7 @@ pub(crate) trait Keeping {
     fn on_floor(&self, entry: &Entry) -> Result<(), &'static str>;
 }
 
-/// Everything that clients are told. `now_s` is `None` while nobody knows the time.
+/// Everything that clients receive. `now_s` is `None` while the clock is not set.
 pub(crate) fn view(book: &Book, (zone, now_s): (&Zone, Option<i64>), keeping: &impl Keeping) -> Schedules {
     let now_s = now_s.filter(|now_s| *now_s >= CLOCK_IS_SET_FROM_S);
     let foretell = |entry: &Entry| {

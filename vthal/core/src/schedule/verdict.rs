@@ -19,11 +19,11 @@ const WAITED_FOR: [&str; 2] = [NO_ROBOT, "link-lost"];
 /// What becomes of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It is noted, and the robot is told as soon as the note is on the disk.
+    /// It is noted, and the robot starts as soon as the note is on the disk.
     Starting,
-    /// The robot was told.
+    /// The robot was commanded.
     Fired,
-    /// The daemon ended after the note and before it told the robot, or nobody knows.
+    /// The daemon ended after the note and before it commanded the robot, or that is unknown.
     Interrupted,
     /// A person wanted it left out.
     Skipped,
