@@ -54,14 +54,14 @@ const QUESTIONS_MAX: usize = 12;
 struct Queued {
     kept: Kept,
     /// Held until it is answered.
-    place: Option<Place>,
+    place: Option<QuestionSlot>,
 }
 
 /// One of the places that questions may have.
 #[derive(Debug)]
-struct Place(Arc<AtomicUsize>);
+struct QuestionSlot(Arc<AtomicUsize>);
 
-impl Place {
+impl QuestionSlot {
     fn take(taken: &Arc<AtomicUsize>) -> Option<Self> {
         let one_more = |count| (count < QUESTIONS_MAX).then_some(count + 1);
         taken
@@ -71,7 +71,7 @@ impl Place {
     }
 }
 
-impl Drop for Place {
+impl Drop for QuestionSlot {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::Relaxed);
     }
@@ -248,7 +248,7 @@ impl CheckpointHandle {
     }
 
     fn try_ask(&self, kept: Kept) -> bool {
-        let place = Place::take(&self.questions);
+        let place = QuestionSlot::take(&self.questions);
         place.is_some() && self.queue_up(Queued { kept, place })
     }
 

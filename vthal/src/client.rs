@@ -133,7 +133,7 @@ impl Client {
 
     /// The last word to a client that must go.
     pub(crate) fn dismiss(&mut self, last_word: Failure, reason: &'static str) {
-        self.outbox.replace_all(spell(&Update::Failed(last_word)));
+        self.outbox.replace_all(encode(&Update::Failed(last_word)));
         self.leaving = Some(reason);
     }
 
@@ -168,7 +168,7 @@ impl Client {
 
 /// A message for the socket, separator included.
 #[must_use]
-pub(crate) fn spell(update: &Update) -> Rc<[u8]> {
+pub(crate) fn encode(update: &Update) -> Rc<[u8]> {
     let mut bytes = serde_json::to_vec(update).unwrap_or_else(|error| {
         // Updates are plain data; only a number that JSON does not have could bring us here.
         tracing::error!("an update cannot be spelled: {error}");

@@ -117,14 +117,14 @@ pub struct Overrides {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-struct File {
+struct ConfigFile {
     link: Link,
     socket: Socket,
     robot: Robot,
     imu: Imu,
     radio: Radio,
-    state: State,
-    log: Log,
+    state: StateSection,
+    log: LogSection,
     recording: Recording,
 }
 
@@ -172,13 +172,13 @@ struct Radio {
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-struct State {
+struct StateSection {
     dir: Option<PathBuf>,
 }
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-struct Log {
+struct LogSection {
     level: Option<Spanned<String>>,
     size_mib: Option<Spanned<u32>>,
     files: Option<Spanned<u32>>,
@@ -199,9 +199,9 @@ struct Recording {
 pub fn load(path: Option<&Path>, overrides: Overrides) -> Result<Config, ConfigError> {
     let Some(path) = path else {
         return validate(
-            File::default(),
+            ConfigFile::default(),
             overrides,
-            &Source {
+            &ConfigText {
                 path: Path::new(""),
                 text: "",
             },
@@ -211,7 +211,7 @@ pub fn load(path: Option<&Path>, overrides: Overrides) -> Result<Config, ConfigE
         path: path.to_owned(),
         error,
     })?;
-    let source = Source { path, text: &text };
+    let source = ConfigText { path, text: &text };
     let file = toml::from_str(&text).map_err(|error: toml::de::Error| {
         let offset = error.span().map_or(0, |span| span.start);
         source.invalid(
@@ -223,12 +223,12 @@ pub fn load(path: Option<&Path>, overrides: Overrides) -> Result<Config, ConfigE
 }
 
 /// The file, to say where in it something is wrong.
-struct Source<'a> {
+struct ConfigText<'a> {
     path: &'a Path,
     text: &'a str,
 }
 
-impl Source<'_> {
+impl ConfigText<'_> {
     fn invalid(&self, offset: usize, what: String) -> ConfigError {
         let before = self.text.get(..offset).unwrap_or(self.text);
         let line = before.matches('\n').count() + 1;
@@ -278,7 +278,7 @@ impl Source<'_> {
     }
 }
 
-fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config, ConfigError> {
+fn validate(file: ConfigFile, flags: Overrides, source: &ConfigText<'_>) -> Result<Config, ConfigError> {
     let missing = |what, flag, key| ConfigError::Missing { what, flag, key };
     let serial = flags.serial.or(file.link.serial);
     let socket = flags.socket.or(file.socket.path);
@@ -314,7 +314,7 @@ fn validate(file: File, flags: Overrides, source: &Source<'_>) -> Result<Config,
     })
 }
 
-fn imu(imu: Imu, source: &Source<'_>) -> Result<Option<ImuSettings>, ConfigError> {
+fn imu(imu: Imu, source: &ConfigText<'_>) -> Result<Option<ImuSettings>, ConfigError> {
     let axis = match imu.up {
         None => Axis::from_name("z"),
         Some(name) => Some(Axis::from_name(name.get_ref()).ok_or_else(|| {
@@ -332,7 +332,7 @@ fn imu(imu: Imu, source: &Source<'_>) -> Result<Option<ImuSettings>, ConfigError
     }))
 }
 
-fn radio(radio: Radio, source: &Source<'_>) -> Result<Option<RadioSettings>, ConfigError> {
+fn radio(radio: Radio, source: &ConfigText<'_>) -> Result<Option<RadioSettings>, ConfigError> {
     let usual = RadioSettings::new(radio.device.clone().unwrap_or_default());
     let form = match &radio.form {
         None => usual.form,
@@ -359,7 +359,7 @@ fn radio(radio: Radio, source: &Source<'_>) -> Result<Option<RadioSettings>, Con
     Ok(radio.device.map(|_| settings))
 }
 
-fn strategy(name: &Spanned<String>, source: &Source<'_>) -> Result<StrategyName, ConfigError> {
+fn strategy(name: &Spanned<String>, source: &ConfigText<'_>) -> Result<StrategyName, ConfigError> {
     StrategyName::from_name(name.get_ref()).ok_or_else(|| {
         let known: Vec<&str> = StrategyName::ALL.iter().map(|strategy| strategy.name()).collect();
         let what = format!(
@@ -373,7 +373,7 @@ fn strategy(name: &Spanned<String>, source: &Source<'_>) -> Result<StrategyName,
 
 fn level(
     name: Option<Spanned<String>>,
-    source: &Source<'_>,
+    source: &ConfigText<'_>,
 ) -> Result<tracing::level_filters::LevelFilter, ConfigError> {
     use tracing::level_filters::LevelFilter;
     let Some(name) = name else {
@@ -397,10 +397,10 @@ mod tests {
 
     use brain::StrategyName;
 
-    use super::{ConfigError, Overrides, Source, load, validate};
+    use super::{ConfigError, ConfigText, Overrides, load, validate};
 
     fn parse(text: &str) -> Result<super::Config, ConfigError> {
-        let source = Source {
+        let source = ConfigText {
             path: Path::new("vthal.toml"),
             text,
         };

@@ -29,9 +29,9 @@ use crate::socket;
 
 /// Longest wait for the wheels to stand when the daemon ends.
 const STOP_WAIT: Duration = Duration::from_millis(500);
-/// Events handled before clients get their mail and the clock is looked at again.
+/// Events handled before clients get their mail and the clock is read again.
 const BATCH_MAX: usize = 64;
-/// Pause between two looks at the clock on the wall.
+/// Pause between two readings of the wall clock.
 const WALL_US: u64 = 1_000_000;
 
 /// Ends of the daemon's parts that the loop holds.
@@ -65,9 +65,9 @@ pub(crate) struct Daemon {
     clients: BTreeMap<ClientId, Client>,
     clients_seen: u64,
     congested: bool,
-    /// When the clock on the wall is looked at again.
+    /// When the wall clock is read again.
     wall_due_us: u64,
-    /// When the daemon gives up waiting for the wheels; `None` while nobody told it to end.
+    /// When the daemon gives up waiting for the wheels; `None` until it is ordered to end.
     ends_at: Option<Instant>,
 }
 
@@ -91,7 +91,7 @@ impl Daemon {
     /// Runs until a signal ends it: the wheels stand (or have had their time to), and everything is on disk.
     pub(crate) async fn run(mut self) {
         while !self.is_over() {
-            self.look_at_wall();
+            self.poll_wall_clock();
             let event = self.next_event().await;
             self.take(event);
             for _ in 1..BATCH_MAX {
@@ -117,7 +117,7 @@ impl Daemon {
         }
     }
 
-    fn look_at_wall(&mut self) {
+    fn poll_wall_clock(&mut self) {
         let now_us = self.clock.now_us();
         if now_us >= self.wall_due_us {
             self.wall_due_us = now_us + WALL_US;
@@ -213,7 +213,7 @@ impl Daemon {
         if self.clients.len() >= self.wiring.clients_max {
             let text = "As many clients are connected as may be: close one, or raise socket.clients_max.";
             let failure = refusal(None, "too-many-clients", text.to_owned());
-            socket::turn_away(&stream, &client::spell(&failure));
+            socket::turn_away(&stream, &client::encode(&failure));
             return;
         }
         let stream = match ClientStream::new(stream) {
@@ -386,7 +386,7 @@ fn refusal(id: Option<u32>, reason: &str, text: String) -> Update {
 /// Spells an update once for all who get it.
 fn deliver(core: &Core, clients: &mut BTreeMap<ClientId, Client>, delivery: &Delivery) {
     let class = Class::of(&delivery.update);
-    let message = client::spell(&delivery.update);
+    let message = client::encode(&delivery.update);
     match delivery.to {
         Recipients::One(id) => {
             if let Some(client) = clients.get_mut(&id) {

@@ -11,6 +11,9 @@ use crate::radio::RadioEvent;
 use crate::run_thread::RunAnswer;
 use crate::serial::OpenError;
 
+/// Why a thread or task that sends events ends: the daemon receives none any more.
+pub(crate) struct ReceiverGone;
+
 /// The closed set of causes.
 #[derive(Debug)]
 pub(crate) enum Event {
@@ -52,7 +55,7 @@ pub(crate) enum Event {
     Schedules(u64, Result<(), String>),
     /// The core asked to be called now.
     Wake,
-    /// The daemon is told to end, by the named signal.
+    /// The daemon is ordered to end, by the named signal.
     Terminate(&'static str),
 }
 
@@ -61,7 +64,7 @@ pub(crate) enum Event {
 pub(crate) enum SerialEvent {
     /// The device is open.
     Opened,
-    /// The device cannot be opened; told once per outage.
+    /// The device cannot be opened; reported once per outage.
     Absent(OpenError),
     /// Bytes of the robot.
     Bytes(Vec<u8>),

@@ -71,11 +71,11 @@ impl FloorError {
 struct List {
     version: u32,
     /// Removed ones in the order in which they were removed.
-    floors: Vec<Entry>,
+    floors: Vec<FloorEntry>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-struct Entry {
+struct FloorEntry {
     number: u16,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     name: Option<String>,
@@ -83,7 +83,7 @@ struct Entry {
     removed: bool,
 }
 
-impl Entry {
+impl FloorEntry {
     const fn new(number: u16) -> Self {
         Self {
             number,
@@ -143,9 +143,9 @@ impl FloorFolder {
             FloorTask::New(name) => {
                 let dropped = make_room(&mut entries)?;
                 let number = free_number(&entries).ok_or(FloorError::Full)?;
-                let entry = Entry {
+                let entry = FloorEntry {
                     name: name.as_ref().map(|name| name.as_str().to_owned()),
-                    ..Entry::new(number)
+                    ..FloorEntry::new(number)
                 };
                 entries.push(entry);
                 if let Some(dropped) = dropped {
@@ -168,7 +168,7 @@ impl FloorFolder {
         Ok(made)
     }
 
-    fn write(&self, floors: Vec<Entry>) -> Result<(), FloorError> {
+    fn write(&self, floors: Vec<FloorEntry>) -> Result<(), FloorError> {
         let list = List { version: 1, floors };
         let bytes = serde_json::to_vec_pretty(&list).map_err(io::Error::from)?;
         fs::create_dir_all(&self.path)?;
@@ -187,19 +187,19 @@ impl FloorFolder {
 
     /// The list, and what is wrong with it. A floor that has a folder and no entry is on it nevertheless, so that none is
     /// lost with the list.
-    fn entries(&self) -> (Vec<Entry>, Vec<String>) {
+    fn entries(&self) -> (Vec<FloorEntry>, Vec<String>) {
         let (mut entries, complaints) = self.listed();
         let mut found: Vec<u16> = self.folders();
         found.sort_unstable();
         for number in found {
             if entries.iter().all(|entry| entry.number != number) {
-                entries.push(Entry::new(number));
+                entries.push(FloorEntry::new(number));
             }
         }
         (entries, complaints)
     }
 
-    fn listed(&self) -> (Vec<Entry>, Vec<String>) {
+    fn listed(&self) -> (Vec<FloorEntry>, Vec<String>) {
         let mut complaints = Vec::new();
         for path in kept_file::versions(&self.path.join(LIST)) {
             if !path.exists() {
@@ -213,7 +213,7 @@ impl FloorFolder {
                 )),
             }
         }
-        (vec![Entry::new(1)], complaints)
+        (vec![FloorEntry::new(1)], complaints)
     }
 
     /// Numbers of the floors that have versions.
@@ -246,7 +246,7 @@ fn read(path: &Path) -> Result<List, String> {
     }
 }
 
-fn kept(entry: &Entry, home: Option<StoredMap>) -> KeptFloor {
+fn kept(entry: &FloorEntry, home: Option<StoredMap>) -> KeptFloor {
     KeptFloor {
         name: entry.name.as_deref().and_then(|name| RoomName::new(name).ok()),
         home,
@@ -255,13 +255,13 @@ fn kept(entry: &Entry, home: Option<StoredMap>) -> KeptFloor {
     }
 }
 
-fn entry(entries: &mut [Entry], number: u16) -> Result<&mut Entry, FloorError> {
+fn entry(entries: &mut [FloorEntry], number: u16) -> Result<&mut FloorEntry, FloorError> {
     let found = entries.iter_mut().find(|entry| entry.number == number);
     found.ok_or(FloorError::Absent(number))
 }
 
 /// When all places are taken, the floor that was removed first is given up.
-fn make_room(entries: &mut Vec<Entry>) -> Result<Option<u16>, FloorError> {
+fn make_room(entries: &mut Vec<FloorEntry>) -> Result<Option<u16>, FloorError> {
     if entries.len() < FLOORS_MAX {
         return Ok(None);
     }
@@ -271,7 +271,7 @@ fn make_room(entries: &mut Vec<Entry>) -> Result<Option<u16>, FloorError> {
     Ok(Some(oldest))
 }
 
-fn free_number(entries: &[Entry]) -> Option<u16> {
+fn free_number(entries: &[FloorEntry]) -> Option<u16> {
     (1..=u16::MAX).find(|number| entries.iter().all(|entry| entry.number != *number))
 }
 

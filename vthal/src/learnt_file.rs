@@ -27,7 +27,7 @@ mod tests {
     use super::{load, save};
     use brain::{EnergyModel, GyroLearnt, Learnt};
     use std::fs;
-    use vthal_core::learnt::{Kept, Learnings, StoredLearnings};
+    use vthal_core::learnt::{Learnings, RobotRecord, StoredLearnings};
 
     /// Figures that no short decimal number is.
     fn learnings() -> Learnings {
@@ -44,7 +44,7 @@ mod tests {
                 ..EnergyModel::default()
             },
         };
-        learnings.take(Kept {
+        learnings.take(RobotRecord {
             device: "sr8730".to_owned(),
             learnt,
             learnt_s: Some(1_800_000_000),

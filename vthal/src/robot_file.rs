@@ -30,7 +30,7 @@ pub enum RobotFileError {
 }
 
 #[derive(Deserialize)]
-struct File {
+struct RobotFile {
     body: Body,
     bumper: Option<Bumper>,
     cliffs: Option<Cliffs>,
@@ -85,14 +85,14 @@ pub(crate) fn load(path: &Path) -> Result<SensorLayout, RobotFileError> {
         path: path.to_owned(),
         error,
     })?;
-    let file: File = toml::from_str(&text).map_err(|error| RobotFileError::Invalid {
+    let file: RobotFile = toml::from_str(&text).map_err(|error| RobotFileError::Invalid {
         path: path.to_owned(),
         error: Box::new(error),
     })?;
     Ok(layout(&file))
 }
 
-fn layout(file: &File) -> SensorLayout {
+fn layout(file: &RobotFile) -> SensorLayout {
     let nothing = SensorLayout::default();
     SensorLayout {
         proximity: file

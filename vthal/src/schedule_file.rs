@@ -51,7 +51,7 @@ mod tests {
     use std::path::PathBuf;
 
     use rvac_api::{InQuiet, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
-    use vthal_core::schedule::{Book, Edit, Plan, StoredBook, Zone};
+    use vthal_core::schedule::{Book, Plan, ScheduleEdit, StoredBook, Zone};
 
     use super::{load, save};
 
@@ -91,7 +91,7 @@ mod tests {
                 in_quiet: InQuiet::Wait,
                 floor: None,
             });
-            let edit = Edit::Add(plan.expect("a plan"));
+            let edit = ScheduleEdit::Add(plan.expect("a plan"));
             book.edit(edit, (&Zone::utc(), 1_800_000_000)).expect("adds");
         }
         book

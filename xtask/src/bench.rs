@@ -44,7 +44,7 @@ enum Subject {
 
 /// Arguments of `cargo xtask bench`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {
+pub(crate) struct BenchArguments {
     /// What to measure.
     subject: Subject,
     /// Print one JSON object.
@@ -59,7 +59,7 @@ pub(crate) struct Arguments {
 }
 
 /// Runs the measurement.
-pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     if matches!(
         arguments.subject,
         Subject::Relay | Subject::Kill | Subject::Writes

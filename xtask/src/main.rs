@@ -30,17 +30,17 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Builds everything, starts a simulated robot with the whole software, and prints the address of its panel.
-    Demo(demo::Arguments),
+    Demo(demo::DemoArguments),
     /// Runs the checks and tests of the project; with --all every one of them.
-    Test(test::Arguments),
+    Test(test::TestArguments),
     /// Builds the firmware of a robot and tells what it takes.
-    Firmware(firmware::Arguments),
+    Firmware(firmware::FirmwareArguments),
     /// Measures one part of the project and prints its figures: the link, the daemon, the simulator, the firmware, how the robot cleans.
-    Bench(bench::Arguments),
+    Bench(bench::BenchArguments),
     /// Checks the rules of the repository.
-    Tidy(tidy::Arguments),
+    Tidy(tidy::TidyArguments),
     /// Writes the generated files, or with --check says which are stale.
-    Codegen(codegen::Arguments),
+    Codegen(codegen::CodegenArguments),
     /// Builds the panel for the browser and packs it.
     Panel,
     /// Makes the pictures of the book's measurements with today's code.

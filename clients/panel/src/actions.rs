@@ -1,7 +1,7 @@
 //! The buttons that start and end jobs.
 
 use leptos::prelude::*;
-use panel_logic::{Offer, PauseKind};
+use panel_logic::{Offer, PauseKind, strategy_title};
 use rvac_api::RequestBody;
 
 use crate::icons::{Icon, icon};
@@ -67,11 +67,11 @@ pub(crate) fn Actions(store: Store) -> impl IntoView {
             {action(store, face("clear", "primary", words().action.clear, Icon::Warning), move || store.offers().clear, clear)}
             <Show when=move || store.strategies.with(|strategies| strategies.len() > 1)>
                 <label class="field">
-                    {words().action.way_of_cleaning}
+                    {words().action.cleaning_pattern}
                     <select id="strategy" on:change=move |event| strategy.set(event_target_value(&event))>
                         <option value="">{words().action.robot_chooses}</option>
                         <For each=move || store.strategies.get() key=String::clone let:name>
-                            <option value=name.clone()>{name.clone()}</option>
+                            <option value=name.clone()>{strategy_title(words(), &name).to_owned()}</option>
                         </For>
                     </select>
                 </label>

@@ -109,7 +109,7 @@ fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
                             type="button"
                             class="small"
                             id=format!("take-up-{}", map.number)
-                            aria-label=told.take_up_map.fill([&map.number])
+                            aria-label=told.restore_map.fill([&map.number])
                             on:click=move |_| store.take_up(map.number)
                         >
                             {told.take_up}

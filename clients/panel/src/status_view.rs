@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use panel_logic::{
     Explanation, area_text, clock_text, decision_text, distance_text, explain, failure_text, percent_text,
-    place_text, room_here_text, state_title,
+    place_text, room_here_text, state_title, strategy_title,
 };
 use rvac_api::Status;
 
@@ -47,13 +47,13 @@ fn reason_text(status: &Status) -> String {
         "" | "command" | "start-up" | "link-restored" | "released" | "docked"
     );
     match (plain, status.state.as_str()) {
-        (true, "idle" | "docked") => words().status.press_start.to_owned(),
+        (true, "idle" | "docked") => words().status.ready_to_clean.to_owned(),
         (true, "starting") => words().status.beeps.to_owned(),
         (true, "paused") => words().status.waits_for_resume.to_owned(),
         (true, "manual") => status
             .driver
             .as_ref()
-            .map_or_else(String::new, |driver| words().status.in_seat.fill([driver])),
+            .map_or_else(String::new, |driver| words().status.in_control.fill([driver])),
         (true, "cleaning") => cleaning_text(status),
         (true, _) => String::new(),
         (false, _) => code_text(&status.reason),
@@ -65,7 +65,7 @@ fn cleaning_text(status: &Status) -> String {
     let strategy = status
         .strategy
         .as_ref()
-        .map(|name| words().status.strategy.fill([name]));
+        .map(|name| words().status.strategy.fill([&strategy_title(words(), name)]));
     let room = status
         .room
         .as_ref()
@@ -166,10 +166,10 @@ fn Figures(store: Store) -> impl IntoView {
         <dl class="figures">
             <div><dt>{words().status.swept}</dt><dd id="swept">{move || swept.get()}</dd></div>
             <div><dt>{words().status.time}</dt><dd>{move || time.get()}</dd></div>
-            <div><dt>{words().status.way}</dt><dd>{move || path.get()}</dd></div>
+            <div><dt>{words().status.distance}</dt><dd>{move || path.get()}</dd></div>
             <div><dt>{words().status.bumps}</dt><dd>{move || bumps.get()}</dd></div>
             <Show when=move || covered.get().is_some()>
-                <div><dt>{words().status.truly_covered}</dt><dd title=words().status.truly_covered_long>{move || covered.get()}</dd></div>
+                <div><dt>{words().status.actual_coverage}</dt><dd title=words().status.actual_coverage_long>{move || covered.get()}</dd></div>
             </Show>
             <Show when=move || place.get().is_some()>
                 <div class:alarming=is_lost>

@@ -1,7 +1,7 @@
 //! Versioned plain types of the socket and WebSocket interface. They compile to wasm and do no I/O.
 //!
 //! On the Unix socket each message is one JSON object followed by the separator 0x1F, as on the wire to the robot (without
-//! the seal: the kernel does not corrupt). On the WebSocket each message is one text frame. Unknown keys are ignored;
+//! the CRC: the kernel does not corrupt). On the WebSocket each message is one text frame. Unknown keys are ignored;
 //! unknown messages are answered with the error `unknown`.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -428,7 +428,7 @@ pub enum RequestBody {
         /// First byte of the piece.
         from: u64,
     },
-    /// Sends a raw packet of the wire, unsealed text, to the robot. Only where the configuration allows it.
+    /// Sends a raw packet of the wire, text without a CRC, to the robot. Only where the configuration allows it.
     Raw {
         /// The JSON object as text.
         packet: String,

@@ -1184,7 +1184,7 @@ fn a_run_in_full() {
         lasted_s: None,
         state: "paused".to_owned(),
         reason: "command".to_owned(),
-        text: "Paused: somebody asked for it.".to_owned(),
+        text: "Paused: it was requested.".to_owned(),
         remedy: String::new(),
         by: Some("panel".to_owned()),
         asker: Some(RunAsker::Client("panel".to_owned())),
@@ -1210,7 +1210,7 @@ fn a_run_in_full() {
     check(
         &Update::Run(Box::new(record)),
         &format!(
-            r#"{{"e":"run","run":{{{RUN}}},"stops":[{{"at_s":61.0,"state":"paused","reason":"command","text":"Paused: somebody asked for it.","by":"panel","asker":{{"client":"panel"}},"place":{{"x":1.0,"y":-2.5,"heading":0.5,"t":64.0}}}}],"picture":{{"cell_m":0.025,"swept_rows":[0,-1,6],"path_mm":[0,0,100,0],"bumps":[]}}}}"#
+            r#"{{"e":"run","run":{{{RUN}}},"stops":[{{"at_s":61.0,"state":"paused","reason":"command","text":"Paused: it was requested.","by":"panel","asker":{{"client":"panel"}},"place":{{"x":1.0,"y":-2.5,"heading":0.5,"t":64.0}}}}],"picture":{{"cell_m":0.025,"swept_rows":[0,-1,6],"path_mm":[0,0,100,0],"bumps":[]}}}}"#
         ),
     );
     check(

@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Subcommand {
     /// Type packets to the robot; see both directions.
     Term(TermOptions),
-    /// Seal, check or decode a packet.
+    /// Add the CRC to a packet, check it, or decode the packet.
     Packet(PacketJob),
     /// What the robot is doing.
     Status(StatusOptions),
@@ -142,7 +142,7 @@ pub(crate) struct TermOptions {
     /// The same on a robot that this computer is paired with as its administrator; somebody must be beside it to press a button.
     #[arg(long, value_name = "https://NAME[:PORT]", conflicts_with = "socket")]
     pub(crate) robot: Option<Address>,
-    /// Send what is typed as it is, without seal, as from a bare serial terminal.
+    /// Send what is typed as it is, without a CRC, as from a bare serial terminal.
     #[arg(long, conflicts_with_all = ["socket", "robot"])]
     pub(crate) hand: bool,
     /// Leave packets of this word out of the view, for example `state`; may be given several times.
@@ -161,9 +161,10 @@ pub(crate) struct PacketJob {
 
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum PacketVerb {
-    /// Print the packets with their seals.
-    Seal(PacketOptions),
-    /// Say whether the seals are right; exit code 1 if one is not.
+    /// Print the packets with their CRC.
+    #[command(alias = "seal")]
+    Crc(PacketOptions),
+    /// Say whether the CRC is right; exit code 1 if one is not.
     Check(PacketOptions),
     /// Say what the packets mean, or why they would be refused; exit code 1 if one is bad.
     Decode(PacketOptions),
@@ -173,7 +174,7 @@ pub(crate) enum PacketVerb {
 pub(crate) struct PacketOptions {
     /// The packet; without it each line of the input is one (0x1F and 0x1E end a packet too).
     pub(crate) packet: Option<String>,
-    /// Session number of the seal; 0 = before any handshake.
+    /// Session number of the CRC; 0 = before any handshake.
     #[arg(long, default_value_t = 0)]
     pub(crate) session: u16,
     /// Who speaks.

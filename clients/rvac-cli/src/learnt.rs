@@ -32,7 +32,7 @@ pub(crate) fn run(job: &LearntJob) -> anyhow::Result<ExitCode> {
 
 fn in_words(devices: &[LearntView]) -> String {
     if devices.is_empty() {
-        return "nothing was learnt yet: a robot learns while it cleans\n".to_owned();
+        return "no calibration yet: a robot calibrates itself while it cleans\n".to_owned();
     }
     let mut text = String::new();
     for LearntView {
@@ -45,7 +45,7 @@ fn in_words(devices: &[LearntView]) -> String {
     {
         let here = if *here { ", attached" } else { "" };
         // A string takes whatever it is given.
-        let when = learnt_s.map(|learnt_s| format!(", learnt last {}", when(Some(learnt_s))));
+        let when = learnt_s.map(|learnt_s| format!(", last calibrated {}", when(Some(learnt_s))));
         writeln!(text, "{device}{here}{}", when.unwrap_or_default()).ok();
         if let Some(gyro) = gyro {
             writeln!(
@@ -105,6 +105,6 @@ mod tests {
             "relax\n  energy  an hour of cleaning takes 90 % of the charge, one of driving 30 % (from 10 min)\n\
              sr8730, attached\n  gyro    counts -1.20 % too little (sure to 0.10 %), bias +0.34 deg/min\n"
         );
-        assert!(in_words(&[]).starts_with("nothing was learnt yet"));
+        assert!(in_words(&[]).starts_with("no calibration yet"));
     }
 }

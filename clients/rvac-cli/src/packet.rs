@@ -10,26 +10,26 @@ use rvac_protocol::frame::{PACKET_BYTES_MAX, SEPARATOR, SEPARATOR_2016};
 use crate::arguments::{DirectionName, PacketJob, PacketOptions, PacketVerb};
 use crate::show::{Shown, Verdict, Viewer};
 
-/// Bytes of a text seal: `*` and eight digits.
-const SEAL_BYTES: usize = 9;
+/// Bytes of a CRC in text: `*` and eight digits.
+const CRC_BYTES: usize = 9;
 
 pub(crate) fn run(job: &PacketJob) -> anyhow::Result<ExitCode> {
     match &job.verb {
-        PacketVerb::Seal(options) => seal_all(options),
+        PacketVerb::Crc(options) => append_crc(options),
         PacketVerb::Check(options) => look_at_all(options, |shown| {
-            let good = matches!(shown.verdict, Verdict::Sealed | Verdict::SealedBeforeSession);
+            let good = matches!(shown.verdict, Verdict::Checked | Verdict::CheckedBeforeSession);
             (good, shown.verdict.in_words())
         }),
         PacketVerb::Decode(options) => look_at_all(options, |shown| (shown.is_good(), explain(shown))),
     }
 }
 
-fn seal_all(options: &PacketOptions) -> anyhow::Result<ExitCode> {
+fn append_crc(options: &PacketOptions) -> anyhow::Result<ExitCode> {
     for packet in packets(options)? {
-        if packet.len() + SEAL_BYTES > PACKET_BYTES_MAX {
+        if packet.len() + CRC_BYTES > PACKET_BYTES_MAX {
             bail!(
-                "a packet has at most {PACKET_BYTES_MAX} bytes with its seal, this one has {}",
-                packet.len() + SEAL_BYTES
+                "a packet has at most {PACKET_BYTES_MAX} bytes with its CRC, this one has {}",
+                packet.len() + CRC_BYTES
             );
         }
         let digits = to_hex(packet_crc(direction(options), options.session, &packet));
@@ -62,7 +62,7 @@ fn look_at_all(
 }
 
 fn explain(shown: &Shown) -> String {
-    let mut lines = vec![format!("seal:    {}", shown.verdict.in_words())];
+    let mut lines = vec![format!("CRC:     {}", shown.verdict.in_words())];
     if !shown.text.is_empty() {
         let name = if shown.binary { "twin:   " } else { "text:   " };
         lines.push(format!("{name} {}", shown.text));

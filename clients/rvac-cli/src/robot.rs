@@ -32,7 +32,7 @@ const STATE: Duration = Duration::from_millis(100);
 /// A robot that was put down is believed to stand after a second (S10).
 const STANDS: Duration = Duration::from_millis(2_500);
 
-enum Event {
+enum RobotEvent {
     Typed(String),
     InputEnded,
     Received(Vec<u8>),
@@ -41,7 +41,7 @@ enum Event {
 
 /// What has come in while somebody waited.
 #[derive(Default)]
-struct Heard {
+struct Reports {
     /// Number of lights, once the robot has described itself.
     lights: Option<u8>,
     probed: Vec<Probed>,
@@ -96,11 +96,11 @@ enum Kind {
 /// A session with a robot.
 pub(crate) struct Robot {
     serial: Arc<SerialPort>,
-    inbox: Receiver<Event>,
+    inbox: Receiver<RobotEvent>,
     start: Instant,
     session: HostSession,
     device: String,
-    heard: Heard,
+    heard: Reports,
 }
 
 impl Robot {
@@ -110,15 +110,20 @@ impl Robot {
             .with_context(|| format!("cannot open {} at {baud} baud", port.display()))?;
         let serial = Arc::new(serial);
         let (events, inbox) = channel();
-        listen(Arc::clone(&serial), events.clone(), Event::Received, Event::Lost);
-        lines::read_input(events, Event::Typed, || Event::InputEnded);
+        listen(
+            Arc::clone(&serial),
+            events.clone(),
+            RobotEvent::Received,
+            RobotEvent::Lost,
+        );
+        lines::read_input(events, RobotEvent::Typed, || RobotEvent::InputEnded);
         let mut robot = Self {
             serial,
             inbox,
             start: Instant::now(),
             session: HostSession::new(BinaryKinds::default(), Tick(0)),
             device: String::new(),
-            heard: Heard::default(),
+            heard: Reports::default(),
         };
         if robot.wait(PATIENCE, |heard| heard.lights.is_some())? {
             return Ok(robot);
@@ -322,7 +327,7 @@ impl Robot {
     }
 
     /// Lets the session live for `span`, or until `until` is content; says whether it was.
-    fn wait(&mut self, span: Duration, until: impl Fn(&Heard) -> bool) -> anyhow::Result<bool> {
+    fn wait(&mut self, span: Duration, until: impl Fn(&Reports) -> bool) -> anyhow::Result<bool> {
         let end = Instant::now() + span;
         loop {
             self.keep_session()?;
@@ -334,10 +339,10 @@ impl Robot {
                 return Ok(false);
             }
             match self.inbox.recv_timeout(LOOK.min(left)) {
-                Ok(Event::Typed(line)) => self.heard.typed.push_back(line),
-                Ok(Event::InputEnded) => self.heard.input_ended = true,
-                Ok(Event::Received(bytes)) => self.take_bytes(&bytes),
-                Ok(Event::Lost(error)) => return Err(error).context("the serial line is gone"),
+                Ok(RobotEvent::Typed(line)) => self.heard.typed.push_back(line),
+                Ok(RobotEvent::InputEnded) => self.heard.input_ended = true,
+                Ok(RobotEvent::Received(bytes)) => self.take_bytes(&bytes),
+                Ok(RobotEvent::Lost(error)) => return Err(error).context("the serial line is gone"),
                 Err(RecvTimeoutError::Disconnected) => bail!("both input and serial line have ended"),
                 Err(RecvTimeoutError::Timeout) => {}
             }

@@ -1,4 +1,4 @@
-//! Packets for human eyes: the seal's verdict, the meaning, the text twin of a binary packet.
+//! Packets for human eyes: the verdict on the CRC, the meaning, the text twin of a binary packet.
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::binary;
@@ -11,14 +11,14 @@ use rvac_units::Tick;
 /// How a packet was protected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
-    /// The right seal of the session.
-    Sealed,
-    /// The right seal of no session: handshakes.
-    SealedBeforeSession,
-    /// No seal.
-    Unsealed,
-    /// A wrong seal.
-    WrongSeal {
+    /// The right CRC of the session.
+    Checked,
+    /// The right CRC of no session: handshakes.
+    CheckedBeforeSession,
+    /// No CRC.
+    NoCrc,
+    /// A wrong CRC.
+    BadCrc {
         /// The one it came with, if it can be told.
         found: Option<u32>,
         /// The one it should have, if it can be told.
@@ -41,7 +41,7 @@ pub(crate) struct Shown {
 
 impl Shown {
     pub(crate) fn is_good(&self) -> bool {
-        let whole = !matches!(self.verdict, Verdict::WrongSeal { .. } | Verdict::Broken(_));
+        let whole = !matches!(self.verdict, Verdict::BadCrc { .. } | Verdict::Broken(_));
         whole && self.meaning.is_ok()
     }
 
@@ -68,7 +68,7 @@ impl Shown {
             line += " (binary)";
         }
         match self.verdict {
-            Verdict::Sealed | Verdict::SealedBeforeSession => {}
+            Verdict::Checked | Verdict::CheckedBeforeSession => {}
             _ => line += &format!(" [{}]", self.verdict.in_words()),
         }
         if let Err(refusal) = self.meaning
@@ -82,18 +82,18 @@ impl Shown {
 
 impl Verdict {
     pub(crate) fn in_words(self) -> String {
-        let hex = |seal: u32| String::from_utf8_lossy(&to_hex(seal)).into_owned();
+        let hex = |crc: u32| String::from_utf8_lossy(&to_hex(crc)).into_owned();
         match self {
-            Self::Sealed => "sealed".to_owned(),
-            Self::SealedBeforeSession => "sealed without a session".to_owned(),
-            Self::Unsealed => "unsealed".to_owned(),
-            Self::WrongSeal {
+            Self::Checked => "CRC right".to_owned(),
+            Self::CheckedBeforeSession => "CRC right, without a session".to_owned(),
+            Self::NoCrc => "no CRC".to_owned(),
+            Self::BadCrc {
                 found: Some(found),
                 expected: Some(expected),
             } => {
-                format!("wrong seal: {} instead of {}", hex(found), hex(expected))
+                format!("wrong CRC: {} instead of {}", hex(found), hex(expected))
             }
-            Self::WrongSeal { .. } => "wrong seal".to_owned(),
+            Self::BadCrc { .. } => "wrong CRC".to_owned(),
             Self::Broken(Poison::TooLong) => "broken: too long".to_owned(),
             Self::Broken(Poison::ControlByte) => "broken: forbidden control byte".to_owned(),
             Self::Broken(Poison::FramingError) => "broken: framing error".to_owned(),
@@ -146,13 +146,13 @@ impl Viewer {
 
 fn look(framed: Framed<'_>, direction: Direction, session: u16) -> Shown {
     match framed {
-        Framed::Checked(text) => text_packet(text, Verdict::Sealed, direction),
-        Framed::Unchecked(text) => text_packet(text, Verdict::Unsealed, direction),
+        Framed::Checked(text) => text_packet(text, Verdict::Checked, direction),
+        Framed::Unchecked(text) => text_packet(text, Verdict::NoCrc, direction),
         Framed::BadCrc { text, crc: found } => {
             let verdict = if found == packet_crc(direction, 0, text) {
-                Verdict::SealedBeforeSession
+                Verdict::CheckedBeforeSession
             } else {
-                Verdict::WrongSeal {
+                Verdict::BadCrc {
                     found: Some(found),
                     expected: Some(packet_crc(direction, session, text)),
                 }
@@ -161,7 +161,7 @@ fn look(framed: Framed<'_>, direction: Direction, session: u16) -> Shown {
         }
         Framed::Binary { kind, body } => binary_packet(kind, body),
         Framed::BinaryBadCrc => {
-            let verdict = Verdict::WrongSeal {
+            let verdict = Verdict::BadCrc {
                 found: None,
                 expected: None,
             };
@@ -207,7 +207,7 @@ fn command_meaning(text: &[u8], verdict: Verdict) -> Result<String, Refusal> {
     if rvac_protocol::text::is_stop(text) {
         return Ok(format!("{:?}", Command::Stop));
     }
-    let form = if verdict == Verdict::Unsealed {
+    let form = if verdict == Verdict::NoCrc {
         Form::Hand { now: Tick(0) }
     } else {
         Form::Checked
@@ -234,7 +234,7 @@ fn binary_packet(kind: u8, body: &[u8]) -> Shown {
     };
     let text = String::from_utf8_lossy(buffer.as_bytes()).into_owned();
     Shown {
-        verdict: Verdict::Sealed,
+        verdict: Verdict::Checked,
         text,
         binary: true,
         meaning,

@@ -99,10 +99,10 @@ fn in_words(message: &Message) -> Option<String> {
 fn status_in_words(status: &Status) -> String {
     let mut line = format!("status    {} ({})", status.state, status.reason);
     if let Some(strategy) = &status.strategy {
-        line += &format!(", strategy {strategy}");
+        line += &format!(", pattern {strategy}");
     }
     line += &format!(
-        ", {:.1} min, {:.1} m2 swept, {:.1} m driven, {} bumps",
+        ", {:.1} min, {:.1} m2 cleaned, {:.1} m driven, {} bumps",
         status.job_s / 60.0,
         status.swept_m2,
         status.path_m,

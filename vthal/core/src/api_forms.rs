@@ -1,6 +1,6 @@
 //! What people order and draw, between the brain's types and those of the interface to clients, which recordings keep, too.
 //!
-//! Each way back gives `None` for what the brain would refuse.
+//! Each conversion back gives `None` for what the brain would refuse.
 
 use brain::{CleaningOrder, HomePart, NoGo, Pattern, PlaceShape, Zone};
 use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape};
@@ -69,7 +69,7 @@ pub fn to_place(shape: &rvac_api::PlaceShape) -> Option<PlaceShape> {
     to_shape(shape).ok()
 }
 
-/// In which way floor is swept.
+/// The pattern in which floor is swept.
 #[must_use]
 pub const fn pattern(pattern: Pattern) -> CleaningPattern {
     match pattern {

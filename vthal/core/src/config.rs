@@ -25,14 +25,14 @@ pub struct CoreConfig {
     pub recording: Recording,
     /// Whether checkpoints are wanted.
     pub checkpoints: Checkpoints,
-    /// Where the robot's sensors sit; the wire tells only how many there are.
+    /// Where the robot's sensors sit; the wire carries only their number.
     pub sensors: SensorLayout,
     /// Longest job in seconds, after which the robot docks (S26).
     pub task_budget_s: u32,
     /// Version of the daemon, for clients and recordings.
     pub version: String,
-    /// The floors of the home as they were kept. One is taken up when the robot is seen on its dock, or when it has found out
-    /// on its way on which it is.
+    /// The floors of the home as they were kept. One is loaded when the robot is on its dock, or when it has found out
+    /// while driving on which floor it is.
     pub floors: Vec<KeptFloor>,
     /// Where an interrupted run goes on.
     pub resume: Option<Checkpoint>,

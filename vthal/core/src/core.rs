@@ -10,6 +10,7 @@ mod thinking;
 
 use rvac_api::{LogLevel, Topic};
 
+use crate::brain_session::{BrainSession, Recorder};
 use crate::desk::audience::Audience;
 use crate::desk::button_desk::ButtonDesk;
 use crate::desk::checkpoints::{CheckpointClock, checkpoint_without_job};
@@ -20,15 +21,14 @@ use crate::desk::health::HealthDesk;
 use crate::desk::history::HistoryDesk;
 use crate::desk::home::HomeDesk;
 use crate::desk::input_desk::InputDesk;
-use crate::desk::journal::Part;
+use crate::desk::journal::LogSource;
 use crate::desk::learnt::LearntDesk;
 use crate::desk::link::LinkDesk;
 use crate::desk::schedules::ScheduleDesk;
 use crate::desk::sources::Sources;
 use crate::desk::standstills::StandstillDesk;
 use crate::device::DeviceCommand;
-use crate::learnt::Kept;
-use crate::mind::{Mind, Recorder};
+use crate::learnt::RobotRecord;
 use crate::{Checkpoints, ClientId, CoreConfig, FloorHome, Input, LinkLoss, Outputs, RunEnd};
 
 /// The brain is called at least this often while there is one.
@@ -46,7 +46,7 @@ struct Pace {
     commands_wait: bool,
 }
 
-/// All state of the daemon that is not a file, a socket or a clock: the desks, and the brain whose facts they are told.
+/// All state of the daemon that is not a file, a socket or a clock: the desks, and the brain session whose facts they use.
 #[derive(Debug)]
 pub struct Core {
     config: CoreConfig,
@@ -54,7 +54,7 @@ pub struct Core {
     ended: bool,
     audience: Audience,
     link: LinkDesk,
-    mind: Option<Mind>,
+    brain_session: Option<BrainSession>,
     pace: Pace,
     driver: DriverDesk,
     buttons: ButtonDesk,
@@ -83,7 +83,7 @@ impl Core {
             ended: false,
             audience,
             link: LinkDesk::default(),
-            mind: None,
+            brain_session: None,
             pace: Pace::default(),
             driver: DriverDesk::default(),
             buttons: ButtonDesk::default(),
@@ -125,13 +125,13 @@ impl Core {
             Input::LinkBytes(bytes) => self.link_bytes(now_us, bytes, outputs),
             Input::LinkClosed { reason } => self.link_closed(now_us, &reason, outputs),
             Input::BoardHeading { heading_urad } => {
-                if let Some(mind) = &mut self.mind {
-                    mind.observer.take_board_heading(now_us, heading_urad);
+                if let Some(brain_session) = &mut self.brain_session {
+                    brain_session.observer.take_board_heading(now_us, heading_urad);
                 }
             }
             Input::Beacon(signal) => {
-                if let Some(mind) = &mut self.mind {
-                    mind.observer.take_beacon(signal);
+                if let Some(brain_session) = &mut self.brain_session {
+                    brain_session.observer.take_beacon(signal);
                 }
             }
             Input::ClientConnected(client) => self.audience.clients.connect(client),
@@ -151,13 +151,13 @@ impl Core {
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
                 let restored = RestoredMap { number, kept };
                 self.floors
-                    .map_restored(&restored, self.mind.as_mut(), &mut teller);
+                    .map_restored(&restored, self.brain_session.as_mut(), &mut teller);
             }
             Input::FloorsKept { task, floors, made } => {
                 let task = &task;
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
                 let kept = KeptFloors { task, floors, made };
-                self.floors.kept(kept, self.mind.as_mut(), &mut teller);
+                self.floors.kept(kept, self.brain_session.as_mut(), &mut teller);
             }
             Input::FloorsTakenIn { floors, taken } => {
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
@@ -186,9 +186,15 @@ impl Core {
     /// When the core wants [`Input::Wake`], in microseconds; `None` when only other inputs matter.
     #[must_use]
     pub fn next_wake_us(&self) -> Option<u64> {
-        let step = self.mind.as_ref().map(|_| self.pace.stepped_us + STEP_MAX_US);
+        let step = self
+            .brain_session
+            .as_ref()
+            .map(|_| self.pace.stepped_us + STEP_MAX_US);
         let feed = self.feed.next_wake_us(&self.audience.clients);
-        let is_preparing = self.mind.as_ref().is_some_and(Mind::is_preparing);
+        let is_preparing = self
+            .brain_session
+            .as_ref()
+            .is_some_and(BrainSession::is_preparing);
         let prepare = is_preparing.then_some(self.pace.prepared_us + PREPARE_US);
         let leases = [self.driver.arbiter.lease_end_us(), self.inputs.lease_end_us()];
         [self.link.next_wake_us(), step, prepare, feed]
@@ -222,21 +228,21 @@ impl Core {
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.link.release(&mut teller);
-        teller.log(LogLevel::Info, Part::Vthal, "ends: wheels stop".to_owned());
-        if let Some(mind) = &mut self.mind {
-            let over = self.history.shut_down(now_us, mind.brain());
-            self.history.keep(over, mind.floor(), outputs);
+        teller.log(LogLevel::Info, LogSource::Vthal, "ends: wheels stop".to_owned());
+        if let Some(brain_session) = &mut self.brain_session {
+            let over = self.history.shut_down(now_us, brain_session.brain());
+            self.history.keep(over, brain_session.floor(), outputs);
             if self.config.checkpoints == Checkpoints::On {
-                outputs.checkpoint = Some(checkpoint_without_job(mind));
+                outputs.checkpoint = Some(checkpoint_without_job(brain_session));
             }
-            outputs.home = mind.home_to_keep();
+            outputs.home = brain_session.home_to_keep();
             let mut recorder = Recorder::new(self.config.recording, outputs);
-            mind.end_run(now_us, RunEnd::Shutdown, &mut recorder);
+            brain_session.end_run(now_us, RunEnd::Shutdown, &mut recorder);
         }
         self.keep_learnt(outputs);
     }
 
-    /// Before anything else: the brain, which sees the same end, must not let the wheels roll out in its own way first.
+    /// Before anything else: the brain, which sees the same end, must not let the wheels roll out first.
     fn end_leases(&mut self, now_us: u64, outputs: &mut Outputs) {
         if let Some(client) = self.driver.arbiter.expire(now_us) {
             self.lease_ended(now_us, client, outputs);
@@ -249,14 +255,14 @@ impl Core {
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         let events = self.link.pass_time(&mut teller);
         self.take_events(now_us, events, outputs);
-        if let Some(mind) = &mut self.mind
-            && mind.is_preparing()
+        if let Some(brain_session) = &mut self.brain_session
+            && brain_session.is_preparing()
             && now_us >= self.pace.prepared_us + PREPARE_US
         {
             self.pace.prepared_us = now_us;
-            mind.prepare(now_us, &mut Recorder::new(self.config.recording, outputs));
+            brain_session.prepare(now_us, &mut Recorder::new(self.config.recording, outputs));
         }
-        if self.mind.is_some() && now_us >= self.pace.stepped_us + STEP_MAX_US {
+        if self.brain_session.is_some() && now_us >= self.pace.stepped_us + STEP_MAX_US {
             self.think(now_us, outputs);
         }
     }
@@ -266,7 +272,7 @@ impl Core {
         let now = self.now(now_us);
         let driver = self.driver.arbiter.driver();
         let sources = Sources {
-            mind: self.mind.as_ref(),
+            brain_session: self.brain_session.as_ref(),
             link: &self.link,
             floors: &self.floors,
             driver: driver.map(|client| self.audience.clients.name(client)),
@@ -275,12 +281,12 @@ impl Core {
         let mut teller = self.audience.teller(now, outputs);
         self.feed.feed(&sources, &mut teller);
         self.inputs.feed(&mut teller);
-        if let Some(mind) = &self.mind
+        if let Some(brain_session) = &self.brain_session
             && self.config.checkpoints == Checkpoints::On
             && !self.ended
         {
             let run = || self.history.so_far(now_us);
-            if let Some(checkpoint) = self.checkpoints.follow(now_us, mind, run) {
+            if let Some(checkpoint) = self.checkpoints.follow(now_us, brain_session, run) {
                 outputs.checkpoint = Some(checkpoint);
             }
         }
@@ -293,10 +299,14 @@ impl Core {
 
     /// Hands out what the robot has learnt, if it is news.
     fn keep_learnt(&mut self, outputs: &mut Outputs) {
-        if let Some(mind) = self.mind.as_ref().filter(|mind| !mind.brain().estimate().lost) {
-            let kept = Kept {
-                device: mind.device().to_owned(),
-                learnt: mind.brain().learnt(),
+        if let Some(brain_session) = self
+            .brain_session
+            .as_ref()
+            .filter(|brain_session| !brain_session.brain().estimate().lost)
+        {
+            let kept = RobotRecord {
+                device: brain_session.device().to_owned(),
+                learnt: brain_session.brain().learnt(),
                 learnt_s: self.schedules.clock_s(),
             };
             self.learnt.keep(kept, outputs);

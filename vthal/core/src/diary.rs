@@ -57,14 +57,14 @@ fn deed(what: &str, value: f64) -> String {
     };
     match what {
         "back-off" => "Backed off and turned away".to_owned(),
-        "plan" => format!("Planned a way of {:.0} min", (value / 60.0).max(1.0)),
+        "plan" => format!("Route planned, {:.0} min", (value / 60.0).max(1.0)),
         "clean-by-statistics" => {
-            "Began to clean without a map, and reckons by statistics how much is swept".to_owned()
+            "Cleaning started without a map; statistics estimate how much is clean".to_owned()
         }
-        "leave-way" => "Left the planned way".to_owned(),
+        "leave-way" => "Left the planned route".to_owned(),
         "wait" => "Waited".to_owned(),
         "turn-to-part" => "Turned to the next part of the job".to_owned(),
-        "keep-no-map" => "Keeps no map of this run".to_owned(),
+        "keep-no-map" => "Saves no map of this run".to_owned(),
         "edit-refused" => "Refused a change of the map".to_owned(),
         "lap" => "Began a lap along the walls".to_owned(),
         "end-lap" => "Ended its lap along the walls".to_owned(),
@@ -73,26 +73,26 @@ fn deed(what: &str, value: f64) -> String {
         "arc" => "Drove an arc round the corner".to_owned(),
         "follow-wall" => "Began to follow a wall".to_owned(),
         "leave-wall" => "Left the wall".to_owned(),
-        "withdraw" => "Took back the last part of its map".to_owned(),
+        "withdraw" => "Undid the last part of the map".to_owned(),
         "spiral" => "Began a spiral".to_owned(),
         "covered" => format!(
-            "Had swept {:.0} % of the floor it can reach",
+            "Cleaned {:.0} % of the reachable floor",
             100.0 * value.clamp(0.0, 1.0)
         ),
         "bounce" => "Bounced to get out of this place".to_owned(),
-        "squeeze" => "Tried a way through a narrow gap".to_owned(),
+        "squeeze" => "Tried to pass a narrow gap".to_owned(),
         "approach" => "Approached the dock".to_owned(),
         "wait-for-current" => "Waited for current from the dock".to_owned(),
-        "dock-travel" => "Set out for its dock".to_owned(),
-        "forget-obstructions" => "Forgot what had stood in its way".to_owned(),
-        "dock-way" => format!("Planned a way of {value:.0} m to its dock"),
-        "dock-search" => "Began to search for its dock".to_owned(),
+        "dock-travel" => "Set out for the dock".to_owned(),
+        "forget-obstructions" => "Forgot the obstacles of this job".to_owned(),
+        "dock-way" => format!("Route to the dock planned, {value:.0} m"),
+        "dock-search" => "Began to search for the dock".to_owned(),
         "dock-search-turn" => "Turned to where it had not searched yet".to_owned(),
         "dock-scan" => "Looked round for the beams of the dock".to_owned(),
         "dock-line" => "Turned towards the middle of the dock's beams".to_owned(),
         "dock-wiggle" => "Shifted on the dock to find the contacts".to_owned(),
         "dock-retry" => "Backed away from the dock to try again".to_owned(),
-        "dock-found" => "Noted where its dock is".to_owned(),
+        "dock-found" => "Stored the position of the dock".to_owned(),
         "rest" => "Stood still for a moment".to_owned(),
         "refuse" => "Refused".to_owned(),
         "depart" => "Left the dock backwards".to_owned(),
@@ -106,11 +106,11 @@ fn deed(what: &str, value: f64) -> String {
         "state-disconnected" => "Lost the connection".to_owned(),
         "state-idle" => "Stood still, without a job".to_owned(),
         "state-starting" => "Announced that it will move".to_owned(),
-        "state-cleaning" => "Began to clean".to_owned(),
-        "state-spot" => "Began to clean a spot".to_owned(),
-        "state-docking" => "Began to look for its dock".to_owned(),
+        "state-cleaning" => "Cleaning started".to_owned(),
+        "state-spot" => "Spot cleaning started".to_owned(),
+        "state-docking" => "Returning to the dock".to_owned(),
         "state-docked" => "Rested on its dock".to_owned(),
-        "state-manual" => "Let a person drive".to_owned(),
+        "state-manual" => "Manual control started".to_owned(),
         "state-paused" => "Paused".to_owned(),
         "state-stuck" => "Gave up and waits for help".to_owned(),
         "state-error" => "Stopped with a fault".to_owned(),
@@ -167,7 +167,7 @@ mod tests {
         let entry = diary.write(0, &decision("new-trick", "odd-cause", f64::NAN));
         assert_eq!((entry.text.as_str(), entry.value), ("new trick: odd cause.", 0.0));
         let entry = diary.write(0, &decision("plan", "unswept-floor", f64::INFINITY));
-        assert!(entry.text.starts_with("Planned a way of 1 min"), "{}", entry.text);
+        assert!(entry.text.starts_with("Route planned, 1 min"), "{}", entry.text);
     }
 
     #[test]

@@ -17,7 +17,7 @@ pub(crate) enum Sign {
 }
 
 impl Sign {
-    /// All of them, in the order in which they are told.
+    /// All of them, in the order in which they are reported.
     const ALL: [Self; 8] = [
         Self::BumperLeft,
         Self::BumperRight,

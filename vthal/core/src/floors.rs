@@ -62,7 +62,7 @@ impl KeptFloor {
 #[derive(Clone, Debug)]
 pub(crate) struct Floors {
     floors: Vec<KeptFloor>,
-    /// As clients are told; made anew when something changes.
+    /// As clients receive them; rebuilt when something changes.
     views: Vec<FloorView>,
 }
 

@@ -12,12 +12,12 @@ use crate::{api_forms, to_api};
 /// Numbers that the runs of cells may have together: a message of a megabyte at most. A home of 150 square metres has
 /// some 20,000.
 const NUMBERS_MAX: usize = 150_000;
-/// Kinds of floor as clients are told of them.
+/// Kinds of floor as clients receive them.
 const HARD: u8 = 1;
 const CARPET: u8 = 2;
 /// Coarsest cells, in cells of the map.
 const COARSE_MAX: usize = 16;
-/// Rooms, doors and walls that are told at most. Walls come longest first.
+/// Rooms, doors and walls that are sent at most. Walls come longest first.
 const ITEMS_MAX: usize = 1_000;
 
 /// Whether the robot can feel on which floor it is.
@@ -25,7 +25,7 @@ const ITEMS_MAX: usize = 1_000;
 pub(crate) enum FeltFloors {
     /// It measures what its motors draw.
     Measured,
-    /// It does not, and nothing is told of carpets.
+    /// It does not, and nothing is sent about carpets.
     NotMeasured,
 }
 
@@ -97,7 +97,7 @@ fn floors(map: &Map, felt: FeltFloors) -> Option<Raster<u8>> {
     Some(floors)
 }
 
-/// The cells alone, as fine as they may be told.
+/// The cells alone, as fine as they may be sent.
 fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>, floors: Option<&Raster<u8>>) -> HomeView {
     let mut coarse = 1;
     loop {

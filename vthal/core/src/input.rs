@@ -38,7 +38,7 @@ pub enum Input<'a> {
         /// What.
         request: Request,
     },
-    /// The shell cannot do what a client asks for; the core tells it, and the log.
+    /// The shell cannot do what a client asks for; the core informs the client and the log.
     Refused {
         /// Who.
         client: ClientId,
@@ -71,7 +71,7 @@ pub enum Input<'a> {
         /// Numbers of those that came with the archive.
         taken: Vec<u16>,
     },
-    /// The clock on the wall, seconds since 1970 (UTC), at least once a second. It may have been set, either way.
+    /// The clock on the wall, seconds since 1970 (UTC), at least once a second. It may have been set forward or back.
     WallClock {
         /// What it shows.
         utc_s: i64,
@@ -80,21 +80,21 @@ pub enum Input<'a> {
     SchedulesKept {
         /// Number of the order.
         number: u64,
-        /// Or a sentence that says why they are not.
+        /// Or a sentence with the reason why not.
         result: Result<(), String>,
     },
     /// The loads of [`crate::Outputs::health`] are on the disk, or are not.
     HealthKept {
         /// Number of the order.
         number: u64,
-        /// Or a sentence that says why they are not.
+        /// Or a sentence with the reason why not.
         result: Result<(), String>,
     },
     /// What robots have learnt, of [`crate::Outputs::learnt`], is on the disk, or is not.
     LearntKept {
         /// Number of the order.
         number: u64,
-        /// Or a sentence that says why it is not.
+        /// Or a sentence with the reason why not.
         result: Result<(), String>,
     },
     /// A client will ask for nothing more, but may listen; a driver's seat it held is empty and the wheels stop.

@@ -11,7 +11,7 @@ const DEVICES_MAX: usize = 8;
 
 /// What is kept of one robot.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Kept {
+pub struct RobotRecord {
     /// The robot's name.
     pub device: String,
     /// What it has learnt.
@@ -23,7 +23,7 @@ pub struct Kept {
 /// What robots have learnt, the newest last.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Learnings {
-    devices: Vec<Kept>,
+    devices: Vec<RobotRecord>,
 }
 
 impl Learnings {
@@ -35,12 +35,12 @@ impl Learnings {
     }
 
     /// The robots of which something is kept, the newest last.
-    pub fn iter(&self) -> impl Iterator<Item = &Kept> {
+    pub fn iter(&self) -> impl Iterator<Item = &RobotRecord> {
         self.devices.iter()
     }
 
     /// This robot knows nothing of these parts any more. Gives what was kept of it; `None` = nothing was.
-    pub fn forget(&mut self, device: &str, parts: &[LearntPart]) -> Option<Kept> {
+    pub fn forget(&mut self, device: &str, parts: &[LearntPart]) -> Option<RobotRecord> {
         let known = self.devices.iter_mut().find(|kept| kept.device == device)?;
         let before = known.clone();
         for part in parts {
@@ -54,7 +54,7 @@ impl Learnings {
     }
 
     /// A robot knows this now. `true` when that is something new. A gyro of which it knows nothing any more is as it was.
-    pub fn take(&mut self, mut kept: Kept) -> bool {
+    pub fn take(&mut self, mut kept: RobotRecord) -> bool {
         let before = self.of(&kept.device);
         kept.learnt.gyro = kept.learnt.gyro.or(before.gyro);
         if before == kept.learnt {
@@ -147,8 +147,8 @@ impl From<&Learnings> for StoredLearnings {
     }
 }
 
-impl From<&Kept> for StoredDevice {
-    fn from(kept: &Kept) -> Self {
+impl From<&RobotRecord> for StoredDevice {
+    fn from(kept: &RobotRecord) -> Self {
         let Learnt { gyro, energy } = kept.learnt;
         Self {
             device: kept.device.clone(),
@@ -181,7 +181,7 @@ impl TryFrom<StoredLearnings> for Learnings {
                 gyro: stored.gyro()?,
                 energy: stored.energy()?,
             };
-            learnings.take(Kept {
+            learnings.take(RobotRecord {
                 device: stored.device,
                 learnt,
                 learnt_s: stored.learnt_s,
@@ -224,7 +224,7 @@ impl StoredDevice {
 
 #[cfg(test)]
 mod tests {
-    use super::{DEVICES_MAX, Kept, Learnings, LearntError, OtherVersion, StoredLearnings, told};
+    use super::{DEVICES_MAX, Learnings, LearntError, OtherVersion, RobotRecord, StoredLearnings, told};
     use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 
     fn learnt(scale: f64) -> Learnt {
@@ -241,8 +241,8 @@ mod tests {
         }
     }
 
-    fn kept(device: &str, learnt: Learnt) -> Kept {
-        Kept {
+    fn kept(device: &str, learnt: Learnt) -> RobotRecord {
+        RobotRecord {
             device: device.to_owned(),
             learnt,
             learnt_s: Some(1_800_000_000),

@@ -5,16 +5,17 @@
 //! [`Input::Wake`]. It knows no clock, no sockets and no files, so the daemon, a test and the batch simulator run the
 //! same code.
 //!
-//! The parts, in the order in which a telemetry report passes them: [`device`] (the device model, what holds for every make, and
-//! the makes), [`observe`] (reports to observations), `mind` (the brain and the borders of runs), back through `device` to the link.
+//! A telemetry report passes the parts in this order: [`device`] (the device model, what holds for every make, and
+//! the makes), [`observe`] (reports to observations), `brain_session` (the brain and the borders of runs), back through `device` to the link.
 //! Beside it stand the desks of `desk`: each owns what it knows (who may command, what buttons mean, what clients follow, floors,
-//! [`schedule`]s, runs, loads of motors, learned values, what clients hear and how often). `core` holds them all, routes inputs and
+//! [`schedule`]s, runs, loads of motors, learned values, what clients receive and how often). `core` holds them all, routes inputs and
 //! requests to them, and hands the facts of one to another. [`stored_map`] is the bytes of maps, [`api_forms`] are orders and places
 //! as clients and recordings write them. A [`Checkpoint`] is what survives a crash.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod api_forms;
+mod brain_session;
 mod checkpoint;
 mod config;
 mod core;
@@ -28,15 +29,14 @@ mod history;
 mod home_view;
 mod input;
 pub mod learnt;
-mod mind;
 mod newest;
 pub mod observe;
 mod outputs;
-mod quest;
 mod refusal;
 pub mod schedule;
 pub mod stored_map;
 mod stored_version;
+mod storey_resolver;
 mod swept_sigma;
 mod to_api;
 

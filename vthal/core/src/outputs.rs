@@ -293,7 +293,7 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// The character for it in the interface to clients and in the seal.
+    /// The character for it in the interface to clients and in the CRC.
     #[must_use]
     pub const fn symbol(self) -> char {
         match self {
@@ -329,7 +329,7 @@ pub enum Record {
     Packet {
         /// Host time in microseconds.
         time_us: u64,
-        /// Which way.
+        /// The direction of the packet.
         direction: Direction,
         /// As text; binary ones are shown by their text twin.
         text: String,
@@ -341,7 +341,7 @@ pub enum Record {
         /// To what.
         status: Status,
     },
-    /// Where the brain believes the robot to be.
+    /// The robot's pose as the brain estimates it.
     Pose(Pose),
     /// A line of the log.
     Log(LogEntry),
@@ -352,7 +352,7 @@ pub enum Record {
         /// It.
         table: Box<DeviceTable>,
     },
-    /// What people are told of the run, when its job is over. The newest one counts.
+    /// The summary of the run for people, when its job is over. The newest one counts.
     Told {
         /// Host time in microseconds.
         time_us: u64,
@@ -381,7 +381,7 @@ pub struct RunStart {
     pub seed: u64,
     /// Settings of the brain.
     pub brain: brain::BrainConfig,
-    /// What the brain takes up before its first step.
+    /// The state that the brain loads before its first step.
     pub checkpoint: brain::Checkpoint,
     /// Device, for example `sr8730`; empty while unknown.
     pub device: String,

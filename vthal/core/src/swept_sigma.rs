@@ -1,6 +1,6 @@
 //! How sure the robot was of its place when it swept: beside the swept cells in their order, cells of one deviation joined.
 
-/// Deviations are told in whole centimetres up to this; a robot that knows less does not know where it sweeps.
+/// Deviations are sent in whole centimetres up to this; a robot that knows less does not know where it sweeps.
 const SIGMA_CM_MAX: f64 = 100.0;
 
 /// Pairs of a number of cells and their deviation in centimetres.

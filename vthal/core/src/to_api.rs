@@ -93,10 +93,10 @@ pub(crate) fn estimate(brain: &Brain, swept: Option<SweptShare>) -> Estimate {
     }
 }
 
-/// Corners of a planned way that are told at most: some 500 lanes with their links.
+/// Corners of a planned path that are sent at most: some 500 lanes with their links.
 const CORNERS_MAX: usize = 4_000;
 
-/// Where the robot means to drive; of a very long way its beginning.
+/// Where the robot means to drive; of a very long path its beginning.
 pub(crate) fn way(brain: &Brain) -> PlannedWay {
     let corners = brain.planned_way();
     let millimetres = |metres: f64| (1000.0 * metres).round() as i32;

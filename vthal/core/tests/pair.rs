@@ -1572,7 +1572,7 @@ fn decisions_and_estimates_are_told_to_who_follows_them() {
     pair.ask(ANNA, RequestBody::Stop);
     pair.run_ms(100);
     let stopped = pair.updates[before..].iter().any(|update| match update {
-        Update::Decision(decision) => decision.text == "Stood still, without a job: somebody asked for it.",
+        Update::Decision(decision) => decision.text == "Stood still, without a job: it was requested.",
         _ => false,
     });
     assert!(stopped, "{:?}", &pair.updates[before..]);

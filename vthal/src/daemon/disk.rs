@@ -98,7 +98,7 @@ impl Daemon {
 
     pub(super) fn tell(&mut self, client: ClientId, update: &Update) {
         if let Some(client) = self.clients.get_mut(&client) {
-            client.push(Class::Lossless, client::spell(update));
+            client.push(Class::Lossless, client::encode(update));
         }
     }
 

@@ -30,13 +30,13 @@ fn floors() -> Vec<ArchivedFloor> {
 }
 
 /// An archive whose checksum is right, whatever is in it.
-fn sealed(mut body: Vec<u8>) -> Vec<u8> {
+fn with_checksum(mut body: Vec<u8>) -> Vec<u8> {
     body.extend(sum(&body).to_le_bytes());
     body
 }
 
 fn headed(rest: &[u8]) -> Vec<u8> {
-    sealed([MAGIC.as_slice(), &[VERSION], rest].concat())
+    with_checksum([MAGIC.as_slice(), &[VERSION], rest].concat())
 }
 
 fn reason(bytes: &[u8]) -> &'static str {
@@ -137,7 +137,7 @@ proptest! {
         if place > MAGIC.len() {
             body[place] = value;
         }
-        let bytes = sealed(body);
+        let bytes = with_checksum(body);
         if let Ok(floors) = decode(&bytes) {
             prop_assert_eq!(encode(&floors), Ok(bytes));
         }

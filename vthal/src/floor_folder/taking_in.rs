@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 use brain::RoomName;
 
-use super::{Entry, FLOORS_MAX, FloorError, FloorFolder};
+use super::{FLOORS_MAX, FloorEntry, FloorError, FloorFolder};
 use crate::floor_archive::ArchivedFloor;
 use crate::map_folder::MapFolder;
 
@@ -26,7 +26,7 @@ impl FloorFolder {
         let mut entries = self.entries().0;
         entries.retain(|entry| !entry.removed && only.is_none_or(|number| number == entry.number));
         entries.sort_by_key(|entry| entry.number);
-        let archived = |entry: Entry| {
+        let archived = |entry: FloorEntry| {
             Some(ArchivedFloor {
                 map: self.maps(entry.number).newest_bytes()?,
                 name: entry.name.and_then(|name| RoomName::new(&name).ok()),
@@ -61,7 +61,11 @@ impl FloorFolder {
     }
 
     /// The list with entries for these floors at its end.
-    fn with_new(&self, mut entries: Vec<Entry>, floors: &[ArchivedFloor]) -> Result<Vec<Entry>, FloorError> {
+    fn with_new(
+        &self,
+        mut entries: Vec<FloorEntry>,
+        floors: &[ArchivedFloor],
+    ) -> Result<Vec<FloorEntry>, FloorError> {
         for floor in floors {
             // The first floor's maps lie in the folder of all: what was there once would be in the way.
             let is_free = |number: &u16| {
@@ -69,16 +73,16 @@ impl FloorFolder {
             };
             let number = (2..=u16::MAX).find(is_free).ok_or(FloorError::Full)?;
             let name = floor.name.as_ref().map(|name| free_name(name, &entries));
-            entries.push(Entry {
+            entries.push(FloorEntry {
                 name,
-                ..Entry::new(number)
+                ..FloorEntry::new(number)
             });
         }
         Ok(entries)
     }
 
     /// Writes the maps where nobody looks for them.
-    fn stage(&self, fresh: &[Entry], floors: &[ArchivedFloor]) -> io::Result<()> {
+    fn stage(&self, fresh: &[FloorEntry], floors: &[ArchivedFloor]) -> io::Result<()> {
         for (entry, floor) in fresh.iter().zip(floors) {
             MapFolder::new(self.staged(entry.number)).save_bytes(&floor.map)?;
         }
@@ -131,7 +135,7 @@ impl FloorFolder {
 }
 
 /// The name, or the first free one like it.
-fn free_name(name: &RoomName, entries: &[Entry]) -> String {
+fn free_name(name: &RoomName, entries: &[FloorEntry]) -> String {
     let is_free = |wanted: &str| {
         let mut taken = entries.iter().filter_map(|entry| entry.name.as_deref());
         taken.all(|taken| taken.to_lowercase() != wanted.to_lowercase())

@@ -14,13 +14,13 @@ use std::time::{Duration, Instant};
 use tokio::sync::mpsc::Sender;
 use tokio::sync::mpsc::error::TrySendError;
 
-use crate::event::Event;
+use crate::event::{Event, ReceiverGone};
 use device::{Gyro, ImuError, Sample};
 use turn::Turn;
 
 /// Totals are sent at most this often: twice for each of the robot's reports.
 const SEND_EVERY: Duration = Duration::from_millis(10);
-/// Pause before a lost sensor is looked for again.
+/// Pause before a lost sensor is opened again.
 const RETRY: Duration = Duration::from_secs(2);
 
 /// Which sensor and how it is mounted.
@@ -103,7 +103,7 @@ pub(crate) enum ImuEvent {
     Opened(&'static str),
     /// Total turned, microradians, wrapping.
     Turned(i32),
-    /// The sensor is not there or was lost; told once per outage, with what to do.
+    /// The sensor is not there or was lost; reported once per outage, with what to do.
     Absent(String),
 }
 
@@ -118,15 +118,12 @@ pub(crate) fn start(settings: ImuSettings, events: Sender<Event>) -> io::Result<
         .map(drop)
 }
 
-/// Why the thread ends: nobody listens any more.
-struct Over;
-
 fn serve(settings: &ImuSettings, events: &Sender<Event>) {
     let mut turn = Turn::default();
     let mut told = false;
     loop {
         match attend(settings, &mut turn, events, &mut told) {
-            Ok(Over) => return,
+            Ok(ReceiverGone) => return,
             Err(_) if told => {}
             Err(error) => {
                 told = true;
@@ -147,7 +144,7 @@ fn attend(
     turn: &mut Turn,
     events: &Sender<Event>,
     told: &mut bool,
-) -> Result<Over, ImuError> {
+) -> Result<ReceiverGone, ImuError> {
     let mut gyro = Gyro::open(settings)?;
     let start = Instant::now();
     let mut sent: Option<Instant> = None;
@@ -158,7 +155,7 @@ fn attend(
             *told = false;
             let opened = Event::Imu(ImuEvent::Opened(gyro.manner()));
             if events.blocking_send(opened).is_err() {
-                return Ok(Over);
+                return Ok(ReceiverGone);
             }
         }
         let due = sent.is_none_or(|sent| sent.elapsed() >= SEND_EVERY);
@@ -169,7 +166,7 @@ fn attend(
         // Of totals only the newest counts: a loop that is busy gets the next one.
         let event = Event::Imu(ImuEvent::Turned(total_urad));
         if let Err(TrySendError::Closed(_)) = events.try_send(event) {
-            return Ok(Over);
+            return Ok(ReceiverGone);
         }
     }
 }

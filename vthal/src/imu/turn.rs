@@ -1,4 +1,4 @@
-//! From turn rates to the way turned.
+//! Integrates turn rates to the angle turned.
 
 /// A pause between two samples for which nobody can tell how far the robot turned, ns.
 const GAP_NS: i64 = 100_000_000;

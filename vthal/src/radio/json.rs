@@ -7,7 +7,7 @@ use super::reading::{BeaconName, LineError, Reading};
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Line {
+struct JsonReading {
     beacon: String,
     range_m: Option<f64>,
     sigma_m: Option<f64>,
@@ -19,7 +19,7 @@ pub(super) fn read(line: &str) -> Result<Vec<Reading>, LineError> {
     if line.trim().is_empty() {
         return Ok(Vec::new());
     }
-    let line: Line = serde_json::from_str(line).map_err(|error| LineError::Json(error.to_string()))?;
+    let line: JsonReading = serde_json::from_str(line).map_err(|error| LineError::Json(error.to_string()))?;
     let name = BeaconName::new(&line.beacon).map_err(|_| LineError::Name(line.beacon))?;
     let reading = match (line.range_m, line.rssi_dbm) {
         (Some(range_m), None) => Reading::range(name, range_m, line.sigma_m)?,

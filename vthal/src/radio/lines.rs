@@ -9,11 +9,11 @@ pub(super) const LINE_MAX: usize = 512;
 #[derive(Debug)]
 pub(super) struct Lines {
     line: Vec<u8>,
-    state: State,
+    state: FramingState,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum State {
+enum FramingState {
     /// The device was just opened: what comes may be the rest of a line.
     Joining,
     Reading,
@@ -25,7 +25,7 @@ impl Default for Lines {
     fn default() -> Self {
         Self {
             line: Vec::with_capacity(LINE_MAX),
-            state: State::Joining,
+            state: FramingState::Joining,
         }
     }
 }
@@ -35,16 +35,16 @@ impl Lines {
     pub(super) fn split(&mut self, bytes: &[u8], mut take: impl FnMut(Result<&[u8], LineError>)) {
         for &byte in bytes {
             if matches!(byte, b'\n' | b'\r') {
-                if self.state == State::Reading && !self.line.is_empty() {
+                if self.state == FramingState::Reading && !self.line.is_empty() {
                     take(Ok(&self.line));
                 }
                 self.line.clear();
-                self.state = State::Reading;
-            } else if self.state == State::Reading {
+                self.state = FramingState::Reading;
+            } else if self.state == FramingState::Reading {
                 if self.line.len() < LINE_MAX {
                     self.line.push(byte);
                 } else {
-                    self.state = State::Skipping;
+                    self.state = FramingState::Skipping;
                     take(Err(LineError::TooLong(LINE_MAX)));
                 }
             }

@@ -1,13 +1,13 @@
 //! A radio on the Linux board that measures how far beacons are, or how strongly it receives them.
 //!
 //! Terms. *Beacon*: a radio that stands somewhere in the home; nobody needs to know where. *Form*: in which words the radio
-//! tells that ([`RadioForm`]). *Ear*: what makes signals of its bytes. *Port*: where the bytes come from.
+//! tells that ([`RadioForm`]). *RadioDecoder*: what makes signals of its bytes. *Port*: where the bytes come from.
 //!
 //! A task keeps the port open and sends signals as events. It knows nothing of the robot; what is not heard is missing, and
 //! the robot goes by its wheels.
 
+mod decoder;
 mod dwm1001;
-mod ear;
 mod json;
 mod lines;
 mod port;
@@ -23,17 +23,17 @@ use tokio::sync::mpsc::Sender;
 use tokio::sync::mpsc::error::TrySendError;
 use tokio::time::{Instant, sleep, timeout};
 
-use crate::event::Event;
+use crate::event::{Event, ReceiverGone};
+use decoder::{RadioDecoder, Refused};
 use dwm1001::Waker;
-use ear::{Ear, Refused};
 use port::Port;
 pub use reading::{BeaconName, NoName};
 
-/// Pause before a lost radio is looked for again.
+/// Pause before a lost radio is opened again.
 const RETRY: Duration = Duration::from_secs(2);
 /// Bytes are fetched at most this often: twice for each of the robot's reports, so that no radio takes the processor.
 const READ_EVERY: Duration = Duration::from_millis(10);
-/// A radio that says nothing for so long is told of.
+/// A radio that is silent for this long is reported.
 const SILENCE: Duration = Duration::from_secs(60);
 /// Longest wait for a radio that does not take the words which make it speak.
 const WRITE_WAIT: Duration = Duration::from_secs(1);
@@ -45,7 +45,7 @@ pub const SIGMA_M: f64 = 0.2;
 /// Beacons that may be listed, and that get a number when none are; a home has some, and a street has hundreds.
 pub const BEACONS_MAX: usize = 32;
 
-/// In which words a radio tells what it measures.
+/// The format in which a radio reports its measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RadioForm {
     /// `{"beacon":"kitchen","range_m":3.21}` or `{"beacon":"kitchen","rssi_dbm":-63}`, a line each.
@@ -77,7 +77,7 @@ pub struct RadioSettings {
     pub form: RadioForm,
     /// Beacons that count; all when it is empty.
     pub beacons: Vec<BeaconName>,
-    /// Deviation of a range of which the radio tells none, metres.
+    /// Deviation of a range for which the radio reports none, metres.
     pub sigma_m: f64,
     /// How much higher than the robot's antenna the beacons hang, metres.
     pub height_m: f64,
@@ -101,20 +101,17 @@ impl RadioSettings {
 /// From the radio.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum RadioEvent {
-    /// It speaks: for the first time, or again.
+    /// It sends data: for the first time, or again.
     Speaks,
     /// What was measured.
     Heard(Vec<BeaconSignal>),
-    /// A beacon was heard for the first time; its name and number.
+    /// A beacon was received for the first time; its name and number.
     NewBeacon(String, u16),
     /// Lines could not be used.
     Refused(Refused),
-    /// It is not there, was lost, or says nothing of beacons; told once per outage, with the reason.
+    /// It is not there, was lost, or names no beacons; reported once per outage, with the reason.
     Absent(String),
 }
-
-/// Why the task ends: nobody listens any more.
-struct Over;
 
 /// Why the port is no longer used.
 enum Loss {
@@ -125,7 +122,7 @@ enum Loss {
 /// Listens until the daemon's event queue closes.
 pub(crate) async fn serve(settings: RadioSettings, events: Sender<Event>) {
     let mut listener = Listener {
-        ear: Ear::new(&settings),
+        decoder: RadioDecoder::new(&settings),
         events,
         started: Instant::now(),
         spoke_at: Duration::ZERO,
@@ -134,7 +131,7 @@ pub(crate) async fn serve(settings: RadioSettings, events: Sender<Event>) {
     loop {
         let reason = match Port::open(&settings.device, settings.baud).await {
             Ok(mut port) => match listener.listen(&mut port, settings.form).await {
-                Err(Over) => return,
+                Err(ReceiverGone) => return,
                 Ok(Loss::HungUp) => "it hung up".to_owned(),
                 Ok(Loss::Failed(error)) => error.to_string(),
             },
@@ -147,7 +144,7 @@ pub(crate) async fn serve(settings: RadioSettings, events: Sender<Event>) {
     }
 }
 
-/// What was told of the radio last.
+/// The last reported state of the radio.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Outage {
     /// Nothing yet.
@@ -157,7 +154,7 @@ enum Outage {
 }
 
 struct Listener {
-    ear: Ear,
+    decoder: RadioDecoder,
     events: Sender<Event>,
     started: Instant,
     /// When it spoke of a beacon last, or the port was opened.
@@ -166,9 +163,9 @@ struct Listener {
 }
 
 impl Listener {
-    async fn listen(&mut self, port: &mut Port, form: RadioForm) -> Result<Loss, Over> {
+    async fn listen(&mut self, port: &mut Port, form: RadioForm) -> Result<Loss, ReceiverGone> {
         let mut buffer = [0; 4096];
-        self.ear.begin();
+        self.decoder.begin();
         self.spoke_at = self.started.elapsed();
         let mut waker = match form {
             RadioForm::Lines => None,
@@ -210,9 +207,9 @@ impl Listener {
     }
 
     /// Whether it spoke of a beacon.
-    async fn take(&mut self, bytes: &[u8]) -> Result<bool, Over> {
+    async fn take(&mut self, bytes: &[u8]) -> Result<bool, ReceiverGone> {
         let now = self.started.elapsed();
-        let heard = self.ear.take(now, bytes);
+        let heard = self.decoder.take(now, bytes);
         if heard.is_speaking {
             self.spoke_at = now;
             if self.outage != Outage::Speaks {
@@ -229,12 +226,12 @@ impl Listener {
         // A loop that is busy gets the next ones: an old signal says nothing of the present.
         let signals = Event::Radio(RadioEvent::Heard(heard.signals));
         match self.events.try_send(signals) {
-            Err(TrySendError::Closed(_)) => Err(Over),
+            Err(TrySendError::Closed(_)) => Err(ReceiverGone),
             Ok(()) | Err(TrySendError::Full(_)) => Ok(heard.is_speaking),
         }
     }
 
-    async fn tell_absent(&mut self, reason: String) -> Result<(), Over> {
+    async fn tell_absent(&mut self, reason: String) -> Result<(), ReceiverGone> {
         if self.outage == Outage::Absent {
             return Ok(());
         }
@@ -242,7 +239,10 @@ impl Listener {
         self.tell(RadioEvent::Absent(reason)).await
     }
 
-    async fn tell(&self, event: RadioEvent) -> Result<(), Over> {
-        self.events.send(Event::Radio(event)).await.map_err(|_| Over)
+    async fn tell(&self, event: RadioEvent) -> Result<(), ReceiverGone> {
+        self.events
+            .send(Event::Radio(event))
+            .await
+            .map_err(|_| ReceiverGone)
     }
 }

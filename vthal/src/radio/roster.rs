@@ -8,18 +8,18 @@ use super::reading::BeaconName;
 #[derive(Debug)]
 pub(super) struct Roster {
     names: Vec<BeaconName>,
-    entry: Entry,
+    entry: Admission,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Entry {
+enum Admission {
     Listed,
     Anybody,
 }
 
 /// The number of a beacon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum BeaconNumber {
     Known(u16),
     /// Heard for the first time.
     New(u16),
@@ -33,27 +33,27 @@ impl Roster {
         Self {
             names: listed.to_vec(),
             entry: if listed.is_empty() {
-                Entry::Anybody
+                Admission::Anybody
             } else {
-                Entry::Listed
+                Admission::Listed
             },
         }
     }
 
     /// The number of the beacon with this name.
-    pub(super) fn place(&mut self, name: &BeaconName) -> Place {
+    pub(super) fn place(&mut self, name: &BeaconName) -> BeaconNumber {
         let number = |index: usize| u16::try_from(index).ok();
         let known = self.names.iter().position(|known| known == name);
         if let Some(known) = known.and_then(number) {
-            return Place::Known(known);
+            return BeaconNumber::Known(known);
         }
         let next = number(self.names.len());
-        match next.filter(|_| self.entry == Entry::Anybody && self.names.len() < BEACONS_MAX) {
+        match next.filter(|_| self.entry == Admission::Anybody && self.names.len() < BEACONS_MAX) {
             Some(next) => {
                 self.names.push(name.clone());
-                Place::New(next)
+                BeaconNumber::New(next)
             }
-            None => Place::Stranger,
+            None => BeaconNumber::Stranger,
         }
     }
 }
@@ -61,7 +61,7 @@ impl Roster {
 #[cfg(test)]
 mod tests {
     use super::super::reading::BeaconName;
-    use super::{BEACONS_MAX, Place, Roster};
+    use super::{BEACONS_MAX, BeaconNumber, Roster};
 
     fn name(text: &str) -> BeaconName {
         BeaconName::new(text).unwrap()
@@ -70,20 +70,20 @@ mod tests {
     #[test]
     fn beacons_keep_the_number_of_their_first_word() {
         let mut roster = Roster::new(&[]);
-        assert_eq!(roster.place(&name("b")), Place::New(0));
-        assert_eq!(roster.place(&name("a")), Place::New(1));
-        assert_eq!(roster.place(&name("b")), Place::Known(0));
+        assert_eq!(roster.place(&name("b")), BeaconNumber::New(0));
+        assert_eq!(roster.place(&name("a")), BeaconNumber::New(1));
+        assert_eq!(roster.place(&name("b")), BeaconNumber::Known(0));
         for number in 2..BEACONS_MAX {
-            assert_ne!(roster.place(&name(&number.to_string())), Place::Stranger);
+            assert_ne!(roster.place(&name(&number.to_string())), BeaconNumber::Stranger);
         }
-        assert_eq!(roster.place(&name("late")), Place::Stranger);
-        assert_eq!(roster.place(&name("a")), Place::Known(1));
+        assert_eq!(roster.place(&name("late")), BeaconNumber::Stranger);
+        assert_eq!(roster.place(&name("a")), BeaconNumber::Known(1));
     }
 
     #[test]
     fn where_beacons_are_listed_the_neighbours_do_not_count() {
         let mut roster = Roster::new(&[name("hall"), name("kitchen")]);
-        assert_eq!(roster.place(&name("kitchen")), Place::Known(1));
-        assert_eq!(roster.place(&name("theirs")), Place::Stranger);
+        assert_eq!(roster.place(&name("kitchen")), BeaconNumber::Known(1));
+        assert_eq!(roster.place(&name("theirs")), BeaconNumber::Stranger);
     }
 }

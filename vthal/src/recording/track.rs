@@ -154,11 +154,11 @@ impl<T> Thinned<T> {
 /// As much of a `foxglove.PoseInFrame` as is wanted.
 #[derive(Deserialize)]
 struct Posed {
-    pose: Place,
+    pose: LoggedPose,
 }
 
 #[derive(Deserialize)]
-struct Place {
+struct LoggedPose {
     position: Position,
     orientation: Orientation,
 }
@@ -182,7 +182,7 @@ fn rounded(value: f64) -> f32 {
 
 fn pose(t_s: f64, data: &[u8]) -> Option<TrackPose> {
     let Posed {
-        pose: Place {
+        pose: LoggedPose {
             position,
             orientation,
         },

@@ -12,7 +12,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use brain::{Cell, CellKnowledge, Raster, StoredMap};
 use rvac_api::{LogEntry, Request, RequestBody, RunResult, Schedules, Update};
-use rvac_protocol::crc::{Digest, Direction as SealDirection};
+use rvac_protocol::crc::{Digest, Direction as CrcDirection};
 use rvac_protocol::message::{self, BinaryKinds};
 
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
@@ -834,7 +834,7 @@ fn age_checkpoint(path: &Path) {
     let at = body.find(r#""boot":""#).expect("names its boot") + 8;
     let mut body = body.as_bytes().to_vec();
     body[at] = if body[at] == b'0' { b'1' } else { b'0' };
-    let mut digest = Digest::start(SealDirection::HostToRobot, 0);
+    let mut digest = Digest::start(CrcDirection::HostToRobot, 0);
     digest.extend(&body);
     let mut whole = format!("vthal-checkpoint-1 {} {:08X}\n", body.len(), digest.crc()).into_bytes();
     whole.extend(body);

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 
 /// Arguments of `cargo xtask codegen`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {
+pub(crate) struct CodegenArguments {
     /// Write nothing; fail when a file is stale.
     #[arg(long)]
     pub(crate) check: bool,
@@ -23,7 +23,7 @@ pub(crate) struct Generated {
 }
 
 /// Makes all generated files.
-pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &CodegenArguments) -> anyhow::Result<()> {
     let root = workspace::root();
     let mut files = board::files(&root)?;
     files.extend([robots::page(&root)?, header::of_cordlib(&root)?]);

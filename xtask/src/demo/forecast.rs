@@ -1,6 +1,6 @@
 //! How long it takes until the robot stands in its home: told before anything is built.
 
-use super::Arguments;
+use super::DemoArguments;
 use crate::panel::Page;
 use crate::workspace::{self, Profile, program};
 use crate::{firmware, process};
@@ -22,7 +22,7 @@ const PACKER_S: f64 = 45.0;
 const FIRMWARE_S: f64 = 40.0;
 
 /// Tells it.
-pub(super) fn tell(arguments: &Arguments) {
+pub(super) fn tell(arguments: &DemoArguments) {
     let missing: Vec<Part> = parts(arguments)
         .into_iter()
         .filter(|part| !part.product.exists())
@@ -31,7 +31,7 @@ pub(super) fn tell(arguments: &Arguments) {
     process::say(&sentence(&missing, cores));
 }
 
-fn parts(arguments: &Arguments) -> Vec<Part> {
+fn parts(arguments: &DemoArguments) -> Vec<Part> {
     let built = |what, product, processor_s| Part {
         what,
         product,

@@ -1,7 +1,7 @@
 //! The demo without a browser: cleans for some simulated minutes as a client of the daemon's socket, then reports.
 
-use super::Arguments;
-use super::report::Report;
+use super::DemoArguments;
+use super::report::DemoReport;
 use super::service::Event;
 use super::socket::Socket;
 use super::stack::Stack;
@@ -20,7 +20,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 const PROGRESS_S: f64 = 60.0;
 
 /// Runs, prints the report as the last line, and fails unless the robot moved and violated nothing.
-pub(crate) fn run(arguments: &Arguments, firmware: Option<&Path>) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &DemoArguments, firmware: Option<&Path>) -> anyhow::Result<()> {
     let begun = Instant::now();
     let mut stack = Stack::new(State::create(arguments.state.as_deref())?)?;
     let outcome = stack
@@ -36,7 +36,7 @@ pub(crate) fn run(arguments: &Arguments, firmware: Option<&Path>) -> anyhow::Res
     }
 }
 
-fn clean(arguments: &Arguments, stack: &mut Stack) -> anyhow::Result<Report> {
+fn clean(arguments: &DemoArguments, stack: &mut Stack) -> anyhow::Result<DemoReport> {
     let mut run = Run::connect(stack)?;
     run.until("the daemon finds the robot", |event| {
         found_robot(event).then_some(())

@@ -25,7 +25,7 @@ const DEFAULT_HOME: &str = "homes/two-room-flat.toml";
 
 /// Arguments of `cargo xtask demo`.
 #[derive(Clone, Debug, clap::Args)]
-pub(crate) struct Arguments {
+pub(crate) struct DemoArguments {
     /// Floor plan: a map_server YAML, a Valetudo map JSON, or a home of ours in TOML.
     #[arg(long, default_value = DEFAULT_HOME)]
     home: PathBuf,
@@ -59,7 +59,7 @@ pub(crate) struct Arguments {
     minutes: f64,
 }
 
-impl Arguments {
+impl DemoArguments {
     fn speed(&self) -> u32 {
         let usual = if self.headless && !self.emulated { 10 } else { 1 };
         self.speed.unwrap_or(usual)
@@ -82,7 +82,7 @@ impl Arguments {
 }
 
 /// Checks the input, builds, starts everything, and stays until it is told to stop.
-pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &DemoArguments) -> anyhow::Result<()> {
     preflight::arguments(arguments)?;
     forecast::tell(arguments);
     if arguments.headless {

@@ -1,6 +1,6 @@
 //! Checks of what a person gave, before anything is started or written.
 
-use super::{Arguments, DEFAULT_HOME};
+use super::{DEFAULT_HOME, DemoArguments};
 use crate::workspace::{self, Profile};
 use crate::{process, system};
 use anyhow::{Context, bail};
@@ -12,7 +12,7 @@ use std::process::Command;
 const MINUTES_MAX: f64 = 10_080.0;
 
 /// Checks what needs no program of ours.
-pub(crate) fn arguments(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn arguments(arguments: &DemoArguments) -> anyhow::Result<()> {
     let meta = match std::fs::metadata(here(arguments)) {
         Ok(meta) => meta,
         Err(error) if error.kind() == ErrorKind::NotFound => bail!(
@@ -46,7 +46,7 @@ pub(crate) fn arguments(arguments: &Arguments) -> anyhow::Result<()> {
 }
 
 /// The home as the person meant it: relative to where they stand, or else to the root of the repository.
-pub(crate) fn here(arguments: &Arguments) -> std::path::PathBuf {
+pub(crate) fn here(arguments: &DemoArguments) -> std::path::PathBuf {
     if arguments.home.exists() {
         arguments.home.clone()
     } else {
@@ -77,7 +77,7 @@ pub(crate) fn port(port: u16) -> anyhow::Result<()> {
 }
 
 /// Builds the simulator and lets it try the home for a blink: it knows the formats and what can be wrong with each.
-pub(crate) fn home(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn home(arguments: &DemoArguments) -> anyhow::Result<()> {
     system::need("cc", &["gcc", "libc6-dev"]).context("Rust programs need a linker")?;
     workspace::build(&["rvac-sim"], Profile::Dev)?;
     let mut check = Command::new(workspace::program("rvac-sim", Profile::Dev));

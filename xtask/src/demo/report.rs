@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What a run came to. The simulator writes the same object; the keys are a promise to scripts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Report {
+pub(crate) struct DemoReport {
     /// Floor plan.
     pub(crate) home: String,
     /// Floor without obstacles, in square metres.
@@ -31,7 +31,7 @@ pub(crate) struct Report {
     pub(crate) wall_seconds: f64,
 }
 
-impl Report {
+impl DemoReport {
     /// Why the run counts as failed; `None` when it does not.
     pub(crate) fn failure(&self) -> Option<String> {
         if self.monitor_violations > 0 {
@@ -46,10 +46,10 @@ impl Report {
 
 #[cfg(test)]
 mod tests {
-    use super::Report;
+    use super::DemoReport;
 
-    fn report(violations: u64, path_m: f64) -> Report {
-        Report {
+    fn report(violations: u64, path_m: f64) -> DemoReport {
+        DemoReport {
             home: "flat".to_owned(),
             free_area_m2: 1.0,
             reachable_area_m2: 1.0,

@@ -2,7 +2,7 @@
 
 use super::service::{Event, Service};
 use super::state::State;
-use super::{Arguments, preflight};
+use super::{DemoArguments, preflight};
 use crate::codegen::robots;
 use crate::process;
 use crate::workspace::{self, Profile, program};
@@ -49,7 +49,7 @@ impl Stack {
     /// Starts the simulator, with this firmware in an emulated chip if there is one, then the daemon on its serial link.
     pub(crate) fn start_robot(
         &mut self,
-        arguments: &Arguments,
+        arguments: &DemoArguments,
         firmware: Option<&Path>,
     ) -> anyhow::Result<()> {
         let speed = arguments.speed().to_string();

@@ -75,7 +75,7 @@ impl Elf {
         if bytes.get(4..6) != Some(&[1, 1]) {
             bail!("this ELF file is not of a 32-bit little-endian machine");
         }
-        let file = File { bytes };
+        let file = ElfBytes { bytes };
         if file.half(18)? != MACHINE_MIPS {
             bail!("this ELF file is for machine {}, not for MIPS", file.half(18)?);
         }
@@ -132,11 +132,11 @@ struct Header {
     link: u32,
 }
 
-struct File<'a> {
+struct ElfBytes<'a> {
     bytes: &'a [u8],
 }
 
-impl File<'_> {
+impl ElfBytes<'_> {
     fn slice(&self, offset: usize, length: usize) -> anyhow::Result<&[u8]> {
         self.bytes
             .get(offset..offset.saturating_add(length))

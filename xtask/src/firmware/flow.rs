@@ -24,7 +24,7 @@ const HANDLER_REGISTER: u8 = 26;
 #[derive(Debug)]
 pub(super) struct Flow {
     /// Stack of the main program and of the deepest handlers on top of each other.
-    pub(super) stack: Stack,
+    pub(super) stack: StackBound,
     /// Functions that call into the panic machinery and can be reached.
     pub(super) panics: BTreeSet<String>,
     /// Functions of floating point that can be reached from anywhere.
@@ -35,7 +35,7 @@ pub(super) struct Flow {
 
 /// A bound for the stack.
 #[derive(Debug)]
-pub(super) struct Stack {
+pub(super) struct StackBound {
     /// The main program's deepest chain.
     pub(super) main: Depth,
     /// Each handler's chain with the entry's frame, deepest first.
@@ -44,7 +44,7 @@ pub(super) struct Stack {
     pub(super) doubts: BTreeSet<String>,
 }
 
-impl Stack {
+impl StackBound {
     /// Bytes at worst: the main program, and on each level one handler, of all handlers the deepest.
     pub(super) fn worst_bytes(&self) -> u32 {
         let handlers = self.handlers.iter().take(LEVELS).map(|depth| depth.bytes);
@@ -71,7 +71,7 @@ pub(super) fn examine(elf: &Elf) -> anyhow::Result<Flow> {
     })
 }
 
-fn stack(graph: &Graph, start: u32, entry_frame: u32, handlers: &[u32]) -> Stack {
+fn stack(graph: &Graph, start: u32, entry_frame: u32, handlers: &[u32]) -> StackBound {
     let mut deepest: Vec<Depth> = handlers
         .iter()
         .map(|handler| {
@@ -86,7 +86,7 @@ fn stack(graph: &Graph, start: u32, entry_frame: u32, handlers: &[u32]) -> Stack
     let mut doubts: BTreeSet<String> = graph.unknown_frames(&everything).into_iter().collect();
     doubts.extend(main.recursive.iter().cloned());
     doubts.extend(deepest.iter().flat_map(|depth| depth.recursive.iter().cloned()));
-    Stack {
+    StackBound {
         main,
         handlers: deepest,
         doubts,

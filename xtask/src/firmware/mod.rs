@@ -28,7 +28,7 @@ pub(crate) const ROBOT: &str = "sr8730";
 
 /// Arguments of `cargo xtask firmware`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {
+pub(crate) struct FirmwareArguments {
     /// Robot, by the name of its robot.toml.
     robot: String,
     /// Print one JSON object.
@@ -46,7 +46,7 @@ pub(crate) struct Arguments {
 }
 
 /// Builds, writes both files, prints what the firmware takes, and fails when that is too much.
-pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
     let board = board(&arguments.robot)?;
     let record = arguments
         .calibration
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         features: arguments.features.clone(),
     };
     let linked = link(board, &Place::here(), &options)?;
-    let files = Files::write(&stem(board, &options), &linked, record)?;
+    let files = FirmwareFiles::write(&stem(board, &options), &linked, record)?;
     let reproducible = match arguments.once {
         true => None,
         false => Some(link(board, &Place::elsewhere()?, &options)? == linked),
@@ -93,10 +93,14 @@ pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
 }
 
 /// Builds the firmware once and leaves both files.
-pub(crate) fn build(board: &Board, options: &Options, calibration: Option<&Path>) -> anyhow::Result<Files> {
+pub(crate) fn build(
+    board: &Board,
+    options: &Options,
+    calibration: Option<&Path>,
+) -> anyhow::Result<FirmwareFiles> {
     let record = calibration.map(|file| record_of(file, board)).transpose()?;
     let linked = link(board, &Place::here(), options)?;
-    Files::write(&stem(board, options), &linked, record)
+    FirmwareFiles::write(&stem(board, options), &linked, record)
 }
 
 /// Name of the files: `sr8730`, or with features `sr8730-link-sampled`.
@@ -150,14 +154,14 @@ fn record_of(file: &Path, board: &Board) -> anyhow::Result<Segment> {
 
 /// What is left for people and programmers.
 #[derive(Debug)]
-pub(crate) struct Files {
+pub(crate) struct FirmwareFiles {
     /// With names and debug information, without a calibration.
     pub(crate) elf: PathBuf,
     /// What is flashed, with the calibration if there is one.
     pub(crate) hex: PathBuf,
 }
 
-impl Files {
+impl FirmwareFiles {
     fn write(stem: &str, linked: &[u8], record: Option<Segment>) -> anyhow::Result<Self> {
         let folder = workspace::target().join("firmware");
         std::fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", folder.display()))?;

@@ -35,7 +35,7 @@ pub(super) fn tidy(_extent: Extent) -> Result {
 
 /// Generated files are fresh.
 pub(super) fn codegen(_extent: Extent) -> Result {
-    one(codegen::run(&codegen::Arguments { check: true }))
+    one(codegen::run(&codegen::CodegenArguments { check: true }))
 }
 
 /// The linter finds nothing.

@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 
 /// Arguments of `cargo xtask test`.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {
+pub(crate) struct TestArguments {
     /// Stages to run; when none is named, all that belong to what is asked for.
     stages: Vec<String>,
     /// Run only this stage; may be given several times.
@@ -42,7 +42,7 @@ pub(crate) struct Arguments {
     long: bool,
 }
 
-impl Arguments {
+impl TestArguments {
     fn extent(&self) -> Extent {
         match self {
             Self { long: true, .. } => Extent::Long,
@@ -62,7 +62,7 @@ struct Outcome {
 }
 
 /// Runs the stages; fails when one fails. The last line is `N passed, N failed`.
-pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &TestArguments) -> anyhow::Result<()> {
     if arguments.list {
         list();
         return Ok(());

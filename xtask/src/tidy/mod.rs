@@ -96,7 +96,7 @@ const RULES: [Rule; 14] = [
 
 /// What of the rules to show.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Arguments {
+pub(crate) struct TidyArguments {
     /// Prints the layers of the brain with their modules and circles, and checks nothing else.
     #[arg(long)]
     layers: bool,
@@ -108,7 +108,7 @@ pub(crate) fn run() -> anyhow::Result<()> {
 }
 
 /// Checks what is asked for.
-pub(crate) fn run_with(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run_with(arguments: &TidyArguments) -> anyhow::Result<()> {
     if !arguments.layers {
         return run();
     }

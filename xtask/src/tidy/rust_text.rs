@@ -2,7 +2,7 @@
 
 /// A function in a file.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Function {
+pub(super) struct SourceFunction {
     /// Its name.
     pub(super) name: String,
     /// Line of its `fn`, from 1.
@@ -141,7 +141,7 @@ pub(super) fn test_lines(code: &str) -> Vec<bool> {
 }
 
 /// The functions of a file, in code as [`code`] gives it.
-pub(super) fn functions(code: &str) -> Vec<Function> {
+pub(super) fn functions(code: &str) -> Vec<SourceFunction> {
     let mut found = Vec::new();
     for (at, _) in code.match_indices("fn ") {
         let before = code.get(..at).and_then(|text| text.chars().next_back());
@@ -156,7 +156,7 @@ pub(super) fn functions(code: &str) -> Vec<Function> {
         if let (false, Some(end)) = (name.is_empty(), block_end(code, at)) {
             let body = code.get(at..end).unwrap_or_default();
             let lines = body.lines().filter(|line| !line.trim().is_empty()).count();
-            found.push(Function {
+            found.push(SourceFunction {
                 name,
                 line: line_of(code, at),
                 lines,

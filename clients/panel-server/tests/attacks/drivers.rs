@@ -13,7 +13,7 @@ use tokio_tungstenite::tungstenite::client::IntoClientRequest as _;
 
 use crate::report::Report;
 use crate::rig::DEADLINE;
-use crate::robot::Witness;
+use crate::robot::Observer;
 use crate::stack::Stack;
 
 /// Of the drivers here, milliseconds: a lease is never longer than 400.
@@ -38,7 +38,7 @@ pub(crate) async fn try_all(report: &mut Report) {
 
 struct Scene {
     stack: Stack,
-    witness: Witness,
+    witness: Observer,
     page: PathBuf,
 }
 
@@ -53,7 +53,7 @@ impl Scene {
     async fn new(page: PathBuf) -> Self {
         let stack = Stack::start_with_page(&page);
         stack.hand(r#"{"c":"place","x":-3.4,"y":0,"heading":3.14}"#);
-        let witness = Witness::watch_closely(&stack.simulator_socket());
+        let witness = Observer::watch_closely(&stack.simulator_socket());
         let scene = Self { stack, witness, page };
         let mut driver = scene.driver().await;
         let deadline = Instant::now() + DEADLINE;

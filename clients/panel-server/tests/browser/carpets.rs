@@ -25,7 +25,7 @@ async fn carpet_that_was_felt_is_shown_with_a_word_for_it() {
         browser.until(key).await;
         browser.shot(&format!("{shots}-carpet")).await;
         browser.click("#tab-home").await;
-        browser.says("home-sheet", "are carpet").await;
+        browser.says("home-sheet", "Carpet detected").await;
         browser.darken().await;
         browser.shot(&format!("{shots}-carpet-dark")).await;
     }

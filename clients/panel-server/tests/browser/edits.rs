@@ -125,7 +125,7 @@ async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
     browser.says("chosen-rooms", "zone of").await;
     browser.click("#keep-out").await;
     keys(browser, &["Enter", "ArrowRight", "ArrowDown", "Enter"]).await;
-    browser.says("chosen-rooms", "out of 1 place").await;
+    browser.says("chosen-rooms", "with 1 no-go area").await;
     browser.says("prospect", "of a full battery").await;
     browser.shot("desktop-zone").await;
     browser.click("#view-3d").await;
@@ -280,7 +280,7 @@ async fn a_dock_that_was_moved_is_shown_by_two_places_and_taken_back() {
     keys(browser, &["Enter", "ArrowLeft", "ArrowLeft"]).await;
     browser.shot("desktop-dock-drawn").await;
     keys(browser, &["Enter"]).await;
-    browser.says("dock-place", "where somebody has said").await;
+    browser.says("dock-place", "where somebody marked it").await;
     let mut moved = None;
     onlooker.sees(|home| {
         moved = home.dock.filter(|_| home.dock_told);

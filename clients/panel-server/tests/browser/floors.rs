@@ -47,7 +47,7 @@ async fn floors_are_saved_as_a_file_and_taken_again_on_a_phone_in_the_dark() {
     let count = "return String(document.querySelectorAll('#floors li').length)";
     assert_eq!(browser.text(count).await, "1", "nothing was taken");
     choose(browser, "").await;
-    browser.says("floors-remark", "are kept beside those").await;
+    browser.says("floors-remark", "Maps imported").await;
     browser
         .until("return document.getElementById('rename-floor-2') !== null")
         .await;

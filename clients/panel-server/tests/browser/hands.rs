@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::browser::{Browser, Screen};
 use crate::losses::{Losses, ready_to_drive, stays, times};
 use crate::mixes::{is_ready, plug_in};
-use crate::robot::Witness;
+use crate::robot::Observer;
 use crate::teller::Teller;
 
 /// Drives by this mix: the page reads it from a file into its editor, and the robot keeps it.
@@ -48,7 +48,7 @@ pub(crate) fn turning_by(inputs: &[&str]) -> String {
 
 /// Does something that should turn the robot, from rest on; on a machine that is too busy a lease ends between two words, and the
 /// wheels wait for a new hold: so does this.
-async fn turn_by(browser: &Browser, witness: &Witness, [rest, push]: [&str; 2]) {
+async fn turn_by(browser: &Browser, witness: &Observer, [rest, push]: [&str; 2]) {
     for _ in 0..5 {
         browser.text(rest).await;
         is_ready(browser).await;
@@ -131,7 +131,7 @@ pub(crate) async fn pad_on_screen(browser: &Browser) -> [f64; 3] {
 }
 
 /// Drags the knob from the middle to the left until the robot turns; the finger stays there.
-async fn drag_until_it_turns(browser: &Browser, witness: &Witness) {
+async fn drag_until_it_turns(browser: &Browser, witness: &Observer) {
     for _ in 0..5 {
         is_ready(browser).await;
         let [x, y, radius] = pad_on_screen(browser).await;
@@ -201,7 +201,7 @@ async fn tremble(browser: &Browser, right_edge_lowered_deg: f64, times: u32) {
 }
 
 /// Tilts the phone to the left until the robot turns.
-async fn tilt_until_it_turns(browser: &Browser, witness: &Witness) {
+async fn tilt_until_it_turns(browser: &Browser, witness: &Observer) {
     for _ in 0..5 {
         tremble(browser, 0.0, 3).await;
         is_ready(browser).await;
@@ -270,7 +270,7 @@ async fn a_tilted_phone_drives_and_the_wheels_stand_when_it_is_not_followed() {
 }
 
 /// The other client tells a push until the robot turns.
-async fn steer_until_it_turns(browser: &Browser, teller: &Teller, witness: &Witness) {
+async fn steer_until_it_turns(browser: &Browser, teller: &Teller, witness: &Observer) {
     for _ in 0..5 {
         teller.tell(0.0);
         tokio::time::sleep(Duration::from_millis(300)).await;

@@ -18,7 +18,7 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
     browser.until_state(&["paused"]).await;
     browser.click("#tab-history").await;
     browser
-        .until("return document.getElementById('history-sheet').innerText.includes('No run is kept yet')")
+        .until("return document.getElementById('history-sheet').innerText.includes('No runs yet')")
         .await;
     browser.click("#stop").await;
     browser
@@ -28,7 +28,7 @@ async fn a_run_that_was_stopped_is_found_seen_again_and_saved_on_a_phone_in_the_
 
     browser.click("#run-1-open").await;
     browser
-        .until("return document.getElementById('run-stops')?.innerText.includes('Paused: somebody asked for it. By panel.') === true")
+        .until("return document.getElementById('run-stops')?.innerText.includes('Paused: it was requested. By panel.') === true")
         .await;
     browser
         .until("return document.querySelectorAll('.plot .line').length > 0 && document.getElementById('replay-time') !== null")

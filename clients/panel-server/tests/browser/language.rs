@@ -6,7 +6,7 @@ use crate::browser::{Browser, Screen};
 /// English words that the page would show if a text of it stood outside of the catalogue.
 const ENGLISH: &str = "
     const text = document.body.innerText;
-    const words = ['the', 'is', 'robot is', 'nothing', 'settings', 'Save', 'Battery', 'Rooms', 'Swept', 'Schedules'];
+    const words = ['the', 'is', 'robot is', 'nothing', 'settings', 'Save', 'Battery', 'Rooms', 'Cleaned', 'Schedules'];
     return words.filter(word => new RegExp('(^|[^\\\\p{L}])' + word + '([^\\\\p{L}]|$)', 'u').test(text)).join(', ')";
 
 async fn choose(browser: &Browser, language: &str) {

@@ -44,12 +44,9 @@ async fn what_was_learnt_is_told_and_forgotten_only_after_a_second_word() {
         let browser = &visit.browser;
         browser.click("#tab-device").await;
         browser
-            .says(
-                "learnt",
-                "counts 1.20\u{a0}% too little, give or take 0.10\u{a0}%",
-            )
+            .says("learnt", "counts 1.20\u{a0}% too little, ± 0.10\u{a0}%")
             .await;
-        browser.says("learnt", "Learnt last 2027-01-15").await;
+        browser.says("learnt", "Last calibrated 2027-01-15").await;
         browser.says("learnt", "takes 90\u{a0}% of a full charge").await;
         browser.click("#forget-gyro-sr8730").await;
         browser

@@ -7,7 +7,7 @@ use crate::browser::{Browser, Screen};
 use crate::hands::{drive_by, pad_on_screen, touch, turning_by};
 use crate::losses::{Losses, ready_to_drive, stays, times};
 use crate::mixes::{is_ready, plug_in};
-use crate::robot::Witness;
+use crate::robot::Observer;
 
 /// Opens what lends, and lends.
 async fn lend(phone: &Browser) {
@@ -20,7 +20,7 @@ async fn lend(phone: &Browser) {
 }
 
 /// The thumb drags the stick of the phone to the left until the robot turns; it stays there.
-async fn push_until_it_turns([driver, phone]: [&Browser; 2], witness: &Witness) {
+async fn push_until_it_turns([driver, phone]: [&Browser; 2], witness: &Observer) {
     for _ in 0..5 {
         is_ready(driver).await;
         let [x, y, radius] = pad_on_screen(phone).await;
@@ -38,7 +38,7 @@ async fn push_until_it_turns([driver, phone]: [&Browser; 2], witness: &Witness) 
 }
 
 /// On a machine that is too busy the driver's lease ends between two words, and nobody drives: then the stick is pushed anew.
-async fn the_driver_is_told([driver, phone]: [&Browser; 2], witness: &Witness) {
+async fn the_driver_is_told([driver, phone]: [&Browser; 2], witness: &Observer) {
     let is_told =
         "return document.getElementById('lend-state').textContent.includes('the driver now is panel')";
     for _ in 0..5 {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use crate::browser::Screen;
 use crate::mixes::{is_ready, plug_in, turn_by_pad};
 use crate::rival::Rival;
-use crate::robot::Witness;
+use crate::robot::Observer;
 use crate::{Visit, hold_until_it_turns};
 
 /// Longest time from the loss until the wheels stand, as a look ten times a second sees it.
@@ -23,7 +23,7 @@ pub(crate) struct Losses(Vec<Duration>);
 
 impl Losses {
     /// Waits for rest after a loss of this moment.
-    pub(crate) fn watch(&mut self, witness: &Witness, lost: Instant) {
+    pub(crate) fn watch(&mut self, witness: &Observer, lost: Instant) {
         let stood = witness
             .stands_within(Duration::from_secs(3))
             .expect("the robot drives on although nobody drives it");
@@ -47,16 +47,16 @@ impl Losses {
 const OFF_DOCK: &str = r#"{"c":"place","x":-0.6,"y":0.0,"heading":3.14}"#;
 
 /// A robot that somebody has put beside its dock, and who sees where it is.
-pub(crate) async fn ready_to_drive(screen: Screen) -> Option<(Visit, Witness)> {
+pub(crate) async fn ready_to_drive(screen: Screen) -> Option<(Visit, Observer)> {
     let visit = Visit::begin_alone(screen).await?;
     visit.stack.hand(OFF_DOCK);
     visit.browser.until_state(&["idle"]).await;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let witness = Observer::watch(&visit.stack.simulator_socket());
     Some((visit, witness))
 }
 
 /// What was held when the driver was lost drives no more when the driver is back.
-pub(crate) fn stays(witness: &Witness, what: &str) {
+pub(crate) fn stays(witness: &Observer, what: &str) {
     let moves = witness.moves_within(Duration::from_secs(1));
     assert!(!moves, "{what} that was held meanwhile drives");
 }
@@ -126,7 +126,7 @@ async fn a_browser_that_freezes_stops_the_wheels() {
 /// Somebody who wanted to turn the robot for a second while the first driver turned it the other way, and was refused all the
 /// time. A browser that does not come to its turn for longer than a lease has lost its seat before the test takes it away: nobody
 /// drives then, and the first driver begins again.
-async fn second_is_refused(visit: &Visit, witness: &Witness) -> Rival {
+async fn second_is_refused(visit: &Visit, witness: &Observer) -> Rival {
     let browser = &visit.browser;
     for _ in 0..3 {
         hold_until_it_turns(browser, witness).await;

@@ -47,7 +47,7 @@ use std::time::{Duration, Instant};
 
 use accessibility::SMALL_TARGETS;
 use browser::{Browser, Screen};
-use robot::Witness;
+use robot::Observer;
 use stack::Stack;
 use turns::{Company, Turn, turn};
 
@@ -167,7 +167,7 @@ async fn start_cleans_and_stop_stands() {
 
     browser.click("#stop").await;
     browser.until_state(&["idle"]).await;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let witness = Observer::watch(&visit.stack.simulator_socket());
     let stood = witness.stands_within(Duration::from_secs(3));
     assert!(stood.is_some(), "the robot still moves three seconds after Stop");
 }
@@ -179,12 +179,12 @@ async fn the_real_firmware_cleans_and_stop_stands() {
         return;
     };
     let browser = &visit.browser;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let witness = Observer::watch(&visit.stack.simulator_socket());
     browser.click("#strategy option[value=bounce]").await;
     browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
     browser
-        .until("return document.body.innerText.includes('Way of cleaning: bounce.')")
+        .until("return document.body.innerText.includes('Cleaning pattern: Random.')")
         .await;
     browser.sweeps_more_than(200).await;
     browser.shot("desktop-emulated").await;
@@ -205,7 +205,7 @@ async fn the_real_firmware_cleans_and_stop_stands() {
 
 /// Holds a key until the robot turns on the spot, which is possible wherever the short job has left it. On a machine
 /// that is too busy the lease ends between two words of the page, and the wheels wait for a new hold: so does this.
-async fn hold_until_it_turns(browser: &Browser, witness: &Witness) {
+async fn hold_until_it_turns(browser: &Browser, witness: &Observer) {
     for _ in 0..5 {
         browser.hold_key_in("#pad", 'a').await;
         if witness.moves_within(Duration::from_secs(4)) {
@@ -292,11 +292,11 @@ async fn what_the_robot_knows_and_decides_is_shown() {
         .await;
     browser.click("#tab-why").await;
     browser
-        .until("return [...document.querySelectorAll('#decisions li')].some(line => line.textContent.includes('Began to clean'))")
+        .until("return [...document.querySelectorAll('#decisions li')].some(line => line.textContent.includes('Cleaning started'))")
         .await;
     browser.click("#tab-home").await;
     browser
-        .until("return document.querySelector('#home-sheet .sentences li')?.textContent.includes('believes its place')")
+        .until("return document.querySelector('#home-sheet .sentences li')?.textContent.includes('Position known to')")
         .await;
     browser
         .until("return document.getElementById('place')?.textContent.includes('cm')")

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use crate::Visit;
 use crate::browser::{Browser, Screen};
-use crate::robot::Witness;
+use crate::robot::Observer;
 
 /// A pad that the page sees as it sees one of metal; it counts how often it shakes.
 const PAD: &str = "
@@ -51,7 +51,7 @@ async fn press(browser: &Browser, button: u8) {
 }
 
 /// On a machine that is too busy the lease ends between two words of the page: then the stick is let go and held again.
-pub(crate) async fn turn_by_pad(browser: &Browser, witness: &Witness) {
+pub(crate) async fn turn_by_pad(browser: &Browser, witness: &Observer) {
     for _ in 0..5 {
         stick(browser, ACROSS, -1.0).await;
         if witness.moves_within(Duration::from_secs(4)) {
@@ -64,13 +64,13 @@ pub(crate) async fn turn_by_pad(browser: &Browser, witness: &Witness) {
 }
 
 /// Until the robot has stood for twice as long as the page wants to see it stand before a start counts.
-fn come_to_rest(witness: &Witness) {
+fn come_to_rest(witness: &Observer) {
     let has_rested = (0..10).any(|_| !witness.moves_within(Duration::from_millis(500)));
     assert!(has_rested, "the robot moves although the stick is at rest");
 }
 
 /// Starts from rest until the page has measured how fast the robot follows; the stick is held at the end.
-async fn measured_latency(browser: &Browser, witness: &Witness) -> String {
+async fn measured_latency(browser: &Browser, witness: &Observer) -> String {
     for _ in 0..5 {
         stick(browser, ACROSS, 0.0).await;
         come_to_rest(witness);
@@ -99,7 +99,7 @@ async fn a_gamepad_starts_stops_drives_and_shakes_at_a_wall() {
     press(browser, EAST).await;
     browser.until_state(&["idle"]).await;
 
-    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let witness = Observer::watch(&visit.stack.simulator_socket());
     println!("{}", measured_latency(browser, &witness).await);
     browser.shot("desktop-gamepad").await;
 
@@ -164,7 +164,7 @@ async fn a_mix_is_edited_tried_saved_and_there_again_after_a_reload() {
         return;
     };
     let browser = &visit.browser;
-    let witness = Witness::watch(&visit.stack.simulator_socket());
+    let witness = Observer::watch(&visit.stack.simulator_socket());
     plug_in(browser).await;
     open_line(browser).await;
     holds(browser, "mix-name", "My mix").await;

@@ -7,7 +7,7 @@ use tokio::time::sleep;
 use crate::Visit;
 use crate::accessibility::expect_none;
 use crate::browser::{Browser, Screen};
-use crate::robot::Witness;
+use crate::robot::Observer;
 use crate::stack::Stack;
 use crate::turns::Company;
 
@@ -201,7 +201,7 @@ async fn let_in_by_presses(start: fn() -> Stack, company: Company) {
     browser
         .until("return document.getElementById('pair') !== null")
         .await;
-    let witness = Witness::watch(&stack.simulator_socket());
+    let witness = Observer::watch(&stack.simulator_socket());
     hold_start(browser, stack).await;
     fill(browser, "pair-name", "Mari's phone").await;
     browser.click("#pair-now").await;

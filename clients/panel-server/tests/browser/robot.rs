@@ -23,11 +23,11 @@ const CLOSE_LOOK: Duration = Duration::from_millis(10);
 
 /// Hears the true poses, ten a second, or asks for more.
 #[derive(Debug)]
-pub(crate) struct Witness {
+pub(crate) struct Observer {
     poses: Receiver<(Instant, Pose)>,
 }
 
-impl Witness {
+impl Observer {
     pub(crate) fn watch(socket: &Path) -> Self {
         Self::hear(UnixStream::connect(socket).unwrap())
     }

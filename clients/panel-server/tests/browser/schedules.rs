@@ -73,7 +73,7 @@ async fn a_schedule_is_added_left_out_once_and_removed_on_a_phone_in_the_dark() 
         "10"
     );
     browser.click("#skip-1").await;
-    browser.says("next-runs", "07:30, left out").await;
+    browser.says("next-runs", "07:30, skipped").await;
     browser.click("#set-quiet").await;
     browser.says("quiet-words", "from 22:00 to 07:00").await;
     browser

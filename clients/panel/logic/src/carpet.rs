@@ -40,7 +40,7 @@ mod tests {
         };
         assert_eq!(
             carpet_sentence(words, &home(Some(felt(3.3, 20.0)))).as_deref(),
-            Some("By what its motors draw 3.3 m² are carpet and 20.0 m² hard floor.")
+            Some("Carpet detected: 3.3 m². Hard floor: 20.0 m².")
         );
         assert_eq!(carpet_sentence(words, &home(Some(felt(0.0, 0.0)))), None);
         let blind = carpet_sentence(words, &home(None)).expect("a sentence");

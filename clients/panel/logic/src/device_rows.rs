@@ -221,8 +221,12 @@ fn sensors(words: &Words, table: &DeviceTable) -> Vec<Row> {
             any(&table.bumpers),
         ),
         alarm(
-            told.no_floor,
-            list(&[told.left, told.middle, told.right], &table.cliffs, told.nowhere),
+            told.cliff_sensors,
+            list(
+                &[told.left, told.middle, told.right],
+                &table.cliffs,
+                told.no_cliff,
+            ),
             any(&table.cliffs),
         ),
         alarm(
@@ -344,6 +348,9 @@ mod tests {
                 .any(|row| row.label == "Bumper" && row.value == "right" && row.alarming)
         );
         assert!(rows.iter().any(|row| row.label == "Connection" && row.alarming));
-        assert!(rows.iter().any(|row| row.label == "No floor" && !row.alarming));
+        assert!(
+            rows.iter()
+                .any(|row| row.label == "Cliff sensors" && !row.alarming)
+        );
     }
 }

@@ -127,7 +127,7 @@ mod tests {
             (gyro.part, gyro.words.as_str()),
             (
                 LearntPart::Gyro,
-                "counts 1.20\u{a0}% too much, give or take 0.10\u{a0}%; turns -0.3° a minute when it stands"
+                "counts 1.20\u{a0}% too much, ± 0.10\u{a0}%; turns -0.3° a minute at rest"
             )
         );
         let [pack] = robots[1].rows.as_slice() else {

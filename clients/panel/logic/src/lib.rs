@@ -53,7 +53,7 @@ pub use camera::{Bounds, Camera, ScreenBox, View};
 pub use carpet::carpet_sentence;
 pub use codes::{
     Explanation, decision_text, explain, failure_text, log_text, question_text, refusal_text, run_text,
-    state_title,
+    state_title, strategy_title,
 };
 pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};

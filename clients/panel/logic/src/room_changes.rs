@@ -10,7 +10,7 @@ use crate::words::Words;
 pub struct RoomChangeRow {
     /// Its number.
     pub number: u16,
-    /// `Room 5 was cut off from Kitchen`
+    /// `Room 5 was split from Kitchen`
     pub text: String,
     /// No later change builds on it.
     pub can_be_taken_back: bool,
@@ -23,7 +23,7 @@ pub fn room_change_rows(words: &Words, home: &HomeView) -> Vec<RoomChangeRow> {
     let row = |(place, change): (usize, &RoomChangeView)| {
         let [room, other] = change.rooms.map(|id| name_of(words, home, id));
         let text = match change.line {
-            Some(_) => words.home.was_cut.fill([&room, &other]),
+            Some(_) => words.home.was_split.fill([&room, &other]),
             None => words.home.was_joined.fill([&room, &other]),
         };
         let later = changes.iter().skip(place + 1);
@@ -99,8 +99,8 @@ mod tests {
         assert_eq!(
             told,
             [
-                (1, "Room 5 was cut off from Hall", false),
-                (2, "Room 6 was cut off from Hall", true),
+                (1, "Room 5 was split from Hall", false),
+                (2, "Room 6 was split from Hall", true),
                 (4, "Room 3 is a part of Room 2", true),
             ]
         );

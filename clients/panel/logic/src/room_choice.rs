@@ -242,7 +242,7 @@ impl RoomChoice {
         self.parts.is_empty() && self.avoid.is_empty()
     }
 
-    /// `Kitchen, zone of 1.5 x 0.8 m, 2 spots, keeping out of 2 places`
+    /// `Kitchen, zone of 1.5 x 0.8 m, 2 spots, with 2 no-go areas`
     #[must_use]
     pub fn text(&self, words: &Words, rows: &[RoomRow]) -> String {
         let told = &words.map;
@@ -414,10 +414,7 @@ mod tests {
     fn zones_stand_among_the_rooms_and_the_job_keeps_out_of_places() {
         let mut choice = RoomChoice::default();
         choice.keep_out_of(NoGoShape::Wall([[0.0, 0.0], [1.0, 0.0]]));
-        assert_eq!(
-            choice.text(ENGLISH, &[]),
-            "The whole home, keeping out of 1 place"
-        );
+        assert_eq!(choice.text(ENGLISH, &[]), "The whole home, with 1 no-go area");
         let corners = vec![[0.0, 0.0], [1.5, 0.0], [1.5, 0.8], [0.0, 0.8]];
         choice.toggle(3);
         choice.add_zone(corners.clone());
@@ -564,7 +561,7 @@ mod tests {
         };
         let text = job_estimate_text(ENGLISH, &estimate);
         assert!(
-            text.starts_with("18.2 m², about 25 min, 120 % of a full battery, with pauses to charge; 97 %"),
+            text.starts_with("18.2 m², about 25 min, 120 % of a full battery, with pauses to charge; expected coverage 97 %"),
             "{text}"
         );
     }

@@ -5,7 +5,7 @@ use rvac_api::{
     ScheduleView, ScheduledJob, Schedules, Weekday,
 };
 
-use crate::codes::explain;
+use crate::codes::{explain, strategy_title};
 use crate::home::RoomRow;
 use crate::job_settings::JobSettings;
 use crate::kept_places::PlaceRow;
@@ -145,8 +145,8 @@ pub fn zone_text(words: &Words, schedules: &Schedules) -> String {
 fn planned_text(words: &Words, run: &PlannedRun) -> String {
     let (told, at) = (&words.schedule, instant_text(words, &run.at));
     match (run.kept_by.as_deref(), run.held_by.as_deref()) {
-        (Some("skipped"), _) => told.left_out.fill([&at]),
-        (Some("quiet-hours"), _) => told.kept_by_quiet.fill([&at]),
+        (Some("skipped"), _) => told.skipped.fill([&at]),
+        (Some("quiet-hours"), _) => told.blocked_by_quiet.fill([&at]),
         (Some(reason), _) => told.kept.fill([&at, &what_of(words, reason)]),
         (None, Some("quiet-hours")) => told.after_quiet.fill([&at]),
         (None, Some(_)) => told.when_answers.fill([&at]),
@@ -172,7 +172,7 @@ fn job_text(words: &Words, job: &ScheduledJob, (rooms, places): (&[RoomRow], &[P
         ScheduledJob::Start { strategy: None } => return told.whole_home.to_owned(),
         ScheduledJob::Start {
             strategy: Some(strategy),
-        } => return told.whole_home_by.fill([strategy]),
+        } => return told.whole_home_by.fill([&strategy_title(words, strategy)]),
         ScheduledJob::Clean(order) => order,
     };
     let part = |part: &JobPart| match part {
@@ -307,12 +307,9 @@ mod tests {
             rows[0].words,
             "Mon, Fri at 07:30, Kitchen, room 9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
         );
-        assert_eq!(rows[0].next, "Next: Mon 23 Nov, 07:30, left out");
-        assert_eq!(
-            rows[0].now,
-            "It would not start at this moment: A wheel hangs in the air."
-        );
-        assert_eq!(next_rows(ENGLISH, &told()), ["Food: Mon 23 Nov, 07:30, left out"]);
+        assert_eq!(rows[0].next, "Next: Mon 23 Nov, 07:30, skipped");
+        assert_eq!(rows[0].now, "It would not start now: A wheel hangs in the air.");
+        assert_eq!(next_rows(ENGLISH, &told()), ["Food: Mon 23 Nov, 07:30, skipped"]);
         assert_eq!(
             past_rows(ENGLISH, &told()),
             ["Fri 20 Nov, 07:30, Food: A job runs or waits."]

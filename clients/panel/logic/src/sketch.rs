@@ -301,7 +301,7 @@ mod tests {
     fn two_places_make_a_line_across_a_room() {
         let mut sketch = Sketch::default();
         sketch.take(Tool::Cut);
-        assert!(sketch.is_line() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("cut")));
+        assert!(sketch.is_line() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("split")));
         sketch.point((1.0, 1.0));
         assert_eq!(
             sketch.point((1.0, 4.0)),

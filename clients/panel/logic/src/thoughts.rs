@@ -186,13 +186,15 @@ mod tests {
         };
         let told = estimate_sentences(ENGLISH, &lost);
         assert!(
-            told[0].starts_with("It does not know") && told[1].contains("31 %") && told[2].contains("50 %")
+            told[0].starts_with("The robot does not know")
+                && told[1].contains("31 %")
+                && told[2].contains("50 %")
         );
         let low = Estimate {
             covered_low: Some(0.44),
             ..lost
         };
-        assert!(estimate_sentences(ENGLISH, &low)[2].contains("50 % (at least 44 %) of the floor"));
+        assert!(estimate_sentences(ENGLISH, &low)[2].contains("50 % of the reachable floor, at least 44 %"));
         assert_eq!(
             place_text(
                 ENGLISH,

@@ -133,7 +133,7 @@ fn line(entrance: Entrance, devices: Devices, row: ClientRow) -> impl IntoView {
         }
     };
     let label = words().access.may_named.fill([&name]);
-    let shut_out = words().access.shut_named.fill([&name]);
+    let shut_out = words().access.remove_named.fill([&name]);
     view! {
         <li>
             <span class="name">{name}</span>
@@ -149,7 +149,7 @@ fn line(entrance: Entrance, devices: Devices, row: ClientRow) -> impl IntoView {
                 aria-label=shut_out
                 on:click=move |_| devices.change("/api/clients/revoke", Revoke { id })
             >
-                {words().access.shut}
+                {words().access.remove}
             </button>
         </li>
     }

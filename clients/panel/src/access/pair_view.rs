@@ -15,7 +15,7 @@ const LOOK_EVERY: Duration = Duration::from_secs(2);
 
 /// What is typed, and how far it went.
 #[derive(Clone, Copy)]
-struct Form {
+struct PairForm {
     name: RwSignal<String>,
     code: RwSignal<String>,
     wrong: RwSignal<String>,
@@ -28,7 +28,7 @@ struct Form {
     joined: RwSignal<Option<Joined>>,
 }
 
-impl Form {
+impl PairForm {
     fn new() -> Self {
         Self {
             name: RwSignal::new(String::new()),
@@ -93,7 +93,7 @@ impl Form {
 
 #[component]
 pub(crate) fn PairView(store: Store) -> impl IntoView {
-    let form = Form::new();
+    let form = PairForm::new();
     form.look();
     if let Ok(timer) = set_interval_with_handle(move || form.look(), LOOK_EVERY) {
         on_cleanup(move || timer.clear());

@@ -14,13 +14,13 @@ const TRAVEL: f64 = 0.63;
 
 /// What hands and keys do to the pad.
 #[derive(Clone, Copy)]
-struct Grip {
+struct PadControl {
     seat: Seat,
     pad: NodeRef<html::Div>,
     ready: Signal<bool>,
 }
 
-impl Grip {
+impl PadControl {
     /// The pointer took hold of the pad.
     fn press(self, event: &PointerEvent) {
         if !self.ready.get_untracked() || event.button() != 0 {
@@ -79,7 +79,7 @@ impl Grip {
 #[component]
 pub(crate) fn Pad(seat: Seat, ready: Signal<bool>) -> impl IntoView {
     let pad = NodeRef::<html::Div>::new();
-    let grip = Grip { seat, pad, ready };
+    let grip = PadControl { seat, pad, ready };
     let place_knob = move || {
         let [right, down] = seat.knob.get();
         format!("translate({}px, {}px)", right * 58.0, down * 58.0)

@@ -89,7 +89,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
             <HowItIsCleaned store />
             <div class="order-tools">
                 <button type="button" class="small" id="choose-none" on:click=move |_| store.choose(RoomChoice::clear)>
-                    {words().map.choose_none}
+                    {words().map.clear_choice}
                 </button>
                 <Show when=move || joinable.get().is_some()>
                     <Needs store verb=EDITS_HOME>
@@ -109,7 +109,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
                     title=waits
                     on:click=clean
                 >
-                    {words().map.clean_these}
+                    {words().map.clean_selected}
                     <span class="visually-hidden">{move || waits().map(|why| words().frame.not_now.fill([&why]))}</span>
                 </button>
             </div>

@@ -145,7 +145,7 @@ pub(crate) fn ReshapeView(store: Store) -> impl IntoView {
 
 /// A finger on a handle: where it went down, and where the handle was then.
 #[derive(Clone, Copy, Debug)]
-struct Grip {
+struct HandleDrag {
     pointer: i32,
     down: (f64, f64),
     handle: (f64, f64),
@@ -165,9 +165,9 @@ fn HandleView(store: Store, handle: Handle) -> impl IntoView {
             .with(|held| held.as_ref()?.outline().at(handle));
         held.map(|place| store.on_screen(place))
     });
-    let grip = StoredValue::new(None::<Grip>);
+    let grip = StoredValue::new(None::<HandleDrag>);
     let on_down = move |event: PointerEvent| {
-        grip.set_value(at.get_untracked().map(|handle| Grip {
+        grip.set_value(at.get_untracked().map(|handle| HandleDrag {
             pointer: event.pointer_id(),
             down: client(&event),
             handle,

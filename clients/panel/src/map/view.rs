@@ -155,8 +155,8 @@ fn GroundSwitch(store: Store, shown: RwSignal<Ground>) -> impl IntoView {
     view! {
         <Show when=simulated>
             <div class="ground-switch" role="group" aria-label=words().map.ground>
-                {choice(Ground::True, "ground-true", words().map.ground_true)}
-                {choice(Ground::Known, "ground-known", words().map.ground_known)}
+                {choice(Ground::True, "ground-true", words().map.floor_plan)}
+                {choice(Ground::Known, "ground-known", words().map.robot_map)}
             </div>
         </Show>
     }
@@ -201,7 +201,7 @@ fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
                     <li><span class="key door" aria-hidden="true"></span>{words().map.door}</li>
                 </Show>
                 <Show when=simulated>
-                    <li><span class="key truth" aria-hidden="true"></span>{words().map.true_place}</li>
+                    <li><span class="key truth" aria-hidden="true"></span>{words().map.actual_position}</li>
                 </Show>
             </ul>
             <span class="spring"></span>

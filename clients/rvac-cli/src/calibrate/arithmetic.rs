@@ -68,10 +68,10 @@ pub(crate) fn travelled(before: (i32, i32), after: (i32, i32)) -> (i64, i64) {
     )
 }
 
-/// Way of one count in nm after a push of `way_mm`. Signs of the wheels do not matter yet.
-pub(crate) fn count_way_nm((left, right): (i64, i64), way_mm: i64) -> Result<i64, NoValue> {
-    if !PUSHED_MM.contains(&way_mm) {
-        return Err(NoValue::Way(way_mm));
+/// Way of one count in nm after a push of `distance_mm`. Signs of the wheels do not matter yet.
+pub(crate) fn distance_per_count_nm((left, right): (i64, i64), distance_mm: i64) -> Result<i64, NoValue> {
+    if !PUSHED_MM.contains(&distance_mm) {
+        return Err(NoValue::Way(distance_mm));
     }
     let (left, right) = (left.abs(), right.abs());
     let sum = left + right;
@@ -87,11 +87,15 @@ pub(crate) fn count_way_nm((left, right): (i64, i64), way_mm: i64) -> Result<i64
             advice: "push straight ahead and press no wheel off the floor",
         });
     }
-    Ok((way_mm * 2_000_000 + sum / 2) / sum)
+    Ok((distance_mm * 2_000_000 + sum / 2) / sum)
 }
 
 /// Track in µm after `turns` on the spot: the rims go opposite ways round a circle of the track's diameter.
-pub(crate) fn track_um((left, right): (i64, i64), turns: i64, count_way_nm: i64) -> Result<i64, NoValue> {
+pub(crate) fn track_um(
+    (left, right): (i64, i64),
+    turns: i64,
+    distance_per_count_nm: i64,
+) -> Result<i64, NoValue> {
     let (left, right) = (left.abs(), right.abs());
     if left.min(right) < 10 {
         return Err(NoValue::Still(
@@ -105,7 +109,7 @@ pub(crate) fn track_um((left, right): (i64, i64), turns: i64, count_way_nm: i64)
             advice: "turn it about the point between its wheels",
         });
     }
-    let rim_nm = (left + right) as f64 * count_way_nm as f64;
+    let rim_nm = (left + right) as f64 * distance_per_count_nm as f64;
     Ok((rim_nm / (TAU * turns as f64) / 1e3).round() as i64)
 }
 
@@ -233,21 +237,28 @@ pub(crate) fn speed_mm_per_s(way_nm: i64, elapsed_ms: i64) -> Result<i64, NoValu
 #[cfg(test)]
 mod tests {
     use super::{
-        NoValue, at_nominal, between, brightest, count_way_nm, current_scale_ua, follows, line_order, mean,
-        mean_milli, rate_per_s, rises, scale_uv, speed_mm_per_s, steady_mean, track_um, travelled,
+        NoValue, at_nominal, between, brightest, current_scale_ua, distance_per_count_nm, follows,
+        line_order, mean, mean_milli, rate_per_s, rises, scale_uv, speed_mm_per_s, steady_mean, track_um,
+        travelled,
     };
 
     #[test]
     fn a_push_along_a_measure_gives_the_way_of_a_count() {
-        assert_eq!(count_way_nm((2000, -2000), 1000), Ok(500_000));
-        assert_eq!(count_way_nm((1990, 2010), 1000), Ok(500_000));
-        assert_eq!(count_way_nm((6100, 6100), 3050), Ok(500_000));
-        for way_mm in [-1000, 0, 3, 499, 20_001, 999_999_999] {
-            assert_eq!(count_way_nm((2000, 2000), way_mm), Err(NoValue::Way(way_mm)));
+        assert_eq!(distance_per_count_nm((2000, -2000), 1000), Ok(500_000));
+        assert_eq!(distance_per_count_nm((1990, 2010), 1000), Ok(500_000));
+        assert_eq!(distance_per_count_nm((6100, 6100), 3050), Ok(500_000));
+        for distance_mm in [-1000, 0, 3, 499, 20_001, 999_999_999] {
+            assert_eq!(
+                distance_per_count_nm((2000, 2000), distance_mm),
+                Err(NoValue::Way(distance_mm))
+            );
         }
-        assert!(matches!(count_way_nm((0, 2000), 1000), Err(NoValue::Still(_))));
         assert!(matches!(
-            count_way_nm((1000, 2000), 1000),
+            distance_per_count_nm((0, 2000), 1000),
+            Err(NoValue::Still(_))
+        ));
+        assert!(matches!(
+            distance_per_count_nm((1000, 2000), 1000),
             Err(NoValue::Unequal {
                 left: 1000,
                 right: 2000,

@@ -49,7 +49,7 @@ impl Item {
 }
 
 #[derive(Debug, Deserialize)]
-struct Robot {
+struct RobotFile {
     #[serde(default)]
     calibration: Vec<Item>,
 }
@@ -83,7 +83,7 @@ impl Catalog {
             let known = ROBOTS.map(|(name, ..)| name).join(", ");
             bail!("nothing can be calibrated on a robot {robot:?}; known: {known}");
         };
-        let values: Robot = toml::from_str(values).context("robot.toml of this program")?;
+        let values: RobotFile = toml::from_str(values).context("robot.toml of this program")?;
         let pins: Pinout = toml::from_str(pins).context("pinout.toml of this program")?;
         Ok(Self {
             robot: name,

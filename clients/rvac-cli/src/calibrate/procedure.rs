@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
 
 use super::arithmetic::{
-    count_way_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um, travelled,
+    distance_per_count_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um, travelled,
 };
 use super::catalog::{Catalog, Item};
 use super::dialog::Dialog;
@@ -130,8 +130,8 @@ impl Bench<'_> {
                 let moved = self.moved_by_hand(
                     "Push it straight ahead along a measure, three metres if there is room, then press Enter.",
                 )?;
-                let way_mm = Dialog::number(self.robot, "How far did it go, in millimetres?")?;
-                Ok(count_way_nm(moved, way_mm)?)
+                let distance_mm = Dialog::number(self.robot, "How far did it go, in millimetres?")?;
+                Ok(distance_per_count_nm(moved, distance_mm)?)
             }
             Procedure::Spin => {
                 let way_nm = self.needed("wheel-distance-per-count")?;

@@ -10,7 +10,7 @@ use anyhow::Context as _;
 use mixer::{Device, KeyCode, Source};
 use rustix::termios::{LocalModes, OptionalActions, Termios, tcgetattr, tcsetattr};
 
-use super::Event;
+use super::DriveEvent;
 
 /// A terminal begins to repeat a key after this long at most.
 const FIRST: Duration = Duration::from_millis(550);
@@ -43,14 +43,14 @@ enum Typed {
 ///
 /// # Errors
 /// When the terminal does not give single keys.
-pub(super) fn listen(events: Sender<Event>) -> anyhow::Result<RawTerminal> {
+pub(super) fn listen(events: Sender<DriveEvent>) -> anyhow::Result<RawTerminal> {
     let before = tcgetattr(std::io::stdin()).context("the terminal cannot be asked")?;
     let mut raw = before.clone();
     raw.local_modes
         .remove(LocalModes::ICANON | LocalModes::ECHO | LocalModes::ISIG);
     tcsetattr(std::io::stdin(), OptionalActions::Flush, &raw).context("the terminal gives no single keys")?;
     let guide = "W A S D or arrows drive, space stops, q ends; a gamepad drives too";
-    events.send(Event::Remark(guide.to_owned())).ok();
+    events.send(DriveEvent::Remark(guide.to_owned())).ok();
     let (typed, keys) = channel();
     std::thread::spawn(move || read(&typed));
     std::thread::spawn(move || hold(&keys, &events));
@@ -67,10 +67,10 @@ fn read(typed: &Sender<Vec<u8>>) {
 }
 
 /// Makes presses and releases of what is typed, until the terminal is gone.
-fn hold(keys: &Receiver<Vec<u8>>, events: &Sender<Event>) {
+fn hold(keys: &Receiver<Vec<u8>>, events: &Sender<DriveEvent>) {
     let mut held = Held::default();
     // The keyboard is there, with nothing held.
-    let mut changes: Vec<Event> = released(&KeyCode::new("Space")).into_iter().collect();
+    let mut changes: Vec<DriveEvent> = released(&KeyCode::new("Space")).into_iter().collect();
     loop {
         for event in changes.drain(..) {
             if events.send(event).is_err() {
@@ -83,29 +83,29 @@ fn hold(keys: &Receiver<Vec<u8>>, events: &Sender<Event>) {
                     changes.push(match typed {
                         Typed::Key(code) => {
                             held.press(&code, Instant::now());
-                            Event::Moved(Source::Key(code), 1.0)
+                            DriveEvent::Moved(Source::Key(code), 1.0)
                         }
-                        Typed::Quit => Event::Ended,
+                        Typed::Quit => DriveEvent::Ended,
                     });
                 }
             }
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {
-                events.send(Event::Gone(Device::Keyboard)).ok();
-                events.send(Event::Ended).ok();
+                events.send(DriveEvent::Gone(Device::Keyboard)).ok();
+                events.send(DriveEvent::Ended).ok();
                 return;
             }
         }
         changes.extend(
             held.overdue(Instant::now())
                 .into_iter()
-                .map(|code| Event::Moved(Source::Key(code), 0.0)),
+                .map(|code| DriveEvent::Moved(Source::Key(code), 0.0)),
         );
     }
 }
 
-fn released(code: &Option<KeyCode>) -> Option<Event> {
-    code.clone().map(|code| Event::Moved(Source::Key(code), 0.0))
+fn released(code: &Option<KeyCode>) -> Option<DriveEvent> {
+    code.clone().map(|code| DriveEvent::Moved(Source::Key(code), 0.0))
 }
 
 /// Keys that are held, and until when.

@@ -27,7 +27,7 @@ pub(crate) use profile::{kept as kept_profiles, named as named_profile, read as 
 
 /// Something that came in.
 #[derive(Debug)]
-enum Event {
+enum DriveEvent {
     /// An input reads this.
     Moved(Source, f64),
     /// A device is gone with all of its inputs.

@@ -10,7 +10,7 @@ use std::time::Duration;
 use evdev::{AbsoluteAxisCode, EventSummary, KeyCode};
 use mixer::{Device, Source};
 
-use super::Event;
+use super::DriveEvent;
 use super::shaker::Shaker;
 
 /// New pads are looked for so often.
@@ -25,7 +25,7 @@ const BY_PLACE: [u16; 2] = [0x054C, 0x057E];
 type Open = Arc<Mutex<BTreeMap<PathBuf, u8>>>;
 
 /// Looks for pads and reads them, on threads of their own.
-pub(super) fn listen(events: Sender<Event>) {
+pub(super) fn listen(events: Sender<DriveEvent>) {
     std::thread::spawn(move || {
         let open = Open::default();
         let mut told = false;
@@ -33,7 +33,7 @@ pub(super) fn listen(events: Sender<Event>) {
             let found = scan(&open, &events);
             if !found && !std::mem::replace(&mut told, true) {
                 let text = "no gamepad yet: plug one in (this user must be allowed to read /dev/input, group `input`)";
-                if events.send(Event::Remark(text.to_owned())).is_err() {
+                if events.send(DriveEvent::Remark(text.to_owned())).is_err() {
                     return;
                 }
             }
@@ -43,7 +43,7 @@ pub(super) fn listen(events: Sender<Event>) {
 }
 
 /// Starts a reader for each pad that has none. Whether there is any pad.
-fn scan(open: &Open, events: &Sender<Event>) -> bool {
+fn scan(open: &Open, events: &Sender<DriveEvent>) -> bool {
     for (path, device) in evdev::enumerate() {
         let is_pad = device
             .supported_keys()
@@ -68,7 +68,7 @@ fn scan(open: &Open, events: &Sender<Event>) -> bool {
 }
 
 /// Reads one pad until it is gone.
-fn read(mut device: evdev::Device, pad: u8, events: &Sender<Event>) {
+fn read(mut device: evdev::Device, pad: u8, events: &Sender<DriveEvent>) {
     let name = device.name().unwrap_or("a gamepad").to_owned();
     let letters = Letters::of(device.input_id().vendor());
     let ranges: BTreeMap<u16, Range> = device
@@ -78,14 +78,16 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<Event>) {
                 .collect()
         })
         .unwrap_or_default();
-    events.send(Event::Remark(format!("pad-{pad} is {name}"))).ok();
+    events
+        .send(DriveEvent::Remark(format!("pad-{pad} is {name}")))
+        .ok();
     if let Some(shaker) = Shaker::of(&mut device) {
-        events.send(Event::CanShake(pad, shaker)).ok();
+        events.send(DriveEvent::CanShake(pad, shaker)).ok();
     }
     // It is there from now on, with the sticks where they are.
     for button in 0..17 {
         events
-            .send(Event::Moved(Source::PadButton { pad, button }, 0.0))
+            .send(DriveEvent::Moved(Source::PadButton { pad, button }, 0.0))
             .ok();
     }
     for (code, info) in device.get_absinfo().into_iter().flatten() {
@@ -98,7 +100,7 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<Event>) {
                     if let Some(button) = button(code, letters) {
                         let value = f64::from(u8::from(value != 0));
                         events
-                            .send(Event::Moved(Source::PadButton { pad, button }, value))
+                            .send(DriveEvent::Moved(Source::PadButton { pad, button }, value))
                             .ok();
                     }
                 }
@@ -107,18 +109,18 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<Event>) {
             }
         }
     }
-    events.send(Event::Gone(Device::Pad(pad))).ok();
+    events.send(DriveEvent::Gone(Device::Pad(pad))).ok();
 }
 
 fn moved(
     pad: u8,
     (code, value): (AbsoluteAxisCode, i32),
     ranges: &BTreeMap<u16, Range>,
-    events: &Sender<Event>,
+    events: &Sender<DriveEvent>,
 ) {
     let range = ranges.get(&code.0).copied().unwrap_or(Range::new(-1, 1));
     for (source, value) in sources(pad, code, range.share(value)) {
-        events.send(Event::Moved(source, value)).ok();
+        events.send(DriveEvent::Moved(source, value)).ok();
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::mpsc::Sender;
 
 use mixer::{Device, Source, SourceError};
 
-use super::Event;
+use super::DriveEvent;
 use crate::lines;
 
 /// Why a line cannot be used.
@@ -29,20 +29,20 @@ pub(super) enum LineError {
 }
 
 /// Reads the input on a thread of its own.
-pub(super) fn listen(events: Sender<Event>) {
+pub(super) fn listen(events: Sender<DriveEvent>) {
     lines::read_input(
         events,
         |line| match parse(&line) {
             Ok(Some(event)) => event,
-            Ok(None) => Event::Remark(String::new()),
-            Err(error) => Event::Wrong(error),
+            Ok(None) => DriveEvent::Remark(String::new()),
+            Err(error) => DriveEvent::Wrong(error),
         },
-        || Event::Ended,
+        || DriveEvent::Ended,
     );
 }
 
 /// What a line says; none for one that says nothing.
-fn parse(line: &str) -> Result<Option<Event>, LineError> {
+fn parse(line: &str) -> Result<Option<DriveEvent>, LineError> {
     let mut words = line.split_whitespace();
     let (first, second) = match (words.next(), words.next(), words.next()) {
         (None, _, _) => return Ok(None),
@@ -51,7 +51,7 @@ fn parse(line: &str) -> Result<Option<Event>, LineError> {
         _ => return Err(LineError::Words(line.to_owned())),
     };
     if second == "gone" {
-        return Ok(Some(Event::Gone(device(first)?)));
+        return Ok(Some(DriveEvent::Gone(device(first)?)));
     }
     let source: Source = first.parse()?;
     // What other clients tell comes from the robot, with its lease.
@@ -60,7 +60,7 @@ fn parse(line: &str) -> Result<Option<Event>, LineError> {
     }
     let value = second.parse::<f64>().ok().filter(|value| value.is_finite());
     let value = value.ok_or_else(|| LineError::Number(second.to_owned()))?;
-    Ok(Some(Event::Moved(source, value)))
+    Ok(Some(DriveEvent::Moved(source, value)))
 }
 
 fn device(word: &str) -> Result<Device, LineError> {
@@ -74,13 +74,13 @@ fn device(word: &str) -> Result<Device, LineError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Event, parse};
+    use super::{DriveEvent, parse};
 
     #[test]
     fn lines_are_readings_losses_or_told_to_be_wrong() {
         let said = |line: &str| match parse(line) {
-            Ok(Some(Event::Moved(source, value))) => format!("{source}={value}"),
-            Ok(Some(Event::Gone(device))) => format!("{device} gone"),
+            Ok(Some(DriveEvent::Moved(source, value))) => format!("{source}={value}"),
+            Ok(Some(DriveEvent::Gone(device))) => format!("{device} gone"),
             Ok(other) => format!("{other:?}"),
             Err(error) => error.to_string(),
         };

@@ -13,7 +13,7 @@ use mixer::{
 };
 use rvac_api::{Request, RequestBody, RobotDescription, Status, Topic, Update};
 
-use super::Event;
+use super::DriveEvent;
 use super::shaker::Shaker;
 use crate::socket::Connection;
 
@@ -48,14 +48,14 @@ fn top(robot: &RobotDescription) -> TopSpeeds {
 }
 
 /// Hears the daemon on a thread of its own.
-pub(super) fn hear(mut connection: Connection, events: Sender<Event>) {
+pub(super) fn hear(mut connection: Connection, events: Sender<DriveEvent>) {
     std::thread::spawn(move || {
         loop {
             let event = match connection.receive() {
-                Ok(message) => message.update.map(|update| Event::Daemon(Box::new(update))),
-                Err(error) => Some(Event::Lost(error)),
+                Ok(message) => message.update.map(|update| DriveEvent::Daemon(Box::new(update))),
+                Err(error) => Some(DriveEvent::Lost(error)),
             };
-            let is_over = matches!(event, Some(Event::Lost(_)));
+            let is_over = matches!(event, Some(DriveEvent::Lost(_)));
             if event.is_some_and(|event| events.send(event).is_err()) || is_over {
                 return;
             }
@@ -84,7 +84,7 @@ impl Session {
     }
 
     /// Drives until the inputs end or the daemon goes.
-    pub(super) fn run(&mut self, inbox: &Receiver<Event>) -> anyhow::Result<ExitCode> {
+    pub(super) fn run(&mut self, inbox: &Receiver<DriveEvent>) -> anyhow::Result<ExitCode> {
         remark(&format!("drives by the mix {}", self.pilot.profile().name))?;
         let mut tick = Instant::now();
         loop {
@@ -109,27 +109,27 @@ impl Session {
     }
 
     /// Whether it is over.
-    fn take(&mut self, event: Event) -> anyhow::Result<bool> {
+    fn take(&mut self, event: DriveEvent) -> anyhow::Result<bool> {
         match event {
-            Event::Moved(source, value) => {
+            DriveEvent::Moved(source, value) => {
                 self.readings.set(&source, value);
             }
-            Event::Gone(device) => {
+            DriveEvent::Gone(device) => {
                 self.readings.remove(&device);
                 if let Device::Pad(pad) = device {
                     self.shakers.remove(&pad);
                 }
                 remark(&format!("{device} is gone: the wheels stand"))?;
             }
-            Event::CanShake(pad, shaker) => {
+            DriveEvent::CanShake(pad, shaker) => {
                 self.shakers.insert(pad, shaker);
             }
-            Event::Remark(text) if text.is_empty() => {}
-            Event::Remark(text) => remark(&text)?,
-            Event::Ended => return Ok(true),
-            Event::Wrong(error) => return Err(error.into()),
-            Event::Daemon(update) => self.hear(*update)?,
-            Event::Lost(error) => return Err(error),
+            DriveEvent::Remark(text) if text.is_empty() => {}
+            DriveEvent::Remark(text) => remark(&text)?,
+            DriveEvent::Ended => return Ok(true),
+            DriveEvent::Wrong(error) => return Err(error.into()),
+            DriveEvent::Daemon(update) => self.hear(*update)?,
+            DriveEvent::Lost(error) => return Err(error),
         }
         Ok(false)
     }

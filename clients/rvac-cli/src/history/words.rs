@@ -8,7 +8,7 @@ use rvac_api::{Run, RunAsker, RunJob, RunRecord, RunResult, RunStop};
 pub(super) fn list(runs: &[Run], more: bool) -> String {
     let mut text = String::new();
     if runs.is_empty() {
-        text += "no run is kept: one is when a job ends\n";
+        text += "no runs yet: a run appears when a job ends\n";
     }
     for run in runs {
         text += &format!(
@@ -40,8 +40,8 @@ pub(super) fn record(record: &RunRecord) -> String {
          ended     {}\n\
          order     {}, by {}\n\
          time      {}, {} of it in motion\n\
-         swept     {:.1} m2{share}\n\
-         way       {:.0} m, {} bumps\n",
+         cleaned   {:.1} m2{share}\n\
+         distance  {:.0} m, {} bumps\n",
         run.number,
         run.text,
         when(run.start_s),
@@ -198,7 +198,7 @@ mod tests {
             "charge_end":0.71,"result":"gave-up","reason":"slip","text":"Gave up: its wheels slip.","stop_count":3,
             "map":12,"recordings":[{"name":"run-a.mcap","zero_s":1.0,"bytes":2500000},
             {"name":"run-b.mcap","zero_s":-60.0}]},
-            "stops":[{"at_s":61.0,"lasted_s":12.0,"state":"paused","reason":"command","text":"Paused: somebody asked for it.",
+            "stops":[{"at_s":61.0,"lasted_s":12.0,"state":"paused","reason":"command","text":"Paused: it was requested.",
             "by":"panel","place":{"x":1.0,"y":-2.5,"heading":0.0,"t":3.0}}]}"#;
         serde_json::from_str(text).expect("is of the daemon's form")
     }
@@ -209,9 +209,9 @@ mod tests {
             record(&kept()),
             "run 7: Gave up: its wheels slip.\nbegan     clock not set\nended     clock not set\n\
              order     clean Köök, a zone, 2 spots, 2 times, systematic, by schedule 3 (Morning)\n\
-             time      1 h 05, 30 min of it in motion\nswept     12.3 m2, 96 % of that floor as its map tells\n\
-             way       152 m, 12 bumps\nbattery   98-71 %\nmap       version 12\n\
-             stop at   1 min  paused for 12 s, at x 1.00 m, y -2.50 m: Paused: somebody asked for it. (command) (panel)\n\
+             time      1 h 05, 30 min of it in motion\ncleaned   12.3 m2, 96 % of that floor as its map tells\n\
+             distance  152 m, 12 bumps\nbattery   98-71 %\nmap       version 12\n\
+             stop at   1 min  paused for 12 s, at x 1.00 m, y -2.50 m: Paused: it was requested. (command) (panel)\n\
              and 2 more stops\nrecording 1  run-a.mcap (2.5 MB)\n\
              recording 2  run-b.mcap (removed, newer ones took its place)\n"
         );
@@ -219,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_list_tells_how_to_see_older_ones() {
-        assert!(list(&[], false).starts_with("no run is kept"));
+        assert!(list(&[], false).starts_with("no runs yet"));
         let text = list(&[kept().run], true);
         assert!(
             text.starts_with("7    clock not set    clean in   1 h 05  12.3 m2  98-71 %  Gave up"),

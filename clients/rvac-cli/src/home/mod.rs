@@ -158,16 +158,16 @@ pub(crate) fn sureness(estimate: &Estimate) -> String {
         "lost: it does not know where it is".to_owned()
     } else {
         format!(
-            "sure to {:.2} m and {:.0} deg",
+            "position known to {:.2} m, heading to {:.0} deg",
             estimate.sigma_m,
             estimate.sigma_rad.to_degrees()
         )
     };
     if let Some(agreement) = estimate.agreement {
-        text += &format!(", its map explains {:.0} % of what it sees", 100.0 * agreement);
+        text += &format!(", sensors match the map: {:.0} %", 100.0 * agreement);
     }
     if let Some(covered) = estimate.covered {
-        text += &format!(", about {:.0} % of the floor it knows is swept", 100.0 * covered);
+        text += &format!(", estimated coverage {:.0} % of the known floor", 100.0 * covered);
         if let Some(low) = estimate.covered_low {
             text += &format!(" (at least {:.0} %)", 100.0 * low);
         }
@@ -221,7 +221,7 @@ fn now_s() -> u64 {
 
 fn table(maps: &[KeptMap], now_s: u64) -> String {
     if maps.is_empty() {
-        return "no map is kept yet: one is when a run ends\n".to_owned();
+        return "no map backups yet: one is made when a run ends\n".to_owned();
     }
     let mut text = "number  kept             floor     rooms\n".to_owned();
     for (place, map) in maps.iter().enumerate() {

@@ -55,7 +55,7 @@ fn in_words(estimate: &JobEstimate) -> String {
     };
     format!(
         "floor     {:.1} m2\ntime      about {:.0} min\nbattery   {:.0} % of a full one, with the way home{charging}\n\
-         swept     about {:.0} % of the floor; {:.0} % if it knows its place half as well as it believes\n",
+         coverage  about {:.0} %; {:.0} % if the position is half as accurate as estimated\n",
         estimate.floor_m2,
         (estimate.time_s / 60.0).ceil(),
         100.0 * estimate.charge,
@@ -145,8 +145,7 @@ mod tests {
         assert_eq!(
             in_words(&estimate),
             "floor     31.4 m2\ntime      about 41 min\nbattery   120 % of a full one, with the way home, so it will \
-             charge in between\nswept     about 98 % of the floor; 91 % if it knows its place half as well as it \
-             believes\n"
+             charge in between\ncoverage  about 98 %; 91 % if the position is half as accurate as estimated\n"
         );
     }
 }

@@ -61,7 +61,7 @@ fn shape<'place>(spot: Option<&Place>, corners: impl Iterator<Item = &'place Pla
 
 fn table(home: &HomeView) -> String {
     if home.places.is_empty() {
-        return "no place is kept: `rvac places keep NAME --zone X,Y X,Y` keeps one\n".to_owned();
+        return "no saved zones: `rvac places keep NAME --zone X,Y X,Y` saves one\n".to_owned();
     }
     let mut text = "number  what\n".to_owned();
     for place in &home.places {
@@ -94,7 +94,7 @@ pub(super) fn find(home: &HomeView, wanted: &str) -> anyhow::Result<u16> {
         .map(|place| format!("{} ({})", place.number, place.name))
         .collect();
     if names.is_empty() {
-        bail!("no place is called {wanted:?}: none is kept");
+        bail!("no saved zone is called {wanted:?}: there are none");
     }
     bail!(
         "no place is called {wanted:?}: the map keeps {}",
@@ -133,7 +133,7 @@ mod tests {
             table(&home()),
             "number  what\n2       zone  0.00,0.50 1.00,0.50 1.00,2.00  Table\n4       spot  -0.50,3.00  Bowl\n"
         );
-        assert!(table(&HomeView::default()).starts_with("no place is kept"));
+        assert!(table(&HomeView::default()).starts_with("no saved zones"));
     }
 
     #[test]

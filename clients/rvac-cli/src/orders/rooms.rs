@@ -85,7 +85,7 @@ fn changes(home: &HomeView) -> String {
         let [room, other] = change.rooms;
         let what = match change.line {
             Some([[x, y], [to_x, to_y]]) => {
-                format!("room {other} was cut off from room {room} at {x:.2},{y:.2} {to_x:.2},{to_y:.2}")
+                format!("room {other} was split from room {room} at {x:.2},{y:.2} {to_x:.2},{to_y:.2}")
             }
             None => format!("room {other} is a part of room {room}"),
         };
@@ -195,7 +195,7 @@ mod tests {
         };
         let text = changes(&home);
         assert!(
-            text.contains("2       room 5 was cut off from room 1 at 0.00,0.50 -1.00,0.50\n"),
+            text.contains("2       room 5 was split from room 1 at 0.00,0.50 -1.00,0.50\n"),
             "{text}"
         );
         assert!(text.ends_with("3       room 5 is a part of room 1\n"), "{text}");

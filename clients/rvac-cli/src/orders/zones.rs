@@ -103,7 +103,7 @@ pub(super) fn outline(corners: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 fn table(home: &HomeView) -> String {
     if home.no_go.is_empty() {
-        return "nothing is forbidden\n".to_owned();
+        return "no restricted areas\n".to_owned();
     }
     let mut text = "number  what\n".to_owned();
     for no_go in &home.no_go {
@@ -177,6 +177,6 @@ mod tests {
             assert_eq!(find(&home, wanted).expect("is found"), number, "{wanted}");
         }
         assert!(find(&home, "Dogs").is_err());
-        assert_eq!(table(&HomeView::default()), "nothing is forbidden\n");
+        assert_eq!(table(&HomeView::default()), "no restricted areas\n");
     }
 }

@@ -23,14 +23,14 @@ const BYTES_MIN: usize = 10;
 
 /// What a port gave in a while.
 #[derive(Debug, Default)]
-struct Heard {
+struct CapturedBytes {
     bytes: Vec<u8>,
     lost: u32,
     /// From the first piece to the last by the robot's clock, ms.
     span_ms: u32,
 }
 
-impl Heard {
+impl CapturedBytes {
     /// What the pieces hold, in their order; a gap on our own line is left out.
     fn join(pieces: Vec<Probed>) -> Self {
         let ends = pieces.first().zip(pieces.last());
@@ -54,7 +54,7 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
         "UART {port} at {baud} baud: bytes without a wrong stop bit."
     ))?;
     let target = ProbeTarget::Serial { port, baud };
-    let mut part = |wish: &str| -> anyhow::Result<Heard> {
+    let mut part = |wish: &str| -> anyhow::Result<CapturedBytes> {
         say(&format!(
             "{wish}, within {} s; press Enter to begin.",
             PART.as_secs()
@@ -62,7 +62,7 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
         if robot.next_line()?.is_none() {
             bail!("the input ended before the recording did; nothing was written");
         }
-        Ok(Heard::join(robot.watch(target, &[], Watch::For(PART))?))
+        Ok(CapturedBytes::join(robot.watch(target, &[], Watch::For(PART))?))
     };
     let rest = part("Leave the robot alone")?;
     let left = part("Turn it once around to the left (counter-clockwise), slowly")?;
@@ -89,7 +89,8 @@ fn find(robot: &mut Robot) -> anyhow::Result<(u8, u32)> {
     for port in PORTS {
         let mut best: Option<(u32, usize)> = None;
         for baud in RATES {
-            let heard = Heard::join(robot.watch(ProbeTarget::Serial { port, baud }, &[], Watch::For(TRY))?);
+            let heard =
+                CapturedBytes::join(robot.watch(ProbeTarget::Serial { port, baud }, &[], Watch::For(TRY))?);
             let count = heard.bytes.len();
             say(&format!(
                 "UART {port}, {baud:6} baud: {count} bytes, {} wrong",

@@ -25,7 +25,7 @@ pub(crate) fn run(job: &ProbeJob) -> anyhow::Result<ExitCode> {
         ProbeWhat::Buttons => ProbeTarget::Buttons,
         ProbeWhat::Gyro { file } => return gyro::run(&mut robot, file).map(|()| ExitCode::SUCCESS),
     };
-    say(&spell(&robot.probe(target)?))?;
+    say(&describe(&robot.probe(target)?))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -35,7 +35,7 @@ fn say(line: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn spell(content: &ProbedContent) -> String {
+fn describe(content: &ProbedContent) -> String {
     let rows = |cells: &mut dyn Iterator<Item = String>| cells.collect::<Vec<_>>().join("\n");
     match content {
         ProbedContent::Analog(counts) => {

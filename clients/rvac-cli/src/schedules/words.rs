@@ -16,7 +16,7 @@ pub(super) fn list(schedules: &Schedules) -> String {
         let state = if view.entry.enabled { "" } else { " (disabled)" };
         let next = match view.next.first() {
             Some(run) => format!("next {}", planned(run)),
-            None if view.entry.enabled => "no run to come".to_owned(),
+            None if view.entry.enabled => "no upcoming runs".to_owned(),
             None => "starts nothing".to_owned(),
         };
         let ScheduleView { number, entry, .. } = view;
@@ -38,10 +38,7 @@ pub(super) fn list(schedules: &Schedules) -> String {
             line(&mut text, "    waits for the end of the quiet hours");
         }
         if let Some(reason) = view.refused_now.as_ref().filter(|_| entry.enabled) {
-            line(
-                &mut text,
-                &format!("    would not start at this moment: {reason}"),
-            );
+            line(&mut text, &format!("    would not start now: {reason}"));
         }
     }
     text
@@ -51,7 +48,7 @@ pub(super) fn list(schedules: &Schedules) -> String {
 pub(super) fn next(schedules: &Schedules) -> String {
     let mut text = heading(schedules);
     if schedules.next.is_empty() {
-        text += "no run to come\n";
+        text += "no upcoming runs\n";
     }
     for run in &schedules.next {
         let name = schedules.entries.iter().find(|view| view.number == run.entry);
@@ -65,7 +62,7 @@ pub(super) fn next(schedules: &Schedules) -> String {
 pub(super) fn past(schedules: &Schedules) -> String {
     let mut text = String::new();
     if schedules.decisions.is_empty() {
-        text += "no run was decided yet\n";
+        text += "no past runs\n";
     }
     for past in schedules.decisions.iter().rev() {
         let why = past
@@ -181,7 +178,7 @@ mod tests {
             list(&told()),
             "time zone Europe/Tallinn (the system's), 2026-11-22 16:00 there\nquiet hours 22:00 to 07:00\n\
              3   Köök: mo,fr at 06:30, room 4, 2 times, on floor 2\n    next 2026-11-23T07:00:00+02:00 after waiting: quiet-hours\n    \
-             up to 30 min late\n    waits for the end of the quiet hours\n    would not start at this moment: wheel-drop\n"
+             up to 30 min late\n    waits for the end of the quiet hours\n    would not start now: wheel-drop\n"
         );
         assert!(next(&told()).ends_with("2026-11-23T07:00:00+02:00 after waiting: quiet-hours  3   Köök\n"));
         assert_eq!(

@@ -27,7 +27,7 @@ const HANDSHAKE: Duration = Duration::from_secs(5);
 /// Longest pause between two looks at the session.
 const LOOK: Duration = Duration::from_millis(20);
 
-enum Event {
+enum DirectEvent {
     Typed(String),
     InputEnded,
     Received(Vec<u8>),
@@ -39,8 +39,13 @@ pub(super) fn run(port: &Path, options: &TermOptions) -> anyhow::Result<ExitCode
         .with_context(|| format!("cannot open {} at {} baud", port.display(), options.baud))?;
     let serial = Arc::new(serial);
     let (events, inbox) = channel();
-    listen(Arc::clone(&serial), events.clone(), Event::Received, Event::Lost);
-    lines::read_input(events, Event::Typed, || Event::InputEnded);
+    listen(
+        Arc::clone(&serial),
+        events.clone(),
+        DirectEvent::Received,
+        DirectEvent::Lost,
+    );
+    lines::read_input(events, DirectEvent::Typed, || DirectEvent::InputEnded);
     let mut terminal = Terminal::new(&serial, options);
     terminal.converse(&inbox)?;
     Ok(ExitCode::SUCCESS)
@@ -77,7 +82,7 @@ impl<'a> Terminal<'a> {
         }
     }
 
-    fn converse(&mut self, inbox: &Receiver<Event>) -> anyhow::Result<()> {
+    fn converse(&mut self, inbox: &Receiver<DirectEvent>) -> anyhow::Result<()> {
         if self.options.hand {
             // Ten edges for a robot that measures the baud rate, and an end for whatever it had half received.
             self.transmit(&[b'U', SEPARATOR])?;
@@ -85,11 +90,11 @@ impl<'a> Terminal<'a> {
         loop {
             self.keep_session()?;
             match inbox.recv_timeout(LOOK) {
-                Ok(Event::Typed(line)) if line.is_empty() => {}
-                Ok(Event::Typed(line)) => self.take_line(line)?,
-                Ok(Event::InputEnded) => self.ends_at = Some(Instant::now()),
-                Ok(Event::Received(bytes)) => self.take_bytes(&bytes)?,
-                Ok(Event::Lost(error)) => return Err(error).context("the serial line is gone"),
+                Ok(DirectEvent::Typed(line)) if line.is_empty() => {}
+                Ok(DirectEvent::Typed(line)) => self.take_line(line)?,
+                Ok(DirectEvent::InputEnded) => self.ends_at = Some(Instant::now()),
+                Ok(DirectEvent::Received(bytes)) => self.take_bytes(&bytes)?,
+                Ok(DirectEvent::Lost(error)) => return Err(error).context("the serial line is gone"),
                 Err(RecvTimeoutError::Disconnected) => bail!("both input and serial line have ended"),
                 Err(RecvTimeoutError::Timeout) => {}
             }
@@ -196,7 +201,7 @@ impl<'a> Terminal<'a> {
         self.send_line(&line)
     }
 
-    /// Sends a typed packet: sealed and numbered by the session where that is possible, else sealed as it stands.
+    /// Sends a typed packet: numbered and with its CRC from the session where that is possible, else with a CRC as it stands.
     fn send_line(&mut self, line: &str) -> anyhow::Result<()> {
         let now = self.now();
         let Some(session) = &mut self.session else {
@@ -217,7 +222,7 @@ impl<'a> Terminal<'a> {
             )?),
             Err(SendError::NotOpen) => Ok(print_remark(self.seconds(), "not sent: no session is open")?),
             Err(SendError::Range | SendError::Reserved) => {
-                let bytes = sealed_verbatim(line, session.session());
+                let bytes = verbatim_with_crc(line, session.session());
                 self.transmit(&bytes)
             }
         }
@@ -250,7 +255,7 @@ fn to_command(line: &str, robot_tick: Option<(Tick, Tick)>) -> Option<Command> {
     read_command(line.as_bytes(), Form::Hand { now }).ok()
 }
 
-fn sealed_verbatim(line: &str, session: u16) -> Vec<u8> {
+fn verbatim_with_crc(line: &str, session: u16) -> Vec<u8> {
     let mut bytes = line.as_bytes().to_vec();
     bytes.push(b'*');
     bytes.extend_from_slice(&to_hex(packet_crc(

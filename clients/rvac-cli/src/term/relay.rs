@@ -1,4 +1,4 @@
-//! Through the raw pass-through of vthal, which seals and numbers.
+//! Through the raw pass-through of vthal, which numbers the packets and adds the CRC.
 
 use std::process::ExitCode;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -14,7 +14,7 @@ use crate::lines;
 use crate::show::{Shown, Verdict};
 use crate::socket::Connection;
 
-enum Event {
+enum RelayEvent {
     Typed(String),
     InputEnded,
     Update(Box<Update>),
@@ -26,7 +26,7 @@ pub(super) fn run(mut connection: Connection, options: &TermOptions) -> anyhow::
     let (events, inbox) = channel();
     connection.watch(vec![Topic::Packets])?;
     follow(connection, events.clone());
-    lines::read_input(events, Event::Typed, || Event::InputEnded);
+    lines::read_input(events, RelayEvent::Typed, || RelayEvent::InputEnded);
     let start = Instant::now();
     let mut ends_at: Option<Instant> = None;
     let mut refused = false;
@@ -35,13 +35,15 @@ pub(super) fn run(mut connection: Connection, options: &TermOptions) -> anyhow::
             end.saturating_duration_since(Instant::now())
         });
         match inbox.recv_timeout(pause) {
-            Ok(Event::Typed(packet)) if packet.is_empty() => {}
-            Ok(Event::Typed(packet)) => sender.send(&Request {
+            Ok(RelayEvent::Typed(packet)) if packet.is_empty() => {}
+            Ok(RelayEvent::Typed(packet)) => sender.send(&Request {
                 id: Some(1),
                 body: RequestBody::Raw { packet },
             })?,
-            Ok(Event::InputEnded) => ends_at = Some(Instant::now() + Duration::from_millis(options.linger)),
-            Ok(Event::Update(update)) => match *update {
+            Ok(RelayEvent::InputEnded) => {
+                ends_at = Some(Instant::now() + Duration::from_millis(options.linger))
+            }
+            Ok(RelayEvent::Update(update)) => match *update {
                 Update::Packet { t, direction, text } => print_packet(t, direction, &relayed(text), options)?,
                 Update::Failed(failure) => {
                     refused = true;
@@ -49,7 +51,7 @@ pub(super) fn run(mut connection: Connection, options: &TermOptions) -> anyhow::
                 }
                 _ => {}
             },
-            Ok(Event::Lost(error)) => return Err(error),
+            Ok(RelayEvent::Lost(error)) => return Err(error),
             Err(RecvTimeoutError::Disconnected) => bail!("both input and connection have ended"),
             Err(RecvTimeoutError::Timeout) if ends_at.is_some() => break,
             Err(RecvTimeoutError::Timeout) => {}
@@ -62,14 +64,14 @@ pub(super) fn run(mut connection: Connection, options: &TermOptions) -> anyhow::
     })
 }
 
-fn follow(mut connection: Connection, events: Sender<Event>) {
+fn follow(mut connection: Connection, events: Sender<RelayEvent>) {
     std::thread::spawn(move || {
         loop {
             let event = match connection.receive() {
-                Ok(message) => message.update.map(|update| Event::Update(Box::new(update))),
-                Err(error) => Some(Event::Lost(error)),
+                Ok(message) => message.update.map(|update| RelayEvent::Update(Box::new(update))),
+                Err(error) => Some(RelayEvent::Lost(error)),
             };
-            let over = matches!(event, Some(Event::Lost(_)));
+            let over = matches!(event, Some(RelayEvent::Lost(_)));
             if event.is_some_and(|event| events.send(event).is_err()) || over {
                 return;
             }
@@ -77,7 +79,7 @@ fn follow(mut connection: Connection, events: Sender<Event>) {
     });
 }
 
-/// The daemon has checked the seal and gives the text twin of what was binary.
+/// The daemon has checked the CRC and gives the text twin of what was binary.
 fn relayed(text: String) -> Shown {
     let meaning = if text.is_empty() {
         Err(Refusal::Syntax)
@@ -85,7 +87,7 @@ fn relayed(text: String) -> Shown {
         Ok(String::new())
     };
     Shown {
-        verdict: Verdict::Sealed,
+        verdict: Verdict::Checked,
         text,
         binary: false,
         meaning,

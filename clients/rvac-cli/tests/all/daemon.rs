@@ -192,13 +192,13 @@ fn status_is_told_in_words_or_as_json() {
     let (output, _) = Daemon::start("status", talkative).rvac(&["status"], "");
     let words = text(&output.stdout);
     assert!(
-        words.contains("cleaning (command), strategy bounce, 1.5 min, 4.2 m2 swept"),
+        words.contains("cleaning (command), pattern bounce, 1.5 min, 4.2 m2 cleaned"),
         "{words}"
     );
     assert!(
         words.contains(
-            "sure to 0.05 m and 1 deg, its map explains 88 % of what it sees, \
-             about 50 % of the floor it knows is swept (at least 44 %)"
+            "position known to 0.05 m, heading to 1 deg, sensors match the map: 88 %, \
+             estimated coverage 50 % of the known floor (at least 44 %)"
         ),
         "{words}"
     );
@@ -836,7 +836,7 @@ fn what_was_learnt_is_told_and_forgotten_in_parts() {
     let (output, _) = Daemon::start("learnt", learned).rvac(&["learnt"], "");
     let words = text(&output.stdout);
     assert!(
-        words.starts_with("sr8730, attached, learnt last 2027-01-1"),
+        words.starts_with("sr8730, attached, last calibrated 2027-01-1"),
         "{words}"
     );
     assert!(words.contains("\n  gyro    counts +1.00 %"), "{words}");

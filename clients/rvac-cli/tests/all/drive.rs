@@ -14,7 +14,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
 use mixer::{Line, Name, OutputName, Profile, Source, standard_profile};
-use robot::Witness;
+use robot::Observer;
 use teller::Teller;
 
 /// Whatever is awaited comes within this time or the test fails; the machine may be busy.
@@ -107,8 +107,8 @@ impl World {
         command.output().unwrap()
     }
 
-    fn witness(&self) -> Witness {
-        Witness::watch(&self.folder.join("simulator.sock"))
+    fn witness(&self) -> Observer {
+        Observer::watch(&self.folder.join("simulator.sock"))
     }
 }
 
@@ -188,7 +188,7 @@ impl Drive {
 
     /// Pushes an input until the robot moves. On a machine that is too busy the lease ends between two words, and the wheels
     /// wait for a new hold: so does this.
-    fn push(&mut self, input: &str, witness: &Witness) {
+    fn push(&mut self, input: &str, witness: &Observer) {
         for _ in 0..8 {
             self.read(&format!("{input} 0"));
             std::thread::sleep(Duration::from_millis(100));
@@ -201,7 +201,7 @@ impl Drive {
     }
 }
 
-fn stands_soon(witness: &Witness, since: Instant, what: &str) {
+fn stands_soon(witness: &Observer, since: Instant, what: &str) {
     let stood = witness
         .stands_within(Duration::from_secs(5))
         .unwrap_or_else(|| panic!("{what}: it drives on"));
@@ -280,7 +280,7 @@ fn steered_from_afar() -> Profile {
 }
 
 /// Tells that the input is pushed until the robot moves, from its rest on each time.
-fn push_from_afar(teller: &Teller, witness: &Witness) {
+fn push_from_afar(teller: &Teller, witness: &Observer) {
     for _ in 0..8 {
         teller.tell(0.0);
         std::thread::sleep(Duration::from_millis(300));

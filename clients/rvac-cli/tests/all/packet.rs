@@ -8,8 +8,8 @@ fn stdout(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).expect("text")
 }
 
-/// Seals by a second implementation, straight from the specification: bit by bit, reflected.
-fn reference_seal(direction: u8, session: u16, packet: &[u8]) -> u32 {
+/// The CRC by a second implementation, straight from the specification: bit by bit, reflected.
+fn reference_crc(direction: u8, session: u16, packet: &[u8]) -> u32 {
     let length = u16::try_from(packet.len()).expect("short").to_le_bytes();
     let head = [direction, session.to_le_bytes()[0], session.to_le_bytes()[1]];
     let mut register = u32::MAX;
@@ -29,7 +29,7 @@ fn reference_seal(direction: u8, session: u16, packet: &[u8]) -> u32 {
 const DRIVE: &str = r#"{"c":"drive","v":0.2,"w":0,"ttl":250,"n":41,"t":81234}"#;
 
 #[test]
-fn seals_agree_with_the_specification() {
+fn crcs_agree_with_the_specification() {
     for (session, direction, sign) in [
         ("0", "to-robot", b'>'),
         ("4711", "to-robot", b'>'),
@@ -38,7 +38,7 @@ fn seals_agree_with_the_specification() {
         let output = rvac(
             [
                 "packet",
-                "seal",
+                "crc",
                 DRIVE,
                 "--session",
                 session,
@@ -47,25 +47,25 @@ fn seals_agree_with_the_specification() {
             ],
             b"",
         );
-        let seal = reference_seal(sign, session.parse().expect("a number"), DRIVE.as_bytes());
-        assert_eq!(stdout(&output), format!("{DRIVE}*{seal:08X}\n"));
+        let crc = reference_crc(sign, session.parse().expect("a number"), DRIVE.as_bytes());
+        assert_eq!(stdout(&output), format!("{DRIVE}*{crc:08X}\n"));
     }
 }
 
 #[test]
 fn what_is_sealed_checks_in_its_own_session_only() {
-    let sealed = stdout(&rvac(["packet", "seal", "--session", "7"], DRIVE.as_bytes()));
-    let good = rvac(["packet", "check", "--session", "7"], sealed.as_bytes());
+    let with_crc = stdout(&rvac(["packet", "seal", "--session", "7"], DRIVE.as_bytes()));
+    let good = rvac(["packet", "check", "--session", "7"], with_crc.as_bytes());
     assert_eq!(
         (stdout(&good).as_str(), good.status.code()),
-        ("sealed\n", Some(0))
+        ("CRC right\n", Some(0))
     );
-    let other = rvac(["packet", "check", "--session", "8"], sealed.as_bytes());
-    assert!(stdout(&other).starts_with("wrong seal: "), "{}", stdout(&other));
+    let other = rvac(["packet", "check", "--session", "8"], with_crc.as_bytes());
+    assert!(stdout(&other).starts_with("wrong CRC: "), "{}", stdout(&other));
     assert_eq!(other.status.code(), Some(1));
     let echo = rvac(
         ["packet", "check", "--session", "7", "--direction", "from-robot"],
-        sealed.as_bytes(),
+        with_crc.as_bytes(),
     );
     assert_eq!(echo.status.code(), Some(1));
 }
@@ -87,14 +87,14 @@ fn reports_and_binary_packets_are_read() {
     let report = r#"{"c":"log","level":"warn","str":"brush"}"#;
     let output = rvac(["packet", "decode", report, "--direction", "from-robot"], b"");
     assert!(stdout(&output).contains("meaning: Log"), "{}", stdout(&output));
-    // A binary drive: 0.1 m/s, no turn, 250 ms, number 1, tick 100000; its seal little endian.
+    // A binary drive: 0.1 m/s, no turn, 250 ms, number 1, tick 100000; its CRC little endian.
     let mut packet = vec![0x81];
     packet.extend(100_000_i32.to_le_bytes());
     packet.extend(0_i32.to_le_bytes());
     packet.extend(250_u16.to_le_bytes());
     packet.extend(1_u16.to_le_bytes());
     packet.extend(100_000_u32.to_le_bytes());
-    packet.extend(reference_seal(b'>', 5, &packet).to_le_bytes());
+    packet.extend(reference_crc(b'>', 5, &packet).to_le_bytes());
     let stuffed = packet.iter().flat_map(|byte| match byte {
         0x1D..=0x1F => vec![0x1D, byte ^ 0x20],
         other => vec![*other],

@@ -231,7 +231,7 @@ fn by_hand_nothing_is_sealed() {
     );
     assert!(commands.contains(&Command::Stop), "{commands:?}");
     assert_eq!(
-        with(&shown, &[" > {\"c\":\"drive\"", "[unsealed]"]).len(),
+        with(&shown, &[" > {\"c\":\"drive\"", "[no CRC]"]).len(),
         1,
         "{shown:#?}"
     );

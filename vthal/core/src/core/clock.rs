@@ -4,9 +4,9 @@ use rvac_api::RunAsker;
 
 use super::Core;
 use crate::Outputs;
+use crate::brain_session::BrainSession;
 use crate::desk::readiness::Readiness;
 use crate::desk::schedules::Decided;
-use crate::mind::Mind;
 use crate::refusal::Refused;
 use crate::schedule::{Entry, Outcome, Verdict};
 
@@ -14,12 +14,12 @@ impl Core {
     /// The clock on the wall shows this.
     pub(super) fn set_clock(&mut self, now_us: u64, utc_s: i64, outputs: &mut Outputs) {
         self.history.set_clock(now_us, utc_s);
-        let readiness = Readiness::new(self.start_facts(), self.mind.as_ref(), &self.floors);
+        let readiness = Readiness::new(self.start_facts(), self.brain_session.as_ref(), &self.floors);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.schedules.set_clock(utc_s, &readiness, &mut teller);
     }
 
-    /// The disk is free for the next change of schedules; with a decision that it has, the robot may hear of it.
+    /// The disk is free for the next change of schedules; a decision on the disk may now be given to the robot.
     pub(super) fn go_on_with_schedules(
         &mut self,
         now_us: u64,
@@ -29,7 +29,7 @@ impl Core {
         if let Some(verdict) = decision {
             self.carry_out(now_us, &verdict, outputs);
         }
-        let readiness = Readiness::new(self.start_facts(), self.mind.as_ref(), &self.floors);
+        let readiness = Readiness::new(self.start_facts(), self.brain_session.as_ref(), &self.floors);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.schedules.go_on(&readiness, &mut teller);
     }
@@ -57,7 +57,7 @@ impl Core {
     fn start_scheduled(&mut self, now_us: u64, entry: &Entry, outputs: &mut Outputs) -> Result<(), Refused> {
         let command = self.readiness().scheduled_command(entry)?;
         let (number, name) = (entry.number(), entry.plan().name.clone());
-        let brain = self.mind.as_ref().map(Mind::brain);
+        let brain = self.brain_session.as_ref().map(BrainSession::brain);
         self.history
             .order(RunAsker::Schedule { number, name }, &command, brain);
         self.command_brain(now_us, command, outputs);

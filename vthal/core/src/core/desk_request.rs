@@ -31,7 +31,7 @@ pub(super) enum DeskRequest {
     Mixes(MixTask),
 }
 
-/// What a client says of itself.
+/// What a client declares about itself.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum SessionRequest {
     /// Its name.
@@ -43,7 +43,7 @@ pub(super) enum SessionRequest {
 /// Jobs of the robot.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum JobRequest {
-    /// All floor, in a way that is named.
+    /// The whole floor, with a named strategy.
     Start(Option<String>),
     /// Parts of the home.
     Clean(JobOrder),

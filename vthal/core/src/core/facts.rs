@@ -4,15 +4,15 @@ use rvac_api::{ComponentHealth, FloorsView, Pose, Schedules, Status};
 
 use super::Core;
 use crate::Outputs;
+use crate::brain_session::BrainSession;
 use crate::desk::arbiter::Source;
 use crate::desk::audience::{Now, Teller};
 use crate::desk::readiness::{Readiness, StartFacts};
 use crate::desk::sources::Sources;
-use crate::mind::Mind;
 use crate::refusal::Refused;
 
 impl Core {
-    /// Where the brain believes the robot to be.
+    /// The robot's pose as the brain estimates it.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.sources().pose()
@@ -27,7 +27,7 @@ impl Core {
     /// The floors, and on which of them the robot is.
     #[must_use]
     pub fn floors_view(&self) -> FloorsView {
-        self.floors.view(self.mind.as_ref())
+        self.floors.view(self.brain_session.as_ref())
     }
 
     /// All schedules, and what is to be expected of them.
@@ -45,25 +45,30 @@ impl Core {
     /// The brain, once a robot has described itself.
     #[must_use]
     pub fn brain(&self) -> Option<&brain::Brain> {
-        self.mind.as_ref().map(Mind::brain)
+        self.brain_session.as_ref().map(BrainSession::brain)
     }
 
     /// Whether the robot measures what its motors draw, and so can feel carpets.
     #[must_use]
     pub fn measures_currents(&self) -> bool {
-        self.mind.as_ref().is_some_and(Mind::measures_currents)
+        self.brain_session
+            .as_ref()
+            .is_some_and(BrainSession::measures_currents)
     }
 
     /// Gives the brain the map of a home it has not seen itself, in which it stands on the dock, or at the origin if the map
     /// has no dock. For simulators; to be called while no job runs. `false` before a robot was seen.
     pub fn take_up_home(&mut self, home: &brain::mapping::StoredMap) -> bool {
-        self.mind.as_mut().map(|mind| mind.take_up(home)).is_some()
+        self.brain_session
+            .as_mut()
+            .map(|brain_session| brain_session.take_up(home))
+            .is_some()
     }
 
-    /// Tells the brain where the robot stands in the map, for simulators that know it.
+    /// Gives the brain the robot's pose in the map, for simulators that know it.
     pub fn place_at(&mut self, pose: brain::Pose2) {
-        if let Some(mind) = &mut self.mind {
-            mind.place_at(pose);
+        if let Some(brain_session) = &mut self.brain_session {
+            brain_session.place_at(pose);
         }
     }
 
@@ -78,11 +83,11 @@ impl Core {
         Now {
             time_us,
             recording: self.config.recording,
-            is_run: self.mind.as_ref().is_some_and(Mind::is_recorded),
+            is_run: self.brain_session.as_ref().is_some_and(BrainSession::is_recorded),
         }
     }
 
-    /// What the core itself speaks through.
+    /// Through which the core itself informs clients and the log.
     pub(super) fn teller<'a>(&'a mut self, now_us: u64, outputs: &'a mut Outputs) -> Teller<'a> {
         let now = self.now(now_us);
         self.audience.teller(now, outputs)
@@ -91,7 +96,7 @@ impl Core {
     pub(super) fn sources(&self) -> Sources<'_> {
         let driver = self.driver.arbiter.driver();
         Sources {
-            mind: self.mind.as_ref(),
+            brain_session: self.brain_session.as_ref(),
             link: &self.link,
             floors: &self.floors,
             driver: driver.map(|client| self.audience.clients.name(client)),
@@ -100,7 +105,7 @@ impl Core {
     }
 
     pub(super) fn readiness(&self) -> Readiness<'_> {
-        Readiness::new(self.start_facts(), self.mind.as_ref(), &self.floors)
+        Readiness::new(self.start_facts(), self.brain_session.as_ref(), &self.floors)
     }
 
     pub(super) fn start_facts(&self) -> StartFacts {
@@ -116,7 +121,7 @@ impl Core {
         if self.ended {
             return Err("ending");
         }
-        if self.link.is_attached() && self.mind.is_some() {
+        if self.link.is_attached() && self.brain_session.is_some() {
             Ok(())
         } else {
             Err("no-robot")

@@ -1,14 +1,14 @@
-//! What the device told, and who hears of it.
+//! Events of the device, and the desks that receive them.
 
 use brain::Command;
 use rvac_api::{LogLevel, RunAsker};
 
 use super::Core;
+use crate::brain_session::{BrainSession, Recorder};
 use crate::desk::arbiter::Source;
 use crate::desk::button_desk::{ButtonEdge, Doing};
-use crate::desk::journal::Part;
+use crate::desk::journal::LogSource;
 use crate::device::{Description, DeviceEvent, Greeting, Report};
-use crate::mind::{Mind, Recorder};
 use crate::{Checkpoint, Outputs, RunEnd, cut_short};
 
 /// The firmware stops by itself when a button is pressed in motion; by the time the press arrives here the state may have
@@ -27,8 +27,8 @@ impl Core {
         let (level, part, text) = match event {
             DeviceEvent::Report(report) => return self.take_report(now_us, report, outputs),
             DeviceEvent::Slow(facts) => {
-                if let Some(mind) = &mut self.mind {
-                    mind.observer.take_battery(facts.battery.as_ref());
+                if let Some(brain_session) = &mut self.brain_session {
+                    brain_session.observer.take_battery(facts.battery.as_ref());
                 }
                 return self.link.take_slow_facts(facts);
             }
@@ -36,7 +36,7 @@ impl Core {
             DeviceEvent::Described(description) => {
                 self.described(now_us, &description, outputs);
                 let text = format!("{} has described itself", description.identity.device);
-                (LogLevel::Info, Part::Link, text)
+                (LogLevel::Info, LogSource::Link, text)
             }
             DeviceEvent::Button { button, pressed } => {
                 self.button_turned(now_us, ButtonEdge { button, pressed }, outputs);
@@ -44,39 +44,39 @@ impl Core {
                     return;
                 }
                 let text = format!("button {button} was pressed");
-                (LogLevel::Info, Part::Firmware, text)
+                (LogLevel::Info, LogSource::Firmware, text)
             }
             DeviceEvent::MotorStopped(motor) => {
                 let text = format!("{motor} was switched off for its load");
-                (LogLevel::Info, Part::Firmware, text)
+                (LogLevel::Info, LogSource::Firmware, text)
             }
             DeviceEvent::Docked(docked) => {
                 let text = if docked { "on the dock" } else { "off the dock" };
-                (LogLevel::Info, Part::Firmware, text.to_owned())
+                (LogLevel::Info, LogSource::Firmware, text.to_owned())
             }
-            DeviceEvent::Log { level, text } => (level, Part::Firmware, text),
+            DeviceEvent::Log { level, text } => (level, LogSource::Firmware, text),
             DeviceEvent::Refused { number, reason } => {
                 let number = number.map_or_else(String::new, |number| format!(" {number}"));
                 let text = format!("the robot refused command{number}: {reason}");
-                (LogLevel::Warn, Part::Firmware, text)
+                (LogLevel::Warn, LogSource::Firmware, text)
             }
             DeviceEvent::Unanswered(number) => {
                 let text = format!("the robot did not answer command {number}");
-                (LogLevel::Warn, Part::Link, text)
+                (LogLevel::Warn, LogSource::Link, text)
             }
             DeviceEvent::ControlLost(reason) => {
                 let text = format!("the robot took its wheels back: {reason}");
-                (LogLevel::Warn, Part::Firmware, text)
+                (LogLevel::Warn, LogSource::Firmware, text)
             }
             DeviceEvent::EventsLost(count) => {
                 self.buttons.forget();
                 let text = format!("{count} events of the robot were lost");
-                (LogLevel::Warn, Part::Link, text)
+                (LogLevel::Warn, LogSource::Link, text)
             }
             DeviceEvent::Closed => {
                 self.buttons.forget();
                 let text = "session with the robot ended".to_owned();
-                (LogLevel::Warn, Part::Link, text)
+                (LogLevel::Warn, LogSource::Link, text)
             }
             DeviceEvent::Incompatible {
                 version_min,
@@ -86,37 +86,41 @@ impl Core {
                     "the robot speaks versions {version_min} to {version_max} of the wire, which this vthal does not; \
                      update one of them"
                 );
-                (LogLevel::Error, Part::Link, text)
+                (LogLevel::Error, LogSource::Link, text)
             }
         };
         self.teller(now_us, outputs).log(level, part, text);
     }
 
-    fn greeted(&mut self, greeting: &Greeting) -> (LogLevel, Part, String) {
+    fn greeted(&mut self, greeting: &Greeting) -> (LogLevel, LogSource, String) {
         self.buttons.forget();
         self.link.greeted(greeting);
         let Greeting { device, firmware, .. } = greeting;
         if !greeting.was_reset {
             let text = format!("session with {device} {firmware}");
-            return (LogLevel::Info, Part::Link, text);
+            return (LogLevel::Info, LogSource::Link, text);
         }
-        if let Some(mind) = &mut self.mind {
-            mind.observer.rebase();
+        if let Some(brain_session) = &mut self.brain_session {
+            brain_session.observer.rebase();
         }
         let cause = greeting.reset_cause.unwrap_or("for no known cause");
         let text = format!("{device} was reset ({cause}); new session");
-        (LogLevel::Warn, Part::Link, text)
+        (LogLevel::Warn, LogSource::Link, text)
     }
 
     /// Another robot than the one before begins with a brain of its own.
     fn described(&mut self, now_us: u64, description: &Description, outputs: &mut Outputs) {
         let device = &description.identity.device;
-        if self.mind.as_ref().is_some_and(|mind| mind.device() == device) {
+        if self
+            .brain_session
+            .as_ref()
+            .is_some_and(|brain_session| brain_session.device() == device)
+        {
             return;
         }
         let recording = self.config.recording;
         self.keep_learnt(outputs);
-        if let Some(mut old) = self.mind.take() {
+        if let Some(mut old) = self.brain_session.take() {
             let over = self.history.change_robot(now_us, old.brain());
             old.end_run(now_us, RunEnd::OtherRobot, &mut Recorder::new(recording, outputs));
             self.history.keep(over, None, outputs);
@@ -124,19 +128,24 @@ impl Core {
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.learnt.introduce(device, &mut teller);
         let learnt = self.learnt.of(device);
-        let mut mind = Mind::new(description, learnt, &self.config, self.floors.floors());
+        let mut brain_session = BrainSession::new(description, learnt, &self.config, self.floors.floors());
         match self.config.resume.take() {
             Some(checkpoint) if checkpoint.device == *device => {
-                self.resume(now_us, (&mut mind, checkpoint), outputs);
+                self.resume(now_us, (&mut brain_session, checkpoint), outputs);
             }
             Some(others) => self.history.keep(cut_short(others), None, outputs),
             None => {}
         }
-        self.mind = Some(mind);
+        self.brain_session = Some(brain_session);
     }
 
     /// Goes on with what a daemon before this one was doing.
-    fn resume(&mut self, now_us: u64, (mind, checkpoint): (&mut Mind, Checkpoint), outputs: &mut Outputs) {
+    fn resume(
+        &mut self,
+        now_us: u64,
+        (brain_session, checkpoint): (&mut BrainSession, Checkpoint),
+        outputs: &mut Outputs,
+    ) {
         let line = match checkpoint.brain.job {
             Some(_) => "resumed-after-restart: goes on with the interrupted job",
             None => "takes up pose and map from before the restart",
@@ -144,11 +153,11 @@ impl Core {
         let floors = self.floors.floors();
         let floor = checkpoint.floor.filter(|floor| floors.get(*floor).is_some());
         let mut recorder = Recorder::new(self.config.recording, outputs);
-        mind.resume(now_us, (checkpoint.brain.clone(), floor), &mut recorder);
+        brain_session.resume(now_us, (checkpoint.brain.clone(), floor), &mut recorder);
         self.teller(now_us, outputs)
-            .log(LogLevel::Info, Part::Vthal, line.to_owned());
-        if let Some(run) = self.history.resume(now_us, checkpoint, mind.brain()) {
-            self.history.keep(Some(run), mind.floor(), outputs);
+            .log(LogLevel::Info, LogSource::Vthal, line.to_owned());
+        if let Some(run) = self.history.resume(now_us, checkpoint, brain_session.brain()) {
+            self.history.keep(Some(run), brain_session.floor(), outputs);
         }
     }
 
@@ -156,16 +165,16 @@ impl Core {
         self.link.take_report(now_us, report);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.buttons.reported(&report, &mut teller);
-        if let (Some(mind), Some(description)) = (&mut self.mind, self.link.description()) {
-            mind.observer.take_report(now_us, &report, description);
+        if let (Some(brain_session), Some(description)) = (&mut self.brain_session, self.link.description()) {
+            brain_session.observer.take_report(now_us, &report, description);
             self.think(now_us, outputs);
         }
     }
 
     fn button_turned(&mut self, now_us: u64, edge: ButtonEdge, outputs: &mut Outputs) {
         let usual_strategy = self.start_facts().usual_strategy;
-        let doing = self.mind.as_ref().map(|mind| Doing {
-            status: mind.brain().status(),
+        let doing = self.brain_session.as_ref().map(|brain_session| Doing {
+            status: brain_session.brain().status(),
             is_new: self.feed.state_changed_within(now_us, AFTER_CHANGE_US),
             usual_strategy,
         });
@@ -180,9 +189,9 @@ impl Core {
             return;
         }
         self.driver.arbiter.preempt();
-        let is_admitted = |mind: &Mind| mind.brain().admit(&command).is_ok();
-        if self.mind.as_ref().is_some_and(is_admitted) {
-            let brain = self.mind.as_ref().map(Mind::brain);
+        let is_admitted = |brain_session: &BrainSession| brain_session.brain().admit(&command).is_ok();
+        if self.brain_session.as_ref().is_some_and(is_admitted) {
+            let brain = self.brain_session.as_ref().map(BrainSession::brain);
             self.history.order(RunAsker::Button, &command, brain);
             self.command_brain(now_us, command, outputs);
         }

@@ -8,7 +8,7 @@ use super::desk_request::{HandRequest, RobotRequest};
 use crate::desk::arbiter::Stick;
 use crate::desk::audience::Asking;
 use crate::desk::driver::{HandDrive, Pull};
-use crate::desk::journal::Part;
+use crate::desk::journal::LogSource;
 use crate::desk::reply::Reply;
 use crate::device::{CleanerPower, DeviceCommand, Tone};
 use crate::refusal::{Refusal, Refused};
@@ -51,7 +51,7 @@ impl Core {
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
         self.command_brain(now_us, Command::Stop, outputs);
         self.teller(now_us, outputs)
-            .log(LogLevel::Info, Part::Client, text);
+            .log(LogLevel::Info, LogSource::Client, text);
     }
 
     fn drive(
@@ -97,7 +97,7 @@ impl Core {
         self.command_brain(now_us, Command::ManualEnd, outputs);
         let mut teller = self.teller(now_us, outputs);
         let text = format!("driver {} left: wheels stop", teller.name(client));
-        teller.log(LogLevel::Info, Part::Client, text);
+        teller.log(LogLevel::Info, LogSource::Client, text);
     }
 
     /// Nobody can let go of a stick over a connection that takes no more requests.

@@ -5,17 +5,17 @@ use rvac_api::{LogLevel, Request, RunAsker, Topic, Update};
 
 use super::Core;
 use super::desk_request::{DeskRequest, JobRequest, SessionRequest};
+use crate::brain_session::{BrainSession, Recorder};
 use crate::desk::arbiter::Source;
 use crate::desk::audience::{Asker, Asking};
 use crate::desk::history;
 use crate::desk::home::HomeRequest;
 use crate::desk::jobs::{clean_command, estimate};
-use crate::desk::journal::Part;
+use crate::desk::journal::LogSource;
 use crate::desk::learnt::{Forgetting, LearntRequest};
 use crate::desk::readiness::Readiness;
 use crate::desk::reply::Reply;
 use crate::desk::schedules::ScheduleRequest;
-use crate::mind::{Mind, Recorder};
 use crate::refusal::{Refusal, Refused};
 use crate::{ClientId, MixOrder, Outputs, RunEnd};
 
@@ -49,7 +49,7 @@ impl Core {
             DeskRequest::Robot(request) => self.robot(now_us, Asking { asker, request }, outputs),
             DeskRequest::Home(request) => self.edit_home(now_us, Asking { asker, request }, outputs),
             DeskRequest::Learnt(LearntRequest::Show) => {
-                let here = self.mind.as_ref().map(Mind::device);
+                let here = self.brain_session.as_ref().map(BrainSession::device);
                 Ok(Reply::from(self.learnt.show(asker, here)))
             }
             DeskRequest::Learnt(LearntRequest::Forget(request)) => {
@@ -66,7 +66,8 @@ impl Core {
             DeskRequest::Floors(request) => {
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
                 let asking = Asking { asker, request };
-                self.floors.serve(asking, self.mind.as_mut(), &mut teller)
+                self.floors
+                    .serve(asking, self.brain_session.as_mut(), &mut teller)
             }
             DeskRequest::Schedules(request) => {
                 self.change_schedules(now_us, Asking { asker, request }, outputs)
@@ -105,7 +106,7 @@ impl Core {
         self.audience.clients.rename(client, kept);
         let greeting = self.sources().greeting();
         let mut teller = self.teller(now_us, outputs);
-        teller.log(LogLevel::Debug, Part::Client, text);
+        teller.log(LogLevel::Debug, LogSource::Client, text);
         teller.tell_one(client, greeting);
     }
 
@@ -125,7 +126,7 @@ impl Core {
             Topic::Inputs => vec![self.inputs.view(now_us)],
             Topic::Map => {
                 let mut teller = self.audience.teller(self.now(now_us), outputs);
-                let map = self.feed.first_map(self.mind.as_ref(), &mut teller);
+                let map = self.feed.first_map(self.brain_session.as_ref(), &mut teller);
                 map.into_iter().collect()
             }
             Topic::Status
@@ -157,11 +158,15 @@ impl Core {
             },
             JobRequest::Clean(order) => {
                 self.require_robot()?;
-                clean_command(&order, self.mind.as_ref())?
+                clean_command(&order, self.brain_session.as_ref())?
             }
             JobRequest::Estimate(order) => {
                 self.require_robot()?;
-                return Ok(Reply::from(estimate(asker.id, &order, self.mind.as_ref())?));
+                return Ok(Reply::from(estimate(
+                    asker.id,
+                    &order,
+                    self.brain_session.as_ref(),
+                )?));
             }
             JobRequest::OfSchedule(number) => self.readiness().command_now(self.schedules.entry(number)?)?,
             JobRequest::Spot => Command::Spot,
@@ -184,7 +189,7 @@ impl Core {
         self.driver.admit(now_us, Source::Person(client))?;
         self.readiness().admit(&command)?;
         let by = RunAsker::Client(self.audience.clients.name(client));
-        let brain = self.mind.as_ref().map(Mind::brain);
+        let brain = self.brain_session.as_ref().map(BrainSession::brain);
         self.history.order(by, &command, brain);
         self.command_brain(now_us, command, outputs);
         Ok(())
@@ -197,7 +202,9 @@ impl Core {
         outputs: &mut Outputs,
     ) -> Result<Reply, Refusal> {
         let mut teller = self.audience.teller(self.now(now_us), outputs);
-        let (edit, reply) = self.home.serve(&asking, self.mind.as_ref(), &mut teller)?;
+        let (edit, reply) = self
+            .home
+            .serve(&asking, self.brain_session.as_ref(), &mut teller)?;
         self.command_brain(now_us, edit.command, outputs);
         Ok(reply)
     }
@@ -208,21 +215,21 @@ impl Core {
         asking: Asking<Forgetting>,
         outputs: &mut Outputs,
     ) -> Result<Reply, Refusal> {
-        let here = self.mind.as_ref().map(Mind::device);
+        let here = self.brain_session.as_ref().map(BrainSession::device);
         let is_here = here == Some(&asking.request.device);
-        let is_free = |mind: &Mind| mind.rests() && !mind.holds_commands();
-        if is_here && !self.mind.as_ref().is_some_and(is_free) {
+        let is_free = |brain_session: &BrainSession| brain_session.rests() && !brain_session.holds_commands();
+        if is_here && !self.brain_session.as_ref().is_some_and(is_free) {
             return Err("job-runs".into());
         }
         self.learnt.forget(&asking, here, outputs)?;
-        if let Some(mind) = self.mind.as_mut().filter(|_| is_here) {
+        if let Some(brain_session) = self.brain_session.as_mut().filter(|_| is_here) {
             // A recording that is about to end ends before, because a replay would know nothing of this.
-            if mind.is_recorded() {
-                outputs.home = mind.home_to_keep();
+            if brain_session.is_recorded() {
+                outputs.home = brain_session.home_to_keep();
                 let mut recorder = Recorder::new(self.config.recording, outputs);
-                mind.end_run(now_us, RunEnd::Finished, &mut recorder);
+                brain_session.end_run(now_us, RunEnd::Finished, &mut recorder);
             }
-            mind.forget(asking.request.parts());
+            brain_session.forget(asking.request.parts());
         }
         Ok(Reply::WhenKept)
     }
@@ -233,7 +240,7 @@ impl Core {
         asking: Asking<ScheduleRequest>,
         outputs: &mut Outputs,
     ) -> Result<Reply, Refusal> {
-        let readiness = Readiness::new(self.start_facts(), self.mind.as_ref(), &self.floors);
+        let readiness = Readiness::new(self.start_facts(), self.brain_session.as_ref(), &self.floors);
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.schedules.serve(asking, &readiness, &mut teller)
     }

@@ -5,21 +5,21 @@ use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{Evidence, LogLevel};
 
 use super::Core;
+use crate::brain_session::{BrainSession, FloorNews, Recorder};
 use crate::desk::evidence::Perceived;
-use crate::desk::health::Drive;
-use crate::desk::journal::Part;
+use crate::desk::health::MotorSample;
+use crate::desk::journal::LogSource;
 use crate::desk::room_power::cleaner_power;
 use crate::desk::standstills::{Stand, is_standstill};
 use crate::device::{CleanerDrive, CleanerPower, DeviceCommand, LeaveDock, Tone};
 use crate::history::Moment;
-use crate::mind::{FloorNews, Mind, Recorder};
 use crate::{ClientId, Outputs};
 
 /// How long a drive command of the brain is valid: the default of the device model.
 const VALID_FOR_US: u64 = 250_000;
 
 impl Core {
-    /// Lets the brain see the present observation and does what it says.
+    /// Lets the brain see the present observation and carries out its actions.
     pub(super) fn think(&mut self, now_us: u64, outputs: &mut Outputs) {
         self.pace.stepped_us = now_us;
         if self.ended {
@@ -27,18 +27,22 @@ impl Core {
         }
         let link = self.link.view(now_us);
         let recording = self.config.recording;
-        let Some(mind) = &mut self.mind else { return };
-        mind.stamp(now_us, link);
+        let Some(brain_session) = &mut self.brain_session else {
+            return;
+        };
+        brain_session.stamp(now_us, link);
         let floors = self.floors.floors();
-        let news = mind.look_for_floor(now_us, floors, &mut Recorder::new(recording, outputs));
-        let before = mind.brain().status().state;
-        let was_recorded = mind.is_recorded();
-        self.pace.commands_wait = mind.holds_commands();
+        let news = brain_session.look_for_floor(now_us, floors, &mut Recorder::new(recording, outputs));
+        let before = brain_session.brain().status().state;
+        let was_recorded = brain_session.is_recorded();
+        self.pace.commands_wait = brain_session.holds_commands();
         self.feel(now_us, outputs);
-        let Some(mind) = &mut self.mind else { return };
-        let actions = mind.step(&mut Recorder::new(recording, outputs));
-        if was_recorded && !mind.is_recorded() {
-            outputs.home = mind.home_to_keep();
+        let Some(brain_session) = &mut self.brain_session else {
+            return;
+        };
+        let actions = brain_session.step(&mut Recorder::new(recording, outputs));
+        if was_recorded && !brain_session.is_recorded() {
+            outputs.home = brain_session.home_to_keep();
             self.keep_learnt(outputs);
         }
         self.follow_run(now_us, &actions.decisions, outputs);
@@ -55,20 +59,20 @@ impl Core {
 
     /// What the robot feels and what its motors draw in this step.
     fn feel(&mut self, now_us: u64, outputs: &mut Outputs) {
-        let (Some(mind), Some(description)) = (&self.mind, self.link.description()) else {
+        let (Some(brain_session), Some(description)) = (&self.brain_session, self.link.description()) else {
             return;
         };
         let perceived = Perceived {
-            observation: mind.observer.observation(),
-            edges: mind.edges(),
+            observation: brain_session.observer.observation(),
+            edges: brain_session.edges(),
             currents_a: self.link.currents_a(),
         };
         self.standstills.feel(&perceived, description.drive.track_m);
-        if mind.brain().status().state != BehaviorState::Cleaning {
+        if brain_session.brain().status().state != BehaviorState::Cleaning {
             return;
         }
         if let Some(report) = self.link.report() {
-            let drive = Drive {
+            let drive = MotorSample {
                 report,
                 wheel_speeds: self.link.wheel_speeds(),
                 power: self.cleaner_power(),
@@ -79,7 +83,9 @@ impl Core {
     }
 
     fn follow_run(&mut self, now_us: u64, decisions: &[Decision], outputs: &mut Outputs) {
-        let Some(mind) = &self.mind else { return };
+        let Some(brain_session) = &self.brain_session else {
+            return;
+        };
         let evidence = if decisions.iter().any(is_standstill) {
             self.standstills.evidence(now_us, self.track_m())
         } else {
@@ -87,24 +93,24 @@ impl Core {
         };
         let moment = Moment {
             now_us,
-            brain: mind.brain(),
-            charge: mind.observer.observation().battery_charge,
+            brain: brain_session.brain(),
+            charge: brain_session.observer.observation().battery_charge,
             decisions,
             evidence: &evidence,
-            recorded: mind.recorded_run(),
+            recorded: brain_session.recorded_run(),
             commands_wait: self.pace.commands_wait,
         };
         let mut teller = self.audience.teller(self.now(now_us), outputs);
-        self.history.follow(&moment, mind.floor(), &mut teller);
+        self.history.follow(&moment, brain_session.floor(), &mut teller);
     }
 
-    /// After the step in which the brain took up what clients say of the home: its map goes to the disk.
+    /// After the step in which the brain applied the edits of clients: its map goes to the disk.
     fn keep_edits(&mut self, outputs: &mut Outputs) {
         if !self.home.is_waited_for() || self.pace.commands_wait {
             return;
         }
         self.feed.tell_home_now();
-        let home = self.mind.as_ref().and_then(Mind::home_to_keep);
+        let home = self.brain_session.as_ref().and_then(BrainSession::home_to_keep);
         if let Some(kept) = &home {
             self.floors.note_kept(kept);
         }
@@ -112,8 +118,10 @@ impl Core {
     }
 
     fn follow_state(&mut self, now_us: u64, before: BehaviorState) {
-        let Some(mind) = &self.mind else { return };
-        if before != mind.brain().status().state {
+        let Some(brain_session) = &self.brain_session else {
+            return;
+        };
+        if before != brain_session.brain().status().state {
             self.feed.state_changed(now_us);
             if before == BehaviorState::Manual {
                 self.driver.arbiter.preempt();
@@ -169,12 +177,14 @@ impl Core {
 
     fn tell_decisions(&mut self, now_us: u64, decisions: &[Decision], outputs: &mut Outputs) {
         let (now, track_m) = (self.now(now_us), self.track_m());
-        let Some(mind) = &self.mind else { return };
+        let Some(brain_session) = &self.brain_session else {
+            return;
+        };
         let mut teller = self.audience.teller(now, outputs);
         for decision in decisions {
             self.standstills.decided(decision, &mut teller);
             if is_standstill(decision) {
-                let estimate = mind.brain().estimate();
+                let estimate = brain_session.brain().estimate();
                 let stand = Stand { estimate, track_m };
                 self.standstills.stands(decision, stand, &mut teller);
             }
@@ -182,7 +192,7 @@ impl Core {
     }
 
     fn cleaner_power(&self) -> CleanerPower {
-        let brain = self.mind.as_ref().map(Mind::brain);
+        let brain = self.brain_session.as_ref().map(BrainSession::brain);
         brain.map_or(CleanerPower::FULL, |brain| {
             cleaner_power(brain, self.driver.power())
         })
@@ -190,18 +200,18 @@ impl Core {
 
     /// Gives a command to the brain with its next step.
     pub(super) fn command_brain(&mut self, now_us: u64, command: Command, outputs: &mut Outputs) {
-        if let Some(mind) = &mut self.mind {
+        if let Some(brain_session) = &mut self.brain_session {
             let mut recorder = Recorder::new(self.config.recording, outputs);
-            mind.command(now_us, command, &mut recorder);
+            brain_session.command(now_us, command, &mut recorder);
         }
     }
 
-    /// The driver's lease ended without a word: stand at once, the brain hears it too.
+    /// The driver's lease expired: stop at once, and inform the brain.
     pub(super) fn lease_ended(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         // Nobody steers any more: the ramp of a stick that was let go would roll on for half a second.
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
         let mut teller = self.teller(now_us, outputs);
         let text = format!("lease of driver {} ended: wheels stop", teller.name(client));
-        teller.log(LogLevel::Info, Part::Client, text);
+        teller.log(LogLevel::Info, LogSource::Client, text);
     }
 }

@@ -3,10 +3,10 @@
 use rvac_api::{Failure, LogEntry, LogLevel, Topic, Update};
 
 use super::clients::Clients;
-use super::journal::{Journal, Part};
+use super::journal::{Journal, LogSource};
 use super::refusal_log::RefusalLog;
 use super::reply::Reply;
-use crate::mind::{Mind, Recorder};
+use crate::brain_session::{BrainSession, Recorder};
 use crate::outputs::{Delivery, Recipients};
 use crate::refusal::Refusal;
 use crate::{ClientId, Outputs, Record, Recording};
@@ -52,10 +52,10 @@ impl Audience {
 
     /// Writes a line of before anybody could listen.
     pub(crate) fn note_before_start(&mut self, level: LogLevel, text: String) {
-        self.journal.write(0, level, (Part::Vthal, text));
+        self.journal.write(0, level, (LogSource::Vthal, text));
     }
 
-    /// What a desk speaks through now.
+    /// The teller for a desk, now.
     pub(crate) fn teller<'a>(&'a mut self, now: Now, outputs: &'a mut Outputs) -> Teller<'a> {
         Teller {
             now_us: now.time_us,
@@ -81,12 +81,12 @@ impl Audience {
         }
         let mut teller = self.teller(now, outputs);
         for text in lines {
-            teller.log(LogLevel::Info, Part::Client, text);
+            teller.log(LogLevel::Info, LogSource::Client, text);
         }
     }
 }
 
-/// What a desk speaks through: to clients, to the log, and to the shell, which does what stands in the outputs.
+/// Carries what a desk reports: to clients, to the log, and to the shell, which performs the outputs.
 pub(crate) struct Teller<'a> {
     /// Host time in microseconds.
     pub(crate) now_us: u64,
@@ -99,7 +99,7 @@ pub(crate) struct Teller<'a> {
 
 impl Teller<'_> {
     /// Writes a line of the log, for all who read it.
-    pub(crate) fn log(&mut self, level: LogLevel, part: Part, text: String) {
+    pub(crate) fn log(&mut self, level: LogLevel, part: LogSource, text: String) {
         let entry = self.journal.write(self.now_us, level, (part, text));
         if self.clients.any(Topic::Log) {
             self.tell(Topic::Log, Update::Log(entry.clone()));
@@ -125,9 +125,9 @@ impl Teller<'_> {
         Recorder::new(self.recording, self.outputs)
     }
 
-    /// The mind may have begun or ended a run.
-    pub(crate) fn follow_run(&mut self, mind: &Mind) {
-        self.is_run = mind.is_recorded();
+    /// The brain session may have begun or ended a run.
+    pub(crate) fn follow_run(&mut self, brain_session: &BrainSession) {
+        self.is_run = brain_session.is_recorded();
     }
 
     /// Whether anybody follows `topic`.
@@ -156,7 +156,7 @@ impl Teller<'_> {
         });
     }
 
-    /// Tells whoever asked what came of it. A refusal is told also to those who gave no number.
+    /// Answers a request with its result. A refusal also goes to clients that gave no number.
     pub(crate) fn answer(&mut self, asker: Asker, answer: Result<Reply, Refusal>) {
         let update = match (answer, asker.id) {
             (Ok(Reply::Done), Some(id)) => Update::Done { id },

@@ -3,7 +3,7 @@
 use rvac_api::LogLevel;
 
 use super::audience::{Asker, Teller};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use crate::refusal::Refusal;
 
@@ -48,7 +48,7 @@ impl<T> Awaited<T> {
             .map(|(_, asker, before)| (asker, before))
     }
 
-    /// The disk has what it was given under this number, or says why it has not; whoever waited hears of it. Gives what must be
+    /// The disk has what it was given under this number, or says why it has not; the client that waits is answered. Gives what must be
     /// taken back, the newest first.
     pub(super) fn kept(
         &mut self,
@@ -57,7 +57,7 @@ impl<T> Awaited<T> {
         teller: &mut Teller<'_>,
     ) -> Vec<T> {
         if let Err(refusal) = &result {
-            teller.log(LogLevel::Error, Part::Vthal, refusal.text.clone());
+            teller.log(LogLevel::Error, LogSource::Vthal, refusal.text.clone());
         }
         let mut undone = Vec::new();
         for (asker, before) in self.settle(number) {

@@ -1,11 +1,11 @@
-//! What the robot does because of its buttons, and who else hears of them.
+//! What the buttons of the robot do, and whom they are reported to.
 
 use brain::{BehaviorState, Command, Status, StrategyName};
 use rvac_api::{Gesture, LogLevel, Topic, Update};
 
 use super::audience::Teller;
 use super::buttons::{Buttons, START};
-use super::journal::Part;
+use super::journal::LogSource;
 use crate::device::Report;
 use crate::{ClientId, to_api};
 
@@ -130,12 +130,12 @@ fn held(gesture: Gesture, uptime_ms: Option<u32>, teller: &mut Teller<'_>) {
         Gesture::RecoveryHold if uptime_ms.is_none_or(|ms| ms > RECOVERY_MS) => {
             let text = "START and DOCK are held: to forget all devices, hold them within ten minutes after switching the \
                         robot on";
-            return teller.log(LogLevel::Warn, Part::Firmware, text.to_owned());
+            return teller.log(LogLevel::Warn, LogSource::Firmware, text.to_owned());
         }
         Gesture::RecoveryHold => "START and DOCK are held: all devices shall be forgotten",
         Gesture::PairingHold | Gesture::Press => "START is held: a device shall be let in",
     };
-    teller.log(LogLevel::Info, Part::Firmware, text.to_owned());
+    teller.log(LogLevel::Info, LogSource::Firmware, text.to_owned());
     tell_gesture(gesture, START, teller);
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Events say that a button went down or up and are never lost; reports say ever again which are down. A hold counts only as long as
 //! both agree without a gap, so that neither a broken line nor a button that was down already at the start can hold anything. Each hold is
-//! told once: a button that is stuck tells nothing more until it was let go.
+//! reported once: a button that is stuck reports nothing more until it was released.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ const CLAIM_MS_MAX: u32 = 180_000;
 
 /// Everything from the first button that goes down to the last one that comes up.
 #[derive(Clone, Copy, Debug)]
-struct Grip {
+struct HeldButtons {
     down: u8,
     /// All that were down in it.
     ever: u8,
@@ -43,7 +43,7 @@ struct Grip {
 /// The buttons of one robot.
 #[derive(Debug, Default)]
 pub(crate) struct Buttons {
-    grip: Option<Grip>,
+    grip: Option<HeldButtons>,
     /// Clients that keep presses for themselves, and until when.
     claims: BTreeMap<ClientId, u64>,
 }
@@ -69,7 +69,7 @@ impl Buttons {
     }
 
     fn press(&mut self, now_us: u64, bit: u8) {
-        let grip = self.grip.get_or_insert(Grip {
+        let grip = self.grip.get_or_insert(HeldButtons {
             down: 0,
             ever: 0,
             began_us: now_us,

@@ -5,7 +5,7 @@ use brain::{BehaviorState, CheckpointWork};
 use rvac_api::RunRecord;
 
 use crate::Checkpoint;
-use crate::mind::Mind;
+use crate::brain_session::BrainSession;
 
 /// Pause between two checkpoints of a small map.
 const CHECKPOINT_US: u64 = 1_000_000;
@@ -17,18 +17,18 @@ const CHECKPOINT_US_PER_ENTRY: u64 = 100;
 pub(crate) struct CheckpointClock {
     next_us: u64,
     had_job: bool,
-    on_its_way: Option<CheckpointOnItsWay>,
+    in_progress: Option<CheckpointInProgress>,
 }
 
 /// A checkpoint of which the home is still being written down.
 #[derive(Debug)]
-struct CheckpointOnItsWay {
+struct CheckpointInProgress {
     /// All but the brain.
     rest: Checkpoint,
     brain: CheckpointWork,
 }
 
-impl CheckpointOnItsWay {
+impl CheckpointInProgress {
     fn go_on(&mut self) -> Option<Checkpoint> {
         let brain = self.brain.go_on()?;
         Some(Checkpoint {
@@ -43,32 +43,32 @@ impl CheckpointClock {
     pub(crate) fn follow(
         &mut self,
         now_us: u64,
-        mind: &Mind,
+        brain_session: &BrainSession,
         run: impl FnOnce() -> Option<RunRecord>,
     ) -> Option<Checkpoint> {
-        if let Some(work) = &mut self.on_its_way {
+        if let Some(work) = &mut self.in_progress {
             let checkpoint = work.go_on()?;
-            self.on_its_way = None;
+            self.in_progress = None;
             return Some(checkpoint);
         }
         if now_us < self.next_us {
             return None;
         }
-        let has_job = works(mind);
+        let has_job = works(brain_session);
         if has_job || self.had_job {
             self.had_job = has_job;
-            self.on_its_way = Some(CheckpointOnItsWay {
+            self.in_progress = Some(CheckpointInProgress {
                 rest: Checkpoint {
-                    device: mind.device().to_owned(),
-                    floor: mind.floor(),
+                    device: brain_session.device().to_owned(),
+                    floor: brain_session.floor(),
                     brain: brain::Checkpoint::default(),
                     run: run().map(Box::new),
                 },
-                brain: mind.brain().begin_checkpoint(),
+                brain: brain_session.brain().begin_checkpoint(),
             });
         }
-        let map = mind.brain().map().snapshot();
-        let home_cells = mind.brain().map().knowledge().values().len();
+        let map = brain_session.brain().map().snapshot();
+        let home_cells = brain_session.brain().map().knowledge().values().len();
         let entries = (map.swept.len() / 8 + map.path.len() + map.hazards.len() + home_cells / 8) as u64;
         self.next_us = now_us + CHECKPOINT_US + entries * CHECKPOINT_US_PER_ENTRY;
         None
@@ -76,8 +76,8 @@ impl CheckpointClock {
 }
 
 /// Whether a job runs or waits.
-pub(crate) fn works(mind: &Mind) -> bool {
-    let status = mind.brain().status();
+pub(crate) fn works(brain_session: &BrainSession) -> bool {
+    let status = brain_session.brain().status();
     let active = matches!(
         status.state,
         BehaviorState::Starting | BehaviorState::Cleaning | BehaviorState::Spot | BehaviorState::Docking
@@ -86,14 +86,14 @@ pub(crate) fn works(mind: &Mind) -> bool {
 }
 
 /// Pose and map without a job: an orderly end is not an interruption.
-pub(crate) fn checkpoint_without_job(mind: &Mind) -> Checkpoint {
+pub(crate) fn checkpoint_without_job(brain_session: &BrainSession) -> Checkpoint {
     let brain = brain::Checkpoint {
         job: None,
-        ..mind.brain().checkpoint()
+        ..brain_session.brain().checkpoint()
     };
     Checkpoint {
-        device: mind.device().to_owned(),
-        floor: mind.floor(),
+        device: brain_session.device().to_owned(),
+        floor: brain_session.floor(),
         brain,
         run: None,
     }

@@ -35,15 +35,15 @@ struct Told {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClientInputs {
     told: BTreeMap<ClientId, Told>,
-    /// Followers have not heard of it yet.
+    /// Followers have not received it yet.
     is_new: bool,
 }
 
 impl ClientInputs {
-    /// A client tells this, in place of all that it told before. Whether it told nothing before.
+    /// A client reports these inputs, in place of all that it reported before. `true` if it had reported none.
     ///
     /// # Errors
-    /// Why it may not; then what it told before goes on until its lease ends.
+    /// Why it may not; then its earlier report holds until its lease ends.
     pub(crate) fn tell(
         &mut self,
         now_us: u64,
@@ -95,7 +95,7 @@ impl ClientInputs {
         over
     }
 
-    /// A client tells nothing any more. Whether it told anything.
+    /// A client reports no inputs any more. `true` if it had reported some.
     pub(crate) fn forget(&mut self, client: ClientId) -> bool {
         let told = self.told.remove(&client).is_some();
         self.is_new |= told;
@@ -112,7 +112,7 @@ impl ClientInputs {
         core::mem::take(&mut self.is_new)
     }
 
-    /// What is told now, by its names.
+    /// The inputs that are reported now, by their names.
     pub(crate) fn view(&self, now_us: u64) -> Vec<ClientInput> {
         let mut all: Vec<ClientInput> = Vec::new();
         for told in self.told.values() {

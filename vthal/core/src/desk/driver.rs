@@ -5,12 +5,12 @@ use rvac_units::Throttle;
 
 use super::arbiter::{Arbiter, Denied, Source, Stick};
 use super::audience::Teller;
-use super::journal::Part;
+use super::journal::LogSource;
 use crate::ClientId;
 use crate::device::CleanerPower;
 use crate::refusal::Refused;
 
-/// Brushes and suction stand.
+/// Brushes and suction are off.
 pub(crate) const NO_POWER: CleaningPower = CleaningPower {
     suction: 0.0,
     main_brush: 0.0,
@@ -115,7 +115,7 @@ impl DriverDesk {
         }
         if !was_driver {
             let text = format!("{} drives", teller.name(client));
-            teller.log(LogLevel::Info, Part::Client, text);
+            teller.log(LogLevel::Info, LogSource::Client, text);
         }
         Ok(valid_until_us)
     }
@@ -126,8 +126,8 @@ impl DriverDesk {
     }
 }
 
-/// Whether the robot was told to stop and has not said yet that it heard of it: whoever took the wheel now would be stopped by
-/// the word about the driver before.
+/// Whether a stop was sent and is not confirmed yet: a new driver would be stopped by the order that
+/// was meant for the driver before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Brakes {
     Free,

@@ -38,7 +38,7 @@ pub(crate) struct Sensations {
 /// A sample that is complete.
 #[derive(Clone, Debug)]
 struct Sample {
-    since: Standing,
+    since: MotionReference,
     end_us: u64,
     felt: Felt,
 }
@@ -46,23 +46,23 @@ struct Sample {
 /// The sample that goes on.
 #[derive(Debug)]
 struct Open {
-    since: Standing,
-    newest: Standing,
+    since: MotionReference,
+    newest: MotionReference,
     signs: Vec<&'static str>,
     echo: Option<f32>,
     currents_a: Option<[f32; 3]>,
 }
 
-/// What changes of way and heading are counted from.
+/// The origin from which changes of distance and heading are counted.
 #[derive(Clone, Copy, Debug)]
-struct Standing {
+struct MotionReference {
     time_us: u64,
     left_m: f64,
     right_m: f64,
     heading_rad: Option<f64>,
 }
 
-impl Standing {
+impl MotionReference {
     const fn of(observation: &Observation) -> Self {
         Self {
             time_us: observation.time_us,
@@ -91,7 +91,7 @@ impl Standing {
 impl Sensations {
     /// Takes in a step.
     pub(crate) fn take(&mut self, perceived: &Perceived<'_>, track_m: f64) {
-        let now = Standing::of(perceived.observation);
+        let now = MotionReference::of(perceived.observation);
         let open = self.open.get_or_insert_with(|| Open::from(now));
         open.take(perceived);
         if now.time_us >= open.since.time_us + SAMPLE_US {
@@ -127,7 +127,7 @@ impl Sensations {
 }
 
 impl Open {
-    const fn from(since: Standing) -> Self {
+    const fn from(since: MotionReference) -> Self {
         Self {
             since,
             newest: since,
@@ -143,7 +143,7 @@ impl Open {
 
     fn take(&mut self, perceived: &Perceived<'_>) {
         let observation = perceived.observation;
-        self.newest = Standing::of(observation);
+        self.newest = MotionReference::of(observation);
         for sign in perceived.signs() {
             if !self.signs.contains(&sign) {
                 self.signs.push(sign);
@@ -158,7 +158,7 @@ impl Open {
     }
 
     /// What it tells when it ends now, with the rates since a moment.
-    fn told(&self, rates_since: Standing, track_m: f64) -> Felt {
+    fn told(&self, rates_since: MotionReference, track_m: f64) -> Felt {
         let (v, w) = rates_since.rates(self.newest, track_m);
         Felt {
             at_s: 0.0,
@@ -208,11 +208,11 @@ mod tests {
     /// Drives straight ahead with 0.2 m/s and 50 reports a second.
     fn drive(evidence: &mut Sensations, steps: std::ops::Range<u64>, change: impl Fn(&mut Observation)) {
         for step in steps {
-            let way_m = 0.004 * step as f64;
+            let distance_m = 0.004 * step as f64;
             let mut observation = Observation {
                 time_us: step * 20_000,
-                travel_left_m: way_m,
-                travel_right_m: way_m,
+                travel_left_m: distance_m,
+                travel_right_m: distance_m,
                 link_up: true,
                 ..Observation::default()
             };

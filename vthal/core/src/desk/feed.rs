@@ -1,4 +1,4 @@
-//! What clients are told, and how often.
+//! What clients receive, and how often.
 
 use brain::{MapCursor, SweptShare};
 use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedWay, Pose, Status, Topic, Update};
@@ -6,7 +6,7 @@ use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedWay, Pose, Status, Topi
 use super::audience::Teller;
 use super::clients::Clients;
 use super::sources::Sources;
-use crate::mind::Mind;
+use crate::brain_session::BrainSession;
 use crate::swept_sigma::SweptSigma;
 use crate::{Record, to_api};
 
@@ -20,11 +20,11 @@ const RECORDED_DEVICE_US: u64 = 1_000_000;
 const MAP_US: u64 = 200_000;
 /// A status whose figures alone changed goes out at most this often.
 const FIGURES_US: u64 = 1_000_000;
-/// Pause between two views of the home: walls are looked for in each.
+/// Pause between two views of the home: each searches the map for walls.
 const HOME_US: u64 = 5_000_000;
 /// Estimates go out at most this often.
 const ESTIMATE_US: u64 = 500_000;
-/// Pause between two looks at how much is swept: cells are counted in each.
+/// Pause between two measurements of coverage: each counts cells.
 const SHARE_US: u64 = 5_000_000;
 /// Changes of an estimate that nobody would see: metres or radians, and shares.
 const UNSEEN: f64 = 0.002;
@@ -65,7 +65,7 @@ impl Feed {
         self.state_changed_us = Some(now_us);
     }
 
-    /// A person has changed the home and waits to see it: it is told at once.
+    /// A person has changed the home and waits to see it: it is sent at once.
     pub(crate) fn tell_home_now(&mut self) {
         self.home_us = 0;
     }
@@ -99,10 +99,10 @@ impl Feed {
                 table: Box::new(sources.device_table(now_us)),
             });
         }
-        // Whether or not anybody looks: later nobody knows how sure the robot was.
+        // Independent of clients: the uncertainty of that moment cannot be computed later.
         if now_us >= self.swept_us + MAP_US {
             self.swept_us = now_us;
-            self.note_swept(sources.mind);
+            self.note_swept(sources.brain_session);
         }
         self.feed_home_and_way(sources, teller);
     }
@@ -111,32 +111,34 @@ impl Feed {
         let now_us = teller.now_us;
         if teller.has_followers(Topic::Map) && now_us >= self.map_us + MAP_US {
             self.map_us = now_us;
-            self.feed_map(sources.mind, teller);
+            self.feed_map(sources.brain_session, teller);
         }
         if teller.has_followers(Topic::Home) && now_us >= self.home_us + HOME_US {
             self.home_us = now_us;
-            self.feed_home(sources.mind, teller);
+            self.feed_home(sources.brain_session, teller);
         }
         if teller.has_followers(Topic::Estimate) && now_us >= self.estimate_us + ESTIMATE_US {
             self.estimate_us = now_us;
-            self.feed_estimate(sources.mind, teller);
+            self.feed_estimate(sources.brain_session, teller);
         }
         if teller.has_followers(Topic::Way) && now_us >= self.way_us + WAY_US {
             self.way_us = now_us;
-            self.feed_way(sources.mind, teller);
+            self.feed_way(sources.brain_session, teller);
         }
         if teller.has_followers(Topic::Floors) {
             self.feed_floors(sources, teller);
         }
     }
 
-    fn feed_estimate(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
-        let Some(mind) = mind else { return };
+    fn feed_estimate(&mut self, brain_session: Option<&BrainSession>, teller: &mut Teller<'_>) {
+        let Some(brain_session) = brain_session else {
+            return;
+        };
         if teller.now_us >= self.share_us + SHARE_US {
             self.share_us = teller.now_us;
-            self.share = mind.brain().swept_share();
+            self.share = brain_session.brain().swept_share();
         }
-        let estimate = to_api::estimate(mind.brain(), self.share);
+        let estimate = to_api::estimate(brain_session.brain(), self.share);
         if !looks_alike(&self.estimate, &estimate) {
             self.estimate = estimate;
             teller.tell(Topic::Estimate, Update::Estimate(estimate));
@@ -144,28 +146,35 @@ impl Feed {
     }
 
     fn feed_floors(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
-        if sources.floors.is_news(self.floors.as_ref(), sources.mind) {
-            let floors = sources.floors.view(sources.mind);
+        if sources
+            .floors
+            .is_news(self.floors.as_ref(), sources.brain_session)
+        {
+            let floors = sources.floors.view(sources.brain_session);
             self.floors = Some(floors.clone());
             teller.tell(Topic::Floors, Update::Floors(floors));
         }
     }
 
-    fn feed_way(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
-        let Some(mind) = mind else { return };
-        let way = to_api::way(mind.brain());
+    fn feed_way(&mut self, brain_session: Option<&BrainSession>, teller: &mut Teller<'_>) {
+        let Some(brain_session) = brain_session else {
+            return;
+        };
+        let way = to_api::way(brain_session.brain());
         if way != self.way {
             self.way = way.clone();
             teller.tell(Topic::Way, Update::Way(way));
         }
     }
 
-    fn feed_home(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
-        let Some(mind) = mind else { return };
-        let revision = mind.home_revision();
+    fn feed_home(&mut self, brain_session: Option<&BrainSession>, teller: &mut Teller<'_>) {
+        let Some(brain_session) = brain_session else {
+            return;
+        };
+        let revision = brain_session.home_revision();
         if revision != self.home_revision {
             self.home_revision = revision;
-            teller.tell(Topic::Home, Update::Home(mind.home_view()));
+            teller.tell(Topic::Home, Update::Home(brain_session.home_view()));
         }
     }
 
@@ -213,15 +222,17 @@ impl Feed {
     }
 
     /// Notes how sure the robot was of its place when it swept what is new.
-    fn note_swept(&mut self, mind: Option<&Mind>) {
-        let Some(mind) = mind else { return };
-        let (number, map) = (mind.map_number(), mind.brain().map());
+    fn note_swept(&mut self, brain_session: Option<&BrainSession>) {
+        let Some(brain_session) = brain_session else {
+            return;
+        };
+        let (number, map) = (brain_session.map_number(), brain_session.brain().map());
         let new = (number == self.swept_number)
             .then(|| map.since(self.swept_cursor))
             .flatten();
-        self.swept_cursor = mind.map_cursor();
+        self.swept_cursor = brain_session.map_cursor();
         self.swept_number = number;
-        let present_m = mind.brain().estimate().sigma_m;
+        let present_m = brain_session.brain().estimate().sigma_m;
         if let Some(part) = new {
             self.swept_sigma.add(part.swept.len(), present_m);
             return;
@@ -234,32 +245,38 @@ impl Feed {
         }
     }
 
-    fn feed_map(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) {
-        self.note_swept(mind);
-        let Some(mind) = mind else { return };
-        let number = mind.map_number();
+    fn feed_map(&mut self, brain_session: Option<&BrainSession>, teller: &mut Teller<'_>) {
+        self.note_swept(brain_session);
+        let Some(brain_session) = brain_session else {
+            return;
+        };
+        let number = brain_session.map_number();
         let delta = (number == self.map_number)
-            .then(|| mind.brain().map().since(self.map_cursor))
+            .then(|| brain_session.brain().map().since(self.map_cursor))
             .flatten();
-        self.map_cursor = mind.map_cursor();
+        self.map_cursor = brain_session.map_cursor();
         self.map_number = number;
         let update = match delta {
             Some(part) if part.swept.is_empty() && part.path.is_empty() && part.hazards.is_empty() => return,
             Some(part) => Update::MapDelta(to_api::map_delta(number, &part, &self.swept_sigma)),
-            None => Update::Map(self.whole_map(mind)),
+            None => Update::Map(self.whole_map(brain_session)),
         };
         teller.tell(Topic::Map, update);
     }
 
-    fn whole_map(&self, mind: &Mind) -> MapSnapshot {
-        let snapshot = mind.brain().map().snapshot();
-        to_api::map_snapshot(mind.map_number(), &snapshot, &self.swept_sigma)
+    fn whole_map(&self, brain_session: &BrainSession) -> MapSnapshot {
+        let snapshot = brain_session.brain().map().snapshot();
+        to_api::map_snapshot(brain_session.map_number(), &snapshot, &self.swept_sigma)
     }
 
-    /// What a new follower of the map gets at once. Others first hear what is new, so that one cursor serves all.
-    pub(crate) fn first_map(&mut self, mind: Option<&Mind>, teller: &mut Teller<'_>) -> Option<Update> {
-        self.feed_map(mind, teller);
-        mind.map(|mind| Update::Map(self.whole_map(mind)))
+    /// What a new follower of the map gets at once. Others first receive what is new, so that one cursor serves all.
+    pub(crate) fn first_map(
+        &mut self,
+        brain_session: Option<&BrainSession>,
+        teller: &mut Teller<'_>,
+    ) -> Option<Update> {
+        self.feed_map(brain_session, teller);
+        brain_session.map(|brain_session| Update::Map(self.whole_map(brain_session)))
     }
 }
 

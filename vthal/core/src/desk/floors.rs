@@ -1,14 +1,14 @@
-//! What clients say of floors, and what they are told.
+//! Requests of clients about floors, and what clients receive of them.
 
 use brain::RoomName;
 use rvac_api::{FloorQuestion, FloorsView, LogLevel};
 
 use super::audience::{Asker, Asking, Teller};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use super::words::to_name;
+use crate::brain_session::{BrainSession, FloorNews};
 use crate::floors::{Floors, KeptFloor};
-use crate::mind::{FloorNews, Mind};
 use crate::refusal::{self, Refusal};
 use crate::{ArchiveOrder, ArchiveTask, FloorHome, FloorOrder, FloorTask, MapOrder};
 
@@ -67,22 +67,24 @@ impl FloorDesk {
     }
 
     /// The floors, and on which of them the robot is.
-    pub(crate) fn view(&self, mind: Option<&Mind>) -> FloorsView {
+    pub(crate) fn view(&self, brain_session: Option<&BrainSession>) -> FloorsView {
         FloorsView {
             floors: self.floors.views().to_vec(),
-            here: mind.and_then(Mind::floor),
-            sought: mind.is_some_and(Mind::seeks_floor),
-            question: mind.and_then(question),
+            here: brain_session.and_then(BrainSession::floor),
+            sought: brain_session.is_some_and(BrainSession::seeks_floor),
+            question: brain_session.and_then(question),
         }
     }
 
-    /// Whether [`Self::view`] is another one than clients were told.
-    pub(crate) fn is_news(&self, told: Option<&FloorsView>, mind: Option<&Mind>) -> bool {
+    /// Whether [`Self::view`] differs from what clients have received.
+    pub(crate) fn is_news(&self, told: Option<&FloorsView>, brain_session: Option<&BrainSession>) -> bool {
         told.is_none_or(|told| {
-            told.here != mind.and_then(Mind::floor)
-                || told.sought != mind.is_some_and(Mind::seeks_floor)
+            told.here != brain_session.and_then(BrainSession::floor)
+                || told.sought != brain_session.is_some_and(BrainSession::seeks_floor)
                 || told.question.as_ref().map(|question| question.reason.as_str())
-                    != mind.and_then(Mind::asked).map(|asked| asked.name())
+                    != brain_session
+                        .and_then(BrainSession::asked)
+                        .map(|asked| asked.name())
                 || told.floors != self.floors.views()
         })
     }
@@ -98,10 +100,12 @@ impl FloorDesk {
     }
 
     /// The floor that a request names, else the one on which the robot is, else the first one.
-    fn meant(&self, named: Option<u16>, mind: Option<&Mind>) -> Result<u16, Refusal> {
+    fn meant(&self, named: Option<u16>, brain_session: Option<&BrainSession>) -> Result<u16, Refusal> {
         match named {
             Some(number) => self.named(number).map(|floor| floor.number),
-            None => Ok(mind.and_then(Mind::floor).unwrap_or_else(|| self.floors.first())),
+            None => Ok(brain_session
+                .and_then(BrainSession::floor)
+                .unwrap_or_else(|| self.floors.first())),
         }
     }
 
@@ -115,20 +119,20 @@ impl FloorDesk {
     pub(crate) fn serve(
         &self,
         Asking { asker, request }: Asking<FloorRequest>,
-        mind: Option<&mut Mind>,
+        brain_session: Option<&mut BrainSession>,
         teller: &mut Teller<'_>,
     ) -> Result<Reply, Refusal> {
         let Asker { client, id } = asker;
         let outputs = &mut *teller.outputs;
         match request {
-            FloorRequest::Choose { floor } => return self.choose(floor, mind, teller),
+            FloorRequest::Choose { floor } => return self.choose(floor, brain_session, teller),
             FloorRequest::Maps { floor } => {
-                let floor = self.meant(floor, mind.as_deref())?;
+                let floor = self.meant(floor, brain_session.as_deref())?;
                 outputs.map_orders.push(MapOrder::List { client, id, floor });
             }
             FloorRequest::RestoreMap { floor, number } => {
-                admit_other_map(mind.as_deref())?;
-                let floor = self.meant(floor, mind.as_deref())?;
+                admit_other_map(brain_session.as_deref())?;
+                let floor = self.meant(floor, brain_session.as_deref())?;
                 outputs.map_orders.push(MapOrder::Restore {
                     client,
                     id,
@@ -137,7 +141,7 @@ impl FloorDesk {
                 });
             }
             FloorRequest::New { name } => {
-                let task = self.new_floor(name, mind.as_deref())?;
+                let task = self.new_floor(name, brain_session.as_deref())?;
                 outputs.floor_orders.push(FloorOrder { client, id, task });
             }
             FloorRequest::Name { floor, name } => {
@@ -146,7 +150,7 @@ impl FloorDesk {
                 outputs.floor_orders.push(FloorOrder { client, id, task });
             }
             FloorRequest::Remove { floor } => {
-                let task = self.remove(floor, mind.as_deref())?;
+                let task = self.remove(floor, brain_session.as_deref())?;
                 outputs.floor_orders.push(FloorOrder { client, id, task });
             }
             FloorRequest::Restore { floor } if self.floors.is_removed(floor) => {
@@ -167,17 +171,21 @@ impl FloorDesk {
         Ok(Reply::ByShell)
     }
 
-    fn new_floor(&self, name: Option<String>, mind: Option<&Mind>) -> Result<FloorTask, Refusal> {
-        if mind.and_then(Mind::floor).is_some() && !mind.is_some_and(is_lost) {
-            admit_other_map(mind)?;
+    fn new_floor(
+        &self,
+        name: Option<String>,
+        brain_session: Option<&BrainSession>,
+    ) -> Result<FloorTask, Refusal> {
+        if brain_session.and_then(BrainSession::floor).is_some() && !brain_session.is_some_and(is_lost) {
+            admit_other_map(brain_session)?;
         }
         Ok(FloorTask::New(self.free_name(name, None)?))
     }
 
-    fn remove(&self, floor: u16, mind: Option<&Mind>) -> Result<FloorTask, Refusal> {
+    fn remove(&self, floor: u16, brain_session: Option<&BrainSession>) -> Result<FloorTask, Refusal> {
         self.named(floor)?;
-        if mind.and_then(Mind::floor) == Some(floor) {
-            admit_other_map(mind)?;
+        if brain_session.and_then(BrainSession::floor) == Some(floor) {
+            admit_other_map(brain_session)?;
         }
         if self.floors.present().nth(1).is_none() {
             return Err(Refusal::from("last-floor"));
@@ -201,28 +209,28 @@ impl FloorDesk {
     fn choose(
         &self,
         number: u16,
-        mind: Option<&mut Mind>,
+        brain_session: Option<&mut BrainSession>,
         teller: &mut Teller<'_>,
     ) -> Result<Reply, Refusal> {
         let is_mapped = self.named(number)?.home.is_some();
-        let here = mind.as_deref().and_then(Mind::floor);
-        if here == Some(number) && !mind.as_deref().is_some_and(is_lost) {
+        let here = brain_session.as_deref().and_then(BrainSession::floor);
+        if here == Some(number) && !brain_session.as_deref().is_some_and(is_lost) {
             return Ok(Reply::Done);
         }
         if here.is_some() {
-            admit_other_map(mind.as_deref())?;
+            admit_other_map(brain_session.as_deref())?;
         }
-        let Some(mind) = mind else {
+        let Some(brain_session) = brain_session else {
             return Err(Refusal::from("no-robot"));
         };
         if is_mapped {
-            mind.choose_floor(teller.now_us, number, &mut teller.recorder());
+            brain_session.choose_floor(teller.now_us, number, &mut teller.recorder());
         } else {
-            mind.begin_floor(teller.now_us, number, &mut teller.recorder());
+            brain_session.begin_floor(teller.now_us, number, &mut teller.recorder());
         }
-        teller.follow_run(mind);
+        teller.follow_run(brain_session);
         let text = format!("a person says that the robot is on {}", self.title(number));
-        teller.log(LogLevel::Info, Part::Client, text);
+        teller.log(LogLevel::Info, LogSource::Client, text);
         Ok(Reply::Done)
     }
 
@@ -230,23 +238,23 @@ impl FloorDesk {
     pub(crate) fn kept(
         &mut self,
         KeptFloors { task, floors, made }: KeptFloors<'_>,
-        mind: Option<&mut Mind>,
+        brain_session: Option<&mut BrainSession>,
         teller: &mut Teller<'_>,
     ) {
         self.floors.renew(floors);
         let now_us = teller.now_us;
         let text = match (task, made) {
             (FloorTask::New(_), Some(number)) => {
-                if let Some(mind) = mind {
-                    mind.begin_floor(now_us, number, &mut teller.recorder());
-                    teller.follow_run(mind);
+                if let Some(brain_session) = brain_session {
+                    brain_session.begin_floor(now_us, number, &mut teller.recorder());
+                    teller.follow_run(brain_session);
                 }
                 format!("{} begins, and the robot is on it", self.title(number))
             }
             (FloorTask::Remove(number), _) => {
-                if let Some(mind) = mind {
-                    mind.lose_floor(now_us, *number, &mut teller.recorder());
-                    teller.follow_run(mind);
+                if let Some(brain_session) = brain_session {
+                    brain_session.lose_floor(now_us, *number, &mut teller.recorder());
+                    teller.follow_run(brain_session);
                 }
                 format!("floor {number} is removed; it can be restored")
             }
@@ -254,7 +262,7 @@ impl FloorDesk {
             (FloorTask::Name(number, _), _) => format!("floor {number} is called {}", self.title(*number)),
             (FloorTask::New(_), None) => return,
         };
-        teller.log(LogLevel::Info, Part::Vthal, text);
+        teller.log(LogLevel::Info, LogSource::Vthal, text);
     }
 
     /// Floors of an archive are on the disk.
@@ -262,26 +270,26 @@ impl FloorDesk {
         self.floors.renew(floors);
         let titles: Vec<String> = taken.iter().map(|number| self.title(*number)).collect();
         let text = format!("taken in from an archive: {}", titles.join(", "));
-        teller.log(LogLevel::Info, Part::Vthal, text);
+        teller.log(LogLevel::Info, LogSource::Vthal, text);
     }
 
     /// A version of the map of a floor is the newest one again.
     pub(crate) fn map_restored(
         &mut self,
         RestoredMap { number, kept }: &RestoredMap,
-        mind: Option<&mut Mind>,
+        brain_session: Option<&mut BrainSession>,
         teller: &mut Teller<'_>,
     ) {
         self.note_kept(kept);
-        if let Some(mind) = mind {
-            mind.offer(teller.now_us, kept.floor, &mut teller.recorder());
-            teller.follow_run(mind);
+        if let Some(brain_session) = brain_session {
+            brain_session.offer(teller.now_us, kept.floor, &mut teller.recorder());
+            teller.follow_run(brain_session);
         }
         let text = format!(
             "map {number} of {} is restored; the robot takes it up when it stands on its dock",
             self.title(kept.floor)
         );
-        teller.log(LogLevel::Info, Part::Vthal, text);
+        teller.log(LogLevel::Info, LogSource::Vthal, text);
     }
 
     /// What goes to the disk is what the floor's map is from now on.
@@ -304,24 +312,24 @@ impl FloorDesk {
             }
             FloorNews::Asked(question) => (LogLevel::Warn, refusal::text(question.name())),
         };
-        teller.log(level, Part::Brain, text);
+        teller.log(level, LogSource::Brain, text);
     }
 }
 
 /// What a job rests on must not change under it.
-fn admit_other_map(mind: Option<&Mind>) -> Result<(), Refusal> {
-    match mind {
-        Some(mind) if !mind.rests() => Err(Refusal::from("job-runs")),
+fn admit_other_map(brain_session: Option<&BrainSession>) -> Result<(), Refusal> {
+    match brain_session {
+        Some(brain_session) if !brain_session.rests() => Err(Refusal::from("job-runs")),
         _ => Ok(()),
     }
 }
 
-fn is_lost(mind: &Mind) -> bool {
-    mind.brain().estimate().lost
+fn is_lost(brain_session: &BrainSession) -> bool {
+    brain_session.brain().estimate().lost
 }
 
-fn question(mind: &Mind) -> Option<FloorQuestion> {
-    let reason = mind.asked()?.name();
+fn question(brain_session: &BrainSession) -> Option<FloorQuestion> {
+    let reason = brain_session.asked()?.name();
     Some(FloorQuestion {
         reason: reason.to_owned(),
         text: refusal::text(reason),

@@ -1,11 +1,11 @@
-//! What the loads of motors say of their parts: taken in while the robot cleans, told on demand, begun anew when somebody has
+//! What the loads of motors say of their parts: taken in while the robot cleans, reported on demand, started again when somebody has
 //! cleaned a part.
 
 use rvac_api::{ComponentHealth, LogLevel, Update};
 
 use super::audience::{Asking, Teller};
 use super::awaited::Awaited;
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use crate::Outputs;
 use crate::device::{CleanerPower, Report, WheelSpeeds};
@@ -29,14 +29,14 @@ pub(crate) enum HealthRequest {
 
 /// What the loads are computed from.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Drive<'a> {
+pub(crate) struct MotorSample<'a> {
     pub(crate) report: &'a Report,
     pub(crate) wheel_speeds: WheelSpeeds,
     /// How hard the cleaners run.
     pub(crate) power: CleanerPower,
 }
 
-impl Drive<'_> {
+impl MotorSample<'_> {
     /// What the motors draw now, if it can be compared with other moments.
     fn load(&self, now_us: u64) -> Option<Load> {
         let [left_a, right_a, brush_a] = currents_a(self.report)?;
@@ -78,7 +78,7 @@ impl HealthDesk {
     }
 
     /// Takes in what the motors draw in a step in which the robot cleans.
-    pub(crate) fn weigh(&mut self, drive: &Drive<'_>, teller: &mut Teller<'_>) {
+    pub(crate) fn weigh(&mut self, drive: &MotorSample<'_>, teller: &mut Teller<'_>) {
         let Some(load) = drive.load(teller.now_us) else {
             return;
         };
@@ -94,7 +94,7 @@ impl HealthDesk {
                     format!("{} runs as usual again.", change.component.name()),
                 ),
             };
-            teller.log(level, Part::Vthal, text);
+            teller.log(level, LogSource::Vthal, text);
         }
     }
 

@@ -1,4 +1,4 @@
-//! Records of runs on their way to the disk, and what clients ask of them.
+//! Records of runs until they are on the disk, and requests of clients about them.
 
 use std::collections::VecDeque;
 
@@ -6,7 +6,7 @@ use brain::{Brain, Command, HomePart};
 use rvac_api::{LogLevel, RoomHere, Run, RunAsker, RunJob, RunRecord, Topic, Update};
 
 use super::audience::{Asker, Teller};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use crate::history::{Asked, Moment, RunFollower};
 use crate::{Checkpoint, Outputs, Record, RunQuery, RunTask, cut_short};
@@ -23,10 +23,10 @@ const RETRY_US: u64 = 60_000_000;
 #[derive(Debug, Default)]
 struct UnkeptRuns {
     waiting: VecDeque<RunRecord>,
-    /// The first one is on its way.
+    /// The first one is being written.
     is_writing: bool,
     retry_us: u64,
-    /// The disk has refused it before, which was told.
+    /// The disk has refused it before, which was reported.
     is_complained: bool,
 }
 
@@ -98,7 +98,7 @@ impl HistoryDesk {
         self.follower.change_robot(now_us, brain)
     }
 
-    /// Goes on with the run of a checkpoint that the brain has taken up; gives it back if it was over.
+    /// Goes on with the run of a checkpoint that the brain has loaded; gives it back if it was over.
     pub(crate) fn resume(&mut self, now_us: u64, checkpoint: Checkpoint, brain: &Brain) -> Option<RunRecord> {
         let run = checkpoint.run.clone()?;
         let was_over = self.follower.resume(now_us, *run, brain).is_some();
@@ -115,7 +115,7 @@ impl HistoryDesk {
         for mut record in over {
             record.run.floor = record.run.floor.or(floor);
             if self.unkept.waiting.len() == UNKEPT_MAX {
-                // The first one may be on its way.
+                // The first one may be in writing.
                 self.unkept.waiting.remove(1);
             }
             self.unkept.waiting.push_back(record);
@@ -146,7 +146,7 @@ impl HistoryDesk {
                 self.unkept.waiting.pop_front();
                 (self.unkept.is_complained, self.unkept.retry_us) = (false, 0);
                 let text = format!("run {number} is kept: {}", run.text);
-                teller.log(LogLevel::Info, Part::Vthal, text);
+                teller.log(LogLevel::Info, LogSource::Vthal, text);
                 if teller.has_followers(Topic::Runs) {
                     teller.tell(Topic::Runs, Update::RunKept(run));
                 }
@@ -155,7 +155,7 @@ impl HistoryDesk {
             Err(text) => {
                 self.unkept.retry_us = teller.now_us + RETRY_US;
                 if !core::mem::replace(&mut self.unkept.is_complained, true) {
-                    teller.log(LogLevel::Error, Part::Vthal, text);
+                    teller.log(LogLevel::Error, LogSource::Vthal, text);
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Clients tell inputs of control mixes, and those who drive by them hear of it.
+//! Clients report inputs of control mixes; drivers that use them receive the reports.
 
 use std::collections::BTreeMap;
 
@@ -6,12 +6,12 @@ use rvac_api::{LogLevel, Topic, Update};
 
 use super::audience::Teller;
 use super::client_inputs::{ClientInputs, InputDenied};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
 use crate::ClientId;
 use crate::refusal::Refusal;
 
-/// What a client tells, in place of all that it told before.
+/// The inputs that a client reports, in place of all that it reported before.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ToldInputs {
     pub(crate) values: BTreeMap<String, f64>,
@@ -44,12 +44,12 @@ impl InputDesk {
         let told = self.inputs.tell(teller.now_us, client, (values, lease_ms));
         if told.map_err(denied)? {
             let text = format!("{} tells the inputs {}", teller.name(client), names.join(", "));
-            teller.log(LogLevel::Info, Part::Client, text);
+            teller.log(LogLevel::Info, LogSource::Client, text);
         }
         Ok(Reply::Done)
     }
 
-    /// Whoever drives by what this client told hears it in the same moment.
+    /// A driver that uses this client's inputs receives them at once.
     pub(crate) fn forget(&mut self, client: ClientId, teller: &mut Teller<'_>) {
         if self.inputs.forget(client) {
             log_gone(client, teller);
@@ -70,7 +70,7 @@ impl InputDesk {
         }
     }
 
-    /// What is told now.
+    /// The inputs that are reported now.
     pub(crate) fn view(&self, now_us: u64) -> Update {
         Update::Inputs {
             inputs: self.inputs.view(now_us),
@@ -80,7 +80,7 @@ impl InputDesk {
 
 fn log_gone(client: ClientId, teller: &mut Teller<'_>) {
     let text = format!("the inputs of {} are gone", teller.name(client));
-    teller.log(LogLevel::Info, Part::Client, text);
+    teller.log(LogLevel::Info, LogSource::Client, text);
 }
 
 const fn denied(denied: InputDenied) -> &'static str {

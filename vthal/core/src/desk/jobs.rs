@@ -5,7 +5,7 @@ use rvac_api::{JobEstimate, JobOrder, Update};
 
 use super::home::{known_home, with_places};
 use super::words::to_order;
-use crate::mind::Mind;
+use crate::brain_session::BrainSession;
 use crate::refusal::Refusal;
 
 /// A client draws a spot as large as the brain cleans it.
@@ -15,7 +15,7 @@ const _: () = assert!(rvac_api::SPOT_RADIUS_M == brain::SPOT_RADIUS_M);
 ///
 /// # Errors
 /// Refused as the brain would refuse it.
-pub(crate) fn clean_command(order: &JobOrder, mind: Option<&Mind>) -> Result<Command, Refusal> {
+pub(crate) fn clean_command(order: &JobOrder, mind: Option<&BrainSession>) -> Result<Command, Refusal> {
     let brain = known_home(mind)?.brain();
     let order = to_order(&with_places(order, brain)?)?;
     let command = Command::CleanParts { order: order.clone() };
@@ -30,7 +30,11 @@ pub(crate) fn clean_command(order: &JobOrder, mind: Option<&Mind>) -> Result<Com
 ///
 /// # Errors
 /// A job runs, or the brain would refuse the order.
-pub(crate) fn estimate(id: Option<u32>, order: &JobOrder, mind: Option<&Mind>) -> Result<Update, Refusal> {
+pub(crate) fn estimate(
+    id: Option<u32>,
+    order: &JobOrder,
+    mind: Option<&BrainSession>,
+) -> Result<Update, Refusal> {
     let mind = known_home(mind)?;
     let brain = mind.brain();
     let order = to_order(&with_places(order, brain)?)?;

@@ -8,9 +8,9 @@ use crate::to_api;
 /// Lines kept.
 const KEPT: usize = 200;
 
-/// Part that speaks.
+/// Part of the software that wrote an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum LogSource {
     /// The daemon.
     Vthal,
     /// The brain.
@@ -23,7 +23,7 @@ pub(crate) enum Part {
     Client,
 }
 
-impl Part {
+impl LogSource {
     fn name(self) -> &'static str {
         match self {
             Self::Vthal => "vthal",
@@ -43,7 +43,12 @@ pub(crate) struct Journal {
 
 impl Journal {
     /// Numbers a line and keeps it.
-    pub(crate) fn write(&mut self, now_us: u64, level: LogLevel, (part, text): (Part, String)) -> LogEntry {
+    pub(crate) fn write(
+        &mut self,
+        now_us: u64,
+        level: LogLevel,
+        (part, text): (LogSource, String),
+    ) -> LogEntry {
         self.newest.keep(|number| LogEntry {
             number,
             t: to_api::seconds(now_us),
@@ -63,13 +68,13 @@ impl Journal {
 mod tests {
     use rvac_api::LogLevel;
 
-    use super::{Journal, KEPT, Part};
+    use super::{Journal, KEPT, LogSource};
 
     #[test]
     fn the_newest_lines_are_kept_and_numbers_go_on() {
         let mut journal = Journal::default();
         for line in 0..KEPT + 5 {
-            journal.write(0, LogLevel::Info, (Part::Vthal, line.to_string()));
+            journal.write(0, LogLevel::Info, (LogSource::Vthal, line.to_string()));
         }
         let numbers: Vec<u64> = journal.entries().map(|entry| entry.number).collect();
         assert_eq!(numbers.len(), KEPT);

@@ -6,9 +6,9 @@ use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
 
 use super::audience::{Asker, Asking, Teller};
 use super::awaited::Awaited;
-use super::journal::Part;
+use super::journal::LogSource;
 use crate::Outputs;
-use crate::learnt::{Kept, Learnings, StoredLearnings, told};
+use crate::learnt::{Learnings, RobotRecord, StoredLearnings, told};
 use crate::outputs::LearntOrder;
 use crate::refusal::Refusal;
 
@@ -20,7 +20,7 @@ const HOUR_S: f64 = 3600.0;
 pub(crate) enum LearntRequest {
     /// What is kept.
     Show,
-    /// A robot shall learn something anew.
+    /// A robot shall learn something again.
     Forget(Forgetting),
 }
 
@@ -47,7 +47,7 @@ impl Forgetting {
 #[derive(Debug, Default)]
 pub(crate) struct LearntDesk {
     learnings: Learnings,
-    forgetting: Awaited<Kept>,
+    forgetting: Awaited<RobotRecord>,
 }
 
 impl LearntDesk {
@@ -66,12 +66,12 @@ impl LearntDesk {
     /// Tells what a robot of this name begins with.
     pub(crate) fn introduce(&self, device: &str, teller: &mut Teller<'_>) {
         if let Some(text) = told(&self.of(device)) {
-            teller.log(LogLevel::Info, Part::Vthal, text);
+            teller.log(LogLevel::Info, LogSource::Vthal, text);
         }
     }
 
     /// Hands out what the robot has learnt, if it is news.
-    pub(crate) fn keep(&mut self, kept: Kept, outputs: &mut Outputs) {
+    pub(crate) fn keep(&mut self, kept: RobotRecord, outputs: &mut Outputs) {
         if self.learnings.take(kept) {
             self.write(outputs);
         }
@@ -106,7 +106,7 @@ impl LearntDesk {
         let known = self.learnings.forget(&request.device, request.parts());
         let before = match known {
             Some(before) => before,
-            None if here == Some(&request.device) => Kept::default(),
+            None if here == Some(&request.device) => RobotRecord::default(),
             None => return Err("nothing-learnt".into()),
         };
         self.write(outputs);
@@ -114,7 +114,7 @@ impl LearntDesk {
         Ok(())
     }
 
-    /// The disk has what it was given under this number, or says why it has not. The robot that is here learns anew all the same,
+    /// The disk has what it was given under this number, or says why it has not. The attached robot learns again all the same,
     /// and with its next run the disk hears of that.
     pub(crate) fn kept(&mut self, number: u64, result: Result<(), String>, teller: &mut Teller<'_>) {
         let result = result.map_err(|text| Refusal {
@@ -127,8 +127,8 @@ impl LearntDesk {
     }
 }
 
-fn view(kept: &Kept, here: Option<&str>) -> LearntView {
-    let Kept {
+fn view(kept: &RobotRecord, here: Option<&str>) -> LearntView {
+    let RobotRecord {
         device,
         learnt,
         learnt_s,

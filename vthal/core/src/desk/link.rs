@@ -1,15 +1,15 @@
-//! The robot on the serial device: bytes to and from it, what it told last, and how good the link is.
+//! The robot on the serial device: bytes to and from it, its last report, and the quality of the link.
 
 use brain::Inhibit;
 use rvac_api::{DeviceTable, LinkReading, LogLevel, Topic, Update, Versions};
 
 use super::audience::Teller;
 use super::driver::Brakes;
-use super::journal::Part;
+use super::journal::LogSource;
 use super::link_facts::LinkFacts;
 use crate::device::{
-    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, Make, Report, SlowFacts,
-    Supervisor, Verdict, WheelSpeeds,
+    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, LinkVerdict, Make, Report,
+    SlowFacts, Supervisor, WheelSpeeds,
 };
 use crate::observe::{LinkView, currents_a};
 use crate::refusal::Refused;
@@ -39,7 +39,7 @@ impl LinkDesk {
             events: &mut self.events,
         });
         self.facts.opened(teller.now_us);
-        teller.log(LogLevel::Info, Part::Link, "serial device open".to_owned());
+        teller.log(LogLevel::Info, LogSource::Link, "serial device open".to_owned());
     }
 
     pub(crate) fn closed(&mut self, reason: &LinkLoss, teller: &mut Teller<'_>) {
@@ -50,10 +50,10 @@ impl LinkDesk {
             LinkLoss::NoAnswer { baud } => format!("no robot answers at {baud} baud; tries the next rate"),
             LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
         };
-        teller.log(LogLevel::Warn, Part::Link, text);
+        teller.log(LogLevel::Warn, LogSource::Link, text);
     }
 
-    /// The daemon ends: the robot, which was told to stop, is let go.
+    /// The daemon ends: the robot, which was ordered to stop, is released.
     pub(crate) fn release(&mut self, teller: &mut Teller<'_>) {
         if let Some(device) = &mut self.device {
             device.forget_stillness();
@@ -65,7 +65,7 @@ impl LinkDesk {
         }
     }
 
-    /// Takes bytes from the robot; gives what it told.
+    /// Takes bytes from the robot; gives its events.
     pub(crate) fn receive(&mut self, bytes: &[u8], teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.count_in(bytes.len());
         self.tap_received(bytes, teller);
@@ -81,7 +81,7 @@ impl LinkDesk {
         events
     }
 
-    /// Lets time pass; gives what the robot told.
+    /// Lets time pass; gives the events of the robot.
     pub(crate) fn pass_time(&mut self, teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.pass_time(teller.now_us);
         let mut events = core::mem::take(&mut self.events);
@@ -106,7 +106,7 @@ impl LinkDesk {
         }
     }
 
-    /// Tells the robot something. A new reason why it cannot be told goes to the log.
+    /// Sends a command to the robot. A new reason for a failure goes to the log.
     pub(crate) fn command(&mut self, command: DeviceCommand, teller: &mut Teller<'_>) {
         let Some(device) = &mut self.device else { return };
         let mut io = DeviceIo {
@@ -118,7 +118,7 @@ impl LinkDesk {
             && self.facts.is_new_error(error)
         {
             let text = format!("{command:?} was not sent: {error}");
-            teller.log(LogLevel::Debug, Part::Link, text);
+            teller.log(LogLevel::Debug, LogSource::Link, text);
         }
     }
 
@@ -143,7 +143,7 @@ impl LinkDesk {
             return Err("raw-syntax");
         }
         let text = format!("{expert} sends raw {packet}");
-        teller.log(LogLevel::Warn, Part::Client, text);
+        teller.log(LogLevel::Warn, LogSource::Client, text);
         sent.map_err(|_| "not-sent")
     }
 
@@ -174,7 +174,7 @@ impl LinkDesk {
         self.facts.slow = Some(facts);
     }
 
-    /// What the robot is, once it has told.
+    /// The description of the robot, once it has sent it.
     pub(crate) fn description(&self) -> Option<&Description> {
         self.device.as_ref().and_then(Supervisor::description)
     }
@@ -194,7 +194,7 @@ impl LinkDesk {
         currents_a(self.report()?)
     }
 
-    /// Whether the robot has heard of the last stop.
+    /// Whether the robot has confirmed the last stop.
     pub(crate) fn brakes(&self) -> Brakes {
         let knows = self
             .report()
@@ -218,9 +218,9 @@ impl LinkDesk {
             .map(|device| device.link_quality().verdict)
             .unwrap_or_default();
         let speed_share = match verdict {
-            Verdict::Good => 1.0,
-            Verdict::Poor => 0.5,
-            Verdict::Bad => 0.0,
+            LinkVerdict::Good => 1.0,
+            LinkVerdict::Poor => 0.5,
+            LinkVerdict::Bad => 0.0,
         };
         LinkView { up, speed_share }
     }
@@ -237,7 +237,7 @@ impl LinkDesk {
         }
     }
 
-    /// What clients are told of the robot's parts.
+    /// What clients receive of the robot's parts.
     pub(crate) fn table(&self, now_us: u64, daemon: &str) -> DeviceTable {
         let (bytes_in_per_s, bytes_out_per_s) = self.facts.bytes_per_s();
         let slow = self.facts.slow.as_ref();

@@ -1,5 +1,5 @@
-//! The desks of the daemon. Each owns what it knows, takes the time and the facts of others as plain arguments, and says
-//! what there is to say through a [`audience::Teller`]; none can reach the state of another. [`crate::Core`] holds them all
+//! The desks of the daemon. Each owns its state, takes the time and the facts of others as plain arguments, and informs
+//! clients, log and shell through a [`audience::Teller`]. None can reach the state of another. [`crate::Core`] holds them all
 //! and routes inputs and requests between them.
 
 pub(crate) mod arbiter;

@@ -6,7 +6,7 @@ use rvac_api::ScheduledJob;
 use super::checkpoints::works;
 use super::floors::FloorDesk;
 use super::jobs::clean_command;
-use crate::mind::Mind;
+use crate::brain_session::BrainSession;
 use crate::refusal::{Refusal, Refused};
 use crate::schedule::{Entry, Keeping};
 
@@ -16,7 +16,7 @@ const OTHER_FLOOR: &str = "other-floor";
 /// What of it is known at once.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StartFacts {
-    /// Why no robot can be told anything.
+    /// Why no robot can be commanded.
     pub(crate) robot: Result<(), Refused>,
     /// Why a schedule may not command: everybody else comes before it (S27).
     pub(crate) schedule: Result<(), Refused>,
@@ -28,18 +28,26 @@ pub(crate) struct StartFacts {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Readiness<'a> {
     facts: StartFacts,
-    mind: Option<&'a Mind>,
+    brain_session: Option<&'a BrainSession>,
     pub(crate) floors: &'a FloorDesk,
 }
 
 impl<'a> Readiness<'a> {
-    pub(crate) fn new(facts: StartFacts, mind: Option<&'a Mind>, floors: &'a FloorDesk) -> Self {
-        Self { facts, mind, floors }
+    pub(crate) fn new(
+        facts: StartFacts,
+        brain_session: Option<&'a BrainSession>,
+        floors: &'a FloorDesk,
+    ) -> Self {
+        Self {
+            facts,
+            brain_session,
+            floors,
+        }
     }
 
     /// The floor on which the robot is.
     pub(crate) fn floor(&self) -> Option<u16> {
-        self.mind.and_then(Mind::floor)
+        self.brain_session.and_then(BrainSession::floor)
     }
 
     /// # Errors
@@ -54,11 +62,11 @@ impl<'a> Readiness<'a> {
     /// # Errors
     /// Why the brain would not obey.
     pub(crate) fn admit(&self, command: &Command) -> Result<(), Refused> {
-        let mind = self.mind.ok_or("no-robot")?;
-        mind.admit(command).map_err(brain::Reason::name)
+        let brain_session = self.brain_session.ok_or("no-robot")?;
+        brain_session.admit(command).map_err(brain::Reason::name)
     }
 
-    /// What the brain is told to start the job of a schedule, because a person wants it now.
+    /// The command that starts the job of a schedule, because a person wants it now.
     ///
     /// # Errors
     /// Why it may not start.
@@ -68,7 +76,7 @@ impl<'a> Readiness<'a> {
         self.command_of(&entry.plan().job)
     }
 
-    /// What the brain is told when a schedule starts its job now, if it may: everybody else comes before it (S27), and what
+    /// The command when a schedule starts its job now, if it may: everybody else comes before it (S27), and what
     /// keeps any motion from starting keeps it, too (S25).
     ///
     /// # Errors
@@ -76,20 +84,20 @@ impl<'a> Readiness<'a> {
     pub(crate) fn scheduled_command(&self, entry: &Entry) -> Result<Command, Refused> {
         self.facts.robot?;
         self.facts.schedule?;
-        if self.mind.is_some_and(works) {
+        if self.brain_session.is_some_and(works) {
             return Err("job-runs");
         }
         self.require_floor_of(entry).map_err(|refusal| refusal.reason)?;
         let command = self
             .command_of(&entry.plan().job)
             .map_err(|refusal| refusal.reason)?;
-        match self.mind {
-            Some(mind) if mind.rests() => Ok(command),
+        match self.brain_session {
+            Some(brain_session) if brain_session.rests() => Ok(command),
             _ => Err("job-runs"),
         }
     }
 
-    /// What the brain is told to start a job; refused as the brain would refuse it.
+    /// The command that starts a job; refused as the brain would refuse it.
     fn command_of(&self, job: &ScheduledJob) -> Result<Command, Refusal> {
         match job {
             ScheduledJob::Start { strategy } => {
@@ -98,7 +106,7 @@ impl<'a> Readiness<'a> {
                 self.admit(&command)?;
                 Ok(command)
             }
-            ScheduledJob::Clean(order) => clean_command(order, self.mind),
+            ScheduledJob::Clean(order) => clean_command(order, self.brain_session),
         }
     }
 

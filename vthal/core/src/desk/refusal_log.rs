@@ -4,7 +4,7 @@ use rvac_api::Failure;
 
 use crate::ClientId;
 
-/// A refusal is told again after so long, and this many different ones within that time.
+/// A refusal is logged again after this time, and this many different ones within that time.
 const SILENT_US: u64 = 5_000_000;
 const TOLD_MAX: usize = 8;
 

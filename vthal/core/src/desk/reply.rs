@@ -1,11 +1,11 @@
-//! What a desk says to a request that it does not refuse, and when the client hears it.
+//! The answer of a desk to a request that it does not refuse, and when the client receives it.
 
 use rvac_api::Update;
 
 /// The answer to a request. A desk cannot serve one without saying who answers, and when.
 #[derive(Debug)]
 pub(crate) enum Reply {
-    /// It is done: the client hears so at once, if it gave a number.
+    /// It is done: the client is answered at once, if it gave a number.
     Done,
     /// This is the answer, at once.
     Told(Box<Update>),

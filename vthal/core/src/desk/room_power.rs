@@ -72,7 +72,7 @@ pub(crate) const fn to_pattern(pattern: CleaningPattern) -> Pattern {
     }
 }
 
-/// As clients are told of it.
+/// As clients receive it.
 pub(crate) fn to_api(settings: &brain::RoomSettings) -> RoomSettings {
     let share = |percent: u8| f64::from(percent) / 100.0;
     let power = settings.power();

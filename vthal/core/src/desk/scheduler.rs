@@ -1,6 +1,6 @@
 //! The schedules and the disk: nothing counts, and nothing starts, before it is kept.
 //!
-//! One change is on its way to the disk at a time. It is made on a copy of the book, and the copy takes the book's place when
+//! One change is written to the disk at a time. It is made on a copy of the book, and the copy takes the book's place when
 //! the disk has it. What people want meanwhile waits in order; what the clock wants waits behind that.
 
 use std::collections::VecDeque;
@@ -10,8 +10,8 @@ use rvac_api::Schedules;
 use super::audience::Asker;
 use crate::ScheduleOrder;
 use crate::schedule::{
-    Book, CLOCK_IS_SET_FROM_S, Edit, EditError, Entry, Keeping, Outcome, StoredBook, Verdict, Zone, verdict,
-    view,
+    Book, CLOCK_IS_SET_FROM_S, EditError, Entry, Keeping, Outcome, ScheduleEdit, StoredBook, Verdict, Zone,
+    verdict, view,
 };
 
 /// Changes of people that may wait for the disk.
@@ -19,18 +19,18 @@ const WAITING_MAX: usize = 16;
 /// After the disk has refused a decision it is tried again so much later.
 const RETRY_S: i64 = 60;
 
-/// The schedules on their way between clock, people and disk.
+/// The schedules between clock, people and disk.
 #[derive(Debug)]
 pub(super) struct Scheduler {
     book: Book,
     system_zone: Zone,
-    /// The present, seconds since 1970, once somebody has told it.
+    /// The present, seconds since 1970, once the clock is set.
     now_s: Option<i64>,
     /// What was kept last may lack the newest marks, so what was due before the start is left alone.
     distrusts_marks: bool,
     writes: u64,
     writing: Option<Writing>,
-    waiting: VecDeque<(Asker, Edit)>,
+    waiting: VecDeque<(Asker, ScheduleEdit)>,
     retry_s: i64,
 }
 
@@ -61,7 +61,7 @@ pub(super) enum Task {
     Unkept(Asker, String),
     /// A decision could not be kept, so nothing starts.
     Undecided(String),
-    /// A decision is kept: if it is [`Outcome::Starting`], the robot shall be told.
+    /// A decision is kept: if it is [`Outcome::Starting`], the robot shall start.
     Decided(Verdict),
 }
 
@@ -83,7 +83,7 @@ impl Scheduler {
         &self.book
     }
 
-    /// All that clients are told.
+    /// All that clients receive.
     pub(super) fn view(&self, keeping: &impl Keeping) -> Schedules {
         view(&self.book, (self.zone(), self.now_s), keeping)
     }
@@ -106,7 +106,7 @@ impl Scheduler {
 
     /// Takes a change that a person wants; `false` when too many wait.
     #[must_use]
-    pub(super) fn take(&mut self, asker: Asker, edit: Edit) -> bool {
+    pub(super) fn take(&mut self, asker: Asker, edit: ScheduleEdit) -> bool {
         let has_room = self.waiting.len() < WAITING_MAX;
         if has_room {
             self.waiting.push_back((asker, edit));

@@ -4,15 +4,15 @@ use rvac_api::{LogLevel, QuietHours, ScheduleEntry, ScheduledJob, Schedules, Top
 
 use super::audience::{Asking, Teller};
 use super::home::with_any_places;
-use super::journal::Part;
+use super::journal::LogSource;
 use super::readiness::Readiness;
 use super::reply::Reply;
 use super::scheduler::{Scheduler, Task};
 use super::words::to_order;
 use crate::refusal::Refusal;
-use crate::schedule::{Book, Edit, Entry, Outcome, Plan, ScheduleError, Verdict, Zone};
+use crate::schedule::{Book, Entry, Outcome, Plan, ScheduleEdit, ScheduleError, Verdict, Zone};
 
-/// What the robot could start changes without a word; followers hear of it within this time.
+/// Readiness changes without an event; followers receive it within this time.
 const TOLD_US: u64 = 5_000_000;
 
 /// What clients want changed of the schedules.
@@ -50,7 +50,7 @@ pub(crate) struct Decided<'a> {
     pub(crate) outcome: Outcome,
 }
 
-/// The schedules, and what followers were told of them.
+/// The schedules, and what followers have received of them.
 #[derive(Debug)]
 pub(crate) struct ScheduleDesk {
     scheduler: Scheduler,
@@ -106,15 +106,15 @@ impl ScheduleDesk {
         teller: &mut Teller<'_>,
     ) -> Result<Reply, Refusal> {
         let edit = match request {
-            ScheduleRequest::Add(entry) => Edit::Add(plan(Plan::from_api(entry)?, readiness)?),
+            ScheduleRequest::Add(entry) => ScheduleEdit::Add(plan(Plan::from_api(entry)?, readiness)?),
             ScheduleRequest::Change { number, entry } => {
-                Edit::Change(number, plan(Plan::from_api(entry)?, readiness)?)
+                ScheduleEdit::Change(number, plan(Plan::from_api(entry)?, readiness)?)
             }
-            ScheduleRequest::Remove { number } => Edit::Remove(number),
-            ScheduleRequest::Enable { number, enabled } => Edit::Enable(number, enabled),
-            ScheduleRequest::SkipNext { number, skip } => Edit::SkipNext(number, skip),
-            ScheduleRequest::SetQuiet(quiet) => Edit::quiet_from_api(quiet.as_ref())?,
-            ScheduleRequest::SetZone(zone) => Edit::zone_from_api(zone.as_deref())?,
+            ScheduleRequest::Remove { number } => ScheduleEdit::Remove(number),
+            ScheduleRequest::Enable { number, enabled } => ScheduleEdit::Enable(number, enabled),
+            ScheduleRequest::SkipNext { number, skip } => ScheduleEdit::SkipNext(number, skip),
+            ScheduleRequest::SetQuiet(quiet) => ScheduleEdit::quiet_from_api(quiet.as_ref())?,
+            ScheduleRequest::SetZone(zone) => ScheduleEdit::zone_from_api(zone.as_deref())?,
         };
         if !self.scheduler.take(asker, edit) {
             return Err("disk-busy".into());
@@ -169,7 +169,7 @@ impl ScheduleDesk {
             verdict.date,
             outcome.name()
         );
-        teller.log(LogLevel::Info, Part::Vthal, text);
+        teller.log(LogLevel::Info, LogSource::Vthal, text);
     }
 
     /// The disk is free again.
@@ -219,7 +219,7 @@ fn do_task(task: Task, teller: &mut Teller<'_>) {
         }
         Task::Undecided(text) => {
             let line = format!("{text} Nothing starts by itself until it can.");
-            return teller.log(LogLevel::Error, Part::Vthal, line);
+            return teller.log(LogLevel::Error, LogSource::Vthal, line);
         }
         // Only the disk's word brings one.
         Task::Decided(_) => return,

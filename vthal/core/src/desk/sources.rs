@@ -5,13 +5,13 @@ use rvac_api::{API_VERSION, DeviceTable, Pose, RoomHere, Status, Topic, Update};
 
 use super::floors::FloorDesk;
 use super::link::LinkDesk;
-use crate::mind::Mind;
+use crate::brain_session::BrainSession;
 use crate::{CoreConfig, ExpertAccess, to_api};
 
 /// Where it comes from.
 #[derive(Clone, Debug)]
 pub(crate) struct Sources<'a> {
-    pub(crate) mind: Option<&'a Mind>,
+    pub(crate) brain_session: Option<&'a BrainSession>,
     pub(crate) link: &'a LinkDesk,
     pub(crate) floors: &'a FloorDesk,
     /// The name of whoever drives.
@@ -20,26 +20,29 @@ pub(crate) struct Sources<'a> {
 }
 
 impl Sources<'_> {
-    /// Where the brain believes the robot to be.
+    /// The robot's pose as the brain estimates it.
     pub(crate) fn pose(&self) -> Pose {
-        self.mind.map_or_else(Pose::default, |mind| {
-            to_api::pose(mind.brain().pose(), mind.observer.observation().time_us)
+        self.brain_session.map_or_else(Pose::default, |brain_session| {
+            to_api::pose(
+                brain_session.brain().pose(),
+                brain_session.observer.observation().time_us,
+            )
         })
     }
 
     /// What the robot is doing.
     pub(crate) fn status(&self) -> Status {
-        let Some(mind) = self.mind else {
+        let Some(brain_session) = self.brain_session else {
             return Status {
                 state: BehaviorState::Disconnected.name().to_owned(),
                 reason: "no-robot".to_owned(),
                 ..Status::default()
             };
         };
-        let mut status = to_api::status(mind.brain().status(), mind.brain().job());
-        let inhibits = mind.observer.observation().inhibits;
+        let mut status = to_api::status(brain_session.brain().status(), brain_session.brain().job());
+        let inhibits = brain_session.observer.observation().inhibits;
         status.inhibits = inhibits.names().map(str::to_owned).collect();
-        status.room = room_here(mind.brain());
+        status.room = room_here(brain_session.brain());
         status.driver.clone_from(&self.driver);
         status
     }
@@ -68,13 +71,17 @@ impl Sources<'_> {
             Topic::Status => Some(Update::Status(self.status())),
             Topic::Pose => Some(Update::Pose(self.pose())),
             Topic::Device => Some(Update::Device(self.device_table(now_us))),
-            Topic::Floors => Some(Update::Floors(self.floors.view(self.mind))),
-            Topic::Home => self.mind.map(|mind| Update::Home(mind.home_view())),
-            Topic::Estimate => self.mind.map(|mind| {
-                let brain = mind.brain();
+            Topic::Floors => Some(Update::Floors(self.floors.view(self.brain_session))),
+            Topic::Home => self
+                .brain_session
+                .map(|brain_session| Update::Home(brain_session.home_view())),
+            Topic::Estimate => self.brain_session.map(|brain_session| {
+                let brain = brain_session.brain();
                 Update::Estimate(to_api::estimate(brain, brain.swept_share()))
             }),
-            Topic::Way => self.mind.map(|mind| Update::Way(to_api::way(mind.brain()))),
+            Topic::Way => self
+                .brain_session
+                .map(|brain_session| Update::Way(to_api::way(brain_session.brain()))),
             Topic::Map
             | Topic::Log
             | Topic::Decisions

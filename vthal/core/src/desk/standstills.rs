@@ -1,4 +1,4 @@
-//! What the robot decided and felt, and why it stands by itself: told to clients with what it felt and what it tried.
+//! Decisions of the robot, and why it stopped by itself: clients receive them with the sensor evidence and the attempts before.
 
 use brain::PoseEstimate;
 use brain::action::Decision;
@@ -6,14 +6,14 @@ use rvac_api::{Evidence, LogLevel, Standstill, Topic, Update, remedy};
 
 use super::audience::Teller;
 use super::evidence::{Perceived, Sensations};
-use super::journal::Part;
+use super::journal::LogSource;
 use crate::diary::{Diary, sentence};
 use crate::newest::Newest;
 use crate::{refusal, to_api};
 
 /// Standstills that are kept for clients that come later.
 const KEPT: usize = 10;
-/// What was tried is told from so long ago on, and so many decisions of it.
+/// Attempts are reported from this long ago on, and at most this many decisions.
 const TRIED_S: f64 = 30.0;
 const TRIED_MAX: usize = 12;
 
@@ -33,7 +33,7 @@ pub(crate) struct Stand {
     pub(crate) track_m: Option<f64>,
 }
 
-/// Whether the robot stops with this decision although nobody told it to.
+/// Whether the robot stops with this decision although nobody ordered it.
 pub(crate) fn is_standstill(decision: &Decision) -> bool {
     let waits = matches!(
         decision.what,
@@ -102,7 +102,7 @@ impl StandstillDesk {
             String::new()
         };
         let text = format!("{} ({}){value}{told}", decision.what, decision.reason);
-        teller.log(level, Part::Brain, text);
+        teller.log(level, LogSource::Brain, text);
         let entry = self.diary.write(teller.now_us, decision);
         if teller.has_followers(Topic::Decisions) {
             teller.tell(Topic::Decisions, Update::Decision(entry));

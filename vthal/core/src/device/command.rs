@@ -1,4 +1,4 @@
-//! What a device can be told, and why it is not.
+//! Commands to a device, and why one is refused.
 
 use rvac_units::Throttle;
 
@@ -69,7 +69,7 @@ pub enum LightPattern {
 /// What brushes and suction do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CleanerDrive {
-    /// They stand.
+    /// They are off.
     Off,
     /// They run.
     On(CleanerPower),
@@ -131,7 +131,7 @@ pub enum CommandError {
     /// The robot offers no control of its wheels and motors.
     #[error("the robot lets nobody drive it")]
     NotOffered,
-    /// The host holds the motors for what the sensors say.
+    /// A reflex of the host stops the motors.
     #[error("held for what the sensors say")]
     Held,
     /// What an expert typed is no command of the robot.

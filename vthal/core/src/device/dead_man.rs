@@ -1,6 +1,6 @@
 //! The dead man of the device layer: the same for every make of robot.
 //!
-//! A drive command is valid for a time. When that ends without a newer command the wheels are told to stand, even if the
+//! A drive command is valid for a time. When it expires without a newer command the wheels are stopped, even if the
 //! robot would keep its last command for ever. While it is valid it is repeated often enough for robots that stop by
 //! themselves.
 
@@ -26,14 +26,14 @@ impl Setpoint {
     }
 }
 
-/// What the wheels must be told now.
+/// The command that the wheels need now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum WheelOrder {
     /// Nothing.
     Keep,
     /// Send this.
     Send(Setpoint),
-    /// The time is over: stand.
+    /// The command has expired: stop.
     Stand,
 }
 
@@ -71,7 +71,7 @@ impl DeadMan {
         self.sent_us = None;
     }
 
-    /// Forgets the command without a word to the wheels.
+    /// Forgets the command without sending anything to the wheels.
     pub(crate) fn forget(&mut self) {
         *self = Self::new();
     }
@@ -82,7 +82,7 @@ impl DeadMan {
         self.setpoint
     }
 
-    /// What the wheels must be told at `now_us`. A [`WheelOrder::Send`] counts as sent.
+    /// The command that the wheels need at `now_us`. A [`WheelOrder::Send`] counts as sent.
     pub(crate) fn poll(&mut self, now_us: u64) -> WheelOrder {
         let Some(setpoint) = self.setpoint else {
             return WheelOrder::Keep;
@@ -103,7 +103,7 @@ impl DeadMan {
         WheelOrder::Send(setpoint)
     }
 
-    /// When [`DeadMan::poll`] next has something to say.
+    /// When [`DeadMan::poll`] next has a command.
     #[must_use]
     pub(crate) fn next_wake_us(&self) -> Option<u64> {
         let setpoint = self.setpoint?;

@@ -77,7 +77,7 @@ pub enum DeadManKind {
 pub struct Odometry {
     /// Way of the rim in metres by which a total changes at least.
     pub resolution_m: f64,
-    /// Whether the totals tell forward from backward. Where they do not the host takes the direction from its commands.
+    /// Whether the totals are signed, forward positive. Where they do not the host takes the direction from its commands.
     pub sign_reliable: bool,
 }
 
@@ -97,7 +97,7 @@ pub struct Reflexes {
 pub enum ReflexSite {
     /// In the device, within milliseconds.
     Device,
-    /// In the host, as soon as a report tells of it.
+    /// In the host, as soon as it is reported.
     Host {
         /// Longest time from what happens to the wheels' answer, seconds.
         latency_s: f64,
@@ -109,7 +109,7 @@ pub enum ReflexSite {
 /// Who keeps a robot stopped after an emergency stop, until it is armed again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StopSite {
-    /// The device, and it says so in its reports.
+    /// The device, which reports it.
     Device,
     /// The host.
     Host,

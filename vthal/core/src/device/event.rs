@@ -1,13 +1,13 @@
-//! What a device tells.
+//! Events of a device.
 
 use rvac_api::LogLevel;
 
 use super::{Description, Report, SlowFacts};
 
-/// What a device told.
+/// An event of a device.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeviceEvent {
-    /// The robot speaks with us; the description follows.
+    /// The robot has opened a session; the description follows.
     Opened(Greeting),
     /// The robot has described itself.
     Described(Box<Description>),
@@ -46,9 +46,9 @@ pub enum DeviceEvent {
     EventsLost(u32),
     /// The robot has taken the control back, for this reason. It is asked for again when it is needed.
     ControlLost(&'static str),
-    /// The robot does not speak with us any more.
+    /// The session with the robot has ended.
     Closed,
-    /// The robot speaks no version of the wire that we do.
+    /// The robot supports no version of the wire protocol that we do.
     Incompatible {
         /// Its oldest version.
         version_min: u8,
@@ -57,15 +57,15 @@ pub enum DeviceEvent {
     },
 }
 
-/// Who speaks, and whether it has started anew.
+/// The identity of the robot, and whether it has restarted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Greeting {
     /// Model.
     pub device: String,
     /// Version of its firmware.
     pub firmware: String,
-    /// Why it last started, if it tells.
+    /// Why it last started, if it reports that.
     pub reset_cause: Option<&'static str>,
-    /// Whether it has started anew since it was last heard: what it counts begins anew too.
+    /// Whether it has restarted since its last report: its counters start again too.
     pub was_reset: bool,
 }

@@ -16,7 +16,7 @@ pub trait Device: fmt::Debug + Send {
     /// The line has just been opened, for the first time or again: whoever is at its other end must be greeted anew.
     fn open(&mut self, io: &mut DeviceIo<'_>);
 
-    /// What it is and can do, once it has told since the line was opened.
+    /// What it is and can do, once it has reported that since the line was opened.
     fn description(&self) -> Option<&Description>;
 
     /// Whether it is described and listens.
@@ -41,7 +41,7 @@ pub trait Device: fmt::Debug + Send {
     /// Why the robot cannot be controlled.
     fn acquire(&mut self, level: Level, io: &mut DeviceIo<'_>) -> Result<(), CommandError>;
 
-    /// Lets go of the robot: its wheels stand, it may sleep and charge. May be called at any time and more than once, also
+    /// Releases the robot: its wheels stop, it may sleep and charge. May be called at any time and more than once, also
     /// before anything is known of the robot: a daemon that has crashed may have left it in any mode.
     fn release(&mut self, io: &mut DeviceIo<'_>);
 
@@ -104,7 +104,7 @@ pub trait Device: fmt::Debug + Send {
     fn raw(&mut self, text: &str, io: &mut DeviceIo<'_>) -> Result<(), CommandError>;
 
     /// Appends the packets that `bytes` on the line complete, as text for people and recordings. Gets the bytes of a
-    /// direction in order while anybody looks.
+    /// direction in order while a client watches.
     fn tap(&mut self, direction: Direction, bytes: &[u8], packets: &mut Vec<(Direction, String)>);
 }
 
@@ -115,7 +115,7 @@ pub struct DeviceIo<'a> {
     pub now_us: u64,
     /// Bytes for the robot.
     pub link: &'a mut Vec<u8>,
-    /// What the robot told.
+    /// Events of the robot.
     pub events: &'a mut Vec<DeviceEvent>,
 }
 

@@ -29,8 +29,8 @@ pub use description::{
 pub use event::{DeviceEvent, Greeting};
 pub use make::{Device, DeviceIo, Drive, Make, Opening};
 pub use report::{
-    Battery, ChargeState, Charger, CleanersRunning, DOCK_RECEIVERS_MAX, LinkQuality, Report, SlowFacts,
-    Verdict, WheelDrops, WheelSpeeds, WheelTravel,
+    Battery, ChargeState, Charger, CleanersRunning, DOCK_RECEIVERS_MAX, LinkQuality, LinkVerdict, Report,
+    SlowFacts, WheelDrops, WheelSpeeds, WheelTravel,
 };
 pub use shape::Shape;
 pub use supervisor::Supervisor;

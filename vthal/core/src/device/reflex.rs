@@ -1,5 +1,5 @@
 //! Reflexes of the host, for robots that have the sensors and do not react to them: a bumper, a cliff and a hanging wheel
-//! hold the wheels as in our own firmware (S6, S8 and S10 of the safety concept), as soon as a report tells of them.
+//! hold the wheels as in our own firmware (S6, S8 and S10 of the safety concept), as soon as they are reported.
 
 use brain::Inhibit;
 use brain::observation::Contacts;
@@ -44,7 +44,7 @@ impl HostReflexes {
         })
     }
 
-    /// Takes a report, and says in it what is held. `true` if something new is.
+    /// Takes a report and marks in it which motors are held. `true` if a new hold began.
     pub(super) fn take(&mut self, now_us: u64, report: &mut Report) -> bool {
         let before = (self.contacts, self.at_cliff, self.is_lifted(now_us));
         self.reported_us = Some(now_us);
@@ -105,12 +105,12 @@ impl HostReflexes {
     }
 }
 
-/// Highest speed at which the host reacts in time to what the sensors in front say, m/s.
+/// Highest speed at which the host reacts in time to the sensors in front, m/s.
 pub(super) fn speed_limit_m_per_s(reflexes: Reflexes) -> f64 {
     latency_s(reflexes).map_or(f64::INFINITY, |latency_s| REACTION_WAY_M / latency_s)
 }
 
-/// Microseconds for which a report tells of the present.
+/// Microseconds for which a report counts as current.
 pub(super) fn fresh_us(reflexes: Reflexes) -> u64 {
     let slow_us = FRESH_LATENCIES * 1e6 * latency_s(reflexes).unwrap_or_default();
     FRESH_MIN_US.max(slow_us as u64)

@@ -26,7 +26,7 @@ pub struct Report {
     pub wheel_drops: WheelDrops,
     /// Proximity from the right side counter-clockwise, 0..1 (1 = touching); as many count as the description says.
     pub proximity: [f32; PROXIMITY_MAX],
-    /// Symbols heard by the dock receivers (0 = none); as many count as the description says.
+    /// Symbols received by the dock receivers (0 = none); as many count as the description says.
     pub dock_beams: [u8; DOCK_RECEIVERS_MAX],
     /// On the dock's contacts.
     pub docked: bool,
@@ -42,7 +42,7 @@ pub struct Report {
     pub inhibits: Inhibits,
 }
 
-/// Way of the wheels since the robot was first described, forward positive. It goes on when the link was lost and when the
+/// Distance of the wheels since the robot was first described, forward positive. It goes on when the link was lost and when the
 /// robot has started anew.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WheelTravel {
@@ -50,7 +50,7 @@ pub struct WheelTravel {
     pub left_m: f64,
     /// Rim of the right wheel in metres.
     pub right_m: f64,
-    /// Speeds of the rims, where the make knows them better than the host can tell from two reports.
+    /// Speeds of the rims, where the make knows them better than the host can compute from two reports.
     pub speeds: Option<WheelSpeeds>,
 }
 
@@ -149,7 +149,7 @@ pub struct Charger {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinkQuality {
     /// What this allows.
-    pub verdict: Verdict,
+    pub verdict: LinkVerdict,
     /// Share of the newest packets that were bad, 0..1.
     pub bad_share: f64,
     /// Newest round trip of a command in ms, if known.
@@ -160,7 +160,7 @@ pub struct LinkQuality {
 
 /// What the quality of the link allows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Verdict {
+pub enum LinkVerdict {
     /// Full speed.
     #[default]
     Good,

@@ -1,15 +1,15 @@
-//! Whether the wheels turn, and which way, as far as reports tell.
+//! Whether the wheels turn, and in which direction, from the reports.
 
 use super::{Drive, Odometry, Report, WheelSpeeds};
 
-/// Reports farther apart tell no speed.
+/// Reports farther apart give no speed.
 const GAP_MAX_US: u64 = 10_000_000;
 
 /// Watches the totals of the wheels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct WheelWatch {
     last: Option<Seen>,
-    /// Signed way of both rims, where the robot tells no sign.
+    /// Signed distance of both rims, where the robot reports no sign.
     sum_m: [f64; 2],
     /// Directions of the last command that turned the wheels.
     signs: [f64; 2],
@@ -17,7 +17,7 @@ pub(super) struct WheelWatch {
     still_reports: u32,
 }
 
-/// What a report told.
+/// Values of a report.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     at_us: u64,
@@ -25,7 +25,7 @@ struct Seen {
 }
 
 impl WheelWatch {
-    /// The wheels are told to turn like this. A wheel that is told to stand rolls out the way it turned.
+    /// The commanded wheel speeds. A wheel that is commanded to stop rolls out in the direction in which it turned.
     pub(super) fn commanded(&mut self, drive: Drive, track_m: f64) {
         for (sign, rim_m_per_s) in self.signs.iter_mut().zip(drive.rims_m_per_s(track_m)) {
             if rim_m_per_s != 0.0 {
@@ -34,37 +34,37 @@ impl WheelWatch {
         }
     }
 
-    /// Takes a report; gives it the sign and the speeds that the robot does not tell.
+    /// Takes a report; adds the sign and the speeds that the robot does not report.
     pub(super) fn take(&mut self, now_us: u64, report: &mut Report, odometry: Odometry) {
         let rims_m = [report.travel.left_m, report.travel.right_m];
         let before = self.last.replace(Seen {
             at_us: now_us,
             rims_m,
         });
-        let ways_m = before.map(|before| [0, 1].map(|rim| rims_m[rim] - before.rims_m[rim]));
-        if let Some(ways_m) = ways_m {
-            self.turned = ways_m
+        let travels_m = before.map(|before| [0, 1].map(|rim| rims_m[rim] - before.rims_m[rim]));
+        if let Some(travels_m) = travels_m {
+            self.turned = travels_m
                 .iter()
-                .any(|way_m| way_m.abs() > 0.5 * odometry.resolution_m);
+                .any(|travel_m| travel_m.abs() > 0.5 * odometry.resolution_m);
             self.still_reports = if self.turned || report.is_driven {
                 0
             } else {
                 self.still_reports.saturating_add(1)
             };
         }
-        let ways_m = match odometry.sign_reliable {
-            true => ways_m,
-            false => Some(self.sign(ways_m.unwrap_or_default(), report)),
+        let travels_m = match odometry.sign_reliable {
+            true => travels_m,
+            false => Some(self.sign(travels_m.unwrap_or_default(), report)),
         };
-        if let (None, Some(ways_m), Some(before)) = (report.travel.speeds, ways_m, before) {
-            report.travel.speeds = speeds(ways_m, now_us.saturating_sub(before.at_us));
+        if let (None, Some(travels_m), Some(before)) = (report.travel.speeds, travels_m, before) {
+            report.travel.speeds = speeds(travels_m, now_us.saturating_sub(before.at_us));
         }
     }
 
-    fn sign(&mut self, ways_m: [f64; 2], report: &mut Report) -> [f64; 2] {
-        let signed_m = [0, 1].map(|rim| self.signs[rim] * ways_m[rim].abs());
-        for (sum_m, way_m) in self.sum_m.iter_mut().zip(signed_m) {
-            *sum_m += way_m;
+    fn sign(&mut self, travels_m: [f64; 2], report: &mut Report) -> [f64; 2] {
+        let signed_m = [0, 1].map(|rim| self.signs[rim] * travels_m[rim].abs());
+        for (sum_m, travel_m) in self.sum_m.iter_mut().zip(signed_m) {
+            *sum_m += travel_m;
         }
         [report.travel.left_m, report.travel.right_m] = self.sum_m;
         signed_m
@@ -75,7 +75,7 @@ impl WheelWatch {
         self.turned
     }
 
-    /// Reports in a row that say that nothing turns and nothing drives.
+    /// Reports in a row in which no wheel turns and none is driven.
     pub(super) const fn still_reports(&self) -> u32 {
         self.still_reports
     }

@@ -1,4 +1,4 @@
-//! Totals that wrap, and begin anew when the robot starts anew.
+//! Totals that wrap, and start again when the robot restarts.
 
 /// Adds up differences of wrapping totals. Right as long as no total makes 2^31 between two reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -8,7 +8,7 @@ pub(crate) struct WrappingTotal {
 }
 
 impl WrappingTotal {
-    /// Takes a total and gives what it has come to since the first one.
+    /// Takes a total and gives the sum since the first one.
     pub(crate) fn take(&mut self, total: i32) -> i64 {
         if let Some(last) = self.last {
             self.sum += i64::from(total.wrapping_sub(last));

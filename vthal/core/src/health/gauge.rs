@@ -12,12 +12,12 @@ const HARD_UNTIL: f32 = 1.25;
 /// The same for a motor that has lost its load.
 const LIGHT: f32 = 0.6;
 const LIGHT_UNTIL: f32 = 0.75;
-/// Below this a motor's usual load cannot be told from the converter's noise, amperes.
+/// Below this a motor's usual load cannot be distinguished from the converter's noise, amperes.
 const LOAD_MIN_A: f32 = 0.02;
 
 /// What the load says of the part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Verdict {
+pub enum LoadVerdict {
     /// Too little was measured since the reset.
     #[default]
     Learning,
@@ -29,8 +29,8 @@ pub enum Verdict {
     Light,
 }
 
-impl Verdict {
-    /// As clients hear it.
+impl LoadVerdict {
+    /// As clients receive it.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -52,7 +52,7 @@ pub struct Gauge {
     pub(super) newest_a: VecDeque<f32>,
     /// Marks since the reset.
     pub(super) marks: u32,
-    pub(super) verdict: Verdict,
+    pub(super) verdict: LoadVerdict,
     samples_a: Vec<f32>,
 }
 
@@ -121,19 +121,19 @@ impl Gauge {
 
     fn judge(&mut self) {
         let Some(share) = self.share() else {
-            self.verdict = Verdict::Learning;
+            self.verdict = LoadVerdict::Learning;
             return;
         };
         let stays = match self.verdict {
-            Verdict::Hard => share > HARD_UNTIL,
-            Verdict::Light => share < LIGHT_UNTIL,
-            Verdict::Learning | Verdict::Fine => false,
+            LoadVerdict::Hard => share > HARD_UNTIL,
+            LoadVerdict::Light => share < LIGHT_UNTIL,
+            LoadVerdict::Learning | LoadVerdict::Fine => false,
         };
         if !stays {
             self.verdict = match share {
-                share if share >= HARD => Verdict::Hard,
-                share if share <= LIGHT => Verdict::Light,
-                _ => Verdict::Fine,
+                share if share >= HARD => LoadVerdict::Hard,
+                share if share <= LIGHT => LoadVerdict::Light,
+                _ => LoadVerdict::Fine,
             };
         }
     }
@@ -147,7 +147,7 @@ fn median(values: impl Iterator<Item = f32>) -> Option<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Gauge, MARKS, SAMPLES, Verdict};
+    use super::{Gauge, LoadVerdict, MARKS, SAMPLES};
 
     /// Minutes of work at a load, every sixth second of it on a carpet that doubles it.
     fn work(gauge: &mut Gauge, minutes: usize, load_a: f32) {
@@ -161,19 +161,19 @@ mod tests {
     fn a_load_that_grows_is_seen_after_half_of_the_marks_and_not_before() {
         let mut gauge = Gauge::default();
         work(&mut gauge, MARKS - 1, 0.4);
-        assert_eq!(gauge.verdict, Verdict::Learning);
+        assert_eq!(gauge.verdict, LoadVerdict::Learning);
         work(&mut gauge, 60, 0.4);
-        assert_eq!((gauge.verdict, gauge.share()), (Verdict::Fine, Some(1.0)));
+        assert_eq!((gauge.verdict, gauge.share()), (LoadVerdict::Fine, Some(1.0)));
         work(&mut gauge, 60, 0.5);
-        assert_eq!(gauge.verdict, Verdict::Fine);
+        assert_eq!(gauge.verdict, LoadVerdict::Fine);
         work(&mut gauge, MARKS / 2 - 1, 0.6);
-        assert_eq!(gauge.verdict, Verdict::Fine);
+        assert_eq!(gauge.verdict, LoadVerdict::Fine);
         work(&mut gauge, 1, 0.6);
-        assert_eq!(gauge.verdict, Verdict::Hard);
+        assert_eq!(gauge.verdict, LoadVerdict::Hard);
         work(&mut gauge, MARKS, 0.52);
-        assert_eq!(gauge.verdict, Verdict::Hard, "it wavers");
+        assert_eq!(gauge.verdict, LoadVerdict::Hard, "it wavers");
         work(&mut gauge, MARKS, 0.48);
-        assert_eq!(gauge.verdict, Verdict::Fine);
+        assert_eq!(gauge.verdict, LoadVerdict::Fine);
     }
 
     #[test]
@@ -181,10 +181,10 @@ mod tests {
         let mut gauge = Gauge::default();
         work(&mut gauge, MARKS, 0.4);
         work(&mut gauge, MARKS, 0.1);
-        assert_eq!(gauge.verdict, Verdict::Light);
+        assert_eq!(gauge.verdict, LoadVerdict::Light);
         let mut idle = Gauge::default();
         work(&mut idle, 3 * MARKS, 0.001);
-        assert_eq!(idle.verdict, Verdict::Learning);
+        assert_eq!(idle.verdict, LoadVerdict::Learning);
         assert!(!idle.take(f32::NAN));
     }
 }

@@ -6,7 +6,7 @@
 mod gauge;
 mod stored;
 
-pub use gauge::{Gauge, Verdict};
+pub use gauge::{Gauge, LoadVerdict};
 pub use stored::{HealthError, StoredHealth};
 
 /// Pause between two samples, microseconds.
@@ -24,7 +24,7 @@ pub enum Component {
 }
 
 impl Component {
-    /// All of them, in the order in which they are told.
+    /// All of them, in the order in which they are reported.
     pub const ALL: [Self; 3] = [Self::BrushMain, Self::WheelLeft, Self::WheelRight];
 
     /// As clients name it.
@@ -45,25 +45,25 @@ impl Component {
 
     /// What to do about a part with this verdict, for people.
     #[must_use]
-    pub const fn remedy(self, verdict: Verdict) -> Option<&'static str> {
+    pub const fn remedy(self, verdict: LoadVerdict) -> Option<&'static str> {
         Some(match (self, verdict) {
-            (_, Verdict::Learning | Verdict::Fine) => return None,
-            (Self::BrushMain, Verdict::Hard) => {
+            (_, LoadVerdict::Learning | LoadVerdict::Fine) => return None,
+            (Self::BrushMain, LoadVerdict::Hard) => {
                 "The main brush runs hard: take hair and threads off it and off its bearings."
             }
-            (Self::BrushMain, Verdict::Light) => {
+            (Self::BrushMain, LoadVerdict::Light) => {
                 "The main brush runs light: look whether it sits in its place, its belt is whole, and its bristles still reach the floor."
             }
-            (Self::WheelLeft, Verdict::Hard) => {
+            (Self::WheelLeft, LoadVerdict::Hard) => {
                 "The left wheel runs hard: take hair and threads off its axle, and look whether its gears are clean."
             }
-            (Self::WheelRight, Verdict::Hard) => {
+            (Self::WheelRight, LoadVerdict::Hard) => {
                 "The right wheel runs hard: take hair and threads off its axle, and look whether its gears are clean."
             }
-            (Self::WheelLeft, Verdict::Light) => {
+            (Self::WheelLeft, LoadVerdict::Light) => {
                 "The left wheel runs light: look whether its tyre is worn or lost, and whether it presses on the floor."
             }
-            (Self::WheelRight, Verdict::Light) => {
+            (Self::WheelRight, LoadVerdict::Light) => {
                 "The right wheel runs light: look whether its tyre is worn or lost, and whether it presses on the floor."
             }
         })
@@ -83,11 +83,11 @@ pub struct Load {
 
 /// A part whose verdict has changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Change {
+pub struct VerdictChange {
     /// Which.
     pub component: Component,
     /// What its load says now.
-    pub verdict: Verdict,
+    pub verdict: LoadVerdict,
 }
 
 /// What came of a sample.
@@ -96,7 +96,7 @@ pub struct Taken {
     /// There is something new to keep.
     pub marked: bool,
     /// What has become hard or light, or fine again.
-    pub changes: Vec<Change>,
+    pub changes: Vec<VerdictChange>,
 }
 
 /// The loads of all parts.
@@ -142,8 +142,8 @@ impl Health {
             let before = gauge.verdict;
             taken.marked |= gauge.take(load_a);
             let verdict = gauge.verdict;
-            if verdict != before && before != Verdict::Learning {
-                taken.changes.push(Change { component, verdict });
+            if verdict != before && before != LoadVerdict::Learning {
+                taken.changes.push(VerdictChange { component, verdict });
             }
         }
         taken
@@ -151,7 +151,7 @@ impl Health {
 
     /// What its load says of a part.
     #[must_use]
-    pub const fn verdict(&self, component: Component) -> Verdict {
+    pub const fn verdict(&self, component: Component) -> LoadVerdict {
         self.gauge(component).verdict
     }
 

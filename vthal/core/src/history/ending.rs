@@ -42,7 +42,7 @@ impl Ending {
         Self {
             result: RunResult::DaemonEnded,
             reason: "ending".to_owned(),
-            text: "Ended because vthal was ended in good order.".to_owned(),
+            text: "Ended because vthal was shut down.".to_owned(),
         }
     }
 

@@ -1,4 +1,4 @@
-//! Records of runs: what a job was asked for, what came of it, and why it stopped on the way.
+//! Records of runs: what a job was asked for, what came of it, and why it stopped in between.
 //!
 //! A *run* here is what people mean by it: one order, from the beeps to the dock, with all pauses, charging and restarts of the
 //! daemon in between. [`RunFollower`] looks at each step of the brain and makes the record. While the run goes on the record
@@ -24,7 +24,7 @@ pub fn cut_short(checkpoint: Checkpoint) -> Option<RunRecord> {
     let mut record = *checkpoint.run?;
     record.run.floor = checkpoint.floor;
     let picture = match record.run.job {
-        // The way of the job before stands in the checkpoint, too, and nobody can tell them apart.
+        // The checkpoint also contains the path of the job before, and the two cannot be told apart.
         RunJob::Dock => None,
         RunJob::Clean { .. } | RunJob::Spot => Some(picture::of_checkpoint(&checkpoint.brain)),
     };

@@ -21,12 +21,12 @@ pub(super) struct OpenRun {
     record: RunRecord,
     /// Host time at which it began; below 0 if that was before the daemon.
     zero_us: i64,
-    /// The first point of the map's way that belongs to it.
+    /// The first point of the map's path that belongs to it.
     path_from: usize,
-    /// Why the job became a way home.
+    /// Why the job became a return to the dock.
     turned_home: Option<&'static str>,
     /// It stands: state and reason, and whether the newest stop of the record tells of it.
-    standing: Option<Standing>,
+    standing: Option<OngoingStop>,
     figures: JobFigures,
     /// Share of the floor that the brain says it has swept.
     covered: Option<f64>,
@@ -37,7 +37,7 @@ pub(super) struct OpenRun {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Standing {
+struct OngoingStop {
     state: &'static str,
     reason: &'static str,
     is_told: bool,
@@ -216,7 +216,7 @@ impl OpenRun {
         let state = decision.what.strip_prefix("state-").unwrap_or(decision.what);
         self.record.run.stop_count += 1;
         let is_told = self.record.stops.len() < STOPS_MAX;
-        self.standing = Some(Standing {
+        self.standing = Some(OngoingStop {
             state,
             reason: decision.reason,
             is_told,

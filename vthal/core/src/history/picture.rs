@@ -6,20 +6,20 @@ use rvac_api::{RunJob, RunPicture};
 use crate::home_view::{FeltFloors, home_view};
 use crate::to_api;
 
-/// Points of the way that lie nearer than this to the line between their neighbours are left out, millimetres.
+/// Points of the path that lie nearer than this to the line between their neighbours are left out, millimetres.
 const WAY_ERROR_MM: f64 = 15.0;
-/// Points of a way that are kept at most. A way with more is told ever more roughly.
+/// Points of a path that are stored at most. A longer path is simplified further.
 const POINTS_MAX: usize = 20_000;
-/// Rows of swept cells that are kept at most. More are told in larger cells.
+/// Rows of swept cells that are stored at most. More are merged into larger cells.
 const ROWS_MAX: usize = 20_000;
-/// Marks that are kept at most, the first ones.
-const MARKS_MAX: usize = 5_000;
+/// Hazards that are kept at most, the first ones.
+const HAZARDS_MAX: usize = 5_000;
 
-/// The picture of a run that has driven the map's way from this point on.
+/// The picture of a run that has driven the map's path from this point on.
 pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPicture {
     let map = brain.map();
     let part = map.snapshot();
-    let way = part
+    let path = part
         .path
         .get(path_from.min(part.path.len())..)
         .unwrap_or_default();
@@ -27,13 +27,13 @@ pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPi
         RunJob::Dock => Vec::new(),
         RunJob::Clean { .. } | RunJob::Spot => map.swept_runs(),
     };
-    let marks = match job {
+    let hazards = match job {
         RunJob::Dock => &[],
         RunJob::Clean { .. } | RunJob::Spot => part.hazards,
     };
     RunPicture {
         home: Some(home_view(map, FeltFloors::in_map(map))).filter(|home| !home.cells.is_empty()),
-        ..drawn(&swept, way, marks)
+        ..drawn(&swept, path, hazards)
     }
 }
 
@@ -56,16 +56,16 @@ pub(super) fn of_checkpoint(checkpoint: &brain::Checkpoint) -> RunPicture {
     }
 }
 
-fn drawn(swept: &[SweptRun], way: &[PathPoint], marks: &[Hazard]) -> RunPicture {
+fn drawn(swept: &[SweptRun], path: &[PathPoint], hazards: &[Hazard]) -> RunPicture {
     let (coarse, rows) = rows(swept);
     RunPicture {
         cell_m: CELL_M * f64::from(coarse),
         swept_rows: rows.into_iter().flatten().collect(),
-        path_mm: simplified(way)
+        path_mm: simplified(path)
             .into_iter()
             .flat_map(|point| [point.x_mm, point.y_mm])
             .collect(),
-        bumps: marks.iter().take(MARKS_MAX).map(to_api::bump).collect(),
+        bumps: hazards.iter().take(HAZARDS_MAX).map(to_api::bump).collect(),
         home: None,
     }
 }
@@ -106,11 +106,11 @@ fn rows_of(coarse: i32, swept: &[SweptRun]) -> Vec<[i32; 3]> {
     rows
 }
 
-/// The way without points that change little of it.
-fn simplified(way: &[PathPoint]) -> Vec<PathPoint> {
+/// The path without points that change little of it.
+fn simplified(path: &[PathPoint]) -> Vec<PathPoint> {
     let mut error_mm = WAY_ERROR_MM;
     loop {
-        let kept = within(way, error_mm);
+        let kept = within(path, error_mm);
         if kept.len() <= POINTS_MAX {
             return kept;
         }
@@ -118,12 +118,12 @@ fn simplified(way: &[PathPoint]) -> Vec<PathPoint> {
     }
 }
 
-/// The points of a way that Douglas and Peucker keep, found without recursion: a way may have very many points.
-fn within(way: &[PathPoint], error_mm: f64) -> Vec<PathPoint> {
-    let Some(last) = way.len().checked_sub(1) else {
+/// The points of a path that the Douglas-Peucker algorithm keeps, found without recursion: a path may have very many points.
+fn within(path: &[PathPoint], error_mm: f64) -> Vec<PathPoint> {
+    let Some(last) = path.len().checked_sub(1) else {
         return Vec::new();
     };
-    let mut keep = vec![false; way.len()];
+    let mut keep = vec![false; path.len()];
     let mut open = vec![(0, last)];
     while let Some((from, to)) = open.pop() {
         for end in [from, to] {
@@ -131,26 +131,26 @@ fn within(way: &[PathPoint], error_mm: f64) -> Vec<PathPoint> {
                 *kept = true;
             }
         }
-        let farthest = farthest(way, (from, to));
+        let farthest = farthest(path, (from, to));
         if let Some((between, distance_mm)) = farthest
             && distance_mm > error_mm
         {
             open.extend([(from, between), (between, to)]);
         }
     }
-    way.iter()
+    path.iter()
         .zip(keep)
         .filter_map(|(point, kept)| kept.then_some(*point))
         .collect()
 }
 
-/// The point between two of a way that is farthest from the line through them, and how far.
-fn farthest(way: &[PathPoint], (from, to): (usize, usize)) -> Option<(usize, f64)> {
+/// The point between two of a path that is farthest from the line through them, and how far.
+fn farthest(path: &[PathPoint], (from, to): (usize, usize)) -> Option<(usize, f64)> {
     let place = |point: &PathPoint| (f64::from(point.x_mm), f64::from(point.y_mm));
-    let (start, end) = (place(way.get(from)?), place(way.get(to)?));
+    let (start, end) = (place(path.get(from)?), place(path.get(to)?));
     let along = (end.0 - start.0, end.1 - start.1);
     let length_mm = along.0.hypot(along.1);
-    let between = way.get(from + 1..to)?.iter().enumerate();
+    let between = path.get(from + 1..to)?.iter().enumerate();
     between
         .map(|(index, point)| {
             let (x_mm, y_mm) = place(point);
@@ -202,11 +202,14 @@ mod tests {
     }
 
     #[test]
-    fn a_way_keeps_its_corners_and_loses_what_lies_between() {
+    fn a_path_keeps_its_corners_and_loses_what_lies_between() {
         let along = (0..=50).map(|step| point(20 * step, step % 2));
         let up = (1..=50).map(|step| point(1000, 20 * step));
-        let way: Vec<PathPoint> = along.chain(up).collect();
-        assert_eq!(simplified(&way), [point(0, 0), point(1000, 0), point(1000, 1000)]);
+        let path: Vec<PathPoint> = along.chain(up).collect();
+        assert_eq!(
+            simplified(&path),
+            [point(0, 0), point(1000, 0), point(1000, 1000)]
+        );
         assert_eq!(simplified(&[]), []);
         let there_and_back = [point(0, 0), point(500, 0), point(0, 0)];
         assert_eq!(simplified(&there_and_back), there_and_back);

@@ -1,4 +1,4 @@
-//! From a device's reports to what the brain perceives.
+//! Turns a device's reports into the brain's observations.
 
 mod charge;
 
@@ -6,13 +6,13 @@ use brain::observation::{BeaconSignal, Contacts, Observation};
 
 use crate::device::{Battery, Description, Report, WrappingTotal};
 
-/// A heading of the Linux board's gyro older than this says nothing about the robot's present.
+/// A heading of the Linux board's gyro older than this is not used.
 const BOARD_HEADING_FRESH_US: u64 = 200_000;
 
 /// Signals of beacons that wait for the next step of the brain at most; a radio measures some in 20 ms, not dozens.
 const BEACONS_MAX: usize = 32;
 
-/// What the gyro on the Linux board said last.
+/// The last heading of the gyro on the Linux board.
 #[derive(Clone, Copy, Debug)]
 struct BoardHeading {
     at_us: u64,
@@ -49,7 +49,7 @@ impl Observer {
         &self.observation
     }
 
-    /// Takes the total of the gyro on the Linux board. From its first word on the heading is its own, and is missing while
+    /// Takes the total of the gyro on the Linux board. From its first report on, the heading is its own, and is missing while
     /// it is silent: two gyros with different drift are never mixed.
     pub fn take_board_heading(&mut self, now_us: u64, heading_urad: i32) {
         if self.board_heading.is_none() {
@@ -68,7 +68,7 @@ impl Observer {
         }
     }
 
-    /// What is told once only has been seen.
+    /// Clears what an observation carries only once.
     pub fn seen(&mut self) {
         self.observation.beacons.clear();
     }
@@ -112,14 +112,14 @@ impl Observer {
         self.observation.charge_flow = battery.and_then(charge::flow);
     }
 
-    /// The robot has started anew: the total of its gyro begins anew. That of the board's own gyro goes on.
+    /// The robot has restarted: the total of its gyro starts again. That of the board's own gyro goes on.
     pub fn rebase(&mut self) {
         if self.board_heading.is_none() {
             self.heading.rebase();
         }
     }
 
-    /// Dates the view and says how the link is. Times rise strictly whatever the caller gives.
+    /// Stamps the observation with the time and the state of the link. Times rise strictly whatever the caller gives.
     pub fn stamp(&mut self, now_us: u64, link: LinkView) {
         self.observation.time_us = now_us.max(self.observation.time_us + 1);
         self.observation.link_up = link.up;

@@ -38,7 +38,7 @@ pub struct Decision {
 
 /// A change that a person wants.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Edit {
+pub enum ScheduleEdit {
     /// One more entry.
     Add(Plan),
     /// Another plan for an entry.
@@ -145,16 +145,16 @@ impl Book {
     ///
     /// # Errors
     /// See [`EditError`]; then nothing is changed.
-    pub fn edit(&mut self, edit: Edit, (zone, now_s): (&Zone, i64)) -> Result<(), EditError> {
+    pub fn edit(&mut self, edit: ScheduleEdit, (zone, now_s): (&Zone, i64)) -> Result<(), EditError> {
         match edit {
-            Edit::Add(plan) => self.add(plan, (zone, now_s)),
-            Edit::Change(number, plan) => self.change(number, plan, (zone, now_s)),
-            Edit::Remove(number) => {
+            ScheduleEdit::Add(plan) => self.add(plan, (zone, now_s)),
+            ScheduleEdit::Change(number, plan) => self.change(number, plan, (zone, now_s)),
+            ScheduleEdit::Remove(number) => {
                 self.entry(number)?;
                 self.entries.retain(|entry| entry.number != number);
                 Ok(())
             }
-            Edit::Enable(number, enabled) => {
+            ScheduleEdit::Enable(number, enabled) => {
                 let entry = self.entry_mut(number)?;
                 if enabled && !entry.plan.enabled {
                     entry.since_s = now_s;
@@ -162,15 +162,15 @@ impl Book {
                 entry.plan.enabled = enabled;
                 Ok(())
             }
-            Edit::SkipNext(number, skip) => {
+            ScheduleEdit::SkipNext(number, skip) => {
                 self.entry_mut(number)?.skip_next = skip;
                 Ok(())
             }
-            Edit::Quiet(quiet) => {
+            ScheduleEdit::Quiet(quiet) => {
                 self.quiet = quiet;
                 Ok(())
             }
-            Edit::Zone(zone) => {
+            ScheduleEdit::Zone(zone) => {
                 self.zone = zone;
                 self.forget_before(now_s);
                 Ok(())
@@ -249,14 +249,14 @@ impl Book {
         self.decisions.push_back(Decision {
             verdict,
             name,
-            at: zone.spell(now_s),
+            at: zone.format_local(now_s),
         });
         while self.decisions.len() > DECISIONS_MAX {
             self.decisions.pop_front();
         }
     }
 
-    /// After a start of the daemon: nobody knows whether the robot heard of a run that was noted and not followed up.
+    /// After a start of the daemon: it is unknown whether the robot received the command for a run that was noted and not followed up.
     pub fn interrupt_starting(&mut self) {
         for decision in &mut self.decisions {
             if decision.verdict.outcome == Outcome::Starting {
@@ -287,7 +287,7 @@ fn check_date(plan: &Plan, (zone, now_s): (&Zone, i64)) -> Result<(), EditError>
     };
     let due_s = zone.first_instant(date, at).ok_or(EditError::NoSuchDate(date))?;
     if now_s >= CLOCK_IS_SET_FROM_S && due_s < now_s {
-        return Err(EditError::Past(zone.spell(due_s)));
+        return Err(EditError::Past(zone.format_local(due_s)));
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use jiff::civil::{self, Date, Time};
 use rvac_api::{QuietHours, ScheduleEntry, ScheduleTime, Weekday};
 
-use super::{Days, Edit, EditError, Plan, Quiet, When, Zone};
+use super::{Days, EditError, Plan, Quiet, ScheduleEdit, When, Zone};
 
 /// Longest name of an entry, characters.
 const NAME_MAX: usize = 40;
@@ -80,7 +80,7 @@ impl Plan {
     }
 }
 
-impl Edit {
+impl ScheduleEdit {
     /// Quiet hours as a client says them.
     ///
     /// # Errors
@@ -174,7 +174,7 @@ fn digits(text: &str, separator: char, lengths: &[usize]) -> Option<Vec<i16>> {
 mod tests {
     use rvac_api::{InQuiet, QuietHours, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
 
-    use super::super::{Edit, Plan};
+    use super::super::{Plan, ScheduleEdit};
 
     fn entry(when: ScheduleTime) -> ScheduleEntry {
         ScheduleEntry {
@@ -229,7 +229,7 @@ mod tests {
             from: "22:00".to_owned(),
             to: "22:00".to_owned(),
         };
-        assert!(Edit::quiet_from_api(Some(&no_span)).is_err());
-        assert!(Edit::zone_from_api(Some("Mars/Base")).is_err());
+        assert!(ScheduleEdit::quiet_from_api(Some(&no_span)).is_err());
+        assert!(ScheduleEdit::zone_from_api(Some("Mars/Base")).is_err());
     }
 }

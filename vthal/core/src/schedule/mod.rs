@@ -2,7 +2,7 @@
 //!
 //! *Entry*: a job with a rule that says when. *Due*: the instant that the rule means on a date, in the local time of the robot's
 //! zone. *Run*: an entry on a local date; that pair is its key. *Mark*: the note that a run was decided. A mark is on the disk
-//! before the robot hears of the run, so no run happens twice, whatever the clock does. *Verdict*: what was decided of a run,
+//! before the robot receives the command, so no run happens twice, whatever the clock does. *Verdict*: what was decided of a run,
 //! by name. *Late*: started after its time, because the daemon did not run or had no robot.
 //!
 //! Nothing here knows a clock: the present is an argument, in seconds since 1970 (UTC). [`Book`] holds the entries,
@@ -20,10 +20,10 @@ mod verdict;
 mod when;
 mod zone;
 
-pub use book::{Book, Edit, EditError};
+pub use book::{Book, EditError, ScheduleEdit};
 pub use entry::{Entry, Plan};
 pub use from_api::ScheduleError;
-pub use planned::{Held, Kept, Planned, planned};
+pub use planned::{Blocker, Held, Planned, planned};
 pub use quiet::Quiet;
 pub use stored::{StoredBook, StoredError};
 pub(crate) use to_api::{Keeping, view};

@@ -4,7 +4,7 @@ use jiff::civil::Date;
 use rvac_api::InQuiet;
 
 use super::marks::Mark;
-use super::verdict::{Run, late_max_s, open_runs, put_off};
+use super::verdict::{DueRun, late_max_s, open_runs, put_off};
 use super::{Book, Entry, Zone};
 
 /// Runs foretold of each entry.
@@ -22,14 +22,14 @@ pub struct Planned {
     /// When it starts.
     pub start_s: i64,
     /// What keeps it from starting.
-    pub kept: Option<Kept>,
+    pub kept: Option<Blocker>,
     /// What lets it start later than its entry says.
     pub held: Option<Held>,
 }
 
 /// What keeps a run from starting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kept {
+pub enum Blocker {
     /// A person wants it left out.
     Skipped,
     /// It falls into the quiet hours.
@@ -57,7 +57,7 @@ pub fn planned(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<P
     if entry.skip_next
         && let Some(first) = runs.first_mut()
     {
-        first.kept = Some(Kept::Skipped);
+        first.kept = Some(Blocker::Skipped);
         first.held = None;
         first.start_s = first.due_s;
     }
@@ -70,7 +70,7 @@ fn waiting(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<Plann
     let in_time = open.filter(|run| {
         now_s - run.start_s <= late_max_s(entry) && entry.marks.get(run.date) != Some(Mark::Missed)
     });
-    let planned = |run: Run| {
+    let planned = |run: DueRun| {
         let held = if run.start_s > now_s {
             Held::QuietHours
         } else {
@@ -110,7 +110,7 @@ fn to_come<'a>(
             entry: entry.number,
             due_s,
             start_s: run.start_s,
-            kept: (quiet && entry.plan.in_quiet == InQuiet::Refuse).then_some(Kept::QuietHours),
+            kept: (quiet && entry.plan.in_quiet == InQuiet::Refuse).then_some(Blocker::QuietHours),
             held: (run.start_s != due_s).then_some(Held::QuietHours),
         })
     })

@@ -8,7 +8,7 @@ use rvac_api::{
 use super::book::Decision;
 use super::from_api::weekday;
 use super::{
-    Book, CLOCK_IS_SET_FROM_S, Entry, Held, Kept, Outcome, Plan, Planned, Quiet, When, Zone, planned,
+    Blocker, Book, CLOCK_IS_SET_FROM_S, Entry, Held, Outcome, Plan, Planned, Quiet, When, Zone, planned,
 };
 
 /// Runs foretold of all entries together.
@@ -38,14 +38,14 @@ pub(crate) trait Keeping {
     fn on_floor(&self, entry: &Entry) -> Result<(), &'static str>;
 }
 
-/// Everything that clients are told. `now_s` is `None` while nobody knows the time.
+/// Everything that clients receive. `now_s` is `None` while the clock is not set.
 pub(crate) fn view(book: &Book, (zone, now_s): (&Zone, Option<i64>), keeping: &impl Keeping) -> Schedules {
     let now_s = now_s.filter(|now_s| *now_s >= CLOCK_IS_SET_FROM_S);
     let foretell = |entry: &Entry| {
         let elsewhere = keeping.on_floor(entry).err();
         let runs = now_s.map_or_else(Vec::new, |now_s| planned(book, entry, (zone, now_s)));
         let kept = |run: Planned| Planned {
-            kept: run.kept.or(elsewhere.map(Kept::Elsewhere)),
+            kept: run.kept.or(elsewhere.map(Blocker::Elsewhere)),
             ..run
         };
         runs.into_iter().map(kept).collect()
@@ -78,9 +78,9 @@ pub(crate) fn view(book: &Book, (zone, now_s): (&Zone, Option<i64>), keeping: &i
 
 fn planned_run(run: &Planned, zone: &Zone) -> PlannedRun {
     let kept = run.kept.map(|kept| match kept {
-        Kept::Skipped => "skipped",
-        Kept::QuietHours => "quiet-hours",
-        Kept::Elsewhere(reason) => reason,
+        Blocker::Skipped => "skipped",
+        Blocker::QuietHours => "quiet-hours",
+        Blocker::Elsewhere(reason) => reason,
     });
     let held = run.held.map(|held| match held {
         Held::QuietHours => "quiet-hours",
@@ -88,7 +88,7 @@ fn planned_run(run: &Planned, zone: &Zone) -> PlannedRun {
     });
     PlannedRun {
         entry: run.entry,
-        at: zone.spell(run.start_s),
+        at: zone.format_local(run.start_s),
         kept_by: kept.map(str::to_owned),
         held_by: held.map(str::to_owned),
     }

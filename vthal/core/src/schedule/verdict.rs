@@ -19,11 +19,11 @@ const WAITED_FOR: [&str; 2] = [NO_ROBOT, "link-lost"];
 /// What becomes of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// It is noted, and the robot is told as soon as the note is on the disk.
+    /// It is noted, and the robot starts as soon as the note is on the disk.
     Starting,
-    /// The robot was told.
+    /// The robot was commanded.
     Fired,
-    /// The daemon ended after the note and before it told the robot, or nobody knows.
+    /// The daemon ended after the note and before it commanded the robot, or that is unknown.
     Interrupted,
     /// A person wanted it left out.
     Skipped,
@@ -71,7 +71,7 @@ pub struct Verdict {
 
 /// A run whose time has come, or that waits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Run {
+pub(super) struct DueRun {
     pub(super) date: Date,
     /// What its rule says.
     pub(super) due_s: i64,
@@ -106,7 +106,7 @@ pub fn verdict(
 
 /// The runs of an entry that were due and are not decided, the oldest first. Quiet hours and being late last less than a day
 /// each, so runs of the day before yesterday are the oldest that matter.
-pub(super) fn open_runs(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<Run> {
+pub(super) fn open_runs(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<DueRun> {
     let Some(today) = zone
         .local(now_s)
         .map(|local| local.date())
@@ -126,9 +126,9 @@ pub(super) fn open_runs(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64))
 }
 
 /// The run of a date, moved out of the quiet hours if it shall wait for their end.
-pub(super) fn put_off(book: &Book, entry: &Entry, (date, due_s, zone): (Date, i64, &Zone)) -> Run {
+pub(super) fn put_off(book: &Book, entry: &Entry, (date, due_s, zone): (Date, i64, &Zone)) -> DueRun {
     let quiet = book.quiet().filter(|_| entry.plan.in_quiet == InQuiet::Wait);
-    Run {
+    DueRun {
         date,
         due_s,
         start_s: quiet.map_or(due_s, |quiet| quiet.over_s(due_s, zone)),
@@ -143,7 +143,7 @@ pub(super) fn late_max_s(entry: &Entry) -> i64 {
 fn judge(
     book: &Book,
     entry: &Entry,
-    (run, zone, now_s): (Run, &Zone, i64),
+    (run, zone, now_s): (DueRun, &Zone, i64),
     ready: impl Fn(&Entry) -> Result<(), &'static str>,
 ) -> Option<Outcome> {
     // What is left out is left out at its time.

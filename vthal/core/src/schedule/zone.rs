@@ -44,7 +44,7 @@ impl Zone {
 
     /// An instant as people read it: `2026-11-23T07:30:00+02:00`.
     #[must_use]
-    pub fn spell(&self, utc_s: i64) -> String {
+    pub fn format_local(&self, utc_s: i64) -> String {
         let Ok(instant) = Timestamp::from_second(utc_s) else {
             return String::new();
         };
@@ -92,7 +92,7 @@ mod tests {
     fn first(zone: &str, (year, month, day): (i16, i8, i8), (hour, minute): (i8, i8)) -> Option<String> {
         let zone = Zone::named(zone).expect("a zone");
         let instant = zone.first_instant(date(year, month, day), time(hour, minute, 0, 0))?;
-        Some(zone.spell(instant))
+        Some(zone.format_local(instant))
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub(super) struct FeltDock {
 pub(super) type Pose = [i64; 3];
 
 /// What so many cells side by side hold.
-pub(super) type Run = (u16, u32);
+pub(super) type CellRun = (u16, u32);
 
 /// What each cell of the window holds and in which room it lies.
 #[derive(Serialize, Deserialize)]
@@ -42,8 +42,8 @@ pub(super) struct Layers {
     width: u32,
     height: u32,
     next_room: u16,
-    pub(super) cells: Vec<Run>,
-    rooms: Vec<Run>,
+    pub(super) cells: Vec<CellRun>,
+    rooms: Vec<CellRun>,
 }
 
 impl Body {
@@ -132,11 +132,11 @@ fn to_pose(pose: Pose) -> Pose2 {
     }
 }
 
-fn runs(runs: Vec<mapping::CellRun>) -> Vec<Run> {
+fn runs(runs: Vec<mapping::CellRun>) -> Vec<CellRun> {
     runs.into_iter().map(|run| (run.value, run.length)).collect()
 }
 
-fn to_runs(runs: Vec<Run>) -> Vec<mapping::CellRun> {
+fn to_runs(runs: Vec<CellRun>) -> Vec<mapping::CellRun> {
     let runs = runs.into_iter();
     runs.map(|(value, length)| mapping::CellRun { value, length })
         .collect()

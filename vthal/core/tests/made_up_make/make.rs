@@ -5,8 +5,8 @@ use brain::observation::{Cliffs, Contacts};
 use vthal_core::Direction;
 use vthal_core::device::{
     CleanerDrive, CommandError, DeadManKind, Description, Device, DeviceEvent, DeviceIo, Drive, DriveLimits,
-    Greeting, Identity, Level, LinkQuality, Make, Odometry, Opening, ReflexSite, Reflexes, Report,
-    SensorCounts, Shape, StopSite, Verdict, WheelDrops, WheelTravel,
+    Greeting, Identity, Level, LinkQuality, LinkVerdict, Make, Odometry, Opening, ReflexSite, Reflexes,
+    Report, SensorCounts, Shape, StopSite, WheelDrops, WheelTravel,
 };
 
 /// Pause between two questions.
@@ -185,9 +185,9 @@ impl Device for Pebble {
         let bad_share = f64::from(bad) / f64::from((good + bad).max(1));
         LinkQuality {
             verdict: if bad_share > 0.1 {
-                Verdict::Bad
+                LinkVerdict::Bad
             } else {
-                Verdict::Good
+                LinkVerdict::Good
             },
             bad_share,
             ..LinkQuality::default()

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use jiff::civil::{date, time};
 use rvac_api::InQuiet;
 use vthal_core::schedule::{
-    Book, Days, Edit, Outcome, Plan, Quiet, StoredBook, Verdict, When, Zone, verdict,
+    Book, Days, Outcome, Plan, Quiet, ScheduleEdit, StoredBook, Verdict, When, Zone, verdict,
 };
 
 use crate::{Draw, book, plan};
@@ -62,7 +62,7 @@ impl Daemon {
         self.book = Book::try_from(self.disk.clone()).expect("is readable");
     }
 
-    fn edit(&mut self, edit: Edit, now_s: i64) {
+    fn edit(&mut self, edit: ScheduleEdit, now_s: i64) {
         if self.book.edit(edit, (&self.zone, now_s)).is_ok() {
             self.disk = StoredBook::from(&self.book);
             self.zone = self.book.zone().unwrap_or(&self.zone).clone();
@@ -97,15 +97,15 @@ fn plans() -> Vec<Plan> {
 fn edit(daemon: &mut Daemon, now_s: i64, draw: &mut Draw) {
     let number = 1 + draw.below(7) as u32;
     let edit = match draw.below(6) {
-        0 => Edit::Zone(Zone::named(ZONES[draw.below(6) as usize])),
-        1 => Edit::Enable(number, draw.below(3) != 0),
-        2 => Edit::SkipNext(number, true),
-        3 => Edit::Quiet(Quiet::new(
+        0 => ScheduleEdit::Zone(Zone::named(ZONES[draw.below(6) as usize])),
+        1 => ScheduleEdit::Enable(number, draw.below(3) != 0),
+        2 => ScheduleEdit::SkipNext(number, true),
+        3 => ScheduleEdit::Quiet(Quiet::new(
             time(draw.below(24) as i8, 0, 0, 0),
             time(draw.below(24) as i8, 0, 0, 0),
         )),
-        4 => Edit::Change(number, plans()[draw.below(6) as usize].clone()),
-        _ => Edit::Quiet(None),
+        4 => ScheduleEdit::Change(number, plans()[draw.below(6) as usize].clone()),
+        _ => ScheduleEdit::Quiet(None),
     };
     daemon.edit(edit, now_s);
 }

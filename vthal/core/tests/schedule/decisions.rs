@@ -3,7 +3,7 @@
 use jiff::civil::{date, time};
 use rvac_api::InQuiet;
 use vthal_core::schedule::{
-    Book, Days, Edit, EditError, Held, Kept, Outcome, Plan, Quiet, When, Zone, planned, verdict,
+    Blocker, Book, Days, EditError, Held, Outcome, Plan, Quiet, ScheduleEdit, When, Zone, planned, verdict,
 };
 
 use crate::{book, decide, instant, outcomes, plan, restarted};
@@ -34,7 +34,8 @@ fn at_eight(plan: Plan) -> (Book, Zone, i64) {
 
 fn night(book: &mut Book, zone: &Zone, (from, to): (i8, i8)) {
     let quiet = Quiet::new(time(from, 0, 0, 0), time(to, 0, 0, 0));
-    book.edit(Edit::Quiet(quiet), (zone, 0)).expect("quiet hours");
+    book.edit(ScheduleEdit::Quiet(quiet), (zone, 0))
+        .expect("quiet hours");
 }
 
 #[test]
@@ -57,7 +58,7 @@ fn a_run_that_nobody_was_there_for_is_missed_or_late() {
     let woken = |minutes: i64, late_min| {
         let mut book = restarted(&book);
         let late = Plan { late_min, ..daily(8) };
-        book.edit(Edit::Change(1, late), (&zone, eight - HOUR_S))
+        book.edit(ScheduleEdit::Change(1, late), (&zone, eight - HOUR_S))
             .expect("changes");
         decide(&mut book, &zone, eight + 60 * minutes)
             .first()
@@ -80,15 +81,15 @@ fn what_was_due_before_it_was_wanted_does_not_start() {
     let mut made = book(core::slice::from_ref(&late), &zone, nine);
     assert!(decide(&mut made, &zone, nine + 1).is_empty());
     // Enabled again after its time, and moved to a zone in which its time was before.
-    made.edit(Edit::Enable(1, false), (&zone, nine))
+    made.edit(ScheduleEdit::Enable(1, false), (&zone, nine))
         .expect("disables");
-    made.edit(Edit::Enable(1, true), (&zone, nine + 10))
+    made.edit(ScheduleEdit::Enable(1, true), (&zone, nine + 10))
         .expect("enables");
     assert!(decide(&mut made, &zone, nine + 11).is_empty());
     let east = Zone::named("Asia/Yekaterinburg").expect("known");
     let mut moved = book(&[late], &zone, nine - 3 * HOUR_S);
     moved
-        .edit(Edit::Zone(Some(east.clone())), (&zone, nine - 2 * HOUR_S))
+        .edit(ScheduleEdit::Zone(Some(east.clone())), (&zone, nine - 2 * HOUR_S))
         .expect("moves");
     assert!(decide(&mut moved, &east, nine - 2 * HOUR_S + 1).is_empty());
     // A clock that was wrong when the entry was made does not keep it for years.
@@ -103,7 +104,7 @@ fn what_was_due_before_it_was_wanted_does_not_start() {
 #[test]
 fn the_next_run_is_skipped_once() {
     let (mut book, zone, eight) = at_eight(daily(8));
-    book.edit(Edit::SkipNext(1, true), (&zone, eight - 1))
+    book.edit(ScheduleEdit::SkipNext(1, true), (&zone, eight - 1))
         .expect("skips");
     let mut book = restarted(&book);
     assert_eq!(outcomes(&decide(&mut book, &zone, eight)), [&Outcome::Skipped]);
@@ -199,16 +200,17 @@ fn the_preview_is_what_then_happens() {
     });
     let mut book = book(&[daily(3), waits, once, daily(23)], &zone, start);
     night(&mut book, &zone, (22, 4));
-    book.edit(Edit::SkipNext(2, true), (&zone, start)).expect("skips");
+    book.edit(ScheduleEdit::SkipNext(2, true), (&zone, start))
+        .expect("skips");
     let mut foretold: Vec<(i64, u32, Outcome)> = Vec::new();
     let entries: Vec<_> = book.entries().cloned().collect();
     for entry in &entries {
         foretold.extend(planned(&book, entry, (&zone, start)).into_iter().map(|run| {
             let outcome = match run.kept {
                 None => Outcome::Starting,
-                Some(Kept::Skipped) => Outcome::Skipped,
-                Some(Kept::QuietHours) => Outcome::QuietHours,
-                Some(Kept::Elsewhere(reason)) => Outcome::Refused(reason.to_owned()),
+                Some(Blocker::Skipped) => Outcome::Skipped,
+                Some(Blocker::QuietHours) => Outcome::QuietHours,
+                Some(Blocker::Elsewhere(reason)) => Outcome::Refused(reason.to_owned()),
             };
             (run.start_s, run.entry, outcome)
         }));
@@ -245,22 +247,25 @@ fn wrong_changes_are_refused_and_change_nothing() {
         assert_eq!(book, before);
         error
     };
-    assert!(matches!(refused(Edit::Add(once(22))), EditError::Past(_)));
+    assert!(matches!(refused(ScheduleEdit::Add(once(22))), EditError::Past(_)));
     assert!(matches!(
-        refused(Edit::Change(1, once(23))),
+        refused(ScheduleEdit::Change(1, once(23))),
         EditError::Decided { .. }
     ));
-    let absent = refused(Edit::Remove(7));
+    let absent = refused(ScheduleEdit::Remove(7));
     assert_eq!(absent.to_string(), "There is no schedule 7: there are 1.");
     for _ in 1..32 {
-        book.edit(Edit::Add(daily(9)), (&zone, eight)).expect("has room");
+        book.edit(ScheduleEdit::Add(daily(9)), (&zone, eight))
+            .expect("has room");
     }
     assert_eq!(
-        book.edit(Edit::Add(daily(9)), (&zone, eight)),
+        book.edit(ScheduleEdit::Add(daily(9)), (&zone, eight)),
         Err(EditError::Full)
     );
-    book.edit(Edit::Remove(32), (&zone, eight)).expect("removes");
-    book.edit(Edit::Add(daily(9)), (&zone, eight)).expect("has room");
+    book.edit(ScheduleEdit::Remove(32), (&zone, eight))
+        .expect("removes");
+    book.edit(ScheduleEdit::Add(daily(9)), (&zone, eight))
+        .expect("has room");
     assert!(
         book.entry(32).is_err() && book.entry(33).is_ok(),
         "no number comes twice"

@@ -9,7 +9,7 @@ mod zones;
 
 use jiff::civil::{Date, Time};
 use rvac_api::{InQuiet, ScheduledJob};
-use vthal_core::schedule::{Book, Edit, Outcome, Plan, StoredBook, Verdict, When, Zone, verdict};
+use vthal_core::schedule::{Book, Outcome, Plan, ScheduleEdit, StoredBook, Verdict, When, Zone, verdict};
 
 /// A plan to clean all, and nothing special about it.
 fn plan(when: When) -> Plan {
@@ -28,7 +28,7 @@ fn plan(when: When) -> Plan {
 fn book(plans: &[Plan], zone: &Zone, now_s: i64) -> Book {
     let mut book = Book::default();
     for plan in plans {
-        book.edit(Edit::Add(plan.clone()), (zone, now_s))
+        book.edit(ScheduleEdit::Add(plan.clone()), (zone, now_s))
             .expect("is a plan");
     }
     book

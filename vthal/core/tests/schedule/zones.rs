@@ -144,7 +144,10 @@ fn try_case(change: &Change, kind: RuleKind, distance_min: i64) {
     let when = rule(kind, shown.date(), shown.time());
     let start_s = minute_s - SPAN_S;
     let mut book = vthal_core::schedule::Book::default();
-    let added = book.edit(vthal_core::schedule::Edit::Add(plan(when)), (&zone, start_s));
+    let added = book.edit(
+        vthal_core::schedule::ScheduleEdit::Add(plan(when)),
+        (&zone, start_s),
+    );
     if let Err(EditError::NoSuchDate(date)) = added {
         assert!(walk.iter().all(|(_, shown)| shown.date() != date), "{case}");
         return;

@@ -5,7 +5,7 @@ use brain::{Pattern, RoomName, StoredMap, StoredMapError};
 use vthal_core::stored_map::{DecodeError, decode, encode};
 
 use crate::contents::parts_of_version;
-use crate::sealed;
+use crate::with_checksum;
 
 #[test]
 fn the_files_of_all_earlier_versions_are_read() {
@@ -34,7 +34,7 @@ fn the_files_of_all_earlier_versions_are_read() {
 }
 
 fn read(version: u8, body: &[&[u8]]) -> Result<StoredMapParts, DecodeError> {
-    decode(&sealed(version, &body.concat())).map(|map| map.parts())
+    decode(&with_checksum(version, &body.concat())).map(|map| map.parts())
 }
 
 fn refused(version: u8, body: &[&[u8]]) -> DecodeError {
@@ -48,7 +48,7 @@ const BEGIN_6: &[u8] = &[0, 0, 0, 0, 2, 3, 9, 1, 5, 6, 0];
 
 #[test]
 fn a_map_of_the_first_version_is_read() {
-    let map = decode(&sealed(1, BEGIN)).expect("a good map");
+    let map = decode(&with_checksum(1, BEGIN)).expect("a good map");
     assert_eq!(map.knowledge().values().len(), 6);
     assert!(map.annotations().is_empty());
     assert_eq!(decode(&encode(&map)), Ok(map));

@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use vthal_core::stored_map::{DecodeError, decode, encode};
 
 /// The bytes of a body with a checksum that fits, as after a fault of the writer.
-fn sealed(version: u8, body: &[u8]) -> Vec<u8> {
+fn with_checksum(version: u8, body: &[u8]) -> Vec<u8> {
     let mut bytes = b"RVACMAP".to_vec();
     bytes.push(version);
     bytes.extend(body);
@@ -69,7 +69,7 @@ fn refused(change: impl Fn(&mut Vec<u8>)) -> DecodeError {
     let bytes = encode(&map());
     let mut body = bytes[8..bytes.len() - 4].to_vec();
     change(&mut body);
-    decode(&sealed(10, &body)).expect_err("a bad body")
+    decode(&with_checksum(10, &body)).expect_err("a bad body")
 }
 
 #[test]
@@ -148,7 +148,7 @@ proptest! {
     /// Whatever stands between a header and a checksum that fit, nothing panics, and what is taken can be kept again.
     #[test]
     fn any_body_is_taken_or_refused(version in 1_u8..=10, body in proptest::collection::vec(prop_oneof![0_u8..4, any::<u8>()], 0..200)) {
-        if let Ok(map) = decode(&sealed(version, &body)) {
+        if let Ok(map) = decode(&with_checksum(version, &body)) {
             prop_assert_eq!(decode(&encode(&map)), Ok(map));
         }
     }
@@ -161,7 +161,7 @@ proptest! {
             let place = place.index(body.len());
             body[place] = byte;
         }
-        if let Ok(map) = decode(&sealed(10, &body)) {
+        if let Ok(map) = decode(&with_checksum(10, &body)) {
             prop_assert_eq!(decode(&encode(&map)), Ok(map));
         }
     }

@@ -40,6 +40,19 @@ pub fn state_title(words: &Words, state: &str) -> &'static str {
     }
 }
 
+/// Name of a cleaning pattern; one that is not known is shown by its code.
+#[must_use]
+pub fn strategy_title<'a>(words: &Words, strategy: &'a str) -> &'a str {
+    let titles = &words.action;
+    match strategy {
+        "bounce" => titles.random,
+        "wall-bounce" => titles.random_with_walls,
+        "statistical" => titles.by_statistics,
+        "systematic" => titles.rows,
+        other => other,
+    }
+}
+
 /// The explanation of a code; a code that nobody has explained yet gives none and is shown as it is.
 #[must_use]
 pub fn explain(words: &Words, code: &str) -> Option<Explanation> {
@@ -193,7 +206,7 @@ pub fn stop_cause_text(words: &Words, stop: &RunStop) -> String {
 mod tests {
     use rvac_api::{Decision, LogEntry, LogLevel};
 
-    use super::{decision_text, estonian, explain, find, log_text, state_title};
+    use super::{decision_text, estonian, explain, find, log_text, state_title, strategy_title};
     use crate::words::Language;
 
     #[test]
@@ -304,12 +317,22 @@ mod tests {
     }
 
     #[test]
+    fn every_strategy_of_the_brain_has_a_name() {
+        for language in Language::ALL {
+            for name in brain::StrategyName::ALL.map(|strategy| strategy.name()) {
+                assert_ne!(strategy_title(language.words(), name), name);
+            }
+        }
+    }
+
+    #[test]
     fn unknown_codes_are_left_to_the_caller() {
         for language in Language::ALL {
             assert_eq!(explain(language.words(), "flux-capacitor"), None);
             assert!(explain(language.words(), "wheel-drop").is_some());
         }
         assert_eq!(state_title(Language::English.words(), "flying"), "Unknown state");
+        assert_eq!(strategy_title(Language::English.words(), "zigzag"), "zigzag");
     }
 
     #[test]

@@ -121,7 +121,7 @@ pub fn run_figures(words: &Words, run: &Run) -> Vec<(&'static str, String)> {
         (told.duration, clock_text(run.duration_s)),
         (told.in_motion, clock_text(run.moving_s)),
         (told.swept, format!("{swept}{share}")),
-        (told.way, distance_text(words, run.path_m)),
+        (told.distance, distance_text(words, run.path_m)),
         (told.bumps, run.bumps.to_string()),
     ];
     if let (Some(start), Some(end)) = (run.charge_start, run.charge_end) {
@@ -223,7 +223,7 @@ mod tests {
                 lasted_s: Some(12.0),
                 state: "paused".to_owned(),
                 reason: "command".to_owned(),
-                text: "Paused: somebody asked for it.".to_owned(),
+                text: "Paused: it was requested.".to_owned(),
                 remedy: String::new(),
                 by: Some("panel".to_owned()),
                 asker: None,
@@ -246,10 +246,10 @@ mod tests {
         );
         assert!(row.is_bad);
         let figures = run_figures(ENGLISH, &record.run);
-        assert!(figures.contains(&("Swept", "12.3 m² (50 % of that floor)".to_owned())));
+        assert!(figures.contains(&("Cleaned", "12.3 m² (50 % of that floor)".to_owned())));
         assert_eq!(
             stop_rows(ENGLISH, &record)[0].words,
-            "Paused: somebody asked for it. By panel. At 1:01, for 0:12."
+            "Paused: it was requested. By panel. At 1:01, for 0:12."
         );
         let estonian = Language::Estonian.words();
         assert_eq!(

@@ -55,8 +55,8 @@ screen! {
         scan[1]: "The camera of the new device finds the robot by this: {0}", "Uue seadme kaamera leiab selle järgi roboti: {0}";
         this_device: "this device", "see seade";
         may_named[1]: "What {0} may do", "Mida {0} võib teha";
-        shut_named[1]: "Shut out {0}", "Eemalda õigused: {0}";
-        shut: "Shut out", "Eemalda";
+        remove_named[1]: "Remove {0}", "Eemalda {0}";
+        remove: "Remove", "Eemalda";
         may_view: "look and stop", "vaadata ja peatada";
         may_drive: "drive and clean", "juhtida ja koristada";
         may_admin: "change everything", "kõike muuta";

@@ -53,8 +53,8 @@ screen! {
         missing: "Missing", "Puudub";
         bumper: "Bumper", "Põrkeraud";
         free: "Free", "Vaba";
-        no_floor: "No floor", "Põrand puudub";
-        nowhere: "Nowhere", "Mitte kuskil";
+        cliff_sensors: "Cliff sensors", "Servaandurid";
+        no_cliff: "Clear", "Serva ei ole";
         hanging: "Hanging wheel", "Rippuv ratas";
         none_hangs: "None", "Ükski";
         left: "left", "vasak";

@@ -7,8 +7,8 @@ screen! {
     FrameWords {
         skip: "Skip to the controls", "Liigu juhtnuppude juurde";
         simulated[1]: "Simulated: {0}", "Simulatsioon: {0}";
-        use_light: "Use the light look", "Kasuta heledat kujundust";
-        use_dark: "Use the dark look", "Kasuta tumedat kujundust";
+        use_light: "Light theme", "Hele kujundus";
+        use_dark: "Dark theme", "Tume kujundus";
         language: "Language", "Keel";
         battery: "Battery", "Aku";
         connected: "Connected", "Ühendatud";
@@ -22,9 +22,9 @@ screen! {
         device: "Device", "Seade";
         log: "Log", "Logi";
         decisions: "Decisions, newest first", "Otsused, uusimad eespool";
-        no_decisions: "It has decided nothing yet.", "Robot ei ole veel midagi otsustanud.";
+        no_decisions: "No decisions yet.", "Otsuseid veel ei ole.";
         dismiss: "Dismiss", "Sulge teade";
-        good: "Good", "Selge";
+        good: "OK", "Selge";
         save: "Save", "Salvesta";
         cancel: "Cancel", "Loobu";
         remove: "Remove", "Eemalda";
@@ -66,8 +66,12 @@ screen! {
         dock: "Dock", "Dokki";
         find: "Find", "Leia";
         clear: "Clear the fault", "Tühista rike";
-        way_of_cleaning: "Way of cleaning", "Koristusviis";
+        cleaning_pattern: "Cleaning pattern", "Koristusmuster";
         robot_chooses: "The robot chooses", "Robot valib ise";
+        random: "Random", "Juhuslik";
+        random_with_walls: "Random with walls", "Juhuslik ja piki seinu";
+        by_statistics: "By statistics", "Statistika järgi";
+        rows: "Rows", "Ridadena";
     }
 }
 
@@ -77,11 +81,11 @@ screen! {
         away: "The robot is not connected.", "Robot ei ole ühendatud.";
         fault: "Clear the fault first.", "Tühista enne rike.";
         paused: "A paused job waits: resume or stop it.", "Pausil töö ootab: jätka seda või peata see.";
-        by_hand: "The robot is driven by hand.", "Robotit juhitakse käsitsi.";
+        by_hand: "The robot is under manual control.", "Robotit juhitakse käsitsi.";
         runs: "A job is running.", "Töö käib.";
         no_job: "No job is running.", "Ükski töö ei käi.";
-        docking: "It is looking for the dock already.", "Robot juba otsib dokki.";
-        docked: "It is on the dock.", "Robot on dokis.";
+        docking: "The robot is already returning to the dock.", "Robot on juba teel dokki.";
+        docked: "The robot is on the dock.", "Robot on dokis.";
         not_allowed: "Not allowed for this device: an administrator can give it another role.",
             "Sellel seadmel ei ole selleks õigust: haldusõigusega seadmes saab anda sellele teise rolli.";
         only_looks: "This device may not change anything here: an administrator can give it another role.",
@@ -97,9 +101,9 @@ screen! {
         starting: "Starting", "Alustab";
         cleaning: "Cleaning", "Koristab";
         spot: "Cleaning a spot", "Koristab üht kohta";
-        docking: "Looking for the dock", "Otsib dokki";
+        docking: "Returning to the dock", "Teel dokki";
         docked: "On the dock", "Dokis";
-        manual: "Driven by hand", "Käsijuhtimisel";
+        manual: "Manual control", "Käsijuhtimisel";
         paused: "Paused", "Pausil";
         stuck: "Stuck", "Kinni jäänud";
         error: "Stopped by a fault", "Rikke tõttu peatunud";
@@ -117,7 +121,7 @@ screen! {
         errors: "Errors", "Vead";
         search: "Search", "Otsing";
         entries: "Log, newest first", "Logi, uusimad eespool";
-        none_fits: "No entry fits.", "Sobivaid kirjeid ei ole.";
+        none_fits: "No matching entries.", "Sobivaid kirjeid ei ole.";
         debug: "Debug", "Silumine";
         info: "Info", "Teade";
         warn: "Warning", "Hoiatus";

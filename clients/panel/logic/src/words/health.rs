@@ -15,7 +15,7 @@ screen! {
         brush_light: "Look whether it sits in its place, its belt is whole, and its bristles still reach the floor.", "Vaata, kas hari on paigas, rihm terve ja kas harjased ulatuvad veel põrandani.";
         wheel_hard: "Take hair and threads off its axle, and look whether its gears are clean.", "Eemalda teljelt juuksed ja niidid ning vaata, kas hammasrattad on puhtad.";
         wheel_light: "Look whether its tyre is worn or lost, and whether it presses on the floor.", "Vaata, kas rehv on kulunud või kadunud ja kas ratas surub põrandale.";
-        cleaned: "I cleaned it", "Puhastasin selle";
-        cleaned_named[1]: "I cleaned it: {0}", "Puhastasin selle: {0}";
+        cleaned: "Mark as cleaned", "Märgi puhastatuks";
+        cleaned_named[1]: "Mark as cleaned: {0}", "Märgi puhastatuks: {0}";
     }
 }

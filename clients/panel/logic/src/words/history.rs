@@ -6,30 +6,30 @@ screen! {
     /// The list of runs, one of them, its replay and plots.
     HistoryWords {
         runs: "Runs, newest first", "Tööd, uusimad eespool";
-        none: "No run is kept yet: one is some seconds after a job ends.",
-            "Ühtki tööd ei ole veel alles: see salvestub mõni sekund pärast lõppu.";
+        none: "No runs yet: a run appears some seconds after a job ends.",
+            "Töid veel ei ole: töö ilmub siia mõni sekund pärast lõppu.";
         older: "Show older ones", "Näita vanemaid";
         numbered[2]: "{0}. {1}", "{0}. {1}";
         no_clock: "Clock not set", "Kell seadmata";
         all: "All runs", "Kõik tööd";
         run[2]: "Run {0}, {1}", "Töö {0}, {1}";
-        stops: "Where it stood or waited", "Kus robot seisis või ootas";
+        stops: "Stops and waits", "Peatused ja ootamised";
         more_stops[1]: "And {0} more stops.", "Ja veel {0} peatust.";
         figures: "Figures", "Arvud";
         report: "For a bug report", "Veateate jaoks";
         show_stop[1]: "Show the moment of stop {0}", "Näita peatuse {0} hetke";
         not_recorded: "This run was not recorded.", "Seda tööd ei salvestatud.";
-        recording_gone: "The recording was removed because newer ones took its place.",
+        recording_gone: "The recording was removed to make room for newer ones.",
             "Salvestis eemaldati, sest uuemad vajasid ruumi.";
-        recording_part_gone: "A part of the recording was removed because newer ones took its place.",
+        recording_part_gone: "A part of the recording was removed to make room for newer ones.",
             "Osa salvestisest eemaldati, sest uuemad vajasid ruumi.";
         save_recording[1]: "Save the recording ({0} MB)", "Salvesta salvestis ({0} MB)";
-        no_replay: "Without a recording the run cannot be seen again.", "Salvestiseta ei saa tööd uuesti vaadata.";
+        no_replay: "There is no replay without a recording.", "Salvestiseta ei saa tööd uuesti vaadata.";
         play: "Play", "Esita";
         pause: "Pause", "Paus";
         time: "Time into the run", "Aeg töö algusest";
         speed: "Speed", "Kiirus";
-        picture[2]: "Picture of the run: {0} square metres swept, {1} stops",
+        picture[2]: "Picture of the run: {0} square metres cleaned, {1} stops",
             "Pilt tööst: koristatud {0} ruutmeetrit, {1} peatust";
         // Title, lines, low, high.
         plot[4]: "{0}: {1}, between {2} and {3}", "{0}: {1}, vahemikus {2} kuni {3}";
@@ -61,8 +61,8 @@ screen! {
         asked_by: "Asked by", "Andis";
         duration: "Time", "Aeg";
         in_motion: "In motion", "Liikus";
-        swept: "Swept", "Koristatud";
-        way: "Way", "Teekond";
+        swept: "Cleaned", "Koristatud";
+        distance: "Distance", "Teekond";
         bumps: "Bumps", "Puuted";
         map: "Map", "Kaart";
         version[1]: "version {0}", "versioon {0}";
@@ -75,7 +75,7 @@ screen! {
         finished_as[1]: "Finished: {0}.", "Lõpetatud: {0}.";
         stopped: "Stopped.", "Peatatud.";
         gave_up[1]: "Gave up: {0}.", "Robot andis alla: {0}.";
-        daemon_ended: "Ended because vthal was ended in good order.", "Lõppes, sest vthal lõpetas korrapäraselt töö.";
+        daemon_ended: "Ended because vthal was shut down.", "Lõppes, sest vthal lõpetas korrapäraselt töö.";
         cut_short: "Cut short: vthal or its board stopped without notice; what is shown was known shortly before.",
             "Katkes: vthal või selle arvuti seiskus ootamatult; näha on see, mis oli veidi enne seda teada.";
         other_robot: "Ended because another robot was attached.", "Lõppes, sest ühendati teine robot.";

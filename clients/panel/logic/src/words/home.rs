@@ -5,14 +5,14 @@ use super::screen;
 screen! {
     /// The sheet with all of it.
     HomeWords {
-        maps: "Kept maps", "Alles hoitud kaardid";
-        no_maps: "None yet: a map is kept when a run ends.", "Veel ühtegi: kaart jäetakse alles, kui töö lõpeb.";
+        maps: "Map backups", "Kaartide varukoopiad";
+        no_maps: "None yet: a map backup is made when a run ends.", "Veel ühtegi: varukoopia tehakse, kui töö lõpeb.";
         room_one: "1 room", "1 tuba";
         room_many[1]: "{0} rooms", "{0} tuba";
         map[1]: "Map {0}", "Kaart {0}";
         in_use: "in use", "kasutusel";
-        take_up_map[1]: "Take map {0} up again", "Võta kaart {0} uuesti kasutusele";
-        take_up: "Take up again", "Võta kasutusele";
+        restore_map[1]: "Restore map {0}", "Taasta kaart {0}";
+        take_up: "Restore", "Taasta";
         floors: "Floors", "Korrused";
         floor_open: "The robot finds out on which floor it is on its dock, or while it cleans.",
             "Robot saab dokis või koristades teada, mis korrusel ta on.";
@@ -20,7 +20,7 @@ screen! {
             "Robot on dokis, aga dokk on mitmel korrusel: vali korrus, millel ta on.";
         floor_unknown: "It does not recognise the floor: choose the one on which it is, or say that it is new.",
             "Robot ei tunne korrust ära: vali, millel ta on, või ütle, et see on uus.";
-        new_floor: "It is on a new floor", "Robot on uuel korrusel";
+        new_floor: "Add a floor", "Lisa korrus";
         floor[1]: "Floor {0}", "Korrus {0}";
         is_on[1]: "It is here: {0}", "Robot on siin: {0}";
         it_is_here: "It is here", "Robot on siin";
@@ -32,21 +32,21 @@ screen! {
         no_map: "no map yet", "kaarti veel ei ole";
         removed: ", removed", ", eemaldatud";
         floor_name[1]: "New name of floor {0}; empty for its number", "Korruse {0} uus nimi; tühjana jääb number";
-        export_floors: "Save all floors as a file", "Salvesta kõik korrused faili";
-        import_floors: "Take floors from a file", "Võta korrused failist";
+        export_floors: "Export maps", "Ekspordi kaardid";
+        import_floors: "Import maps", "Impordi kaardid";
         floors_file: "File with floors", "Korruste fail";
-        floors_sent[1]: "{0} % of the file has gone to the robot.", "Robotile on saadetud {0} % failist.";
-        floors_taken: "The floors of the file are kept beside those that were there.",
-            "Faili korrused on nüüd varasemate kõrval alles.";
-        floors_lost: "The connection broke, and nothing was taken: choose the file again.",
-            "Ühendus katkes ja midagi ei võetud: vali fail uuesti.";
+        floors_sent[1]: "{0} % of the file has been sent to the robot.", "Robotile on saadetud {0} % failist.";
+        floors_taken: "Maps imported. The floors that were there are unchanged.",
+            "Kaardid on imporditud. Varasemad korrused on muutmata.";
+        floors_lost: "The connection broke, and nothing was imported: choose the file again.",
+            "Ühendus katkes ja midagi ei imporditud: vali fail uuesti.";
         floors_unreadable: "The file cannot be read: choose it again.", "Faili ei saa lugeda: vali see uuesti.";
         floors_file_size[1]: "This is no file with floors: such files have up to {0} MB and are not empty.",
             "See ei ole korruste fail: selline fail ei ole tühi ja selles on kuni {0} MB.";
-        carpet_felt[2]: "By what its motors draw {0} are carpet and {1} hard floor.",
-            "Mootorite voolu järgi on vaipa {0} ja kõva põrandat {1}.";
-        carpet_unknown: "Where carpet lies is not known: this robot does not measure what its motors draw.",
-            "Vaipade asukohta ei teata: see robot ei mõõda oma mootorite voolu.";
+        carpet_felt[2]: "Carpet detected: {0}. Hard floor: {1}.",
+            "Tuvastatud vaip: {0}. Kõva põrand: {1}.";
+        carpet_unknown: "Carpet is not detected: this robot does not measure the currents of its motors.",
+            "Vaipa ei tuvastata: see robot ei mõõda oma mootorite voolu.";
         rooms: "Rooms", "Toad";
         room[1]: "Room {0}", "Tuba {0}";
         no_rooms: "No room is known yet: the robot finds them while it cleans.",
@@ -55,19 +55,19 @@ screen! {
             "Koristamiseks vali tuba siin või puuduta seda kaardil.";
         draw_clean: "Draw a zone to clean", "Joonista koristatav ala";
         draw_spot: "Set a spot to clean", "Märgi koristatav koht";
-        draw_avoid: "Keep out for one job", "Jäta koht ühel korral välja";
+        draw_avoid: "No-go for this job", "Keeluala selleks korraks";
         set_room: "Settings", "Seaded";
         set_room_named[1]: "Settings of {0}", "Toa „{0}“ seaded";
         set_passes: "Cleaned at least", "Koristatakse vähemalt";
-        set_usual: "As any other", "Nagu teised";
+        set_usual: "Reset to defaults", "Taasta vaikeseaded";
         set_suction: "Suction", "Imemine";
         set_main_brush: "Main brush", "Põhihari";
         set_side_brushes: "Side brushes", "Külgharjad";
         set_once: "once", "üks kord";
         set_times[1]: "{0} times", "{0} korda";
-        set_hint: "Power and the way it is swept hold in every job, how often it is cleaned in jobs that name the room.",
-            "Võimsus ja koristusviis kehtivad igal koristamisel, kordade arv siis, kui tuba on valitud.";
-        set_pattern: "Swept", "Koristatakse";
+        set_hint: "Power and pattern apply to every job. The number of passes applies to jobs that name the room.",
+            "Võimsus ja muster kehtivad igal koristamisel. Kordade arv kehtib siis, kui tuba on valitud.";
+        set_pattern: "Pattern", "Muster";
         pattern_lines: "In straight lines", "Sirgete ridadena";
         pattern_contour: "Along the walls", "Mööda seinu";
         job_power: "Power", "Võimsus";
@@ -81,25 +81,25 @@ screen! {
         join_hint: "To make two rooms one, choose both: they must lie beside each other.",
             "Kahe toa ühendamiseks vali mõlemad: need peavad olema kõrvuti.";
         room_changes: "Rooms that were split or joined", "Poolitatud ja ühendatud toad";
-        was_cut[2]: "{1} was cut off from {0}", "{1} on lõigatud toast „{0}“";
+        was_split[2]: "{1} was split from {0}", "{1} on lõigatud toast „{0}“";
         was_joined[2]: "{1} is a part of {0}", "{1} on toa „{0}“ osa";
-        take_back: "Take back", "Võta tagasi";
-        take_back_named[1]: "Take back: {0}", "Võta tagasi: {0}";
+        take_back: "Undo", "Võta tagasi";
+        take_back_named[1]: "Undo: {0}", "Võta tagasi: {0}";
         room_name[1]: "New name of {0}; empty for its number", "Uus nimi toale „{0}“; tühjana jääb number";
         door_to[1]: ", door to {0}", ", uks: {0}";
         doors_to[2]: ", doors to {0} and {1}", ", uksed: {0} ja {1}";
-        places: "Kept places", "Alles hoitud kohad";
-        no_places: "None yet: draw a zone or set a spot to clean, and keep it here under a name.",
-            "Veel ühtegi: joonista koristatav ala või märgi koht ja hoia see siin nime all alles.";
-        keep_named[1]: "Keep: {0}", "Hoia alles: {0}";
-        keep_name[1]: "Name under which to keep: {0}", "Nimi, mille all alles hoida: {0}";
+        places: "Saved zones", "Salvestatud alad";
+        no_places: "None yet: draw a zone or set a spot to clean, then save it here.",
+            "Veel ühtegi: joonista koristatav ala või märgi koht ja salvesta see siin.";
+        keep_named[1]: "Save: {0}", "Salvesta: {0}";
+        keep_name[1]: "Name under which to save: {0}", "Nimi, millega salvestada: {0}";
         place_name[1]: "New name of {0}", "Uus nimi kohale „{0}“";
-        no_go: "Not to be entered", "Keelatud kohad";
-        nothing_forbidden: "Nothing is forbidden.", "Midagi ei ole keelatud.";
+        no_go: "Restricted areas", "Keelatud alad";
+        nothing_forbidden: "No restricted areas.", "Keelatud alasid ei ole.";
         dock: "Dock", "Dokk";
-        dock_felt: "It stands where the robot has docked.", "Dokk on seal, kus robot on dokkinud.";
-        dock_told: "It stands where somebody has said. The robot finds out exactly where when it docks.",
-            "Dokk on seal, kuhu see märgiti. Täpse koha saab robot teada, kui ta dokib.";
+        dock_felt: "The dock is where the robot has docked.", "Dokk on seal, kus robot on dokkinud.";
+        dock_told: "The dock is where somebody marked it. The robot measures its exact position when it docks.",
+            "Dokk on seal, kuhu see märgiti. Täpse koha mõõdab robot, kui ta dokib.";
         draw_dock: "The dock was moved", "Dokki on nihutatud";
         draw_wall: "Draw a virtual wall", "Joonista virtuaalsein";
         draw_zone: "Draw a no-go zone", "Joonista keeluala";

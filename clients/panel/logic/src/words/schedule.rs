@@ -9,9 +9,9 @@ screen! {
         none: "Nothing starts by itself.", "Midagi ei alga iseenesest.";
         add: "Add a schedule", "Lisa ajakava";
         next_runs: "Next runs", "Järgmised korrad";
-        no_next: "No run is to come.", "Ühtki korda ei ole ees.";
+        no_next: "No upcoming runs.", "Eelseisvaid kordi ei ole.";
         past_runs: "Past runs", "Möödunud korrad";
-        no_past: "No run was decided yet.", "Ühtki korda ei ole veel otsustatud.";
+        no_past: "No past runs.", "Möödunud kordi ei ole.";
         skip_named[1]: "Skip the next run of {0}", "Jäta järgmine kord vahele: {0}";
         skip: "Skip next", "Jäta vahele";
         run_named[1]: "Run now: {0}", "Käivita kohe: {0}";
@@ -26,12 +26,12 @@ screen! {
         once: "On one day only", "Ainult ühel päeval";
         date: "Date", "Kuupäev";
         days: "Days of the week", "Nädalapäevad";
-        rooms: "Rooms and kept places; none for the whole home", "Toad ja alles hoitud kohad; valimata jättes kogu kodu";
+        rooms: "Rooms and saved zones; none for the whole home", "Toad ja salvestatud alad; valimata jättes kogu kodu";
         no_rooms: "No room is known yet.", "Ühtki tuba veel ei teata.";
         passes: "Passes over each room", "Mitu korda iga tuba koristatakse";
-        late: "Minutes that it may start late, if the robot was off at its time",
+        late: "Start up to this many minutes late, if the robot was off at its time",
             "Mitu minutit hiljem võib alustada, kui robot oli õigel ajal väljas";
-        waits: "In the quiet hours wait for their end", "Vaiksel ajal oota selle lõppu";
+        waits: "Wait for the end of the quiet hours", "Oota vaikse aja lõppu";
         may_be_late[1]: "up to {0} minutes late", "kuni {0} minutit hiljem";
         may_wait: "waits for the end of the quiet hours", "ootab vaikse aja lõppu";
         need_name: "Give it a name.", "Anna ajakavale nimi.";
@@ -47,19 +47,19 @@ screen! {
         no_quiet: "None", "Puudub";
         zone_title: "Time zone", "Ajavöönd";
         zone_name: "Name, for example Europe/Tallinn", "Nimi, näiteks Europe/Tallinn";
-        device_zone[1]: "Take that of this device: {0}", "Võta selle seadme oma: {0}";
-        system_zone: "Take that of the robot's computer", "Võta roboti arvuti oma";
+        device_zone[1]: "Use this device's time zone: {0}", "Kasuta selle seadme ajavööndit: {0}";
+        system_zone: "Use the time zone of the robot's computer", "Kasuta roboti arvuti ajavööndit";
         next[1]: "Next: {0}", "Järgmine: {0}";
-        no_run: "No run to come.", "Ühtki korda ei ole ees.";
+        no_run: "No upcoming runs.", "Eelseisvaid kordi ei ole.";
         off: "Switched off.", "Välja lülitatud.";
-        would_not[1]: "It would not start at this moment: {0}", "Praegu see ei algaks: {0}";
+        would_not[1]: "It would not start now: {0}", "Praegu see ei algaks: {0}";
         fired: "Started.", "Algas.";
         zone[2]: "All times are those of {0}, where it is {1}.", "Kõik ajad on vööndis {0}, kus praegu on {1}.";
         no_clock: "The robot's clock is not set, so nothing starts by itself until it is.",
             "Roboti kell on seadmata, seni ei alga midagi iseenesest.";
-        left_out[1]: "{0}, left out", "{0}, jääb vahele";
-        kept_by_quiet[1]: "{0}, kept by the quiet hours", "{0}, jääb vaikse aja tõttu ära";
-        kept[2]: "{0}, kept: {1}", "{0}, jääb ära: {1}";
+        skipped[1]: "{0}, skipped", "{0}, jääb vahele";
+        blocked_by_quiet[1]: "{0}, blocked by quiet hours", "{0}, jääb vaikse aja tõttu ära";
+        kept[2]: "{0}, blocked: {1}", "{0}, jääb ära: {1}";
         after_quiet[1]: "{0}, after the quiet hours", "{0}, pärast vaikset aega";
         when_answers[1]: "{0}, when the robot answers", "{0}, kui robot vastab";
         daily[1]: "Daily at {0}", "Iga päev kell {0}";

@@ -9,9 +9,9 @@ use brain::{Brain, Command, Pose2, Reason};
 use rvac_api::{Failure, LogLevel, Update};
 
 use super::audience::{Asker, Asking, Teller};
-use super::journal::Part;
+use super::journal::LogSource;
 use super::reply::Reply;
-use crate::mind::Mind;
+use crate::brain_session::BrainSession;
 use crate::outputs::{Delivery, Recipients};
 use crate::refusal::Refusal;
 use crate::{FloorHome, MapEdit, Outputs};
@@ -68,7 +68,7 @@ impl HomeDesk {
     pub(crate) fn serve(
         &mut self,
         Asking { asker, request }: &Asking<HomeRequest>,
-        mind: Option<&Mind>,
+        mind: Option<&BrainSession>,
         teller: &mut Teller<'_>,
     ) -> Result<(Edit, Reply), Refusal> {
         let edit = match request {
@@ -78,7 +78,7 @@ impl HomeDesk {
             HomeRequest::MoveDock(pose) => rooms::move_dock(*pose, mind),
         }?;
         let text = format!("{} {}", teller.name(asker.client), edit.deed);
-        teller.log(LogLevel::Info, Part::Client, text);
+        teller.log(LogLevel::Info, LogSource::Client, text);
         self.waiting.push(*asker);
         Ok((edit, Reply::AfterStep))
     }
@@ -102,7 +102,7 @@ impl HomeDesk {
 }
 
 /// The brain, in the home that is kept.
-pub(crate) fn known_home(mind: Option<&Mind>) -> Result<&Mind, Refusal> {
+pub(crate) fn known_home(mind: Option<&BrainSession>) -> Result<&BrainSession, Refusal> {
     let mind = mind.ok_or("no-robot")?;
     mind.admit_edit()?;
     Ok(mind)

@@ -5,8 +5,8 @@ use brain::{Brain, Command, NoGo, Point2, Reason};
 use rvac_api::NoGoShape;
 
 use super::{Edit, known_home};
+use crate::brain_session::BrainSession;
 use crate::desk::words::{to_name, to_zone};
-use crate::mind::Mind;
 use crate::refusal::Refusal;
 
 /// What clients say of forbidden floor.
@@ -23,7 +23,7 @@ pub(crate) enum NoGoRequest {
 }
 
 impl NoGoRequest {
-    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    pub(super) fn edit(&self, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
         match self {
             Self::Add { shape, name } => {
                 let name = name.as_deref().map(to_name).transpose()?;

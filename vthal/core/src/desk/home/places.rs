@@ -5,8 +5,8 @@ use rvac_api::{JobOrder, JobPart};
 
 use super::{Edit, known_home};
 use crate::api_forms;
+use crate::brain_session::BrainSession;
 use crate::desk::words::{to_name, to_zone};
-use crate::mind::Mind;
 use crate::refusal::Refusal;
 
 /// What clients say of places.
@@ -30,7 +30,7 @@ pub(crate) enum PlaceRequest {
 }
 
 impl PlaceRequest {
-    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    pub(super) fn edit(&self, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
         let (command, deed) = match self {
             Self::Keep { name, shape, number } => {
                 let place = KeptPlace::new(to_name(name)?, &to_shape(shape)?)?;

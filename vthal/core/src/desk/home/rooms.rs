@@ -6,9 +6,9 @@ use brain::{Brain, Command, Point2, Pose2, Reason};
 use rvac_api::{RoomNaming, RoomSettings, RoomSplitting};
 
 use super::{Edit, known_home};
+use crate::brain_session::BrainSession;
 use crate::desk::room_power::to_brain;
 use crate::desk::words::to_name;
-use crate::mind::Mind;
 use crate::refusal::Refusal;
 
 /// What clients say of rooms.
@@ -30,7 +30,7 @@ pub(crate) enum RoomRequest {
 }
 
 impl RoomRequest {
-    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    pub(super) fn edit(&self, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
         match self {
             Self::Name(naming) => name_room(naming, mind),
             Self::Set { room, settings } => set_room(*room, *settings, mind),
@@ -41,7 +41,7 @@ impl RoomRequest {
     }
 }
 
-fn name_room(naming: &RoomNaming, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn name_room(naming: &RoomNaming, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
     let room = naming.room;
     let name = naming.name.as_deref().map(to_name).transpose()?;
     let brain = known_home(mind)?.brain();
@@ -55,7 +55,7 @@ fn name_room(naming: &RoomNaming, mind: Option<&Mind>) -> Result<Edit, Refusal> 
     })
 }
 
-fn set_room(room: u16, settings: Option<RoomSettings>, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn set_room(room: u16, settings: Option<RoomSettings>, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
     let settings = settings.map(to_brain).transpose()?;
     let brain = known_home(mind)?.brain();
     let command = Command::SetRoom { room, settings };
@@ -65,7 +65,7 @@ fn set_room(room: u16, settings: Option<RoomSettings>, mind: Option<&Mind>) -> R
     })
 }
 
-fn split_room(splitting: &RoomSplitting, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn split_room(splitting: &RoomSplitting, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
     let line = to_line(splitting.line)?;
     let room = splitting.room;
     let brain = resting_home(mind)?.brain();
@@ -83,7 +83,7 @@ fn split_room(splitting: &RoomSplitting, mind: Option<&Mind>) -> Result<Edit, Re
     })
 }
 
-fn join_rooms(rooms: [u16; 2], mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn join_rooms(rooms: [u16; 2], mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
     let brain = resting_home(mind)?.brain();
     let command = Command::JoinRooms { rooms };
     Edit::admitted(brain, command, "joins two rooms").map_err(|reason| match reason {
@@ -97,7 +97,7 @@ fn join_rooms(rooms: [u16; 2], mind: Option<&Mind>) -> Result<Edit, Refusal> {
     })
 }
 
-fn undo_room_change(number: u16, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn undo_room_change(number: u16, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
     let brain = resting_home(mind)?.brain();
     let command = Command::UndoRoomChange { number };
     Edit::admitted(brain, command, "takes a change of the rooms back")
@@ -118,7 +118,7 @@ fn not_undone(reason: Reason, number: u16, brain: &Brain) -> String {
     format!("There is no change {number} of the rooms: {known}.")
 }
 
-pub(super) fn move_dock(pose: Pose2, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+pub(super) fn move_dock(pose: Pose2, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
     let brain = resting_home(mind)?.brain();
     let command = Command::MoveDock { pose };
     Edit::admitted(brain, command, "says where the dock stands").map_err(|reason| match reason {
@@ -135,7 +135,7 @@ pub(super) fn move_dock(pose: Pose2, mind: Option<&Mind>) -> Result<Edit, Refusa
 }
 
 /// Rooms are looked for anew with each change, and a job keeps the rooms and the dock that it has.
-fn resting_home(mind: Option<&Mind>) -> Result<&Mind, Refusal> {
+fn resting_home(mind: Option<&BrainSession>) -> Result<&BrainSession, Refusal> {
     let mind = known_home(mind)?;
     if !mind.rests() || mind.holds_commands() {
         return Err("job-runs".into());

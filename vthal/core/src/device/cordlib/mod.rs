@@ -75,7 +75,7 @@ impl Cordlib {
         }
     }
 
-    /// Number of the session for the seal; 0 while none is open.
+    /// Number of the session for the CRC; 0 while none is open.
     fn session_number(&self) -> u16 {
         self.hello.as_ref().map_or(0, |hello| hello.session)
     }
@@ -243,7 +243,7 @@ impl Device for Cordlib {
         self.send(Command::Led(led), io)
     }
 
-    /// Takes what hand mode takes; the session numbers and seals it.
+    /// Takes what hand mode takes; the session numbers it and adds the CRC.
     fn raw(&mut self, text: &str, io: &mut DeviceIo<'_>) -> Result<(), CommandError> {
         let command = text::read_command(text.as_bytes(), Form::Hand { now: Tick(0) })
             .map_err(|_| CommandError::Syntax)?;

@@ -9,8 +9,8 @@ use rvac_protocol::quality;
 
 use super::super::{
     Battery, ChargeState, Charger, CleanersRunning, DeadManKind, Description, DriveLimits, Identity, Level,
-    LinkQuality, Odometry, Part, ReflexSite, Reflexes, Report, SensorCounts, Shape, SlowFacts, StopSite,
-    Verdict, WheelDrops, WheelTravel,
+    LinkQuality, LinkVerdict, Odometry, Part, ReflexSite, Reflexes, Report, SensorCounts, Shape, SlowFacts,
+    StopSite, WheelDrops, WheelTravel,
 };
 
 /// What the robot is and can do.
@@ -221,9 +221,9 @@ fn battery(battery: &message::Battery) -> Battery {
 pub(super) fn link_quality(wire: quality::LinkQuality, is_binary: bool) -> LinkQuality {
     LinkQuality {
         verdict: match wire.verdict {
-            quality::LinkVerdict::Good => Verdict::Good,
-            quality::LinkVerdict::Poor => Verdict::Poor,
-            quality::LinkVerdict::Bad => Verdict::Bad,
+            quality::LinkVerdict::Good => LinkVerdict::Good,
+            quality::LinkVerdict::Poor => LinkVerdict::Poor,
+            quality::LinkVerdict::Bad => LinkVerdict::Bad,
         },
         bad_share: f64::from(wire.bad) / f64::from(wire.packets.max(1)),
         round_trip_ms: wire.round_trip_ms.map(f64::from),

@@ -1,6 +1,6 @@
 //! What is made ready in steps before a brain can begin with it: the home of the next run, and the home of a floor.
 //!
-//! A home takes a small board seconds to write down and to take up. Meanwhile the brain that is there goes on; whatever is
+//! A home takes a small board seconds to save and to load. Meanwhile the present brain goes on; whatever is
 //! commanded waits for the next one, in its order.
 
 use brain::config::BrainConfig;
@@ -61,22 +61,22 @@ impl NextRun {
     }
 }
 
-/// The home of a floor that is being taken up.
+/// The home of a floor that is being loaded.
 #[derive(Debug)]
-pub(super) struct FloorOnItsWay {
+pub(super) struct LoadingFloor {
     number: u16,
     home: MapLoader,
     ready: Option<LoadedHome>,
 }
 
-impl FloorOnItsWay {
-    /// Goes on with the home of floor `number`, or begins with it; what was under way for another one is given up.
+impl LoadingFloor {
+    /// Goes on with the home of floor `number`, or begins with it; work on another floor's home is dropped.
     pub(super) fn for_floor(
-        under_way: Option<Self>,
+        loading_floor: Option<Self>,
         (number, stored): (u16, &StoredMap),
         config: &BrainConfig,
     ) -> Self {
-        under_way
+        loading_floor
             .filter(|floor| floor.number == number)
             .unwrap_or_else(|| Self {
                 number,

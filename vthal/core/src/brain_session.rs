@@ -1,6 +1,6 @@
 //! The brain and what surrounds it: its observations, the commands that wait for its next step, and the borders of runs.
 //!
-//! *Run*: what is recorded to one file and can be replayed. Each run begins with a fresh brain that takes up a checkpoint
+//! *Run*: what is recorded to one file and can be replayed. Each run begins with a fresh brain that loads a checkpoint
 //! of the one before, and then sees the last observation again. So a replay needs nothing from before the run.
 
 mod floors;
@@ -14,9 +14,9 @@ use brain::{
 };
 pub(crate) use floors::FloorNews;
 use floors::Hands;
-use next_run::{FloorOnItsWay, NextHome, NextRun};
+use next_run::{LoadingFloor, NextHome, NextRun};
+use runs::RecordedRun;
 pub(crate) use runs::Recorder;
-use runs::Run;
 use rvac_api::HomeView;
 
 use crate::device::{Description, Part};
@@ -24,7 +24,7 @@ use crate::edges::Edges;
 use crate::floors::Floors;
 use crate::home_view::{FeltFloors, home_view};
 use crate::observe::{LinkView, Observer};
-use crate::quest::Quest;
+use crate::storey_resolver::StoreyResolver;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
 
 /// Speed at which a robot cleans unless it is slower than that, m/s.
@@ -32,7 +32,7 @@ const CRUISE_M_PER_S: f64 = 0.25;
 
 /// A brain for one robot.
 #[derive(Debug)]
-pub(crate) struct Mind {
+pub(crate) struct BrainSession {
     brain: Brain,
     config: BrainConfig,
     seed: u64,
@@ -40,27 +40,27 @@ pub(crate) struct Mind {
     /// Of what the observer has seen.
     edges: Edges,
     waiting: Vec<Command>,
-    /// Brains before this one: part of the number of the map.
+    /// Offset of the map's number from the brains before this one.
     map_base: u32,
-    /// The same for the revision of the home.
+    /// Offset of the home's revision from the brains before this one.
     home_base: u32,
     runs: u32,
-    run: Option<Run>,
+    run: Option<RecordedRun>,
     /// A run that begins as soon as its home is ready; commands wait for it.
     next: Option<NextRun>,
-    /// The home of a floor that is just being taken up.
-    on_its_way: Option<FloorOnItsWay>,
-    /// The floor whose map the brain has; `None` while nobody knows on which floor it is.
+    /// The home of a floor that is being loaded.
+    loading_floor: Option<LoadingFloor>,
+    /// The floor whose map the brain has; `None` while the floor is unknown.
     floor: Option<u16>,
     /// The search for the floor: while it is not known, and while the robot is lost on one of several.
-    quest: Option<Quest>,
+    storey_resolver: Option<StoreyResolver>,
     hands: Hands,
     identity: (String, String),
     robot: rvac_api::RobotDescription,
     measures_currents: bool,
 }
 
-impl Mind {
+impl BrainSession {
     /// A brain that begins with what a robot of this description has learnt.
     pub(crate) fn new(
         description: &Description,
@@ -84,9 +84,9 @@ impl Mind {
             runs: 0,
             run: None,
             next: None,
-            on_its_way: None,
+            loading_floor: None,
             floor: floors.homes().next().is_none().then(|| floors.first()),
-            quest: None,
+            storey_resolver: None,
             hands: Hands::default(),
             identity: (
                 description.identity.device.clone(),
@@ -101,29 +101,29 @@ impl Mind {
         &self.brain
     }
 
-    /// Dates what the robot perceives, for the next step.
+    /// Stamps the observation with the time, for the next step.
     pub(crate) fn stamp(&mut self, now_us: u64, link: LinkView) {
         self.observer.stamp(now_us, link);
         self.edges.take(now_us, self.observer.observation());
     }
 
-    /// What comes and goes of what the robot feels.
+    /// Changes of the contacts: bumper, cliffs, wheel drops.
     pub(crate) fn edges(&self) -> &Edges {
         &self.edges
     }
 
-    /// Begins anew in a home that is known.
+    /// Starts again in a known home.
     pub(crate) fn take_up(&mut self, home: &StoredMap) {
         self.begin_with(Brain::with_map(self.config, self.seed, home));
     }
 
-    /// Another brain thinks from now on. What it knows of the home is another revision than any before.
+    /// Replaces the brain. Its map gets a revision that no earlier one had.
     fn replace(&mut self, brain: Brain) {
         self.home_base = self.home_revision().wrapping_add(1);
         self.brain = brain;
     }
 
-    /// Another brain, without a run, that knows what the robot has learnt of itself.
+    /// Replaces the brain, without a run, and gives it the learned values.
     fn begin_with(&mut self, brain: Brain) {
         let learnt = self.brain.learnt();
         self.replace(brain);
@@ -131,7 +131,7 @@ impl Mind {
         self.prepare_anew();
     }
 
-    /// A run that is about to begin takes what the brain knows now.
+    /// A run that is about to begin starts from the brain's present state.
     pub(super) fn prepare_anew(&mut self) {
         if let Some(next) = self.next.take() {
             let anew = self.next.insert(NextRun::after(&self.brain, next.cause));
@@ -144,7 +144,7 @@ impl Mind {
         self.next.is_some()
     }
 
-    /// The robot knows nothing of these any more. It rests and is not recorded.
+    /// Forgets these learned values. The robot rests and is not recorded.
     pub(crate) fn forget(&mut self, parts: &[LearntPart]) {
         for part in parts {
             self.brain.forget(*part);
@@ -227,8 +227,8 @@ impl Mind {
         if let Some(cause) = cause
             && self.begins_run(cause)
         {
-            // One whose floor is just being taken up begins there.
-            let is_ready = self.on_its_way.is_none() && self.brain.map().knowledge().values().is_empty();
+            // A run whose floor is being loaded begins there.
+            let is_ready = self.loading_floor.is_none() && self.brain.map().knowledge().values().is_empty();
             if is_ready {
                 self.end_run(now_us, RunEnd::Finished, recorder);
                 let checkpoint = self.brain.checkpoint();
@@ -248,7 +248,7 @@ impl Mind {
         self.waiting.push(command);
     }
 
-    /// Whether `command` would be obeyed, by this brain once it has heard what waits for it, or by the one of the run that is about to
+    /// Whether `command` would be obeyed, by this brain once it has taken the waiting commands, or by the one of the run that is about to
     /// begin.
     pub(crate) fn admit(&self, command: &Command) -> Result<(), Reason> {
         let was_centred = self.next.as_ref().is_some_and(|next| next.stick_was_centred);
@@ -258,13 +258,13 @@ impl Mind {
         }
     }
 
-    /// Whether the stick came to the centre since the last stop of which the brain will hear with the next telemetry.
+    /// Whether the stick came to the centre since the last stop which reaches the brain with the next telemetry.
     fn centred_meanwhile(&self) -> bool {
         let newest = self.waiting.iter().rev().find_map(is_centred_by);
         newest.unwrap_or(false)
     }
 
-    /// Keeps in mind for the next run where the stick was; after a stop it must come to the centre anew.
+    /// Remembers for the next run where the stick was; after a stop it must return to the centre.
     fn watch_stick(&mut self, command: &Command) {
         if let (Some(next), Some(is_centred)) = (&mut self.next, is_centred_by(command)) {
             next.stick_was_centred = is_centred;
@@ -273,12 +273,12 @@ impl Mind {
 
     /// Whether [`Self::prepare`] has something to do.
     pub(crate) fn is_preparing(&self) -> bool {
-        self.next.is_some() || self.on_its_way.is_some()
+        self.next.is_some() || self.loading_floor.is_some()
     }
 
     /// Goes on with the home of a floor, then with that of the next run, and begins that when it is ready.
     pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
-        if let Some(floor) = &mut self.on_its_way {
+        if let Some(floor) = &mut self.loading_floor {
             floor.go_on();
             return;
         }
@@ -296,7 +296,7 @@ impl Mind {
         self.begin_run(now_us, (cause, checkpoint, Some(ready)), recorder);
     }
 
-    /// Whether what the brain knows is the home that is kept, so that people may change it.
+    /// Whether the brain's map is the stored one, so that people may edit it.
     pub(crate) fn admit_edit(&self) -> Result<(), &'static str> {
         match self.floor {
             None => Err("map-not-taken-up"),
@@ -305,7 +305,7 @@ impl Mind {
         }
     }
 
-    /// The home as it is worth keeping, with its floor; `None` while nobody knows on which it is, or the robot is lost.
+    /// The home as it is worth keeping, with its floor; `None` while the floor is unknown or the robot is lost.
     pub(crate) fn home_to_keep(&self) -> Option<FloorHome> {
         let floor = self.floor.filter(|_| !self.brain.estimate().lost)?;
         let home = self.brain.map().stored();

@@ -6,12 +6,12 @@ use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength};
 
 use super::lines::Lines;
 use super::reading::{LineError, Measured, Reading};
-use super::roster::{Place, Roster};
+use super::roster::{BeaconNumber, Roster};
 use super::{RadioForm, RadioSettings, dwm1001, json};
 
-/// Refused lines are told at the first, and then at most this often.
+/// Refused lines are reported at the first, and then at most this often.
 const TELL_EVERY: Duration = Duration::from_secs(60);
-/// Letters of a refused line that are told.
+/// Letters of a refused line that are reported.
 const EXCERPT: usize = 60;
 
 /// What bytes said.
@@ -19,18 +19,18 @@ const EXCERPT: usize = 60;
 pub(super) struct Heard {
     /// What was measured of beacons that count.
     pub(super) signals: Vec<BeaconSignal>,
-    /// Beacons that were heard for the first time, and their numbers.
+    /// Beacons that were received for the first time, and their numbers.
     pub(super) new: Vec<(String, u16)>,
-    /// Lines told of a beacon, whether or not it counts.
+    /// Lines named a beacon, whether or not it counts.
     pub(super) is_speaking: bool,
-    /// What there is to tell of refused lines.
+    /// Refused lines that are to be reported.
     pub(super) refused: Option<Refused>,
 }
 
 /// Lines that could not be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Refused {
-    /// So many since this was told last.
+    /// So many since the last report.
     pub(crate) count: u64,
     /// The beginning of the last of them.
     pub(crate) line: String,
@@ -40,7 +40,7 @@ pub(crate) struct Refused {
 
 /// Listens to a radio.
 #[derive(Debug)]
-pub(super) struct Ear {
+pub(super) struct RadioDecoder {
     form: RadioForm,
     sigma_m: f64,
     height_m: f64,
@@ -50,7 +50,7 @@ pub(super) struct Ear {
     told_at: Option<Duration>,
 }
 
-impl Ear {
+impl RadioDecoder {
     pub(super) fn new(settings: &RadioSettings) -> Self {
         Self {
             form: settings.form,
@@ -63,7 +63,7 @@ impl Ear {
         }
     }
 
-    /// The device was opened anew.
+    /// The device was opened again.
     pub(super) fn begin(&mut self) {
         self.lines = Lines::default();
     }
@@ -101,12 +101,12 @@ impl Ear {
     fn hear(&mut self, reading: &Reading, heard: &mut Heard) {
         heard.is_speaking = true;
         let beacon = match self.roster.place(&reading.beacon) {
-            Place::Known(number) => number,
-            Place::New(number) => {
+            BeaconNumber::Known(number) => number,
+            BeaconNumber::New(number) => {
                 heard.new.push((reading.beacon.to_string(), number));
                 number
             }
-            Place::Stranger => return,
+            BeaconNumber::Stranger => return,
         };
         heard.signals.push(match reading.measured {
             Measured::Range(range_m, sigma_m) => {
@@ -155,7 +155,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::super::{BeaconName, RadioForm, RadioSettings};
-    use super::{Ear, level};
+    use super::{RadioDecoder, level};
 
     const LINES: &str = "\n{\"beacon\":\"hall\",\"range_m\":3.21}\n{\"beacon\":\"kitchen\",\"range_m\":0.5,\"sigma_m\":0.1}\n{\"beacon\":\"hall\",\"rssi_dbm\":-63}\n";
     const SHELL: &str = "\r\nDIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,8.00,2.25,6.51,POS,2.57,1.98,1.68,100\r\n\
@@ -170,8 +170,8 @@ mod tests {
 
     #[test]
     fn distances_get_numbers_and_deviations() {
-        let mut ear = Ear::new(&settings(RadioForm::Lines));
-        let heard = ear.take(Duration::ZERO, LINES.as_bytes());
+        let mut decoder = RadioDecoder::new(&settings(RadioForm::Lines));
+        let heard = decoder.take(Duration::ZERO, LINES.as_bytes());
         let range = |beacon, range_m, sigma_m| {
             BeaconSignal::Range(BeaconRange {
                 beacon,
@@ -193,26 +193,26 @@ mod tests {
         assert_eq!(heard.new, [("hall".to_owned(), 0), ("kitchen".to_owned(), 1)]);
         assert!(heard.is_speaking);
         assert_eq!(heard.refused, None);
-        assert_eq!(ear.take(Duration::ZERO, LINES.as_bytes()).new, []);
+        assert_eq!(decoder.take(Duration::ZERO, LINES.as_bytes()).new, []);
     }
 
     #[test]
     fn strangers_speak_and_do_not_count() {
         let hall = BeaconName::new("hall").unwrap();
-        let mut ear = Ear::new(&RadioSettings {
+        let mut decoder = RadioDecoder::new(&RadioSettings {
             beacons: vec![hall],
             ..settings(RadioForm::Lines)
         });
-        let heard = ear.take(Duration::ZERO, LINES.as_bytes());
+        let heard = decoder.take(Duration::ZERO, LINES.as_bytes());
         assert_eq!((heard.signals.len(), heard.is_speaking), (2, true));
     }
 
     #[test]
     fn broken_lines_are_counted_and_told_once_a_minute() {
-        let mut ear = Ear::new(&settings(RadioForm::Lines));
+        let mut decoder = RadioDecoder::new(&settings(RadioForm::Lines));
         let mut told = Vec::new();
         for second in 0..=120 {
-            let heard = ear.take(Duration::from_secs(second), b"\nnonsense\n");
+            let heard = decoder.take(Duration::from_secs(second), b"\nnonsense\n");
             assert_eq!((heard.signals.len(), heard.is_speaking), (0, false));
             told.extend(heard.refused.map(|refused| (second, refused.count, refused.line)));
         }
@@ -255,10 +255,10 @@ mod tests {
                 }
             }
             bytes.extend_from_slice(text.as_bytes());
-            let mut ear = Ear::new(&RadioSettings { height_m: 1.0, ..settings(form) });
+            let mut decoder = RadioDecoder::new(&RadioSettings { height_m: 1.0, ..settings(form) });
             let mut signals = Vec::new();
             for piece in bytes.chunks(cut) {
-                signals.extend(ear.take(Duration::ZERO, piece).signals);
+                signals.extend(decoder.take(Duration::ZERO, piece).signals);
             }
             for signal in &signals {
                 match signal {

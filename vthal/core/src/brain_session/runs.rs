@@ -2,14 +2,14 @@
 
 use brain::{Brain, Checkpoint, LoadedHome};
 
-use super::Mind;
+use super::BrainSession;
 use crate::{Outputs, Record, Recording, RunCause, RunEnd, RunStart};
 
 /// A run ends when the robot has rested for this long.
 const REST_ENDS_RUN_US: u64 = 5_000_000;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
+pub(super) struct RecordedRun {
     /// Since when the robot rests, if it does.
     resting_since_us: Option<u64>,
 }
@@ -35,7 +35,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-impl Mind {
+impl BrainSession {
     pub(crate) fn is_recorded(&self) -> bool {
         self.run.is_some()
     }
@@ -89,7 +89,7 @@ impl Mind {
             Some(home) => self.brain.restore_at(home, &checkpoint),
             None => self.brain.restore(&checkpoint),
         }
-        self.run = Some(Run {
+        self.run = Some(RecordedRun {
             resting_since_us: None,
         });
         recorder.write(|| {

@@ -1,7 +1,7 @@
-//! On which floor the robot is, while that is not known.
+//! Finds out on which floor the robot is, while that is unknown.
 //!
-//! *Chosen*: a person has said which; then only the place on it is looked for. *Asked*: neither the dock nor the way so far
-//! tells the floor, so a person should.
+//! *Chosen*: a person has chosen the floor; then only the position on it is searched. *Asked*: neither the dock nor the path so far
+//! determines the floor, so a person is asked.
 
 use brain::config::BrainConfig;
 use brain::{Observation, StoreyFinder, StoreyFinding, StoreyPose};
@@ -13,7 +13,7 @@ use crate::floors::Floors;
 pub(crate) enum Question {
     /// Several floors have a dock, and the robot stands on one.
     WhichDock,
-    /// No map fits the robot's way, or several do.
+    /// No map fits the robot's path, or several do.
     FloorUnknown,
 }
 
@@ -28,13 +28,13 @@ impl Question {
 
 /// The search for the floor.
 #[derive(Debug, Default)]
-pub(crate) struct Quest {
+pub(crate) struct StoreyResolver {
     pub(crate) chosen: Option<u16>,
     pub(crate) asked: Option<Question>,
     finder: Option<Box<StoreyFinder>>,
 }
 
-impl Quest {
+impl StoreyResolver {
     pub(crate) fn for_floor(chosen: u16) -> Self {
         Self {
             chosen: Some(chosen),
@@ -42,7 +42,7 @@ impl Quest {
         }
     }
 
-    /// Compares what was perceived with the maps of all floors that come into question.
+    /// Compares the observation with the maps of all candidate floors.
     pub(crate) fn follow(
         &mut self,
         observation: &Observation,
@@ -65,7 +65,7 @@ impl Quest {
         }
     }
 
-    /// The floor whose dock this must be; asks a person if it can be several ones'.
+    /// The floor whose dock this must be; asks a person if several have one.
     pub(crate) fn by_dock(&mut self, floors: &Floors) -> Option<u16> {
         let known = |number: u16| floors.home(number).is_some();
         if let Some(chosen) = self.chosen.filter(|chosen| known(*chosen)) {

@@ -3,14 +3,14 @@
 use brain::mapping::StoredMap;
 use brain::{Brain, Checkpoint, LoadedHome, StoreyPose};
 
-use super::next_run::FloorOnItsWay;
-use super::{Mind, Recorder};
+use super::next_run::LoadingFloor;
+use super::{BrainSession, Recorder};
 use crate::edges::Sign;
 use crate::floors::Floors;
-use crate::quest::{Quest, Question};
+use crate::storey_resolver::{Question, StoreyResolver};
 use crate::{RunCause, RunEnd};
 
-/// A wheel that hangs for so long hangs because somebody holds the robot.
+/// A wheel that hangs for this long means that somebody holds the robot.
 const LIFTED_US: u64 = 1_000_000;
 
 /// Whether hands had the robot since its floor was known.
@@ -40,31 +40,33 @@ impl Hands {
 /// What has become known of the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FloorNews {
-    /// The robot stands on the dock of this floor, whose map is taken up.
+    /// The robot stands on the dock of this floor, whose map is loaded.
     Docked(u16),
-    /// The robot has found itself on this floor, whose map is taken up.
+    /// The robot has found itself on this floor, whose map is loaded.
     Found(u16),
     /// A person is asked.
     Asked(Question),
 }
 
-impl Mind {
+impl BrainSession {
     /// The floor on which the robot is, as far as that is known.
     pub(crate) fn floor(&self) -> Option<u16> {
         self.floor
     }
 
-    /// Why a person should say which floor it is; `None` while nobody need.
+    /// Why a person is asked for the floor; `None` if nobody is.
     pub(crate) fn asked(&self) -> Option<Question> {
-        self.quest.as_ref().and_then(|quest| quest.asked)
+        self.storey_resolver
+            .as_ref()
+            .and_then(|storey_resolver| storey_resolver.asked)
     }
 
-    /// Whether the floor is being looked for.
+    /// Whether the floor is being searched.
     pub(crate) fn seeks_floor(&self) -> bool {
-        self.floor.is_none() || self.quest.is_some()
+        self.floor.is_none() || self.storey_resolver.is_some()
     }
 
-    /// Finds out on which floor the robot is: from the dock, where it stands at rest, or from its way. What it has drawn
+    /// Finds out on which floor the robot is: from the dock, where it stands at rest, or from where it has driven. What it has drawn
     /// since, not knowing, is forgotten. To be called before each step.
     pub(crate) fn look_for_floor(
         &mut self,
@@ -73,28 +75,28 @@ impl Mind {
         recorder: &mut Recorder<'_>,
     ) -> Option<FloorNews> {
         let asked_before = self.asked();
-        let under_way = self.on_its_way.take();
+        let loading_floor = self.loading_floor.take();
         let observation = self.observer.observation();
         if self.run.is_none() && observation.docked && observation.link_up {
             self.hands.rest(self.edges.since_us(Sign::WheelDrop));
-            let news = self.know_dock(floors, under_way);
+            let news = self.know_dock(floors, loading_floor);
             return news.or_else(|| self.new_question(asked_before));
         }
         self.hands.watch(now_us, self.edges.since_us(Sign::WheelDrop));
         self.run?;
         let is_lost_among_several = self.brain.estimate().lost && floors.homes().nth(1).is_some();
         if self.floor.is_some() && !is_lost_among_several {
-            self.quest = None;
+            self.storey_resolver = None;
             return None;
         }
-        let quest = self.quest.get_or_insert_default();
+        let storey_resolver = self.storey_resolver.get_or_insert_default();
         let seed = self.seed;
-        match quest.follow(self.observer.observation(), (floors, &self.config, seed)) {
+        match storey_resolver.follow(self.observer.observation(), (floors, &self.config, seed)) {
             // It has its map, and will find itself in it as well.
             Some(place) if self.floor == Some(place.floor) => None,
             Some(place) => {
                 let home = floors.home(place.floor)?;
-                let ready = self.home_of(under_way, (place.floor, home))?;
+                let ready = self.home_of(loading_floor, (place.floor, home))?;
                 self.move_to(now_us, (place, home, ready), recorder);
                 Some(FloorNews::Found(place.floor))
             }
@@ -109,7 +111,7 @@ impl Mind {
     }
 
     /// The robot stands on a dock at rest.
-    fn know_dock(&mut self, floors: &Floors, under_way: Option<FloorOnItsWay>) -> Option<FloorNews> {
+    fn know_dock(&mut self, floors: &Floors, loading_floor: Option<LoadingFloor>) -> Option<FloorNews> {
         let docks = floors.homes().filter(|(_, home)| home.dock().is_some()).count();
         if self.floor.is_some() && self.hands.had_it && docks > 1 {
             self.forget_floor(None);
@@ -117,26 +119,30 @@ impl Mind {
         if self.floor.is_some() {
             return None;
         }
-        let number = self.quest.get_or_insert_default().by_dock(floors)?;
-        let home = self.home_of(under_way, (number, floors.home(number)?))?;
+        let number = self.storey_resolver.get_or_insert_default().by_dock(floors)?;
+        let home = self.home_of(loading_floor, (number, floors.home(number)?))?;
         self.begin_with(Brain::with_home(self.config, self.seed, home));
         self.floor = Some(number);
-        self.quest = None;
+        self.storey_resolver = None;
         self.hands = Hands::default();
         Some(FloorNews::Docked(number))
     }
 
     /// The home of a floor; it takes some steps until it is ready.
-    fn home_of(&mut self, under_way: Option<FloorOnItsWay>, floor: (u16, &StoredMap)) -> Option<LoadedHome> {
-        let mut floor = FloorOnItsWay::for_floor(under_way, floor, &self.config);
+    fn home_of(
+        &mut self,
+        loading_floor: Option<LoadingFloor>,
+        floor: (u16, &StoredMap),
+    ) -> Option<LoadedHome> {
+        let mut floor = LoadingFloor::for_floor(loading_floor, floor, &self.config);
         let ready = floor.take();
         if ready.is_none() {
-            self.on_its_way = Some(floor);
+            self.loading_floor = Some(floor);
         }
         ready
     }
 
-    /// The robot is at a place of a floor: what it does goes on there.
+    /// The robot is at a place of a floor: its job continues there.
     fn move_to(
         &mut self,
         now_us: u64,
@@ -151,7 +157,7 @@ impl Mind {
         };
         self.go_on_with(now_us, (checkpoint, Some(ready)), recorder);
         self.floor = Some(place.floor);
-        self.quest = None;
+        self.storey_resolver = None;
         self.hands = Hands::default();
     }
 
@@ -189,32 +195,32 @@ impl Mind {
         self.map_base = self.map_number();
         self.begin_with(Brain::new(self.config, self.seed));
         self.floor = None;
-        self.quest = Some(chosen.map_or_else(Quest::default, Quest::for_floor));
+        self.storey_resolver = Some(chosen.map_or_else(StoreyResolver::default, StoreyResolver::for_floor));
     }
 
-    /// A person says on which floor the robot is. It is taken up on the dock, or when the robot has found its place on it. A
+    /// A person says on which floor the robot is. Its map is loaded on the dock, or when the robot has found its position on it. A
     /// run that has nothing left to do ends before.
     pub(crate) fn choose_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
         if self.floor.is_none() && self.run.is_some() {
-            self.quest = Some(Quest::for_floor(number));
+            self.storey_resolver = Some(StoreyResolver::for_floor(number));
         } else {
             self.end_run(now_us, RunEnd::Finished, recorder);
             self.forget_floor(Some(number));
         }
     }
 
-    /// A person says that the robot is on a floor of which nothing is kept. What it has drawn, not knowing where it was, is
+    /// A person says that the robot is on a floor that is not stored. What it has drawn, not knowing where it was, is
     /// the map of this floor.
     pub(crate) fn begin_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
         if self.floor.is_some() {
             self.go_on_with(now_us, (self.without_place(), None), recorder);
         }
         self.floor = Some(number);
-        self.quest = None;
+        self.storey_resolver = None;
         self.hands = Hands::default();
     }
 
-    /// The map of a floor is another one now. If the robot is there, it is taken up when it stands on its dock; a run that has nothing
+    /// The map of a floor is another one now. If the robot is there, it is loaded when the robot stands on its dock; a run that has nothing
     /// left to do ends before.
     pub(crate) fn offer(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
         if self.floor.is_none_or(|floor| floor == number) {
@@ -222,12 +228,12 @@ impl Mind {
         }
     }
 
-    /// A floor is not there any more.
+    /// A floor was removed.
     pub(crate) fn lose_floor(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
         let is_sought = self
-            .quest
+            .storey_resolver
             .as_ref()
-            .is_some_and(|quest| quest.chosen == Some(number));
+            .is_some_and(|storey_resolver| storey_resolver.chosen == Some(number));
         if self.floor == Some(number) || is_sought {
             self.end_run(now_us, RunEnd::Finished, recorder);
             self.forget_floor(None);
