@@ -12,16 +12,16 @@ use crate::coverage::{JobEstimate, estimate};
 use crate::localization::Localization;
 use crate::mapping::{BeamMemory, Brushes, CarpetSense, Map, Mark, MarkKind, ReadyHome, SeenAt, StoredMap};
 use crate::model::action::Actions;
-use crate::model::command::{Command, StrategyName};
+use crate::model::command::{Command, JobCommand, StrategyName};
 use crate::model::config::BrainConfig;
 use crate::model::energy::EnergyModel;
 use crate::model::geometry::{Point2, Pose2};
+use crate::model::job_refusal::JobRefusal;
 use crate::model::learnt::{GyroLearnt, Learnt};
 use crate::model::observation::{Cliffs, Contacts, Observation};
 use crate::model::order::CleaningOrder;
 use crate::model::pose_estimate::PoseEstimate;
 use crate::model::random::Random;
-use crate::model::reason::Reason;
 use crate::model::room_settings::RoomPower;
 use crate::model::swept_share::SweptShare;
 use crate::navigation::Mind;
@@ -124,8 +124,12 @@ impl Brain {
             .learn(&self.map, &self.config, observation.time_us);
         self.correct_map(correction);
         self.note_encounters(observation, &estimate);
+        let mut jobs = Vec::new();
         for command in commands {
-            self.edit_map(command, observation.docked);
+            match command {
+                Command::Edit(edit) => self.edit(edit, observation.docked),
+                Command::Job(job) => jobs.push(job),
+            }
         }
         let situation = Parts {
             localization: &self.localization,
@@ -134,7 +138,7 @@ impl Brain {
             config: &self.config,
         }
         .situation(observation, advance);
-        let intent = self.behavior.step(&situation, commands, &mut self.mind);
+        let intent = self.behavior.step(&situation, &jobs, &mut self.mind);
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();
             self.map.avoid(self.behavior.avoided());
@@ -166,8 +170,8 @@ impl Brain {
     /// Whether `command` would be obeyed in the situation of the last step. A shell asks this first, to answer its client.
     ///
     /// # Errors
-    /// The named reason why it would be refused.
-    pub fn admit(&self, command: &Command) -> Result<(), Reason> {
+    /// Why it would be refused.
+    pub fn admit(&self, command: &JobCommand) -> Result<(), JobRefusal> {
         self.behavior.admit(command, &self.map)
     }
 
@@ -198,8 +202,8 @@ impl Brain {
     /// What carrying out an order will take from where the robot is. A plan of the whole order: some tens of milliseconds.
     ///
     /// # Errors
-    /// The named reason why the order cannot be carried out in this map.
-    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, Reason> {
+    /// Why the order cannot be carried out in this map.
+    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, JobRefusal> {
         estimate(order, (&self.map, self.pose()), (&self.config, &self.energy()))
     }
 

@@ -1,8 +1,8 @@
 //! What an observation means for the state machine.
 
+use crate::model::fault::Fault;
 use crate::model::inhibit::Inhibit;
 use crate::model::observation::{ChargeFlow, Observation};
-use crate::model::reason::Reason;
 
 /// Digest of one observation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,7 +22,7 @@ pub(crate) struct Facts {
     /// The charger has stopped for a fault.
     pub(crate) charger_fault: bool,
     /// A fault that needs a person.
-    pub(crate) fault: Option<Reason>,
+    pub(crate) fault: Option<Fault>,
     /// Inhibits that `arm` takes away.
     pub(crate) disarmed: Disarmed,
     /// The firmware rests because commands moved nothing.
@@ -67,7 +67,7 @@ impl Facts {
             facts.add_inhibit(inhibit);
         }
         if observation.inhibits.other().is_some() {
-            facts.fault = Some(Reason::UnknownInhibit);
+            facts.fault = Some(Fault::UnknownInhibit);
         }
         facts
     }
@@ -103,7 +103,7 @@ impl Facts {
             | Inhibit::Thermistor
             | Inhibit::ChargerShorted
             | Inhibit::Clock
-            | Inhibit::Memory => self.fault = Some(Reason::of_inhibit(inhibit)),
+            | Inhibit::Memory => self.fault = Some(Fault::of_inhibit(inhibit)),
         }
     }
 }
@@ -111,9 +111,9 @@ impl Facts {
 #[cfg(test)]
 mod tests {
     use super::Facts;
+    use crate::model::fault::Fault;
     use crate::model::inhibit::Inhibits;
     use crate::model::observation::Observation;
-    use crate::model::reason::Reason;
 
     fn facts_of(name: &'static str) -> Facts {
         let observation = Observation {
@@ -136,12 +136,12 @@ mod tests {
     #[test]
     fn what_needs_a_person_is_a_fault_by_its_name() {
         for (name, reason) in [
-            ("battery-empty", Reason::BatteryEmpty),
-            ("battery-overheated", Reason::BatteryOverheated),
-            ("thermistor", Reason::Thermistor),
-            ("charger-shorted", Reason::ChargerShorted),
-            ("memory", Reason::Memory),
-            ("flux-capacitor", Reason::UnknownInhibit),
+            ("battery-empty", Fault::BatteryEmpty),
+            ("battery-overheated", Fault::BatteryOverheated),
+            ("thermistor", Fault::Thermistor),
+            ("charger-shorted", Fault::ChargerShorted),
+            ("memory", Fault::Memory),
+            ("flux-capacitor", Fault::UnknownInhibit),
         ] {
             assert_eq!(facts_of(name).fault, Some(reason), "{name}");
         }

@@ -13,7 +13,7 @@ use super::facts::Facts;
 use super::job::Job;
 use super::{BehaviorState, JobFigures, JobKind, Status};
 use crate::model::action::{Arm, Motion, Tone};
-use crate::model::command::Command;
+use crate::model::command::JobCommand;
 use crate::model::config::BrainConfig;
 use crate::model::energy::EnergyWatch;
 use crate::model::geometry::Point2;
@@ -192,7 +192,7 @@ impl Behavior {
     pub(crate) fn step(
         &mut self,
         situation: &Situation<'_>,
-        commands: &[Command],
+        commands: &[&JobCommand],
         mind: &mut Mind,
     ) -> Intent {
         self.facts = Facts::read(situation.observation, self.config.battery_low);
@@ -201,7 +201,7 @@ impl Behavior {
         for command in commands {
             match self.admit(command, situation.map) {
                 Ok(()) => self.obey(command, mind),
-                Err(reason) => mind.decide("refuse", reason, 0.0),
+                Err(refusal) => mind.refuse("refuse", refusal.name()),
             }
         }
         self.watch_energy(situation);

@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use super::room_cut::{PartSide, nearest_cut};
 use super::{Cell, Raster};
 use crate::model::cut_line::CutLine;
+use crate::model::edit_error::EditError;
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
-use crate::model::reason::Reason;
 
 /// Most changes of a home's rooms, and most splits that were taken back and may be made again under their identities.
 pub(super) const CHANGES_MAX: usize = 64;
@@ -109,15 +109,15 @@ impl RoomChanges {
             .map(|(other, _)| *other)
     }
 
-    pub(super) fn has_room_for_another(&self) -> Result<(), Reason> {
+    pub(super) fn has_room_for_another(&self) -> Result<(), EditError> {
         if self.made.len() < CHANGES_MAX && self.next < u16::MAX {
             Ok(())
         } else {
-            Err(Reason::TooManyRoomChanges)
+            Err(EditError::TooManyRoomChanges)
         }
     }
 
-    pub(super) fn add(&mut self, change: RoomChange) -> Result<(), Reason> {
+    pub(super) fn add(&mut self, change: RoomChange) -> Result<(), EditError> {
         self.has_room_for_another()?;
         if let RoomChange::Split(split) = &change {
             self.taken_back.retain(|before| before.part != split.part);
@@ -133,17 +133,17 @@ impl RoomChanges {
         self.taken_back.iter().rev().find(is_same).map(|split| split.part)
     }
 
-    pub(super) fn may_be_taken_back(&self, number: u16) -> Result<(), Reason> {
+    pub(super) fn may_be_taken_back(&self, number: u16) -> Result<(), EditError> {
         if !self.made.contains_key(&number) {
-            return Err(Reason::NoSuchRoomChange);
+            return Err(EditError::NoSuchRoomChange);
         }
         match self.built_on(number) {
-            Some(_) => Err(Reason::RoomChangeInUse),
+            Some(_) => Err(EditError::RoomChangeInUse),
             None => Ok(()),
         }
     }
 
-    pub(super) fn take_back(&mut self, number: u16) -> Result<(), Reason> {
+    pub(super) fn take_back(&mut self, number: u16) -> Result<(), EditError> {
         self.may_be_taken_back(number)?;
         if let Some(RoomChange::Split(split)) = self.made.remove(&number) {
             if self.taken_back.len() >= CHANGES_MAX {

@@ -1,9 +1,9 @@
 //! Zones and spots that people keep under a name, to have them cleaned again.
 
+use super::edit_error::EditError;
 use super::geometry::Point2;
 use super::no_go::{RoomName, in_micrometres};
 use super::order::HomePart;
-use super::reason::Reason;
 use super::zone::{FAR_M, Zone};
 
 /// What a person has drawn.
@@ -37,8 +37,8 @@ impl KeptPlace {
     /// A place under a name.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] for one that is far away.
-    pub fn new(name: RoomName, shape: &PlaceShape) -> Result<Self, Reason> {
+    /// [`EditError::BadZone`] for one that is far away.
+    pub fn new(name: RoomName, shape: &PlaceShape) -> Result<Self, EditError> {
         let shape = match shape {
             PlaceShape::Zone(zone) => {
                 let corners = zone.corners().iter().copied().map(in_micrometres);
@@ -47,7 +47,7 @@ impl KeptPlace {
             PlaceShape::Spot(place) if place.x_m.abs() < FAR_M && place.y_m.abs() < FAR_M => {
                 PlaceShape::Spot(in_micrometres(*place))
             }
-            PlaceShape::Spot(_) => return Err(Reason::BadZone),
+            PlaceShape::Spot(_) => return Err(EditError::BadZone),
         };
         Ok(Self { name, shape })
     }
@@ -61,8 +61,8 @@ impl KeptPlace {
     /// The same elsewhere.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] for a shape that is far away.
-    pub fn with_shape(self, shape: &PlaceShape) -> Result<Self, Reason> {
+    /// [`EditError::BadZone`] for a shape that is far away.
+    pub fn with_shape(self, shape: &PlaceShape) -> Result<Self, EditError> {
         Self::new(self.name, shape)
     }
 

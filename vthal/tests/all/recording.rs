@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use brain::action::{Arm, Decision, Tone};
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
-use brain::{Actions, Body, BrainConfig, Command, Inhibits, Motion, Observation, Speeds, StrategyName};
+use brain::{Actions, Body, BrainConfig, Inhibits, JobCommand, Motion, Observation, Speeds, StrategyName};
 use mcap::{MessageStream, Summary};
 use rvac_api::{
     BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RoomHere,
@@ -129,9 +129,10 @@ fn records() -> Vec<Record> {
     let mut records = vec![
         Record::Command {
             time_us: BEGIN_US,
-            command: Command::Clean {
+            command: JobCommand::Clean {
                 strategy: StrategyName::Bounce,
-            },
+            }
+            .into(),
         },
         Record::Observation(full),
         Record::Observation(Observation::default()),

@@ -3,6 +3,7 @@
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
 use crate::behavior::job::Job;
+use crate::model::fault::Fault;
 use crate::model::reason::Reason;
 use crate::navigation::{Mind, Situation};
 
@@ -13,7 +14,7 @@ const SENSOR_PATIENCE_US: u64 = 2_000_000;
 
 impl Behavior {
     /// The fault that stands in this observation, if any.
-    pub(super) fn fault(&mut self) -> Option<Reason> {
+    pub(super) fn fault(&mut self) -> Option<Fault> {
         if !self.facts.cliff_sensor {
             self.cliff_sensor_since_us = None;
             return self.facts.fault;
@@ -21,7 +22,7 @@ impl Behavior {
         let now_us = self.facts.now_us;
         let since_us = *self.cliff_sensor_since_us.get_or_insert(now_us);
         let lasting = now_us.saturating_sub(since_us) >= SENSOR_PATIENCE_US;
-        self.facts.fault.or(lasting.then_some(Reason::CliffSensor))
+        self.facts.fault.or(lasting.then_some(Fault::CliffSensor))
     }
 
     /// Changes the mode where what was perceived demands it.
@@ -84,10 +85,10 @@ impl Behavior {
     /// True while a fault stands or waits to be acknowledged.
     fn react_to_fault(&mut self, mind: &mut Mind) -> bool {
         match (self.mode, self.facts.fault) {
-            (Mode::Error { .. }, Some(fault)) => self.reason = fault,
+            (Mode::Error { .. }, Some(fault)) => self.reason = Reason::Fault(fault),
             (_, Some(fault)) => {
                 self.centre_first |= matches!(self.mode, Mode::Manual(_));
-                self.enter(Mode::Error { acknowledged: false }, fault, mind);
+                self.enter(Mode::Error { acknowledged: false }, Reason::Fault(fault), mind);
             }
             (Mode::Error { acknowledged: true }, None) => {
                 let reason = self.reason;

@@ -1,5 +1,6 @@
 //! The map of the home and of one job in it.
 
+mod edit;
 mod editing;
 mod known_home;
 mod loader;

@@ -1,6 +1,6 @@
 //! What the device told, and who hears of it.
 
-use brain::Command;
+use brain::JobCommand;
 use rvac_api::{LogLevel, RunAsker};
 
 use super::Core;
@@ -175,7 +175,7 @@ impl Core {
         }
     }
 
-    fn command_by_button(&mut self, now_us: u64, command: Command, outputs: &mut Outputs) {
+    fn command_by_button(&mut self, now_us: u64, command: JobCommand, outputs: &mut Outputs) {
         if self.driver.admit(now_us, Source::Button).is_err() {
             return;
         }
@@ -184,7 +184,7 @@ impl Core {
         if self.mind.as_ref().is_some_and(is_admitted) {
             let brain = self.mind.as_ref().map(Mind::brain);
             self.history.order(RunAsker::Button, &command, brain);
-            self.command_brain(now_us, command, outputs);
+            self.command_brain(now_us, command.into(), outputs);
         }
     }
 }

@@ -1,11 +1,11 @@
-//! What clients say of the home that is kept: each change is admitted, taken up by the brain with its next step, and answered
-//! when the map with it is on the disk.
+//! Edits of the stored home by clients. Each edit is admitted, applied in the next step of the brain, and answered when the map with
+//! it is on the disk.
 
 mod no_go;
 mod places;
 mod rooms;
 
-use brain::{Brain, Command, Pose2, Reason};
+use brain::{Brain, EditError, MapEdit, Pose2, Reason};
 use rvac_api::{Failure, LogLevel, Update};
 
 use super::audience::{Asker, Asking, Teller};
@@ -14,7 +14,7 @@ use super::reply::Reply;
 use crate::mind::Mind;
 use crate::outputs::{Delivery, Recipients};
 use crate::refusal::Refusal;
-use crate::{FloorHome, MapEdit, Outputs};
+use crate::{EditedMap, FloorHome, Outputs};
 
 pub(crate) use no_go::{NoGoRequest, to_no_go};
 pub(crate) use places::{PlaceRequest, to_shape, with_any_places, with_places};
@@ -33,19 +33,19 @@ pub(crate) enum HomeRequest {
     MoveDock(Pose2),
 }
 
-/// A change of the map that the brain would take.
+/// An edit that the map admits.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Edit {
-    pub(crate) command: Command,
+pub(crate) struct AdmittedEdit {
+    pub(crate) edit: MapEdit,
     /// What whoever asks for it does, for the log.
     deed: &'static str,
 }
 
-impl Edit {
-    /// The change, if the brain would take it now.
-    fn admitted(brain: &Brain, command: Command, deed: &'static str) -> Result<Self, Reason> {
-        brain.admit(&command)?;
-        Ok(Self { command, deed })
+impl AdmittedEdit {
+    /// The edit, if the map admits it now.
+    fn new(brain: &Brain, edit: MapEdit, deed: &'static str) -> Result<Self, EditError> {
+        brain.map().admit(&edit)?;
+        Ok(Self { edit, deed })
     }
 }
 
@@ -70,7 +70,7 @@ impl HomeDesk {
         Asking { asker, request }: &Asking<HomeRequest>,
         mind: Option<&Mind>,
         teller: &mut Teller<'_>,
-    ) -> Result<(Edit, Reply), Refusal> {
+    ) -> Result<(AdmittedEdit, Reply), Refusal> {
         let edit = match request {
             HomeRequest::NoGo(request) => request.edit(mind),
             HomeRequest::Place(request) => request.edit(mind),
@@ -87,7 +87,7 @@ impl HomeDesk {
     pub(crate) fn keep(&mut self, home: Option<&FloorHome>, outputs: &mut Outputs) {
         for Asker { client, id } in self.waiting.drain(..) {
             match home {
-                Some(home) => outputs.map_edits.push(MapEdit {
+                Some(home) => outputs.map_edits.push(EditedMap {
                     client,
                     id,
                     home: home.clone(),

@@ -2,10 +2,10 @@
 
 use brain::CutLine;
 use brain::zone::FAR_M;
-use brain::{Brain, Command, Point2, Pose2, Reason};
+use brain::{Brain, EditError, MapEdit, Point2, Pose2, RoomEdit};
 use rvac_api::{RoomNaming, RoomSettings, RoomSplitting};
 
-use super::{Edit, known_home};
+use super::{AdmittedEdit, known_home};
 use crate::desk::room_power::to_brain;
 use crate::desk::words::to_name;
 use crate::mind::Mind;
@@ -30,7 +30,7 @@ pub(crate) enum RoomRequest {
 }
 
 impl RoomRequest {
-    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+    pub(super) fn edit(&self, mind: Option<&Mind>) -> Result<AdmittedEdit, Refusal> {
         match self {
             Self::Name(naming) => name_room(naming, mind),
             Self::Set { room, settings } => set_room(*room, *settings, mind),
@@ -41,72 +41,72 @@ impl RoomRequest {
     }
 }
 
-fn name_room(naming: &RoomNaming, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn name_room(naming: &RoomNaming, mind: Option<&Mind>) -> Result<AdmittedEdit, Refusal> {
     let room = naming.room;
     let name = naming.name.as_deref().map(to_name).transpose()?;
     let brain = known_home(mind)?.brain();
-    let command = Command::NameRoom { room, name };
-    Edit::admitted(brain, command, "names a room").map_err(|reason| match reason {
-        Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
-        Reason::NameTaken => {
-            Refusal::because(reason, "Another room is called so: take another name.".to_owned())
+    let edit = MapEdit::Room(RoomEdit::Name { room, name });
+    AdmittedEdit::new(brain, edit, "names a room").map_err(|error| match error {
+        EditError::NoSuchRoom => Refusal::no_such_room(room, brain),
+        EditError::NameTaken => {
+            Refusal::because(error, "Another room is called so: take another name.".to_owned())
         }
-        _ => Refusal::from(reason),
+        _ => Refusal::from(error),
     })
 }
 
-fn set_room(room: u16, settings: Option<RoomSettings>, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn set_room(room: u16, settings: Option<RoomSettings>, mind: Option<&Mind>) -> Result<AdmittedEdit, Refusal> {
     let settings = settings.map(to_brain).transpose()?;
     let brain = known_home(mind)?.brain();
-    let command = Command::SetRoom { room, settings };
-    Edit::admitted(brain, command, "says how a room is cleaned").map_err(|reason| match reason {
-        Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
-        _ => Refusal::from(reason),
+    let edit = MapEdit::Room(RoomEdit::Set { room, settings });
+    AdmittedEdit::new(brain, edit, "says how a room is cleaned").map_err(|error| match error {
+        EditError::NoSuchRoom => Refusal::no_such_room(room, brain),
+        _ => Refusal::from(error),
     })
 }
 
-fn split_room(splitting: &RoomSplitting, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn split_room(splitting: &RoomSplitting, mind: Option<&Mind>) -> Result<AdmittedEdit, Refusal> {
     let line = to_line(splitting.line)?;
     let room = splitting.room;
     let brain = resting_home(mind)?.brain();
-    let command = Command::SplitRoom { room, line };
-    Edit::admitted(brain, command, "splits a room").map_err(|reason| match (reason, room) {
-        (Reason::NoSuchRoom, Some(room)) => Refusal::no_such_room(room, brain),
-        (Reason::LineMissesRoom, Some(room)) => Refusal::because(
-            reason,
+    let edit = MapEdit::Room(RoomEdit::Split { room, line });
+    AdmittedEdit::new(brain, edit, "splits a room").map_err(|error| match (error, room) {
+        (EditError::NoSuchRoom, Some(room)) => Refusal::no_such_room(room, brain),
+        (EditError::LineMissesRoom, Some(room)) => Refusal::because(
+            error,
             format!(
                 "The line from {} does not cut room {room}: draw it across the room, from one wall to the other.",
                 ends(splitting.line)
             ),
         ),
-        _ => of_line(reason, splitting.line),
+        _ => of_line(error, splitting.line),
     })
 }
 
-fn join_rooms(rooms: [u16; 2], mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn join_rooms(rooms: [u16; 2], mind: Option<&Mind>) -> Result<AdmittedEdit, Refusal> {
     let brain = resting_home(mind)?.brain();
-    let command = Command::JoinRooms { rooms };
-    Edit::admitted(brain, command, "joins two rooms").map_err(|reason| match reason {
-        Reason::NoSuchRoom => {
+    let edit = MapEdit::Room(RoomEdit::Join { rooms });
+    AdmittedEdit::new(brain, edit, "joins two rooms").map_err(|error| match error {
+        EditError::NoSuchRoom => {
             let is_known = |id: u16| brain.map().rooms().rooms().iter().any(|room| room.id == id);
             let missing = rooms.into_iter().find(|id| !is_known(*id));
             Refusal::no_such_room(missing.unwrap_or_default(), brain)
         }
-        Reason::RoomsApart => Refusal::because(reason, rooms_apart(rooms, brain)),
-        _ => Refusal::from(reason),
+        EditError::RoomsApart => Refusal::because(error, rooms_apart(rooms, brain)),
+        _ => Refusal::from(error),
     })
 }
 
-fn undo_room_change(number: u16, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+fn undo_room_change(number: u16, mind: Option<&Mind>) -> Result<AdmittedEdit, Refusal> {
     let brain = resting_home(mind)?.brain();
-    let command = Command::UndoRoomChange { number };
-    Edit::admitted(brain, command, "takes a change of the rooms back")
-        .map_err(|reason| Refusal::because(reason, not_undone(reason, number, brain)))
+    let edit = MapEdit::Room(RoomEdit::Undo { number });
+    AdmittedEdit::new(brain, edit, "takes a change of the rooms back")
+        .map_err(|error| Refusal::because(error, not_undone(error, number, brain)))
 }
 
-fn not_undone(reason: Reason, number: u16, brain: &Brain) -> String {
+fn not_undone(error: EditError, number: u16, brain: &Brain) -> String {
     let changes = brain.map().annotations().room_changes();
-    if let (Reason::RoomChangeInUse, Some(later)) = (reason, changes.built_on(number)) {
+    if let (EditError::RoomChangeInUse, Some(later)) = (error, changes.built_on(number)) {
         return format!("Change {later} of the rooms builds on change {number}: take {later} back first.");
     }
     let numbers: Vec<String> = changes.made().map(|(number, _)| number.to_string()).collect();
@@ -118,19 +118,19 @@ fn not_undone(reason: Reason, number: u16, brain: &Brain) -> String {
     format!("There is no change {number} of the rooms: {known}.")
 }
 
-pub(super) fn move_dock(pose: Pose2, mind: Option<&Mind>) -> Result<Edit, Refusal> {
+pub(super) fn move_dock(pose: Pose2, mind: Option<&Mind>) -> Result<AdmittedEdit, Refusal> {
     let brain = resting_home(mind)?.brain();
-    let command = Command::MoveDock { pose };
-    Edit::admitted(brain, command, "says where the dock stands").map_err(|reason| match reason {
-        Reason::NoFloorThere => Refusal::no_floor_there(&format!("under {}", robot_at(pose)), brain),
-        Reason::DockInside => Refusal::because(
-            reason,
+    let edit = MapEdit::Dock(pose);
+    AdmittedEdit::new(brain, edit, "says where the dock stands").map_err(|error| match error {
+        EditError::NoFloorThere => Refusal::no_floor_there(&format!("under {}", robot_at(pose)), brain),
+        EditError::DockInside => Refusal::because(
+            error,
             format!(
                 "A no-go zone lies under {}: put the dock beside it, or remove the zone first.",
                 robot_at(pose)
             ),
         ),
-        _ => Refusal::from(reason),
+        _ => Refusal::from(error),
     })
 }
 
@@ -149,29 +149,29 @@ fn robot_at(pose: Pose2) -> String {
 
 fn to_line(line: [[f64; 2]; 2]) -> Result<CutLine, Refusal> {
     let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
-    CutLine::new(from, to).map_err(|reason| of_line(reason, line))
+    CutLine::new(from, to).map_err(|error| of_line(error, line))
 }
 
-fn of_line(reason: Reason, line: [[f64; 2]; 2]) -> Refusal {
+fn of_line(error: EditError, line: [[f64; 2]; 2]) -> Refusal {
     let ends = ends(line);
-    let text = match reason {
-        Reason::BadLine => {
+    let text = match error {
+        EditError::BadLine => {
             format!("The line from {ends} cannot be: its ends must be two places within {FAR_M} m.")
         }
-        Reason::LineMissesRoom => {
+        EditError::LineMissesRoom => {
             format!(
                 "The line from {ends} lies in no room: draw it across a room, from one wall to the other."
             )
         }
-        Reason::LineEndsInRoom => format!(
+        EditError::LineEndsInRoom => format!(
             "The line from {ends} leaves a way round it: draw it across the whole room, from one wall to the other."
         ),
-        Reason::PartTooSmall => format!(
+        EditError::PartTooSmall => format!(
             "The line from {ends} cuts off less than half a square metre: draw it farther from the wall."
         ),
-        _ => return Refusal::from(reason),
+        _ => return Refusal::from(error),
     };
-    Refusal::because(reason, text)
+    Refusal::because(error, text)
 }
 
 fn ends([[x, y], [to_x, to_y]]: [[f64; 2]; 2]) -> String {
