@@ -17,7 +17,7 @@ pub(crate) struct Facts {
     pub(crate) touching: bool,
     /// A cliff is seen, or the firmware still holds the wheels because of one.
     pub(crate) at_cliff: bool,
-    /// Something besides the wheels tells the heading.
+    /// There is a source of heading besides the wheels.
     pub(crate) knows_heading: bool,
     /// The charger has stopped for a fault.
     pub(crate) charger_fault: bool,
@@ -25,7 +25,7 @@ pub(crate) struct Facts {
     pub(crate) fault: Option<Fault>,
     /// Inhibits that `arm` takes away.
     pub(crate) disarmed: Disarmed,
-    /// The firmware rests because commands moved nothing.
+    /// The firmware rests because commands had no effect on the wheels' travel.
     pub(crate) not_moving: bool,
     /// A cliff sensor fails its self-test at this moment; lasting, it is a fault.
     pub(crate) cliff_sensor: bool,
@@ -38,7 +38,7 @@ pub(crate) struct Disarmed {
     pub(crate) stopped: bool,
     pub(crate) button_stop: bool,
     pub(crate) link_lost: bool,
-    /// Docked, and `undock` was not said.
+    /// Docked, and `undock` was not commanded.
     pub(crate) docked: bool,
 }
 
@@ -79,16 +79,16 @@ impl Facts {
             Inhibit::ButtonStop => self.disarmed.button_stop = true,
             Inhibit::LinkLost => self.disarmed.link_lost = true,
             Inhibit::Docked => self.disarmed.docked = true,
-            // Already read as what is touched or seen.
+            // The observation's contacts and cliffs include these.
             Inhibit::Bumper | Inhibit::Cliff => {}
-            // The firmware wants to be charged (S16).
+            // The firmware asks for charge (S16).
             Inhibit::BatteryLow | Inhibit::BatteryWeak => self.battery_low = true,
             // It forbids charging only, and no motion.
             Inhibit::ChargerFault => self.charger_fault = true,
             Inhibit::CliffSensorFault => self.cliff_sensor = true,
             Inhibit::WheelDrop => self.wheel_drop = true,
             Inhibit::NotMoving => self.not_moving = true,
-            // Somebody must see to these.
+            // These need a person.
             Inhibit::ResetLoop
             | Inhibit::BumperStuck
             | Inhibit::CliffTrapped

@@ -1,4 +1,4 @@
-//! What changes the map besides what is seen: people, the dock's contacts, and what turns out about where the robot was.
+//! Changes of the map besides observations: edits by people, contacts of the dock, and corrections by localization.
 
 use super::Brain;
 use crate::localization::MapCorrection;
@@ -6,12 +6,12 @@ use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::map_edit::MapEdit;
 use crate::model::reason::Reason;
 
-/// A robot that docks farther than this from where a person pointed does not know which of the two is wrong, metres and radians.
-const TOLD_M: f64 = 1.0;
-const TOLD_RAD: f64 = 1.0;
+/// A robot that docks farther than this from the pose that a person gave cannot know which of the two is wrong, metres and radians.
+const DOCK_DISTANCE_MAX_M: f64 = 1.0;
+const DOCK_ANGLE_MAX_RAD: f64 = 1.0;
 
 impl Brain {
-    /// Does with the map what the robot's place asks for.
+    /// Corrects the map as localization asks.
     pub(super) fn correct_map(&mut self, correction: Option<MapCorrection>) {
         match correction {
             Some(MapCorrection::Redraw { keyframes }) => self.map.redraw(&keyframes),
@@ -47,15 +47,15 @@ impl Brain {
         }
     }
 
-    /// The robot stands on the dock: where it was told to be, or was felt too seldom, if that is near enough and the robot may trust
-    /// its own place.
-    pub(super) fn feel_dock(&mut self, pose: Pose2) {
+    /// The robot is on the dock. Its pose refines a dock that a person placed or that was seldom used, if the two are near each other and
+    /// the robot's pose is confirmed.
+    pub(super) fn observe_dock(&mut self, pose: Pose2) {
         let place = self.map.dock_place();
         let Some(known) = place.pose().filter(|_| !place.is_sure()) else {
             return;
         };
-        let is_near = known.position().distance_m(pose.position()) <= TOLD_M
-            && normalize_rad(known.heading_rad - pose.heading_rad).abs() <= TOLD_RAD;
+        let is_near = known.position().distance_m(pose.position()) <= DOCK_DISTANCE_MAX_M
+            && normalize_rad(known.heading_rad - pose.heading_rad).abs() <= DOCK_ANGLE_MAX_RAD;
         if is_near && self.localization.is_confirmed() {
             self.map.feel_dock(pose);
             self.localization.put_dock(self.map.dock_place());

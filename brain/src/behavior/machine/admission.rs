@@ -1,4 +1,4 @@
-//! Which commands are obeyed in which situation, and what obeying them means.
+//! Which job commands are admitted in which mode, and what each does.
 
 use super::manual::ManualDrive;
 use super::{Behavior, Mode};
@@ -11,7 +11,7 @@ use crate::model::reason::Reason;
 use crate::navigation::Mind;
 
 impl Behavior {
-    /// Whether `command` may be obeyed now, in a home that is as the map says.
+    /// Whether `command` may be obeyed now, in the home of this map.
     pub(crate) fn admit(&self, command: &JobCommand, map: &Map) -> Result<(), JobRefusal> {
         match command {
             JobCommand::Stop | JobCommand::ManualEnd => Ok(()),
@@ -38,7 +38,7 @@ impl Behavior {
         }
     }
 
-    /// Whether something besides the wheels told the heading at the last step.
+    /// Whether there was a source of heading besides the wheels at the last step.
     pub(crate) const fn knows_heading(&self) -> bool {
         self.facts.knows_heading
     }
@@ -146,7 +146,7 @@ impl Behavior {
             JobCommand::Pause => self.pause(mind),
             JobCommand::Resume => {
                 if let Some(job) = &mut self.job {
-                    job.encourage();
+                    job.reset_recovery();
                 }
                 self.announce(Reason::Command, mind);
             }
@@ -194,7 +194,7 @@ impl Behavior {
         self.centre_first = true;
         self.stays_where_it_is();
         match self.mode {
-            // A fault or a lost link outlives the job.
+            // A fault or a lost link stays when the job ends.
             Mode::Error { .. } | Mode::Disconnected { .. } => {
                 let (mode, reason) = (self.mode, self.reason);
                 self.end_job(Reason::Command, mind);

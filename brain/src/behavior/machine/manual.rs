@@ -5,19 +5,19 @@ use crate::model::action::Motion;
 use crate::model::reason::Reason;
 use crate::navigation::Mind;
 
-/// The newest wish of the person who drives.
+/// The newest command of the person who drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::behavior) struct ManualDrive {
     pub(super) speed_m_per_s: f64,
     pub(super) turn_rad_per_s: f64,
     pub(super) valid_until_us: u64,
     pub(super) cleaners: bool,
-    /// The firmware was seen ready since the person took the wheel.
+    /// The firmware was ready at least once since manual driving began.
     pub(super) ready: bool,
 }
 
 impl Behavior {
-    /// A wish of the person who drives, the first or a further one.
+    /// A command of the person who drives, the first or a further one.
     pub(super) fn take_wheel(&mut self, drive: ManualDrive, mind: &mut Mind) {
         self.centre_first = false;
         match self.mode {
@@ -31,7 +31,7 @@ impl Behavior {
         }
     }
 
-    /// The person lets go; the stick counts as centred.
+    /// Manual driving ends; the stick counts as centred.
     pub(super) fn release_wheel(&mut self, mind: &mut Mind) {
         self.centre_first = false;
         if matches!(self.mode, Mode::Manual(_)) {

@@ -1,4 +1,4 @@
-//! What perceptions change, the gravest first.
+//! Changes of the mode by observations, the most severe cause first.
 
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
@@ -7,13 +7,13 @@ use crate::model::fault::Fault;
 use crate::model::reason::Reason;
 use crate::navigation::{Mind, Situation};
 
-/// An outage of the link up to this length needs no new announcement: nobody has had time to come near.
+/// An outage of the link up to this length, microseconds, needs no new announcement, because nobody has had time to come near.
 const SHORT_OUTAGE_US: u64 = 5_000_000;
-/// A cliff sensor that fails its self-test for this long is a fault; shorter it is a spot of sun or a dark rug.
+/// A cliff sensor that fails its self-test for this long, microseconds, is a fault. Sunlight or a dark rug cause shorter failures.
 const SENSOR_PATIENCE_US: u64 = 2_000_000;
 
 impl Behavior {
-    /// The fault that stands in this observation, if any.
+    /// The fault in this observation, if any.
     pub(super) fn fault(&mut self) -> Option<Fault> {
         if !self.facts.cliff_sensor {
             self.cliff_sensor_since_us = None;
@@ -25,7 +25,7 @@ impl Behavior {
         self.facts.fault.or(lasting.then_some(Fault::CliffSensor))
     }
 
-    /// Changes the mode where what was perceived demands it.
+    /// Changes the mode where the observation demands it.
     pub(super) fn react(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
         if !self.facts.link_up {
             self.lose_link(mind);
@@ -64,7 +64,7 @@ impl Behavior {
         let short =
             since_us.is_some_and(|since_us| self.facts.now_us.saturating_sub(since_us) < SHORT_OUTAGE_US);
         match (&self.job, resume) {
-            // It was on its way home or there already.
+            // It was driving home or is on the dock already.
             (Some(_), true) if self.facts.docked && self.drives_home() => self.arrive(mind),
             (Some(_), true) if short && !self.facts.disarmed.not_armed => {
                 self.enter(Mode::Working, Reason::LinkRestored, mind);
@@ -82,7 +82,7 @@ impl Behavior {
         }
     }
 
-    /// True while a fault stands or waits to be acknowledged.
+    /// True while there is a fault or it waits to be acknowledged.
     fn react_to_fault(&mut self, mind: &mut Mind) -> bool {
         match (self.mode, self.facts.fault) {
             (Mode::Error { .. }, Some(fault)) => self.reason = Reason::Fault(fault),
@@ -133,7 +133,7 @@ impl Behavior {
             Mode::Docked => self.watch_dry_dock(mind),
             Mode::Working if !self.facts.docked && self.waits_for_current() => self.lose_contacts(mind),
             Mode::Recharging => self.watch_charge(situation, mind),
-            // Carried home by a person.
+            // A person carried it to the dock.
             Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
                 self.arrive(mind);
             }
@@ -148,7 +148,7 @@ impl Behavior {
         }
     }
 
-    /// Off the dock without being sent.
+    /// It left the dock without a command.
     fn come_off(&mut self, mind: &mut Mind) {
         if self.slips_off() {
             self.job = Some(Job::new(JobKind::Dock, self.figures()));
@@ -162,7 +162,7 @@ impl Behavior {
         self.job.as_ref().is_some_and(|job| job.kind == JobKind::Dock)
     }
 
-    /// Strayed onto the dock while cleaning: off again.
+    /// It drove onto the dock while cleaning, and leaves it.
     fn leave_dock(&mut self, mind: &mut Mind) {
         if let Some(job) = &mut self.job
             && !job.is_departing()
@@ -180,7 +180,7 @@ impl Behavior {
         if self.facts.disarmed.not_armed && !job.is_departing() {
             self.announce(Reason::NotArmed, mind);
         } else if job.kind == JobKind::Dock {
-            // It has a budget of its own.
+            // Docking has its own budget.
         } else if job.figures.time_s >= self.config.task_budget_s {
             self.turn_home(Reason::TaskBudget, mind);
         } else if self.must_go_home(situation) {

@@ -1,4 +1,4 @@
-//! How a job begins: it announces itself, arms, and waits for the firmware to agree (S24).
+//! How a job begins: announcement, arming, and the firmware's confirmation (S24).
 
 use super::{Behavior, JobStart, Mode};
 use crate::behavior::job::Job;
@@ -8,7 +8,7 @@ use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::navigation::Mind;
 
-/// Pause between two tries to arm.
+/// Pause between two attempts to arm, microseconds.
 const ARM_AGAIN_US: u64 = 500_000;
 /// Tones of the announcement (S24): three beeps.
 const BEEP: Tone = Tone {
@@ -21,11 +21,11 @@ const GAP: Tone = Tone {
 };
 /// Length of the beeps and the two seconds after them (S24).
 const ANNOUNCEMENT_US: u64 = 5 * 150_000 + 2_000_000;
-/// The firmware must let itself be armed within this time.
+/// The firmware must confirm arming within this time, microseconds.
 const ARM_PATIENCE_US: u64 = 3_000_000;
 
 impl Behavior {
-    /// Waits for the announcement to end, arms, and waits for the firmware to agree.
+    /// Waits for the end of the announcement, arms, and waits for the firmware's confirmation.
     pub(super) fn start(&mut self, since_us: u64, mind: &mut Mind) -> Motion {
         let waited_us = self.facts.now_us.saturating_sub(since_us);
         if waited_us < ANNOUNCEMENT_US {
@@ -50,7 +50,7 @@ impl Behavior {
         Motion::Rest
     }
 
-    /// Arms, but not more often than answers can come back.
+    /// Arms, but not more often than answers can arrive.
     pub(super) fn ask_to_arm(&mut self) {
         let due = self
             .armed_us
@@ -67,7 +67,7 @@ impl Behavior {
     pub(super) fn announce(&mut self, reason: Reason, mind: &mut Mind) {
         if let (Mode::Recharging, Some(job)) = (self.mode, &mut self.job) {
             job.returns = true;
-            job.second_look.begins();
+            job.dock_retry.begins();
         }
         self.enter(
             Mode::Starting {
@@ -79,12 +79,12 @@ impl Behavior {
         self.tones.extend([BEEP, GAP, BEEP, GAP, BEEP]);
     }
 
-    /// Begins a new job; the old one is forgotten.
+    /// Begins a new job and discards the old one.
     pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), mind: &mut Mind) {
         self.job = Some(Job::with_order((kind, order), JobFigures::default()));
         self.put_off = None;
         self.slips = 0;
-        self.dry_tries = 0;
+        self.no_current_tries = 0;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
             if !self.facts.knows_heading {

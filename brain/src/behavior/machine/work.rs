@@ -1,4 +1,4 @@
-//! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
+//! Motion of a running job: departure and escapes first, then the task. Watches check the result.
 
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
@@ -16,19 +16,18 @@ use crate::model::swept_share::SweptShare;
 use crate::navigation::{Mind, Plan, Situation};
 use crate::recovery::{self, Grip, Traction, Whereabouts};
 
-/// The firmware may be out of reach of `arm` for this long before the job is put off.
-const STARVE_US: u64 = 3_000_000;
-/// A gyro's bias that is known so well, rad/s, has been told by a rest of two seconds: over a minute it turns a map by two degrees
-/// at most.
+/// The firmware may stay disarmed for this long, microseconds, before the job is interrupted.
+const UNARMED_MAX_US: u64 = 3_000_000;
+/// Standard deviation of the gyro's bias after a rest of two seconds, rad/s. It turns a map by two degrees a minute at most.
 const SETTLED_RAD_PER_S: f64 = 6.0e-4;
-/// The same for a robot that is about to draw a map, told by twelve seconds: until it sees the first wall nothing else tells its
-/// heading, and what that is wrong by then the whole map is turned by.
+/// The same after twelve seconds, for a robot that is about to draw a map. Until the first wall it has no other source of heading, and
+/// the whole map is rotated by the error up to then.
 const SETTLED_SURVEYING_RAD_PER_S: f64 = 2.0e-4;
-/// Longest that a job waits for that before its first move, seconds.
+/// Longest wait for that before the first motion of a job, seconds.
 const SETTLE_MAX_S: f64 = 16.0;
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
-/// A place that took so many rungs to leave is not entered again in this job.
+/// A place that took so many recovery behaviors to leave is not entered again in this job.
 const POCKET_RUNGS: u8 = 3;
 
 impl Behavior {
@@ -54,7 +53,7 @@ impl Behavior {
         if self.facts.disarmed.any() {
             return self.wait_for_arm(mind);
         }
-        self.starved_since_us = None;
+        self.unarmed_since_us = None;
         let plans_on_map = job.kind == JobKind::Clean(StrategyName::Systematic);
         if plans_on_map && !situation.knows_heading {
             self.end_job(Reason::NoHeading, mind);
@@ -72,7 +71,7 @@ impl Behavior {
         rest_for_gyro(commanded, mind)
     }
 
-    /// Whether the robot has come free.
+    /// Watches whether the robot is unstuck.
     fn watch_pen(&mut self, situation: &Situation<'_>, mind: &mut Mind) {
         let Some(job) = &mut self.job else { return };
         match job
@@ -94,8 +93,7 @@ impl Behavior {
         }
     }
 
-    /// Whether the robot must stand still before its first move, because nothing has told its gyro's bias yet: it was switched on
-    /// only just now.
+    /// Whether the robot must rest before its first motion, because it was just switched on and the gyro's bias is not measured yet.
     fn settles_gyro(&self, situation: &Situation<'_>) -> bool {
         let has_not_moved = |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < SETTLE_MAX_S;
         let settled_rad_per_s = if situation.is_tracked {
@@ -109,7 +107,7 @@ impl Behavior {
                 .is_some_and(|sigma| sigma > settled_rad_per_s)
     }
 
-    /// Whether it is time to stand still for the gyro's sake: only on a way ahead, where nothing is lost by it.
+    /// Whether to rest for the gyro's bias: only during forward travel, which a rest does not disturb.
     fn rests_for_gyro(&mut self, motion: Motion, situation: &Situation<'_>) -> bool {
         let is_ahead = matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
         let Some(job) = &mut self.job else { return false };
@@ -121,8 +119,8 @@ impl Behavior {
     }
 
     fn wait_for_arm(&mut self, mind: &mut Mind) -> Motion {
-        let since_us = *self.starved_since_us.get_or_insert(self.facts.now_us);
-        if self.facts.now_us.saturating_sub(since_us) > STARVE_US {
+        let since_us = *self.unarmed_since_us.get_or_insert(self.facts.now_us);
+        if self.facts.now_us.saturating_sub(since_us) > UNARMED_MAX_US {
             let reason = if self.facts.disarmed.link_lost {
                 Reason::LinkLost
             } else {
@@ -135,7 +133,7 @@ impl Behavior {
         Motion::Rest
     }
 
-    /// What the task or a detour wants, unless a watch calls trouble first.
+    /// The plan of the task or a detour, unless a watch reports trouble first.
     fn watched_plan(&mut self, commanded: Motion, situation: &Situation<'_>, mind: &mut Mind) -> Plan {
         let Some(job) = &mut self.job else {
             return Plan::Go(Motion::Halt);
@@ -181,7 +179,7 @@ impl Behavior {
             job.detour = None;
             job.pen.try_again();
             job.task.interrupted();
-            // What was moved since the last step belongs to the detour.
+            // Motion since the last step belongs to the detour.
             let still = Situation {
                 advance: Advance {
                     time_s: 0.0,
@@ -224,8 +222,7 @@ impl Behavior {
         });
     }
 
-    /// Whether a job for the whole home is at its end only because the robot is shut in: it has not swept half of what it
-    /// knows of the home.
+    /// Whether a job for the whole home ends only because the robot is enclosed: it has swept less than half of the known floor.
     fn ends_in_pen(&self, situation: &Situation<'_>) -> bool {
         let is_cleaning = |job: &&Job| {
             let is_whole_home = job.order.is_for_whole_home();
@@ -235,17 +232,17 @@ impl Behavior {
             && situation.map.swept_m2() < 0.5 * situation.map.free_m2()
     }
 
-    /// Corners of the way that the running or waiting job means to drive.
-    pub(crate) fn planned_way(&self) -> Vec<Point2> {
+    /// Corners of the planned path of the running or waiting job.
+    pub(crate) fn planned_path(&self) -> Vec<Point2> {
         self.job.as_ref().map_or_else(Vec::new, |job| job.task.way())
     }
 
-    /// How much of its floor the running or waiting job has swept.
+    /// Share of its target floor that the running or waiting job has swept.
     pub(crate) fn swept_share(&self, map: &Map) -> Option<SweptShare> {
         self.job.as_ref()?.task.swept_share(map)
     }
 
-    /// Where the running or waiting job does not go.
+    /// Floor that the running or waiting job keeps out of.
     pub(crate) fn avoided(&self) -> &[NoGo] {
         self.job.as_ref().map_or(&[], Job::avoided)
     }
@@ -266,7 +263,7 @@ impl Behavior {
     }
 }
 
-/// Stands still, and tells why when the rest begins.
+/// Rests, and records the reason when the rest begins.
 fn rest_for_gyro(commanded: Motion, mind: &mut Mind) -> Motion {
     if commanded != Motion::Halt {
         mind.decide("rest", Reason::GyroDrift, 0.0);

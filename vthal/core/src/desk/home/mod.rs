@@ -20,16 +20,16 @@ pub(crate) use no_go::{NoGoRequest, to_no_go};
 pub(crate) use places::{PlaceRequest, to_shape, with_any_places, with_places};
 pub(crate) use rooms::RoomRequest;
 
-/// What clients say of the home.
+/// Requests of clients about the home.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum HomeRequest {
-    /// Floor is forbidden, or allowed again.
+    /// No-go zones and virtual walls.
     NoGo(NoGoRequest),
-    /// Places are kept under names.
+    /// Kept places.
     Place(PlaceRequest),
-    /// Rooms are other ones, are called otherwise or are cleaned otherwise.
+    /// Rooms: their division, names and settings.
     Room(RoomRequest),
-    /// A robot on its dock stands here.
+    /// The pose of a robot on its dock.
     MoveDock(Pose2),
 }
 
@@ -37,7 +37,7 @@ pub(crate) enum HomeRequest {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct AdmittedEdit {
     pub(crate) edit: MapEdit,
-    /// What whoever asks for it does, for the log.
+    /// What the client does, for the log.
     deed: &'static str,
 }
 
@@ -49,19 +49,19 @@ impl AdmittedEdit {
     }
 }
 
-/// Whoever changed the map since the brain's last step.
+/// Clients whose edits wait for the next step of the brain.
 #[derive(Debug, Default)]
 pub(crate) struct HomeDesk {
     waiting: Vec<Asker>,
 }
 
 impl HomeDesk {
-    /// Whether somebody waits for a change.
+    /// Whether a client waits for an edit.
     pub(crate) fn is_waited_for(&self) -> bool {
         !self.waiting.is_empty()
     }
 
-    /// Takes a change of the map, which the brain gets next; whoever wants it hears of it when it is on the disk.
+    /// Admits an edit for the next step of the brain. The client is answered when the map is on the disk.
     ///
     /// # Errors
     /// Why the request is refused.
@@ -83,7 +83,7 @@ impl HomeDesk {
         Ok((edit, Reply::AfterStep))
     }
 
-    /// After the step in which the brain took them up: the map goes to the disk with all changes.
+    /// After the step that applied the edits: the map goes to the disk with all of them.
     pub(crate) fn keep(&mut self, home: Option<&FloorHome>, outputs: &mut Outputs) {
         for Asker { client, id } in self.waiting.drain(..) {
             match home {
@@ -101,14 +101,14 @@ impl HomeDesk {
     }
 }
 
-/// The brain, in the home that is kept.
+/// The brain, if it knows the home that is stored.
 pub(crate) fn known_home(mind: Option<&Mind>) -> Result<&Mind, Refusal> {
     let mind = mind.ok_or("no-robot")?;
     mind.admit_edit()?;
     Ok(mind)
 }
 
-/// The robot got lost within the step.
+/// The robot got lost in the step.
 fn not_kept(id: Option<u32>) -> Update {
     Update::Failed(Failure {
         id,

@@ -1,4 +1,4 @@
-//! Floor that clients forbid.
+//! No-go zones and virtual walls of clients.
 
 use brain::zone::FAR_M;
 use brain::{Brain, EditError, MapEdit, NoGo, NoGoEdit, Point2};
@@ -9,7 +9,7 @@ use crate::desk::words::{to_name, to_zone};
 use crate::mind::Mind;
 use crate::refusal::Refusal;
 
-/// What clients say of forbidden floor.
+/// Requests about no-go zones and virtual walls.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum NoGoRequest {
     /// Forbids floor.

@@ -1,4 +1,4 @@
-//! Zones and spots that clients keep under names, and jobs that name them.
+//! Named zones and spots of clients, and orders that refer to them.
 
 use brain::{Brain, EditError, KeptPlace, MapEdit, PlaceEdit, PlaceShape, Point2};
 use rvac_api::{JobOrder, JobPart};
@@ -9,7 +9,7 @@ use crate::desk::words::{to_name, to_zone};
 use crate::mind::Mind;
 use crate::refusal::Refusal;
 
-/// What clients say of places.
+/// Requests about kept places.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PlaceRequest {
     /// Keeps one, under a number that it had before if one is given.
@@ -20,7 +20,7 @@ pub(crate) enum PlaceRequest {
     },
     /// Names it otherwise.
     Name { number: u16, name: String },
-    /// It is elsewhere.
+    /// Moves or reshapes it.
     Reshape {
         number: u16,
         shape: rvac_api::PlaceShape,
@@ -125,7 +125,7 @@ pub(crate) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, R
     })
 }
 
-/// The order as one that is looked at before anybody knows its places: each counts as a part.
+/// The order with a spot for each place, for checks that need the number of parts only.
 pub(crate) fn with_any_places(order: &JobOrder) -> JobOrder {
     let part = |part: &JobPart| match part {
         JobPart::Place(_) => JobPart::Spot([0.0, 0.0]),

@@ -1,4 +1,4 @@
-//! What clients say of rooms, and where the dock stands. What rooms there are, and the dock, change only while the robot rests.
+//! Requests about rooms and the pose of the dock. The division into rooms and the dock change only while the robot rests.
 
 use brain::CutLine;
 use brain::zone::FAR_M;
@@ -11,7 +11,7 @@ use crate::desk::words::to_name;
 use crate::mind::Mind;
 use crate::refusal::Refusal;
 
-/// What clients say of rooms.
+/// Requests about rooms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum RoomRequest {
     /// Names a room, or takes its name away.
@@ -25,7 +25,7 @@ pub(crate) enum RoomRequest {
     Split(RoomSplitting),
     /// Makes two rooms one.
     Join { rooms: [u16; 2] },
-    /// Takes a change of the rooms back.
+    /// Reverts a change of the rooms.
     Undo { number: u16 },
 }
 
@@ -134,7 +134,7 @@ pub(super) fn move_dock(pose: Pose2, mind: Option<&Mind>) -> Result<AdmittedEdit
     })
 }
 
-/// Rooms are looked for anew with each change, and a job keeps the rooms and the dock that it has.
+/// Each change segments the rooms anew, and a job keeps the rooms and the dock that it started with.
 fn resting_home(mind: Option<&Mind>) -> Result<&Mind, Refusal> {
     let mind = known_home(mind)?;
     if !mind.rests() || mind.holds_commands() {
