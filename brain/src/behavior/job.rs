@@ -54,7 +54,7 @@ pub(super) struct Detour {
 pub(super) enum Purpose {
     /// Getting unstuck.
     Escape,
-    /// Leaving the dock.
+    /// Undocking.
     Departure,
 }
 

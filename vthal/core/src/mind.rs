@@ -216,9 +216,9 @@ impl Mind {
         }
         self.watch_stick(&command);
         // A stick that moves faster than telemetry comes: only its newest position counts, and that it was in the centre before.
-        if let Some(newest) = Stick::of(&command) {
-            self.waiting.retain(|other| match Stick::of(other) {
-                Some(other) => other == Stick::Centred && newest != Stick::Centred,
+        if let Some(newest) = StickPosition::of(&command) {
+            self.waiting.retain(|other| match StickPosition::of(other) {
+                Some(other) => other == StickPosition::Centred && newest != StickPosition::Centred,
                 None => true,
             });
         }
@@ -357,12 +357,12 @@ fn cause_of(command: &Command) -> Option<RunCause> {
 
 /// Where a person's stick is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stick {
+enum StickPosition {
     Centred,
     Deflected,
 }
 
-impl Stick {
+impl StickPosition {
     /// Where a command says that it is; `None` for a command that says nothing of it.
     fn of(command: &Command) -> Option<Self> {
         let Command::Job(JobCommand::Manual {
@@ -382,9 +382,9 @@ impl Stick {
 
 /// Whether the stick counts as centred after a command; `None` where that changes nothing.
 fn is_centred_by(command: &Command) -> Option<bool> {
-    match Stick::of(command) {
-        Some(Stick::Centred) => Some(true),
-        Some(Stick::Deflected) => None,
+    match StickPosition::of(command) {
+        Some(StickPosition::Centred) => Some(true),
+        Some(StickPosition::Deflected) => None,
         None if *command == Command::Job(JobCommand::Stop) => Some(false),
         None => (*command == Command::Job(JobCommand::ManualEnd)).then_some(true),
     }

@@ -8,14 +8,14 @@ use super::format::{Answered, AnsweredNames, DecisionNames};
 
 /// What a brain was asked in one step.
 #[derive(Clone, Debug)]
-pub(super) struct Step {
+pub(super) struct ReplayedStep {
     /// What it answered.
     pub(super) actions: Actions,
     /// Edits of the map that it was given.
     pub(super) edits: usize,
 }
 
-impl Step {
+impl ReplayedStep {
     /// Whether an earlier brain, which said `recorded`, answered the same but for one `refuse` at most for each edit.
     pub(super) fn is_without_false_refusals(&self, recorded: &[u8]) -> bool {
         self.with_false_refusals(recorded)
@@ -58,7 +58,7 @@ mod tests {
     use brain::action::Decision;
     use brain::{Actions, Motion};
 
-    use super::Step;
+    use super::ReplayedStep;
 
     fn actions(decisions: &[(&'static str, &'static str)]) -> Actions {
         let decisions = decisions.iter().map(|&(what, reason)| Decision {
@@ -82,7 +82,7 @@ mod tests {
     ) -> bool {
         let recorded = super::written(&actions(recorded)).expect("plain");
         let actions = actions(ours);
-        Step { actions, edits }.is_without_false_refusals(&recorded)
+        ReplayedStep { actions, edits }.is_without_false_refusals(&recorded)
     }
 
     #[test]

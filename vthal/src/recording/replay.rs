@@ -9,7 +9,7 @@ use mcap::MessageStream;
 use mcap::read::Options;
 use vthal_core::RunCause;
 
-use super::false_refusals::{Step, written};
+use super::false_refusals::{ReplayedStep, written};
 use super::format::{FORMAT, FORMAT_WITH_FALSE_REFUSALS, Given, RunHeader, Seen};
 use super::{COMMANDS, DECISIONS, OBSERVATIONS, RUN};
 
@@ -111,7 +111,7 @@ const AFTER_A_KILL: &str = RunCause::ResumedAfterRestart.name();
 /// A step whose answer is not compared yet.
 struct Open {
     time_us: u64,
-    step: Step,
+    step: ReplayedStep,
     /// Its answer as recordings have it.
     answer: Vec<u8>,
 }
@@ -194,7 +194,7 @@ impl Player {
                 let answer = written(&actions).map_err(|error| error.to_string())?;
                 self.open = Some(Open {
                     time_us: observation.time_us,
-                    step: Step { actions, edits },
+                    step: ReplayedStep { actions, edits },
                     answer,
                 });
             }
