@@ -1,7 +1,7 @@
 //! The brain as its shell sees it.
 
 pub mod checkpoint;
-mod feeling;
+mod floor_sensing;
 mod learning;
 mod map_changes;
 mod situation;
@@ -14,16 +14,16 @@ use crate::mapping::{
     BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, StampedOdometry, StoredMap,
 };
 use crate::model::action::Actions;
-use crate::model::command::{Command, StrategyName};
+use crate::model::command::{Command, JobCommand, StrategyName};
 use crate::model::config::BrainConfig;
 use crate::model::energy::EnergyModel;
 use crate::model::geometry::{Point2, Pose2};
+use crate::model::job_refusal::JobRefusal;
 use crate::model::learnt::{GyroLearnt, Learnt};
 use crate::model::observation::{Cliffs, Contacts, Observation};
 use crate::model::order::CleaningOrder;
 use crate::model::pose_estimate::PoseEstimate;
 use crate::model::random::Random;
-use crate::model::reason::Reason;
 use crate::model::room_settings::RoomPower;
 use crate::model::swept_share::SweptShare;
 use crate::navigation::TaskContext;
@@ -32,7 +32,7 @@ use situation::Parts;
 /// Direction of a one-sided contact or cliff from straight ahead, in radians: the middle of its half of the bumper.
 const SIDE_RAD: f64 = core::f64::consts::FRAC_PI_4;
 
-/// One robot's mind. Give it each observation and the commands that came since the last one; do what it answers.
+/// Brain of one robot. The shell gives it each observation and the commands since the last one, and performs the actions it returns.
 #[derive(Debug)]
 pub struct Brain {
     config: BrainConfig,
@@ -115,7 +115,7 @@ impl Brain {
         let pose = estimate.pose;
         self.beams.update(observation, &estimate);
         if self.localization.has_just_docked() {
-            self.feel_dock(pose);
+            self.observe_dock(pose);
         }
         if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
             self.map.insert(&estimate, observation);
@@ -127,8 +127,12 @@ impl Brain {
             .learn(&self.map, &self.config, observation.time_us);
         self.correct_map(correction);
         self.note_encounters(observation, &estimate);
+        let mut jobs = Vec::new();
         for command in commands {
-            self.edit_map(command, observation.docked);
+            match command {
+                Command::Edit(edit) => self.edit(edit, observation.docked),
+                Command::Job(job) => jobs.push(job),
+            }
         }
         let situation = Parts {
             localization: &self.localization,
@@ -137,7 +141,7 @@ impl Brain {
             config: &self.config,
         }
         .situation(observation, advance);
-        let intent = self.behavior.step(&situation, commands, &mut self.mind);
+        let intent = self.behavior.step(&situation, &jobs, &mut self.mind);
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();
             self.map.avoid(self.behavior.avoided());
@@ -145,7 +149,7 @@ impl Brain {
         if let Some(pocket) = intent.pocket {
             self.map.forbid_pocket(pocket);
         }
-        // Where it stands may just have been told. What a robot sweeps that does not know where it is, nobody can say.
+        // An edit of the dock may just have moved the pose. Floor that a lost robot sweeps cannot be located and does not count.
         let here = self.localization.estimate();
         self.map.follow(
             here.pose,
@@ -156,7 +160,7 @@ impl Brain {
             },
             observation.time_us,
         );
-        self.feel_floor(observation, intent.cleaners);
+        self.sense_floor(observation, intent.cleaners);
         Actions {
             motion: intent.motion,
             cleaners: intent.cleaners,
@@ -169,12 +173,12 @@ impl Brain {
     /// Whether `command` would be obeyed in the situation of the last step. A shell asks this first, to answer its client.
     ///
     /// # Errors
-    /// The named reason why it would be refused.
-    pub fn admit(&self, command: &Command) -> Result<(), Reason> {
+    /// Why it would be refused.
+    pub fn admit(&self, command: &JobCommand) -> Result<(), JobRefusal> {
         self.behavior.admit(command, &self.map)
     }
 
-    /// Pose in the map frame: the origin is where the robot stood at the start, x was forward.
+    /// Pose in the map frame. The origin is the pose at the start, x points forward there.
     #[must_use]
     pub fn pose(&self) -> Pose2 {
         self.localization.pose()
@@ -192,22 +196,22 @@ impl Brain {
         self.localization.explained()
     }
 
-    /// Somebody knows where the robot stood at the last observation: a simulator that tries a planner without the estimator's
-    /// error. Not part of a recording, so such a run cannot be replayed.
+    /// Sets the pose at the last observation, for a simulator that tests a planner without the estimator's error. This is not part
+    /// of a recording, so such a run cannot be replayed.
     pub fn place_at(&mut self, pose: Pose2) {
         self.localization.place_at(pose);
     }
 
-    /// What carrying out an order will take from where the robot is. A plan of the whole order: some tens of milliseconds.
+    /// What carrying out an order from the present pose will take. Plans the whole order, which takes tens of milliseconds.
     ///
     /// # Errors
-    /// The named reason why the order cannot be carried out in this map.
-    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, Reason> {
+    /// Why the order cannot be carried out in this map.
+    pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, JobRefusal> {
         estimate(order, (&self.map, self.pose()), (&self.config, &self.energy()))
     }
 
-    /// Strategy that suits the robot as it was at the last step: [`StrategyName::Systematic`] needs sensors whose places are
-    /// known, and something besides the wheels that tells the heading. What nothing tells its heading cleans by statistics.
+    /// Strategy that suits the robot of the last step. [`StrategyName::Systematic`] needs range sensors with known mounting positions
+    /// and a source of heading besides the wheels. A robot without such a source cleans by statistics.
     #[must_use]
     pub fn usual_strategy(&self) -> StrategyName {
         let sees = !self.config.sensors.proximity.sensors().is_empty();
@@ -260,7 +264,7 @@ impl Brain {
         }
     }
 
-    /// What driving and cleaning take from the pack, as far as the robot has learnt it.
+    /// Learnt energy use of driving and cleaning.
     #[must_use]
     pub fn energy(&self) -> EnergyModel {
         self.behavior.energy()
@@ -272,27 +276,27 @@ impl Brain {
         self.behavior.job_kind()
     }
 
-    /// The job goes on once the pack is charged: the robot is on its way to the dock for that, or stands on it.
+    /// The job resumes once the pack is charged: the robot is driving to the dock for that, or is on it.
     #[must_use]
     pub fn awaits_charge(&self) -> bool {
         self.behavior.awaits_charge()
     }
 
-    /// Corners of the way that the running or waiting job means to drive from here on, in the map frame; none where the
-    /// robot decides as it goes. For people who look at it.
+    /// Corners of the planned path of the running or waiting job from here on, in the map frame, for display. Empty for a strategy that
+    /// does not plan.
     #[must_use]
-    pub fn planned_way(&self) -> Vec<Point2> {
-        self.behavior.planned_way()
+    pub fn planned_path(&self) -> Vec<Point2> {
+        self.behavior.planned_path()
     }
 
-    /// How much of the floor that it wants the running or waiting job has swept; `None` where it does not know what there is to
-    /// sweep. Counts the cells that were passed: for a few times a minute.
+    /// Share of its target floor that the running or waiting job has swept; `None` for a job without a target. Iterates over all swept
+    /// cells, so it is to be called a few times a minute at most.
     #[must_use]
     pub fn swept_share(&self) -> Option<SweptShare> {
         self.behavior.swept_share(&self.map)
     }
 
-    /// Everything that must survive a restart of the shell. Writes down the whole home: for a robot at rest.
+    /// Everything that must survive a restart of the shell. Copies the whole home at once: for a robot at rest.
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
@@ -301,7 +305,7 @@ impl Brain {
         }
     }
 
-    /// As [`Self::checkpoint`], of the state of now, in steps: for a robot that drives.
+    /// As [`Self::checkpoint`], of the present state, in steps: for a robot in motion.
     #[must_use]
     pub fn begin_checkpoint(&self) -> CheckpointWork {
         CheckpointWork {
@@ -310,7 +314,7 @@ impl Brain {
         }
     }
 
-    /// Everything but the home, which the one who takes it up has or does not need.
+    /// As [`Self::checkpoint`], without the home: for a reader that has the home or does not need it.
     #[must_use]
     pub fn checkpoint_without_home(&self) -> Checkpoint {
         let map = self.map.snapshot();
@@ -329,9 +333,8 @@ impl Brain {
         }
     }
 
-    /// As [`Self::checkpoint_without_home`], for a run that begins now. A robot that has made the map of its home in a run that it
-    /// brought to an end, and stands on the dock, is where that map has the dock and follows its pose in it from now on, as after
-    /// a restart.
+    /// As [`Self::checkpoint_without_home`], for a run that begins now. A robot on its dock that has just completed the first map of its
+    /// home gets the dock's pose in that map, and localizes in the map from then on, as after a restart.
     #[must_use]
     pub fn checkpoint_for_next_run(&self) -> Checkpoint {
         let present = self.checkpoint_without_home();
@@ -345,7 +348,7 @@ impl Brain {
         }
     }
 
-    /// Where a robot stands that is docked in a map which it has just made, and with which it does not compare yet.
+    /// Pose of a docked robot in a map that it has just completed and does not localize in yet.
     fn dock_of_new_map(&self) -> Option<Pose2> {
         let dock = self.map.dock_location();
         let has_new_map = self.behavior.has_covered_home() && self.map_agreement().is_none();
@@ -358,7 +361,7 @@ impl Brain {
         self.localization.learnt_gyro()
     }
 
-    /// Nothing was learnt of the gyro.
+    /// Discards what was learnt of the gyro.
     pub(crate) fn forget_gyro(&mut self) {
         self.localization.forget_gyro();
     }
@@ -406,7 +409,7 @@ impl Brain {
         }
     }
 
-    /// Follows the pose in the map as it is now; in one that is not worth it, by walls.
+    /// Localizes in the present map. Where the map is too poor for that, the walls that the robot finds are the reference.
     fn track(&mut self) {
         self.localization
             .start_monte_carlo(&self.map, &self.config, self.mind.random.state());

@@ -25,16 +25,20 @@ pub use mapping::{
 };
 pub use model::action::{Actions, Motion};
 pub use model::advance::Advance;
-pub use model::command::{Command, StrategyName};
+pub use model::command::{Command, JobCommand, StrategyName};
 pub use model::config::{
     Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds,
 };
 pub use model::cut_line::CutLine;
+pub use model::edit_error::EditError;
 pub use model::energy::EnergyModel;
+pub use model::fault::Fault;
 pub use model::geometry::{Point2, Pose2};
 pub use model::inhibit::{Inhibit, Inhibits};
+pub use model::job_refusal::JobRefusal;
 pub use model::kept_place::{KeptPlace, PlaceShape};
 pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
+pub use model::map_edit::{MapEdit, NoGoEdit, PlaceEdit, RoomEdit};
 pub use model::no_go::{NoGo, NoGoShape, RoomName};
 pub use model::observation::Observation;
 pub use model::order::{CleaningOrder, HomePart, SPOT_RADIUS_M};

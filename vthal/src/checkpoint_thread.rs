@@ -13,8 +13,8 @@ use brain::StoredMap;
 use rvac_api::{KeptMap, Run, RunRecord};
 use tokio::sync::mpsc::Sender;
 use vthal_core::{
-    ArchiveOrder, ArchiveTask, Checkpoint, ClientId, FloorHome, FloorOrder, FloorTask, HealthOrder,
-    KeptFloor, LearntOrder, MapEdit, MapOrder, MixOrder, MixTask, ScheduleOrder,
+    ArchiveOrder, ArchiveTask, Checkpoint, ClientId, EditedMap, FloorHome, FloorOrder, FloorTask,
+    HealthOrder, KeptFloor, LearntOrder, MapOrder, MixOrder, MixTask, ScheduleOrder,
 };
 
 use crate::archive_desk::ArchiveDesk;
@@ -83,7 +83,7 @@ enum Kept {
     Home(Box<FloorHome>),
     FloorOrder(FloorOrder),
     ArchiveOrder(ArchiveOrder),
-    Edit(Box<MapEdit>),
+    Edit(Box<EditedMap>),
     Order(MapOrder),
     MixOrder(MixOrder),
     Schedules(Box<ScheduleOrder>),
@@ -186,7 +186,7 @@ impl CheckpointHandle {
 
     /// Hands a changed map over, in place of older ones that wait; `false` when the disk is too slow to take it now.
     #[must_use]
-    pub(crate) fn edit(&self, edit: MapEdit) -> bool {
+    pub(crate) fn edit(&self, edit: EditedMap) -> bool {
         self.try_send(Kept::Edit(Box::new(edit)))
     }
 

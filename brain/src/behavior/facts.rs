@@ -1,8 +1,8 @@
 //! What an observation means for the state machine.
 
+use crate::model::fault::Fault;
 use crate::model::inhibit::Inhibit;
 use crate::model::observation::{ChargeFlow, Observation};
-use crate::model::reason::Reason;
 
 /// Digest of one observation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -17,15 +17,15 @@ pub(crate) struct Facts {
     pub(crate) touching: bool,
     /// A cliff is seen, or the firmware still holds the wheels because of one.
     pub(crate) at_cliff: bool,
-    /// Something besides the wheels tells the heading.
+    /// There is a source of heading besides the wheels.
     pub(crate) knows_heading: bool,
     /// The charger has stopped for a fault.
     pub(crate) charger_fault: bool,
     /// A fault that needs a person.
-    pub(crate) fault: Option<Reason>,
+    pub(crate) fault: Option<Fault>,
     /// Inhibits that `arm` takes away.
     pub(crate) disarmed: Disarmed,
-    /// The firmware rests because commands moved nothing.
+    /// The firmware rests because commands had no effect on the wheels' travel.
     pub(crate) not_moving: bool,
     /// A cliff sensor fails its self-test at this moment; lasting, it is a fault.
     pub(crate) cliff_sensor: bool,
@@ -38,7 +38,7 @@ pub(crate) struct Disarmed {
     pub(crate) stopped: bool,
     pub(crate) button_stop: bool,
     pub(crate) link_lost: bool,
-    /// Docked, and `undock` was not said.
+    /// Docked, and `undock` was not commanded.
     pub(crate) docked: bool,
 }
 
@@ -67,7 +67,7 @@ impl Facts {
             facts.add_inhibit(inhibit);
         }
         if observation.inhibits.other().is_some() {
-            facts.fault = Some(Reason::UnknownInhibit);
+            facts.fault = Some(Fault::UnknownInhibit);
         }
         facts
     }
@@ -79,16 +79,16 @@ impl Facts {
             Inhibit::ButtonStop => self.disarmed.button_stop = true,
             Inhibit::LinkLost => self.disarmed.link_lost = true,
             Inhibit::Docked => self.disarmed.docked = true,
-            // Already read as what is touched or seen.
+            // The observation's contacts and cliffs include these.
             Inhibit::Bumper | Inhibit::Cliff => {}
-            // The firmware wants to be charged (S16).
+            // The firmware asks for charge (S16).
             Inhibit::BatteryLow | Inhibit::BatteryWeak => self.battery_low = true,
             // It forbids charging only, and no motion.
             Inhibit::ChargerFault => self.charger_fault = true,
             Inhibit::CliffSensorFault => self.cliff_sensor = true,
             Inhibit::WheelDrop => self.wheel_drop = true,
             Inhibit::NotMoving => self.not_moving = true,
-            // Somebody must see to these.
+            // These need a person.
             Inhibit::ResetLoop
             | Inhibit::BumperStuck
             | Inhibit::CliffTrapped
@@ -103,7 +103,7 @@ impl Facts {
             | Inhibit::Thermistor
             | Inhibit::ChargerShorted
             | Inhibit::Clock
-            | Inhibit::Memory => self.fault = Some(Reason::of_inhibit(inhibit)),
+            | Inhibit::Memory => self.fault = Some(Fault::of_inhibit(inhibit)),
         }
     }
 }
@@ -111,9 +111,9 @@ impl Facts {
 #[cfg(test)]
 mod tests {
     use super::Facts;
+    use crate::model::fault::Fault;
     use crate::model::inhibit::Inhibits;
     use crate::model::observation::Observation;
-    use crate::model::reason::Reason;
 
     fn facts_of(name: &'static str) -> Facts {
         let observation = Observation {
@@ -136,12 +136,12 @@ mod tests {
     #[test]
     fn what_needs_a_person_is_a_fault_by_its_name() {
         for (name, reason) in [
-            ("battery-empty", Reason::BatteryEmpty),
-            ("battery-overheated", Reason::BatteryOverheated),
-            ("thermistor", Reason::Thermistor),
-            ("charger-shorted", Reason::ChargerShorted),
-            ("memory", Reason::Memory),
-            ("flux-capacitor", Reason::UnknownInhibit),
+            ("battery-empty", Fault::BatteryEmpty),
+            ("battery-overheated", Fault::BatteryOverheated),
+            ("thermistor", Fault::Thermistor),
+            ("charger-shorted", Fault::ChargerShorted),
+            ("memory", Fault::Memory),
+            ("flux-capacitor", Fault::UnknownInhibit),
         ] {
             assert_eq!(facts_of(name).fault, Some(reason), "{name}");
         }

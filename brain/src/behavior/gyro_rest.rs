@@ -1,4 +1,4 @@
-//! When a robot at work stands still for its gyro's sake: the bias is learnt at rest.
+//! When a robot at work rests so that its gyro's bias can be measured.
 
 /// How often and how long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -10,18 +10,18 @@ pub(super) struct RestPace {
 }
 
 impl RestPace {
-    /// Where nothing but rests tells a turn from a bias.
+    /// Without a map, only rests distinguish a turn from a bias.
     const SURVEYING: Self = Self {
         every_us: 60_000_000,
         rest_us: 2_000_000,
     };
-    /// Where a map tells the heading, too: more rest takes longer and brings no better place.
+    /// With a map that corrects the heading as well, longer rests cost time and do not improve the pose.
     const TRACKED: Self = Self {
         every_us: 120_000_000,
         rest_us: 1_500_000,
     };
 
-    /// For a robot whose place a known map tells, and for any other.
+    /// The pace for a robot that localizes in a known map, or for any other.
     pub(super) const fn of(is_tracked: bool) -> Self {
         if is_tracked {
             Self::TRACKED
@@ -31,7 +31,7 @@ impl RestPace {
     }
 }
 
-/// The next rest, or the one that is taken.
+/// The next rest, or the present one.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct GyroRest {
     due_us: Option<u64>,
@@ -39,8 +39,8 @@ pub(super) struct GyroRest {
 }
 
 impl GyroRest {
-    /// Whether the robot shall stand still now. It is kept waiting only on a way ahead; what comes in between ends a rest, and
-    /// that is taken anew as soon as the robot is on its way again.
+    /// Whether the robot must rest now. It rests only while it drives forward. Anything else ends a rest, which is repeated in full as soon
+    /// as the robot drives forward again.
     pub(super) fn follow(&mut self, now_us: u64, is_ahead: bool, budget: RestPace) -> bool {
         let RestPace { every_us, rest_us } = budget;
         if !is_ahead {
@@ -71,7 +71,7 @@ mod tests {
     const REST_US: u64 = RestPace::SURVEYING.rest_us;
 
     #[test]
-    fn a_rest_is_taken_on_the_first_way_ahead_after_it_is_due_and_whole() {
+    fn a_due_rest_is_taken_in_full_during_forward_travel() {
         let mut rest = GyroRest::default();
         let mut follow = |now_us, is_ahead| rest.follow(now_us, is_ahead, RestPace::of(false));
         assert!(!follow(0, true));
@@ -79,7 +79,7 @@ mod tests {
         let late_us = EVERY_US + 20_000_000;
         assert!(!follow(late_us, false), "it turns");
         assert!(follow(late_us + 1, true));
-        assert!(!follow(late_us + 2, false), "something was met");
+        assert!(!follow(late_us + 2, false), "a contact");
         assert!(follow(late_us + 3, true));
         assert!(follow(late_us + 2 + REST_US, true));
         assert!(!follow(late_us + 3 + REST_US, true));

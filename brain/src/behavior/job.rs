@@ -1,7 +1,7 @@
-//! A job: what it is for, who drives for it, what it has done.
+//! A job: its purpose, its task and its figures.
 
+use super::dock_retry::DockRetry;
 use super::gyro_rest::GyroRest;
-use super::second_look::SecondLook;
 use super::{JobFigures, JobKind};
 use crate::coverage;
 use crate::coverage::Spot;
@@ -13,7 +13,7 @@ use crate::model::random::Random;
 use crate::navigation::{BackOff, Manoeuvre, ManoeuvreSequence, Task, Turn};
 use crate::recovery::{CliffWatch, Pen, ProgressWatch, RecoverySequence, SlipWatch};
 
-/// Way back from the dock before turning away. No more, because contacts may close without a dock: the ground behind is
+/// Reverse travel from the dock before turning away, metres. No more, because contacts may close without a dock, and the ground behind is
 /// unknown then.
 const DEPART_M: f64 = 0.15;
 
@@ -26,20 +26,20 @@ pub(super) struct Job {
     pub(super) task: Box<dyn Task>,
     pub(super) figures: JobFigures,
     pub(super) ladder: RecoverySequence,
-    /// Whether it gets anywhere.
+    /// Watches whether it leaves a small area.
     pub(super) pen: Pen,
     pub(super) progress: ProgressWatch,
     pub(super) slip: SlipWatch,
     pub(super) edges: CliffWatch,
     /// Movements that come before the task: an escape, or leaving the dock.
     pub(super) detour: Option<Detour>,
-    /// When to stand still next for the gyro's sake.
+    /// When to rest next so that the gyro's bias can be measured.
     pub(super) gyro_rest: GyroRest,
-    /// Brushes may run: the bumper was free since the job last started (S29).
+    /// Brushes may run: the bumper was released after the job last started (S29).
     pub(super) brushes: bool,
-    /// On its way back to where it was put off: brushes stay off over floor that was swept before.
+    /// Returning to where it was postponed: brushes stay off over floor that is swept already.
     pub(super) returns: bool,
-    pub(super) second_look: SecondLook,
+    pub(super) dock_retry: DockRetry,
 }
 
 /// Movements that come before the task.
@@ -52,9 +52,9 @@ pub(super) struct Detour {
 /// What a detour is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Purpose {
-    /// Coming free.
+    /// Getting unstuck.
     Escape,
-    /// Leaving the dock.
+    /// Undocking.
     Departure,
 }
 
@@ -85,17 +85,16 @@ impl Job {
             gyro_rest: GyroRest::default(),
             brushes: false,
             returns: false,
-            second_look: SecondLook::default(),
+            dock_retry: DockRetry::default(),
         }
     }
 
-    /// Where it does not go.
+    /// Floor that it keeps out of.
     pub(super) fn avoided(&self) -> &[NoGo] {
         self.order.avoid()
     }
 
-    /// The robot stood still or was moved by a person: only the purpose of the job is still true, and what was tried to come
-    /// free.
+    /// The robot rested or was moved by a person: only the purpose of the job and the recovery attempts so far stay valid.
     pub(super) fn interrupt(&mut self) {
         self.task.interrupted();
         self.progress = ProgressWatch::default();
@@ -104,8 +103,8 @@ impl Job {
         self.brushes = false;
     }
 
-    /// A person wants it to go on: what was tried to come free counts no more.
-    pub(super) fn encourage(&mut self) {
+    /// A person resumes it: recovery attempts so far do not count any more.
+    pub(super) fn reset_recovery(&mut self) {
         self.ladder = RecoverySequence::default();
         self.pen = Pen::default();
     }

@@ -2,10 +2,10 @@
 
 mod admission;
 mod contacts;
+mod dock_retry;
 mod manual;
 mod reaction;
 mod recharge;
-mod second_look;
 mod start;
 mod work;
 
@@ -13,7 +13,7 @@ use super::facts::Facts;
 use super::job::Job;
 use super::{BehaviorState, JobFigures, JobKind, Status};
 use crate::model::action::{Arm, Motion, Tone};
-use crate::model::command::Command;
+use crate::model::command::JobCommand;
 use crate::model::config::BrainConfig;
 use crate::model::energy::EnergyLearner;
 use crate::model::geometry::Point2;
@@ -31,7 +31,7 @@ pub(super) enum Mode {
     /// Link down. With `resume` the job goes on by itself afterwards; `since_us` is `None` when nobody knows how long ago
     /// the link was up.
     Disconnected { since_us: Option<u64>, resume: bool },
-    /// Nothing to do.
+    /// No job.
     Idle,
     /// Announcing, then arming.
     Starting { since_us: u64 },
@@ -39,7 +39,7 @@ pub(super) enum Mode {
     Working,
     /// On the dock.
     Docked,
-    /// On the dock; the job goes on when the pack is charged.
+    /// On the dock; the job resumes when the pack is charged.
     Recharging,
     /// A person drives.
     Manual(ManualDrive),
@@ -59,7 +59,7 @@ pub(crate) struct Intent {
     pub(crate) arm: Option<Arm>,
     pub(crate) tones: Vec<Tone>,
     pub(crate) job_start: JobStart,
-    /// A place that held the robot, now that it has come free.
+    /// A place where the robot was stuck, now that it is free.
     pub(crate) pocket: Option<Point2>,
 }
 
@@ -79,18 +79,18 @@ pub(crate) struct Behavior {
     pub(super) mode: Mode,
     pub(super) reason: Reason,
     pub(super) job: Option<Job>,
-    /// A job that was put off for the pack's sake while the robot drives home.
+    /// A job that was put off because of low charge while the robot drives home.
     pub(super) put_off: Option<Job>,
     pub(super) energy: EnergyLearner,
-    /// When the way home was looked at last.
-    pub(super) way_home_us: Option<u64>,
-    /// Its length is just being looked for.
-    pub(super) way_home: Option<Gradual<Option<f64>>>,
-    /// How long the way home was when it was looked at last, metres.
-    pub(super) home_way_m: Option<f64>,
+    /// When the path home was last searched, microseconds.
+    pub(super) return_check_us: Option<u64>,
+    /// The search for its length, while it runs.
+    pub(super) return_search: Option<Gradual<Option<f64>>>,
+    /// Length of the path home by the last search, metres.
+    pub(super) return_path_m: Option<f64>,
     pub(super) facts: Facts,
     pub(super) cliff_sensor_since_us: Option<u64>,
-    pub(super) starved_since_us: Option<u64>,
+    pub(super) unarmed_since_us: Option<u64>,
     /// A person's stick must come to the centre before it drives again (S23).
     pub(super) centre_first: bool,
     pub(super) last_motion: Motion,
@@ -100,14 +100,14 @@ pub(crate) struct Behavior {
     pub(super) tones: Vec<Tone>,
     pub(super) job_start: JobStart,
     pub(super) pocket: Option<Point2>,
-    /// Since when it stands on contacts without current, and how often it drove in again for that.
+    /// Since when it waits on contacts without current, and how often it has docked again for that.
     pub(super) contacts_us: Option<u64>,
-    pub(super) dry_tries: u32,
-    /// When it came home, and how often it has slipped off since somebody sent it.
+    pub(super) no_current_tries: u32,
+    /// When it docked, and how often it has slipped off since it was sent.
     pub(super) home_us: Option<u64>,
     pub(super) slips: u32,
     halt_until_us: u64,
-    /// A job for the whole home came to its end: what can be reached of the home is known.
+    /// A job for the whole home has finished, so all of the home that can be reached is known.
     pub(super) has_covered_home: bool,
 }
 
@@ -123,12 +123,12 @@ impl Behavior {
             job: None,
             put_off: None,
             energy: EnergyLearner::default(),
-            way_home_us: None,
-            way_home: None,
-            home_way_m: None,
+            return_check_us: None,
+            return_search: None,
+            return_path_m: None,
             facts: Facts::default(),
             cliff_sensor_since_us: None,
-            starved_since_us: None,
+            unarmed_since_us: None,
             centre_first: false,
             last_motion: Motion::Rest,
             figures: JobFigures::default(),
@@ -139,7 +139,7 @@ impl Behavior {
             job_start: JobStart::None,
             pocket: None,
             contacts_us: None,
-            dry_tries: 0,
+            no_current_tries: 0,
             home_us: None,
             slips: 0,
             has_covered_home: false,
@@ -178,35 +178,35 @@ impl Behavior {
         }
     }
 
-    /// Figures of the running or last job; the swept area is the map's business.
+    /// Figures of the running or last job, without the swept area, which the map has.
     pub(crate) fn figures(&self) -> JobFigures {
         self.job.as_ref().map_or(self.figures, |job| job.figures)
     }
 
-    /// Whether a job for the whole home that plans came to its end by itself.
+    /// Whether a planned job for the whole home has finished by itself.
     pub(crate) const fn has_covered_home(&self) -> bool {
         self.has_covered_home
     }
 
-    /// One step: commands, perceptions, motion.
+    /// One step: commands, observation, motion.
     pub(crate) fn step(
         &mut self,
         situation: &Situation<'_>,
-        commands: &[Command],
-        mind: &mut TaskContext,
+        commands: &[&JobCommand],
+        context: &mut TaskContext,
     ) -> Intent {
         self.facts = Facts::read(situation.observation, self.config.battery_low);
         self.facts.knows_heading = situation.knows_heading;
         self.facts.fault = self.fault();
         for command in commands {
             match self.admit(command, situation.map) {
-                Ok(()) => self.obey(command, mind),
-                Err(reason) => mind.decide("refuse", reason, 0.0),
+                Ok(()) => self.obey(command, context),
+                Err(refusal) => context.refuse("refuse", refusal.name()),
             }
         }
         self.watch_energy(situation);
-        self.react(situation, mind);
-        let wish = self.act(situation, mind);
+        self.react(situation, context);
+        let wish = self.act(situation, context);
         let motion = self.permitted(wish, situation);
         self.last_motion = motion;
         Intent {
@@ -219,7 +219,7 @@ impl Behavior {
         }
     }
 
-    fn act(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) -> Motion {
+    fn act(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Motion {
         match self.mode {
             Mode::Disconnected { .. } => Motion::Rest,
             Mode::Idle
@@ -228,10 +228,10 @@ impl Behavior {
             | Mode::Paused
             | Mode::Stuck
             | Mode::Error { .. } => self.rest(),
-            Mode::Starting { since_us } => self.start(since_us, mind),
-            // The charger begins when nothing turns.
+            Mode::Starting { since_us } => self.start(since_us, context),
+            // The charger starts only while no motor turns.
             Mode::Working if self.waits_for_current() => self.rest(),
-            Mode::Working => self.work(situation, mind),
+            Mode::Working => self.work(situation, context),
             Mode::Manual(drive) => self.drive_manually(drive),
         }
     }
@@ -244,13 +244,13 @@ impl Behavior {
         }
     }
 
-    /// Changes the mode. Every change of mode goes through here, so that none is without a decision and a reason.
-    pub(super) fn enter(&mut self, mode: Mode, reason: Reason, mind: &mut TaskContext) {
+    /// Changes the mode. Every change of mode is made here, so each has a decision and a reason.
+    pub(super) fn enter(&mut self, mode: Mode, reason: Reason, context: &mut TaskContext) {
         let moved = self.state().moves();
         self.mode = mode;
         self.reason = reason;
         self.armed_us = None;
-        self.starved_since_us = None;
+        self.unarmed_since_us = None;
         self.contacts_us = None;
         let state = self.state();
         if moved && !state.moves() {
@@ -259,16 +259,16 @@ impl Behavior {
                 job.interrupt();
             }
         }
-        mind.decide(state.decision(), reason, 0.0);
+        context.decide(state.decision(), reason, 0.0);
     }
 
     /// Ends the job and keeps its figures.
-    pub(super) fn end_job(&mut self, reason: Reason, mind: &mut TaskContext) {
+    pub(super) fn end_job(&mut self, reason: Reason, context: &mut TaskContext) {
         if let Some(job) = self.job.take() {
             self.figures = job.figures;
         }
         self.put_off = None;
-        self.enter(self.mode_without_job(), reason, mind);
+        self.enter(self.mode_without_job(), reason, context);
     }
 
     pub(super) fn mode_without_job(&self) -> Mode {
@@ -279,14 +279,14 @@ impl Behavior {
         }
     }
 
-    /// Where an interruption leads: the job waits, or there is none.
-    pub(super) fn hold(&mut self, reason: Reason, mind: &mut TaskContext) {
+    /// Interrupts: the job waits, if there is one.
+    pub(super) fn hold(&mut self, reason: Reason, context: &mut TaskContext) {
         let mode = if self.job.is_some() {
             Mode::Paused
         } else {
             self.mode_without_job()
         };
-        self.enter(mode, reason, mind);
+        self.enter(mode, reason, context);
     }
 
     /// Whether brushes and suction run.
@@ -300,8 +300,8 @@ impl Behavior {
         }
     }
 
-    /// The last gate: what the firmware would have to refuse is not asked, nothing backs further than the robot knows the
-    /// ground, and link quality slows the rest.
+    /// The last check. It removes motion that the firmware would have to refuse and reverse travel over unknown ground, and slows the
+    /// robot on a poor link.
     fn permitted(&self, wish: Motion, situation: &Situation<'_>) -> Motion {
         let Motion::Drive {
             speed_m_per_s,
@@ -341,7 +341,7 @@ impl Behavior {
         }
     }
 
-    /// A person who drives looks behind the robot; the brain cannot.
+    /// A person who drives sees behind the robot; the brain does not.
     fn may_back(&self, situation: &Situation<'_>) -> bool {
         matches!(self.mode, Mode::Manual(_)) || situation.reverse_budget_m > 0.0
     }

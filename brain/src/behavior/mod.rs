@@ -1,15 +1,14 @@
-//! What the robot does and why: the state machine above tasks and manoeuvres.
+//! The state machine above tasks and manoeuvres: what the robot does and why.
 //!
-//! Each step goes the same way: commands are admitted or refused and change the *mode*; what was perceived may change it
-//! again, the graver cause winning; the mode then says how to move; and a last gate takes out every motion that the
-//! firmware would have to refuse.
+//! Each step has the same order. Commands are admitted or refused and change the *mode*. The observation may change it again, the most
+//! severe cause first. The mode then determines the motion. A last check removes every motion that the firmware would have to refuse.
 
+mod dock_retry;
 mod facts;
 mod gyro_rest;
 mod job;
 mod job_checkpoint;
 mod machine;
-mod second_look;
 mod state;
 
 pub use job_checkpoint::JobCheckpoint;

@@ -3,10 +3,10 @@
 use crate::model::command::StrategyName;
 use crate::model::reason::Reason;
 
-/// What the robot is doing. Closed: every moment of its life has one of these names.
+/// What the robot is doing. Exactly one of these holds at any time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BehaviorState {
-    /// No fresh word from the robot.
+    /// No fresh telemetry.
     Disconnected,
     /// Nothing to do.
     Idle,
@@ -16,7 +16,7 @@ pub enum BehaviorState {
     Cleaning,
     /// Cleans a small disc.
     Spot,
-    /// Looks for the dock or drives onto it.
+    /// Searches for the dock or drives onto it.
     Docking,
     /// On the dock.
     Docked,
@@ -24,9 +24,9 @@ pub enum BehaviorState {
     Manual,
     /// A job waits.
     Paused,
-    /// Could not free itself; waits for a person.
+    /// Could not get unstuck; waits for a person.
     Stuck,
-    /// A fault stands; waits until it is gone and acknowledged.
+    /// A fault; waits until it is gone and acknowledged.
     Error,
 }
 
@@ -97,7 +97,7 @@ pub struct Status {
     pub reason: Reason,
     /// Strategy of the running or waiting job; `None` without a job and for spot and dock jobs.
     pub strategy: Option<StrategyName>,
-    /// A waiting job could go on now if somebody said `resume`.
+    /// A waiting job would resume now on `resume`.
     pub resumable: bool,
 }
 
@@ -108,7 +108,7 @@ pub struct JobFigures {
     pub time_s: f64,
     /// Swept area in square metres by the robot's own estimate.
     pub swept_m2: f64,
-    /// Way of the robot's centre in metres, backwards counted too.
+    /// Travel of the robot's centre in metres, in both directions.
     pub path_m: f64,
     /// Bumps.
     pub bumps: u32,

@@ -1,4 +1,4 @@
-//! What must survive a restart of the daemon, as plain data: the shell writes and reads it in a form of its own.
+//! What must survive a restart of the daemon, as plain data. The shell serializes it.
 
 use core::task::Poll;
 
@@ -17,27 +17,27 @@ pub struct Checkpoint {
     pub pose: Pose2,
     /// State of the random generator.
     pub random_state: u64,
-    /// Way back in metres that no way forward has made good.
+    /// Reverse travel in metres that no forward travel has compensated.
     pub backed_m: f64,
     /// The job that ran or waited, if there was one.
     pub job: Option<JobCheckpoint>,
     /// Swept cells in rows.
     pub swept: Vec<SweptRun>,
-    /// The way so far.
+    /// The path so far.
     pub path: Vec<PathPoint>,
-    /// Contacts and cliffs met so far.
+    /// Contacts and cliffs so far.
     pub hazards: Vec<Hazard>,
-    /// What is known of the home; `None` = nothing, or nothing that the one who takes it up does not know already.
+    /// The map of the home; `None` = none, or the reader has it already.
     pub home: Option<StoredMap>,
-    /// What driving and cleaning take from the pack.
+    /// Learnt energy use of driving and cleaning.
     pub energy: EnergyModel,
     /// What was learnt of the gyro; `None` = nothing that is worth keeping.
     pub gyro: Option<GyroLearnt>,
-    /// How the pose is followed in the map of the home; `None` = by odometry alone.
+    /// State of localization in the map of the home; `None` = odometry alone.
     pub tracking: Option<TrackingCheckpoint>,
 }
 
-/// A checkpoint that is being made: writing down the home takes some steps.
+/// A checkpoint in the making: copying the home takes several steps.
 #[derive(Debug)]
 pub struct CheckpointWork {
     /// All but the home.
@@ -46,7 +46,8 @@ pub struct CheckpointWork {
 }
 
 impl CheckpointWork {
-    /// Does the next step. What it gives in the end is the state at the beginning. Not to be called again after that.
+    /// Does the next step. The checkpoint that it returns in the end is of the state at the beginning; it must not be called again
+    /// after that.
     pub fn go_on(&mut self) -> Option<Checkpoint> {
         let Poll::Ready(home) = self.home.go_on() else {
             return None;
@@ -59,7 +60,7 @@ impl CheckpointWork {
 }
 
 impl Checkpoint {
-    /// The same for a robot that has learnt this before, where the checkpoint knows nothing newer.
+    /// The same, with what was learnt before wherever the checkpoint has nothing newer.
     #[must_use]
     pub fn after(self, learnt: Learnt) -> Self {
         let is_new = self.energy.seen_s > 0.0;
@@ -84,7 +85,7 @@ mod tests {
     };
 
     #[test]
-    fn what_a_checkpoint_knows_is_the_newer() {
+    fn a_checkpoint_has_precedence_over_what_was_learnt_before() {
         let energy = EnergyModel {
             seen_s: 600.0,
             ..EnergyModel::default()

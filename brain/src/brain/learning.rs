@@ -1,10 +1,10 @@
-//! What the brain has learnt of the robot, over all its parts.
+//! What the brain has learnt about the robot: its gyro and its energy use.
 
 use super::Brain;
 use crate::model::learnt::{Learnt, LearntPart};
 
 impl Brain {
-    /// Forgets a part: the gyro was changed, or the pack.
+    /// Discards what was learnt about one part, because the gyro or the pack was replaced.
     pub fn forget(&mut self, part: LearntPart) {
         match part {
             LearntPart::Gyro => self.forget_gyro(),
@@ -12,7 +12,7 @@ impl Brain {
         }
     }
 
-    /// What the robot has learnt of itself up to now.
+    /// What was learnt up to now.
     #[must_use]
     pub fn learnt(&self) -> Learnt {
         Learnt {

@@ -1,17 +1,17 @@
-//! What changes the map besides what is seen: people, the dock's contacts, and what turns out about where the robot was.
+//! Changes of the map besides observations: edits by people, contacts of the dock, and corrections by localization.
 
 use super::Brain;
 use crate::localization::MapCorrection;
-use crate::model::command::Command;
 use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::map_edit::MapEdit;
 use crate::model::reason::Reason;
 
-/// A robot that docks farther than this from where a person pointed does not know which of the two is wrong, metres and radians.
-const TOLD_M: f64 = 1.0;
-const TOLD_RAD: f64 = 1.0;
+/// A robot that docks farther than this from the pose that a person gave cannot know which of the two is wrong, metres and radians.
+const DOCK_DISTANCE_MAX_M: f64 = 1.0;
+const DOCK_ANGLE_MAX_RAD: f64 = 1.0;
 
 impl Brain {
-    /// Does with the map what the robot's place asks for.
+    /// Corrects the map as localization asks.
     pub(super) fn correct_map(&mut self, correction: Option<MapCorrection>) {
         match correction {
             Some(MapCorrection::Redraw { keyframes }) => self.map.redraw(&keyframes),
@@ -23,52 +23,39 @@ impl Brain {
         }
     }
 
-    /// Does what a person wants of the map. What was admitted and does not hold any more changes nothing.
-    pub(super) fn edit_map(&mut self, command: &Command, is_docked: bool) {
-        let refused = match command {
-            Command::AddNoGo { no_go } => self.map.add_no_go(no_go.clone()).err(),
-            Command::RemoveNoGo { number } => self.map.remove_no_go(*number).err(),
-            Command::NameNoGo { number, name } => self.map.name_no_go(*number, name.clone()).err(),
-            Command::ReshapeNoGo { number, no_go } => self.map.reshape_no_go(*number, no_go.clone()).err(),
-            Command::KeepPlace { place, number } => self.map.keep_place(place.clone(), *number).err(),
-            Command::NamePlace { number, name } => self.map.name_place(*number, name.clone()).err(),
-            Command::ReshapePlace { number, shape } => self.map.reshape_place(*number, shape).err(),
-            Command::ForgetPlace { number } => self.map.forget_place(*number).err(),
-            Command::NameRoom { room, name } => self.map.name_room(*room, name.clone()).err(),
-            Command::SetRoom { room, settings } => self.map.set_room(*room, *settings).err(),
-            Command::SplitRoom { room, line } => self.map.split_room(*room, *line).err(),
-            Command::JoinRooms { rooms } => self.map.join_rooms(*rooms).err(),
-            Command::UndoRoomChange { number } => self.map.undo_room_change(*number).err(),
-            Command::MoveDock { pose } => self.move_dock(*pose, is_docked).err(),
-            _ => None,
-        };
-        if let Some(reason) = refused {
-            self.mind.decide("edit-refused", reason, 0.0);
+    /// Makes an edit of the map. One that was admitted and does not hold any more changes nothing.
+    pub(super) fn edit(&mut self, edit: &MapEdit, is_docked: bool) {
+        match self.map.apply(edit) {
+            Ok(()) => self.follow_edit(edit, is_docked),
+            Err(error) => self.mind.refuse("edit-refused", error.name()),
         }
     }
 
-    /// A person says where the dock stands now. A robot that is on it was carried along.
-    fn move_dock(&mut self, pose: Pose2, is_docked: bool) -> Result<(), Reason> {
-        self.map.move_dock(pose)?;
-        self.beams.forget();
-        self.localization.put_dock(self.map.dock_location());
-        if is_docked {
-            // The way so far does not lead here.
-            self.map.start_anew();
-            self.wake_on_dock();
+    /// What an edit changes beside the map. A robot that is on the dock was carried along with it.
+    fn follow_edit(&mut self, edit: &MapEdit, is_docked: bool) {
+        match edit {
+            MapEdit::NoGo(_) | MapEdit::Place(_) | MapEdit::Room(_) => {}
+            MapEdit::Dock(_) => {
+                self.beams.forget();
+                self.localization.put_dock(self.map.dock_location());
+                if is_docked {
+                    // The path so far does not lead here.
+                    self.map.start_anew();
+                    self.wake_on_dock();
+                }
+            }
         }
-        Ok(())
     }
 
-    /// The robot stands on the dock: where it was told to be, or was felt too seldom, if that is near enough and the robot may trust
-    /// its own place.
-    pub(super) fn feel_dock(&mut self, pose: Pose2) {
+    /// The robot is on the dock. Its pose refines a dock that a person placed or that was seldom used, if the two are near each other and
+    /// the robot's pose is confirmed.
+    pub(super) fn observe_dock(&mut self, pose: Pose2) {
         let place = self.map.dock_location();
         let Some(known) = place.pose().filter(|_| !place.is_converged()) else {
             return;
         };
-        let is_near = known.position().distance_m(pose.position()) <= TOLD_M
-            && normalize_rad(known.heading_rad - pose.heading_rad).abs() <= TOLD_RAD;
+        let is_near = known.position().distance_m(pose.position()) <= DOCK_DISTANCE_MAX_M
+            && normalize_rad(known.heading_rad - pose.heading_rad).abs() <= DOCK_ANGLE_MAX_RAD;
         if is_near && self.localization.is_confirmed() {
             self.map.measure_dock(pose);
             self.localization.put_dock(self.map.dock_location());

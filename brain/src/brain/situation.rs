@@ -1,4 +1,4 @@
-//! What the behavior sees in one step, gathered from the parts of the brain.
+//! The inputs of the behavior in one step, gathered from the parts of the brain.
 
 use crate::localization::Localization;
 use crate::mapping::{BeamMemory, Map};
@@ -7,7 +7,7 @@ use crate::model::config::BrainConfig;
 use crate::model::observation::Observation;
 use crate::navigation::Situation;
 
-/// The parts of the brain that a situation tells of.
+/// The parts of the brain that a situation describes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parts<'step> {
     pub(super) localization: &'step Localization,
@@ -17,7 +17,7 @@ pub(super) struct Parts<'step> {
 }
 
 impl<'step> Parts<'step> {
-    /// The situation after this observation, which ended that motion.
+    /// The situation after this observation and the motion before it.
     pub(super) fn situation(self, observation: &'step Observation, advance: Advance) -> Situation<'step> {
         let localization = self.localization;
         Situation {

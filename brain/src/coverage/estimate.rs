@@ -5,11 +5,12 @@ use super::plan::{Area, CoveragePlan, Departure, PlanSettings, plan_area};
 use super::target_floor::TargetFloor;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
 use crate::model::config::BrainConfig;
+use crate::model::edit_error::EditError;
 use crate::model::energy::{EnergyModel, time_to_return_s};
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{StepBudget, at_once};
+use crate::model::job_refusal::JobRefusal;
 use crate::model::order::{CleaningOrder, HomePart};
-use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{Inflation, reachable};
 
@@ -45,7 +46,7 @@ pub(crate) fn estimate(
     order: &CleaningOrder,
     (map, start): (&Map, Pose2),
     (config, energy): (&BrainConfig, &EnergyModel),
-) -> Result<JobEstimate, Reason> {
+) -> Result<JobEstimate, JobRefusal> {
     map.admit_order(order)?;
     let settings = PlanSettings {
         swath_m: config.body.swath_m,
@@ -77,9 +78,9 @@ pub(crate) fn estimate(
     }
     if sum.floor_m2 <= 0.0 {
         return Err(if map.free_m2() > 0.0 {
-            Reason::RestOutOfReach
+            JobRefusal::RestOutOfReach
         } else {
-            Reason::NoMap
+            EditError::NoMap.into()
         });
     }
     let home_s = map.dock().map_or(0.0, |dock| {

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::room_changes::RoomChanges;
+use crate::model::edit_error::EditError;
 use crate::model::kept_place::KeptPlace;
 use crate::model::no_go::{NoGo, RoomName};
-use crate::model::reason::Reason;
 use crate::model::room_settings::RoomSettings;
 
 /// Most no-go zones and virtual walls of a home.
@@ -45,11 +45,11 @@ impl Default for KeptPlaces {
 }
 
 impl KeptPlaces {
-    /// Whether the name is unique. A new place has no number yet.
-    pub(super) fn may_be_called(&self, number: Option<u16>, name: &RoomName) -> Result<(), Reason> {
+    /// Two places of one name could not be told apart; a new one has no number yet.
+    pub(super) fn may_be_called(&self, number: Option<u16>, name: &RoomName) -> Result<(), EditError> {
         let mut others = self.kept.iter().filter(|(other, _)| Some(**other) != number);
         if others.any(|(_, place)| place.name().sounds_like(name.as_str())) {
-            return Err(Reason::NameTaken);
+            return Err(EditError::NameTaken);
         }
         Ok(())
     }
@@ -119,42 +119,42 @@ impl Annotations {
         says_nothing_of_rooms && self.no_go.is_empty() && self.places.kept.is_empty()
     }
 
-    pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), Reason> {
+    pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), EditError> {
         self.has_room_for_another()?;
         let number = self.next_no_go;
-        self.next_no_go = number.checked_add(1).ok_or(Reason::TooManyNoGos)?;
+        self.next_no_go = number.checked_add(1).ok_or(EditError::TooManyNoGos)?;
         self.no_go.insert(number, no_go);
         Ok(())
     }
 
-    pub(super) fn has_room_for_another(&self) -> Result<(), Reason> {
+    pub(super) fn has_room_for_another(&self) -> Result<(), EditError> {
         if self.no_go.len() < NO_GO_MAX && self.next_no_go < u16::MAX {
             Ok(())
         } else {
-            Err(Reason::TooManyNoGos)
+            Err(EditError::TooManyNoGos)
         }
     }
 
-    /// Whether the name is unique. A new no-go zone has no number yet.
-    pub(super) fn may_forbid_as(&self, number: Option<u16>, name: &RoomName) -> Result<(), Reason> {
+    /// Two no-go zones of one name could not be told apart; a new one has no number yet.
+    pub(super) fn may_forbid_as(&self, number: Option<u16>, name: &RoomName) -> Result<(), EditError> {
         let sounds_like = |no_go: &NoGo| no_go.name().is_some_and(|taken| taken.sounds_like(name.as_str()));
         let mut others = self.no_go.iter().filter(|(other, _)| Some(**other) != number);
         if others.any(|(_, no_go)| sounds_like(no_go)) {
-            return Err(Reason::NameTaken);
+            return Err(EditError::NameTaken);
         }
         Ok(())
     }
 
-    /// Whether the name is unique. Rooms that a change hides do not count.
-    pub(super) fn may_be_called(&self, room: u16, name: &RoomName) -> Result<(), Reason> {
+    /// Two rooms of one name could not be told apart. One that a change of people hides has none.
+    pub(super) fn may_be_called(&self, room: u16, name: &RoomName) -> Result<(), EditError> {
         let is_taken = |(other, taken): (&u16, &RoomName)| {
             *other != room && taken.sounds_like(name.as_str()) && !self.rooms.hides(*other)
         };
         if self.names.iter().any(is_taken) {
-            return Err(Reason::NameTaken);
+            return Err(EditError::NameTaken);
         }
         if self.names.len() >= NAMES_MAX && !self.names.contains_key(&room) {
-            return Err(Reason::BadName);
+            return Err(EditError::BadName);
         }
         Ok(())
     }

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use super::room_cut::{PartSide, nearest_cut};
 use super::{Cell, Raster};
 use crate::model::cut_line::CutLine;
+use crate::model::edit_error::EditError;
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
-use crate::model::reason::Reason;
 
 /// Most changes, and most undone splits that keep their identities.
 pub(super) const CHANGES_MAX: usize = 64;
@@ -108,15 +108,15 @@ impl RoomChanges {
             .map(|(other, _)| *other)
     }
 
-    pub(super) fn has_room_for_another(&self) -> Result<(), Reason> {
+    pub(super) fn has_room_for_another(&self) -> Result<(), EditError> {
         if self.made.len() < CHANGES_MAX && self.next < u16::MAX {
             Ok(())
         } else {
-            Err(Reason::TooManyRoomChanges)
+            Err(EditError::TooManyRoomChanges)
         }
     }
 
-    pub(super) fn add(&mut self, change: RoomChange) -> Result<(), Reason> {
+    pub(super) fn add(&mut self, change: RoomChange) -> Result<(), EditError> {
         self.has_room_for_another()?;
         if let RoomChange::Split(split) = &change {
             self.undone.retain(|before| before.part != split.part);
@@ -132,18 +132,18 @@ impl RoomChanges {
         self.undone.iter().rev().find(is_same).map(|split| split.part)
     }
 
-    pub(super) fn may_undo(&self, number: u16) -> Result<(), Reason> {
+    pub(super) fn may_be_taken_back(&self, number: u16) -> Result<(), EditError> {
         if !self.made.contains_key(&number) {
-            return Err(Reason::NoSuchRoomChange);
+            return Err(EditError::NoSuchRoomChange);
         }
         match self.built_on(number) {
-            Some(_) => Err(Reason::RoomChangeInUse),
+            Some(_) => Err(EditError::RoomChangeInUse),
             None => Ok(()),
         }
     }
 
-    pub(super) fn undo(&mut self, number: u16) -> Result<(), Reason> {
-        self.may_undo(number)?;
+    pub(super) fn take_back(&mut self, number: u16) -> Result<(), EditError> {
+        self.may_be_taken_back(number)?;
         if let Some(RoomChange::Split(split)) = self.made.remove(&number) {
             if self.undone.len() >= CHANGES_MAX {
                 self.undone.remove(0);

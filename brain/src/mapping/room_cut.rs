@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use super::cell::neighbours;
 use super::{CELL_M, Cell, Raster};
 use crate::model::cut_line::CutLine;
+use crate::model::edit_error::EditError;
 use crate::model::geometry::Point2;
-use crate::model::reason::Reason;
 
 /// People end a line short of the wall, so it is extended by this much, metres.
 const BEYOND_M: f64 = 0.5;
@@ -50,15 +50,15 @@ impl Cut {
     }
 }
 
-/// Cuts a room from border to border; without a room, the one with the longest part of the line.
-pub(super) fn cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLine) -> Result<Cut, Reason> {
-    let cut = nearest_cut(labels, room, line).ok_or(Reason::LineMissesRoom)?;
+/// Cuts a room from border to border; without a room, the one in which the line is longest.
+pub(super) fn cut(labels: &Raster<u16>, room: Option<u16>, line: &CutLine) -> Result<Cut, EditError> {
+    let cut = nearest_cut(labels, room, line).ok_or(EditError::LineMissesRoom)?;
     if cut.is_connected {
-        return Err(Reason::LineEndsInRoom);
+        return Err(EditError::LineEndsInRoom);
     }
     let least = PART_MIN_M2 / (CELL_M * CELL_M);
     if (cut.side(cut.smaller()).len() as f64) < least {
-        return Err(Reason::PartTooSmall);
+        return Err(EditError::PartTooSmall);
     }
     Ok(cut)
 }
@@ -182,8 +182,8 @@ mod tests {
     use super::{PartSide, cut, nearest_cut};
     use crate::mapping::{Cell, Raster};
     use crate::model::cut_line::CutLine;
+    use crate::model::edit_error::EditError;
     use crate::model::geometry::Point2;
-    use crate::model::reason::Reason;
 
     fn at(x_m: f64, y_m: f64) -> Point2 {
         Point2 { x_m, y_m }
@@ -226,11 +226,11 @@ mod tests {
     #[test]
     fn lines_that_cut_nothing_are_refused_by_name() {
         for (room, line, reason) in [
-            (None, line((-3.0, 0.0), (-3.0, 2.0)), Reason::LineMissesRoom),
-            (Some(2), line((1.0, 0.0), (1.0, 2.0)), Reason::LineMissesRoom),
-            (Some(3), line((1.0, 0.0), (1.0, 2.0)), Reason::LineMissesRoom),
-            (None, line((1.0, 0.7), (1.0, 1.2)), Reason::LineEndsInRoom),
-            (None, line((0.2, -0.1), (0.2, 2.1)), Reason::PartTooSmall),
+            (None, line((-3.0, 0.0), (-3.0, 2.0)), EditError::LineMissesRoom),
+            (Some(2), line((1.0, 0.0), (1.0, 2.0)), EditError::LineMissesRoom),
+            (Some(3), line((1.0, 0.0), (1.0, 2.0)), EditError::LineMissesRoom),
+            (None, line((1.0, 0.7), (1.0, 1.2)), EditError::LineEndsInRoom),
+            (None, line((0.2, -0.1), (0.2, 2.1)), EditError::PartTooSmall),
         ] {
             assert_eq!(cut(&labels(), room, &line).err(), Some(reason), "{line:?}");
         }
@@ -239,7 +239,7 @@ mod tests {
             (at(0.0, 0.0), at(f64::NAN, 1.0)),
             (at(0.0, 0.0), at(501.0, 1.0)),
         ] {
-            assert_eq!(CutLine::new(from, to), Err(Reason::BadLine));
+            assert_eq!(CutLine::new(from, to), Err(EditError::BadLine));
         }
     }
 

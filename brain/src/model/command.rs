@@ -1,15 +1,32 @@
 //! What people and schedules ask of the brain.
 
-use super::cut_line::CutLine;
-use super::geometry::Pose2;
-use super::kept_place::{KeptPlace, PlaceShape};
-use super::no_go::{NoGo, RoomName};
+use super::map_edit::MapEdit;
 use super::order::CleaningOrder;
-use super::room_settings::RoomSettings;
 
 /// A request, already arbitrated (see `vthal-core`): at most one source speaks at a time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Command {
+    /// Changes the map.
+    Edit(MapEdit),
+    /// Changes what the robot does.
+    Job(JobCommand),
+}
+
+impl From<MapEdit> for Command {
+    fn from(edit: MapEdit) -> Self {
+        Self::Edit(edit)
+    }
+}
+
+impl From<JobCommand> for Command {
+    fn from(command: JobCommand) -> Self {
+        Self::Job(command)
+    }
+}
+
+/// A request about what the robot does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum JobCommand {
     /// Clean everything with the named strategy.
     Clean {
         /// Which.
@@ -20,92 +37,6 @@ pub enum Command {
         /// Which, and how often.
         order: CleaningOrder,
     },
-    /// Forbid floor of the home to all ways that are planned.
-    AddNoGo {
-        /// Where.
-        no_go: NoGo,
-    },
-    /// Allow it again.
-    RemoveNoGo {
-        /// Its number in [`crate::mapping::Annotations`].
-        number: u16,
-    },
-    /// Give a no-go zone or virtual wall a name, or take it away.
-    NameNoGo {
-        /// Its number in [`crate::mapping::Annotations`].
-        number: u16,
-        /// Its name.
-        name: Option<RoomName>,
-    },
-    /// Let a no-go zone or virtual wall forbid other floor, under its number and name.
-    ReshapeNoGo {
-        /// Its number in [`crate::mapping::Annotations`].
-        number: u16,
-        /// Where it is from now on.
-        no_go: NoGo,
-    },
-    /// Keep a zone or spot under a name.
-    KeepPlace {
-        /// Which.
-        place: KeptPlace,
-        /// The number that it had before it was forgotten.
-        number: Option<u16>,
-    },
-    /// Give a kept place another name.
-    NamePlace {
-        /// Its number in [`crate::mapping::Annotations`].
-        number: u16,
-        /// Its name.
-        name: RoomName,
-    },
-    /// Let a kept place be elsewhere, under its number and name.
-    ReshapePlace {
-        /// Its number in [`crate::mapping::Annotations`].
-        number: u16,
-        /// Where it is from now on.
-        shape: PlaceShape,
-    },
-    /// Keep a place no longer.
-    ForgetPlace {
-        /// Its number.
-        number: u16,
-    },
-    /// Give a room a name, or take it away.
-    NameRoom {
-        /// Identity of the room.
-        room: u16,
-        /// Its name.
-        name: Option<RoomName>,
-    },
-    /// Say how a room is cleaned.
-    SetRoom {
-        /// Identity of the room.
-        room: u16,
-        /// How; `None` = as any other.
-        settings: Option<RoomSettings>,
-    },
-    /// Cut a room in two.
-    SplitRoom {
-        /// Identity of the room; without one, the room in which the line is longest.
-        room: Option<u16>,
-        /// Where.
-        line: CutLine,
-    },
-    /// Make two rooms one.
-    JoinRooms {
-        /// Their identities.
-        rooms: [u16; 2],
-    },
-    /// Take a change of the rooms back.
-    UndoRoomChange {
-        /// Its number in [`crate::mapping::RoomChanges`].
-        number: u16,
-    },
-    /// Say where the dock stands now. A robot that is on it stands there, too.
-    MoveDock {
-        /// Pose of a robot on it, by eye.
-        pose: Pose2,
-    },
     /// Clean a small disc around the present place.
     Spot,
     /// Stand still, keep the job.
@@ -114,7 +45,7 @@ pub enum Command {
     Resume,
     /// End the job and stand still.
     Stop,
-    /// Dock when the way leads there: finish now, drive on without cleaning until the dock is found, then stop.
+    /// Finish the job, drive to the dock without cleaning, then stop.
     Dock,
     /// A person drives. Valid until `valid_until_us`.
     Manual {
@@ -139,8 +70,8 @@ pub enum StrategyName {
     /// `bounce`: drive until a bump, back off, turn by a random angle. What the software of 2016 did.
     #[default]
     Bounce,
-    /// `statistical`: bouncing towards floor that was not swept lately, along the walls to the next place. For robots that nothing
-    /// but their wheels tells their heading.
+    /// `statistical`: bouncing towards floor that was not swept lately, along the walls to the next place. For robots whose only
+    /// source of heading is their wheels.
     Statistical,
     /// `systematic`: lanes over a home whose map is known, with few turns.
     Systematic,

@@ -1,8 +1,8 @@
 //! The line along which a person splits a room.
 
+use super::edit_error::EditError;
 use super::geometry::Point2;
 use super::no_go::in_micrometres;
-use super::reason::Reason;
 use super::zone::COORDINATE_MAX_M;
 
 /// Shortest line, metres.
@@ -19,8 +19,8 @@ impl CutLine {
     /// A line between two points.
     ///
     /// # Errors
-    /// [`Reason::BadLine`] when they coincide or are too far away.
-    pub fn new(from: Point2, to: Point2) -> Result<Self, Reason> {
+    /// [`EditError::BadLine`] when they are one place or far away.
+    pub fn new(from: Point2, to: Point2) -> Result<Self, EditError> {
         let is_near = |end: &Point2| end.x_m.abs() < COORDINATE_MAX_M && end.y_m.abs() < COORDINATE_MAX_M;
         let line = Self {
             from: in_micrometres(from),
@@ -29,7 +29,7 @@ impl CutLine {
         if is_near(&from) && is_near(&to) && line.length_m() >= LINE_MIN_M {
             Ok(line)
         } else {
-            Err(Reason::BadLine)
+            Err(EditError::BadLine)
         }
     }
 

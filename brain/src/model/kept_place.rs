@@ -1,9 +1,9 @@
 //! Saved zones and spots, which people can have cleaned again.
 
+use super::edit_error::EditError;
 use super::geometry::Point2;
 use super::no_go::{RoomName, in_micrometres};
 use super::order::HomePart;
-use super::reason::Reason;
 use super::zone::{COORDINATE_MAX_M, Zone};
 
 /// Shape of a saved place.
@@ -37,8 +37,8 @@ impl KeptPlace {
     /// A place with a name.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] for one that is too far away.
-    pub fn new(name: RoomName, shape: &PlaceShape) -> Result<Self, Reason> {
+    /// [`EditError::BadZone`] for one that is far away.
+    pub fn new(name: RoomName, shape: &PlaceShape) -> Result<Self, EditError> {
         let shape = match shape {
             PlaceShape::Zone(zone) => {
                 let corners = zone.corners().iter().copied().map(in_micrometres);
@@ -49,7 +49,7 @@ impl KeptPlace {
             {
                 PlaceShape::Spot(in_micrometres(*place))
             }
-            PlaceShape::Spot(_) => return Err(Reason::BadZone),
+            PlaceShape::Spot(_) => return Err(EditError::BadZone),
         };
         Ok(Self { name, shape })
     }
@@ -63,8 +63,8 @@ impl KeptPlace {
     /// The same with another shape.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] for a shape that is too far away.
-    pub fn with_shape(self, shape: &PlaceShape) -> Result<Self, Reason> {
+    /// [`EditError::BadZone`] for a shape that is far away.
+    pub fn with_shape(self, shape: &PlaceShape) -> Result<Self, EditError> {
         Self::new(self.name, shape)
     }
 

@@ -1,7 +1,7 @@
 //! No-go zones, virtual walls, and names.
 
+use super::edit_error::EditError;
 use super::geometry::Point2;
-use super::reason::Reason;
 use super::zone::Zone;
 
 /// Thickness of a virtual wall, metres: thick enough to cover every cell on its line.
@@ -35,8 +35,8 @@ impl NoGo {
     /// A zone.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] when its corners are not those of a zone.
-    pub fn zone(zone: &Zone) -> Result<Self, Reason> {
+    /// [`EditError::BadZone`] when its corners are not those of a zone.
+    pub fn zone(zone: &Zone) -> Result<Self, EditError> {
         let corners = zone.corners().iter().copied().map(in_micrometres).collect();
         Ok(Self {
             shape: NoGoShape::Zone,
@@ -48,8 +48,8 @@ impl NoGo {
     /// A virtual wall, as a thin zone along a line.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] when the ends coincide or are too far away.
-    pub fn wall(from: Point2, to: Point2) -> Result<Self, Reason> {
+    /// [`EditError::BadZone`] when the ends are one place or far away.
+    pub fn wall(from: Point2, to: Point2) -> Result<Self, EditError> {
         let (from, to) = (in_micrometres(from), in_micrometres(to));
         Ok(Self {
             shape: NoGoShape::Wall { from, to },
@@ -83,10 +83,10 @@ impl NoGo {
     }
 }
 
-fn thin_zone(from: Point2, to: Point2) -> Result<Zone, Reason> {
+fn thin_zone(from: Point2, to: Point2) -> Result<Zone, EditError> {
     let length_m = from.distance_m(to);
     if length_m <= 0.0 || length_m.is_nan() {
-        return Err(Reason::BadZone);
+        return Err(EditError::BadZone);
     }
     let half = 0.5 * WALL_M / length_m;
     let (along_x, along_y) = (half * (to.x_m - from.x_m), half * (to.y_m - from.y_m));
@@ -122,11 +122,11 @@ impl RoomName {
     /// A name; surrounding spaces are removed.
     ///
     /// # Errors
-    /// [`Reason::BadName`] for one that is empty, longer than 40 characters, or contains control characters.
-    pub fn new(text: &str) -> Result<Self, Reason> {
+    /// [`EditError::BadName`] for one that is empty, longer than 40 characters, or holds characters that cannot be seen.
+    pub fn new(text: &str) -> Result<Self, EditError> {
         let text = text.trim();
         if text.is_empty() || text.chars().count() > NAME_MAX || text.chars().any(char::is_control) {
-            return Err(Reason::BadName);
+            return Err(EditError::BadName);
         }
         Ok(Self(text.to_owned()))
     }
@@ -147,8 +147,8 @@ impl RoomName {
 #[cfg(test)]
 mod tests {
     use super::{NoGo, RoomName};
+    use crate::model::edit_error::EditError;
     use crate::model::geometry::Point2;
-    use crate::model::reason::Reason;
 
     fn at(x_m: f64, y_m: f64) -> Point2 {
         Point2 { x_m, y_m }
@@ -170,7 +170,7 @@ mod tests {
             (at(f64::NAN, 0.0), at(1.0, 0.0)),
             (at(0.0, 0.0), at(1e-7, 0.0)),
         ] {
-            assert_eq!(NoGo::wall(from, to), Err(Reason::BadZone), "{from:?} {to:?}");
+            assert_eq!(NoGo::wall(from, to), Err(EditError::BadZone), "{from:?} {to:?}");
         }
     }
 
@@ -180,7 +180,7 @@ mod tests {
         assert!(RoomName::new("Kitchen").unwrap().sounds_like(" kitchen"));
         let long = "x".repeat(41);
         for name in ["", "   ", "two\nlines", long.as_str()] {
-            assert_eq!(RoomName::new(name), Err(Reason::BadName), "{name:?}");
+            assert_eq!(RoomName::new(name), Err(EditError::BadName), "{name:?}");
         }
     }
 }

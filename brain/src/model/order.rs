@@ -1,8 +1,8 @@
 //! Cleaning orders: which parts of the home, how often, and which areas to avoid.
 
+use super::edit_error::EditError;
 use super::geometry::Point2;
 use super::no_go::NoGo;
-use super::reason::Reason;
 use super::room_settings::{PASSES_MAX, Pattern, RoomPower};
 use super::zone::Zone;
 
@@ -50,8 +50,8 @@ impl CleaningOrder {
     /// Up to 32 parts, cleaned one after the other, each 1 to 3 times before the next. No parts means the whole home.
     ///
     /// # Errors
-    /// [`Reason::BadOrder`] for more parts or another number of passes.
-    pub fn new(parts: Vec<HomePart>, passes: u8) -> Result<Self, Reason> {
+    /// [`EditError::BadOrder`] for more parts or another number of passes.
+    pub fn new(parts: Vec<HomePart>, passes: u8) -> Result<Self, EditError> {
         if parts.len() <= PARTS_MAX && (1..=PASSES_MAX).contains(&passes) {
             Ok(Self {
                 parts,
@@ -59,34 +59,34 @@ impl CleaningOrder {
                 ..Self::default()
             })
         } else {
-            Err(Reason::BadOrder)
+            Err(EditError::BadOrder)
         }
     }
 
     /// The same, with up to 16 areas to avoid until the next job begins.
     ///
     /// # Errors
-    /// [`Reason::TooManyNoGos`] for more of them.
-    pub fn avoiding(self, avoid: Vec<NoGo>) -> Result<Self, Reason> {
+    /// [`EditError::TooManyNoGos`] for more of them.
+    pub fn avoiding(self, avoid: Vec<NoGo>) -> Result<Self, EditError> {
         if avoid.len() <= AVOID_MAX {
             Ok(Self { avoid, ..self })
         } else {
-            Err(Reason::TooManyNoGos)
+            Err(EditError::TooManyNoGos)
         }
     }
 
     /// The same, with this power of brushes and suction everywhere, regardless of room settings.
     ///
     /// # Errors
-    /// [`Reason::BadSettings`] for more than 100 percent, or when nothing would run.
-    pub fn with_power(self, power: RoomPower) -> Result<Self, Reason> {
+    /// [`EditError::BadSettings`] for more than 100 percent, or when nothing would run.
+    pub fn with_power(self, power: RoomPower) -> Result<Self, EditError> {
         if power.is_possible() {
             Ok(Self {
                 power: Some(power),
                 ..self
             })
         } else {
-            Err(Reason::BadSettings)
+            Err(EditError::BadSettings)
         }
     }
 
@@ -139,14 +139,14 @@ impl CleaningOrder {
 #[cfg(test)]
 mod tests {
     use super::{CleaningOrder, HomePart};
-    use crate::model::reason::Reason;
+    use crate::model::edit_error::EditError;
 
     #[test]
     fn invalid_orders_are_refused_by_name() {
         for passes in [0, 4] {
-            assert_eq!(CleaningOrder::new(vec![], passes), Err(Reason::BadOrder));
+            assert_eq!(CleaningOrder::new(vec![], passes), Err(EditError::BadOrder));
         }
         let rooms = vec![HomePart::Room(1); 33];
-        assert_eq!(CleaningOrder::new(rooms, 1), Err(Reason::BadOrder));
+        assert_eq!(CleaningOrder::new(rooms, 1), Err(EditError::BadOrder));
     }
 }

@@ -1,259 +1,154 @@
 //! Why the robot does what it does, by name.
 
-use super::inhibit::Inhibit;
+use super::fault::Fault;
+use super::named_enum::named_enum;
 use super::observation::{Cliffs, Contacts};
 
-macro_rules! reasons {
-    ($($(#[$doc:meta])* $variant:ident => $name:literal,)+) => {
-        /// Named reason of a state, a refusal or a decision. Names are what logs, recordings and clients show; those of
-        /// firmware inhibits are spelled as on the wire.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        pub enum Reason {
-            $($(#[$doc])* $variant,)+
-        }
-
-        impl Reason {
-            /// All of them.
-            pub const ALL: &'static [Self] = &[$(Self::$variant,)+];
-
-            /// The name.
-            #[must_use]
-            pub const fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name,)+
-                }
-            }
-
-            /// The reason with exactly this name.
-            #[must_use]
-            pub fn from_name(name: &str) -> Option<Self> {
-                Self::ALL.iter().copied().find(|reason| reason.name() == name)
-            }
-        }
-    };
-}
-
-reasons! {
-    /// The brain has just been made.
-    StartUp => "start-up",
-    /// Somebody asked for it.
-    Command => "command",
-    /// The job is done.
-    Finished => "finished",
-    /// It goes on by itself after an interruption.
-    Continued => "continued",
-    /// A job was taken up again after the daemon restarted.
-    Restored => "restored",
-    /// The microcontroller was reset and is not armed any more.
-    NotArmed => "not-armed",
-    /// The firmware does not let itself be armed.
-    ArmRefused => "arm-refused",
-    /// No fresh telemetry, or the firmware heard nothing for the length of a lease.
-    LinkLost => "link-lost",
-    /// Telemetry is back.
-    LinkRestored => "link-restored",
-    /// Somebody said `stop` to the firmware directly.
-    Stopped => "stopped",
-    /// A button on the robot was pressed while it moved.
-    ButtonStop => "button-stop",
-    /// A wheel hangs: lifted or fallen.
-    WheelDrop => "wheel-drop",
-    /// On the dock.
-    Docked => "docked",
-    /// Left half of the bumper.
-    BumpLeft => "bump-left",
-    /// Right half of the bumper.
-    BumpRight => "bump-right",
-    /// Both halves of the bumper.
-    BumpFront => "bump-front",
-    /// No floor on the left.
-    CliffLeft => "cliff-left",
-    /// No floor on the right.
-    CliffRight => "cliff-right",
-    /// No floor ahead.
-    CliffFront => "cliff-front",
-    /// The bumper stays pressed though the robot backed off.
-    ContactHeld => "contact-held",
-    /// Two edges of the floor in short time: a third one would latch the firmware (S8).
-    CliffAgain => "cliff-again",
-    /// The floor does not come back though the robot backed off.
-    CliffHeld => "cliff-held",
-    /// Many short runs in a row: a pocket it cannot find out of.
-    BoxedIn => "boxed-in",
-    /// It moves, but for minutes it does not get out of a place of the size of a closet.
-    ShutIn => "shut-in",
-    /// It got out of a place that had held it.
-    CameFree => "came-free",
-    /// A straight run without an encounter for longer than any home is.
-    LongRun => "long-run",
-    /// Something stands ahead of a robot that follows a wall.
-    WallAhead => "wall-ahead",
-    /// The wall that is followed ends here.
-    WallEnded => "wall-ended",
-    /// Way enough in this manner; another one follows.
-    Alternation => "alternation",
-    /// Hardly anything here was not swept lately.
-    SweptLately => "swept-lately",
-    /// The floor here was not swept lately.
-    NewFloor => "new-floor",
-    /// By its statistics nearly all is swept.
-    ByStatistics => "by-statistics",
-    /// Nothing was met for long: open floor.
-    OpenFloor => "open-floor",
-    /// Back where the way along the walls began.
-    BackAtStart => "back-at-start",
-    /// It has been along this wall before.
-    KnownWall => "known-wall",
-    /// The way led round something that stands free in the room.
-    Island => "island",
-    /// The way along the walls takes too long.
-    LongLap => "long-lap",
-    /// Floor that was not swept yet.
-    UnsweptFloor => "unswept-floor",
-    /// It makes a plan, and has nothing to do until that is made.
-    Planning => "planning",
-    /// Too far from the planned way.
-    OffTheWay => "off-the-way",
-    /// No map of the home to plan on.
-    NoMap => "no-map",
-    /// Nothing but the wheels tells the heading, so there is no map.
-    NoHeading => "no-heading",
-    /// What is not swept yet cannot be reached.
-    RestOutOfReach => "rest-out-of-reach",
-    /// The pack is low, and what is left is not worth another charge.
-    CrumbsLeft => "crumbs-left",
-    /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.
-    LookAgain => "look-again",
-    /// Too many things in the way.
-    Obstructed => "obstructed",
-    /// Commanded to move and did not (S15).
-    NotMoving => "not-moving",
-    /// Gyro and wheels disagree for long (S14).
-    Slip => "slip",
-    /// The gyro's scale is not known well enough: whole turns beside a wall tell it.
-    GyroScale => "gyro-scale",
-    /// The gyro's bias wanders and is measured at rest.
-    GyroDrift => "gyro-drift",
-    /// The time of the job is used up (S26).
-    TaskBudget => "task-budget",
-    /// Little charge is left.
-    BatteryLow => "battery-low",
-    /// The dock was not found in time.
-    DockNotFound => "dock-not-found",
-    /// The job waits on the dock for charge and goes on by itself.
-    Recharging => "recharging",
-    /// The charger has stopped for a fault.
-    ChargerFault => "charger-fault",
-    /// The pack holds enough to go on.
-    Charged => "charged",
-    /// A beam of the dock is heard.
-    DockBeam => "dock-beam",
-    /// The map tells where the dock is, and the robot knows where it is itself.
-    DockKnown => "dock-known",
-    /// A beam of the dock was heard there before.
-    DockHeard => "dock-heard",
-    /// Contact, but not with the contacts of the dock.
-    DockMissed => "dock-missed",
-    /// On the contacts, and no current flows.
-    NoChargeCurrent => "no-charge-current",
-    /// No beam of the dock is heard where one should be.
-    NoBeam => "no-beam",
-    /// Nobody knows where the dock is.
-    DockUnknown => "dock-unknown",
-    /// The robot does not know where it is in the map.
-    PlaceUnknown => "place-unknown",
-    /// No way is left to where it wants to go.
-    WayBlocked => "way-blocked",
-    /// The lease of the person who drives ended.
-    LeaseEnded => "lease-ended",
-    /// The person let go.
-    Released => "released",
-    /// The stick must come back to the centre before it drives again (S23).
-    CentreFirst => "centre-first",
-    /// Too many parts, or another number of passes than 1 to 3.
-    BadOrder => "bad-order",
-    /// A zone has 3 to 64 corners near the home.
-    BadZone => "bad-zone",
-    /// The map has no room with this identity.
-    NoSuchRoom => "no-such-room",
-    /// There is no no-go zone or virtual wall of this number.
-    NoSuchNoGo => "no-such-no-go",
-    /// As many no-go zones and virtual walls as a home can have.
-    TooManyNoGos => "too-many-no-gos",
-    /// No zone or spot is kept under this number.
-    NoSuchPlace => "no-such-place",
-    /// As many zones and spots as a home can keep.
-    TooManyPlaces => "too-many-places",
-    /// The robot could not reach its dock any more.
-    DockInside => "dock-inside",
-    /// A name is one line of 1 to 40 characters.
-    BadName => "bad-name",
-    /// Another room is called so.
-    NameTaken => "name-taken",
-    /// Settings of a room have 1 to 3 passes and shares up to 100 percent, one of them above 0.
-    BadSettings => "bad-settings",
-    /// A line between rooms has two ends near the home.
-    BadLine => "bad-line",
-    /// A line that was to cut a room lies in none, or beside the one that is meant.
-    LineMissesRoom => "line-misses-room",
-    /// A line that was to cut a room leaves a way round it.
-    LineEndsInRoom => "line-ends-in-room",
-    /// What a line would cut off is too small for a room.
-    PartTooSmall => "part-too-small",
-    /// Rooms that are not beside each other.
-    RoomsApart => "rooms-apart",
-    /// There is no change of the rooms of this number.
-    NoSuchRoomChange => "no-such-room-change",
-    /// Another change of the rooms builds on it.
-    RoomChangeInUse => "room-change-in-use",
-    /// The rooms were changed as often as those of a home can be.
-    TooManyRoomChanges => "too-many-room-changes",
-    /// A zone without any floor that the map knows.
-    NoFloorThere => "no-floor-there",
-    /// The next part of the order.
-    NextPart => "next-part",
-    /// Such a job already runs.
-    AlreadyRunning => "already-running",
-    /// There is nothing to pause or resume.
-    NoJob => "no-job",
-    /// There is no error to acknowledge.
-    NoError => "no-error",
-    /// An acknowledged error must come first.
-    ErrorStands => "error-stands",
-    /// Three resets within a minute.
-    ResetLoop => "reset-loop",
-    /// The firmware gave up on a bumper.
-    BumperStuck => "bumper-stuck",
-    /// The firmware gave up on a cliff.
-    CliffTrapped => "cliff-trapped",
-    /// A cliff sensor fails its self-test.
-    CliffSensor => "cliff-sensor",
-    /// A wheel motor is blocked.
-    WheelStall => "wheel-stall",
-    /// The main brush is blocked.
-    BrushStall => "brush-stall",
-    /// A wheel turned without command.
-    Runaway => "runaway",
-    /// An encoder disagrees with its command.
-    Encoder => "encoder",
-    /// The firmware failed a self-check.
-    Internal => "internal",
-    /// The pack is empty: everything is off (S16).
-    BatteryEmpty => "battery-empty",
-    /// The pack is hot (S17).
-    BatteryHot => "battery-hot",
-    /// The pack was dangerously hot (S17).
-    BatteryOverheated => "battery-overheated",
-    /// The pack's temperature cannot be measured (S17).
-    Thermistor => "thermistor",
-    /// Current flows though the charger is off (S18).
-    ChargerShorted => "charger-shorted",
-    /// The clock of the microcontroller failed (S20).
-    Clock => "clock",
-    /// The memory of the microcontroller failed (S21).
-    Memory => "memory",
-    /// Newer firmware inhibits for a reason this brain does not know.
-    UnknownInhibit => "unknown-inhibit",
+named_enum! {
+    /// Named reason of a state or a decision. Logs, recordings and clients show the names.
+    Reason
+    {
+        /// The brain has just been made.
+        StartUp => "start-up",
+        /// Somebody asked for it.
+        Command => "command",
+        /// The job is done.
+        Finished => "finished",
+        /// It goes on by itself after an interruption.
+        Continued => "continued",
+        /// A job was taken up again after the daemon restarted.
+        Restored => "restored",
+        /// The microcontroller was reset and is not armed any more.
+        NotArmed => "not-armed",
+        /// The firmware does not let itself be armed.
+        ArmRefused => "arm-refused",
+        /// No fresh telemetry, or the firmware heard nothing for the length of a lease.
+        LinkLost => "link-lost",
+        /// Telemetry is back.
+        LinkRestored => "link-restored",
+        /// Somebody said `stop` to the firmware directly.
+        Stopped => "stopped",
+        /// A button on the robot was pressed while it moved.
+        ButtonStop => "button-stop",
+        /// A wheel hangs: lifted or fallen.
+        WheelDrop => "wheel-drop",
+        /// On the dock.
+        Docked => "docked",
+        /// Left half of the bumper.
+        BumpLeft => "bump-left",
+        /// Right half of the bumper.
+        BumpRight => "bump-right",
+        /// Both halves of the bumper.
+        BumpFront => "bump-front",
+        /// No floor on the left.
+        CliffLeft => "cliff-left",
+        /// No floor on the right.
+        CliffRight => "cliff-right",
+        /// No floor ahead.
+        CliffFront => "cliff-front",
+        /// The bumper stays pressed though the robot backed off.
+        ContactHeld => "contact-held",
+        /// Two edges of the floor in short time: a third one would latch the firmware (S8).
+        CliffAgain => "cliff-again",
+        /// The floor does not come back though the robot backed off.
+        CliffHeld => "cliff-held",
+        /// Many short runs in a row: a pocket it cannot find out of.
+        BoxedIn => "boxed-in",
+        /// It moves, but for minutes it does not get out of a place of the size of a closet.
+        ShutIn => "shut-in",
+        /// It got out of a place that had held it.
+        CameFree => "came-free",
+        /// A straight run without an encounter for longer than any home is.
+        LongRun => "long-run",
+        /// Something stands ahead of a robot that follows a wall.
+        WallAhead => "wall-ahead",
+        /// The wall that is followed ends here.
+        WallEnded => "wall-ended",
+        /// Way enough in this manner; another one follows.
+        Alternation => "alternation",
+        /// Hardly anything here was not swept lately.
+        SweptLately => "swept-lately",
+        /// The floor here was not swept lately.
+        NewFloor => "new-floor",
+        /// By its statistics nearly all is swept.
+        ByStatistics => "by-statistics",
+        /// Nothing was met for long: open floor.
+        OpenFloor => "open-floor",
+        /// Back where the way along the walls began.
+        BackAtStart => "back-at-start",
+        /// It has been along this wall before.
+        KnownWall => "known-wall",
+        /// The way led round something that stands free in the room.
+        Island => "island",
+        /// The way along the walls takes too long.
+        LongLap => "long-lap",
+        /// Floor that was not swept yet.
+        UnsweptFloor => "unswept-floor",
+        /// It makes a plan, and has nothing to do until that is made.
+        Planning => "planning",
+        /// Too far from the planned way.
+        OffTheWay => "off-the-way",
+        /// No map of the home to plan on.
+        NoMap => "no-map",
+        /// Nothing but the wheels tells the heading, so there is no map.
+        NoHeading => "no-heading",
+        /// What is not swept yet cannot be reached.
+        RestOutOfReach => "rest-out-of-reach",
+        /// The pack is low, and what is left is not worth another charge.
+        CrumbsLeft => "crumbs-left",
+        /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.
+        LookAgain => "look-again",
+        /// Too many things in the way.
+        Obstructed => "obstructed",
+        /// Commanded to move and did not (S15).
+        NotMoving => "not-moving",
+        /// Gyro and wheels disagree for long (S14).
+        Slip => "slip",
+        /// The gyro's scale is not known well enough: whole turns beside a wall tell it.
+        GyroScale => "gyro-scale",
+        /// The gyro's bias wanders and is measured at rest.
+        GyroDrift => "gyro-drift",
+        /// The time of the job is used up (S26).
+        TaskBudget => "task-budget",
+        /// Little charge is left.
+        BatteryLow => "battery-low",
+        /// The dock was not found in time.
+        DockNotFound => "dock-not-found",
+        /// The job waits on the dock for charge and goes on by itself.
+        Recharging => "recharging",
+        /// The charger has stopped for a fault.
+        ChargerFault => "charger-fault",
+        /// The pack holds enough to go on.
+        Charged => "charged",
+        /// A beam of the dock is heard.
+        DockBeam => "dock-beam",
+        /// The map tells where the dock is, and the robot knows where it is itself.
+        DockKnown => "dock-known",
+        /// A beam of the dock was heard there before.
+        DockHeard => "dock-heard",
+        /// Contact, but not with the contacts of the dock.
+        DockMissed => "dock-missed",
+        /// On the contacts, and no current flows.
+        NoChargeCurrent => "no-charge-current",
+        /// No beam of the dock is heard where one should be.
+        NoBeam => "no-beam",
+        /// Nobody knows where the dock is.
+        DockUnknown => "dock-unknown",
+        /// The robot does not know where it is in the map.
+        PlaceUnknown => "place-unknown",
+        /// No way is left to where it wants to go.
+        WayBlocked => "way-blocked",
+        /// The lease of the person who drives ended.
+        LeaseEnded => "lease-ended",
+        /// The person let go.
+        Released => "released",
+        /// The next part of the order.
+        NextPart => "next-part",
+        /// There is nothing to pause or resume.
+        NoJob => "no-job",
+    }
+    nested { /// A fault that needs a person.
+        Fault(Fault), }
 }
 
 impl Reason {
@@ -268,11 +163,6 @@ impl Reason {
         }
     }
 
-    /// The reason of the same name.
-    pub(crate) fn of_inhibit(inhibit: Inhibit) -> Self {
-        Self::from_name(inhibit.name()).unwrap_or(Self::UnknownInhibit)
-    }
-
     /// The reason that fits cliff sensors, if any sees no floor.
     #[must_use]
     pub fn of_cliffs(cliffs: Cliffs) -> Option<Self> {
@@ -281,18 +171,6 @@ impl Reason {
             (true, _, false) => Some(Self::CliffLeft),
             (false, _, true) => Some(Self::CliffRight),
             _ => Some(Self::CliffFront),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Reason;
-
-    #[test]
-    fn names_are_unique_and_found_again() {
-        for reason in Reason::ALL {
-            assert_eq!(Reason::from_name(reason.name()), Some(*reason));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Settings of a room, used when an order does not override them.
 
-use super::reason::Reason;
+use super::edit_error::EditError;
 
 /// Most passes over a part.
 pub(crate) const PASSES_MAX: u8 = 3;
@@ -63,8 +63,8 @@ impl RoomSettings {
     /// Settings with 1 to 3 passes at least, this power, and the pattern `Lines`.
     ///
     /// # Errors
-    /// [`Reason::BadSettings`] for another number of passes, more than 100 percent, or when nothing would run.
-    pub fn new(passes: u8, power: RoomPower) -> Result<Self, Reason> {
+    /// [`EditError::BadSettings`] for another number of passes, more than 100 percent, or when nothing would run.
+    pub fn new(passes: u8, power: RoomPower) -> Result<Self, EditError> {
         if power.is_possible() && (1..=PASSES_MAX).contains(&passes) {
             Ok(Self {
                 passes,
@@ -72,7 +72,7 @@ impl RoomSettings {
                 pattern: Pattern::Lines,
             })
         } else {
-            Err(Reason::BadSettings)
+            Err(EditError::BadSettings)
         }
     }
 
@@ -104,7 +104,7 @@ impl RoomSettings {
 #[cfg(test)]
 mod tests {
     use super::{RoomPower, RoomSettings};
-    use crate::model::reason::Reason;
+    use crate::model::edit_error::EditError;
 
     #[test]
     fn invalid_settings_are_refused() {
@@ -122,7 +122,7 @@ mod tests {
             ..RoomPower::FULL
         };
         for (passes, power) in [(0, quiet), (4, quiet), (1, none), (1, too_much)] {
-            assert_eq!(RoomSettings::new(passes, power), Err(Reason::BadSettings));
+            assert_eq!(RoomSettings::new(passes, power), Err(EditError::BadSettings));
         }
     }
 }

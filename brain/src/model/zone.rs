@@ -1,7 +1,7 @@
 //! A polygon that a person draws on the floor.
 
+use super::edit_error::EditError;
 use super::geometry::Point2;
-use super::reason::Reason;
 
 /// Most corners of a zone.
 pub(crate) const CORNERS_MAX: usize = 64;
@@ -18,14 +18,14 @@ impl Zone {
     /// A zone of 3 to 64 corners within 500 m of the origin.
     ///
     /// # Errors
-    /// [`Reason::BadZone`] for anything else.
-    pub fn new(corners: Vec<Point2>) -> Result<Self, Reason> {
+    /// [`EditError::BadZone`] for anything else.
+    pub fn new(corners: Vec<Point2>) -> Result<Self, EditError> {
         let is_near =
             |corner: &Point2| corner.x_m.abs() < COORDINATE_MAX_M && corner.y_m.abs() < COORDINATE_MAX_M;
         if (3..=CORNERS_MAX).contains(&corners.len()) && corners.iter().all(is_near) {
             Ok(Self { corners })
         } else {
-            Err(Reason::BadZone)
+            Err(EditError::BadZone)
         }
     }
 
@@ -84,8 +84,8 @@ fn distance_to_edge_m(point: Point2, from: Point2, to: Point2) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::Zone;
+    use crate::model::edit_error::EditError;
     use crate::model::geometry::Point2;
-    use crate::model::reason::Reason;
 
     fn at(x_m: f64, y_m: f64) -> Point2 {
         Point2 { x_m, y_m }
@@ -125,7 +125,7 @@ mod tests {
             vec![at(f64::NAN, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
             vec![at(1e9, 0.0), at(1.0, 0.0), at(1.0, 1.0)],
         ] {
-            assert_eq!(Zone::new(corners), Err(Reason::BadZone));
+            assert_eq!(Zone::new(corners), Err(EditError::BadZone));
         }
     }
 }

@@ -25,6 +25,15 @@ impl TaskContext {
             value,
         });
     }
+
+    /// Decides against what somebody asked for, by the name of a refusal or an error.
+    pub(crate) fn refuse(&mut self, what: &'static str, reason: &'static str) {
+        self.journal.push(Decision {
+            what,
+            reason,
+            value: 0.0,
+        });
+    }
 }
 
 /// What a task reports after a step.

@@ -2,7 +2,7 @@
 
 use crate::script::{check, check_with, config};
 use brain::observation::Contacts;
-use brain::{BehaviorState, BrainConfig, Command, Motion};
+use brain::{BehaviorState, BrainConfig, JobCommand, Motion};
 
 #[test]
 fn a_job_from_start_to_stop() {
@@ -77,7 +77,7 @@ fn starts_are_refused_by_name() {
         ("charge 0.1", "battery-low"),
     ] {
         let stage = check(&format!("up\n {situation}"));
-        let refusal = stage.brain.admit(&Command::Spot).expect_err(situation);
+        let refusal = stage.brain.admit(&JobCommand::Spot).expect_err(situation);
         assert_eq!(refusal.name(), reason, "{situation}");
         check(&format!("up\n {situation}\n spot\n wait 4"))
             .brain
@@ -242,7 +242,7 @@ fn a_contact_that_never_lets_go_is_not_backed_from_for_ever() {
     );
     assert!(stage.backed_m <= 0.15, "{} m back in two jobs", stage.backed_m);
     stage.observation.contacts = Contacts::default();
-    stage.step(&[Command::Resume]);
+    stage.step(&[JobCommand::Resume]);
     for _ in 0..50 * 10 {
         stage.step(&[]);
     }

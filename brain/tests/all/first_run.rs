@@ -2,7 +2,7 @@
 
 use crate::plane::beams::{Sight, sensors_at};
 use crate::plane::{BODY, Rectangle, Room, SPEEDS, STEP_S, World, config};
-use brain::{BehaviorState, Brain, BrainConfig, Command, Pose2, StrategyName};
+use brain::{BehaviorState, Brain, BrainConfig, JobCommand, Pose2, StrategyName};
 
 const RING_DEG: [f64; 7] = [-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0];
 
@@ -36,7 +36,7 @@ impl Run {
     fn start(&mut self, strategy: StrategyName) {
         let actions = self
             .brain
-            .step(&self.world.observation, &[Command::Clean { strategy }]);
+            .step(&self.world.observation, &[JobCommand::Clean { strategy }.into()]);
         self.world.step(&actions);
     }
 

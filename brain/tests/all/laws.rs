@@ -2,7 +2,7 @@
 
 use crate::script::{Stage, config};
 use brain::observation::{Cliffs, Contacts};
-use brain::{BehaviorState, Brain, Command, Inhibits, Motion, Observation, Reason, StrategyName};
+use brain::{BehaviorState, Brain, Inhibits, JobCommand, Motion, Observation, Reason, StrategyName};
 use proptest::prelude::*;
 
 const INHIBITS: [&str; 10] = [
@@ -18,20 +18,20 @@ const INHIBITS: [&str; 10] = [
     "from-the-future",
 ];
 
-fn command() -> impl Strategy<Value = Command> {
+fn command() -> impl Strategy<Value = JobCommand> {
     prop_oneof![
-        Just(Command::Clean {
+        Just(JobCommand::Clean {
             strategy: StrategyName::Bounce
         }),
-        Just(Command::Spot),
-        Just(Command::Pause),
-        Just(Command::Resume),
-        Just(Command::Stop),
-        Just(Command::Dock),
-        Just(Command::ManualEnd),
-        Just(Command::ClearError),
+        Just(JobCommand::Spot),
+        Just(JobCommand::Pause),
+        Just(JobCommand::Resume),
+        Just(JobCommand::Stop),
+        Just(JobCommand::Dock),
+        Just(JobCommand::ManualEnd),
+        Just(JobCommand::ClearError),
         (-1.0..1.0_f64, -3.0..3.0_f64, 0..400_000_u64, any::<bool>()).prop_map(
-            |(speed_m_per_s, turn_rad_per_s, valid_until_us, cleaners)| Command::Manual {
+            |(speed_m_per_s, turn_rad_per_s, valid_until_us, cleaners)| JobCommand::Manual {
                 speed_m_per_s,
                 turn_rad_per_s,
                 valid_until_us,
@@ -52,7 +52,7 @@ struct Episode {
     inhibits: Vec<&'static str>,
     beams: Vec<u8>,
     speed_share: f64,
-    commands: Vec<Command>,
+    commands: Vec<JobCommand>,
     steps: u32,
 }
 
@@ -105,14 +105,14 @@ fn perceive(observation: &mut Observation, episode: &Episode) {
 }
 
 /// Manual leases are relative in an episode.
-fn at(now_us: u64, command: &Command) -> Command {
+fn at(now_us: u64, command: &JobCommand) -> JobCommand {
     match command.clone() {
-        Command::Manual {
+        JobCommand::Manual {
             speed_m_per_s,
             turn_rad_per_s,
             valid_until_us,
             cleaners,
-        } => Command::Manual {
+        } => JobCommand::Manual {
             speed_m_per_s,
             turn_rad_per_s,
             valid_until_us: now_us + valid_until_us,
@@ -132,14 +132,14 @@ proptest! {
         for episode in &episodes {
             perceive(&mut stage.observation, episode);
             let now_us = stage.observation.time_us;
-            let commands: Vec<Command> = episode.commands.iter().map(|command| at(now_us, command)).collect();
+            let commands: Vec<JobCommand> = episode.commands.iter().map(|command| at(now_us, command)).collect();
             stage.step(&commands);
             for _ in 1..episode.steps {
                 stage.step(&[]);
             }
             let status = stage.brain.status();
             prop_assert!(BehaviorState::ALL.contains(&status.state));
-            prop_assert!(Reason::ALL.contains(&status.reason));
+            prop_assert_eq!(Reason::from_name(status.reason.name()), Some(status.reason));
             let lease_over = episode.steps > 25;
             prop_assert!(!(lease_over && status.state == BehaviorState::Manual), "a lease outlived its end");
         }
@@ -152,11 +152,11 @@ proptest! {
         for episode in &episodes {
             perceive(&mut stage.observation, episode);
             let now_us = stage.observation.time_us;
-            let commands: Vec<Command> = episode.commands.iter().map(|command| at(now_us, command)).collect();
+            let commands: Vec<JobCommand> = episode.commands.iter().map(|command| at(now_us, command)).collect();
             stage.step(&commands);
             (1..episode.steps).for_each(|_| { stage.step(&[]); });
         }
-        let stopped = stage.step(&[Command::Stop]);
+        let stopped = stage.step(&[JobCommand::Stop]);
         prop_assert!(matches!(stopped.motion, Motion::Halt | Motion::Rest) && !stopped.cleaners);
         perceive(&mut stage.observation, &last);
         for _ in 0..300 {
@@ -173,7 +173,7 @@ proptest! {
             let tell = |stage: &mut Stage| {
                 perceive(&mut stage.observation, episode);
                 let now_us = stage.observation.time_us;
-                let commands: Vec<Command> = episode.commands.iter().map(|command| at(now_us, command)).collect();
+                let commands: Vec<JobCommand> = episode.commands.iter().map(|command| at(now_us, command)).collect();
                 let first = stage.step(&commands);
                 let rest: Vec<_> = (1..episode.steps).map(|_| stage.step(&[])).collect();
                 (first, rest)
@@ -216,7 +216,7 @@ fn every_order_of_contacts_on_a_wedged_robot_ends_in_stuck() {
 fn working() -> Stage {
     let mut stage = Stage::new(config());
     stage.observation.link_up = true;
-    stage.step(&[Command::Clean {
+    stage.step(&[JobCommand::Clean {
         strategy: StrategyName::Bounce,
     }]);
     while stage.brain.status().state != BehaviorState::Cleaning {
@@ -302,7 +302,7 @@ fn deltas_add_up_to_the_map() {
         (snapshot.swept, snapshot.path)
     );
     assert!(snapshot.swept.len() > 1000 && snapshot.path.len() > 80);
-    stage.step(&[Command::Stop]);
-    stage.step(&[Command::Spot]);
+    stage.step(&[JobCommand::Stop]);
+    stage.step(&[JobCommand::Spot]);
     assert_eq!(stage.brain.map().since(cursor), None, "a new job has a new map");
 }

@@ -3,8 +3,8 @@
 use brain::mapping::{Door, FAR_M, Keyframe, Rooms};
 use brain::observation::{Cliffs, Contacts};
 use brain::{
-    Body, CELL_M, Cell, CellKnowledge, DistanceField, Map, NoGo, Observation, Point2, Pose2, PoseEstimate,
-    ProximityLayout, ProximityResponse, Raster, Reason, RoomName, SensorLayout, StoredMap, Zone,
+    Body, CELL_M, Cell, CellKnowledge, DistanceField, EditError, Map, NoGo, Observation, Point2, Pose2,
+    PoseEstimate, ProximityLayout, ProximityResponse, Raster, RoomName, SensorLayout, StoredMap, Zone,
 };
 
 const BODY: Body = Body {
@@ -300,10 +300,10 @@ fn a_reshaped_no_go_zone_forbids_only_its_new_floor_and_keeps_number_and_name() 
     assert_eq!(known, [(1, &zone(0.2).with_name(name)), (2, &zone(0.1))]);
     assert_eq!(
         fed.map.reshape_no_go(1, zone(40.0)),
-        Err(Reason::NoFloorThere),
+        Err(EditError::NoFloorThere),
         "far outside there is nothing to forbid"
     );
-    assert_eq!(fed.map.reshape_no_go(3, zone(0.2)), Err(Reason::NoSuchNoGo));
+    assert_eq!(fed.map.reshape_no_go(3, zone(0.2)), Err(EditError::NoSuchNoGo));
     fed.map.refresh();
     assert_eq!(
         kinds(&fed.map),

@@ -1,10 +1,11 @@
 //! Jobs for parts of a known home: rooms, zones, spots, passes, no-go zones, and what a job is expected to take.
 
-use crate::plane::{Rectangle, Room, World, config, run};
+use crate::plane::{Rectangle, Room, World, config, edit, run};
 use brain::mapping::DockLocation;
 use brain::{
-    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Command, HomePart, NoGo, Point2, Pose2,
-    Raster, Reason, RoomName, RoomPower, RoomSettings, StoredMap, Zone,
+    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart, JobCommand,
+    MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName, RoomPower, RoomSettings,
+    StoredMap, Zone,
 };
 
 /// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
@@ -63,7 +64,7 @@ impl Stage {
 
     /// Gives an order and lets the robot work until it is idle; gives the seconds that took.
     fn clean(&mut self, order: &CleaningOrder) -> f64 {
-        let command = Command::CleanParts { order: order.clone() };
+        let command = JobCommand::CleanParts { order: order.clone() };
         assert_eq!(self.brain.admit(&command), Ok(()));
         run(&mut self.world, &mut self.brain, Some(command), 10.0);
         let mut seconds = 10.0;
@@ -121,8 +122,8 @@ fn a_spot_in_the_other_room_is_cleaned_to_its_rim_and_little_else() {
     assert!(stage.swept((0.2, 2.5), (2.8, 3.8)) < 0.1, "nor for this");
     for nowhere in [spot(20.0, 0.0), spot(f64::NAN, 1.0)] {
         let order = CleaningOrder::new(vec![nowhere], 1).unwrap();
-        let refused = stage.brain.admit(&Command::CleanParts { order });
-        assert_eq!(refused, Err(Reason::NoFloorThere));
+        let refused = stage.brain.admit(&JobCommand::CleanParts { order });
+        assert_eq!(refused, Err(EditError::NoFloorThere.into()));
     }
 }
 
@@ -135,7 +136,7 @@ fn the_room_that_it_is_in_is_told() {
     run(
         &mut stage.world,
         &mut stage.brain,
-        Some(Command::CleanParts { order }),
+        Some(JobCommand::CleanParts { order }),
         10.0,
     );
     let mut seconds = 0;
@@ -153,7 +154,7 @@ fn parts_are_cleaned_in_their_order() {
     let (first, second) = (zone((4.0, 2.6), (5.8, 3.8)), zone((0.3, 0.3), (2.0, 1.8)));
     let order = CleaningOrder::new(vec![HomePart::Zone(first), HomePart::Zone(second)], 1).unwrap();
     let mut stage = Stage::new();
-    let command = Command::CleanParts { order };
+    let command = JobCommand::CleanParts { order };
     run(&mut stage.world, &mut stage.brain, Some(command), 10.0);
     while stage.swept((4.0, 2.6), (5.8, 3.8)) < 0.9 {
         run(&mut stage.world, &mut stage.brain, None, 1.0);
@@ -180,11 +181,11 @@ fn a_room_is_cleaned_by_its_identity_and_others_are_not_known() {
     assert!(stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.93);
     assert!(stage.swept((0.2, 2.5), (2.0, 3.8)) < 0.1);
     let nowhere = CleaningOrder::new(vec![HomePart::Room(99)], 1).unwrap();
-    let command = Command::CleanParts { order: nowhere };
-    assert_eq!(stage.brain.admit(&command), Err(Reason::NoSuchRoom));
+    let command = JobCommand::CleanParts { order: nowhere };
+    assert_eq!(stage.brain.admit(&command), Err(EditError::NoSuchRoom.into()));
     let outside = CleaningOrder::new(vec![HomePart::Zone(zone((20.0, 0.0), (21.0, 1.0)))], 1).unwrap();
-    let command = Command::CleanParts { order: outside };
-    assert_eq!(stage.brain.admit(&command), Err(Reason::NoFloorThere));
+    let command = JobCommand::CleanParts { order: outside };
+    assert_eq!(stage.brain.admit(&command), Err(EditError::NoFloorThere.into()));
 }
 
 #[test]
@@ -230,9 +231,9 @@ fn the_estimate_tells_charge_and_share() {
 }
 
 fn forbid(stage: &mut Stage, no_go: NoGo) {
-    let command = Command::AddNoGo { no_go };
-    assert_eq!(stage.brain.admit(&command), Ok(()));
-    run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+    let adding = MapEdit::NoGo(NoGoEdit::Add(no_go));
+    assert_eq!(stage.brain.map().admit(&adding), Ok(()));
+    edit(&mut stage.world, &mut stage.brain, adding);
 }
 
 #[test]
@@ -249,10 +250,10 @@ fn no_way_leads_into_a_forbidden_zone_until_it_is_allowed_again() {
         "a wall stands in the door"
     );
     assert!(stage.swept((0.2, 0.2), (1.3, 3.8)) > 0.9);
-    let command = Command::RemoveNoGo { number: 2 };
-    assert_eq!(stage.brain.admit(&command), Ok(()));
-    run(&mut stage.world, &mut stage.brain, Some(command.clone()), 0.1);
-    assert_eq!(stage.brain.admit(&command), Err(Reason::NoSuchNoGo));
+    let removal = MapEdit::NoGo(NoGoEdit::Remove { number: 2 });
+    assert_eq!(stage.brain.map().admit(&removal), Ok(()));
+    edit(&mut stage.world, &mut stage.brain, removal.clone());
+    assert_eq!(stage.brain.map().admit(&removal), Err(EditError::NoSuchNoGo));
     stage.clean(&CleaningOrder::default());
     assert!(stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.9);
     let cells = (0..40).map(|step| {
@@ -279,19 +280,13 @@ fn what_people_say_of_a_home_is_stored_with_it_and_goes_on_in_the_next_run() {
     forbid(&mut stage, wall.clone());
     forbid(&mut stage, NoGo::zone(&zone((1.5, 2.0), (2.5, 3.0))).unwrap());
     let name = RoomName::new("Köök").unwrap();
-    let naming = |name| Command::NameRoom { room, name };
-    run(
-        &mut stage.world,
-        &mut stage.brain,
-        Some(naming(Some(name.clone()))),
-        0.1,
-    );
-    run(
-        &mut stage.world,
-        &mut stage.brain,
-        Some(Command::RemoveNoGo { number: 2 }),
-        0.1,
-    );
+    let naming = MapEdit::Room(RoomEdit::Name {
+        room,
+        name: Some(name.clone()),
+    });
+    edit(&mut stage.world, &mut stage.brain, naming);
+    let removal = MapEdit::NoGo(NoGoEdit::Remove { number: 2 });
+    edit(&mut stage.world, &mut stage.brain, removal);
 
     let stored = stage.brain.map().stored();
     let back = StoredMap::from_parts(stored.parts()).unwrap();
@@ -306,10 +301,30 @@ fn what_people_say_of_a_home_is_stored_with_it_and_goes_on_in_the_next_run() {
     forbid_again(&mut again, &mut world, &wall);
 }
 
+#[test]
+fn an_edit_is_answered_once() {
+    let mut stage = Stage::new();
+    let wall = NoGo::wall(Point2 { x_m: 0.3, y_m: 0.5 }, Point2 { x_m: 1.0, y_m: 0.5 }).unwrap();
+    let named = wall.with_name(RoomName::new("Vase").ok());
+    let removal = || MapEdit::NoGo(NoGoEdit::Remove { number: 1 });
+    for (asked, decisions) in [
+        (MapEdit::NoGo(NoGoEdit::Add(named)), vec![]),
+        (removal(), vec![]),
+        (removal(), vec![("edit-refused", "no-such-no-go")]),
+    ] {
+        let actions = stage.brain.step(&stage.world.observation, &[asked.into()]);
+        let made: Vec<_> = actions
+            .decisions
+            .iter()
+            .map(|made| (made.what, made.reason))
+            .collect();
+        assert_eq!(made, decisions);
+    }
+}
+
 /// A number is not given a second time.
 fn forbid_again(brain: &mut Brain, world: &mut World, wall: &NoGo) {
-    let command = Command::AddNoGo { no_go: wall.clone() };
-    run(world, brain, Some(command), 0.1);
+    edit(world, brain, MapEdit::NoGo(NoGoEdit::Add(wall.clone())));
     let numbers: Vec<u16> = brain
         .map()
         .annotations()
@@ -331,14 +346,13 @@ fn a_room_that_is_set_so_is_cleaned_twice_when_a_job_names_it() {
     let once_s = once.clean(&order);
     let mut twice = Stage::new();
     let settings = RoomSettings::new(2, RoomPower::FULL).ok();
-    let set = Command::SetRoom { room, settings };
-    run(&mut twice.world, &mut twice.brain, Some(set), 0.1);
+    let set = |room| MapEdit::Room(RoomEdit::Set { room, settings });
+    edit(&mut twice.world, &mut twice.brain, set(room));
     let stored = twice.brain.map().stored();
     assert_eq!(stored.annotations().settings(room).copied(), settings);
     let twice_s = twice.clean(&order);
     assert!(twice_s > 1.6 * once_s, "{twice_s} s and {once_s} s");
-    let unknown = Command::SetRoom { room: 99, settings };
-    assert_eq!(twice.brain.admit(&unknown), Err(Reason::NoSuchRoom));
+    assert_eq!(twice.brain.map().admit(&set(99)), Err(EditError::NoSuchRoom));
 }
 
 #[test]
@@ -353,26 +367,26 @@ fn edits_that_make_no_sense_are_refused_by_name() {
         .map(|room| room.id)
         .collect();
     let outside = NoGo::zone(&zone((20.0, 0.0), (21.0, 1.0))).unwrap();
-    let name = |room, text: &str| Command::NameRoom {
-        room,
-        name: Some(RoomName::new(text).unwrap()),
+    let name = |room, text: &str| {
+        MapEdit::Room(RoomEdit::Name {
+            room,
+            name: Some(RoomName::new(text).unwrap()),
+        })
     };
-    run(
-        &mut stage.world,
-        &mut stage.brain,
-        Some(name(ids[0], "Hall")),
-        0.1,
-    );
-    for (command, reason) in [
-        (Command::AddNoGo { no_go: outside }, Reason::NoFloorThere),
-        (Command::RemoveNoGo { number: 1 }, Reason::NoSuchNoGo),
-        (name(99, "Attic"), Reason::NoSuchRoom),
-        (name(ids[1], "hall"), Reason::NameTaken),
+    edit(&mut stage.world, &mut stage.brain, name(ids[0], "Hall"));
+    for (refused, error) in [
+        (MapEdit::NoGo(NoGoEdit::Add(outside)), EditError::NoFloorThere),
+        (
+            MapEdit::NoGo(NoGoEdit::Remove { number: 1 }),
+            EditError::NoSuchNoGo,
+        ),
+        (name(99, "Attic"), EditError::NoSuchRoom),
+        (name(ids[1], "hall"), EditError::NameTaken),
     ] {
-        assert_eq!(stage.brain.admit(&command), Err(reason), "{command:?}");
-        // One that slips through changes nothing either.
+        assert_eq!(stage.brain.map().admit(&refused), Err(error), "{refused:?}");
+        // One that is sent all the same changes nothing.
         let before = stage.brain.map().annotations().clone();
-        run(&mut stage.world, &mut stage.brain, Some(command), 0.1);
+        edit(&mut stage.world, &mut stage.brain, refused);
         assert_eq!(stage.brain.map().annotations(), &before);
     }
     let dock = stage
@@ -383,8 +397,8 @@ fn edits_that_make_no_sense_are_refused_by_name() {
     let brain = Brain::with_map(config(), 1, &dock);
     let around = NoGo::zone(&zone((0.9, 0.9), (1.1, 1.1))).unwrap();
     assert_eq!(
-        brain.admit(&Command::AddNoGo { no_go: around }),
-        Err(Reason::DockInside)
+        brain.map().admit(&MapEdit::NoGo(NoGoEdit::Add(around))),
+        Err(EditError::DockInside)
     );
 }
 
@@ -415,7 +429,7 @@ fn a_job_that_is_taken_up_again_still_avoids() {
     run(
         &mut stage.world,
         &mut stage.brain,
-        Some(Command::CleanParts { order }),
+        Some(JobCommand::CleanParts { order }),
         20.0,
     );
     let mut successor = Brain::new(config(), 7);

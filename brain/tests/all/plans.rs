@@ -4,7 +4,7 @@ use crate::passed::passed;
 use crate::plane::{BODY, Rectangle, Room, SPEEDS, World, config, run};
 use brain::coverage::plan::{PlanSettings, plan_coverage};
 use brain::{
-    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, Command, Pose2, Raster, StoredMap, StrategyName,
+    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, JobCommand, Pose2, Raster, StoredMap, StrategyName,
 };
 
 const SETTINGS: PlanSettings = PlanSettings {
@@ -164,7 +164,7 @@ fn a_known_room_is_covered_in_less_than_twice_the_least_time_and_the_job_ends() 
     let mut brain = Brain::with_map(config(), 1, &known(&room, start));
     let t0_s = room.size_m.0 * room.size_m.1 / (BODY.swath_m * SPEEDS.cruise_m_per_s);
     let mut world = World::new(room, start);
-    let clean = Command::Clean {
+    let clean = JobCommand::Clean {
         strategy: StrategyName::Systematic,
     };
     run(&mut world, &mut brain, Some(clean), 1.7 * t0_s);

@@ -1,7 +1,7 @@
 //! Home for charge and on with the job, by scripts.
 
 use crate::script::{Stage, check, check_with, config};
-use brain::{BehaviorState, Brain, BrainConfig, Command, Inhibits, JobKind, StrategyName};
+use brain::{BehaviorState, Brain, BrainConfig, Inhibits, JobCommand, JobKind, StrategyName};
 
 /// A job that was put off for the pack's sake, on the dock.
 const ON_THE_DOCK: &str = "up
@@ -162,7 +162,7 @@ fn a_restart_on_the_dock_keeps_the_job_and_what_was_learnt() {
     stage.step(&[]);
     assert_eq!(stage.brain.status().state, BehaviorState::Starting);
     assert_eq!(stage.brain.status().reason.name(), "charged");
-    assert!(stage.brain.admit(&Command::Pause).is_ok());
+    assert!(stage.brain.admit(&JobCommand::Pause).is_ok());
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Bounce, spot and docking in a paper world.
 
 use crate::plane::{BODY, Rectangle, Room, SPEEDS, World, config, run};
-use brain::{BehaviorState, Brain, CELL_M, Command, Pose2, StrategyName};
+use brain::{BehaviorState, Brain, CELL_M, JobCommand, Pose2, StrategyName};
 
-const CLEAN: Command = Command::Clean {
+const CLEAN: JobCommand = JobCommand::Clean {
     strategy: StrategyName::Bounce,
 };
 
@@ -101,7 +101,7 @@ fn spot_sweeps_a_disc_of_a_metre() {
     let pose = middle_of(&room);
     let mut world = World::new(room, pose);
     let mut brain = Brain::new(config(), 1);
-    run(&mut world, &mut brain, Some(Command::Spot), 60.0);
+    run(&mut world, &mut brain, Some(JobCommand::Spot), 60.0);
     assert_eq!(brain.status().state, BehaviorState::Idle, "{:?}", brain.status());
     let swept: Vec<(f64, f64)> = brain
         .map()

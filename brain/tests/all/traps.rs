@@ -3,7 +3,7 @@
 use crate::plane;
 use crate::plane::{Rectangle, Room, World, config};
 use brain::mapping::CellKnowledge;
-use brain::{BehaviorState, Brain, Command, Motion, Pose2, Reason, StrategyName};
+use brain::{BehaviorState, Brain, JobCommand, Motion, Pose2, Reason, StrategyName};
 use proptest::prelude::*;
 
 /// Longest time in a pen: patience of four minutes, eight rungs of 75 s at most, 45 s of the task after each, and as much again
@@ -18,7 +18,7 @@ fn at(x_m: f64, y_m: f64, heading_rad: f64) -> Pose2 {
     }
 }
 
-const CLEAN: Command = Command::Clean {
+const CLEAN: JobCommand = JobCommand::Clean {
     strategy: StrategyName::Bounce,
 };
 
@@ -97,7 +97,7 @@ fn a_way_out_that_is_hardly_wider_than_the_robot_is_found_and_the_place_is_shut_
             let values = brain.map().knowledge().values();
             values.iter().filter(|cell| **cell == CellKnowledge::NoGo).count()
         };
-        plane::run(&mut world, &mut brain, Some(Command::Stop), 1.0);
+        plane::run(&mut world, &mut brain, Some(JobCommand::Stop), 1.0);
         plane::run(&mut world, &mut brain, Some(CLEAN), 1.0);
         assert_eq!(shut(&brain), 0, "a new job may go everywhere");
     }

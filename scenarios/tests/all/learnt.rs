@@ -6,7 +6,7 @@ use rvac_sim::run::{household, start_cleaning};
 use rvac_sim::{Host, Household};
 use scenarios::{generated_with, scene, settings};
 use vthal_core::CoreConfig;
-use vthal_core::learnt::{Kept, Learnings};
+use vthal_core::learnt::{Learnings, RobotRecord};
 
 const HOME: &str = "furnished-room";
 const MINUTE_MS: u64 = 60_000;
@@ -102,7 +102,7 @@ fn what_another_robot_has_learnt_is_none_of_this_one() {
         }),
         ..Learnt::default()
     };
-    others.take(Kept {
+    others.take(RobotRecord {
         device: "relax".to_owned(),
         learnt: of_other,
         learnt_s: None,

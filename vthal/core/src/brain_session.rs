@@ -10,7 +10,8 @@ mod runs;
 use brain::config::BrainConfig;
 use brain::mapping::StoredMap;
 use brain::{
-    Actions, BehaviorState, Body, Brain, Checkpoint, Command, Learnt, LearntPart, MapCursor, Reason, Speeds,
+    Actions, BehaviorState, Body, Brain, Checkpoint, Command, JobCommand, JobRefusal, Learnt, LearntPart,
+    MapCursor, Speeds,
 };
 pub(crate) use floors::FloorNews;
 use floors::Hands;
@@ -199,31 +200,7 @@ impl BrainSession {
     /// Gives `command` to the brain with its next step. The first one after rest begins a run, in which it is carried out; with a
     /// home that takes some steps.
     pub(crate) fn command(&mut self, now_us: u64, command: Command, recorder: &mut Recorder<'_>) {
-        let cause = match command {
-            Command::Clean { .. } | Command::CleanParts { .. } | Command::Spot | Command::Dock => {
-                Some(RunCause::Job)
-            }
-            Command::Manual { .. } => Some(RunCause::Manual),
-            Command::AddNoGo { .. }
-            | Command::RemoveNoGo { .. }
-            | Command::NameNoGo { .. }
-            | Command::ReshapeNoGo { .. }
-            | Command::KeepPlace { .. }
-            | Command::NamePlace { .. }
-            | Command::ReshapePlace { .. }
-            | Command::ForgetPlace { .. }
-            | Command::NameRoom { .. }
-            | Command::SetRoom { .. }
-            | Command::SplitRoom { .. }
-            | Command::JoinRooms { .. }
-            | Command::UndoRoomChange { .. }
-            | Command::MoveDock { .. }
-            | Command::Pause
-            | Command::Resume
-            | Command::Stop
-            | Command::ManualEnd
-            | Command::ClearError => None,
-        };
+        let cause = cause_of(&command);
         if let Some(cause) = cause
             && self.begins_run(cause)
         {
@@ -239,10 +216,10 @@ impl BrainSession {
         }
         self.watch_stick(&command);
         // A stick that moves faster than telemetry comes: only its newest position counts, and that it was in the centre before.
-        if matches!(command, Command::Manual { .. }) {
-            let replaces_centred = is_centred(&command);
-            self.waiting.retain(|other| {
-                !matches!(other, Command::Manual { .. }) || (is_centred(other) && !replaces_centred)
+        if let Some(newest) = StickPosition::of(&command) {
+            self.waiting.retain(|other| match StickPosition::of(other) {
+                Some(other) => other == StickPosition::Centred && newest != StickPosition::Centred,
+                None => true,
             });
         }
         self.waiting.push(command);
@@ -250,10 +227,10 @@ impl BrainSession {
 
     /// Whether `command` would be obeyed, by this brain once it has taken the waiting commands, or by the one of the run that is about to
     /// begin.
-    pub(crate) fn admit(&self, command: &Command) -> Result<(), Reason> {
+    pub(crate) fn admit(&self, command: &JobCommand) -> Result<(), JobRefusal> {
         let was_centred = self.next.as_ref().is_some_and(|next| next.stick_was_centred);
         match self.brain.admit(command) {
-            Err(Reason::CentreFirst) if was_centred || self.centred_meanwhile() => Ok(()),
+            Err(JobRefusal::CentreFirst) if was_centred || self.centred_meanwhile() => Ok(()),
             answer => answer,
         }
     }
@@ -359,19 +336,58 @@ impl BrainSession {
     }
 }
 
-/// Whether the stick counts as centred after a command; `None` where that changes nothing.
-fn is_centred_by(command: &Command) -> Option<bool> {
+/// Why a run begins with a command; `None` for a command that begins none.
+fn cause_of(command: &Command) -> Option<RunCause> {
     match command {
-        Command::Stop => Some(false),
-        Command::ManualEnd => Some(true),
-        stick => is_centred(stick).then_some(true),
+        Command::Edit(_) => None,
+        Command::Job(command) => match command {
+            JobCommand::Clean { .. }
+            | JobCommand::CleanParts { .. }
+            | JobCommand::Spot
+            | JobCommand::Dock => Some(RunCause::Job),
+            JobCommand::Manual { .. } => Some(RunCause::Manual),
+            JobCommand::Pause
+            | JobCommand::Resume
+            | JobCommand::Stop
+            | JobCommand::ManualEnd
+            | JobCommand::ClearError => None,
+        },
     }
 }
 
-/// Whether this is a stick in the centre.
-fn is_centred(command: &Command) -> bool {
-    matches!(command, Command::Manual { speed_m_per_s, turn_rad_per_s, .. }
-        if *speed_m_per_s == 0.0 && *turn_rad_per_s == 0.0)
+/// Where a person's stick is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum StickPosition {
+    Centred,
+    Deflected,
+}
+
+impl StickPosition {
+    /// Where a command says that it is; `None` for a command that says nothing of it.
+    fn of(command: &Command) -> Option<Self> {
+        let Command::Job(JobCommand::Manual {
+            speed_m_per_s,
+            turn_rad_per_s,
+            ..
+        }) = command
+        else {
+            return None;
+        };
+        Some(match *speed_m_per_s == 0.0 && *turn_rad_per_s == 0.0 {
+            true => Self::Centred,
+            false => Self::Deflected,
+        })
+    }
+}
+
+/// Whether the stick counts as centred after a command; `None` where that changes nothing.
+fn is_centred_by(command: &Command) -> Option<bool> {
+    match StickPosition::of(command) {
+        Some(StickPosition::Centred) => Some(true),
+        Some(StickPosition::Deflected) => None,
+        None if *command == Command::Job(JobCommand::Stop) => Some(false),
+        None => (*command == Command::Job(JobCommand::ManualEnd)).then_some(true),
+    }
 }
 
 fn brain_config(description: &Description, settings: &CoreConfig) -> BrainConfig {

@@ -47,8 +47,8 @@ pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
 pub use outputs::{
-    ArchiveOrder, ArchiveTask, Delivery, Direction, FloorHome, FloorOrder, FloorTask, HealthOrder,
-    LearntOrder, MapEdit, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
-    RunQuery, RunStart, RunTask, ScheduleOrder,
+    ArchiveOrder, ArchiveTask, Delivery, Direction, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder,
+    LearntOrder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunQuery,
+    RunStart, RunTask, ScheduleOrder,
 };
 pub use stored_version::OtherVersion;

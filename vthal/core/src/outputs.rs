@@ -29,7 +29,7 @@ pub struct Outputs {
     /// What clients ask of the kept maps, in order.
     pub map_orders: Vec<MapOrder>,
     /// Maps that clients have changed, in order.
-    pub map_edits: Vec<MapEdit>,
+    pub map_edits: Vec<EditedMap>,
     /// What clients want of the floors, in order.
     pub floor_orders: Vec<FloorOrder>,
     /// What clients ask of archives of floors, in order.
@@ -233,7 +233,7 @@ pub enum MapOrder {
 
 /// A map that a person has changed: the shell keeps it as the newest one and tells the client when it is on the disk.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MapEdit {
+pub struct EditedMap {
     /// Who changed it.
     pub client: ClientId,
     /// Number of the request.

@@ -1,7 +1,7 @@
 //! Why a request is refused: a name for programs, and a sentence for people that says what was wrong, where, and what to
 //! do.
 
-use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, Reason};
+use brain::{Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, JobRefusal};
 use rvac_api::{Explanation, explain};
 
 /// Why a request is refused, by name.
@@ -26,16 +26,22 @@ impl From<&'static str> for Refusal {
     }
 }
 
-impl From<Reason> for Refusal {
-    fn from(reason: Reason) -> Self {
-        Self::from(reason.name())
+impl From<EditError> for Refusal {
+    fn from(error: EditError) -> Self {
+        Self::from(error.name())
+    }
+}
+
+impl From<JobRefusal> for Refusal {
+    fn from(refusal: JobRefusal) -> Self {
+        Self::from(refusal.name())
     }
 }
 
 impl Refusal {
-    pub(crate) fn because(reason: Reason, text: String) -> Self {
+    pub(crate) fn because(error: EditError, text: String) -> Self {
         Self {
-            reason: reason.name(),
+            reason: error.name(),
             text,
         }
     }
@@ -58,7 +64,7 @@ impl Refusal {
                 known.join(", ")
             )
         };
-        Self::because(Reason::NoSuchRoom, text)
+        Self::because(EditError::NoSuchRoom, text)
     }
 
     /// A part of an order lies where the map knows no floor.
@@ -88,20 +94,22 @@ impl Refusal {
             ),
             None => "The robot has no map yet: let it clean once.".to_owned(),
         };
-        Self::because(Reason::NoFloorThere, text)
+        Self::because(EditError::NoFloorThere, text)
     }
 
     /// What is wrong with an order that the brain refuses.
-    pub(crate) fn of_order(reason: Reason, order: &CleaningOrder, brain: &Brain) -> Self {
+    pub(crate) fn of_order(refusal: JobRefusal, order: &CleaningOrder, brain: &Brain) -> Self {
         let rooms = brain.map().rooms().rooms();
         let is_missing = |part: &brain::HomePart| match part {
             brain::HomePart::Room(id) if rooms.iter().all(|room| room.id != *id) => Some(*id),
             _ => None,
         };
-        match (reason, order.parts().iter().find_map(is_missing)) {
-            (Reason::NoSuchRoom, Some(room)) => Self::no_such_room(room, brain),
-            (Reason::NoFloorThere, _) => Self::no_floor_there("in one of the zones and spots", brain),
-            _ => Self::from(reason),
+        match (refusal, order.parts().iter().find_map(is_missing)) {
+            (JobRefusal::Order(EditError::NoSuchRoom), Some(room)) => Self::no_such_room(room, brain),
+            (JobRefusal::Order(EditError::NoFloorThere), _) => {
+                Self::no_floor_there("in one of the zones and spots", brain)
+            }
+            _ => Self::from(refusal),
         }
     }
 }
@@ -120,14 +128,16 @@ fn metres(low: i32, high: i32) -> String {
 
 #[cfg(test)]
 mod tests {
-    use brain::{Inhibit, Reason};
+    use brain::{Inhibit, JobRefusal, Reason};
     use rvac_api::explain;
 
     #[test]
     fn everything_that_stops_the_robot_or_refuses_is_explained() {
-        let reasons = Reason::ALL.iter().map(|reason| reason.name());
+        let reasons = Reason::all().map(Reason::name);
+        let refusals = JobRefusal::all().map(JobRefusal::name);
         let inhibits = Inhibit::ALL.iter().map(|inhibit| inhibit.name());
         let missing: Vec<&str> = reasons
+            .chain(refusals)
             .chain(inhibits)
             .filter(|code| explain(code).is_none())
             .collect();

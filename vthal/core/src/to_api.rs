@@ -98,7 +98,7 @@ const CORNERS_MAX: usize = 4_000;
 
 /// Where the robot means to drive; of a very long path its beginning.
 pub(crate) fn way(brain: &Brain) -> PlannedWay {
-    let corners = brain.planned_way();
+    let corners = brain.planned_path();
     let millimetres = |metres: f64| (1000.0 * metres).round() as i32;
     PlannedWay {
         points_mm: corners

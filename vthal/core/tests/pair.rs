@@ -1,6 +1,6 @@
 //! The core and the robot's end of the wire joined in memory, on a virtual clock.
 
-use brain::{Cell, CellKnowledge, Pose2, Raster, StoredMap};
+use brain::{Cell, CellKnowledge, JobCommand, Pose2, Raster, StoredMap};
 use rvac_api::{
     CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, PlaceShape, Request, RequestBody,
     RoomNaming, RoomSettings, RoomSplitting, Topic, Update,
@@ -13,7 +13,7 @@ use rvac_protocol::message::{
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
 use vthal_core::{
-    ClientId, Core, CoreConfig, FloorHome, FloorOrder, FloorTask, Input, KeptFloor, MapEdit, MapOrder,
+    ClientId, Core, CoreConfig, EditedMap, FloorHome, FloorOrder, FloorTask, Input, KeptFloor, MapOrder,
     Outputs, Record, Recording,
 };
 
@@ -40,7 +40,7 @@ struct Pair {
     /// What the shell should do with the kept ones.
     orders: Vec<MapOrder>,
     /// Maps that clients have changed.
-    edits: Vec<MapEdit>,
+    edits: Vec<EditedMap>,
     to_robot: Vec<u8>,
     /// Whether `stop` reaches the robot's inhibits.
     hears_stop: bool,
@@ -1411,8 +1411,13 @@ fn an_estimate_is_made_at_rest_and_a_part_is_cleaned() {
             _ => None,
         })
         .collect();
-    assert!(matches!(commands[0], brain::Command::CleanParts { order } if order.passes() == 2));
-    assert!(matches!(commands[1], brain::Command::AddNoGo { .. }));
+    assert!(
+        matches!(commands[0], brain::Command::Job(JobCommand::CleanParts { order }) if order.passes() == 2)
+    );
+    assert!(matches!(
+        commands[1],
+        brain::Command::Edit(brain::MapEdit::NoGo(brain::NoGoEdit::Add(_)))
+    ));
     assert_eq!(pair.edits.len(), 1);
 }
 
@@ -1439,9 +1444,9 @@ fn what_is_said_while_the_home_of_a_run_is_made_ready_comes_after_the_order_and_
         .filter_map(|record| match record {
             Record::RunStarted(_) => Some("run"),
             Record::Command { command, .. } => Some(match command {
-                brain::Command::CleanParts { .. } | brain::Command::Clean { .. } => "clean",
-                brain::Command::AddNoGo { .. } => "wall",
-                brain::Command::Stop => "stop",
+                brain::Command::Job(JobCommand::CleanParts { .. } | JobCommand::Clean { .. }) => "clean",
+                brain::Command::Edit(brain::MapEdit::NoGo(brain::NoGoEdit::Add(_))) => "wall",
+                brain::Command::Job(JobCommand::Stop) => "stop",
                 _ => "other",
             }),
             _ => None,

@@ -2,7 +2,7 @@
 
 use rvac_api::{Failure, RunRecord, Update};
 use vthal_core::{
-    ArchiveOrder, ClientId, FloorOrder, HealthOrder, Input, LearntOrder, MapEdit, MapOrder, MixOrder,
+    ArchiveOrder, ClientId, EditedMap, FloorOrder, HealthOrder, Input, LearntOrder, MapOrder, MixOrder,
     ScheduleOrder,
 };
 
@@ -189,7 +189,7 @@ impl Daemon {
         self.tell(client, &refusal(id, "disk-busy", text));
     }
 
-    pub(super) fn keep_edit(&mut self, edit: MapEdit) {
+    pub(super) fn keep_edit(&mut self, edit: EditedMap) {
         let (client, id) = (edit.client, edit.id);
         if !self.wiring.checkpoints.edit(edit) {
             let text =

@@ -1,6 +1,7 @@
 //! Recordings of runs: one MCAP file each, which Foxglove opens and [`replay`] runs again. A run during which the daemon began
 //! anew has several, which become one for whoever wants to read it.
 
+mod false_refusals;
 pub mod format;
 mod foxglove;
 mod library;

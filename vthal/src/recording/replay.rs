@@ -9,7 +9,8 @@ use mcap::MessageStream;
 use mcap::read::Options;
 use vthal_core::RunCause;
 
-use super::format::{Answered, FORMAT, Given, RunHeader, Seen};
+use super::false_refusals::{ReplayedStep, written};
+use super::format::{FORMAT, FORMAT_WITH_FALSE_REFUSALS, Given, RunHeader, Seen};
 use super::{COMMANDS, DECISIONS, OBSERVATIONS, RUN};
 
 /// Why a recording cannot be replayed.
@@ -107,13 +108,23 @@ pub fn replay(path: &Path) -> Result<Replay, ReplayError> {
 /// Cause of a run that goes on with that of a daemon that was killed.
 const AFTER_A_KILL: &str = RunCause::ResumedAfterRestart.name();
 
+/// A step whose answer is not compared yet.
+struct Open {
+    time_us: u64,
+    step: ReplayedStep,
+    /// Its answer as recordings have it.
+    answer: Vec<u8>,
+}
+
 struct Player {
     brain: Brain,
     commands: Vec<Command>,
     /// The recorded answer that stands.
     standing: Vec<u8>,
-    /// Answer of the last step, not compared yet: a recorded one may follow.
-    open: Option<(u64, Vec<u8>)>,
+    /// The last step, not compared yet: a recorded answer may follow.
+    open: Option<Open>,
+    /// [`RunHeader::format`]
+    format: u32,
     steps: u64,
     difference: Option<Difference>,
 }
@@ -139,9 +150,9 @@ impl Player {
     }
 
     fn of(header: &RunHeader) -> Result<Self, String> {
-        if header.format != FORMAT {
+        if !(FORMAT_WITH_FALSE_REFUSALS..=FORMAT).contains(&header.format) {
             return Err(format!(
-                "it has format {} and this vthal replays format {FORMAT}: use vthal {}",
+                "it has format {} and this vthal replays formats {FORMAT_WITH_FALSE_REFUSALS} to {FORMAT}: use vthal {}",
                 header.format, header.vthal
             ));
         }
@@ -156,6 +167,7 @@ impl Player {
             commands: Vec::new(),
             standing: Vec::new(),
             open: None,
+            format: header.format,
             steps: 0,
             difference: None,
         })
@@ -175,11 +187,16 @@ impl Player {
                 let seen: Seen = read(data)?;
                 let observation = seen.to_brain();
                 let actions = self.brain.step(&observation, &self.commands);
+                let is_edit = |command: &&Command| matches!(command, Command::Edit(_));
+                let edits = self.commands.iter().filter(is_edit).count();
                 self.commands.clear();
                 self.steps += 1;
-                let answer =
-                    serde_json::to_vec(&Answered::from(&actions)).map_err(|error| error.to_string())?;
-                self.open = Some((observation.time_us, answer));
+                let answer = written(&actions).map_err(|error| error.to_string())?;
+                self.open = Some(Open {
+                    time_us: observation.time_us,
+                    step: ReplayedStep { actions, edits },
+                    answer,
+                });
             }
             DECISIONS => {
                 self.standing = data.to_vec();
@@ -192,8 +209,17 @@ impl Player {
 
     /// Compares the last answer with the recorded one that stands now.
     fn settle(&mut self) {
-        if let Some((time_us, answer)) = self.open.take()
-            && answer != self.standing
+        let Some(Open {
+            time_us,
+            step,
+            answer,
+        }) = self.open.take()
+        else {
+            return;
+        };
+        let has_false_refusals = self.format == FORMAT_WITH_FALSE_REFUSALS;
+        if answer != self.standing
+            && !(has_false_refusals && step.is_without_false_refusals(&self.standing))
             && self.difference.is_none()
         {
             self.difference = Some(Difference {

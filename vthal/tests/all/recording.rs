@@ -7,7 +7,9 @@ use std::path::PathBuf;
 
 use brain::action::{Arm, Decision, Tone};
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
-use brain::{Actions, Body, BrainConfig, Command, Inhibits, Motion, Observation, Speeds, StrategyName};
+use brain::{
+    Actions, Body, BrainConfig, Command, Inhibits, JobCommand, Motion, Observation, Speeds, StrategyName,
+};
 use mcap::{MessageStream, Summary};
 use rvac_api::{
     BatteryReading, ChargerReading, DeviceTable, LogEntry, LogLevel, Pose, RobotDescription, RoomHere,
@@ -84,6 +86,10 @@ fn answers() -> [Actions; 2] {
     [busy, quiet]
 }
 
+const CLEAN: Command = Command::Job(JobCommand::Clean {
+    strategy: StrategyName::Bounce,
+});
+
 /// One record of every kind, some with every optional part and some with none.
 fn records() -> Vec<Record> {
     let status = Status {
@@ -126,9 +132,7 @@ fn records() -> Vec<Record> {
     let mut records = vec![
         Record::Command {
             time_us: BEGIN_US,
-            command: Command::Clean {
-                strategy: StrategyName::Bounce,
-            },
+            command: CLEAN,
         },
         Record::Observation(full),
         Record::Observation(Observation::default()),

@@ -5,20 +5,20 @@ use crate::model::action::Motion;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
 
-/// The newest wish of the person who drives.
+/// The newest command of the person who drives.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::behavior) struct ManualDrive {
     pub(super) speed_m_per_s: f64,
     pub(super) turn_rad_per_s: f64,
     pub(super) valid_until_us: u64,
     pub(super) cleaners: bool,
-    /// The firmware was seen ready since the person took the wheel.
+    /// The firmware was ready at least once since manual driving began.
     pub(super) ready: bool,
 }
 
 impl Behavior {
-    /// A wish of the person who drives, the first or a further one.
-    pub(super) fn take_wheel(&mut self, drive: ManualDrive, mind: &mut TaskContext) {
+    /// A command of the person who drives, the first or a further one.
+    pub(super) fn take_wheel(&mut self, drive: ManualDrive, context: &mut TaskContext) {
         self.centre_first = false;
         match self.mode {
             Mode::Manual(earlier) => {
@@ -27,15 +27,15 @@ impl Behavior {
                     ..drive
                 })
             }
-            _ => self.enter(Mode::Manual(drive), Reason::Command, mind),
+            _ => self.enter(Mode::Manual(drive), Reason::Command, context),
         }
     }
 
-    /// The person lets go; the stick counts as centred.
-    pub(super) fn release_wheel(&mut self, mind: &mut TaskContext) {
+    /// Manual driving ends; the stick counts as centred.
+    pub(super) fn release_wheel(&mut self, context: &mut TaskContext) {
         self.centre_first = false;
         if matches!(self.mode, Mode::Manual(_)) {
-            self.hold(Reason::Released, mind);
+            self.hold(Reason::Released, context);
         }
     }
 

@@ -1,19 +1,20 @@
-//! What perceptions change, the gravest first.
+//! Changes of the mode by observations, the most severe cause first.
 
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
 use crate::behavior::job::Job;
+use crate::model::fault::Fault;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
 
-/// An outage of the link up to this length needs no new announcement: nobody has had time to come near.
+/// An outage of the link up to this length, microseconds, needs no new announcement, because nobody has had time to come near.
 const SHORT_OUTAGE_US: u64 = 5_000_000;
-/// A cliff sensor that fails its self-test for this long is a fault; shorter it is a spot of sun or a dark rug.
+/// A cliff sensor that fails its self-test for this long, microseconds, is a fault. Sunlight or a dark rug cause shorter failures.
 const SENSOR_PATIENCE_US: u64 = 2_000_000;
 
 impl Behavior {
-    /// The fault that stands in this observation, if any.
-    pub(super) fn fault(&mut self) -> Option<Reason> {
+    /// The fault in this observation, if any.
+    pub(super) fn fault(&mut self) -> Option<Fault> {
         if !self.facts.cliff_sensor {
             self.cliff_sensor_since_us = None;
             return self.facts.fault;
@@ -21,27 +22,27 @@ impl Behavior {
         let now_us = self.facts.now_us;
         let since_us = *self.cliff_sensor_since_us.get_or_insert(now_us);
         let lasting = now_us.saturating_sub(since_us) >= SENSOR_PATIENCE_US;
-        self.facts.fault.or(lasting.then_some(Reason::CliffSensor))
+        self.facts.fault.or(lasting.then_some(Fault::CliffSensor))
     }
 
-    /// Changes the mode where what was perceived demands it.
-    pub(super) fn react(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
+    /// Changes the mode where the observation demands it.
+    pub(super) fn react(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         if !self.facts.link_up {
-            self.lose_link(mind);
+            self.lose_link(context);
             return;
         }
         if let Mode::Disconnected { since_us, resume } = self.mode {
-            self.reconnect(since_us, resume, mind);
+            self.reconnect(since_us, resume, context);
         }
-        if self.react_to_fault(mind) {
+        if self.react_to_fault(context) {
             return;
         }
-        self.react_to_person(mind);
-        self.react_to_dock(situation, mind);
-        self.react_to_budgets(situation, mind);
+        self.react_to_person(context);
+        self.react_to_dock(situation, context);
+        self.react_to_budgets(situation, context);
     }
 
-    fn lose_link(&mut self, mind: &mut TaskContext) {
+    fn lose_link(&mut self, context: &mut TaskContext) {
         let resume = match self.mode {
             Mode::Disconnected { .. } => return,
             Mode::Starting { .. } | Mode::Working => true,
@@ -56,17 +57,17 @@ impl Behavior {
             _ => false,
         };
         let since_us = Some(self.facts.now_us);
-        self.enter(Mode::Disconnected { since_us, resume }, Reason::LinkLost, mind);
+        self.enter(Mode::Disconnected { since_us, resume }, Reason::LinkLost, context);
     }
 
-    fn reconnect(&mut self, since_us: Option<u64>, resume: bool, mind: &mut TaskContext) {
+    fn reconnect(&mut self, since_us: Option<u64>, resume: bool, context: &mut TaskContext) {
         let short =
             since_us.is_some_and(|since_us| self.facts.now_us.saturating_sub(since_us) < SHORT_OUTAGE_US);
         match (&self.job, resume) {
-            // It was on its way home or there already.
-            (Some(_), true) if self.facts.docked && self.drives_home() => self.arrive(mind),
+            // It was driving home or is on the dock already.
+            (Some(_), true) if self.facts.docked && self.drives_home() => self.arrive(context),
             (Some(_), true) if short && !self.facts.disarmed.not_armed => {
-                self.enter(Mode::Working, Reason::LinkRestored, mind);
+                self.enter(Mode::Working, Reason::LinkRestored, context);
             }
             (Some(_), true) => {
                 let restored = self.reason == Reason::Restored;
@@ -75,23 +76,23 @@ impl Behavior {
                 } else {
                     Reason::Continued
                 };
-                self.announce(reason, mind);
+                self.announce(reason, context);
             }
-            _ => self.hold(Reason::LinkRestored, mind),
+            _ => self.hold(Reason::LinkRestored, context),
         }
     }
 
-    /// True while a fault stands or waits to be acknowledged.
-    fn react_to_fault(&mut self, mind: &mut TaskContext) -> bool {
+    /// True while there is a fault or it waits to be acknowledged.
+    fn react_to_fault(&mut self, context: &mut TaskContext) -> bool {
         match (self.mode, self.facts.fault) {
-            (Mode::Error { .. }, Some(fault)) => self.reason = fault,
+            (Mode::Error { .. }, Some(fault)) => self.reason = Reason::Fault(fault),
             (_, Some(fault)) => {
                 self.centre_first |= matches!(self.mode, Mode::Manual(_));
-                self.enter(Mode::Error { acknowledged: false }, fault, mind);
+                self.enter(Mode::Error { acknowledged: false }, Reason::Fault(fault), context);
             }
             (Mode::Error { acknowledged: true }, None) => {
                 let reason = self.reason;
-                self.hold(reason, mind);
+                self.hold(reason, context);
                 return false;
             }
             (Mode::Error { acknowledged: false }, None) => {}
@@ -101,7 +102,7 @@ impl Behavior {
     }
 
     /// Lifted, stopped at the button, stopped by somebody else's `stop`, or the lease of a person who drives is over.
-    fn react_to_person(&mut self, mind: &mut TaskContext) {
+    fn react_to_person(&mut self, context: &mut TaskContext) {
         let disarmed = self.facts.disarmed;
         let ready = match self.mode {
             Mode::Working => true,
@@ -122,38 +123,38 @@ impl Behavior {
             return;
         };
         self.centre_first |= matches!(self.mode, Mode::Manual(_));
-        self.hold(reason, mind);
+        self.hold(reason, context);
     }
 
-    fn react_to_dock(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
+    fn react_to_dock(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         match self.mode {
-            Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, mind),
-            Mode::Docked if !self.facts.docked => self.come_off(mind),
-            Mode::Docked => self.watch_dry_dock(mind),
-            Mode::Working if !self.facts.docked && self.waits_for_current() => self.lose_contacts(mind),
-            Mode::Recharging => self.watch_charge(situation, mind),
-            // Carried home by a person.
+            Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, context),
+            Mode::Docked if !self.facts.docked => self.come_off(context),
+            Mode::Docked => self.watch_dry_dock(context),
+            Mode::Working if !self.facts.docked && self.waits_for_current() => self.lose_contacts(context),
+            Mode::Recharging => self.watch_charge(situation, context),
+            // A person carried it to the dock.
             Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
-                self.arrive(mind);
+                self.arrive(context);
             }
             Mode::Starting { .. } | Mode::Working if self.facts.docked => {
                 if self.drives_home() {
-                    self.meet_contacts(mind);
+                    self.meet_contacts(context);
                 } else if self.mode == Mode::Working && self.facts.disarmed.docked {
-                    self.leave_dock(mind);
+                    self.leave_dock(context);
                 }
             }
             _ => {}
         }
     }
 
-    /// Off the dock without being sent.
-    fn come_off(&mut self, mind: &mut TaskContext) {
+    /// It left the dock without a command.
+    fn come_off(&mut self, context: &mut TaskContext) {
         if self.slips_off() {
             self.job = Some(Job::new(JobKind::Dock, self.figures()));
-            self.announce(Reason::DockMissed, mind);
+            self.announce(Reason::DockMissed, context);
         } else {
-            self.enter(Mode::Idle, Reason::Released, mind);
+            self.enter(Mode::Idle, Reason::Released, context);
         }
     }
 
@@ -161,29 +162,29 @@ impl Behavior {
         self.job.as_ref().is_some_and(|job| job.kind == JobKind::Dock)
     }
 
-    /// Strayed onto the dock while cleaning: off again.
-    fn leave_dock(&mut self, mind: &mut TaskContext) {
+    /// It drove onto the dock while cleaning, and leaves it.
+    fn leave_dock(&mut self, context: &mut TaskContext) {
         if let Some(job) = &mut self.job
             && !job.is_departing()
         {
-            job.depart(&mut mind.random);
-            mind.decide("depart", Reason::Docked, 0.0);
+            job.depart(&mut context.random);
+            context.decide("depart", Reason::Docked, 0.0);
         }
     }
 
-    fn react_to_budgets(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
+    fn react_to_budgets(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         if self.mode != Mode::Working || self.waits_for_current() {
             return;
         }
         let Some(job) = &self.job else { return };
         if self.facts.disarmed.not_armed && !job.is_departing() {
-            self.announce(Reason::NotArmed, mind);
+            self.announce(Reason::NotArmed, context);
         } else if job.kind == JobKind::Dock {
-            // It has a budget of its own.
+            // Docking has its own budget.
         } else if job.figures.time_s >= self.config.task_budget_s {
-            self.turn_home(Reason::TaskBudget, mind);
+            self.turn_home(Reason::TaskBudget, context);
         } else if self.must_go_home(situation) {
-            self.turn_home_for_charge(situation, mind);
+            self.turn_home_for_charge(situation, context);
         }
     }
 }

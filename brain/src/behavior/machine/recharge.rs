@@ -1,8 +1,8 @@
-//! Home for charge, and on with the job afterwards.
+//! Recharging in the middle of a job.
 //!
-//! A cleaning job that ends for the pack's sake is *put off*: a job that looks for the dock takes its place, and on the dock
-//! it comes back and waits until the pack is charged. A lost dock leaves it with a person. A job that looks again from the dock
-//! ([`crate::behavior::second_look`]) is put off in the same way.
+//! A cleaning job that ends because of low charge is *put off*: a docking job replaces it, and on the dock it comes back and waits until the
+//! pack is charged. When the dock is not found, it waits for a person. A job that retries from the dock
+//! ([`crate::behavior::dock_retry`]) is put off in the same way.
 
 use core::task::Poll;
 
@@ -16,25 +16,25 @@ use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
 
-/// Below this charge the way home is looked at, and again after `LOOK_US`: it takes a plan each time.
-const LOOK_BELOW: f32 = 0.5;
-const LOOK_US: u64 = 20_000_000;
-/// Contacts that open so soon after they have closed were met at their edge; and the times that it comes back then.
+/// Below this charge the path home is searched, and again after `RETURN_CHECK_US`, because each search is a plan.
+const RETURN_CHECK_BELOW: f32 = 0.5;
+const RETURN_CHECK_US: u64 = 20_000_000;
+/// Contacts that open this soon after they have closed, microseconds, touched at their edge; and how often the robot docks again then.
 const SLIPS_OFF_US: u64 = 1_000_000;
 const SLIPS_MAX: u32 = 3;
 
 impl Behavior {
-    /// What driving and cleaning take, as far as it was learnt.
+    /// Learnt energy use of driving and cleaning.
     pub(crate) fn energy(&self) -> EnergyModel {
         self.energy.model()
     }
 
-    /// Takes up what was learnt earlier.
+    /// Starts with what was learnt earlier.
     pub(crate) fn learn_energy(&mut self, model: EnergyModel) {
         self.energy = EnergyLearner::of(model);
     }
 
-    /// Learns from what the pack lost since the last step.
+    /// Learns from the charge that was used since the last step.
     pub(super) fn watch_energy(&mut self, situation: &Situation<'_>) {
         let activity = match self.mode {
             Mode::Working if self.runs_cleaners() => Activity::Cleaning,
@@ -45,18 +45,18 @@ impl Behavior {
         self.energy.update(situation.advance.time_s, activity, charge);
     }
 
-    /// The running job ends for the pack's sake: it is put off, unless what is left of it is not worth a charge.
-    pub(super) fn turn_home_for_charge(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
-        if self.leaves_crumbs(situation) {
-            self.finish(Reason::CrumbsLeft, situation, mind);
+    /// The running job ends because of low charge. It is put off, unless the rest of it is not worth another charge.
+    pub(super) fn turn_home_for_charge(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
+        if self.has_little_left(situation) {
+            self.finish(Reason::CrumbsLeft, situation, context);
         } else {
-            self.turn_home(Reason::BatteryLow, mind);
+            self.turn_home(Reason::BatteryLow, context);
         }
     }
 
-    /// Weighs what is left against the charge that its ways would take.
-    fn leaves_crumbs(&self, situation: &Situation<'_>) -> bool {
-        let (Some(swept), Some(way_m)) = (self.swept_share(situation.map), self.home_way_m) else {
+    /// Whether the rest is not worth the charge for its path.
+    fn has_little_left(&self, situation: &Situation<'_>) -> bool {
+        let (Some(swept), Some(way_m)) = (self.swept_share(situation.map), self.return_path_m) else {
             return false;
         };
         let left = RemainingWork {
@@ -67,45 +67,45 @@ impl Behavior {
         self.energy.model().is_negligible(left, &self.config)
     }
 
-    /// Whether so little charge is left that the way home might become too long.
+    /// Whether the charge might not suffice for the path home any more.
     pub(super) fn must_go_home(&mut self, situation: &Situation<'_>) -> bool {
         if self.facts.battery_low {
             return true;
         }
         let charge = situation.observation.battery_charge;
-        let Some(charge) = charge.filter(|charge| *charge < LOOK_BELOW) else {
+        let Some(charge) = charge.filter(|charge| *charge < RETURN_CHECK_BELOW) else {
             return false;
         };
-        let Some(way_m) = self.look_for_home(situation) else {
+        let Some(way_m) = self.search_return_path(situation) else {
             return false;
         };
         let cruise_m_per_s = self.config.speeds.cruise_m_per_s;
         f64::from(charge) < self.energy.model().charge_to_return(way_m, cruise_m_per_s)
     }
 
-    /// Looks now and then how long the way home is, some steps long; gives it when it is found.
-    fn look_for_home(&mut self, situation: &Situation<'_>) -> Option<f64> {
-        if let Some(looking) = &mut self.way_home {
+    /// Searches the path home from time to time, over several steps. Returns its length in the step in which it is found.
+    fn search_return_path(&mut self, situation: &Situation<'_>) -> Option<f64> {
+        if let Some(looking) = &mut self.return_search {
             let Poll::Ready(way_m) = looking.go_on() else {
                 return None;
             };
-            self.way_home = None;
-            self.home_way_m = way_m;
+            self.return_search = None;
+            self.return_path_m = way_m;
             return way_m;
         }
         let now_us = self.facts.now_us;
         let is_due = self
-            .way_home_us
-            .is_none_or(|looked_us| now_us >= looked_us + LOOK_US);
+            .return_check_us
+            .is_none_or(|looked_us| now_us >= looked_us + RETURN_CHECK_US);
         if is_due {
-            self.way_home_us = Some(now_us);
-            self.way_home = docking::path_home_m(situation);
+            self.return_check_us = Some(now_us);
+            self.return_search = docking::path_home_m(situation);
         }
         None
     }
 
-    /// The running job becomes a search for the dock and keeps its figures. One that ends for the pack's sake is put off.
-    pub(super) fn turn_home(&mut self, reason: Reason, mind: &mut TaskContext) {
+    /// A docking job replaces the running job and takes over its figures. A job that ends because of low charge is put off.
+    pub(super) fn turn_home(&mut self, reason: Reason, context: &mut TaskContext) {
         let figures = self.figures();
         let before = self.job.replace(Job::new(JobKind::Dock, figures));
         let goes_on = matches!(reason, Reason::BatteryLow | Reason::LookAgain);
@@ -113,45 +113,45 @@ impl Behavior {
         if let Some(job) = &mut self.put_off {
             job.interrupt();
         }
-        self.enter(Mode::Working, reason, mind);
+        self.enter(Mode::Working, reason, context);
     }
 
-    /// The running job is at its end. One that has cleaned goes home if the map tells where that is, or the dock's beams were heard
-    /// on the way: who began somewhere else has never stood on it.
-    pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut TaskContext) {
+    /// The running job has finished. A cleaning job drives home if the map has a dock, or if beams of the dock were received during
+    /// the job: a robot that started elsewhere has never been on it.
+    pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
             && matches!(
                 reason,
                 Reason::Finished | Reason::RestOutOfReach | Reason::ByStatistics | Reason::CrumbsLeft
             );
-        if has_cleaned && self.takes_second_look(reason, situation) {
-            return self.turn_home(Reason::LookAgain, mind);
+        if has_cleaned && self.retries_from_dock(reason, situation) {
+            return self.turn_home(Reason::LookAgain, context);
         }
         let is_whole_home = self.order().is_some_and(CleaningOrder::is_for_whole_home);
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
         let has_home = situation.map.dock().is_some() || situation.beams.has_received_dock();
         if has_cleaned && has_home {
-            self.turn_home(reason, mind);
+            self.turn_home(reason, context);
         } else {
-            self.give_up_home(reason, mind);
+            self.give_up_home(reason, context);
         }
     }
 
-    /// On the dock at the end of the way home.
-    pub(super) fn arrive(&mut self, mind: &mut TaskContext) {
+    /// It has docked at the end of the path home.
+    pub(super) fn arrive(&mut self, context: &mut TaskContext) {
         let figures = self.figures();
         self.home_us = Some(self.facts.now_us);
         match self.put_off.take() {
-            None => self.end_job(Reason::Docked, mind),
+            None => self.end_job(Reason::Docked, context),
             Some(job) => {
                 self.job = Some(Job { figures, ..job });
-                self.enter(Mode::Recharging, Reason::Recharging, mind);
+                self.enter(Mode::Recharging, Reason::Recharging, context);
             }
         }
     }
 
-    /// Whether the robot, which is not on the dock any more, has slipped off by itself and should try again.
+    /// Whether the robot, which has left the dock, has slipped off by itself and should dock again.
     pub(super) fn slips_off(&mut self) -> bool {
         let since_us = self.home_us.take().map(|home_us| self.facts.now_us - home_us);
         since_us.is_some_and(|since_us| since_us < SLIPS_OFF_US)
@@ -159,68 +159,68 @@ impl Behavior {
             && self.slips_left()
     }
 
-    /// A person wants it to stand: it does not come back to its contacts by itself.
+    /// A person stopped it: it does not return to the contacts by itself.
     pub(super) fn stays_where_it_is(&mut self) {
         self.home_us = None;
     }
 
-    /// Counts a slip, and tells whether there may be one more try.
+    /// Counts a slip and returns whether another attempt is allowed.
     pub(super) fn slips_left(&mut self) -> bool {
         let left = self.slips < SLIPS_MAX;
         self.slips += u32::from(left);
         left
     }
 
-    /// Nobody can see the dock: the job waits as it did on the way home.
+    /// The link is lost on the dock: the job is put off as on the path home.
     pub(super) fn put_off_again(&mut self) {
         let figures = self.figures();
         self.put_off = self.job.replace(Job::new(JobKind::Dock, figures));
     }
 
-    /// The way home has ended elsewhere: what was put off waits for a person.
-    pub(super) fn give_up_home(&mut self, reason: Reason, mind: &mut TaskContext) {
+    /// The path home has ended elsewhere: the job that was put off waits for a person.
+    pub(super) fn give_up_home(&mut self, reason: Reason, context: &mut TaskContext) {
         let figures = self.figures();
         match self.put_off.take() {
-            None => self.end_job(reason, mind),
+            None => self.end_job(reason, context),
             Some(job) => {
                 self.job = Some(Job { figures, ..job });
-                self.enter(Mode::Paused, reason, mind);
+                self.enter(Mode::Paused, reason, context);
             }
         }
     }
 
-    /// Goes on when the pack is charged; waits for a person when somebody took the robot off its dock.
-    pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
-        self.tell_of_charger(mind);
+    /// Resumes when the pack is charged; waits for a person when somebody took the robot off its dock.
+    pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
+        self.tell_of_charger(context);
         let may_start = !self.facts.battery_low && !self.facts.wheel_drop;
         let charge = situation.observation.battery_charge;
         let charged = charge.is_some_and(|charge| charge >= self.config.battery_charged);
         if !self.facts.docked && self.slips_off() {
             self.put_off_again();
-            self.announce(Reason::DockMissed, mind);
+            self.announce(Reason::DockMissed, context);
         } else if !self.facts.docked {
-            self.hold(Reason::Released, mind);
-        } else if may_start && self.may_look_again(charge) {
-            self.announce(Reason::LookAgain, mind);
+            self.hold(Reason::Released, context);
+        } else if may_start && self.may_retry(charge) {
+            self.announce(Reason::LookAgain, context);
         } else if may_start && charged {
-            self.announce(Reason::Charged, mind);
+            self.announce(Reason::Charged, context);
         }
     }
 
-    /// A job that waits for charge says so when the charger has stopped for a fault, and goes on waiting: once a person has seen
-    /// to it, current flows again.
-    fn tell_of_charger(&mut self, mind: &mut TaskContext) {
+    /// Reports when the charger has stopped because of a fault. The job keeps waiting, because current flows again once a person has
+    /// removed the cause.
+    fn tell_of_charger(&mut self, context: &mut TaskContext) {
         let reason = match self.facts.charger_fault {
             true => Reason::ChargerFault,
             false => Reason::Recharging,
         };
         if self.reason != reason {
-            self.enter(Mode::Recharging, reason, mind);
+            self.enter(Mode::Recharging, reason, context);
         }
     }
 
-    /// What must survive a restart of the job. One that waits for charge is told as one that drives home: its successor finds
-    /// itself on the dock.
+    /// The part of the job that must survive a restart. A job that waits for charge is saved as one that drives home; after the restart
+    /// it detects the dock.
     pub(crate) fn checkpoint(&self) -> Option<JobCheckpoint> {
         let running = match self.mode {
             Mode::Starting { .. } | Mode::Working | Mode::Recharging => true,
@@ -249,7 +249,7 @@ impl Behavior {
         })
     }
 
-    /// Takes up a job after a restart.
+    /// Restores a job after a restart.
     pub(crate) fn restore(&mut self, checkpoint: JobCheckpoint) {
         let job = |kind| Job::with_order((kind, checkpoint.order.clone()), checkpoint.figures);
         self.job = Some(job(checkpoint.kind));

@@ -1,4 +1,4 @@
-//! How a job begins: it announces itself, arms, and waits for the firmware to agree (S24).
+//! How a job begins: announcement, arming, and the firmware's confirmation (S24).
 
 use super::{Behavior, JobStart, Mode};
 use crate::behavior::job::Job;
@@ -8,7 +8,7 @@ use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
 
-/// Pause between two tries to arm.
+/// Pause between two attempts to arm, microseconds.
 const ARM_AGAIN_US: u64 = 500_000;
 /// Tones of the announcement (S24): three beeps.
 const BEEP: Tone = Tone {
@@ -21,12 +21,12 @@ const GAP: Tone = Tone {
 };
 /// Length of the beeps and the two seconds after them (S24).
 const ANNOUNCEMENT_US: u64 = 5 * 150_000 + 2_000_000;
-/// The firmware must let itself be armed within this time.
+/// The firmware must confirm arming within this time, microseconds.
 const ARM_PATIENCE_US: u64 = 3_000_000;
 
 impl Behavior {
-    /// Waits for the announcement to end, arms, and waits for the firmware to agree.
-    pub(super) fn start(&mut self, since_us: u64, mind: &mut TaskContext) -> Motion {
+    /// Waits for the end of the announcement, arms, and waits for the firmware's confirmation.
+    pub(super) fn start(&mut self, since_us: u64, context: &mut TaskContext) -> Motion {
         let waited_us = self.facts.now_us.saturating_sub(since_us);
         if waited_us < ANNOUNCEMENT_US {
             return Motion::Rest;
@@ -37,20 +37,20 @@ impl Behavior {
             if self.facts.docked
                 && let Some(job) = &mut self.job
             {
-                job.depart(&mut mind.random);
+                job.depart(&mut context.random);
             }
-            self.enter(Mode::Working, reason, mind);
+            self.enter(Mode::Working, reason, context);
             return Motion::Halt;
         }
         if waited_us > ANNOUNCEMENT_US + ARM_PATIENCE_US {
-            self.enter(Mode::Paused, Reason::ArmRefused, mind);
+            self.enter(Mode::Paused, Reason::ArmRefused, context);
             return Motion::Rest;
         }
         self.ask_to_arm();
         Motion::Rest
     }
 
-    /// Arms, but not more often than answers can come back.
+    /// Arms, but not more often than answers can arrive.
     pub(super) fn ask_to_arm(&mut self) {
         let due = self
             .armed_us
@@ -64,33 +64,33 @@ impl Behavior {
     }
 
     /// Announces and starts the present job (S24).
-    pub(super) fn announce(&mut self, reason: Reason, mind: &mut TaskContext) {
+    pub(super) fn announce(&mut self, reason: Reason, context: &mut TaskContext) {
         if let (Mode::Recharging, Some(job)) = (self.mode, &mut self.job) {
             job.returns = true;
-            job.second_look.begins();
+            job.dock_retry.begins();
         }
         self.enter(
             Mode::Starting {
                 since_us: self.facts.now_us,
             },
             reason,
-            mind,
+            context,
         );
         self.tones.extend([BEEP, GAP, BEEP, GAP, BEEP]);
     }
 
-    /// Begins a new job; the old one is forgotten.
-    pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), mind: &mut TaskContext) {
+    /// Begins a new job and discards the old one.
+    pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), context: &mut TaskContext) {
         self.job = Some(Job::with_order((kind, order), JobFigures::default()));
         self.put_off = None;
         self.slips = 0;
-        self.dry_tries = 0;
+        self.no_current_tries = 0;
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
             if !self.facts.knows_heading {
-                mind.decide("keep-no-map", Reason::NoHeading, 0.0);
+                context.decide("keep-no-map", Reason::NoHeading, 0.0);
             }
         }
-        self.announce(Reason::Command, mind);
+        self.announce(Reason::Command, context);
     }
 }

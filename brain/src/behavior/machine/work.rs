@@ -1,4 +1,4 @@
-//! How a running job moves: departure and escapes first, then the task, with watches on what comes of it.
+//! Motion of a running job: departure and escapes first, then the task. Watches check the result.
 
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
@@ -16,19 +16,18 @@ use crate::model::swept_share::SweptShare;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
 use crate::recovery::{self, StuckKind, Traction, Whereabouts};
 
-/// The firmware may be out of reach of `arm` for this long before the job is put off.
-const STARVE_US: u64 = 3_000_000;
-/// A gyro's bias that is known so well, rad/s, has been told by a rest of two seconds: over a minute it turns a map by two degrees
-/// at most.
+/// The firmware may stay disarmed for this long, microseconds, before the job is interrupted.
+const UNARMED_MAX_US: u64 = 3_000_000;
+/// Standard deviation of the gyro's bias after a rest of two seconds, rad/s. It turns a map by two degrees a minute at most.
 const SETTLED_RAD_PER_S: f64 = 6.0e-4;
-/// The same for a robot that is about to draw a map, told by twelve seconds: until it sees the first wall nothing else tells its
-/// heading, and what that is wrong by then the whole map is turned by.
+/// The same after twelve seconds, for a robot that is about to draw a map. Until the first wall it has no other source of heading, and
+/// the whole map is rotated by the error up to then.
 const SETTLED_SURVEYING_RAD_PER_S: f64 = 2.0e-4;
-/// Longest that a job waits for that before its first move, seconds.
+/// Longest wait for that before the first motion of a job, seconds.
 const SETTLE_MAX_S: f64 = 16.0;
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
-/// A place that took so many rungs to leave is not entered again in this job.
+/// A place that took so many recovery behaviors to leave is not entered again in this job.
 const POCKET_RUNGS: u8 = 3;
 
 impl Behavior {
@@ -41,10 +40,10 @@ impl Behavior {
         }
     }
 
-    pub(super) fn work(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) -> Motion {
+    pub(super) fn work(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Motion {
         let commanded = self.last_motion;
         let Some(job) = &mut self.job else {
-            self.hold(Reason::NoJob, mind);
+            self.hold(Reason::NoJob, context);
             return Motion::Halt;
         };
         job.figures.time_s += situation.advance.time_s;
@@ -52,28 +51,28 @@ impl Behavior {
         job.brushes |= !self.facts.touching;
         job.returns &= situation.map.is_swept(situation.pose.position());
         if self.facts.disarmed.any() {
-            return self.wait_for_arm(mind);
+            return self.wait_for_arm(context);
         }
-        self.starved_since_us = None;
+        self.unarmed_since_us = None;
         let plans_on_map = job.kind == JobKind::Clean(StrategyName::Systematic);
         if plans_on_map && !situation.knows_heading {
-            self.end_job(Reason::NoHeading, mind);
+            self.end_job(Reason::NoHeading, context);
             return Motion::Halt;
         }
         if plans_on_map && self.settles_gyro(situation) {
-            return rest_for_gyro(commanded, mind);
+            return rest_for_gyro(commanded, context);
         }
-        self.watch_pen(situation, mind);
-        let plan = self.watched_plan(commanded, situation, mind);
-        let motion = self.follow(plan, situation, mind);
+        self.watch_pen(situation, context);
+        let plan = self.watched_plan(commanded, situation, context);
+        let motion = self.follow(plan, situation, context);
         if !self.rests_for_gyro(motion, situation) {
             return motion;
         }
-        rest_for_gyro(commanded, mind)
+        rest_for_gyro(commanded, context)
     }
 
-    /// Whether the robot has come free.
-    fn watch_pen(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) {
+    /// Watches whether the robot is unstuck.
+    fn watch_pen(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         let Some(job) = &mut self.job else { return };
         match job
             .pen
@@ -86,7 +85,7 @@ impl Behavior {
                 if rungs == 0 {
                     return;
                 }
-                mind.decide("free", Reason::CameFree, f64::from(rungs));
+                context.decide("free", Reason::CameFree, f64::from(rungs));
                 if rungs >= POCKET_RUNGS {
                     self.pocket = troubled_at;
                 }
@@ -94,8 +93,7 @@ impl Behavior {
         }
     }
 
-    /// Whether the robot must stand still before its first move, because nothing has told its gyro's bias yet: it was switched on
-    /// only just now.
+    /// Whether the robot must rest before its first motion, because it was just switched on and the gyro's bias is not measured yet.
     fn settles_gyro(&self, situation: &Situation<'_>) -> bool {
         let has_not_moved = |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < SETTLE_MAX_S;
         let settled_rad_per_s = if situation.is_tracked {
@@ -109,7 +107,7 @@ impl Behavior {
                 .is_some_and(|sigma| sigma > settled_rad_per_s)
     }
 
-    /// Whether it is time to stand still for the gyro's sake: only on a way ahead, where nothing is lost by it.
+    /// Whether to rest for the gyro's bias: only during forward travel, which a rest does not disturb.
     fn rests_for_gyro(&mut self, motion: Motion, situation: &Situation<'_>) -> bool {
         let is_ahead = matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
         let Some(job) = &mut self.job else { return false };
@@ -120,27 +118,27 @@ impl Behavior {
         job.gyro_rest.follow(self.facts.now_us, is_ahead, budget)
     }
 
-    fn wait_for_arm(&mut self, mind: &mut TaskContext) -> Motion {
-        let since_us = *self.starved_since_us.get_or_insert(self.facts.now_us);
-        if self.facts.now_us.saturating_sub(since_us) > STARVE_US {
+    fn wait_for_arm(&mut self, context: &mut TaskContext) -> Motion {
+        let since_us = *self.unarmed_since_us.get_or_insert(self.facts.now_us);
+        if self.facts.now_us.saturating_sub(since_us) > UNARMED_MAX_US {
             let reason = if self.facts.disarmed.link_lost {
                 Reason::LinkLost
             } else {
                 Reason::ArmRefused
             };
-            self.hold(reason, mind);
+            self.hold(reason, context);
         } else {
             self.ask_to_arm();
         }
         Motion::Rest
     }
 
-    /// What the task or a detour wants, unless a watch calls trouble first.
+    /// The plan of the task or a detour, unless a watch reports trouble first.
     fn watched_plan(
         &mut self,
         commanded: Motion,
         situation: &Situation<'_>,
-        mind: &mut TaskContext,
+        context: &mut TaskContext,
     ) -> TaskStatus {
         let Some(job) = &mut self.job else {
             return TaskStatus::Go(Motion::Halt);
@@ -159,13 +157,16 @@ impl Behavior {
             // The firmware rests for a second after it saw no progress; the escape starts after that.
             return TaskStatus::Go(Motion::Rest);
         }
-        if job.edges.must_wait(situation.at_cliff, self.facts.now_us, mind) {
+        if job
+            .edges
+            .must_wait(situation.at_cliff, self.facts.now_us, context)
+        {
             return TaskStatus::Go(Motion::Halt);
         }
         if job.detour.is_none() && job.pen.is_due() {
             return TaskStatus::Trouble(Reason::ShutIn);
         }
-        let plan = self.plan(situation, mind);
+        let plan = self.plan(situation, context);
         match plan {
             TaskStatus::Finished(Reason::Finished | Reason::RestOutOfReach)
                 if self.ends_in_pen(situation) =>
@@ -177,7 +178,7 @@ impl Behavior {
         }
     }
 
-    fn plan(&mut self, situation: &Situation<'_>, mind: &mut TaskContext) -> TaskStatus {
+    fn plan(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let Some(job) = &mut self.job else {
             return TaskStatus::Go(Motion::Halt);
         };
@@ -188,7 +189,7 @@ impl Behavior {
             job.detour = None;
             job.pen.try_again();
             job.task.interrupted();
-            // What was moved since the last step belongs to the detour.
+            // Motion since the last step belongs to the detour.
             let still = Situation {
                 advance: Advance {
                     time_s: 0.0,
@@ -196,43 +197,42 @@ impl Behavior {
                 },
                 ..*situation
             };
-            return job.task.step(&still, mind);
+            return job.task.step(&still, context);
         }
-        job.task.step(situation, mind)
+        job.task.step(situation, context)
     }
 
-    fn follow(&mut self, plan: TaskStatus, situation: &Situation<'_>, mind: &mut TaskContext) -> Motion {
+    fn follow(&mut self, plan: TaskStatus, situation: &Situation<'_>, context: &mut TaskContext) -> Motion {
         match plan {
             TaskStatus::Go(motion) => return motion,
-            TaskStatus::Trouble(reason) => self.escape(reason, situation, mind),
-            TaskStatus::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, mind),
-            TaskStatus::Finished(reason) => self.finish(reason, situation, mind),
+            TaskStatus::Trouble(reason) => self.escape(reason, situation, context),
+            TaskStatus::Finished(Reason::Slip) => self.enter(Mode::Stuck, Reason::Slip, context),
+            TaskStatus::Finished(reason) => self.finish(reason, situation, context),
         }
         Motion::Halt
     }
 
-    fn escape(&mut self, reason: Reason, situation: &Situation<'_>, mind: &mut TaskContext) {
+    fn escape(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) {
         let Some(job) = &mut self.job else { return };
         job.task.interrupted();
         let grip = recovery::stuck_kind(reason);
         let Some(rung) = job.ladder.trouble(grip) else {
-            self.enter(Mode::Stuck, reason, mind);
+            self.enter(Mode::Stuck, reason, context);
             return;
         };
         match grip {
             StuckKind::Held => job.pen.hold(situation.pose.position()),
             StuckKind::Penned => job.pen.begin_recovery(situation.pose.position()),
         }
-        mind.decide(rung.decision(), reason, 0.0);
-        let sequence = recovery::escape(rung, &mut mind.random);
+        context.decide(rung.decision(), reason, 0.0);
+        let sequence = recovery::escape(rung, &mut context.random);
         job.detour = Some(Detour {
             sequence,
             purpose: Purpose::Escape,
         });
     }
 
-    /// Whether a job for the whole home is at its end only because the robot is shut in: it has not swept half of what it
-    /// knows of the home.
+    /// Whether a job for the whole home ends only because the robot is enclosed: it has swept less than half of the known floor.
     fn ends_in_pen(&self, situation: &Situation<'_>) -> bool {
         let is_cleaning = |job: &&Job| {
             let is_whole_home = job.order.is_for_whole_home();
@@ -242,19 +242,19 @@ impl Behavior {
             && situation.map.swept_m2() < 0.5 * situation.map.free_m2()
     }
 
-    /// Corners of the way that the running or waiting job means to drive.
-    pub(crate) fn planned_way(&self) -> Vec<Point2> {
+    /// Corners of the planned path of the running or waiting job.
+    pub(crate) fn planned_path(&self) -> Vec<Point2> {
         self.job
             .as_ref()
             .map_or_else(Vec::new, |job| job.task.planned_path())
     }
 
-    /// How much of its floor the running or waiting job has swept.
+    /// Share of its target floor that the running or waiting job has swept.
     pub(crate) fn swept_share(&self, map: &Map) -> Option<SweptShare> {
         self.job.as_ref()?.task.swept_share(map)
     }
 
-    /// Where the running or waiting job does not go.
+    /// Floor that the running or waiting job keeps out of.
     pub(crate) fn avoided(&self) -> &[NoGo] {
         self.job.as_ref().map_or(&[], Job::avoided)
     }
@@ -275,10 +275,10 @@ impl Behavior {
     }
 }
 
-/// Stands still, and tells why when the rest begins.
-fn rest_for_gyro(commanded: Motion, mind: &mut TaskContext) -> Motion {
+/// Rests, and records the reason when the rest begins.
+fn rest_for_gyro(commanded: Motion, context: &mut TaskContext) -> Motion {
     if commanded != Motion::Halt {
-        mind.decide("rest", Reason::GyroDrift, 0.0);
+        context.decide("rest", Reason::GyroDrift, 0.0);
     }
     Motion::Halt
 }

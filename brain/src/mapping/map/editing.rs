@@ -8,9 +8,9 @@ use crate::mapping::home::Access;
 use crate::mapping::occupancy_grid::{CellBox, Flag};
 use crate::mapping::zone_cells::{cells_between, cells_of};
 use crate::mapping::{Annotations, Cell, CellKnowledge, Raster};
+use crate::model::edit_error::EditError;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::no_go::{NoGo, RoomName};
-use crate::model::reason::Reason;
 use crate::model::room_settings::RoomSettings;
 use crate::model::zone::{COORDINATE_MAX_M, Zone};
 
@@ -25,7 +25,7 @@ impl Map {
     ///
     /// # Errors
     /// The named reason against it.
-    pub fn admit_no_go(&self, no_go: &NoGo) -> Result<(), Reason> {
+    pub(super) fn admit_no_go(&self, no_go: &NoGo) -> Result<(), EditError> {
         self.home.annotations.has_room_for_another()?;
         if let Some(name) = no_go.name() {
             self.home.annotations.may_forbid_as(None, name)?;
@@ -33,23 +33,23 @@ impl Map {
         self.may_forbid(no_go)
     }
 
-    /// Whether `no_go` covers known floor and keeps clear of the dock.
-    pub(crate) fn may_forbid(&self, no_go: &NoGo) -> Result<(), Reason> {
+    /// Whether there is floor that `no_go` forbids, and the dock stays within reach.
+    pub(crate) fn may_forbid(&self, no_go: &NoGo) -> Result<(), EditError> {
         if self.knowledge().values().is_empty() {
-            return Err(Reason::NoMap);
+            return Err(EditError::NoMap);
         }
         let knowledge = self.knowledge();
         let is_floor = |cell: Cell| {
             let kind = knowledge.get(cell);
             matches!(kind, Some(CellKnowledge::Free | CellKnowledge::NoGo))
         };
-        let window = self.home.bounds().ok_or(Reason::NoMap)?;
+        let window = self.home.bounds().ok_or(EditError::NoMap)?;
         if !cells_of(no_go.area(), window).any(is_floor) {
-            return Err(Reason::NoFloorThere);
+            return Err(EditError::NoFloorThere);
         }
         let radius_m = self.home.sensor_model.body.radius_m;
         match self.dock() {
-            Some(dock) if no_go.area().distance_m(dock.position()) < radius_m => Err(Reason::DockInside),
+            Some(dock) if no_go.area().distance_m(dock.position()) < radius_m => Err(EditError::DockInside),
             _ => Ok(()),
         }
     }
@@ -58,7 +58,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_no_go`]; then nothing is changed.
-    pub fn add_no_go(&mut self, no_go: NoGo) -> Result<(), Reason> {
+    pub fn add_no_go(&mut self, no_go: NoGo) -> Result<(), EditError> {
         self.admit_no_go(&no_go)?;
         self.home.annotations.add(no_go)?;
         self.home.paint_no_go();
@@ -89,22 +89,22 @@ impl Map {
     /// Whether there is a no-go zone or virtual wall with this number.
     ///
     /// # Errors
-    /// [`Reason::NoSuchNoGo`] when not.
-    pub fn admit_no_go_removal(&self, number: u16) -> Result<(), Reason> {
+    /// [`EditError::NoSuchNoGo`] when not.
+    pub(super) fn admit_no_go_removal(&self, number: u16) -> Result<(), EditError> {
         if self.home.annotations.no_go.contains_key(&number) {
             Ok(())
         } else {
-            Err(Reason::NoSuchNoGo)
+            Err(EditError::NoSuchNoGo)
         }
     }
 
     /// Removes a no-go zone or virtual wall. Cells in other ones stay forbidden.
     ///
     /// # Errors
-    /// [`Reason::NoSuchNoGo`]; then nothing is changed.
-    pub fn remove_no_go(&mut self, number: u16) -> Result<(), Reason> {
+    /// [`EditError::NoSuchNoGo`]; then nothing is changed.
+    pub fn remove_no_go(&mut self, number: u16) -> Result<(), EditError> {
         let removed = self.home.annotations.no_go.remove(&number);
-        let removed = removed.ok_or(Reason::NoSuchNoGo)?;
+        let removed = removed.ok_or(EditError::NoSuchNoGo)?;
         self.allow(removed.area());
         self.home.paint_no_go();
         self.home.increment_revision();
@@ -125,8 +125,8 @@ impl Map {
     /// Whether a no-go zone or virtual wall can have this shape instead of its own.
     ///
     /// # Errors
-    /// [`Reason::NoSuchNoGo`], or the reason against a new one there.
-    pub fn admit_no_go_shape(&self, number: u16, no_go: &NoGo) -> Result<(), Reason> {
+    /// [`EditError::NoSuchNoGo`], or what speaks against a new one there.
+    pub(super) fn admit_no_go_shape(&self, number: u16, no_go: &NoGo) -> Result<(), EditError> {
         self.admit_no_go_removal(number)?;
         self.may_forbid(no_go)
     }
@@ -135,10 +135,10 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_no_go_shape`]; then nothing is changed.
-    pub fn reshape_no_go(&mut self, number: u16, no_go: NoGo) -> Result<(), Reason> {
+    pub fn reshape_no_go(&mut self, number: u16, no_go: NoGo) -> Result<(), EditError> {
         self.admit_no_go_shape(number, &no_go)?;
         let known = self.home.annotations.no_go.get_mut(&number);
-        let known = known.ok_or(Reason::NoSuchNoGo)?;
+        let known = known.ok_or(EditError::NoSuchNoGo)?;
         let no_go = no_go.with_name(known.name().cloned());
         let before = core::mem::replace(known, no_go);
         self.allow(before.area());
@@ -150,8 +150,8 @@ impl Map {
     /// Whether a no-go zone or virtual wall can have this name; without a name clients show its number.
     ///
     /// # Errors
-    /// [`Reason::NoSuchNoGo`], or [`Reason::NameTaken`] by another one.
-    pub fn admit_no_go_name(&self, number: u16, name: Option<&RoomName>) -> Result<(), Reason> {
+    /// [`EditError::NoSuchNoGo`], or [`EditError::NameTaken`] by another one.
+    pub(super) fn admit_no_go_name(&self, number: u16, name: Option<&RoomName>) -> Result<(), EditError> {
         self.admit_no_go_removal(number)?;
         name.map_or(Ok(()), |name| {
             self.home.annotations.may_forbid_as(Some(number), name)
@@ -162,10 +162,10 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_no_go_name`]; then nothing is changed.
-    pub fn name_no_go(&mut self, number: u16, name: Option<RoomName>) -> Result<(), Reason> {
+    pub fn name_no_go(&mut self, number: u16, name: Option<RoomName>) -> Result<(), EditError> {
         self.admit_no_go_name(number, name.as_ref())?;
         let no_go = self.home.annotations.no_go.get_mut(&number);
-        let no_go = no_go.ok_or(Reason::NoSuchNoGo)?;
+        let no_go = no_go.ok_or(EditError::NoSuchNoGo)?;
         *no_go = no_go.clone().with_name(name);
         self.home.increment_revision();
         Ok(())
@@ -174,10 +174,10 @@ impl Map {
     /// Whether a room can have this name; without a name clients show its number.
     ///
     /// # Errors
-    /// [`Reason::NoSuchRoom`], or [`Reason::NameTaken`] by another room.
-    pub fn admit_room_name(&self, room: u16, name: Option<&RoomName>) -> Result<(), Reason> {
+    /// [`EditError::NoSuchRoom`], or [`EditError::NameTaken`] by another room.
+    pub(super) fn admit_room_name(&self, room: u16, name: Option<&RoomName>) -> Result<(), EditError> {
         if self.rooms().rooms().iter().all(|known| known.id != room) {
-            return Err(Reason::NoSuchRoom);
+            return Err(EditError::NoSuchRoom);
         }
         name.map_or(Ok(()), |name| self.home.annotations.may_be_called(room, name))
     }
@@ -186,7 +186,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_room_name`]; then nothing is changed.
-    pub fn name_room(&mut self, room: u16, name: Option<RoomName>) -> Result<(), Reason> {
+    pub fn name_room(&mut self, room: u16, name: Option<RoomName>) -> Result<(), EditError> {
         self.admit_room_name(room, name.as_ref())?;
         self.home.annotations.call(room, name);
         self.home.increment_revision();
@@ -198,14 +198,14 @@ impl Map {
     /// Whether a room can have settings.
     ///
     /// # Errors
-    /// [`Reason::NoSuchRoom`], or [`Reason::BadSettings`] when too many rooms have settings.
-    pub fn admit_room_settings(&self, room: u16) -> Result<(), Reason> {
+    /// [`EditError::NoSuchRoom`], or [`EditError::BadSettings`] when more rooms have some than a home can have.
+    pub(super) fn admit_room_settings(&self, room: u16) -> Result<(), EditError> {
         if self.rooms().rooms().iter().all(|known| known.id != room) {
-            return Err(Reason::NoSuchRoom);
+            return Err(EditError::NoSuchRoom);
         }
         let settings = &self.home.annotations.settings;
         if settings.len() >= NAMES_MAX && !settings.contains_key(&room) {
-            return Err(Reason::BadSettings);
+            return Err(EditError::BadSettings);
         }
         Ok(())
     }
@@ -214,7 +214,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_room_settings`]; then nothing is changed.
-    pub fn set_room(&mut self, room: u16, settings: Option<RoomSettings>) -> Result<(), Reason> {
+    pub fn set_room(&mut self, room: u16, settings: Option<RoomSettings>) -> Result<(), EditError> {
         self.admit_room_settings(room)?;
         let kept = &mut self.home.annotations.settings;
         match settings.filter(|settings| *settings != RoomSettings::default()) {
@@ -231,18 +231,18 @@ impl Map {
     ///
     /// # Errors
     /// The named reason against it.
-    pub fn admit_dock_move(&self, pose: Pose2) -> Result<(), Reason> {
+    pub(super) fn admit_dock_move(&self, pose: Pose2) -> Result<(), EditError> {
         let is_near = pose.x_m.abs() < COORDINATE_MAX_M
             && pose.y_m.abs() < COORDINATE_MAX_M
             && pose.heading_rad.is_finite();
-        let window = self.home.bounds().ok_or(Reason::NoMap)?;
+        let window = self.home.bounds().ok_or(EditError::NoMap)?;
         if !is_near || !self.has_floor_under(pose.position(), window) {
-            return Err(Reason::NoFloorThere);
+            return Err(EditError::NoFloorThere);
         }
         let radius_m = self.home.sensor_model.body.radius_m;
         let mut no_gos = self.home.annotations.no_go.values();
         if no_gos.any(|no_go| no_go.area().distance_m(pose.position()) < radius_m) {
-            return Err(Reason::DockInside);
+            return Err(EditError::DockInside);
         }
         Ok(())
     }
@@ -251,7 +251,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_dock_move`]; then nothing is changed.
-    pub fn move_dock(&mut self, pose: Pose2) -> Result<(), Reason> {
+    pub fn move_dock(&mut self, pose: Pose2) -> Result<(), EditError> {
         self.admit_dock_move(pose)?;
         self.home.dock.report(Pose2 {
             heading_rad: normalize_rad(pose.heading_rad % TAU),

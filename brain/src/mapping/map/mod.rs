@@ -1,6 +1,7 @@
 //! The map of the home and of one job in it.
 
 mod confidence;
+mod edit;
 mod editing;
 mod known_home;
 mod loader;

@@ -2,8 +2,8 @@
 
 use super::Map;
 use crate::mapping::{Annotations, Cell, CellKnowledge, Rooms};
+use crate::model::edit_error::EditError;
 use crate::model::order::{CleaningOrder, HomePart, SPOT_RADIUS_M};
-use crate::model::reason::Reason;
 use crate::model::room_settings::{Pattern, RoomSettings};
 
 impl Rooms {
@@ -49,8 +49,8 @@ impl Annotations {
 }
 
 impl Map {
-    /// Whether the map contains everything that an order names.
-    pub(crate) fn admit_order(&self, order: &CleaningOrder) -> Result<(), Reason> {
+    /// Whether the map holds what is ordered.
+    pub(crate) fn admit_order(&self, order: &CleaningOrder) -> Result<(), EditError> {
         let knowledge = self.knowledge();
         let has_floor = |part: &HomePart| {
             (0..knowledge.values().len())
@@ -60,10 +60,10 @@ impl Map {
         for part in order.parts() {
             match part {
                 HomePart::Room(id) if self.rooms().rooms().iter().all(|room| room.id != *id) => {
-                    return Err(Reason::NoSuchRoom);
+                    return Err(EditError::NoSuchRoom);
                 }
                 HomePart::Zone(_) | HomePart::Spot(_) if !has_floor(part) => {
-                    return Err(Reason::NoFloorThere);
+                    return Err(EditError::NoFloorThere);
                 }
                 _ => {}
             }

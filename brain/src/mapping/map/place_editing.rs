@@ -2,28 +2,28 @@
 
 use super::Map;
 use crate::mapping::annotations::PLACES_MAX;
+use crate::model::edit_error::EditError;
 use crate::model::kept_place::{KeptPlace, PlaceShape};
 use crate::model::no_go::RoomName;
 use crate::model::order::CleaningOrder;
-use crate::model::reason::Reason;
 
 impl Map {
     /// Whether a place can be saved: it must contain known floor. With a number it is restored under that number.
     ///
     /// # Errors
     /// The named reason against it.
-    pub fn admit_place(&self, place: &KeptPlace, number: Option<u16>) -> Result<(), Reason> {
+    pub(super) fn admit_place(&self, place: &KeptPlace, number: Option<u16>) -> Result<(), EditError> {
         let known = &self.annotations().places;
         if self.knowledge().values().is_empty() {
-            return Err(Reason::NoMap);
+            return Err(EditError::NoMap);
         }
         if known.kept.len() >= PLACES_MAX || known.next == u16::MAX {
-            return Err(Reason::TooManyPlaces);
+            return Err(EditError::TooManyPlaces);
         }
         if number
             .is_some_and(|number| number == 0 || number >= known.next || known.kept.contains_key(&number))
         {
-            return Err(Reason::NoSuchPlace);
+            return Err(EditError::NoSuchPlace);
         }
         known.may_be_called(None, place.name())?;
         self.admit_order(&CleaningOrder::new(vec![place.part()], 1)?)
@@ -33,7 +33,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_place`]; then nothing is changed.
-    pub fn keep_place(&mut self, place: KeptPlace, number: Option<u16>) -> Result<(), Reason> {
+    pub fn keep_place(&mut self, place: KeptPlace, number: Option<u16>) -> Result<(), EditError> {
         self.admit_place(&place, number)?;
         let known = &mut self.home.annotations.places;
         let number = number.unwrap_or(known.next);
@@ -46,8 +46,8 @@ impl Map {
     /// Whether a place can have this name.
     ///
     /// # Errors
-    /// [`Reason::NoSuchPlace`], or [`Reason::NameTaken`] by another one.
-    pub fn admit_place_name(&self, number: u16, name: &RoomName) -> Result<(), Reason> {
+    /// [`EditError::NoSuchPlace`], or [`EditError::NameTaken`] by another one.
+    pub(super) fn admit_place_name(&self, number: u16, name: &RoomName) -> Result<(), EditError> {
         self.admit_place_removal(number)?;
         self.annotations().places.may_be_called(Some(number), name)
     }
@@ -56,10 +56,10 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_place_name`]; then nothing is changed.
-    pub fn name_place(&mut self, number: u16, name: RoomName) -> Result<(), Reason> {
+    pub fn name_place(&mut self, number: u16, name: RoomName) -> Result<(), EditError> {
         self.admit_place_name(number, &name)?;
         let known = self.home.annotations.places.kept.get_mut(&number);
-        let known = known.ok_or(Reason::NoSuchPlace)?;
+        let known = known.ok_or(EditError::NoSuchPlace)?;
         *known = known.clone().with_name(name);
         self.home.increment_revision();
         Ok(())
@@ -68,13 +68,13 @@ impl Map {
     /// Whether a place can have this shape.
     ///
     /// # Errors
-    /// [`Reason::NoSuchPlace`], or the reason against a new one there.
-    pub fn admit_place_shape(&self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
+    /// [`EditError::NoSuchPlace`], or what speaks against a new one there.
+    pub(super) fn admit_place_shape(&self, number: u16, shape: &PlaceShape) -> Result<(), EditError> {
         self.reshaped(number, shape).map(drop)
     }
 
-    fn reshaped(&self, number: u16, shape: &PlaceShape) -> Result<KeptPlace, Reason> {
-        let known = self.annotations().place(number).ok_or(Reason::NoSuchPlace)?;
+    fn reshaped(&self, number: u16, shape: &PlaceShape) -> Result<KeptPlace, EditError> {
+        let known = self.annotations().place(number).ok_or(EditError::NoSuchPlace)?;
         let place = known.clone().with_shape(shape)?;
         self.admit_order(&CleaningOrder::new(vec![place.part()], 1)?)?;
         Ok(place)
@@ -84,7 +84,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_place_shape`]; then nothing is changed.
-    pub fn reshape_place(&mut self, number: u16, shape: &PlaceShape) -> Result<(), Reason> {
+    pub fn reshape_place(&mut self, number: u16, shape: &PlaceShape) -> Result<(), EditError> {
         let place = self.reshaped(number, shape)?;
         self.home.annotations.places.kept.insert(number, place);
         self.home.increment_revision();
@@ -94,21 +94,21 @@ impl Map {
     /// Whether there is a place with this number.
     ///
     /// # Errors
-    /// [`Reason::NoSuchPlace`] when not.
-    pub fn admit_place_removal(&self, number: u16) -> Result<(), Reason> {
+    /// [`EditError::NoSuchPlace`] when not.
+    pub(super) fn admit_place_removal(&self, number: u16) -> Result<(), EditError> {
         match self.annotations().place(number) {
             Some(_) => Ok(()),
-            None => Err(Reason::NoSuchPlace),
+            None => Err(EditError::NoSuchPlace),
         }
     }
 
     /// Deletes a saved place.
     ///
     /// # Errors
-    /// [`Reason::NoSuchPlace`]; then nothing is changed.
-    pub fn forget_place(&mut self, number: u16) -> Result<(), Reason> {
+    /// [`EditError::NoSuchPlace`]; then nothing is changed.
+    pub fn forget_place(&mut self, number: u16) -> Result<(), EditError> {
         let known = &mut self.home.annotations.places.kept;
-        known.remove(&number).ok_or(Reason::NoSuchPlace)?;
+        known.remove(&number).ok_or(EditError::NoSuchPlace)?;
         self.home.increment_revision();
         Ok(())
     }

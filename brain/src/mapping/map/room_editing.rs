@@ -5,30 +5,30 @@ use crate::mapping::Room;
 use crate::mapping::room_changes::{RoomChange, RoomJoin, RoomSplit};
 use crate::mapping::room_cut::{PartSide, cut};
 use crate::model::cut_line::CutLine;
+use crate::model::edit_error::EditError;
 use crate::model::no_go::in_micrometres;
-use crate::model::reason::Reason;
 
 impl Map {
     /// Whether a line can split a room; without a room, the one with the longest part of the line.
     ///
     /// # Errors
-    /// [`Reason::NoMap`], [`Reason::NoSuchRoom`], [`Reason::LineMissesRoom`], [`Reason::LineEndsInRoom`],
-    /// [`Reason::PartTooSmall`] or [`Reason::TooManyRoomChanges`].
-    pub fn admit_room_split(&self, room: Option<u16>, line: &CutLine) -> Result<(), Reason> {
+    /// [`EditError::NoMap`], [`EditError::NoSuchRoom`], [`EditError::LineMissesRoom`], [`EditError::LineEndsInRoom`],
+    /// [`EditError::PartTooSmall`] or [`EditError::TooManyRoomChanges`].
+    pub(super) fn admit_room_split(&self, room: Option<u16>, line: &CutLine) -> Result<(), EditError> {
         self.split_of(room, line).map(|_| ())
     }
 
-    /// The room that a line splits, and the part that gets another identity.
-    fn split_of(&self, room: Option<u16>, line: &CutLine) -> Result<(u16, PartSide), Reason> {
+    /// The room that a line would cut, and the part that would get another identity.
+    fn split_of(&self, room: Option<u16>, line: &CutLine) -> Result<(u16, PartSide), EditError> {
         if self.rooms().rooms().is_empty() {
-            return Err(Reason::NoMap);
+            return Err(EditError::NoMap);
         }
         if let Some(room) = room {
             self.room(room)?;
         }
         self.home.annotations.rooms.has_room_for_another()?;
         if self.home.rooms.next_id() == u16::MAX {
-            return Err(Reason::TooManyRoomChanges);
+            return Err(EditError::TooManyRoomChanges);
         }
         let cut = cut(self.rooms().labels(), room, line)?;
         Ok((cut.room, cut.smaller()))
@@ -39,7 +39,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_room_split`]; then nothing is changed.
-    pub fn split_room(&mut self, room: Option<u16>, line: CutLine) -> Result<(), Reason> {
+    pub fn split_room(&mut self, room: Option<u16>, line: CutLine) -> Result<(), EditError> {
         let (room, side) = self.split_of(room, &line)?;
         let before = self.home.annotations.rooms.part_before(room, side, line);
         let part = before.unwrap_or_else(|| self.home.rooms.allocate_id());
@@ -57,18 +57,18 @@ impl Map {
     /// Whether two rooms can be joined: they must be adjacent.
     ///
     /// # Errors
-    /// [`Reason::NoSuchRoom`], [`Reason::RoomsApart`] or [`Reason::TooManyRoomChanges`].
-    pub fn admit_room_join(&self, rooms: [u16; 2]) -> Result<(), Reason> {
+    /// [`EditError::NoSuchRoom`], [`EditError::RoomsApart`] or [`EditError::TooManyRoomChanges`].
+    pub(super) fn admit_room_join(&self, rooms: [u16; 2]) -> Result<(), EditError> {
         self.join_of(rooms).map(|_| ())
     }
 
-    fn join_of(&self, rooms: [u16; 2]) -> Result<RoomJoin, Reason> {
+    fn join_of(&self, rooms: [u16; 2]) -> Result<RoomJoin, EditError> {
         let [one, other] = [self.room(rooms[0])?, self.room(rooms[1])?];
         let mut border = self.rooms().doors().iter();
         if !border
             .any(|door| door.rooms.contains(&one.id) && door.rooms.contains(&other.id) && one.id != other.id)
         {
-            return Err(Reason::RoomsApart);
+            return Err(EditError::RoomsApart);
         }
         self.home.annotations.rooms.has_room_for_another()?;
         let (kept, lost) = if self.is_kept(one, other) {
@@ -97,7 +97,7 @@ impl Map {
     ///
     /// # Errors
     /// As [`Self::admit_room_join`]; then nothing is changed.
-    pub fn join_rooms(&mut self, rooms: [u16; 2]) -> Result<(), Reason> {
+    pub fn join_rooms(&mut self, rooms: [u16; 2]) -> Result<(), EditError> {
         let join = self.join_of(rooms)?;
         self.home.annotations.rooms.add(RoomChange::Join(join))?;
         self.rooms_have_changed();
@@ -107,24 +107,24 @@ impl Map {
     /// Whether a change can be undone: no later one may build on it.
     ///
     /// # Errors
-    /// [`Reason::NoSuchRoomChange`] or [`Reason::RoomChangeInUse`].
-    pub fn admit_room_change_undo(&self, number: u16) -> Result<(), Reason> {
-        self.home.annotations.rooms.may_undo(number)
+    /// [`EditError::NoSuchRoomChange`] or [`EditError::RoomChangeInUse`].
+    pub(super) fn admit_room_change_undo(&self, number: u16) -> Result<(), EditError> {
+        self.home.annotations.rooms.may_be_taken_back(number)
     }
 
     /// Undoes a change. Identities and names are as before it.
     ///
     /// # Errors
     /// As [`Self::admit_room_change_undo`]; then nothing is changed.
-    pub fn undo_room_change(&mut self, number: u16) -> Result<(), Reason> {
-        self.home.annotations.rooms.undo(number)?;
+    pub fn undo_room_change(&mut self, number: u16) -> Result<(), EditError> {
+        self.home.annotations.rooms.take_back(number)?;
         self.rooms_have_changed();
         Ok(())
     }
 
-    fn room(&self, id: u16) -> Result<&Room, Reason> {
+    fn room(&self, id: u16) -> Result<&Room, EditError> {
         let known = self.rooms().rooms().iter().find(|room| room.id == id);
-        known.ok_or(Reason::NoSuchRoom)
+        known.ok_or(EditError::NoSuchRoom)
     }
 
     fn rooms_have_changed(&mut self) {

@@ -6,7 +6,8 @@ pub(crate) mod beams;
 use beams::Sight;
 use brain::observation::{Cliffs, Contacts};
 use brain::{
-    Actions, Body, Brain, BrainConfig, Command, Inhibit, Inhibits, Motion, Observation, Point2, Pose2, Speeds,
+    Actions, Body, Brain, BrainConfig, Command, Inhibit, Inhibits, JobCommand, MapEdit, Motion, Observation,
+    Point2, Pose2, Speeds,
 };
 
 pub(crate) const STEP_S: f64 = 0.02;
@@ -270,8 +271,17 @@ impl World {
     }
 }
 
-/// Runs a brain in a world for a while and gives it back.
-pub(crate) fn run(world: &mut World, brain: &mut Brain, command: Option<Command>, seconds: f64) {
+/// Runs a brain in a world for a while.
+pub(crate) fn run(world: &mut World, brain: &mut Brain, command: Option<JobCommand>, seconds: f64) {
+    step_for(world, brain, command.map(Command::Job), seconds);
+}
+
+/// Edits the map of a brain in a world.
+pub(crate) fn edit(world: &mut World, brain: &mut Brain, edit: MapEdit) {
+    step_for(world, brain, Some(Command::Edit(edit)), 0.1);
+}
+
+fn step_for(world: &mut World, brain: &mut Brain, command: Option<Command>, seconds: f64) {
     let mut commands = Vec::from_iter(command);
     for _ in 0..(seconds / STEP_S) as u32 {
         let actions = brain.step(&world.observation, &commands);

@@ -12,8 +12,8 @@
 use brain::action::Tone;
 use brain::observation::{ChargeFlow, Cliffs, Contacts};
 use brain::{
-    Actions, BehaviorState, Body, Brain, BrainConfig, Command, Inhibits, Motion, Observation, Speeds,
-    StrategyName,
+    Actions, BehaviorState, Body, Brain, BrainConfig, Command, Inhibits, JobCommand, Motion, Observation,
+    Speeds, StrategyName,
 };
 
 const STEP_US: u64 = 20_000;
@@ -75,9 +75,10 @@ impl Stage {
     }
 
     /// One observation; the actions come true before the next one.
-    pub(crate) fn step(&mut self, commands: &[Command]) -> Actions {
+    pub(crate) fn step(&mut self, commands: &[JobCommand]) -> Actions {
         self.observation.time_us += STEP_US;
-        let actions = self.brain.step(&self.observation, commands);
+        let commands: Vec<Command> = commands.iter().cloned().map(Command::from).collect();
+        let actions = self.brain.step(&self.observation, &commands);
         self.assert_lawful(&actions);
         self.assert_seen_behind();
         self.motion = actions.motion;
@@ -171,7 +172,7 @@ impl Stage {
         }
     }
 
-    fn command(&mut self, command: Command) {
+    fn command(&mut self, command: JobCommand) {
         self.step(&[command]);
         self.step(&[]);
     }
@@ -222,19 +223,19 @@ impl Stage {
         self.seconds(0.04);
     }
 
-    fn parse_command(&self, verb: &str, arguments: &[&str]) -> Option<Command> {
+    fn parse_command(&self, verb: &str, arguments: &[&str]) -> Option<JobCommand> {
         Some(match verb {
-            "clean" => Command::Clean {
+            "clean" => JobCommand::Clean {
                 strategy: StrategyName::Bounce,
             },
-            "spot" => Command::Spot,
-            "dock" => Command::Dock,
-            "pause" => Command::Pause,
-            "resume" => Command::Resume,
-            "stop" => Command::Stop,
-            "clear" => Command::ClearError,
-            "release" => Command::ManualEnd,
-            "drive" => Command::Manual {
+            "spot" => JobCommand::Spot,
+            "dock" => JobCommand::Dock,
+            "pause" => JobCommand::Pause,
+            "resume" => JobCommand::Resume,
+            "stop" => JobCommand::Stop,
+            "clear" => JobCommand::ClearError,
+            "release" => JobCommand::ManualEnd,
+            "drive" => JobCommand::Manual {
                 speed_m_per_s: arguments[0].parse().expect("a speed"),
                 turn_rad_per_s: arguments[1].parse().expect("a turn rate"),
                 valid_until_us: self.observation.time_us + 400_000,

@@ -60,7 +60,7 @@ impl Core {
         let brain = self.brain_session.as_ref().map(BrainSession::brain);
         self.history
             .order(RunAsker::Schedule { number, name }, &command, brain);
-        self.command_brain(now_us, command, outputs);
+        self.command_brain(now_us, command.into(), outputs);
         Ok(())
     }
 }

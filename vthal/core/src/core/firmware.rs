@@ -1,6 +1,6 @@
 //! Events of the device, and the desks that receive them.
 
-use brain::Command;
+use brain::JobCommand;
 use rvac_api::{LogLevel, RunAsker};
 
 use super::Core;
@@ -184,7 +184,7 @@ impl Core {
         }
     }
 
-    fn command_by_button(&mut self, now_us: u64, command: Command, outputs: &mut Outputs) {
+    fn command_by_button(&mut self, now_us: u64, command: JobCommand, outputs: &mut Outputs) {
         if self.driver.admit(now_us, Source::Button).is_err() {
             return;
         }
@@ -193,7 +193,7 @@ impl Core {
         if self.brain_session.as_ref().is_some_and(is_admitted) {
             let brain = self.brain_session.as_ref().map(BrainSession::brain);
             self.history.order(RunAsker::Button, &command, brain);
-            self.command_brain(now_us, command, outputs);
+            self.command_brain(now_us, command.into(), outputs);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a person does by hand: drives, stops, and looks after the device itself.
 
-use brain::{Command, Inhibit};
+use brain::{Inhibit, JobCommand};
 use rvac_api::{LogLevel, RunAsker};
 
 use super::Core;
@@ -49,7 +49,7 @@ impl Core {
         let text = format!("stopped by {name}");
         self.history.commanded_by(RunAsker::Client(name));
         self.device_command(now_us, DeviceCommand::EmergencyStop, outputs);
-        self.command_brain(now_us, Command::Stop, outputs);
+        self.command_brain(now_us, JobCommand::Stop.into(), outputs);
         self.teller(now_us, outputs)
             .log(LogLevel::Info, LogSource::Client, text);
     }
@@ -63,7 +63,7 @@ impl Core {
         let (stick, power) = (drive.stick(), drive.cleaner_power()?);
         self.require_robot()?;
         self.check_range(&stick)?;
-        let command = |valid_until_us| Command::Manual {
+        let command = |valid_until_us| JobCommand::Manual {
             speed_m_per_s: stick.speed_m_per_s,
             turn_rad_per_s: stick.turn_rad_per_s,
             valid_until_us,
@@ -75,7 +75,7 @@ impl Core {
         let pull = Pull { stick, brakes };
         let valid_until_us = self.driver.drive(client, pull, &mut teller)?;
         self.driver.set_power(power);
-        self.command_brain(now_us, command(valid_until_us), outputs);
+        self.command_brain(now_us, command(valid_until_us).into(), outputs);
         Ok(())
     }
 
@@ -94,7 +94,7 @@ impl Core {
         outputs: &mut Outputs,
     ) {
         self.device_command(now_us, command, outputs);
-        self.command_brain(now_us, Command::ManualEnd, outputs);
+        self.command_brain(now_us, JobCommand::ManualEnd.into(), outputs);
         let mut teller = self.teller(now_us, outputs);
         let text = format!("driver {} left: wheels stop", teller.name(client));
         teller.log(LogLevel::Info, LogSource::Client, text);
@@ -140,8 +140,8 @@ impl Core {
         if let Some(inhibit) = latched {
             self.device_command(now_us, DeviceCommand::Clear(inhibit), outputs);
         }
-        match self.readiness().admit(&Command::ClearError) {
-            Ok(()) => self.command_brain(now_us, Command::ClearError, outputs),
+        match self.readiness().admit(&JobCommand::ClearError) {
+            Ok(()) => self.command_brain(now_us, JobCommand::ClearError.into(), outputs),
             Err(refused) if latched.is_none() => return Err(refused),
             Err(_) => {}
         }

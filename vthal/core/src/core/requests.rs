@@ -1,6 +1,6 @@
 //! What clients ask, routed to the desks that do it.
 
-use brain::Command;
+use brain::JobCommand;
 use rvac_api::{LogLevel, Request, RunAsker, Topic, Update};
 
 use super::Core;
@@ -153,12 +153,15 @@ impl Core {
         outputs: &mut Outputs,
     ) -> Result<Reply, Refusal> {
         let command = match request {
-            JobRequest::Start(name) => Command::Clean {
-                strategy: self.readiness().strategy_named(name.as_deref())?,
-            },
+            JobRequest::Start(name) => {
+                let strategy = self.readiness().strategy_named(name.as_deref())?;
+                self.admitted(now_us, asker.client, JobCommand::Clean { strategy })?
+            }
             JobRequest::Clean(order) => {
                 self.require_robot()?;
-                clean_command(&order, self.brain_session.as_ref())?
+                let command = clean_command(&order, self.brain_session.as_ref())?;
+                self.driver.admit(now_us, Source::Person(asker.client))?;
+                command
             }
             JobRequest::Estimate(order) => {
                 self.require_robot()?;
@@ -168,31 +171,34 @@ impl Core {
                     self.brain_session.as_ref(),
                 )?));
             }
-            JobRequest::OfSchedule(number) => self.readiness().command_now(self.schedules.entry(number)?)?,
-            JobRequest::Spot => Command::Spot,
-            JobRequest::Pause => Command::Pause,
-            JobRequest::Resume => Command::Resume,
-            JobRequest::Dock => Command::Dock,
+            JobRequest::OfSchedule(number) => {
+                let command = self.readiness().command_now(self.schedules.entry(number)?)?;
+                self.driver.admit(now_us, Source::Person(asker.client))?;
+                command
+            }
+            JobRequest::Spot => self.admitted(now_us, asker.client, JobCommand::Spot)?,
+            JobRequest::Pause => self.admitted(now_us, asker.client, JobCommand::Pause)?,
+            JobRequest::Resume => self.admitted(now_us, asker.client, JobCommand::Resume)?,
+            JobRequest::Dock => self.admitted(now_us, asker.client, JobCommand::Dock)?,
         };
-        self.start(now_us, (asker.client, command), outputs)?;
+        let by = RunAsker::Client(self.audience.clients.name(asker.client));
+        let brain = self.brain_session.as_ref().map(BrainSession::brain);
+        self.history.order(by, &command, brain);
+        self.command_brain(now_us, command.into(), outputs);
         Ok(Reply::Done)
     }
 
-    /// Gives a job of a client to the brain, if it would obey.
-    fn start(
+    /// A command of a client, if the client may command now and the brain would obey.
+    fn admitted(
         &mut self,
         now_us: u64,
-        (client, command): (ClientId, Command),
-        outputs: &mut Outputs,
-    ) -> Result<(), Refused> {
+        client: ClientId,
+        command: JobCommand,
+    ) -> Result<JobCommand, Refused> {
         self.require_robot()?;
         self.driver.admit(now_us, Source::Person(client))?;
         self.readiness().admit(&command)?;
-        let by = RunAsker::Client(self.audience.clients.name(client));
-        let brain = self.brain_session.as_ref().map(BrainSession::brain);
-        self.history.order(by, &command, brain);
-        self.command_brain(now_us, command, outputs);
-        Ok(())
+        Ok(command)
     }
 
     fn edit_home(
@@ -205,7 +211,7 @@ impl Core {
         let (edit, reply) = self
             .home
             .serve(&asking, self.brain_session.as_ref(), &mut teller)?;
-        self.command_brain(now_us, edit.command, outputs);
+        self.command_brain(now_us, edit.edit.into(), outputs);
         Ok(reply)
     }
 

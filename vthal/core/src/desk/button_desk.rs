@@ -1,6 +1,6 @@
 //! What the buttons of the robot do, and whom they are reported to.
 
-use brain::{BehaviorState, Command, Status, StrategyName};
+use brain::{BehaviorState, JobCommand, Status, StrategyName};
 use rvac_api::{Gesture, LogLevel, Topic, Update};
 
 use super::audience::Teller;
@@ -60,7 +60,7 @@ impl ButtonDesk {
         edge: ButtonEdge,
         doing: Option<&Doing>,
         teller: &mut Teller<'_>,
-    ) -> Option<Command> {
+    ) -> Option<JobCommand> {
         let ButtonEdge { button, pressed } = edge;
         let gesture = self.buttons.take_edge(teller.now_us, button, pressed);
         let mut command = None;
@@ -84,15 +84,15 @@ impl ButtonDesk {
     }
 
     /// Stops what runs. What waits or stands can wait until the button comes up: the person may mean to hold it.
-    fn start_went_down(&mut self, doing: Option<&Doing>) -> Option<Command> {
+    fn start_went_down(&mut self, doing: Option<&Doing>) -> Option<JobCommand> {
         self.start_means_more = doing.is_none_or(|doing| !doing.is_new);
         let doing = doing.filter(|_| self.start_means_more)?;
         let command = match doing.status.state {
             BehaviorState::Starting
             | BehaviorState::Cleaning
             | BehaviorState::Spot
-            | BehaviorState::Docking => Command::Pause,
-            BehaviorState::Manual => Command::ManualEnd,
+            | BehaviorState::Docking => JobCommand::Pause,
+            BehaviorState::Manual => JobCommand::ManualEnd,
             BehaviorState::Paused
             | BehaviorState::Docked
             | BehaviorState::Idle
@@ -105,15 +105,15 @@ impl ButtonDesk {
     }
 
     /// Goes on with what waits, else starts.
-    fn start_was_pressed(&self, doing: Option<&Doing>) -> Option<Command> {
+    fn start_was_pressed(&self, doing: Option<&Doing>) -> Option<JobCommand> {
         let doing = doing.filter(|_| self.start_means_more)?;
         match doing.status.state {
-            BehaviorState::Paused => Some(Command::Resume),
-            BehaviorState::Docked if doing.status.resumable => Some(Command::Resume),
-            BehaviorState::Idle | BehaviorState::Docked => Some(Command::Clean {
+            BehaviorState::Paused => Some(JobCommand::Resume),
+            BehaviorState::Docked if doing.status.resumable => Some(JobCommand::Resume),
+            BehaviorState::Idle | BehaviorState::Docked => Some(JobCommand::Clean {
                 strategy: doing.usual_strategy,
             }),
-            BehaviorState::Stuck | BehaviorState::Error => Some(Command::ClearError),
+            BehaviorState::Stuck | BehaviorState::Error => Some(JobCommand::ClearError),
             BehaviorState::Starting
             | BehaviorState::Cleaning
             | BehaviorState::Spot

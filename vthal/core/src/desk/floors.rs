@@ -201,7 +201,7 @@ impl FloorDesk {
             .any(|floor| name.is_some() && floor.name == name && Some(floor.number) != of);
         if is_taken {
             let text = "Another floor is called so: take another name.".to_owned();
-            return Err(Refusal::because(brain::Reason::NameTaken, text));
+            return Err(Refusal::because(brain::EditError::NameTaken, text));
         }
         Ok(name)
     }

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use brain::{Brain, Command, HomePart};
+use brain::{Brain, HomePart, JobCommand};
 use rvac_api::{LogLevel, RoomHere, Run, RunAsker, RunJob, RunRecord, Topic, Update};
 
 use super::audience::{Asker, Teller};
@@ -66,7 +66,7 @@ impl HistoryDesk {
     }
 
     /// A command that somebody gives to the brain: an order begins a run with the next step.
-    pub(crate) fn order(&mut self, by: RunAsker, command: &Command, brain: Option<&Brain>) {
+    pub(crate) fn order(&mut self, by: RunAsker, command: &JobCommand, brain: Option<&Brain>) {
         self.follower.commanded_by(by.clone());
         if let Some(job) = brain.and_then(|brain| ordered_job(command, brain)) {
             self.follower.asked(Asked { by, job }, brain);
@@ -175,16 +175,16 @@ pub(crate) fn ask(asker: Asker, task: RunTask, outputs: &mut Outputs) -> Reply {
 }
 
 /// The job that a command orders; `None` for commands that order none.
-fn ordered_job(command: &Command, brain: &Brain) -> Option<RunJob> {
+fn ordered_job(command: &JobCommand, brain: &Brain) -> Option<RunJob> {
     match command {
-        Command::Clean { strategy } => Some(RunJob::Clean {
+        JobCommand::Clean { strategy } => Some(RunJob::Clean {
             strategy: strategy.name().to_owned(),
             rooms: Vec::new(),
             zones: 0,
             spots: 0,
             passes: 1,
         }),
-        Command::CleanParts { order } => {
+        JobCommand::CleanParts { order } => {
             let names = brain.map().annotations();
             let room = |part: &HomePart| match part {
                 HomePart::Room(id) => Some(RoomHere {
@@ -206,8 +206,13 @@ fn ordered_job(command: &Command, brain: &Brain) -> Option<RunJob> {
                 passes: order.passes(),
             })
         }
-        Command::Spot => Some(RunJob::Spot),
-        Command::Dock => Some(RunJob::Dock),
-        _ => None,
+        JobCommand::Spot => Some(RunJob::Spot),
+        JobCommand::Dock => Some(RunJob::Dock),
+        JobCommand::Pause
+        | JobCommand::Resume
+        | JobCommand::Stop
+        | JobCommand::Manual { .. }
+        | JobCommand::ManualEnd
+        | JobCommand::ClearError => None,
     }
 }

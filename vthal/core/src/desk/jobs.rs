@@ -1,6 +1,6 @@
-//! What clients order for parts of the home: read, admitted, and reckoned beforehand.
+//! Orders of clients for parts of the home: read, admitted and estimated.
 
-use brain::Command;
+use brain::JobCommand;
 use rvac_api::{JobEstimate, JobOrder, Update};
 
 use super::home::{known_home, with_places};
@@ -11,34 +11,37 @@ use crate::refusal::Refusal;
 /// A client draws a spot as large as the brain cleans it.
 const _: () = assert!(rvac_api::SPOT_RADIUS_M == brain::SPOT_RADIUS_M);
 
-/// What the brain is told to clean parts of the home.
+/// The command to clean parts of the home, if the brain would obey it now.
 ///
 /// # Errors
 /// Refused as the brain would refuse it.
-pub(crate) fn clean_command(order: &JobOrder, mind: Option<&BrainSession>) -> Result<Command, Refusal> {
-    let brain = known_home(mind)?.brain();
+pub(crate) fn clean_command(
+    order: &JobOrder,
+    brain_session: Option<&BrainSession>,
+) -> Result<JobCommand, Refusal> {
+    let brain = known_home(brain_session)?.brain();
     let order = to_order(&with_places(order, brain)?)?;
-    let command = Command::CleanParts { order: order.clone() };
+    let command = JobCommand::CleanParts { order: order.clone() };
     match brain.admit(&command) {
         Ok(()) => Ok(command),
         Err(reason) => Err(Refusal::of_order(reason, &order, brain)),
     }
 }
 
-/// What such a job will take. A plan of the whole order takes long enough to be felt by wheels that turn, so none is made while
-/// they may.
+/// What such a job will take. Planning the whole order takes tens of milliseconds, which would delay the control of turning wheels,
+/// so the robot must rest.
 ///
 /// # Errors
 /// A job runs, or the brain would refuse the order.
 pub(crate) fn estimate(
     id: Option<u32>,
     order: &JobOrder,
-    mind: Option<&BrainSession>,
+    brain_session: Option<&BrainSession>,
 ) -> Result<Update, Refusal> {
-    let mind = known_home(mind)?;
-    let brain = mind.brain();
+    let brain_session = known_home(brain_session)?;
+    let brain = brain_session.brain();
     let order = to_order(&with_places(order, brain)?)?;
-    if !mind.rests() {
+    if !brain_session.rests() {
         return Err("job-runs".into());
     }
     let found = brain

@@ -1,6 +1,6 @@
 //! What decides whether a job may start now.
 
-use brain::{Command, StrategyName};
+use brain::{JobCommand, JobRefusal, StrategyName};
 use rvac_api::ScheduledJob;
 
 use super::checkpoints::works;
@@ -61,16 +61,16 @@ impl<'a> Readiness<'a> {
 
     /// # Errors
     /// Why the brain would not obey.
-    pub(crate) fn admit(&self, command: &Command) -> Result<(), Refused> {
+    pub(crate) fn admit(&self, command: &JobCommand) -> Result<(), Refused> {
         let brain_session = self.brain_session.ok_or("no-robot")?;
-        brain_session.admit(command).map_err(brain::Reason::name)
+        brain_session.admit(command).map_err(JobRefusal::name)
     }
 
     /// The command that starts the job of a schedule, because a person wants it now.
     ///
     /// # Errors
     /// Why it may not start.
-    pub(crate) fn command_now(&self, entry: &Entry) -> Result<Command, Refusal> {
+    pub(crate) fn command_now(&self, entry: &Entry) -> Result<JobCommand, Refusal> {
         self.facts.robot?;
         self.require_floor_of(entry)?;
         self.command_of(&entry.plan().job)
@@ -81,7 +81,7 @@ impl<'a> Readiness<'a> {
     ///
     /// # Errors
     /// Why it may not start.
-    pub(crate) fn scheduled_command(&self, entry: &Entry) -> Result<Command, Refused> {
+    pub(crate) fn scheduled_command(&self, entry: &Entry) -> Result<JobCommand, Refused> {
         self.facts.robot?;
         self.facts.schedule?;
         if self.brain_session.is_some_and(works) {
@@ -97,12 +97,12 @@ impl<'a> Readiness<'a> {
         }
     }
 
-    /// The command that starts a job; refused as the brain would refuse it.
-    fn command_of(&self, job: &ScheduledJob) -> Result<Command, Refusal> {
+    /// What the brain is told to start a job; refused as the brain would refuse it.
+    fn command_of(&self, job: &ScheduledJob) -> Result<JobCommand, Refusal> {
         match job {
             ScheduledJob::Start { strategy } => {
                 let strategy = self.strategy_named(strategy.as_deref())?;
-                let command = Command::Clean { strategy };
+                let command = JobCommand::Clean { strategy };
                 self.admit(&command)?;
                 Ok(command)
             }

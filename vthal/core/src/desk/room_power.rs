@@ -1,6 +1,6 @@
 //! How rooms are cleaned: what people say of it, and how hard brushes and suction run where the robot is.
 
-use brain::{BehaviorState, Brain, Pattern, Reason, RoomPower};
+use brain::{BehaviorState, Brain, EditError, Pattern, RoomPower};
 use rvac_api::{CleaningPattern, CleaningPower, RoomSettings};
 use rvac_units::Throttle;
 
@@ -52,7 +52,7 @@ pub(crate) fn to_power(power: &CleaningPower) -> Result<RoomPower, Refusal> {
             "Suction {suction}, main brush {main_brush} and side brushes {side_brushes} cannot be: each share is from 0 to 1, \
              and one of them above 0."
         );
-        return Err(Refusal::because(Reason::BadSettings, text));
+        return Err(Refusal::because(EditError::BadSettings, text));
     }
     Ok(RoomPower {
         suction: percent(suction),

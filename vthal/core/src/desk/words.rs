@@ -1,7 +1,7 @@
-//! Names, places and orders in the words of clients, read into those of the brain.
+//! Names, places and orders as clients send them, converted to the types of the brain.
 
 use brain::zone::COORDINATE_MAX_M;
-use brain::{CleaningOrder, HomePart, NoGo, Point2, Reason, RoomName, Zone};
+use brain::{CleaningOrder, EditError, HomePart, NoGo, Point2, RoomName, Zone};
 use rvac_api::{JobOrder, JobPart};
 
 use super::home::to_no_go;
@@ -14,7 +14,7 @@ pub(crate) fn to_order(order: &JobOrder) -> Result<CleaningOrder, Refusal> {
         JobPart::Room(id) => Ok(HomePart::Room(*id)),
         JobPart::Zone(corners) => to_zone(&format!("Part {}", place + 1), corners).map(HomePart::Zone),
         JobPart::Spot([x_m, y_m]) => Ok(HomePart::Spot(Point2 { x_m: *x_m, y_m: *y_m })),
-        JobPart::Place(_) => Err(Reason::NoSuchPlace.into()),
+        JobPart::Place(_) => Err(EditError::NoSuchPlace.into()),
     };
     let parts: Result<Vec<HomePart>, Refusal> = order.parts.iter().enumerate().map(part).collect();
     let whole = CleaningOrder::new(parts?, order.passes).map_err(|reason| {

@@ -3,7 +3,7 @@
 use brain::action::Arm;
 use brain::{Actions, Motion};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::recording::schemas::list;
@@ -21,6 +21,23 @@ pub struct Answered<'a> {
     tones: Vec<(u32, u16)>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     decisions: Vec<AnsweredDecision<'a>>,
+}
+
+/// The names of the decisions in [`Answered`].
+#[derive(Debug, Deserialize)]
+pub struct AnsweredNames {
+    /// In their order.
+    #[serde(default)]
+    pub decisions: Vec<DecisionNames>,
+}
+
+/// The names of a decision.
+#[derive(Debug, Deserialize)]
+pub struct DecisionNames {
+    /// What was decided.
+    pub what: String,
+    /// Why.
+    pub reason: String,
 }
 
 #[derive(Debug, Serialize)]

@@ -5,13 +5,15 @@
 mod answer;
 mod command;
 mod flow;
+mod map_edit;
 mod order;
 mod packet;
 mod sensors;
 mod state;
 
-pub use answer::Answered;
-pub use command::GivenCommand;
+pub use answer::{Answered, AnsweredNames, DecisionNames};
+pub use command::{GivenCommand, GivenJobCommand};
+pub use map_edit::{GivenDockEdit, GivenNoGoEdit, GivenPlaceEdit, GivenRoomEdit};
 pub use order::GivenOrder;
 pub use packet::SentPacket;
 pub use state::BrainState;
@@ -26,8 +28,13 @@ use vthal_core::RunStart;
 use flow::FlowName;
 use sensors::SensorSettings;
 
-/// Version of these forms. Raised when an old recording cannot be replayed any more.
-pub const FORMAT: u32 = 1;
+/// Version of these forms, and of what the brain answers to commands. Raised when a recording must be replayed otherwise than those
+/// before, or cannot be replayed any more.
+pub const FORMAT: u32 = 2;
+
+/// Version of recordings whose brains judged each edit a second time, against the map that had it already. They may hold a `refuse`
+/// for an edit that was made.
+pub const FORMAT_WITH_FALSE_REFUSALS: u32 = 1;
 
 /// Beginning of a run.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -284,8 +291,9 @@ mod tests {
     use brain::CutLine;
     use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
     use brain::{
-        CleaningOrder, Command, HomePart, Inhibits, KeptPlace, NoGo, Observation, Pattern, PlaceShape,
-        Point2, Pose2, RoomName, RoomPower, RoomSettings, Zone,
+        CleaningOrder, Command, HomePart, Inhibits, JobCommand, KeptPlace, MapEdit, NoGo, NoGoEdit,
+        Observation, Pattern, PlaceEdit, PlaceShape, Point2, Pose2, RoomEdit, RoomName, RoomPower,
+        RoomSettings, Zone,
     };
 
     use super::{Given, GivenCommand, Seen};
@@ -328,16 +336,16 @@ mod tests {
     fn commands_come_back() {
         let corners = corners();
         let zone = Zone::new(corners.to_vec()).expect("a triangle");
-        let manual = Command::Manual {
+        let manual = JobCommand::Manual {
             speed_m_per_s: 0.1,
             turn_rad_per_s: -0.3,
             valid_until_us: 7,
             cleaners: true,
         };
         for command in [
-            Command::Spot,
+            JobCommand::Spot,
             manual,
-            Command::CleanParts {
+            JobCommand::CleanParts {
                 order: CleaningOrder::new(
                     vec![
                         HomePart::Room(3),
@@ -349,11 +357,11 @@ mod tests {
                 .and_then(|order| order.avoiding(vec![NoGo::zone(&zone)?]))
                 .expect("a good order"),
             },
-            Command::Clean {
+            JobCommand::Clean {
                 strategy: brain::StrategyName::Bounce,
             },
         ] {
-            comes_back(command);
+            comes_back(&command.into());
         }
     }
 
@@ -362,53 +370,51 @@ mod tests {
         let corners = corners();
         let zone = Zone::new(corners.to_vec()).expect("a triangle");
         for command in [
-            Command::AddNoGo {
-                no_go: NoGo::zone(&zone).expect("a good zone"),
-            },
-            Command::AddNoGo {
-                no_go: NoGo::wall(corners[0], corners[1]).expect("two places"),
-            },
-            Command::AddNoGo {
-                no_go: NoGo::wall(corners[0], corners[1])
+            MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&zone).expect("a good zone"))),
+            MapEdit::NoGo(NoGoEdit::Add(
+                NoGo::wall(corners[0], corners[1]).expect("two places"),
+            )),
+            MapEdit::NoGo(NoGoEdit::Add(
+                NoGo::wall(corners[0], corners[1])
                     .expect("two places")
                     .with_name(RoomName::new("Cats").ok()),
-            },
-            Command::KeepPlace {
+            )),
+            MapEdit::Place(PlaceEdit::Keep {
                 place: kept_place(PlaceShape::Zone(zone.clone())),
                 number: None,
-            },
-            Command::KeepPlace {
+            }),
+            MapEdit::Place(PlaceEdit::Keep {
                 place: kept_place(PlaceShape::Spot(corners[1])),
                 number: Some(3),
-            },
-            Command::NamePlace {
+            }),
+            MapEdit::Place(PlaceEdit::Name {
                 number: 3,
                 name: RoomName::new("Bowl").expect("a good name"),
-            },
-            Command::ReshapePlace {
+            }),
+            MapEdit::Place(PlaceEdit::Reshape {
                 number: 3,
                 shape: PlaceShape::Zone(zone.clone()),
-            },
-            Command::ReshapePlace {
+            }),
+            MapEdit::Place(PlaceEdit::Reshape {
                 number: 3,
                 shape: PlaceShape::Spot(corners[1]),
-            },
-            Command::ReshapeNoGo {
+            }),
+            MapEdit::NoGo(NoGoEdit::Reshape {
                 number: 7,
                 no_go: NoGo::zone(&zone).expect("is near"),
-            },
-            Command::ForgetPlace { number: 3 },
-            Command::RemoveNoGo { number: 7 },
-            Command::NameNoGo {
+            }),
+            MapEdit::Place(PlaceEdit::Forget { number: 3 }),
+            MapEdit::NoGo(NoGoEdit::Remove { number: 7 }),
+            MapEdit::NoGo(NoGoEdit::Name {
                 number: 7,
                 name: RoomName::new("Bowl").ok(),
-            },
-            Command::NameNoGo {
+            }),
+            MapEdit::NoGo(NoGoEdit::Name {
                 number: 7,
                 name: None,
-            },
+            }),
         ] {
-            comes_back(command);
+            comes_back(&command.into());
         }
     }
 
@@ -416,45 +422,43 @@ mod tests {
     fn changes_of_rooms_and_dock_come_back() {
         let corners = corners();
         for command in [
-            Command::NameRoom {
+            MapEdit::Room(RoomEdit::Name {
                 room: 3,
                 name: Some(RoomName::new("Köök").expect("a good name")),
-            },
-            Command::NameRoom { room: 3, name: None },
-            Command::SplitRoom {
+            }),
+            MapEdit::Room(RoomEdit::Name { room: 3, name: None }),
+            MapEdit::Room(RoomEdit::Split {
                 room: Some(3),
                 line: CutLine::new(corners[0], corners[1]).expect("two places"),
-            },
-            Command::JoinRooms { rooms: [3, 4] },
-            Command::SetRoom {
+            }),
+            MapEdit::Room(RoomEdit::Join { rooms: [3, 4] }),
+            MapEdit::Room(RoomEdit::Set {
                 room: 3,
                 settings: RoomSettings::new(2, RoomPower::FULL).ok(),
-            },
-            Command::SetRoom {
+            }),
+            MapEdit::Room(RoomEdit::Set {
                 room: 3,
                 settings: None,
-            },
-            Command::UndoRoomChange { number: 2 },
-            Command::MoveDock {
-                pose: Pose2 {
-                    x_m: 0.1 + 0.2,
-                    y_m: -1.0 / 3.0,
-                    heading_rad: 3.0,
-                },
-            },
+            }),
+            MapEdit::Room(RoomEdit::Undo { number: 2 }),
+            MapEdit::Dock(Pose2 {
+                x_m: 0.1 + 0.2,
+                y_m: -1.0 / 3.0,
+                heading_rad: 3.0,
+            }),
         ] {
-            comes_back(command);
+            comes_back(&command.into());
         }
     }
 
     #[test]
     fn how_rooms_and_jobs_are_swept_comes_back() {
         for command in [
-            Command::SetRoom {
+            Command::Edit(MapEdit::Room(RoomEdit::Set {
                 room: 3,
                 settings: Some(RoomSettings::default().with_pattern(Pattern::Contour)),
-            },
-            Command::CleanParts {
+            })),
+            Command::Job(JobCommand::CleanParts {
                 order: CleaningOrder::default()
                     .with_pattern(Pattern::Contour)
                     .with_power(RoomPower {
@@ -462,9 +466,9 @@ mod tests {
                         ..RoomPower::FULL
                     })
                     .expect("a power that can be"),
-            },
+            }),
         ] {
-            comes_back(command);
+            comes_back(&command);
         }
     }
 
@@ -476,13 +480,13 @@ mod tests {
         KeptPlace::new(RoomName::new("Table").expect("a good name"), &shape).expect("a good place")
     }
 
-    fn comes_back(command: Command) {
+    fn comes_back(command: &Command) {
         let given = Given {
             time_us: 1,
-            command: GivenCommand::from(&command),
+            command: GivenCommand::from(command),
         };
         let text = serde_json::to_string(&given).expect("plain");
         let back: Given = serde_json::from_str(&text).expect("just written");
-        assert_eq!(back.command.to_brain(), Some(command));
+        assert_eq!(back.command.to_brain().as_ref(), Some(command));
     }
 }

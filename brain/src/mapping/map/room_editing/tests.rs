@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, RoomChange, StoredMap};
 use crate::model::cut_line::CutLine;
-use crate::{Body, Point2, Reason, RoomName, SensorLayout};
+use crate::{Body, EditError, Point2, RoomName, SensorLayout};
 
 const BODY: Body = Body {
     radius_m: 0.175,
@@ -103,7 +103,7 @@ fn a_name_that_a_join_hides_is_free_again() {
     let name = |text| RoomName::new(text).ok();
     map.name_room(1, name("Kitchen")).unwrap();
     map.name_room(2, name("Hall")).unwrap();
-    assert_eq!(map.name_room(1, name("Hall")), Err(Reason::NameTaken));
+    assert_eq!(map.name_room(1, name("Hall")), Err(EditError::NameTaken));
     map.join_rooms([1, 2]).unwrap();
     map.name_room(1, name("Hall")).unwrap();
     map.undo_room_change(1).unwrap();
@@ -136,27 +136,27 @@ fn invalid_changes_are_refused_by_name_and_change_nothing() {
     let (before, words) = (map.rooms().clone(), map.annotations().clone());
     let outside = line((9.0, 0.0), (9.0, 3.0));
     for (done, reason) in [
-        (map.split_room(None, outside), Reason::LineMissesRoom),
-        (map.split_room(Some(9), outside), Reason::NoSuchRoom),
+        (map.split_room(None, outside), EditError::LineMissesRoom),
+        (map.split_room(Some(9), outside), EditError::NoSuchRoom),
         (
             map.split_room(Some(2), line((5.0, 1.0), (5.0, 1.5))),
-            Reason::LineEndsInRoom,
+            EditError::LineEndsInRoom,
         ),
         (
             map.split_room(Some(2), line((4.2, 0.0), (4.2, 3.0))),
-            Reason::PartTooSmall,
+            EditError::PartTooSmall,
         ),
-        (map.join_rooms([2, 3]), Reason::RoomsApart),
-        (map.join_rooms([2, 2]), Reason::RoomsApart),
-        (map.join_rooms([2, 9]), Reason::NoSuchRoom),
-        (map.undo_room_change(7), Reason::NoSuchRoomChange),
-        (map.undo_room_change(1), Reason::RoomChangeInUse),
+        (map.join_rooms([2, 3]), EditError::RoomsApart),
+        (map.join_rooms([2, 2]), EditError::RoomsApart),
+        (map.join_rooms([2, 9]), EditError::NoSuchRoom),
+        (map.undo_room_change(7), EditError::NoSuchRoomChange),
+        (map.undo_room_change(1), EditError::RoomChangeInUse),
     ] {
         assert_eq!(done, Err(reason));
     }
     assert_eq!((map.rooms(), map.annotations()), (&before, &words));
     let mut empty = Map::new(BODY, SensorLayout::default());
-    assert_eq!(empty.split_room(None, outside), Err(Reason::NoMap));
+    assert_eq!(empty.split_room(None, outside), Err(EditError::NoMap));
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn the_number_of_changes_is_limited_and_an_undo_makes_room() {
     }
     assert_eq!(
         map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))),
-        Err(Reason::TooManyRoomChanges)
+        Err(EditError::TooManyRoomChanges)
     );
     let (last, _) = map.annotations().room_changes().made().last().unwrap();
     map.undo_room_change(last).unwrap();
@@ -250,7 +250,7 @@ proptest! {
                         prop_assert_eq!(ids(&map), rooms, "as before change {}", number);
                         Ok(())
                     }
-                    None => Err(Reason::NoSuchRoomChange),
+                    None => Err(EditError::NoSuchRoomChange),
                 },
                 Wish::MapAgain(shift_m) => {
                     map = mapped_again(&map, shift_m);

@@ -232,8 +232,10 @@ mod tests {
     #[test]
     fn every_reason_of_the_brain_is_a_cause_in_estonian() {
         let words = Language::Estonian.words();
-        let missing = |reason: &&brain::Reason| super::cause(words, reason.name()).is_none();
-        let missing: Vec<_> = brain::Reason::ALL.iter().filter(missing).collect();
+        let reasons = brain::Reason::all().map(brain::Reason::name);
+        let refusals = brain::JobRefusal::all().map(brain::JobRefusal::name);
+        let missing = |name: &&str| super::cause(words, name).is_none();
+        let missing: Vec<_> = reasons.chain(refusals).filter(missing).collect();
         assert!(missing.is_empty(), "{missing:?}");
         let clause = |code| super::cause(words, code).expect("known");
         assert_eq!(clause("wheel-drop"), "ratas ripub õhus");

@@ -1,11 +1,11 @@
-//! What clients say of the home that is kept: each change is admitted, taken up by the brain with its next step, and answered
-//! when the map with it is on the disk.
+//! Edits of the stored home by clients. Each edit is admitted, applied in the next step of the brain, and answered when the map with
+//! it is on the disk.
 
 mod no_go;
 mod places;
 mod rooms;
 
-use brain::{Brain, Command, Pose2, Reason};
+use brain::{Brain, EditError, MapEdit, Pose2, Reason};
 use rvac_api::{Failure, LogLevel, Update};
 
 use super::audience::{Asker, Asking, Teller};
@@ -14,68 +14,68 @@ use super::reply::Reply;
 use crate::brain_session::BrainSession;
 use crate::outputs::{Delivery, Recipients};
 use crate::refusal::Refusal;
-use crate::{FloorHome, MapEdit, Outputs};
+use crate::{EditedMap, FloorHome, Outputs};
 
 pub(crate) use no_go::{NoGoRequest, to_no_go};
 pub(crate) use places::{PlaceRequest, to_shape, with_any_places, with_places};
 pub(crate) use rooms::RoomRequest;
 
-/// What clients say of the home.
+/// Requests of clients about the home.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum HomeRequest {
-    /// Floor is forbidden, or allowed again.
+    /// No-go zones and virtual walls.
     NoGo(NoGoRequest),
-    /// Places are kept under names.
+    /// Kept places.
     Place(PlaceRequest),
-    /// Rooms are other ones, are called otherwise or are cleaned otherwise.
+    /// Rooms: their division, names and settings.
     Room(RoomRequest),
-    /// A robot on its dock stands here.
+    /// The pose of a robot on its dock.
     MoveDock(Pose2),
 }
 
-/// A change of the map that the brain would take.
+/// An edit that the map admits.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Edit {
-    pub(crate) command: Command,
-    /// What whoever asks for it does, for the log.
+pub(crate) struct AdmittedEdit {
+    pub(crate) edit: MapEdit,
+    /// What the client does, for the log.
     deed: &'static str,
 }
 
-impl Edit {
-    /// The change, if the brain would take it now.
-    fn admitted(brain: &Brain, command: Command, deed: &'static str) -> Result<Self, Reason> {
-        brain.admit(&command)?;
-        Ok(Self { command, deed })
+impl AdmittedEdit {
+    /// The edit, if the map admits it now.
+    fn new(brain: &Brain, edit: MapEdit, deed: &'static str) -> Result<Self, EditError> {
+        brain.map().admit(&edit)?;
+        Ok(Self { edit, deed })
     }
 }
 
-/// Whoever changed the map since the brain's last step.
+/// Clients whose edits wait for the next step of the brain.
 #[derive(Debug, Default)]
 pub(crate) struct HomeDesk {
     waiting: Vec<Asker>,
 }
 
 impl HomeDesk {
-    /// Whether somebody waits for a change.
+    /// Whether a client waits for an edit.
     pub(crate) fn is_waited_for(&self) -> bool {
         !self.waiting.is_empty()
     }
 
-    /// Takes a change of the map, which the brain gets next; whoever wants it hears of it when it is on the disk.
+    /// Admits an edit for the next step of the brain. The client is answered when the map is on the disk.
     ///
     /// # Errors
     /// Why the request is refused.
     pub(crate) fn serve(
         &mut self,
         Asking { asker, request }: &Asking<HomeRequest>,
-        mind: Option<&BrainSession>,
+        brain_session: Option<&BrainSession>,
         teller: &mut Teller<'_>,
-    ) -> Result<(Edit, Reply), Refusal> {
+    ) -> Result<(AdmittedEdit, Reply), Refusal> {
         let edit = match request {
-            HomeRequest::NoGo(request) => request.edit(mind),
-            HomeRequest::Place(request) => request.edit(mind),
-            HomeRequest::Room(request) => request.edit(mind),
-            HomeRequest::MoveDock(pose) => rooms::move_dock(*pose, mind),
+            HomeRequest::NoGo(request) => request.edit(brain_session),
+            HomeRequest::Place(request) => request.edit(brain_session),
+            HomeRequest::Room(request) => request.edit(brain_session),
+            HomeRequest::MoveDock(pose) => rooms::move_dock(*pose, brain_session),
         }?;
         let text = format!("{} {}", teller.name(asker.client), edit.deed);
         teller.log(LogLevel::Info, LogSource::Client, text);
@@ -83,11 +83,11 @@ impl HomeDesk {
         Ok((edit, Reply::AfterStep))
     }
 
-    /// After the step in which the brain took them up: the map goes to the disk with all changes.
+    /// After the step that applied the edits: the map goes to the disk with all of them.
     pub(crate) fn keep(&mut self, home: Option<&FloorHome>, outputs: &mut Outputs) {
         for Asker { client, id } in self.waiting.drain(..) {
             match home {
-                Some(home) => outputs.map_edits.push(MapEdit {
+                Some(home) => outputs.map_edits.push(EditedMap {
                     client,
                     id,
                     home: home.clone(),
@@ -101,14 +101,14 @@ impl HomeDesk {
     }
 }
 
-/// The brain, in the home that is kept.
-pub(crate) fn known_home(mind: Option<&BrainSession>) -> Result<&BrainSession, Refusal> {
-    let mind = mind.ok_or("no-robot")?;
-    mind.admit_edit()?;
-    Ok(mind)
+/// The brain, if it knows the home that is stored.
+pub(crate) fn known_home(brain_session: Option<&BrainSession>) -> Result<&BrainSession, Refusal> {
+    let brain_session = brain_session.ok_or("no-robot")?;
+    brain_session.admit_edit()?;
+    Ok(brain_session)
 }
 
-/// The robot got lost within the step.
+/// The robot got lost in the step.
 fn not_kept(id: Option<u32>) -> Update {
     Update::Failed(Failure {
         id,

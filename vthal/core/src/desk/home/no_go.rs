@@ -1,15 +1,15 @@
-//! Floor that clients forbid.
+//! No-go zones and virtual walls of clients.
 
 use brain::zone::COORDINATE_MAX_M;
-use brain::{Brain, Command, NoGo, Point2, Reason};
+use brain::{Brain, EditError, MapEdit, NoGo, NoGoEdit, Point2};
 use rvac_api::NoGoShape;
 
-use super::{Edit, known_home};
+use super::{AdmittedEdit, known_home};
 use crate::brain_session::BrainSession;
 use crate::desk::words::{to_name, to_zone};
 use crate::refusal::Refusal;
 
-/// What clients say of forbidden floor.
+/// Requests about no-go zones and virtual walls.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum NoGoRequest {
     /// Forbids floor.
@@ -23,44 +23,44 @@ pub(crate) enum NoGoRequest {
 }
 
 impl NoGoRequest {
-    pub(super) fn edit(&self, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
+    pub(super) fn edit(&self, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
         match self {
             Self::Add { shape, name } => {
                 let name = name.as_deref().map(to_name).transpose()?;
                 let no_go = to_no_go(shape)?.with_name(name);
-                let brain = known_home(mind)?.brain();
-                let command = Command::AddNoGo { no_go };
-                Edit::admitted(brain, command, "forbids floor of the map")
-                    .map_err(|reason| of_forbidden(reason, brain))
+                let brain = known_home(brain_session)?.brain();
+                let edit = MapEdit::NoGo(NoGoEdit::Add(no_go));
+                AdmittedEdit::new(brain, edit, "forbids floor of the map")
+                    .map_err(|error| of_forbidden(error, brain))
             }
             Self::Remove { number } => {
-                let brain = known_home(mind)?.brain();
-                let command = Command::RemoveNoGo { number: *number };
-                Edit::admitted(brain, command, "allows floor of the map again")
-                    .map_err(|reason| Refusal::because(reason, no_such_no_go(*number, brain)))
+                let brain = known_home(brain_session)?.brain();
+                let edit = MapEdit::NoGo(NoGoEdit::Remove { number: *number });
+                AdmittedEdit::new(brain, edit, "allows floor of the map again")
+                    .map_err(|error| Refusal::because(error, no_such_no_go(*number, brain)))
             }
             Self::Name { number, name } => {
                 let name = name.as_deref().map(to_name).transpose()?;
-                let brain = known_home(mind)?.brain();
-                let command = Command::NameNoGo {
+                let brain = known_home(brain_session)?.brain();
+                let edit = MapEdit::NoGo(NoGoEdit::Name {
                     number: *number,
                     name,
-                };
-                Edit::admitted(brain, command, "names forbidden floor").map_err(|reason| match reason {
-                    Reason::NameTaken => another_no_go(),
-                    _ => Refusal::because(reason, no_such_no_go(*number, brain)),
+                });
+                AdmittedEdit::new(brain, edit, "names forbidden floor").map_err(|error| match error {
+                    EditError::NameTaken => another_no_go(),
+                    _ => Refusal::because(error, no_such_no_go(*number, brain)),
                 })
             }
             Self::Reshape { number, shape } => {
                 let no_go = to_no_go(shape)?;
-                let brain = known_home(mind)?.brain();
-                let command = Command::ReshapeNoGo {
+                let brain = known_home(brain_session)?.brain();
+                let edit = MapEdit::NoGo(NoGoEdit::Reshape {
                     number: *number,
                     no_go,
-                };
-                Edit::admitted(brain, command, "reshapes forbidden floor").map_err(|reason| match reason {
-                    Reason::NoSuchNoGo => Refusal::because(reason, no_such_no_go(*number, brain)),
-                    _ => of_forbidden(reason, brain),
+                });
+                AdmittedEdit::new(brain, edit, "reshapes forbidden floor").map_err(|error| match error {
+                    EditError::NoSuchNoGo => Refusal::because(error, no_such_no_go(*number, brain)),
+                    _ => of_forbidden(error, brain),
                 })
             }
         }
@@ -78,24 +78,24 @@ pub(crate) fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
                     y_m: *to_y,
                 },
             );
-            NoGo::wall(from, to).map_err(|reason| {
+            NoGo::wall(from, to).map_err(|error| {
                 let text = format!(
                     "The virtual wall from x {x} m, y {y} m to x {to_x} m, y {to_y} m cannot be: its ends must be two \
                      places within {COORDINATE_MAX_M} m."
                 );
-                Refusal::because(reason, text)
+                Refusal::because(error, text)
             })
         }
     }
 }
 
 /// Why floor is not forbidden.
-fn of_forbidden(reason: Reason, brain: &Brain) -> Refusal {
-    match reason {
-        Reason::NoFloorThere => Refusal::no_floor_there("in it", brain),
-        Reason::DockInside => Refusal::because(reason, dock_inside(brain)),
-        Reason::NameTaken => another_no_go(),
-        _ => Refusal::from(reason),
+fn of_forbidden(error: EditError, brain: &Brain) -> Refusal {
+    match error {
+        EditError::NoFloorThere => Refusal::no_floor_there("in it", brain),
+        EditError::DockInside => Refusal::because(error, dock_inside(brain)),
+        EditError::NameTaken => another_no_go(),
+        _ => Refusal::from(error),
     }
 }
 
@@ -109,7 +109,7 @@ fn dock_inside(brain: &Brain) -> String {
 
 fn another_no_go() -> Refusal {
     let text = "Another no-go zone or virtual wall is called so: take another name.";
-    Refusal::because(Reason::NameTaken, text.to_owned())
+    Refusal::because(EditError::NameTaken, text.to_owned())
 }
 
 fn no_such_no_go(number: u16, brain: &Brain) -> String {

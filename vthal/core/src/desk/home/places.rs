@@ -1,15 +1,15 @@
-//! Zones and spots that clients keep under names, and jobs that name them.
+//! Named zones and spots of clients, and orders that refer to them.
 
-use brain::{Brain, Command, KeptPlace, PlaceShape, Point2, Reason};
+use brain::{Brain, EditError, KeptPlace, MapEdit, PlaceEdit, PlaceShape, Point2};
 use rvac_api::{JobOrder, JobPart};
 
-use super::{Edit, known_home};
+use super::{AdmittedEdit, known_home};
 use crate::api_forms;
 use crate::brain_session::BrainSession;
 use crate::desk::words::{to_name, to_zone};
 use crate::refusal::Refusal;
 
-/// What clients say of places.
+/// Requests about kept places.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PlaceRequest {
     /// Keeps one, under a number that it had before if one is given.
@@ -20,7 +20,7 @@ pub(crate) enum PlaceRequest {
     },
     /// Names it otherwise.
     Name { number: u16, name: String },
-    /// It is elsewhere.
+    /// Moves or reshapes it.
     Reshape {
         number: u16,
         shape: rvac_api::PlaceShape,
@@ -30,60 +30,55 @@ pub(crate) enum PlaceRequest {
 }
 
 impl PlaceRequest {
-    pub(super) fn edit(&self, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
-        let (command, deed) = match self {
+    pub(super) fn edit(&self, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
+        let (edit, deed) = match self {
             Self::Keep { name, shape, number } => {
                 let place = KeptPlace::new(to_name(name)?, &to_shape(shape)?)?;
                 let number = *number;
-                (Command::KeepPlace { place, number }, "keeps a place")
+                (PlaceEdit::Keep { place, number }, "keeps a place")
             }
             Self::Name { number, name } => {
                 let (number, name) = (*number, to_name(name)?);
-                (Command::NamePlace { number, name }, "names a place")
+                (PlaceEdit::Name { number, name }, "names a place")
             }
             Self::Reshape { number, shape } => {
                 let (number, shape) = (*number, to_shape(shape)?);
-                (Command::ReshapePlace { number, shape }, "moves a place")
+                (PlaceEdit::Reshape { number, shape }, "moves a place")
             }
             Self::Forget { number } => {
                 let number = *number;
-                (Command::ForgetPlace { number }, "keeps a place no longer")
+                (PlaceEdit::Forget { number }, "keeps a place no longer")
             }
         };
-        let brain = known_home(mind)?.brain();
-        brain
-            .admit(&command)
-            .map_err(|reason| of_place(reason, &command, brain))?;
-        Ok(Edit { command, deed })
+        let brain = known_home(brain_session)?.brain();
+        AdmittedEdit::new(brain, MapEdit::Place(edit.clone()), deed)
+            .map_err(|error| of_place(error, &edit, brain))
     }
 }
 
 /// Why a place is not changed.
-fn of_place(reason: Reason, command: &Command, brain: &Brain) -> Refusal {
-    match (reason, command) {
-        (Reason::NoFloorThere, _) => Refusal::no_floor_there("in it", brain),
-        (Reason::NameTaken, _) => Refusal::because(
-            reason,
-            "Another place is called so: take another name.".to_owned(),
-        ),
-        (Reason::TooManyPlaces, _) => Refusal::because(
-            reason,
+fn of_place(error: EditError, edit: &PlaceEdit, brain: &Brain) -> Refusal {
+    match (error, edit) {
+        (EditError::NoFloorThere, _) => Refusal::no_floor_there("in it", brain),
+        (EditError::NameTaken, _) => {
+            Refusal::because(error, "Another place is called so: take another name.".to_owned())
+        }
+        (EditError::TooManyPlaces, _) => Refusal::because(
+            error,
             "As many zones and spots are kept as a home can have: forget one first.".to_owned(),
         ),
-        (Reason::NoSuchPlace, Command::KeepPlace { number, .. }) => Refusal::because(
-            reason,
+        (EditError::NoSuchPlace, PlaceEdit::Keep { number, .. }) => Refusal::because(
+            error,
             format!(
                 "No place can come back under the number {}: leave it out.",
                 number.unwrap_or_default()
             ),
         ),
         (
-            Reason::NoSuchPlace,
-            Command::NamePlace { number, .. }
-            | Command::ReshapePlace { number, .. }
-            | Command::ForgetPlace { number },
+            EditError::NoSuchPlace,
+            PlaceEdit::Name { number, .. } | PlaceEdit::Reshape { number, .. } | PlaceEdit::Forget { number },
         ) => no_such_place(*number, brain),
-        _ => Refusal::from(reason),
+        _ => Refusal::from(error),
     }
 }
 
@@ -100,7 +95,7 @@ fn no_such_place(number: u16, brain: &Brain) -> Refusal {
             known.join(", ")
         )
     };
-    Refusal::because(Reason::NoSuchPlace, text)
+    Refusal::because(EditError::NoSuchPlace, text)
 }
 
 pub(crate) fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refusal> {
@@ -130,7 +125,7 @@ pub(crate) fn with_places(order: &JobOrder, brain: &Brain) -> Result<JobOrder, R
     })
 }
 
-/// The order as one that is looked at before anybody knows its places: each counts as a part.
+/// The order with a spot for each place, for checks that need the number of parts only.
 pub(crate) fn with_any_places(order: &JobOrder) -> JobOrder {
     let part = |part: &JobPart| match part {
         JobPart::Place(_) => JobPart::Spot([0.0, 0.0]),

@@ -1,17 +1,17 @@
-//! What clients say of rooms, and where the dock stands. What rooms there are, and the dock, change only while the robot rests.
+//! Requests about rooms and the pose of the dock. The division into rooms and the dock change only while the robot rests.
 
 use brain::CutLine;
 use brain::zone::COORDINATE_MAX_M;
-use brain::{Brain, Command, Point2, Pose2, Reason};
+use brain::{Brain, EditError, MapEdit, Point2, Pose2, RoomEdit};
 use rvac_api::{RoomNaming, RoomSettings, RoomSplitting};
 
-use super::{Edit, known_home};
+use super::{AdmittedEdit, known_home};
 use crate::brain_session::BrainSession;
 use crate::desk::room_power::to_brain;
 use crate::desk::words::to_name;
 use crate::refusal::Refusal;
 
-/// What clients say of rooms.
+/// Requests about rooms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum RoomRequest {
     /// Names a room, or takes its name away.
@@ -25,88 +25,95 @@ pub(crate) enum RoomRequest {
     Split(RoomSplitting),
     /// Makes two rooms one.
     Join { rooms: [u16; 2] },
-    /// Takes a change of the rooms back.
+    /// Reverts a change of the rooms.
     Undo { number: u16 },
 }
 
 impl RoomRequest {
-    pub(super) fn edit(&self, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
+    pub(super) fn edit(&self, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
         match self {
-            Self::Name(naming) => name_room(naming, mind),
-            Self::Set { room, settings } => set_room(*room, *settings, mind),
-            Self::Split(splitting) => split_room(splitting, mind),
-            Self::Join { rooms } => join_rooms(*rooms, mind),
-            Self::Undo { number } => undo_room_change(*number, mind),
+            Self::Name(naming) => name_room(naming, brain_session),
+            Self::Set { room, settings } => set_room(*room, *settings, brain_session),
+            Self::Split(splitting) => split_room(splitting, brain_session),
+            Self::Join { rooms } => join_rooms(*rooms, brain_session),
+            Self::Undo { number } => undo_room_change(*number, brain_session),
         }
     }
 }
 
-fn name_room(naming: &RoomNaming, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
+fn name_room(naming: &RoomNaming, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
     let room = naming.room;
     let name = naming.name.as_deref().map(to_name).transpose()?;
-    let brain = known_home(mind)?.brain();
-    let command = Command::NameRoom { room, name };
-    Edit::admitted(brain, command, "names a room").map_err(|reason| match reason {
-        Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
-        Reason::NameTaken => {
-            Refusal::because(reason, "Another room is called so: take another name.".to_owned())
+    let brain = known_home(brain_session)?.brain();
+    let edit = MapEdit::Room(RoomEdit::Name { room, name });
+    AdmittedEdit::new(brain, edit, "names a room").map_err(|error| match error {
+        EditError::NoSuchRoom => Refusal::no_such_room(room, brain),
+        EditError::NameTaken => {
+            Refusal::because(error, "Another room is called so: take another name.".to_owned())
         }
-        _ => Refusal::from(reason),
+        _ => Refusal::from(error),
     })
 }
 
-fn set_room(room: u16, settings: Option<RoomSettings>, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
+fn set_room(
+    room: u16,
+    settings: Option<RoomSettings>,
+    brain_session: Option<&BrainSession>,
+) -> Result<AdmittedEdit, Refusal> {
     let settings = settings.map(to_brain).transpose()?;
-    let brain = known_home(mind)?.brain();
-    let command = Command::SetRoom { room, settings };
-    Edit::admitted(brain, command, "says how a room is cleaned").map_err(|reason| match reason {
-        Reason::NoSuchRoom => Refusal::no_such_room(room, brain),
-        _ => Refusal::from(reason),
+    let brain = known_home(brain_session)?.brain();
+    let edit = MapEdit::Room(RoomEdit::Set { room, settings });
+    AdmittedEdit::new(brain, edit, "says how a room is cleaned").map_err(|error| match error {
+        EditError::NoSuchRoom => Refusal::no_such_room(room, brain),
+        _ => Refusal::from(error),
     })
 }
 
-fn split_room(splitting: &RoomSplitting, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
+fn split_room(
+    splitting: &RoomSplitting,
+    brain_session: Option<&BrainSession>,
+) -> Result<AdmittedEdit, Refusal> {
     let line = to_line(splitting.line)?;
     let room = splitting.room;
-    let brain = resting_home(mind)?.brain();
-    let command = Command::SplitRoom { room, line };
-    Edit::admitted(brain, command, "splits a room").map_err(|reason| match (reason, room) {
-        (Reason::NoSuchRoom, Some(room)) => Refusal::no_such_room(room, brain),
-        (Reason::LineMissesRoom, Some(room)) => Refusal::because(
-            reason,
+    let brain = resting_home(brain_session)?.brain();
+    let edit = MapEdit::Room(RoomEdit::Split { room, line });
+    AdmittedEdit::new(brain, edit, "splits a room").map_err(|error| match (error, room) {
+        (EditError::NoSuchRoom, Some(room)) => Refusal::no_such_room(room, brain),
+        (EditError::LineMissesRoom, Some(room)) => Refusal::because(
+            error,
             format!(
                 "The line from {} does not cut room {room}: draw it across the room, from one wall to the other.",
                 ends(splitting.line)
             ),
         ),
-        _ => of_line(reason, splitting.line),
+        _ => of_line(error, splitting.line),
     })
 }
 
-fn join_rooms(rooms: [u16; 2], mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
-    let brain = resting_home(mind)?.brain();
-    let command = Command::JoinRooms { rooms };
-    Edit::admitted(brain, command, "joins two rooms").map_err(|reason| match reason {
-        Reason::NoSuchRoom => {
+fn join_rooms(rooms: [u16; 2], brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
+    let brain = resting_home(brain_session)?.brain();
+    let edit = MapEdit::Room(RoomEdit::Join { rooms });
+    AdmittedEdit::new(brain, edit, "joins two rooms").map_err(|error| match error {
+        EditError::NoSuchRoom => {
             let is_known = |id: u16| brain.map().rooms().rooms().iter().any(|room| room.id == id);
             let missing = rooms.into_iter().find(|id| !is_known(*id));
             Refusal::no_such_room(missing.unwrap_or_default(), brain)
         }
-        Reason::RoomsApart => Refusal::because(reason, rooms_apart(rooms, brain)),
-        _ => Refusal::from(reason),
+        EditError::RoomsApart => Refusal::because(error, rooms_apart(rooms, brain)),
+        _ => Refusal::from(error),
     })
 }
 
-fn undo_room_change(number: u16, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
-    let brain = resting_home(mind)?.brain();
-    let command = Command::UndoRoomChange { number };
-    Edit::admitted(brain, command, "takes a change of the rooms back")
-        .map_err(|reason| Refusal::because(reason, not_undone(reason, number, brain)))
+fn undo_room_change(number: u16, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
+    let brain = resting_home(brain_session)?.brain();
+    let edit = MapEdit::Room(RoomEdit::Undo { number });
+    AdmittedEdit::new(brain, edit, "takes a change of the rooms back")
+        .map_err(|error| Refusal::because(error, not_undone(error, number, brain)))
 }
 
-fn not_undone(reason: Reason, number: u16, brain: &Brain) -> String {
+fn not_undone(error: EditError, number: u16, brain: &Brain) -> String {
     let changes = brain.map().annotations().room_changes();
-    if let (Reason::RoomChangeInUse, Some(later)) = (reason, changes.built_on(number)) {
+    if let (EditError::RoomChangeInUse, Some(later)) = (error, changes.built_on(number)) {
         return format!("Change {later} of the rooms builds on change {number}: take {later} back first.");
     }
     let numbers: Vec<String> = changes.made().map(|(number, _)| number.to_string()).collect();
@@ -118,29 +125,29 @@ fn not_undone(reason: Reason, number: u16, brain: &Brain) -> String {
     format!("There is no change {number} of the rooms: {known}.")
 }
 
-pub(super) fn move_dock(pose: Pose2, mind: Option<&BrainSession>) -> Result<Edit, Refusal> {
-    let brain = resting_home(mind)?.brain();
-    let command = Command::MoveDock { pose };
-    Edit::admitted(brain, command, "says where the dock stands").map_err(|reason| match reason {
-        Reason::NoFloorThere => Refusal::no_floor_there(&format!("under {}", robot_at(pose)), brain),
-        Reason::DockInside => Refusal::because(
-            reason,
+pub(super) fn move_dock(pose: Pose2, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
+    let brain = resting_home(brain_session)?.brain();
+    let edit = MapEdit::Dock(pose);
+    AdmittedEdit::new(brain, edit, "says where the dock stands").map_err(|error| match error {
+        EditError::NoFloorThere => Refusal::no_floor_there(&format!("under {}", robot_at(pose)), brain),
+        EditError::DockInside => Refusal::because(
+            error,
             format!(
                 "A no-go zone lies under {}: put the dock beside it, or remove the zone first.",
                 robot_at(pose)
             ),
         ),
-        _ => Refusal::from(reason),
+        _ => Refusal::from(error),
     })
 }
 
-/// Rooms are looked for anew with each change, and a job keeps the rooms and the dock that it has.
-fn resting_home(mind: Option<&BrainSession>) -> Result<&BrainSession, Refusal> {
-    let mind = known_home(mind)?;
-    if !mind.rests() || mind.holds_commands() {
+/// Each change segments the rooms anew, and a job keeps the rooms and the dock that it started with.
+fn resting_home(brain_session: Option<&BrainSession>) -> Result<&BrainSession, Refusal> {
+    let brain_session = known_home(brain_session)?;
+    if !brain_session.rests() || brain_session.holds_commands() {
         return Err("job-runs".into());
     }
-    Ok(mind)
+    Ok(brain_session)
 }
 
 fn robot_at(pose: Pose2) -> String {
@@ -149,31 +156,31 @@ fn robot_at(pose: Pose2) -> String {
 
 fn to_line(line: [[f64; 2]; 2]) -> Result<CutLine, Refusal> {
     let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
-    CutLine::new(from, to).map_err(|reason| of_line(reason, line))
+    CutLine::new(from, to).map_err(|error| of_line(error, line))
 }
 
-fn of_line(reason: Reason, line: [[f64; 2]; 2]) -> Refusal {
+fn of_line(error: EditError, line: [[f64; 2]; 2]) -> Refusal {
     let ends = ends(line);
-    let text = match reason {
-        Reason::BadLine => {
+    let text = match error {
+        EditError::BadLine => {
             format!(
                 "The line from {ends} cannot be: its ends must be two places within {COORDINATE_MAX_M} m."
             )
         }
-        Reason::LineMissesRoom => {
+        EditError::LineMissesRoom => {
             format!(
                 "The line from {ends} lies in no room: draw it across a room, from one wall to the other."
             )
         }
-        Reason::LineEndsInRoom => format!(
+        EditError::LineEndsInRoom => format!(
             "The line from {ends} leaves a way round it: draw it across the whole room, from one wall to the other."
         ),
-        Reason::PartTooSmall => format!(
+        EditError::PartTooSmall => format!(
             "The line from {ends} cuts off less than half a square metre: draw it farther from the wall."
         ),
-        _ => return Refusal::from(reason),
+        _ => return Refusal::from(error),
     };
-    Refusal::because(reason, text)
+    Refusal::because(error, text)
 }
 
 fn ends([[x, y], [to_x, to_y]]: [[f64; 2]; 2]) -> String {

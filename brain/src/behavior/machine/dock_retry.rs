@@ -1,39 +1,39 @@
-//! When a first run looks again, [`SecondLook`].
+//! When a first run retries from its dock, [`DockRetry`].
 
 use super::Behavior;
+use crate::behavior::dock_retry::DockRetry;
 use crate::behavior::job::Job;
-use crate::behavior::second_look::SecondLook;
 use crate::model::reason::Reason;
 use crate::navigation::Situation;
 
-/// More than this share of the floor that it knows is much. (One of 75 first runs of generated homes gave up 0.27 of it; from the
-/// dock it went on to 0.97.)
+/// A run that leaves more than this share of the known floor retries. (One of 75 first runs of generated homes left 0.27 of it; from the
+/// dock it reached 0.97.)
 const MUCH_LEFT: f64 = 0.1;
-/// With this charge it goes on at once, and does not wait for more.
+/// With this charge it resumes at once and does not wait for more.
 const CHARGE_MIN: f32 = 0.5;
 
 impl Behavior {
-    /// Whether the running job, which is at its end for this reason, looks again.
-    pub(super) fn takes_second_look(&mut self, reason: Reason, situation: &Situation<'_>) -> bool {
+    /// Whether the running job, which ends for this reason, retries from the dock.
+    pub(super) fn retries_from_dock(&mut self, reason: Reason, situation: &Situation<'_>) -> bool {
         let has_left_much = self
             .swept_share(situation.map)
             .is_some_and(|swept| 1.0 - swept.share > MUCH_LEFT);
         let Some(job) = &mut self.job else { return false };
-        let looks_again = reason == Reason::RestOutOfReach
+        let retries = reason == Reason::RestOutOfReach
             && has_left_much
             && !situation.is_tracked
             && situation.map.dock().is_some()
             && job.order.is_for_whole_home()
-            && job.second_look == SecondLook::NotYet;
-        if looks_again {
-            job.second_look = SecondLook::Due;
+            && job.dock_retry == DockRetry::NotYet;
+        if retries {
+            job.dock_retry = DockRetry::Due;
         }
-        looks_again
+        retries
     }
 
-    /// Whether a job that is back on the dock only to look again has come there with charge enough.
-    pub(super) fn may_look_again(&self, charge: Option<f32>) -> bool {
-        let is_due = |job: &Job| job.second_look == SecondLook::Due;
+    /// Whether a job that returned to the dock only to retry has enough charge to resume.
+    pub(super) fn may_retry(&self, charge: Option<f32>) -> bool {
+        let is_due = |job: &Job| job.dock_retry == DockRetry::Due;
         self.job.as_ref().is_some_and(is_due) && charge.is_some_and(|charge| charge >= CHARGE_MIN)
     }
 }
@@ -75,7 +75,7 @@ mod tests {
         }
     }
 
-    /// A robot that works, in a home of which it knows where its dock is.
+    /// A robot at work in a home with a known dock.
     struct Stage {
         behavior: Behavior,
         mind: TaskContext,
@@ -138,7 +138,7 @@ mod tests {
             })
         }
 
-        /// It has come home with this charge.
+        /// It has docked with this charge.
         fn waits_with(&mut self, charge: f32) -> (BehaviorState, Reason) {
             self.observation.battery_charge = Some(charge);
             self.behavior.facts.docked = true;
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_first_run_that_left_much_goes_on_from_its_dock_at_once_and_only_once() {
+    fn a_first_run_that_left_much_resumes_from_its_dock_at_once_and_only_once() {
         let mut stage = Stage::with_swept(0.7);
         assert_eq!(stage.works(), (BehaviorState::Docking, Reason::LookAgain));
         assert!(!stage.behavior.has_covered_home(), "the job is not over");
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn with_little_charge_it_waits_for_more_before_it_looks_again() {
+    fn with_little_charge_it_waits_for_more_before_it_retries() {
         let mut stage = Stage::with_swept(0.7);
         stage.works();
         assert_eq!(stage.waits_with(0.4), (BehaviorState::Docked, Reason::Recharging));

@@ -1,0 +1,45 @@
+//! Why the robot does not obey.
+
+use super::edit_error::EditError;
+use super::fault::Fault;
+use super::named_enum::named_enum;
+
+named_enum! {
+    /// Why a [`crate::JobCommand`] is refused.
+    JobRefusal {
+        /// No fresh telemetry, so the robot cannot be commanded.
+        LinkLost => "link-lost",
+        /// A wheel hangs: lifted or fallen.
+        WheelDrop => "wheel-drop",
+        /// An error must be acknowledged first.
+        ErrorStands => "error-stands",
+        /// There is no error to acknowledge.
+        NoError => "no-error",
+        /// Such a job already runs.
+        AlreadyRunning => "already-running",
+        /// There is nothing to pause or resume.
+        NoJob => "no-job",
+        /// The wheels are the only source of heading, which is not enough for a plan.
+        NoHeading => "no-heading",
+        /// Little charge is left.
+        BatteryLow => "battery-low",
+        /// It is on the dock already.
+        Docked => "docked",
+        /// The stick must come back to the centre before it drives again (S23).
+        CentreFirst => "centre-first",
+        /// The robot can reach nothing of what is ordered.
+        RestOutOfReach => "rest-out-of-reach",
+    }
+    nested {
+        /// A fault stands.
+        Fault(Fault),
+        /// The order does not fit the home.
+        Order(EditError),
+    }
+}
+
+impl From<EditError> for JobRefusal {
+    fn from(error: EditError) -> Self {
+        Self::Order(error)
+    }
+}
