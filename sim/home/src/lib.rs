@@ -20,6 +20,7 @@ mod model;
 mod noise;
 mod pcg;
 mod plan;
+mod point;
 mod pose;
 pub mod traps;
 mod world;

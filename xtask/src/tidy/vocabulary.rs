@@ -122,15 +122,25 @@ pub(super) fn homonyms(files: &Files) -> anyhow::Result<Finding> {
     ))
 }
 
-/// The folder of the crate whose library or program the file belongs to; tests, examples and benches are programs of their own.
-fn crate_of<'a>(crates: &[&'a str], path: &str) -> Option<&'a str> {
+/// The folder of the crate to which the file belongs. Each program in `src/bin` is a crate of its own; tests, examples and benches do
+/// not count.
+fn crate_of<'a>(crates: &[&'a str], path: &'a str) -> Option<&'a str> {
     let inside = |of: &&&str| {
         path.strip_prefix(**of)
             .is_some_and(|rest| rest.starts_with("/src/"))
     };
     let of = crates.iter().filter(inside).max_by_key(|of| of.len())?;
     let is_test = path.ends_with("tests.rs") || path.contains("/tests/");
-    (!is_test).then_some(*of)
+    (!is_test).then(|| program_of(path, of).unwrap_or(of))
+}
+
+/// The file or folder of the program in `src/bin` to which the file belongs.
+fn program_of<'a>(path: &'a str, of: &str) -> Option<&'a str> {
+    let bin = of.len() + "/src/bin/".len();
+    let name = path
+        .get(bin..)
+        .filter(|_| path.get(of.len()..bin) == Some("/src/bin/"))?;
+    path.get(..bin + name.find('/').unwrap_or(name.len()))
 }
 
 /// Types that the file declares at its top level outside of tests, with their lines from 1.
@@ -207,6 +217,10 @@ mod tests {
         let crates = ["vthal", "vthal/core"];
         assert_eq!(crate_of(&crates, "vthal/core/src/lib.rs"), Some("vthal/core"));
         assert_eq!(crate_of(&crates, "vthal/src/main.rs"), Some("vthal"));
+        assert_eq!(
+            crate_of(&crates, "vthal/src/bin/bench/main.rs"),
+            Some("vthal/src/bin/bench")
+        );
         assert_eq!(crate_of(&crates, "vthal/tests/all/main.rs"), None);
         assert_eq!(crate_of(&crates, "vthal/src/radio/tests.rs"), None);
     }

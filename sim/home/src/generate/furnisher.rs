@@ -1,9 +1,10 @@
 //! Finds places for furniture: at a wall or freely, away from doors and from each other.
 
 use super::draw::Draw;
-use super::shape::{Point, Rect, RoomSide, WallFrame};
+use super::shape::{Rect, RoomSide, WallFrame};
 use super::sizes::Size;
 use super::things::{Piece, Rug, Things};
+use crate::point::Point;
 
 /// Places that are tried before a piece is left out.
 const TRIES: usize = 40;

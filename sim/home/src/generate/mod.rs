@@ -289,7 +289,7 @@ fn furnish(draw: &mut Draw, moved: &mut Draw, things: &mut Things, dock_clear: O
     }
 }
 
-fn bounds(corners: &[shape::Point]) -> Rect {
+fn bounds(corners: &[crate::point::Point]) -> Rect {
     let mut bounds = Rect::new([f64::MAX; 2], [f64::MAX; 2]);
     for (number, corner) in corners.iter().enumerate() {
         let point = Rect::new(*corner, *corner);
@@ -315,7 +315,7 @@ fn blacken(draw: &mut Draw, things: &mut Things) {
 
 /// People who stand in rooms and doors, and who walk from room to room; a pet.
 fn invite(moved: &mut Draw, things: &mut Things) {
-    let mut places: Vec<shape::Point> = things
+    let mut places: Vec<crate::point::Point> = things
         .rooms
         .iter()
         .map(|room| write::middle(&room.rect))
@@ -358,7 +358,7 @@ fn invite(moved: &mut Draw, things: &mut Things) {
 }
 
 /// Some place in some room.
-fn within(moved: &mut Draw, rooms: &[Room]) -> shape::Point {
+fn within(moved: &mut Draw, rooms: &[Room]) -> crate::point::Point {
     let Some(room) = rooms.get(moved.below(rooms.len())) else {
         return [0.0, 0.0];
     };

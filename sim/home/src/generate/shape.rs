@@ -1,6 +1,6 @@
 //! Rectangles along the axes, and the frames of things that stand at walls.
 
-pub(super) type Point = [f64; 2];
+use crate::point::Point;
 
 /// A rectangle, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]

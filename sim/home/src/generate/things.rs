@@ -1,6 +1,7 @@
 //! The parts of a generated home, before it is written.
 
-use super::shape::{Point, Rect};
+use super::shape::Rect;
+use crate::point::Point;
 
 /// What a room is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

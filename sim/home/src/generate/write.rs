@@ -2,8 +2,9 @@
 
 use core::fmt::Write;
 
-use super::shape::{Point, Rect};
+use super::shape::Rect;
 use super::things::{Piece, PlacedLine, Rug, Things};
+use crate::point::Point;
 
 /// How the drawn home is laid on the paper, so that not every home has its corridor from left to right.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,7 +4,8 @@
 use core::f64::consts::{PI, TAU};
 
 use super::TrapKind;
-use super::sketch::{Point, Sketch, corners};
+use super::sketch::{Sketch, corners};
+use crate::point::Point;
 
 /// Width of the body, metres.
 const BODY_M: f64 = 0.35;

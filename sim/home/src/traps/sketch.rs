@@ -4,8 +4,7 @@ use core::fmt::Write;
 
 use super::TrapBounds;
 use crate::Pcg;
-
-pub(super) type Point = [f64; 2];
+use crate::point::Point;
 
 /// Streams of random numbers for traps begin here.
 const STREAM: u64 = 50_000;

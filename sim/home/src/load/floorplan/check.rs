@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::raw::{Point, RawDoor, RawFurniture, RawPlan, RawVisitor, RawWalker};
+use super::raw::{RawDoor, RawFurniture, RawPlan, RawVisitor, RawWalker};
 use crate::load::raster::CORNERS_MAX;
 use crate::load::{CELL_MAX_M, HomeError};
+use crate::point::Point;
 
 /// Farthest coordinate, metres.
 const COORDINATE_MAX_M: f64 = 1_000.0;

@@ -1,12 +1,11 @@
 //! Draws the things of a home TOML into the grid.
 
 use super::check::Check;
-use super::raw::{
-    DoorState, Point, RawDoor, RawFurniture, RawPlan, RawRug, RawThreshold, RawVisitor, RawWall,
-};
+use super::raw::{DoorState, RawDoor, RawFurniture, RawPlan, RawRug, RawThreshold, RawVisitor, RawWall};
 use crate::load::HomeError;
 use crate::load::raster::Canvas;
 use crate::plan::{Cell, Door, Grid, Surface, SurfaceMap};
+use crate::point::Point;
 
 /// Force that a wheel needs for each metre of a threshold's height, newton per metre.
 const THRESHOLD_DRAG_N_PER_M: f64 = 250.0;

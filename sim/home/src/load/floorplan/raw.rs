@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-pub(super) type Point = [f64; 2];
+use crate::point::Point;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
