@@ -30,6 +30,7 @@ pub use model::config::{
     Body, BrainConfig, BumperLayout, ProximityLayout, ProximityResponse, SensorLayout, Speeds,
 };
 pub use model::cut_line::CutLine;
+pub use model::decision::{Decision, DecisionCause, DecisionKind};
 pub use model::edit_error::EditError;
 pub use model::energy::EnergyModel;
 pub use model::fault::Fault;

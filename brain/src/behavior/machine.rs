@@ -201,7 +201,7 @@ impl Behavior {
         for command in commands {
             match self.admit(command, situation.map) {
                 Ok(()) => self.obey(command, context),
-                Err(refusal) => context.refuse("refuse", refusal.name()),
+                Err(refusal) => context.refuse_job(refusal),
             }
         }
         self.watch_energy(situation);

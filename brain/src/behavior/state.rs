@@ -1,6 +1,7 @@
 //! The states a person sees, and what belongs to them.
 
 use crate::model::command::StrategyName;
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 
 /// What the robot is doing. Exactly one of these holds at any time.
@@ -71,19 +72,19 @@ impl BehaviorState {
     }
 
     /// What the decision to enter this state is called.
-    pub(crate) const fn decision(self) -> &'static str {
+    pub(crate) const fn decision(self) -> DecisionKind {
         match self {
-            Self::Disconnected => "state-disconnected",
-            Self::Idle => "state-idle",
-            Self::Starting => "state-starting",
-            Self::Cleaning => "state-cleaning",
-            Self::Spot => "state-spot",
-            Self::Docking => "state-docking",
-            Self::Docked => "state-docked",
-            Self::Manual => "state-manual",
-            Self::Paused => "state-paused",
-            Self::Stuck => "state-stuck",
-            Self::Error => "state-error",
+            Self::Disconnected => DecisionKind::StateDisconnected,
+            Self::Idle => DecisionKind::StateIdle,
+            Self::Starting => DecisionKind::StateStarting,
+            Self::Cleaning => DecisionKind::StateCleaning,
+            Self::Spot => DecisionKind::StateSpot,
+            Self::Docking => DecisionKind::StateDocking,
+            Self::Docked => DecisionKind::StateDocked,
+            Self::Manual => DecisionKind::StateManual,
+            Self::Paused => DecisionKind::StatePaused,
+            Self::Stuck => DecisionKind::StateStuck,
+            Self::Error => DecisionKind::StateError,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Brain;
 use crate::localization::MapCorrection;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::map_edit::MapEdit;
 use crate::model::reason::Reason;
@@ -17,7 +18,8 @@ impl Brain {
             Some(MapCorrection::Redraw { keyframes }) => self.map.redraw(&keyframes),
             Some(MapCorrection::RollBack { since_us, keyframes }) => {
                 self.map.roll_back(since_us, &keyframes);
-                self.mind.decide("withdraw", Reason::PlaceUnknown, 0.0);
+                self.mind
+                    .decide(DecisionKind::Withdraw, Reason::PlaceUnknown, 0.0);
             }
             None => {}
         }
@@ -27,7 +29,7 @@ impl Brain {
     pub(super) fn edit(&mut self, edit: &MapEdit, is_docked: bool) {
         match self.map.apply(edit) {
             Ok(()) => self.follow_edit(edit, is_docked),
-            Err(error) => self.mind.refuse("edit-refused", error.name()),
+            Err(error) => self.mind.refuse_edit(error),
         }
     }
 
@@ -59,7 +61,7 @@ impl Brain {
         if is_near && self.localization.is_confirmed() {
             self.map.measure_dock(pose);
             self.localization.put_dock(self.map.dock_location());
-            self.mind.decide("dock-found", Reason::Docked, 0.0);
+            self.mind.decide(DecisionKind::DockFound, Reason::Docked, 0.0);
         }
     }
 }

@@ -14,6 +14,7 @@ use core::f64::consts::TAU;
 use super::escape_bounce::EscapeBounce;
 use super::whole_turns::WholeTurns;
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::reason::Reason;
 use crate::navigation::{ManoeuvreStep, Situation, TaskContext, TaskStatus, Turn, WallFollower, WallStep};
@@ -154,7 +155,7 @@ impl Perimeter {
             WallStep::Going(motion) => LapStep::Going(motion),
             WallStep::Trouble(reason) => {
                 self.troubles += 1;
-                context.decide("bounce", reason, f64::from(self.troubles));
+                context.decide(DecisionKind::Bounce, reason, f64::from(self.troubles));
                 self.escape_bounce = Some(EscapeBounce::from(situation.pose.position()));
                 if reason == Reason::BoxedIn {
                     LapStep::Going(Motion::Halt)
@@ -187,7 +188,11 @@ impl Perimeter {
 
     /// Turns away from an island, towards the next wall or island.
     fn leave_island(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> Motion {
-        context.decide("leave-wall", Reason::Island, situation.pose.heading_rad);
+        context.decide(
+            DecisionKind::LeaveWall,
+            Reason::Island,
+            situation.pose.heading_rad,
+        );
         self.islands += 1;
         self.again_m = 0.0;
         self.wall.interrupted();

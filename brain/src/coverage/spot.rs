@@ -6,6 +6,7 @@
 use core::f64::consts::TAU;
 
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::TurnSide;
 use crate::model::order::SPOT_RADIUS_M;
 use crate::model::reason::Reason;
@@ -101,7 +102,7 @@ impl Spot {
             _ => self.side.opposite(),
         };
         self.side = turn_to;
-        context.decide("back-off", reason, self.turned_rad);
+        context.decide(DecisionKind::BackOff, reason, self.turned_rad);
         let turn_rad = turn_to.sign() * context.random.between(1.2, 2.2);
         self.evasion = Some(if situation.at_cliff {
             Evasion::from_cliff(0.08, turn_rad)

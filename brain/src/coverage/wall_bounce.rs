@@ -4,6 +4,7 @@
 use super::Bounce;
 use super::spiral::Spiral;
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{
     ManoeuvreStep, Situation, Task, TaskContext, TaskStatus, Turn, WallFollower, WallStep,
@@ -122,14 +123,14 @@ impl WallBounce {
     fn bounce(&mut self, left_m: f64, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if !self.bounce.is_evading() {
             if left_m <= 0.0 && !situation.is_free() {
-                context.decide("follow-wall", Reason::Alternation, 0.0);
+                context.decide(DecisionKind::FollowWall, Reason::Alternation, 0.0);
                 self.wall = WallFollower::default();
                 let left_m = context.random.between(WALL_M.0, WALL_M.1);
                 self.mode = WallBounceMode::Wall { left_m };
                 return self.follow_wall(left_m, situation, context);
             }
             if self.bounce.straight_m() > OPEN_STRAIGHT_M && self.since_spiral_m > SPIRAL_EVERY_M {
-                context.decide("spiral", Reason::OpenFloor, self.bounce.straight_m());
+                context.decide(DecisionKind::Spiral, Reason::OpenFloor, self.bounce.straight_m());
                 self.mode = WallBounceMode::Spiral(Spiral::default());
                 return self.spiral(Spiral::default(), situation, context);
             }
@@ -145,7 +146,7 @@ impl WallBounce {
     ) -> TaskStatus {
         if left_m <= 0.0 && situation.is_free() && !self.wall.is_evading() {
             let turn_rad = context.random.between(AWAY_RAD.0, AWAY_RAD.1);
-            context.decide("leave-wall", Reason::Alternation, turn_rad);
+            context.decide(DecisionKind::LeaveWall, Reason::Alternation, turn_rad);
             self.mode = WallBounceMode::Away(Turn::by(turn_rad));
             return TaskStatus::Go(Motion::Halt);
         }

@@ -7,6 +7,7 @@
 use core::f64::consts::TAU;
 
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{ManoeuvreStep, Situation, TaskContext, Turn};
 
@@ -70,7 +71,7 @@ impl WholeTurns {
         let turns = self.due(situation)?;
         self.has_begun = true;
         self.turn = Some(Turn::by(turns * TAU));
-        context.decide("turn", Reason::GyroScale, turns);
+        context.decide(DecisionKind::Turn, Reason::GyroScale, turns);
         Some(Motion::Halt)
     }
 

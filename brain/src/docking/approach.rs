@@ -10,6 +10,7 @@ use super::centreline::CentrelineDrive;
 use super::scan::{Scan, ScanStep};
 use crate::mapping::Lobe;
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::normalize_rad;
 use crate::model::reason::Reason;
 use crate::navigation::{Evasion, EvasionStep, Situation, TaskContext};
@@ -185,7 +186,7 @@ impl Approach {
                 if self.scans > SCANS_MAX {
                     return ApproachStep::Spent;
                 }
-                context.decide("dock-scan", Reason::DockBeam, bearing_rad);
+                context.decide(DecisionKind::DockScan, Reason::DockBeam, bearing_rad);
                 self.phase = self.after_scan(bearing_rad, situation, context);
                 ApproachStep::Going(Motion::Halt)
             }
@@ -212,7 +213,7 @@ impl Approach {
             }),
         };
         let is_near = situation.beams.current().is_near();
-        context.decide("dock-line", Reason::DockBeam, to_centreline);
+        context.decide(DecisionKind::DockLine, Reason::DockBeam, to_centreline);
         let (aside_rad, left_m) = match (is_near, situation.beams.current().lobe()) {
             (false, _) => (self.aside_rad(), ASIDE_MAX_M),
             (true, Lobe::None) => (BESIDE_RAD, BESIDE_M),
@@ -293,7 +294,11 @@ impl Approach {
             return self.leave(line.base_rad(), context);
         }
         self.wiggles += 1;
-        context.decide("dock-wiggle", Reason::DockMissed, f64::from(self.wiggles));
+        context.decide(
+            DecisionKind::DockWiggle,
+            Reason::DockMissed,
+            f64::from(self.wiggles),
+        );
         let base_rad = line.base_rad() + self.wiggle_side * WIGGLE_RAD * f64::from(self.wiggles);
         self.wiggle_side = -self.wiggle_side;
         let turn_rad = normalize_rad(base_rad - self.heading_rad);
@@ -311,7 +316,7 @@ impl Approach {
         if self.tries >= TRIES_MAX {
             return ApproachStep::Spent;
         }
-        context.decide("dock-retry", Reason::DockMissed, f64::from(self.tries));
+        context.decide(DecisionKind::DockRetry, Reason::DockMissed, f64::from(self.tries));
         let away_rad = base_rad + PI + context.random.between(-0.3, 0.3);
         let turn_rad = normalize_rad(away_rad - self.heading_rad);
         self.phase = ApproachPhase::Evade(
@@ -332,7 +337,7 @@ impl Approach {
         if self.tries >= TRIES_MAX {
             return ApproachStep::Spent;
         }
-        context.decide("dock-retry", reason, f64::from(self.tries));
+        context.decide(DecisionKind::DockRetry, reason, f64::from(self.tries));
         let side = match reason {
             Reason::BumpLeft | Reason::CliffLeft => -1.0,
             Reason::BumpRight | Reason::CliffRight => 1.0,

@@ -5,6 +5,7 @@
 use super::roam::Roam;
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
 
@@ -46,7 +47,7 @@ impl DockSearch {
             return self.follow_walls(situation, context);
         };
         if left_m <= 0.0 && !situation.is_free() && !self.roam.is_evading() {
-            context.decide("follow-wall", Reason::DockUnknown, 0.0);
+            context.decide(DecisionKind::FollowWall, Reason::DockUnknown, 0.0);
             self.roam_left_m = None;
             self.lap.begin_again();
             return self.follow_walls(situation, context);
@@ -60,7 +61,7 @@ impl DockSearch {
             LapStep::Going(motion) => TaskStatus::Go(motion),
             LapStep::Trouble(reason) => TaskStatus::Trouble(reason),
             LapStep::Over(reason) => {
-                context.decide("leave-wall", reason, self.lap.driven_m());
+                context.decide(DecisionKind::LeaveWall, reason, self.lap.driven_m());
                 self.roam.interrupted();
                 self.roam_left_m = Some(ROAM_M);
                 TaskStatus::Go(Motion::Halt)

@@ -17,6 +17,7 @@ mod scan;
 mod travel;
 
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
@@ -128,7 +129,7 @@ impl Docking {
         let may_travel = self.search_s <= 0.0;
         match known {
             Ok(dock) if may_travel => {
-                context.decide("dock-travel", Reason::DockKnown, 0.0);
+                context.decide(DecisionKind::DockTravel, Reason::DockKnown, 0.0);
                 self.phase = DockingPhase::Travel(Box::new(Travel::to_dock(dock)));
             }
             _ if situation.beams.current().is_any() && self.ignore_s <= 0.0 => {
@@ -151,20 +152,20 @@ impl Docking {
             return false;
         }
         self.back_to_beams += 1;
-        context.decide("dock-travel", Reason::DockHeard, heard_at.len() as f64);
+        context.decide(DecisionKind::DockTravel, Reason::DockHeard, heard_at.len() as f64);
         self.search.interrupted();
         self.phase = DockingPhase::Back(Box::new(Travel::to_beam(heard_at)));
         true
     }
 
     fn begin_approach(&mut self, reason: Reason, context: &mut TaskContext) {
-        context.decide("approach", reason, f64::from(self.approaches));
+        context.decide(DecisionKind::Approach, reason, f64::from(self.approaches));
         self.phase = DockingPhase::Approach(Approach::by_beams(self.approaches));
         self.approaches += 1;
     }
 
     fn begin_search(&mut self, reason: Reason, context: &mut TaskContext) {
-        context.decide("dock-search", reason, 0.0);
+        context.decide(DecisionKind::DockSearch, reason, 0.0);
         self.search.interrupted();
         self.phase = DockingPhase::Search;
     }
@@ -185,7 +186,7 @@ impl Docking {
             TravelStep::Arrived => {
                 let dock_rad = situation.map.dock().map_or(0.0, |dock| dock.heading_rad);
                 let bearing_rad = normalize_rad(dock_rad - situation.pose.heading_rad);
-                context.decide("approach", Reason::DockKnown, bearing_rad);
+                context.decide(DecisionKind::Approach, Reason::DockKnown, bearing_rad);
                 self.phase = DockingPhase::Approach(Approach::from_map(bearing_rad));
             }
             TravelStep::Blocked => {

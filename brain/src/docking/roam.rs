@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use crate::coverage::Bounce;
 use crate::mapping::{Cell, CellKnowledge};
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, normalize_rad};
 use crate::model::reason::Reason;
 use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, encounter};
@@ -113,7 +114,7 @@ impl Roam {
         if self.without_news_m > COMPARE_EVERY_M {
             self.without_news_m = 0.0;
             if let Some(turn_rad) = self.better_direction(situation, context) {
-                context.decide("dock-search-turn", Reason::DockUnknown, turn_rad);
+                context.decide(DecisionKind::DockSearchTurn, Reason::DockUnknown, turn_rad);
                 self.evasion = Some(Evasion::from_contact(0.0, turn_rad));
                 return TaskStatus::Go(Motion::Halt);
             }
@@ -134,7 +135,7 @@ impl Roam {
         } else {
             0
         };
-        context.decide("back-off", reason, self.straight_m);
+        context.decide(DecisionKind::BackOff, reason, self.straight_m);
         if self.short_straights > SHORT_MAX {
             self.short_straights = 0;
             self.bounce = Some((Bounce::default(), BOUNCE_S));

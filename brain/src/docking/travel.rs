@@ -7,6 +7,7 @@ use core::task::Poll;
 
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::reason::Reason;
@@ -130,7 +131,7 @@ impl Travel {
                 FollowStep::Going(motion) => return TravelStep::Going(motion),
                 FollowStep::Arrived => return TravelStep::Arrived,
                 FollowStep::Off => {
-                    context.decide("leave-way", Reason::OffTheWay, 0.0);
+                    context.decide(DecisionKind::LeaveWay, Reason::OffTheWay, 0.0);
                     self.follower = None;
                 }
             }
@@ -139,7 +140,7 @@ impl Travel {
     }
 
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TravelStep {
-        context.decide("back-off", reason, 0.0);
+        context.decide(DecisionKind::BackOff, reason, 0.0);
         self.obstructions.add(reason, situation);
         self.follower = None;
         self.path_search = None;
@@ -162,7 +163,7 @@ impl Travel {
         let is_blocked = path_search.is_blocked;
         self.path_search = None;
         if let Some(segments) = found {
-            context.decide("dock-way", self.reason, length_m(&segments));
+            context.decide(DecisionKind::DockWay, self.reason, length_m(&segments));
             self.follower = Some(PathFollower::new(segments));
             return TravelStep::Going(Motion::Halt);
         }
@@ -170,7 +171,7 @@ impl Travel {
             return TravelStep::Blocked;
         }
         context.decide(
-            "forget-obstructions",
+            DecisionKind::ForgetObstructions,
             Reason::WayBlocked,
             f64::from(self.forgotten),
         );
@@ -190,7 +191,7 @@ impl Travel {
         if self.failed_plans > FAILED_PLANS_MAX || self.plans > PLANS_MAX {
             return TravelStep::Blocked;
         }
-        context.decide("wait", Reason::Planning, 0.0);
+        context.decide(DecisionKind::Wait, Reason::Planning, 0.0);
         let blocked = self.obstructions.points(situation.observation.time_us);
         let is_blocked = !blocked.is_empty();
         let inputs = PathInputs::of(situation, self.goals.clone(), blocked);

@@ -5,6 +5,7 @@ pub(crate) mod advance;
 pub mod command;
 pub mod config;
 pub(crate) mod cut_line;
+pub(crate) mod decision;
 pub(crate) mod edit_error;
 pub mod energy;
 pub(crate) mod fault;

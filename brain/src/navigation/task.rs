@@ -4,8 +4,11 @@ use core::fmt::Debug;
 
 use super::Situation;
 use crate::mapping::Map;
-use crate::model::action::{Decision, Motion};
+use crate::model::action::Motion;
+use crate::model::decision::{Decision, DecisionCause, DecisionKind};
+use crate::model::edit_error::EditError;
 use crate::model::geometry::Point2;
+use crate::model::job_refusal::JobRefusal;
 use crate::model::random::Random;
 use crate::model::reason::Reason;
 use crate::model::swept_share::SweptShare;
@@ -18,19 +21,28 @@ pub(crate) struct TaskContext {
 }
 
 impl TaskContext {
-    pub(crate) fn decide(&mut self, what: &'static str, reason: Reason, value: f64) {
+    pub(crate) fn decide(&mut self, kind: DecisionKind, reason: Reason, value: f64) {
         self.journal.push(Decision {
-            what,
-            reason: reason.name(),
+            kind,
+            cause: DecisionCause::Reason(reason),
             value,
         });
     }
 
-    /// Decides against what somebody asked for, by the name of a refusal or an error.
-    pub(crate) fn refuse(&mut self, what: &'static str, reason: &'static str) {
+    /// Notes that a job command was refused.
+    pub(crate) fn refuse_job(&mut self, refusal: JobRefusal) {
         self.journal.push(Decision {
-            what,
-            reason,
+            kind: DecisionKind::Refuse,
+            cause: DecisionCause::Refusal(refusal),
+            value: 0.0,
+        });
+    }
+
+    /// Notes that a map edit was refused.
+    pub(crate) fn refuse_edit(&mut self, error: EditError) {
+        self.journal.push(Decision {
+            kind: DecisionKind::EditRefused,
+            cause: DecisionCause::Edit(error),
             value: 0.0,
         });
     }

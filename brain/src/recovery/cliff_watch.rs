@@ -2,6 +2,7 @@
 //! can start the robot again. Whatever drives it, after two cliffs the robot stands still until the first of them is long
 //! enough ago.
 
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
 
@@ -27,7 +28,7 @@ impl CliffWatch {
             self.cliffs_us[0].is_some_and(|cliffs_us| now_us < cliffs_us.saturating_add(WINDOW_US));
         let waits = is_one_too_many && !is_at_cliff;
         if waits && !self.waits {
-            context.decide("wait", Reason::CliffAgain, 0.0);
+            context.decide(DecisionKind::Wait, Reason::CliffAgain, 0.0);
         }
         self.waits = waits;
         waits

@@ -7,6 +7,8 @@
 //! Termination: [`RecoverySequence::behaviors_left`] falls by one with each behavior, only leaving the pen raises it, and
 //! at 0 there is no further behavior.
 
+use crate::model::decision::DecisionKind;
+
 /// One attempt to get free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum RecoveryBehavior {
@@ -55,14 +57,14 @@ const PENNED: [RecoveryBehavior; 8] = [
 
 impl RecoveryBehavior {
     /// The name of its decision.
-    pub(crate) const fn decision(self) -> &'static str {
+    pub(crate) const fn decision(self) -> DecisionKind {
         match self {
-            Self::BackOut => "escape-back-out",
-            Self::Wiggle => "escape-wiggle",
-            Self::Reverse => "escape-reverse",
-            Self::ContourLeft => "escape-edge-left",
-            Self::ContourRight => "escape-edge-right",
-            Self::Wait => "escape-wait",
+            Self::BackOut => DecisionKind::EscapeBackOut,
+            Self::Wiggle => DecisionKind::EscapeWiggle,
+            Self::Reverse => DecisionKind::EscapeReverse,
+            Self::ContourLeft => DecisionKind::EscapeEdgeLeft,
+            Self::ContourRight => DecisionKind::EscapeEdgeRight,
+            Self::Wait => DecisionKind::EscapeWait,
         }
     }
 }

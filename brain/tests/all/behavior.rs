@@ -285,7 +285,7 @@ fn a_robot_with_a_gyro_rests_for_it_now_and_then() {
         if actions
             .decisions
             .iter()
-            .any(|decision| (decision.what, decision.reason) == ("rest", "gyro-drift"))
+            .any(|decision| (decision.kind.name(), decision.cause.name()) == ("rest", "gyro-drift"))
         {
             rests.push(stage.observation.time_us);
         }

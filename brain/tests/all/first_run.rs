@@ -59,9 +59,13 @@ impl Run {
             watch(&self.world);
             let new = actions.decisions.iter();
             self.decisions
-                .extend(new.map(|decision| (decision.what, decision.reason, decision.value)));
-            if let Some(decision) = actions.decisions.iter().find(|decision| decision.what == what) {
-                return Some(decision.reason);
+                .extend(new.map(|decision| (decision.kind.name(), decision.cause.name(), decision.value)));
+            if let Some(decision) = actions
+                .decisions
+                .iter()
+                .find(|decision| decision.kind.name() == what)
+            {
+                return Some(decision.cause.name());
             }
         }
         None

@@ -316,7 +316,7 @@ fn an_edit_is_answered_once() {
         let made: Vec<_> = actions
             .decisions
             .iter()
-            .map(|made| (made.what, made.reason))
+            .map(|made| (made.kind.name(), made.cause.name()))
             .collect();
         assert_eq!(made, decisions);
     }

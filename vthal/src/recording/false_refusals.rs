@@ -1,8 +1,7 @@
 //! What earlier brains answered to edits of the map: they admitted each edit a second time, against the map that had it already. So the
 //! removal of a no-go zone, for instance, was followed by the decision `refuse`, though it was made.
 
-use brain::action::Decision;
-use brain::{Actions, EditError};
+use brain::{Actions, Decision, DecisionCause, DecisionKind, EditError};
 
 use super::format::{Answered, AnsweredNames, DecisionNames};
 
@@ -30,13 +29,15 @@ impl ReplayedStep {
         let mut edits = self.edits;
         let mut decisions = Vec::new();
         for DecisionNames { what, reason } in names {
-            if let Some(same) = ours.next_if(|ours| ours.what == what && ours.reason == reason) {
-                decisions.push(same.clone());
+            if let Some(same) = ours.next_if(|ours| ours.kind.name() == what && ours.cause.name() == reason) {
+                decisions.push(*same);
             } else {
-                edits = edits.checked_sub(1).filter(|_| what == "refuse")?;
+                edits = edits
+                    .checked_sub(1)
+                    .filter(|_| what == DecisionKind::Refuse.name())?;
                 decisions.push(Decision {
-                    what: "refuse",
-                    reason: EditError::from_name(&reason)?.name(),
+                    kind: DecisionKind::Refuse,
+                    cause: DecisionCause::Edit(EditError::from_name(&reason)?),
                     value: 0.0,
                 });
             }
@@ -55,15 +56,14 @@ pub(super) fn written(actions: &Actions) -> serde_json::Result<Vec<u8>> {
 
 #[cfg(test)]
 mod tests {
-    use brain::action::Decision;
-    use brain::{Actions, Motion};
+    use brain::{Actions, Decision, DecisionCause, DecisionKind, EditError, JobRefusal, Motion, Reason};
 
     use super::ReplayedStep;
 
-    fn actions(decisions: &[(&'static str, &'static str)]) -> Actions {
-        let decisions = decisions.iter().map(|&(what, reason)| Decision {
-            what,
-            reason,
+    fn actions(decisions: &[(DecisionKind, DecisionCause)]) -> Actions {
+        let decisions = decisions.iter().map(|&(kind, cause)| Decision {
+            kind,
+            cause,
             value: 0.0,
         });
         Actions {
@@ -77,8 +77,8 @@ mod tests {
 
     fn are_equal_but_for_refusals(
         edits: usize,
-        ours: &[(&'static str, &'static str)],
-        recorded: &[(&'static str, &'static str)],
+        ours: &[(DecisionKind, DecisionCause)],
+        recorded: &[(DecisionKind, DecisionCause)],
     ) -> bool {
         let recorded = super::written(&actions(recorded)).expect("plain");
         let actions = actions(ours);
@@ -87,14 +87,15 @@ mod tests {
 
     #[test]
     fn nothing_but_a_refusal_of_an_edit_is_left_out() {
-        let halt = ("halt", "command");
-        let removed = ("refuse", "no-such-no-go");
+        let halt = (DecisionKind::StateIdle, DecisionCause::Reason(Reason::Command));
+        let removed = (DecisionKind::Refuse, DecisionCause::Edit(EditError::NoSuchNoGo));
+        let no_job = (DecisionKind::Refuse, DecisionCause::Refusal(JobRefusal::NoJob));
         assert!(are_equal_but_for_refusals(1, &[halt], &[removed, halt]));
         assert!(are_equal_but_for_refusals(2, &[], &[removed, removed]));
         assert!(!are_equal_but_for_refusals(0, &[halt], &[removed, halt]));
         assert!(!are_equal_but_for_refusals(1, &[halt], &[removed, removed, halt]));
         assert!(!are_equal_but_for_refusals(1, &[halt], &[removed]));
         assert!(!are_equal_but_for_refusals(1, &[], &[halt]));
-        assert!(!are_equal_but_for_refusals(1, &[], &[("refuse", "no-job")]));
+        assert!(!are_equal_but_for_refusals(1, &[], &[no_job]));
     }
 }

@@ -5,10 +5,11 @@ use std::fs;
 use std::io::Read as _;
 use std::path::PathBuf;
 
-use brain::action::{Arm, Decision, Tone};
+use brain::action::{Arm, Tone};
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
 use brain::{
-    Actions, Body, BrainConfig, Command, Inhibits, JobCommand, Motion, Observation, Speeds, StrategyName,
+    Actions, Body, BrainConfig, Command, Decision, DecisionCause, DecisionKind, Inhibits, JobCommand, Motion,
+    Observation, Reason, Speeds, StrategyName,
 };
 use mcap::{MessageStream, Summary};
 use rvac_api::{
@@ -78,8 +79,8 @@ fn answers() -> [Actions; 2] {
             duration_ms: 200,
         }],
         decisions: vec![Decision {
-            what: "turn",
-            reason: "bump-left",
+            kind: DecisionKind::Turn,
+            cause: DecisionCause::Reason(Reason::BumpLeft),
             value: 1.5,
         }],
     };

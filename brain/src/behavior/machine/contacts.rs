@@ -4,6 +4,7 @@
 //! until its pack is empty.
 
 use super::{Behavior, Mode};
+use crate::model::decision::DecisionKind;
 use crate::model::observation::ChargeFlow;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
@@ -28,7 +29,7 @@ impl Behavior {
         let now_us = self.facts.now_us;
         let Some(since_us) = self.contacts_us else {
             self.contacts_us = Some(now_us);
-            context.decide("wait-for-current", Reason::Docked, 0.0);
+            context.decide(DecisionKind::WaitForCurrent, Reason::Docked, 0.0);
             return;
         };
         if now_us.saturating_sub(since_us) < FLOW_PATIENCE_US {

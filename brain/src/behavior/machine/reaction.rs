@@ -3,6 +3,7 @@
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
 use crate::behavior::job::Job;
+use crate::model::decision::DecisionKind;
 use crate::model::fault::Fault;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
@@ -168,7 +169,7 @@ impl Behavior {
             && !job.is_departing()
         {
             job.depart(&mut context.random);
-            context.decide("depart", Reason::Docked, 0.0);
+            context.decide(DecisionKind::Depart, Reason::Docked, 0.0);
         }
     }
 

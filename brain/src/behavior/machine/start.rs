@@ -4,6 +4,7 @@ use super::{Behavior, JobStart, Mode};
 use crate::behavior::job::Job;
 use crate::behavior::{JobFigures, JobKind};
 use crate::model::action::{Arm, Motion, Tone};
+use crate::model::decision::DecisionKind;
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
@@ -88,7 +89,7 @@ impl Behavior {
         if kind != JobKind::Dock {
             self.job_start = JobStart::FreshMap;
             if !self.facts.knows_heading {
-                context.decide("keep-no-map", Reason::NoHeading, 0.0);
+                context.decide(DecisionKind::KeepNoMap, Reason::NoHeading, 0.0);
             }
         }
         self.announce(Reason::Command, context);

@@ -8,6 +8,7 @@ use crate::mapping::Map;
 use crate::model::action::Motion;
 use crate::model::advance::Advance;
 use crate::model::command::StrategyName;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::Point2;
 use crate::model::no_go::NoGo;
 use crate::model::order::CleaningOrder;
@@ -85,7 +86,7 @@ impl Behavior {
                 if rungs == 0 {
                     return;
                 }
-                context.decide("free", Reason::CameFree, f64::from(rungs));
+                context.decide(DecisionKind::Free, Reason::CameFree, f64::from(rungs));
                 if rungs >= POCKET_RUNGS {
                     self.pocket = troubled_at;
                 }
@@ -278,7 +279,7 @@ impl Behavior {
 /// Rests, and records the reason when the rest begins.
 fn rest_for_gyro(commanded: Motion, context: &mut TaskContext) -> Motion {
     if commanded != Motion::Halt {
-        context.decide("rest", Reason::GyroDrift, 0.0);
+        context.decide(DecisionKind::Rest, Reason::GyroDrift, 0.0);
     }
     Motion::Halt
 }

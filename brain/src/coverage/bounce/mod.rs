@@ -8,6 +8,7 @@ mod pocket;
 
 use super::recent_coverage::{RecentContacts, TurnRange};
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
 use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus};
@@ -94,7 +95,7 @@ impl Bounce {
             self.pocket = Pocket::default();
             return TaskStatus::Trouble(Reason::BoxedIn);
         }
-        context.decide("back-off", reason, self.straight_m);
+        context.decide(DecisionKind::BackOff, reason, self.straight_m);
         self.evasion = Some(evasion);
         TaskStatus::Go(Motion::Halt)
     }

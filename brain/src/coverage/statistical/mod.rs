@@ -13,6 +13,7 @@ use super::spiral::Spiral;
 use crate::coverage::recent_coverage::{RECENT_S, is_new};
 use crate::mapping::Map;
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::Point2;
 use crate::model::reason::Reason;
 use crate::model::swept_share::SweptShare;
@@ -108,7 +109,7 @@ impl Task for Statistical {
         self.novelty.follow(situation);
         let estimate = self.swept_share(situation.map).unwrap_or_default();
         if estimate.share_low >= ENOUGH_SHARE {
-            context.decide("covered", Reason::ByStatistics, estimate.share);
+            context.decide(DecisionKind::Covered, Reason::ByStatistics, estimate.share);
             return TaskStatus::Finished(Reason::ByStatistics);
         }
         let driven_m = situation.advance.distance_m.max(0.0);
@@ -147,7 +148,7 @@ impl Statistical {
     fn begin(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         self.swath_m = situation.config.body.swath_m;
         if !core::mem::replace(&mut self.has_begun, true) && !situation.knows_heading {
-            context.decide("clean-by-statistics", Reason::NoHeading, 0.0);
+            context.decide(DecisionKind::CleanByStatistics, Reason::NoHeading, 0.0);
         }
     }
 
@@ -173,14 +174,14 @@ impl Statistical {
             return self.bounce.step(situation, context);
         }
         if share < LEAVE_SHARE && !situation.is_free() {
-            context.decide("follow-wall", Reason::SweptLately, share);
+            context.decide(DecisionKind::FollowWall, Reason::SweptLately, share);
             self.wall = WallFollower::default();
             self.mode = StatisticalMode::Wall(WallDrive::default());
             return self.follow_wall(situation, context);
         }
         let is_open = self.bounce.straight_m() > OPEN_STRAIGHT_M && self.since_spiral_m > SPIRAL_EVERY_M;
         if is_open && share > SPIRAL_SHARE {
-            context.decide("spiral", Reason::OpenFloor, self.bounce.straight_m());
+            context.decide(DecisionKind::Spiral, Reason::OpenFloor, self.bounce.straight_m());
             self.mode = StatisticalMode::Spiral(Spiral::default());
             return self.spiral(situation, context);
         }
@@ -191,7 +192,7 @@ impl Statistical {
         let is_over = matches!(self.mode, StatisticalMode::Wall(wall_drive) if wall_drive.is_over());
         if is_over && situation.is_free() && !self.wall.is_evading() {
             let turn_rad = context.random.between(AWAY_RAD.0, AWAY_RAD.1);
-            context.decide("leave-wall", Reason::NewFloor, turn_rad);
+            context.decide(DecisionKind::LeaveWall, Reason::NewFloor, turn_rad);
             self.novelty.restart();
             self.mode = StatisticalMode::Away(Turn::by(turn_rad));
             return TaskStatus::Go(Motion::Halt);

@@ -31,6 +31,7 @@ use super::perimeter::LapStep;
 use super::plan::{Departure, reach_cells};
 use crate::mapping::{CellKnowledge, Map, Raster};
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
@@ -187,7 +188,7 @@ impl Systematic {
                 }
             }
         }
-        context.decide("turn-to-part", Reason::NextPart, 0.0);
+        context.decide(DecisionKind::TurnToPart, Reason::NextPart, 0.0);
         (self.floor_m2, self.open_before_m2, self.passed_at_start_m2) = (0.0, 0.0, 0.0);
         (self.failed_plans, self.fresh_starts, self.escapes) = (0, 0, 0);
         self.shares = Shares::default();
@@ -215,7 +216,7 @@ impl Systematic {
             if knows_home(situation) {
                 Outline::Known
             } else {
-                context.decide("lap", Reason::NoMap, 0.0);
+                context.decide(DecisionKind::Lap, Reason::NoMap, 0.0);
                 Outline::Lap(Box::default())
             }
         });
@@ -225,12 +226,12 @@ impl Systematic {
             LapStep::Trouble(reason) => return Some(TaskStatus::Trouble(reason)),
             LapStep::Over(reason) => reason,
         };
-        let (what, margin) = match reason {
-            Reason::BackAtStart => ("contour-closed", OptimisticMargin::CLOSED),
-            Reason::KnownWall => ("end-lap", OptimisticMargin::KNOWN),
-            _ => ("end-lap", OptimisticMargin::OPEN),
+        let (kind, margin) = match reason {
+            Reason::BackAtStart => (DecisionKind::ContourClosed, OptimisticMargin::CLOSED),
+            Reason::KnownWall => (DecisionKind::EndLap, OptimisticMargin::KNOWN),
+            _ => (DecisionKind::EndLap, OptimisticMargin::OPEN),
         };
-        context.decide(what, reason, lap.driven_m());
+        context.decide(kind, reason, lap.driven_m());
         self.outline = Some(Outline::Growing(margin));
         None
     }
@@ -249,7 +250,7 @@ impl Systematic {
 
     /// Backs off from an obstacle, and remembers it.
     fn evade(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
-        context.decide("back-off", reason, 0.0);
+        context.decide(DecisionKind::BackOff, reason, 0.0);
         self.obstructions.add(reason, situation);
         self.contact_offset.touched(reason);
         self.follower = None;
@@ -283,7 +284,7 @@ impl Systematic {
 
     /// Leaves a path on which an obstacle is visible, before touching it.
     fn stand_off(&mut self, seen: Ahead, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
-        context.decide("leave-way", Reason::WallAhead, seen.clear_m);
+        context.decide(DecisionKind::LeaveWay, Reason::WallAhead, seen.clear_m);
         self.obstructions.add_seen(seen.at, situation);
         self.follower = None;
         self.back_off(SEEN_BACK_M, situation);
@@ -326,7 +327,7 @@ impl Systematic {
         }
         match step {
             FollowStep::Going(motion) => return self.go(motion, situation, context),
-            FollowStep::Off => context.decide("leave-way", Reason::OffTheWay, 0.0),
+            FollowStep::Off => context.decide(DecisionKind::LeaveWay, Reason::OffTheWay, 0.0),
             FollowStep::Arrived => {}
         }
         self.follower = None;
@@ -402,7 +403,7 @@ impl Systematic {
             unfinished => self.plan_progress = unfinished,
         }
         if !core::mem::replace(&mut self.waits, true) {
-            context.decide("wait", Reason::Planning, 0.0);
+            context.decide(DecisionKind::Wait, Reason::Planning, 0.0);
         }
         Some(TaskStatus::Go(Motion::Halt))
     }

@@ -4,6 +4,7 @@ use super::{Outline, Systematic, shuts_in, squeeze};
 use crate::coverage::escape_bounce::EscapeBounce;
 use crate::coverage::plan::CoveragePlan;
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{PathFollower, Situation, Task, TaskContext, TaskStatus};
 
@@ -41,7 +42,7 @@ impl Systematic {
         context: &mut TaskContext,
     ) -> Option<TaskStatus> {
         let plan = &made.plan;
-        context.decide("plan", Reason::UnsweptFloor, plan.time_s);
+        context.decide(DecisionKind::Plan, Reason::UnsweptFloor, plan.time_s);
         if let Some(ended) = self.squeeze.end() {
             return if self.follows_squeeze(made.plan, context) {
                 None
@@ -117,7 +118,7 @@ impl Systematic {
         } else {
             Reason::Finished
         };
-        context.decide("covered", reason, share);
+        context.decide(DecisionKind::Covered, reason, share);
         TaskStatus::Finished(reason)
     }
 
@@ -125,7 +126,7 @@ impl Systematic {
     fn follows_squeeze(&mut self, plan: CoveragePlan, context: &mut TaskContext) -> bool {
         self.squeeze.record(plan.open_m2);
         if plan.lanes > 0 && plan.open_m2 > squeeze::WORTH_M2 {
-            context.decide("squeeze", Reason::BoxedIn, plan.open_m2);
+            context.decide(DecisionKind::Squeeze, Reason::BoxedIn, plan.open_m2);
             self.follower = Some(PathFollower::new(plan.segments));
             return true;
         }
@@ -197,7 +198,7 @@ impl Systematic {
         if self.escapes > most {
             return TaskStatus::Finished(Reason::RestOutOfReach);
         }
-        context.decide("bounce", Reason::BoxedIn, f64::from(self.escapes));
+        context.decide(DecisionKind::Bounce, Reason::BoxedIn, f64::from(self.escapes));
         // In a narrow place obstructions block the path out on the map more than in reality.
         self.obstructions.clear();
         if self.is_cut_off {

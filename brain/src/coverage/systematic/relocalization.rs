@@ -4,6 +4,7 @@
 //! most information, and following them leads through all rooms.
 
 use crate::coverage::{LapStep, Perimeter};
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
 
@@ -57,7 +58,7 @@ impl RelocalizationLap {
             return RelocalizationStep::Idle;
         }
         if self.lap.is_none() {
-            context.decide("follow-wall", Reason::PlaceUnknown, 0.0);
+            context.decide(DecisionKind::FollowWall, Reason::PlaceUnknown, 0.0);
         }
         self.follow(situation, context)
     }
@@ -67,14 +68,14 @@ impl RelocalizationLap {
         if lap.driven_m() > SEEK_MAX_M && !lap.is_evading() && situation.is_free() {
             self.lap = None;
             self.has_given_up = true;
-            context.decide("end-lap", Reason::LongLap, SEEK_MAX_M);
+            context.decide(DecisionKind::EndLap, Reason::LongLap, SEEK_MAX_M);
             return RelocalizationStep::Over;
         }
         RelocalizationStep::Driving(match lap.step(situation, context) {
             LapStep::Going(motion) => TaskStatus::Go(motion),
             LapStep::Trouble(reason) => TaskStatus::Trouble(reason),
             LapStep::Over(reason) => {
-                context.decide("leave-wall", reason, lap.driven_m());
+                context.decide(DecisionKind::LeaveWall, reason, lap.driven_m());
                 TaskStatus::Go(lap.leave())
             }
         })

@@ -12,6 +12,7 @@ mod wall_ranges;
 
 use super::{Evasion, EvasionStep};
 use crate::model::action::Motion;
+use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
 use wall_line::WallLine;
@@ -188,7 +189,7 @@ impl WallFollower {
         let observation = situation.observation;
         if situation.at_cliff {
             let reason = Reason::of_cliffs(observation.cliffs).unwrap_or(Reason::CliffFront);
-            context.decide("back-off", reason, 0.0);
+            context.decide(DecisionKind::BackOff, reason, 0.0);
             let turn_rad = EDGE_TURN_RAD + EDGES_TURN_RAD * f64::from(self.edges);
             self.edges = (self.edges + 1).min(EDGES_MAX);
             self.since_edge_m = 0.0;
@@ -207,7 +208,7 @@ impl WallFollower {
             self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
         }
         let turn_rad = self.turn_after(reason);
-        context.decide("back-off", reason, turn_rad);
+        context.decide(DecisionKind::BackOff, reason, turn_rad);
         self.evasion = Some(Evasion::from_contact(CONTACT_BACK_M, turn_rad));
         self.since_contact_m = 0.0;
         self.phase = if self.line.is_seen_within(ENDED_M) {
@@ -249,7 +250,7 @@ impl WallFollower {
                 }
             }
             _ if is_blocked => {
-                context.decide("turn", Reason::WallAhead, 0.0);
+                context.decide(DecisionKind::Turn, Reason::WallAhead, 0.0);
                 self.line.lose();
                 WallFollowPhase::Turn { turned_rad: 0.0 }
             }
@@ -266,7 +267,7 @@ impl WallFollower {
             WallFollowPhase::Along if !self.line.is_seen_within(ENDED_M) => {
                 let gap_m = self.line.gap_m.clamp(GAP_M, 2.0 * GAP_M);
                 self.line.lose();
-                context.decide("arc", Reason::WallEnded, gap_m);
+                context.decide(DecisionKind::Arc, Reason::WallEnded, gap_m);
                 around(gap_m)
             }
             WallFollowPhase::Along => WallFollowPhase::Along,

@@ -1,6 +1,6 @@
 //! One step of the brain, and what it asks for.
 
-use brain::action::Decision;
+use brain::Decision;
 use brain::{Actions, BehaviorState, Command, Motion};
 use rvac_api::{Evidence, LogLevel};
 

@@ -1,7 +1,6 @@
 //! Decisions of the robot, and why it stopped by itself: clients receive them with the sensor evidence and the attempts before.
 
-use brain::PoseEstimate;
-use brain::action::Decision;
+use brain::{Decision, DecisionCause, DecisionKind, PoseEstimate, Reason};
 use rvac_api::{Evidence, LogLevel, Standstill, Topic, Update, remedy};
 
 use super::audience::Teller;
@@ -36,15 +35,24 @@ pub(crate) struct Stand {
 /// Whether the robot stops with this decision although nobody ordered it.
 pub(crate) fn is_standstill(decision: &Decision) -> bool {
     let waits = matches!(
-        decision.what,
-        "state-paused" | "state-stuck" | "state-error" | "state-disconnected"
+        decision.kind,
+        DecisionKind::StatePaused
+            | DecisionKind::StateStuck
+            | DecisionKind::StateError
+            | DecisionKind::StateDisconnected
     );
-    let is_told = matches!(decision.reason, "command" | "start-up" | "restored" | "stopped");
+    let DecisionCause::Reason(reason) = decision.cause else {
+        return false;
+    };
+    let is_told = matches!(
+        reason,
+        Reason::Command | Reason::StartUp | Reason::Restored | Reason::Stopped
+    );
     // Without a job, and not because that is done.
-    let gave_up = decision.what == "state-idle"
+    let gave_up = decision.kind == DecisionKind::StateIdle
         && !matches!(
-            decision.reason,
-            "finished" | "released" | "link-restored" | "docked"
+            reason,
+            Reason::Finished | Reason::Released | Reason::LinkRestored | Reason::Docked
         );
     !is_told && (waits || gave_up)
 }
@@ -85,8 +93,8 @@ impl StandstillDesk {
 
     /// Takes in a decision of the brain and tells it.
     pub(crate) fn decided(&mut self, decision: &Decision, teller: &mut Teller<'_>) {
-        let is_refusal = decision.what == "refuse";
-        let level = if is_refusal || decision.what.starts_with("state-") {
+        let is_refusal = decision.kind == DecisionKind::Refuse;
+        let level = if is_refusal || decision.kind.state_name().is_some() {
             LogLevel::Info
         } else {
             LogLevel::Debug
@@ -97,11 +105,15 @@ impl StandstillDesk {
             format!(" {:.2}", decision.value)
         };
         let told = if is_refusal || is_standstill(decision) {
-            format!(": {}", refusal::text(decision.reason))
+            format!(": {}", refusal::text(decision.cause.name()))
         } else {
             String::new()
         };
-        let text = format!("{} ({}){value}{told}", decision.what, decision.reason);
+        let text = format!(
+            "{} ({}){value}{told}",
+            decision.kind.name(),
+            decision.cause.name()
+        );
         teller.log(level, LogSource::Brain, text);
         let entry = self.diary.write(teller.now_us, decision);
         if teller.has_followers(Topic::Decisions) {
@@ -122,13 +134,13 @@ impl StandstillDesk {
             number,
             t: to_api::seconds(now_us),
             state: decision
-                .what
-                .strip_prefix("state-")
-                .unwrap_or(decision.what)
+                .kind
+                .state_name()
+                .unwrap_or(decision.kind.name())
                 .to_owned(),
-            reason: decision.reason.to_owned(),
+            reason: decision.cause.name().to_owned(),
             text: sentence(decision),
-            remedy: remedy(decision.reason).to_owned(),
+            remedy: remedy(decision.cause.name()).to_owned(),
             place: to_api::pose(estimate.pose, now_us),
             lost: estimate.lost,
             evidence,

@@ -1,7 +1,6 @@
 //! Looks at each step of the brain and makes records of runs.
 
-use brain::action::Decision;
-use brain::{BehaviorState, Brain, JobKind};
+use brain::{BehaviorState, Brain, Decision, DecisionCause, DecisionKind, JobKind, Reason};
 use rvac_api::{Evidence, RunAsker, RunJob, RunRecord, RunResult};
 
 use super::ending::Ending;
@@ -123,8 +122,10 @@ impl RunFollower {
         } else {
             (self.asked.take(), self.hand.take())
         };
-        let has_begun =
-            |decision: &Decision| decision.what == "state-starting" && decision.reason == "command";
+        let has_begun = |decision: &Decision| {
+            decision.kind == DecisionKind::StateStarting
+                && decision.cause == DecisionCause::Reason(Reason::Command)
+        };
         let begins = moment.decisions.iter().any(has_begun);
         match asked {
             Some(asked) if begins => {

@@ -1,7 +1,6 @@
 //! The record of a run while it goes on.
 
-use brain::action::Decision;
-use brain::{Brain, JobFigures, JobKind};
+use brain::{Brain, Decision, DecisionKind, JobFigures, JobKind, Reason};
 use rvac_api::{Evidence, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunStop, remedy};
 
 use super::ending::{Ending, LastWords, asker_name};
@@ -41,6 +40,26 @@ struct OngoingStop {
     state: &'static str,
     reason: &'static str,
     is_told: bool,
+}
+
+/// Why a run stops, as its record tells it.
+struct StopCause<'a> {
+    state: &'static str,
+    reason: &'static str,
+    text: String,
+    evidence: &'a Evidence,
+}
+
+impl<'a> StopCause<'a> {
+    fn of(decision: &Decision, evidence: &'a Evidence) -> Self {
+        let kind = decision.kind;
+        Self {
+            state: kind.state_name().unwrap_or(kind.name()),
+            reason: decision.cause.name(),
+            text: sentence(decision),
+            evidence,
+        }
+    }
 }
 
 impl OpenRun {
@@ -106,15 +125,13 @@ impl OpenRun {
 
     /// The daemon was away.
     pub(super) fn note_restart(&mut self, now_us: u64, brain: &Brain) {
-        let decision = Decision {
-            what: "daemon-ended",
-            reason: "restored",
-            value: 0.0,
+        let cause = StopCause {
+            state: "daemon-ended",
+            reason: Reason::Restored.name(),
+            text: "vthal stopped without notice, and began anew.".to_owned(),
+            evidence: &Evidence::default(),
         };
-        self.stop((now_us, brain), (&decision, &Evidence::default()), None);
-        if let Some(stop) = self.record.stops.last_mut() {
-            stop.text = "vthal stopped without notice, and began anew.".to_owned();
-        }
+        self.stop((now_us, brain), cause, None);
     }
 
     /// The clock on the wall is right for the first time since the run began.
@@ -184,54 +201,63 @@ impl OpenRun {
         hand: Option<&RunAsker>,
     ) {
         let is_job_for_dock = self.record.run.job == RunJob::Dock;
-        match decision.what {
-            "state-paused" | "state-stuck" | "state-error" | "state-disconnected" | "state-manual" => {
-                let told = (decision, moment.evidence);
-                self.stop((moment.now_us, moment.brain), told, hand);
+        match decision.kind {
+            DecisionKind::StatePaused
+            | DecisionKind::StateStuck
+            | DecisionKind::StateError
+            | DecisionKind::StateDisconnected
+            | DecisionKind::StateManual => {
+                let cause = StopCause::of(decision, moment.evidence);
+                self.stop((moment.now_us, moment.brain), cause, hand);
             }
             // It waits for charge.
-            "state-docked" if kind.is_some() => {
-                let told = (decision, &Evidence::default());
-                self.stop((moment.now_us, moment.brain), told, hand);
+            DecisionKind::StateDocked if kind.is_some() => {
+                let evidence = Evidence::default();
+                let cause = StopCause::of(decision, &evidence);
+                self.stop((moment.now_us, moment.brain), cause, hand);
             }
-            "state-starting" | "state-cleaning" | "state-spot" => self.go_on(moment.now_us),
-            "state-docking" => {
+            DecisionKind::StateStarting | DecisionKind::StateCleaning | DecisionKind::StateSpot => {
+                self.go_on(moment.now_us);
+            }
+            DecisionKind::StateDocking => {
                 self.go_on(moment.now_us);
                 if !is_job_for_dock && kind == Some(JobKind::Dock) {
-                    self.turned_home.get_or_insert(decision.reason);
+                    self.turned_home.get_or_insert(decision.cause.name());
                 }
             }
-            "covered" if decision.value.is_finite() => self.covered = Some(decision.value.clamp(0.0, 1.0)),
+            DecisionKind::Covered if decision.value.is_finite() => {
+                self.covered = Some(decision.value.clamp(0.0, 1.0))
+            }
             _ => {}
         }
     }
 
-    fn stop(
-        &mut self,
-        (now_us, brain): (u64, &Brain),
-        (decision, evidence): (&Decision, &Evidence),
-        hand: Option<&RunAsker>,
-    ) {
+    fn stop(&mut self, (now_us, brain): (u64, &Brain), cause: StopCause<'_>, hand: Option<&RunAsker>) {
         self.go_on(now_us);
-        let state = decision.what.strip_prefix("state-").unwrap_or(decision.what);
+        let StopCause {
+            state,
+            reason,
+            text,
+            evidence,
+        } = cause;
         self.record.run.stop_count += 1;
         let is_told = self.record.stops.len() < STOPS_MAX;
         self.standing = Some(OngoingStop {
             state,
-            reason: decision.reason,
+            reason,
             is_told,
         });
         let stops = self.record.stops.iter();
         let is_felt = stops.filter(|stop| !stop.evidence.is_empty()).count() < EVIDENCE_MAX;
         if is_told {
-            let asker = hand.filter(|_| decision.reason == "command");
+            let asker = hand.filter(|_| reason == Reason::Command.name());
             let stop = RunStop {
                 at_s: self.at_s(now_us),
                 lasted_s: None,
                 state: state.to_owned(),
-                reason: decision.reason.to_owned(),
-                text: sentence(decision),
-                remedy: remedy(decision.reason).to_owned(),
+                reason: reason.to_owned(),
+                text,
+                remedy: remedy(reason).to_owned(),
                 by: asker.map(asker_name),
                 asker: asker.cloned(),
                 place: to_api::pose(brain.pose(), now_us),
@@ -261,10 +287,10 @@ impl OpenRun {
         let mut states = moment
             .decisions
             .iter()
-            .filter(|decision| decision.what.starts_with("state-"));
+            .filter(|decision| decision.kind.state_name().is_some());
         let reason = states
-            .find(|decision| matches!(decision.what, "state-idle" | "state-docked"))
-            .map_or("command", |decision| decision.reason);
+            .find(|decision| matches!(decision.kind, DecisionKind::StateIdle | DecisionKind::StateDocked))
+            .map_or(Reason::Command.name(), |decision| decision.cause.name());
         let trouble = self
             .standing
             .filter(|standing| matches!(standing.state, "stuck" | "error"))

@@ -85,8 +85,8 @@ impl<'a> From<&'a Actions> for Answered<'a> {
                 .decisions
                 .iter()
                 .map(|decision| AnsweredDecision {
-                    what: decision.what,
-                    reason: decision.reason,
+                    what: decision.kind.name(),
+                    reason: decision.cause.name(),
                     value: decision.value,
                 })
                 .collect(),

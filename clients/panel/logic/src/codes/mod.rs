@@ -245,10 +245,10 @@ mod tests {
 
     #[test]
     fn every_decision_of_the_brain_is_told_in_estonian() {
-        let missing = |what: &&&str| find(super::diary::DEEDS, what).is_none();
-        let missing: Vec<_> = brain::action::DECISIONS.iter().filter(missing).collect();
+        let missing = |kind: &brain::DecisionKind| find(super::diary::DEEDS, kind.name()).is_none();
+        let missing: Vec<_> = brain::DecisionKind::all().filter(missing).collect();
         assert!(missing.is_empty(), "{missing:?}");
-        assert_eq!(brain::action::DECISIONS.len(), super::diary::DEEDS.len());
+        assert_eq!(brain::DecisionKind::all().count(), super::diary::DEEDS.len());
     }
 
     /// The book names every code with which a request is refused.
