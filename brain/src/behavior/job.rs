@@ -103,6 +103,11 @@ impl Job {
         self.brushes = false;
     }
 
+    /// Floor is forbidden that paths may lead over.
+    pub(super) fn discard_plans(&mut self) {
+        self.task.interrupted();
+    }
+
     /// A person resumes it: recovery attempts so far do not count any more.
     pub(super) fn reset_recovery(&mut self) {
         self.ladder = RecoverySequence::default();

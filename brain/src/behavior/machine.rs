@@ -183,6 +183,13 @@ impl Behavior {
         self.job.as_ref().map_or(self.figures, |job| job.figures)
     }
 
+    /// Floor is forbidden that paths may lead over: the job plans again, and so does the one that waits for its return.
+    pub(crate) fn discard_plans(&mut self) {
+        for job in self.job.iter_mut().chain(&mut self.put_off) {
+            job.discard_plans();
+        }
+    }
+
     /// Whether a planned job for the whole home has finished by itself.
     pub(crate) const fn has_covered_home(&self) -> bool {
         self.has_covered_home

@@ -4,7 +4,7 @@ use super::Brain;
 use crate::localization::MapCorrection;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Pose2, normalize_rad};
-use crate::model::map_edit::MapEdit;
+use crate::model::map_edit::{MapEdit, NoGoEdit};
 use crate::model::reason::Reason;
 
 /// A robot that docks farther than this from the pose that a person gave cannot know which of the two is wrong, metres and radians.
@@ -36,7 +36,13 @@ impl Brain {
     /// What an edit changes beside the map. A robot that is on the dock was carried along with it.
     fn follow_edit(&mut self, edit: &MapEdit, is_docked: bool) {
         match edit {
-            MapEdit::NoGo(_) | MapEdit::Place(_) | MapEdit::Room(_) => {}
+            // A path that was planned before may lead through it.
+            MapEdit::NoGo(NoGoEdit::Add(_) | NoGoEdit::Reshape { .. }) => {
+                self.behavior.discard_plans();
+            }
+            MapEdit::NoGo(NoGoEdit::Remove { .. } | NoGoEdit::Name { .. })
+            | MapEdit::Place(_)
+            | MapEdit::Room(_) => {}
             MapEdit::Dock(_) => {
                 self.beams.forget();
                 self.localization.put_dock(self.map.dock_location());

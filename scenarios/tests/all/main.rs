@@ -5,6 +5,7 @@ mod carpets;
 mod determinism;
 mod edges;
 mod floors;
+mod forbidden;
 mod health;
 mod history;
 mod homecoming;

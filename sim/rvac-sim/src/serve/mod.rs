@@ -277,12 +277,12 @@ impl Server {
 
     fn obey(&mut self, client: Number, request: SimulatorRequest) {
         match request {
-            SimulatorRequest::RunReport => {
+            SimulatorRequest::Report => {
                 let report = RunReport {
                     wall_seconds: self.started.elapsed().as_secs_f64(),
                     ..RunReport::of(&self.robot, &self.stuck)
                 };
-                self.clients.answer(client, &RequestReply::RunReport(report));
+                self.clients.answer(client, &RequestReply::Report(report));
             }
             SimulatorRequest::Truth => {
                 let truth = plan::truth(&self.robot, self.map_from_plan);

@@ -10,7 +10,7 @@ use crate::RunReport;
 #[serde(tag = "c", rename_all = "kebab-case")]
 pub(crate) enum SimulatorRequest {
     /// The figures so far.
-    RunReport,
+    Report,
     /// Where the robot is now, without waiting for the next of the ten words a second.
     Truth,
     /// Lifts the robot.
@@ -88,7 +88,7 @@ pub(crate) enum WheelChoice {
 #[serde(tag = "e", rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub(crate) enum RequestReply {
     /// To `report`.
-    RunReport(RunReport),
+    Report(RunReport),
     /// To `meters`.
     Meters {
         /// At the pack's contacts, volts.
