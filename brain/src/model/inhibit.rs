@@ -1,140 +1,70 @@
 //! Reasons that keep a robot from moving or working, independent of its make.
 
-/// A reason that keeps a robot from moving or working. The names appear in logs, recordings and clients.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Inhibit {
-    /// No `arm` since the reset, or disarmed.
-    NotArmed,
-    /// Three resets within 60 s.
-    ResetLoop,
-    /// The lease ended or the link is silent.
-    LinkLost,
-    /// A bumper is pressed: only motion away from it is allowed.
-    Bumper,
-    /// A bumper stays pressed.
-    BumperStuck,
-    /// A cliff sensor detects no floor: only slow reverse is allowed.
-    Cliff,
-    /// Repeated cliffs, or reversing did not help.
-    CliffTrapped,
-    /// A cliff sensor fails its self-test.
-    CliffSensorFault,
-    /// A wheel has dropped: the robot was lifted or fell.
-    WheelDrop,
-    /// A wheel motor drew too much current or did not turn.
-    WheelStall,
-    /// The main brush is blocked.
-    BrushStall,
-    /// A wheel turned without or far above its command.
-    Runaway,
-    /// An encoder disagrees with its command in direction or is silent.
-    EncoderFault,
-    /// Wheels turn but the robot does not move.
-    NotMoving,
-    /// On the dock: motion needs an undock command.
-    Docked,
-    /// A person pressed a button while the robot moved.
-    ButtonStop,
-    /// `stop` was commanded.
-    Stopped,
-    /// A self-check of the firmware failed.
-    InternalFault,
-    /// The pack is below 1.1 V a cell: go to the dock. Forbids nothing yet.
-    BatteryLow,
-    /// The pack is below 1.0 V a cell: brushes and suction are off.
-    BatteryWeak,
-    /// The pack is below 0.9 V a cell: everything is off.
-    BatteryEmpty,
-    /// The pack is hotter than 55 degrees Celsius: motors are off until it has cooled.
-    BatteryHot,
-    /// The pack was hotter than 60 degrees Celsius.
-    BatteryOverheated,
-    /// The pack's temperature cannot be measured.
-    Thermistor,
-    /// The charger reports a fault: no charging. Forbids no motion.
-    ChargerFault,
-    /// Current flows into the pack though the charger is off: stay off the dock. Forbids no motion.
-    ChargerShorted,
-    /// The clock failed, or two clocks disagree.
-    Clock,
-    /// Memory failed its check.
-    Memory,
+use crate::model::named_enum::named_enum;
+
+named_enum! {
+    /// A reason that keeps a robot from moving or working. The names appear in logs, recordings and clients.
+    Inhibit {
+        /// No `arm` since the reset, or disarmed.
+        NotArmed => "not-armed",
+        /// Three resets within 60 s.
+        ResetLoop => "reset-loop",
+        /// The lease ended or the link is silent.
+        LinkLost => "link-lost",
+        /// A bumper is pressed: only motion away from it is allowed.
+        Bumper => "bumper",
+        /// A bumper stays pressed.
+        BumperStuck => "bumper-stuck",
+        /// A cliff sensor detects no floor: only slow reverse is allowed.
+        Cliff => "cliff",
+        /// Repeated cliffs, or reversing did not help.
+        CliffTrapped => "cliff-trapped",
+        /// A cliff sensor fails its self-test.
+        CliffSensorFault => "cliff-sensor",
+        /// A wheel has dropped: the robot was lifted or fell.
+        WheelDrop => "wheel-drop",
+        /// A wheel motor drew too much current or did not turn.
+        WheelStall => "wheel-stall",
+        /// The main brush is blocked.
+        BrushStall => "brush-stall",
+        /// A wheel turned without or far above its command.
+        Runaway => "runaway",
+        /// An encoder disagrees with its command in direction or is silent.
+        EncoderFault => "encoder",
+        /// Wheels turn but the robot does not move.
+        NotMoving => "not-moving",
+        /// On the dock: motion needs an undock command.
+        Docked => "docked",
+        /// A person pressed a button while the robot moved.
+        ButtonStop => "button-stop",
+        /// `stop` was commanded.
+        Stopped => "stopped",
+        /// A self-check of the firmware failed.
+        InternalFault => "internal",
+        /// The pack is below 1.1 V a cell: go to the dock. Forbids nothing yet.
+        BatteryLow => "battery-low",
+        /// The pack is below 1.0 V a cell: brushes and suction are off.
+        BatteryWeak => "battery-weak",
+        /// The pack is below 0.9 V a cell: everything is off.
+        BatteryEmpty => "battery-empty",
+        /// The pack is hotter than 55 degrees Celsius: motors are off until it has cooled.
+        BatteryHot => "battery-hot",
+        /// The pack was hotter than 60 degrees Celsius.
+        BatteryOverheated => "battery-overheated",
+        /// The pack's temperature cannot be measured.
+        Thermistor => "thermistor",
+        /// The charger reports a fault: no charging. Forbids no motion.
+        ChargerFault => "charger-fault",
+        /// Current flows into the pack though the charger is off: stay off the dock. Forbids no motion.
+        ChargerShorted => "charger-shorted",
+        /// The clock failed, or two clocks disagree.
+        Clock => "clock",
+        /// Memory failed its check.
+        Memory => "memory",
+    }
 }
 
 impl Inhibit {
-    /// All of them, in display order.
-    pub const ALL: [Self; 28] = [
-        Self::NotArmed,
-        Self::ResetLoop,
-        Self::LinkLost,
-        Self::Bumper,
-        Self::BumperStuck,
-        Self::Cliff,
-        Self::CliffTrapped,
-        Self::CliffSensorFault,
-        Self::WheelDrop,
-        Self::WheelStall,
-        Self::BrushStall,
-        Self::Runaway,
-        Self::EncoderFault,
-        Self::NotMoving,
-        Self::Docked,
-        Self::ButtonStop,
-        Self::Stopped,
-        Self::InternalFault,
-        Self::BatteryLow,
-        Self::BatteryWeak,
-        Self::BatteryEmpty,
-        Self::BatteryHot,
-        Self::BatteryOverheated,
-        Self::Thermistor,
-        Self::ChargerFault,
-        Self::ChargerShorted,
-        Self::Clock,
-        Self::Memory,
-    ];
-
-    /// The name in logs, in recordings and in every client.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::NotArmed => "not-armed",
-            Self::ResetLoop => "reset-loop",
-            Self::LinkLost => "link-lost",
-            Self::Bumper => "bumper",
-            Self::BumperStuck => "bumper-stuck",
-            Self::Cliff => "cliff",
-            Self::CliffTrapped => "cliff-trapped",
-            Self::CliffSensorFault => "cliff-sensor",
-            Self::WheelDrop => "wheel-drop",
-            Self::WheelStall => "wheel-stall",
-            Self::BrushStall => "brush-stall",
-            Self::Runaway => "runaway",
-            Self::EncoderFault => "encoder",
-            Self::NotMoving => "not-moving",
-            Self::Docked => "docked",
-            Self::ButtonStop => "button-stop",
-            Self::Stopped => "stopped",
-            Self::InternalFault => "internal",
-            Self::BatteryLow => "battery-low",
-            Self::BatteryWeak => "battery-weak",
-            Self::BatteryEmpty => "battery-empty",
-            Self::BatteryHot => "battery-hot",
-            Self::BatteryOverheated => "battery-overheated",
-            Self::Thermistor => "thermistor",
-            Self::ChargerFault => "charger-fault",
-            Self::ChargerShorted => "charger-shorted",
-            Self::Clock => "clock",
-            Self::Memory => "memory",
-        }
-    }
-
-    /// The inhibit with exactly this name.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|inhibit| inhibit.name() == name)
-    }
-
     /// Whether it stays until it is cleared by name after its cause is gone.
     #[must_use]
     pub const fn is_latched(self) -> bool {
@@ -231,11 +161,9 @@ impl Inhibits {
         self.other
     }
 
-    /// The known members, in the order of [`Inhibit::ALL`].
+    /// The known members, in the order of [`Inhibit::all`].
     pub fn iter(self) -> impl Iterator<Item = Inhibit> {
-        Inhibit::ALL
-            .into_iter()
-            .filter(move |inhibit| self.contains(*inhibit))
+        Inhibit::all().filter(move |inhibit| self.contains(*inhibit))
     }
 
     /// The names of all members; one that [`Inhibit`] lacks comes last.
@@ -260,7 +188,7 @@ mod tests {
 
     #[test]
     fn names_are_unique_and_found_again() {
-        for inhibit in Inhibit::ALL {
+        for inhibit in Inhibit::all() {
             assert_eq!(Inhibit::from_name(inhibit.name()), Some(inhibit));
         }
     }

@@ -135,7 +135,7 @@ mod tests {
     fn everything_that_stops_the_robot_or_refuses_is_explained() {
         let reasons = Reason::all().map(Reason::name);
         let refusals = JobRefusal::all().map(JobRefusal::name);
-        let inhibits = Inhibit::ALL.iter().map(|inhibit| inhibit.name());
+        let inhibits = Inhibit::all().map(Inhibit::name);
         let missing: Vec<&str> = reasons
             .chain(refusals)
             .chain(inhibits)

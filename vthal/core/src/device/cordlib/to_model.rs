@@ -249,7 +249,9 @@ mod tests {
 
     #[test]
     fn inhibits_have_the_same_names_on_the_wire() {
-        let here = Inhibit::ALL.map(|inhibit| (inhibit.name(), inhibit.is_latched()));
+        let here: Vec<_> = Inhibit::all()
+            .map(|inhibit| (inhibit.name(), inhibit.is_latched()))
+            .collect();
         let wire = message::Inhibit::ALL.map(|inhibit| (inhibit.name(), inhibit.is_latched()));
         assert_eq!(here, wire);
         for wire in message::Inhibit::ALL {
