@@ -18,7 +18,7 @@ use crate::journal::Journal;
 use crate::lights::LightPatterns;
 use crate::motion::{Motion, Period};
 use crate::parameters::Parameters;
-use crate::permit::MotionPermit;
+use crate::permit::{MotionPermit, ReverseBound};
 use crate::probing::Probing;
 use crate::reflex::Reflexes;
 use crate::report::Reporter;
@@ -314,6 +314,7 @@ impl<P: Parts> Cord<P> {
     pub fn motion_permit(&self) -> MotionPermit {
         MotionPermit {
             escaping_dock: self.dock_escape.is_backing(),
+            reverse: ReverseBound::of(self.motion.rims_um_per_s(), &self.parameters.wheel),
             ..self.reflexes.motion_permit(self.motion.is_fresh())
         }
     }

@@ -40,6 +40,33 @@ pub struct WheelParameters {
     pub integral: i32,
 }
 
+impl WheelParameters {
+    /// The duty at which a wheel without load turns at this speed, in millionths.
+    pub(crate) fn duty_at(&self, speed_um_per_s: i32) -> i32 {
+        let dead_band = i64::from(self.dead_band.millionths());
+        let span = 1_000_000_i64.saturating_sub(dead_band);
+        let full = i64::from(self.speed_at_full.0.max(1));
+        let beyond = i64::from(speed_um_per_s.saturating_abs()).saturating_mul(span) / full;
+        let duty = dead_band.saturating_add(beyond).min(1_000_000);
+        i32::try_from(duty)
+            .unwrap_or(0)
+            .saturating_mul(speed_um_per_s.signum())
+    }
+
+    /// The speed of a wheel without load at this duty, in µm/s.
+    pub(crate) fn speed_at(&self, duty: Throttle) -> i32 {
+        let dead_band = i64::from(self.dead_band.millionths());
+        let span = 1_000_000_i64.saturating_sub(dead_band).max(1);
+        let beyond = i64::from(duty.millionths().saturating_abs())
+            .saturating_sub(dead_band)
+            .max(0);
+        let speed = beyond.saturating_mul(i64::from(self.speed_at_full.0)) / span;
+        i32::try_from(speed)
+            .unwrap_or(0)
+            .saturating_mul(duty.millionths().signum())
+    }
+}
+
 /// Ramps of the base.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MotionParameters {

@@ -8,9 +8,12 @@ use rvac_protocol::message::{Bumpers, Inhibit, Inhibits};
 use rvac_units::Throttle;
 
 use crate::board::WheelDrive;
+use crate::parameters::WheelParameters;
 
-/// Speed limit while a cliff is seen (S8), in µm/s.
+/// Speed limit of a rim while a cliff is seen (S8), in µm/s.
 pub(crate) const CLIFF_SPEED_MAX_UM_PER_S: i32 = 100_000;
+/// A rim that is measured this much faster is braked. The measurement ripples, and a wheel that settles overshoots.
+const CLIFF_SPEED_RIPPLE_UM_PER_S: i32 = 15_000;
 
 /// Inhibits that forbid no motion: they inform the host (S16, S18).
 const ADVISORY: Inhibits =
@@ -55,6 +58,61 @@ pub struct MotionPermit {
     pub bumpers: Bumpers,
     /// The robot backs off a dock whose current nothing else can stop (S18). A hot or empty pack does not prevent that.
     pub escaping_dock: bool,
+    /// What bounds a reverse while a cliff is seen (S8).
+    pub reverse: ReverseBound,
+}
+
+/// The bound of a reverse from a cliff, whoever asks for it: by the measured speed of each rim, or by the duty where speeds
+/// are not known. The distance is bounded in `reflex/cliff`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReverseBound {
+    /// Most duty of a wheel, in millionths; `None` where the speed is measured.
+    pub duty_max: Option<i32>,
+    /// Left and right rim turn backward faster than S8 allows.
+    pub too_fast: [bool; 2],
+}
+
+impl ReverseBound {
+    /// The bound for a machine whose rims turn at these speeds, in µm/s; `None` without calibrated encoders.
+    pub(crate) fn of(rims_um_per_s: Option<[i32; 2]>, wheel: &WheelParameters) -> Self {
+        const FASTEST: i32 = CLIFF_SPEED_MAX_UM_PER_S + CLIFF_SPEED_RIPPLE_UM_PER_S;
+        match rims_um_per_s {
+            Some(rims) => Self {
+                duty_max: None,
+                too_fast: rims.map(|rim| rim < -FASTEST),
+            },
+            None => Self {
+                duty_max: Some(wheel.duty_at(CLIFF_SPEED_MAX_UM_PER_S)),
+                too_fast: [false; 2],
+            },
+        }
+    }
+
+    const fn restrict(&self, (left, right): (WheelDrive, WheelDrive)) -> (WheelDrive, WheelDrive) {
+        let [left_too_fast, right_too_fast] = self.too_fast;
+        (
+            if left_too_fast {
+                WheelDrive::Brake
+            } else {
+                self.weaken(left)
+            },
+            if right_too_fast {
+                WheelDrive::Brake
+            } else {
+                self.weaken(right)
+            },
+        )
+    }
+
+    const fn weaken(&self, drive: WheelDrive) -> WheelDrive {
+        let duty = drive.duty().millionths();
+        match self.duty_max {
+            Some(most) if duty < most.saturating_neg() => {
+                WheelDrive::Duty(Throttle::saturating_from_millionths(most.saturating_neg()))
+            }
+            _ => drive,
+        }
+    }
 }
 
 impl MotionPermit {
@@ -65,7 +123,12 @@ impl MotionPermit {
         if !self.armed || !self.fresh || !self.allows_direction(asked.0, asked.1) {
             (WheelDrive::Brake, WheelDrive::Brake)
         } else if self.inhibits_forward() {
-            (no_more_than(left, asked.1), no_more_than(right, asked.0))
+            let away = (no_more_than(left, asked.1), no_more_than(right, asked.0));
+            if self.sees_cliff() {
+                self.reverse.restrict(away)
+            } else {
+                away
+            }
         } else {
             (left, right)
         }

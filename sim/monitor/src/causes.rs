@@ -17,6 +17,10 @@ pub struct Pins {
     pub button: bool,
     /// Encoder totals of left and right wheel.
     pub counts: [i32; 2],
+    /// Speeds of the rims of left and right wheel in mm/s, forward positive (ground truth).
+    pub rims_mm_per_s: [i32; 2],
+    /// Speed of the body's centre in mm/s, forward positive (ground truth).
+    pub speed_mm_per_s: i32,
     /// The body fell down the stairs (ground truth).
     pub fallen: bool,
     /// Charger and pack (ground truth).
@@ -52,6 +56,15 @@ impl Drives {
         self.wheels[0] + self.wheels[1] > 0
     }
 
+    /// Whether any wheel pushes forward.
+    pub(crate) fn any_forward(&self) -> bool {
+        self.wheels.into_iter().any(|wheel| wheel > 0)
+    }
+
+    pub(crate) fn any_backward(&self) -> bool {
+        self.wheels.into_iter().any(|wheel| wheel < 0)
+    }
+
     fn backward(&self) -> bool {
         self.wheels[0] + self.wheels[1] < 0
     }
@@ -66,6 +79,10 @@ pub(crate) struct CauseTimes {
     /// Pressed while the wheels push backward.
     pub(crate) bumper_backing_ms: u32,
     pub(crate) cliff_ms: u32,
+    /// A wheel is driven backward beside an edge while its rim turns too fast.
+    pub(crate) cliff_haste_ms: [u32; 2],
+    /// Distance of the body backward with an edge in sight, less that forward, in micrometres.
+    pub(crate) cliff_reversed_um: u32,
     pub(crate) wheel_drop_ms: u32,
     /// Since a wheel drop that lasted long enough to count.
     pub(crate) grounded_ms: u32,
@@ -81,9 +98,14 @@ pub(crate) struct CauseTimes {
     /// Cleaners were off in the millisecond before.
     pub(crate) cleaners_start: bool,
     cleaners_were_on: bool,
+    floor_ms: u32,
     counts: [i32; 2],
 }
 
+/// S8: the reverse from an edge, 0.1 m/s, with what a speed control overshoots.
+const CLIFF_RIM_MM_PER_S: i32 = 125;
+/// Floor that shows for less time does not end an edge.
+const FLOOR_SURE_MS: u32 = 50;
 /// Drive above which a wheel must turn (S11).
 const HARD_DRIVE: i32 = 300_000;
 /// A wheel drop of this length must have been noticed (S10).
@@ -100,6 +122,9 @@ impl Default for CauseTimes {
             bumper_stuck_ms: 0,
             bumper_backing_ms: 0,
             cliff_ms: 0,
+            cliff_haste_ms: [0; 2],
+            cliff_reversed_um: 0,
+            floor_ms: 0,
             wheel_drop_ms: 0,
             grounded_ms: LONG_AGO_MS,
             motors_run: false,
@@ -122,6 +147,7 @@ impl CauseTimes {
         self.bumper_stuck_ms = 0;
         self.bumper_backing_ms = 0;
         self.stalled_ms = [0; 2];
+        self.cliff_reversed_um = 0;
     }
 
     pub(crate) fn update(&mut self, pins: &Pins, drives: &Drives) {
@@ -130,6 +156,7 @@ impl CauseTimes {
         stand(&mut self.bumper_stuck_ms, pins.bumper && is_away && !pins.docked);
         stand(&mut self.bumper_backing_ms, pins.bumper && drives.backward());
         stand(&mut self.cliff_ms, pins.cliff);
+        self.update_reverse(pins, drives);
         stand(&mut self.wheel_drop_ms, pins.wheel_drop);
         self.grounded_ms = if self.wheel_drop_ms > WHEEL_DROP_SURE_MS {
             0
@@ -149,6 +176,24 @@ impl CauseTimes {
         self.charge.update(&pins.charging, self.motors_run, 1);
         self.cleaners_start = drives.cleaners_on() && !self.cleaners_were_on;
         self.cleaners_were_on = drives.cleaners_on();
+    }
+}
+
+impl CauseTimes {
+    /// The reverse from an edge.
+    fn update_reverse(&mut self, pins: &Pins, drives: &Drives) {
+        stand(&mut self.floor_ms, !pins.cliff);
+        if self.floor_ms >= FLOOR_SURE_MS {
+            self.cliff_reversed_um = 0;
+        } else {
+            // A millimetre per second is a micrometre in this millisecond.
+            let backward_um = pins.speed_mm_per_s.saturating_neg();
+            self.cliff_reversed_um = self.cliff_reversed_um.saturating_add_signed(backward_um);
+        }
+        let wheels = drives.wheels.into_iter().zip(pins.rims_mm_per_s);
+        for (haste_ms, (drive, rim)) in self.cliff_haste_ms.iter_mut().zip(wheels) {
+            stand(haste_ms, pins.cliff && drive < 0 && rim < -CLIFF_RIM_MM_PER_S);
+        }
     }
 }
 

@@ -246,6 +246,59 @@ fn backing_off_bumper_and_cliff_is_allowed() {
     assert_eq!(scene.pass_driven(1000, BACKWARD), []);
 }
 
+/// An edge in sight, and the body going back at this speed.
+fn beside_an_edge(speed_mm_per_s: i32) -> Scene {
+    let mut scene = Scene::armed();
+    scene.pins.cliff = true;
+    scene.pins.rims_mm_per_s = [-speed_mm_per_s; 2];
+    scene.pins.speed_mm_per_s = -speed_mm_per_s;
+    scene
+}
+
+#[test]
+fn a_reverse_from_an_edge_is_slow() {
+    assert_eq!(beside_an_edge(120).pass_driven(1_300, BACKWARD), []);
+    let mut scene = beside_an_edge(130);
+    assert_eq!(scene.pass_driven(100, BACKWARD), []);
+    assert_eq!(scene.pass_driven(1, BACKWARD), [Rule::CliffSpeed]);
+    let mut scene = beside_an_edge(130);
+    scene.pins.rims_mm_per_s[0] = 0;
+    assert_eq!(
+        scene.pass_driven(101, BACKWARD),
+        [Rule::CliffSpeed],
+        "one wheel is enough"
+    );
+    assert_eq!(beside_an_edge(400).pass_driven(400, OFF), [], "it only coasts");
+}
+
+#[test]
+fn a_reverse_from_an_edge_is_short_and_floor_begins_it_anew() {
+    let mut scene = beside_an_edge(100);
+    assert_eq!(scene.pass_driven(1_650, BACKWARD), []);
+    assert_eq!(scene.pass_driven(1, BACKWARD), [Rule::CliffDistance]);
+    for (gap_ms, rules) in [(49, 1), (60, 0)] {
+        let mut scene = beside_an_edge(100);
+        scene.pass_driven(1_500, BACKWARD);
+        scene.pins.cliff = false;
+        scene.pass_driven(gap_ms, BACKWARD);
+        scene.pins.cliff = true;
+        assert_eq!(
+            scene.pass_driven(500, BACKWARD).len(),
+            rules,
+            "{gap_ms} ms of floor"
+        );
+    }
+}
+
+#[test]
+fn no_wheel_goes_forward_beside_an_edge() {
+    let turn = Drives {
+        wheels: [-400_000, 300_000],
+        ..OFF
+    };
+    assert_eq!(beside_an_edge(0).pass_driven(21, turn), [Rule::Cliff]);
+}
+
 #[test]
 fn a_button_stops_until_the_next_arm() {
     let mut scene = Scene::armed();

@@ -20,7 +20,7 @@ pub enum Rule {
     Bumper = 4,
     /// S7: any motor driven 10 s after the bumper was pressed and stayed so, or backing off it for more than 3 s.
     BumperStuck = 5,
-    /// S8: driven forward 20 ms after a cliff came into sight.
+    /// S8: a wheel driven forward 20 ms after a cliff came into sight.
     Cliff = 6,
     /// S8: the body fell down.
     Fallen = 7,
@@ -48,11 +48,15 @@ pub enum Rule {
     ChargeCurrent = 18,
     /// S18: the charging switch driven for more than 3.6 hours in one charge.
     ChargeTime = 19,
+    /// S8: for 100 ms a wheel driven backward beside an edge while its rim turned faster than 0.1 m/s.
+    CliffSpeed = 20,
+    /// S8: driven backward although the body is 0.15 m back with the edge still in sight.
+    CliffDistance = 21,
 }
 
 impl Rule {
     /// All of them.
-    pub const ALL: [Self; 20] = [
+    pub const ALL: [Self; 22] = [
         Self::WheelsWithoutLease,
         Self::CleanersWithoutLease,
         Self::NotArmed,
@@ -73,6 +77,8 @@ impl Rule {
         Self::ChargeVoltage,
         Self::ChargeCurrent,
         Self::ChargeTime,
+        Self::CliffSpeed,
+        Self::CliffDistance,
     ];
 
     /// Rule number and a name.
@@ -99,6 +105,8 @@ impl Rule {
             Self::ChargeVoltage => "S18-charge-voltage",
             Self::ChargeCurrent => "S18-charge-current",
             Self::ChargeTime => "S18-charge-time",
+            Self::CliffSpeed => "S8-cliff-speed",
+            Self::CliffDistance => "S8-cliff-distance",
         }
     }
 }
@@ -166,6 +174,10 @@ const BUMPER_MS: u32 = 20;
 const BUMPER_STUCK_MS: u32 = 10_000;
 const BUMPER_BACKING_MS: u32 = 3_000;
 const CLIFF_MS: u32 = 20;
+/// The speed is known from some counts of the encoder only.
+const CLIFF_HASTE_MS: u32 = 100;
+/// 0.15 m, and the slip and the rounding between the rims and the body.
+const CLIFF_REVERSE_UM: u32 = 165_000;
 const WHEEL_DROP_MS: u32 = 50;
 const GROUNDED_MS: u32 = 1_000;
 const STALL_MS: u32 = 300;
@@ -223,7 +235,18 @@ pub(crate) fn broken(
             any && (standing.bumper_stuck_ms > BUMPER_STUCK_MS + BUMPER_MS
                 || standing.bumper_backing_ms > BUMPER_BACKING_MS + BUMPER_MS),
         ),
-        (Rule::Cliff, forward && standing.cliff_ms > CLIFF_MS),
+        (Rule::Cliff, drives.any_forward() && standing.cliff_ms > CLIFF_MS),
+        (
+            Rule::CliffSpeed,
+            standing
+                .cliff_haste_ms
+                .into_iter()
+                .any(|haste_ms| haste_ms > CLIFF_HASTE_MS),
+        ),
+        (
+            Rule::CliffDistance,
+            drives.any_backward() && standing.cliff_ms > 0 && standing.cliff_reversed_um > CLIFF_REVERSE_UM,
+        ),
         (Rule::Fallen, standing.fallen),
         (Rule::WheelDrop, any && standing.wheel_drop_ms > WHEEL_DROP_MS),
         (

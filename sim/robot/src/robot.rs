@@ -217,6 +217,7 @@ impl<O: Outfit> SimulatedRobot<O> {
         self.look_for_cliffs();
         let counts = self.cord.board().encoders.counts;
         let sensors = self.world.sensors();
+        let truth = self.world.truth();
         Pins {
             bumper: sensors.bumper_left || sensors.bumper_right,
             cliff: self.cliff_seen,
@@ -224,7 +225,9 @@ impl<O: Outfit> SimulatedRobot<O> {
             docked: sensors.dock_contacts,
             button: sensors.buttons != 0,
             counts: [counts.left, counts.right],
-            fallen: self.world.truth().fallen,
+            rims_mm_per_s: [truth.rim_left_m_per_s, truth.rim_right_m_per_s].map(|rim| (rim * 1e3) as i32),
+            speed_mm_per_s: (truth.speed_m_per_s * 1e3) as i32,
+            fallen: truth.fallen,
             charging: self.charging(),
         }
     }

@@ -18,7 +18,7 @@ use crate::permit::{CLIFF_SPEED_MAX_UM_PER_S, MotionPermit};
 use crate::timing::{Deadline, Periodic};
 
 use base::BaseVelocity;
-use wheel::{WheelController, WheelGoal};
+use wheel::{Haste, SpeedLimit, WheelController, WheelGoal};
 
 /// One of the two driven wheels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -274,8 +274,8 @@ impl Motion {
             }
             Activity::Direct { left, right } => {
                 self.asked = (
-                    self.left.open_loop(left.duty, &period.parameters.wheel),
-                    self.right.open_loop(right.duty, &period.parameters.wheel),
+                    control_direct(&mut self.left, left.duty, period),
+                    control_direct(&mut self.right, right.duty, period),
                 );
                 None
             }
@@ -291,6 +291,7 @@ impl Motion {
             speed_um_per_s,
             lead_nm: 0,
             settle_nm: None,
+            haste: haste(&period.permit),
         };
         self.left.advance(distance_nm(rims.left, elapsed_ms));
         self.right.advance(distance_nm(rims.right, elapsed_ms));
@@ -313,11 +314,13 @@ impl Motion {
         }
         let travelled_nm = (self.left.status().travelled_nm, self.right.status().travelled_nm);
         let waits = self.left.is_far_behind() || self.right.is_far_behind();
-        let step = if waits {
+        let mut step = if waits {
             path.wait(travelled_nm, gyro)
         } else {
             path.step(period.elapsed_ms, travelled_nm, gyro)
         };
+        step.left.haste = haste(&period.permit);
+        step.right.haste = step.left.haste;
         self.left.advance(step.left_nm);
         self.right.advance(step.right_nm);
         self.activity = Activity::Path(path);
@@ -339,6 +342,15 @@ impl Motion {
                 let behind_nm = wheel.lag_nm().saturating_add(goal.lead_nm);
                 behind_nm.saturating_abs() <= tolerance_nm && !wheel.status().turned
             })
+    }
+
+    /// Measured speeds of left and right rim; `None` without calibrated encoders.
+    pub(crate) fn rims_um_per_s(&self) -> Option<[i32; 2]> {
+        let speeds = [
+            self.left.status().speed_um_per_s,
+            self.right.status().speed_um_per_s,
+        ];
+        self.left.is_counted().then_some(speeds)
     }
 
     /// Drive requested of the bridges until the next control period.
@@ -394,6 +406,27 @@ fn suits_velocity(velocity: BaseVelocity, permit: &MotionPermit, parameters: &Pa
     }
     let rims = velocity.rims(parameters, false);
     permit.allows_direction(rims.left, rims.right)
+}
+
+/// One period of a directly commanded duty. Beside an edge it is a speed, and limited as every other (S8).
+fn control_direct(wheel: &mut WheelController, duty: Throttle, period: &Period<'_>) -> WheelDrive {
+    let parameters = &period.parameters.wheel;
+    if !period.permit.sees_cliff() || !wheel.is_counted() {
+        return wheel.open_loop(duty, parameters);
+    }
+    let limit = SpeedLimit {
+        speed_max_um_per_s: CLIFF_SPEED_MAX_UM_PER_S,
+        elapsed_ms: period.elapsed_ms,
+    };
+    wheel.closed_loop(duty, limit, parameters)
+}
+
+const fn haste(permit: &MotionPermit) -> Haste {
+    if permit.sees_cliff() {
+        Haste::KeepSpeed
+    } else {
+        Haste::CatchUp
+    }
 }
 
 fn distance_nm(speed_um_per_s: i32, elapsed_ms: u32) -> i32 {

@@ -10,7 +10,7 @@ use rvac_units::{Angle, Tick};
 use crate::limit::within;
 use crate::parameters::Parameters;
 
-use super::wheel::WheelGoal;
+use super::wheel::{Haste, WheelGoal};
 
 /// Slowest speed of the reference, so that it always arrives, in µm/s.
 const CREEP_UM_PER_S: i64 = 5_000;
@@ -169,6 +169,7 @@ impl Path {
             speed_um_per_s: narrow(of_share(self.speed_um_per_s, share)),
             lead_nm,
             settle_nm: Some(self.settle_nm),
+            haste: Haste::CatchUp,
         };
         PathStep {
             left_nm: narrow(of_share(distance_nm, self.left_share)),

@@ -16,6 +16,9 @@ const FILTER: i32 = 4;
 /// Most that a duty changes in one control period, in millionths: from rest to full in 0.2 s.
 const SLEW: i32 = 50_000;
 
+/// Most that a position lag adds to the duty while the speed is a limit, in millionths: some 15 mm/s.
+const LAG_DUTY_MAX: i64 = 50_000;
+
 /// A wheel that turns faster than this is braked before a commanded duty drives it the other way.
 const REVERSAL_UM_PER_S: i32 = 50_000;
 /// If the speed is not known, the wheel brakes for this long instead: 0.4 s.
@@ -68,6 +71,26 @@ pub(crate) struct WheelGoal {
     pub(crate) lead_nm: i32,
     /// Position tolerance at rest, or `None` to let the wheel stop anywhere.
     pub(crate) settle_nm: Option<i32>,
+    /// Whether the wheel may be driven faster than the goal to make up for a lag.
+    pub(crate) haste: Haste,
+}
+
+/// How much a position lag may speed a wheel up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Haste {
+    /// As much as the integral gain gives.
+    CatchUp,
+    /// Hardly: beside an edge the speed is a limit (S8).
+    KeepSpeed,
+}
+
+/// A speed limit of a directly commanded duty in one control period.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SpeedLimit {
+    /// The limit.
+    pub(crate) speed_max_um_per_s: i32,
+    /// Length of the period.
+    pub(crate) elapsed_ms: u32,
 }
 
 impl WheelController {
@@ -141,7 +164,7 @@ impl WheelController {
             Some(tolerance_nm) if behind_nm.saturating_abs() > tolerance_nm => behind_nm.signum(),
             _ => 0,
         };
-        let asked = self.duty_for(goal.speed_um_per_s, behind_nm, parameters);
+        let asked = self.duty_for(goal, behind_nm, parameters);
         let along = i64::from(asked).saturating_mul(i64::from(direction));
         if direction == 0 || along <= 0 {
             self.duty = 0;
@@ -151,6 +174,30 @@ impl WheelController {
         let wanted = saturate(along).saturating_add(dead_band).min(1_000_000);
         self.duty = self.slew(wanted.saturating_mul(direction), dead_band);
         WheelDrive::Duty(Throttle::saturating_from_millionths(self.duty))
+    }
+
+    /// A directly commanded duty as a speed that is controlled, at most as fast as `limit`.
+    pub(crate) fn closed_loop(
+        &mut self,
+        duty: Throttle,
+        limit: SpeedLimit,
+        parameters: &WheelParameters,
+    ) -> WheelDrive {
+        let most = limit.speed_max_um_per_s;
+        let speed_um_per_s = within(parameters.speed_at(duty), most.saturating_neg(), most);
+        let elapsed_ms = i32::try_from(limit.elapsed_ms).unwrap_or(i32::MAX);
+        if speed_um_per_s == 0 {
+            self.rest();
+        }
+        self.advance(speed_um_per_s.saturating_mul(elapsed_ms));
+        self.limit_lag();
+        let goal = WheelGoal {
+            speed_um_per_s,
+            lead_nm: 0,
+            settle_nm: None,
+            haste: Haste::KeepSpeed,
+        };
+        self.control(goal, parameters)
     }
 
     /// A directly commanded duty, reached with a ramp.
@@ -186,19 +233,29 @@ impl WheelController {
         }
     }
 
+    /// Whether its speed is known.
+    pub(crate) const fn is_counted(&self) -> bool {
+        self.counted
+    }
+
     /// The wheel for rules and telemetry.
     pub(crate) const fn status(&self) -> WheelStatus {
         self.status
     }
 
-    fn duty_for(&self, speed_um_per_s: i32, behind_nm: i32, parameters: &WheelParameters) -> i32 {
+    fn duty_for(&self, goal: WheelGoal, behind_nm: i32, parameters: &WheelParameters) -> i32 {
         let span = i64::from(1_000_000_i32.saturating_sub(parameters.dead_band.millionths()));
         let full = i64::from(parameters.speed_at_full.0.max(1));
-        let speed = i64::from(speed_um_per_s);
+        let speed = i64::from(goal.speed_um_per_s);
         let error = speed.saturating_sub(i64::from(self.status.speed_um_per_s));
         let forward = speed.saturating_mul(span) / full;
         let proportional = error.saturating_mul(i64::from(parameters.proportional)) / 1_000;
         let integral = i64::from(behind_nm).saturating_mul(i64::from(parameters.integral)) / 1_000_000;
+        let integral = match goal.haste {
+            Haste::CatchUp => integral,
+            Haste::KeepSpeed if speed < 0 => integral.max(-LAG_DUTY_MAX),
+            Haste::KeepSpeed => integral.min(LAG_DUTY_MAX),
+        };
         saturate(forward.saturating_add(proportional).saturating_add(integral))
     }
 

@@ -27,7 +27,7 @@ use crate::board::ResetRecord;
 use crate::guarded::Latches;
 use crate::motion::{MotionStatus, WheelStatus};
 use crate::parameters::Parameters;
-use crate::permit::MotionPermit;
+use crate::permit::{MotionPermit, ReverseBound};
 use crate::senses::Senses;
 
 use battery::BatteryRule;
@@ -288,6 +288,7 @@ impl Reflexes {
             inhibits: self.inhibits(),
             bumpers: self.bumper.pressed(),
             escaping_dock: false,
+            reverse: ReverseBound::default(),
         }
     }
 

@@ -11,6 +11,7 @@ mod motion;
 mod panic;
 mod power;
 mod probing;
+mod reverse;
 mod rig;
 mod stopping;
 mod wire;

@@ -365,6 +365,7 @@ impl EmulatedRobot {
             self.cliff_seen = levels.iter().any(|level| *level < NO_FLOOR_LEVEL);
         }
         let on = |contact| self.contacts.was_on(contact);
+        let truth = self.world.truth();
         Pins {
             bumper: on(Contact::BumperLeft) || on(Contact::BumperRight),
             cliff: self.cliff_seen,
@@ -372,7 +373,9 @@ impl EmulatedRobot {
             docked: on(Contact::Adapter),
             button: on(Contact::AnyButton),
             counts: [sensors.count_left, sensors.count_right],
-            fallen: self.world.truth().fallen,
+            rims_mm_per_s: [truth.rim_left_m_per_s, truth.rim_right_m_per_s].map(|rim| (rim * 1e3) as i32),
+            speed_mm_per_s: (truth.speed_m_per_s * 1e3) as i32,
+            fallen: truth.fallen,
             charging: self.charging(),
         }
     }
