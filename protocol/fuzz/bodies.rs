@@ -15,7 +15,8 @@ use rvac_units::{AngularSpeed, Length, Speed, Tick};
 
 /// A command that can be read can be written, and reads back as the same.
 pub(crate) fn command_text(input: &[u8]) {
-    for form in [Form::Checked, Form::Hand { now: Tick(7) }] {
+    let now = Tick(7);
+    for form in [Form::Checked, Form::Hand { now }, Form::SealedHand { now }] {
         let Ok(command) = read_command(input, form) else {
             continue;
         };

@@ -1,6 +1,6 @@
 //! Brushes and suction: leases, the start rule S29, and the brush half of S11.
 //!
-//! S29: they start only with both wheels down and the bumper free. S1: they run on for 2 s after their last command.
+//! S29: they start only with both wheels down and the bumper free. S1: the lease of each ends exactly with its `ttl`.
 //! S10: an inhibit also clears their command, so that they never restart by themselves.
 //! S11: a blocked main brush reverses once for 0.5 s. If it blocks again within 10 s it is switched off and latched.
 
@@ -14,7 +14,6 @@ use crate::permit::MotionPermit;
 use crate::reflex::{Load, StallRule};
 use crate::timing::Deadline;
 
-const GRACE_MS: u32 = 2_000;
 const REVERSE_MS: u32 = 500;
 const TRIED_MS: u32 = 10_000;
 /// From rest to full in 0.2 s.
@@ -78,8 +77,18 @@ impl Cleaning {
             return Err(Refusal::Inhibited);
         }
         motor.duty = duty;
-        motor.lease = Deadline::at(now.after(GRACE_MS));
+        motor.lease = Deadline::at(now.after(u32::from(command.lease_ms)));
         Ok(())
+    }
+
+    /// Ends what has no lease any more. Called in every pass.
+    pub(crate) fn expire(&mut self, now: Tick) {
+        for motor in self.motors() {
+            if motor.lease.has_come(now) {
+                motor.duty = Throttle::ZERO;
+                motor.asked = Throttle::ZERO;
+            }
+        }
     }
 
     /// Forgets all requests.
@@ -105,18 +114,13 @@ impl Cleaning {
         bit(&self.main, 1) | bit(&self.sides, 2) | bit(&self.vacuum, 4)
     }
 
-    /// One control period: leases, ramps, and the load of the main brush, whose current and limit are `current`.
+    /// One control period: ramps, and the load of the main brush, whose current and limit are `current`.
     pub(crate) fn control<P: Parts>(
         &mut self,
         board: &mut Board<P>,
         current: Option<(Current, Current)>,
         now: Tick,
     ) -> BrushLoad {
-        for motor in self.motors() {
-            if motor.lease.has_come(now) {
-                motor.duty = Throttle::ZERO;
-            }
-        }
         self.tried.has_come(now);
         self.reversing.has_come(now);
         let load = self.main_load(&mut board.brush_main, current, now);

@@ -154,6 +154,7 @@ impl<P: Parts> Cord<P> {
         let count_nm = self.parameters.limits.count_nm;
         let ending = self.motion.expire(self.senses.counts, count_nm, now);
         self.end(ending);
+        self.cleaning.expire(now);
         let findings = self.reflexes.check_contacts(&self.senses, &self.motion.status());
         self.react(&findings, now);
     }

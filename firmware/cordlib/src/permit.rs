@@ -35,8 +35,8 @@ const DOCK_ESCAPE_MAY_RUN: Inhibits = Inhibits::from_bits(
         | bit(Inhibit::BatteryEmpty),
 );
 
-/// Inhibits under which brushes and suction may run: the escapes above, the 2 s of grace after a lost link (S1), and a
-/// robot that makes no progress (S15).
+/// Inhibits under which brushes and suction may run: the escapes above, a lost link, because each has a lease of its own
+/// (S1), and a robot that makes no progress (S15).
 const CLEANERS_MAY_RUN: Inhibits = Inhibits::from_bits(
     ESCAPABLE.bits() | ADVISORY.bits() | bit(Inhibit::LinkLost) | bit(Inhibit::NotMoving),
 );

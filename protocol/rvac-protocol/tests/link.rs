@@ -3,12 +3,13 @@
 mod pair;
 
 use pair::{Pair, identity};
+use rvac_protocol::crc::{Direction, packet_crc};
 use rvac_protocol::message::{
     BinaryKinds, Bumpers, Command, CommandName, CommandNames, Drive, Event, Info, Inhibit, Move, Name,
     Parameter, Refusal, Report, Sequence,
 };
 use rvac_protocol::quality::LinkVerdict;
-use rvac_protocol::session::{HostEvent, Mode, RobotEvent, SendError, SessionEnd};
+use rvac_protocol::session::{HostEvent, Mode, RobotEvent, RobotSession, SendError, SessionEnd};
 use rvac_protocol::text::write_command_with_crc;
 use rvac_protocol::{PacketBuffer, message::LinkCounters};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
@@ -527,5 +528,34 @@ fn moves_and_settings_reach_the_firmware_as_they_were_meant() {
     assert_eq!(
         (arrived.length, arrived.radius),
         (Length(-1_500_000), Some(Length(0)))
+    );
+}
+
+/// Motion with a key of the future: taken where a CRC shows that a program wrote it, refused where a person typed it.
+#[test]
+fn an_unknown_key_of_motion_is_a_typing_error_without_a_crc_only() {
+    let text = r#"{"c":"drive","v":0.05,"w":0,"ttl":250,"n":1,"t":0,"soft":true}"#;
+    let hear = |robot: &mut RobotSession, packet: &str| {
+        let bytes = packet.bytes().chain([0x1F]);
+        bytes.filter_map(|byte| robot.receive(byte, Tick(1))).last()
+    };
+    let seal = |session: u16, text: &str| {
+        let crc = packet_crc(Direction::HostToRobot, session, text.as_bytes());
+        format!("{text}*{crc:08X}")
+    };
+    let mut robot = RobotSession::new(identity(), Tick(0));
+    assert_eq!(hear(&mut robot, text), None, "typed");
+    let taken = hear(&mut robot, &seal(0, text));
+    assert!(
+        matches!(taken, Some(RobotEvent::Command(Command::Drive(_)))),
+        "hand mode: {taken:?}"
+    );
+    let opened = hear(&mut robot, &seal(0, r#"{"c":"hello","min":1,"max":1}"#));
+    assert_eq!(opened, Some(RobotEvent::SessionOpened));
+    let session = robot.session();
+    let taken = hear(&mut robot, &seal(session, text));
+    assert!(
+        matches!(taken, Some(RobotEvent::Command(Command::Drive(_)))),
+        "checked mode: {taken:?}"
     );
 }

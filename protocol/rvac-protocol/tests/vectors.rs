@@ -196,11 +196,11 @@ fn the_longest_packets_fit() {
 }
 
 fn form(vector: &Value) -> Form {
+    let now = Tick(vector["tick_ms"].as_u64().unwrap_or(0) as u32);
     match text(vector, "mode") {
         "sealed" => Form::Checked,
-        "hand" => Form::Hand {
-            now: Tick(vector["tick_ms"].as_u64().unwrap_or(0) as u32),
-        },
+        "hand" => Form::Hand { now },
+        "sealed hand" => Form::SealedHand { now },
         other => panic!("mode {other}"),
     }
 }

@@ -2,14 +2,12 @@
 
 use rvac_protocol::message::ResetCause;
 
-use super::causes::CauseTimes;
+use super::causes::{CauseTimes, Drives};
 use super::said::{Heard, Said, read_heard, read_said};
 use super::wire::Splitter;
 
-/// S1: motion ends 50 ms after its lease at the latest.
+/// S1: each motor is off 50 ms after its lease at the latest.
 const LEASE_GRACE_MS: u64 = 50;
-/// S1: brushes and suction run on for two seconds so that a short gap does not stop and start them.
-const CLEANERS_GRACE_MS: u64 = 2_000;
 /// `stop` and a late packet of the same millisecond.
 const STOP_GRACE_MS: u64 = 20;
 /// S3: the host's view may be this old, with the length of a packet on the line.
@@ -58,8 +56,10 @@ pub(crate) struct HostPermission {
     /// State to which a refused `arm` returns.
     before: Arming,
     newest_motion: Option<u16>,
-    wheels_until_ms: u64,
-    cleaners_until_ms: u64,
+    /// Ends of the leases of left and right wheel.
+    wheels_until_ms: [u64; 2],
+    /// Ends of the leases of main brush, side brushes and suction.
+    cleaners_until_ms: [u64; 3],
     /// Times of the newest three resets other than power-on.
     resets_ms: [Option<u64>; 3],
     motors_ran: bool,
@@ -99,18 +99,33 @@ impl HostPermission {
             Heard::Hand => self.checked_ms = None,
             Heard::Arm { number, undock } => self.arm(now_ms, number, undock),
             Heard::Clear => self.resets_ms = [None; 3],
-            Heard::Wheels { lease_ms, mark } if self.is_fresh(now_ms, mark) => {
-                let lease_ms = if checked {
-                    lease_ms
-                } else {
-                    lease_ms.min(HAND_LEASE_MS)
-                };
-                self.wheels_until_ms = now_ms + lease_ms;
+            Heard::Wheels {
+                wheels,
+                lease_ms,
+                mark,
+            } if self.is_fresh(now_ms, mark) => {
+                let until_ms = now_ms
+                    + if checked {
+                        lease_ms
+                    } else {
+                        lease_ms.min(HAND_LEASE_MS)
+                    };
+                for (end_ms, covered) in self.wheels_until_ms.iter_mut().zip(wheels) {
+                    if covered {
+                        *end_ms = until_ms;
+                    }
+                }
             }
-            Heard::Cleaners { lease_ms, mark } if self.is_fresh(now_ms, mark) => {
-                self.cleaners_until_ms = now_ms + lease_ms;
+            Heard::Cleaner {
+                cleaner,
+                lease_ms,
+                mark,
+            } if self.is_fresh(now_ms, mark) => {
+                if let Some(end_ms) = self.cleaners_until_ms.get_mut(cleaner) {
+                    *end_ms = now_ms + lease_ms;
+                }
             }
-            Heard::Wheels { .. } | Heard::Cleaners { .. } | Heard::Other => {}
+            Heard::Wheels { .. } | Heard::Cleaner { .. } | Heard::Other => {}
         }
     }
 
@@ -180,8 +195,8 @@ impl HostPermission {
         self.arming = Arming::default();
         self.before = Arming::default();
         self.newest_motion = None;
-        self.wheels_until_ms = 0;
-        self.cleaners_until_ms = 0;
+        self.wheels_until_ms = [0; 2];
+        self.cleaners_until_ms = [0; 3];
         self.to_robot = Splitter::default();
         self.from_robot = Splitter::default();
         if cause == ResetCause::PowerOn {
@@ -226,16 +241,25 @@ impl HostPermission {
         self.arming.undock
     }
 
-    pub(crate) fn covers_wheels(&self, now_ms: u64) -> bool {
-        now_ms <= self.wheels_until_ms + LEASE_GRACE_MS
+    /// Whether a lease covers each wheel that is driven.
+    pub(crate) fn covers_wheels(&self, now_ms: u64, drives: &Drives) -> bool {
+        are_covered(now_ms, self.wheels_until_ms, drives.wheels)
     }
 
-    pub(crate) fn covers_cleaners(&self, now_ms: u64) -> bool {
-        now_ms <= self.cleaners_until_ms + CLEANERS_GRACE_MS + LEASE_GRACE_MS
+    /// Whether a lease covers each brush that is driven, and the suction.
+    pub(crate) fn covers_cleaners(&self, now_ms: u64, drives: &Drives) -> bool {
+        are_covered(now_ms, self.cleaners_until_ms, drives.cleaners)
     }
 
     /// Three resets within a minute, the last of them the present start.
     pub(crate) fn reset_loop(&self) -> bool {
         matches!(self.resets_ms, [Some(newest), _, Some(oldest)] if newest - oldest < RESET_WINDOW_MS)
     }
+}
+
+fn are_covered<const N: usize>(now_ms: u64, until_ms: [u64; N], drives: [i32; N]) -> bool {
+    until_ms
+        .into_iter()
+        .zip(drives)
+        .all(|(until_ms, drive)| drive == 0 || now_ms <= until_ms + LEASE_GRACE_MS)
 }

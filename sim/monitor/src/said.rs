@@ -22,13 +22,15 @@ pub(crate) enum Heard {
     },
     /// Of any latch: the firmware may still refuse it.
     Clear,
-    /// Something that may turn the wheels for `lease_ms`.
+    /// Something that may turn these wheels, left and right, for `lease_ms`.
     Wheels {
+        wheels: [bool; 2],
         lease_ms: u64,
         mark: Mark,
     },
-    /// Something that may turn brushes or suction for `lease_ms`.
-    Cleaners {
+    /// Something that may turn main brush (0), side brushes (1) or suction (2) for `lease_ms`.
+    Cleaner {
+        cleaner: usize,
         lease_ms: u64,
         mark: Mark,
     },
@@ -87,27 +89,38 @@ fn word_of(object: &Value) -> Heard {
             undock: object["undock"].as_bool() == Some(true) || object["undock"].as_u64() == Some(1),
         },
         Some("drive") => Heard::Wheels {
+            wheels: [true; 2],
             lease_ms: lease_of(object),
             mark: mark_of(object),
         },
-        Some("motor")
-            if object["motor"]
-                .as_str()
-                .is_some_and(|motor| motor.starts_with("wheel")) =>
-        {
-            Heard::Wheels {
-                lease_ms: lease_of(object),
-                mark: mark_of(object),
-            }
-        }
-        Some("motor") => Heard::Cleaners {
-            lease_ms: lease_of(object),
-            mark: mark_of(object),
-        },
+        Some("motor") => word_of_motor(object),
         Some("move") => Heard::Wheels {
+            wheels: [true; 2],
             lease_ms: move_ms(object["length"].as_f64().unwrap_or(0.0)),
             mark: mark_of(object),
         },
+        _ => Heard::Other,
+    }
+}
+
+fn word_of_motor(object: &Value) -> Heard {
+    let (lease_ms, mark) = (lease_of(object), mark_of(object));
+    let cleaner = |cleaner| Heard::Cleaner {
+        cleaner,
+        lease_ms,
+        mark,
+    };
+    let wheels = |wheels| Heard::Wheels {
+        wheels,
+        lease_ms,
+        mark,
+    };
+    match object["motor"].as_str() {
+        Some("wheel left") => wheels([true, false]),
+        Some("wheel right") => wheels([false, true]),
+        Some("brush main") => cleaner(0),
+        Some("brush sides") => cleaner(1),
+        Some("vacuum") => cleaner(2),
         _ => Heard::Other,
     }
 }
@@ -116,6 +129,7 @@ fn word_of(object: &Value) -> Heard {
 fn word_of_binary(body: &[u8]) -> Heard {
     match body {
         [0x81, _, _, _, _, _, _, _, _, l0, l1, n0, n1, t0, t1, t2, t3] => Heard::Wheels {
+            wheels: [true; 2],
             lease_ms: u64::from(u16::from_le_bytes([*l0, *l1])).min(LEASE_MAX_MS),
             mark: Mark {
                 number: Some(u16::from_le_bytes([*n0, *n1])),

@@ -112,15 +112,36 @@ fn a_lease_covers_its_time_and_the_reaction_time() {
 }
 
 #[test]
-fn brushes_may_run_on_for_two_seconds() {
+fn the_lease_of_a_brush_covers_no_other() {
     let cleaning = Drives {
         cleaners: [500_000, 0, 0],
         ..OFF
     };
     let mut scene = Scene::armed();
     scene.host(r#"{"c":"motor","motor":"brush main","throttle":0.5,"ttl":250,"n":9,"t":100}"#);
-    assert_eq!(scene.pass(2300, cleaning), []);
+    assert_eq!(scene.pass(300, cleaning), []);
     assert_eq!(scene.pass(1, cleaning), [Rule::CleanersWithoutLease]);
+    let suction = Drives {
+        cleaners: [500_000, 0, 1],
+        ..OFF
+    };
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"motor","motor":"brush main","throttle":0.5,"ttl":250,"n":9,"t":100}"#);
+    assert_eq!(scene.pass(1, suction), [Rule::CleanersWithoutLease]);
+}
+
+#[test]
+fn the_lease_of_a_wheel_does_not_cover_the_other() {
+    let left = Drives {
+        wheels: [400_000, 0],
+        ..OFF
+    };
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"motor","motor":"wheel left","throttle":0.5,"ttl":250,"n":9,"t":100}"#);
+    assert_eq!(scene.pass(300, left), []);
+    let mut scene = Scene::armed();
+    scene.host(r#"{"c":"motor","motor":"wheel left","throttle":0.5,"ttl":250,"n":9,"t":100}"#);
+    assert_eq!(scene.pass(1, FORWARD), [Rule::WheelsWithoutLease]);
 }
 
 #[test]

@@ -8,9 +8,9 @@ use super::permission::HostPermission;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Rule {
-    /// S1: wheels driven 50 ms after the last command that covers them has ended.
+    /// S1: a wheel driven 50 ms after the lease of the last command that covers it has ended.
     WheelsWithoutLease = 0,
-    /// S1: brushes or suction driven 2.05 s after the last command that covers them has ended.
+    /// S1: a brush or the suction driven 50 ms after the lease of its last command has ended.
     CleanersWithoutLease = 1,
     /// S4, and `stop`: a motor driven although nobody armed since the reset, the `stop` or the button.
     NotArmed = 2,
@@ -221,11 +221,11 @@ pub(crate) fn broken(
     let verdicts = [
         (
             Rule::WheelsWithoutLease,
-            wheels && !permission.covers_wheels(now_ms) && !leaving,
+            !permission.covers_wheels(now_ms, drives) && !leaving,
         ),
         (
             Rule::CleanersWithoutLease,
-            cleaners && !permission.covers_cleaners(now_ms),
+            !permission.covers_cleaners(now_ms, drives),
         ),
         (Rule::NotArmed, any && !permission.armed(now_ms) && !leaving),
         (Rule::ResetLoop, any && permission.reset_loop()),

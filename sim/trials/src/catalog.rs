@@ -151,7 +151,7 @@ fn link() -> [Trial; 4] {
             ("S1", "the cable is cut: brushes and suction"),
             OperatingState::Cleaning,
             |testbed, _| testbed.robot_mut().cut_line(4_000),
-            (Expectation::AllOff, 2_300),
+            (Expectation::AllOff, 300),
         ),
         trial(
             ("S2", "one bit in a hundred is wrong for half a second"),

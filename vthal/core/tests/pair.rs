@@ -394,6 +394,35 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
     );
 }
 
+/// S1: the robot ends the lease of the suction to the millisecond, so a job must renew it in time, two losses included.
+#[test]
+fn brushes_and_suction_are_renewed_three_times_in_their_lease() {
+    let mut pair = on_the_dock();
+    assert_eq!(pair.ask(ANNA, RequestBody::Start { strategy: None }), None);
+    drive_off(&mut pair);
+    let from_ms = pair.now_ms;
+    pair.run_ms(5_000);
+    let told: Vec<(u64, u16)> = pair
+        .commands
+        .iter()
+        .filter_map(|(at_ms, command)| match command {
+            Command::Motor(motor) if motor.motor == Motor::Vacuum && *at_ms >= from_ms => {
+                Some((*at_ms, motor.lease_ms))
+            }
+            _ => None,
+        })
+        .collect();
+    assert!(told.len() >= 15, "{told:?}");
+    for pair in told.windows(2) {
+        let pause_ms = pair[1].0 - pair[0].0;
+        assert!(
+            3 * pause_ms <= u64::from(pair[0].1) + 30,
+            "{pause_ms} ms of {}",
+            pair[0].1
+        );
+    }
+}
+
 #[test]
 fn what_a_job_says_of_itself_wins_over_the_settings_of_a_room() {
     let mut pair = on_the_dock();

@@ -15,11 +15,35 @@ use crate::span;
 pub enum Form {
     /// Checked mode: every key of a motion command is required, and the number of every command that has one.
     Checked,
-    /// Hand mode: `ttl` (250), `n` (0), `t` (the present tick), `radius` (straight) may be absent.
+    /// Hand mode, without a CRC: `ttl` (250), `n` (0), `t` (the present tick), `radius` (straight) may be absent.
     Hand {
         /// The present tick.
         now: Tick,
     },
+    /// Hand mode, with the right CRC: a program wrote it.
+    SealedHand {
+        /// The present tick.
+        now: Tick,
+    },
+}
+
+impl Form {
+    /// What an unknown key of a motion command means: without a CRC a person's typing error, which must not move anything,
+    /// and with one the word of a newer peer. The one place that decides.
+    const fn unknown_keys(self) -> UnknownKeys {
+        match self {
+            Self::Checked | Self::SealedHand { .. } => UnknownKeys::Ignore,
+            Self::Hand { .. } => UnknownKeys::Refuse,
+        }
+    }
+
+    /// The tick that stands in for keys that may be absent; `None` where none may be.
+    const fn hand_tick(self) -> Option<Tick> {
+        match self {
+            Self::Checked => None,
+            Self::Hand { now } | Self::SealedHand { now } => Some(now),
+        }
+    }
 }
 
 /// A command that was refused.
@@ -139,8 +163,8 @@ struct Freshness {
 impl Freshness {
     fn read<const N: usize>(fields: &Fields<'_, N>, at: [usize; 3], form: Form) -> Result<Self, Refusal> {
         let [ttl, n, t] = at;
-        let lease_ms = match form {
-            Form::Hand { .. } if !fields.has(ttl) => LEASE_DEFAULT_MS,
+        let lease_ms = match form.hand_tick() {
+            Some(_) if !fields.has(ttl) => LEASE_DEFAULT_MS,
             _ => fields.word(ttl, span::LEASE)?,
         };
         Ok(Self {
@@ -152,21 +176,21 @@ impl Freshness {
 }
 
 fn read_sequence<const N: usize>(fields: &Fields<'_, N>, n: usize, form: Form) -> Result<Sequence, Refusal> {
-    match form {
-        Form::Hand { .. } if !fields.has(n) => Ok(Sequence(0)),
+    match form.hand_tick() {
+        Some(_) if !fields.has(n) => Ok(Sequence(0)),
         _ => fields.word(n, span::WORD).map(Sequence),
     }
 }
 
 fn read_tick<const N: usize>(fields: &Fields<'_, N>, t: usize, form: Form) -> Result<Tick, Refusal> {
-    match form {
-        Form::Hand { now } if !fields.has(t) => Ok(now),
+    match form.hand_tick() {
+        Some(now) if !fields.has(t) => Ok(now),
         _ => fields.total(t).map(Tick),
     }
 }
 
 fn read_drive(text: &[u8], form: Form) -> Read {
-    let fields = Fields::read(text, ["c", "v", "w", "ttl", "n", "t"], UnknownKeys::Refuse)?;
+    let fields = Fields::read(text, ["c", "v", "w", "ttl", "n", "t"], form.unknown_keys())?;
     let freshness = Freshness::read(&fields, [3, 4, 5], form)?;
     Ok(Command::Drive(Drive {
         speed: Speed(fields.int(1, span::SPEED)?),
@@ -181,7 +205,7 @@ fn read_motor(text: &[u8], form: Form) -> Read {
     let fields = Fields::read(
         text,
         ["c", "motor", "throttle", "ttl", "n", "t"],
-        UnknownKeys::Refuse,
+        form.unknown_keys(),
     )?;
     let throttle = fields.int(2, span::THROTTLE)?;
     let freshness = Freshness::read(&fields, [3, 4, 5], form)?;
@@ -195,9 +219,9 @@ fn read_motor(text: &[u8], form: Form) -> Read {
 }
 
 fn read_move(text: &[u8], form: Form) -> Read {
-    let fields = Fields::read(text, ["c", "length", "radius", "n", "t"], UnknownKeys::Refuse)?;
-    let radius = match (fields.get(2), form) {
-        (Some(Value::Null), _) | (None, Form::Hand { .. }) => None,
+    let fields = Fields::read(text, ["c", "length", "radius", "n", "t"], form.unknown_keys())?;
+    let radius = match (fields.get(2), form.hand_tick()) {
+        (Some(Value::Null), _) | (None, Some(_)) => None,
         _ => Some(Length(fields.int(2, span::MOVE_RADIUS)?)),
     };
     Ok(Command::Move(Move {

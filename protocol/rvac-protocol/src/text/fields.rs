@@ -7,9 +7,9 @@ use crate::span::Span;
 /// How unknown keys are treated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum UnknownKeys {
-    /// Refused, in motion commands: an unknown key could change the meaning.
+    /// Refused, in motion commands that a person types: a mistyped key.
     Refuse,
-    /// Ignored, in all other packets: a newer peer may send more.
+    /// Ignored: a newer peer may send more.
     Ignore,
 }
 

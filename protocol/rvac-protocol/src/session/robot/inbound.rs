@@ -42,7 +42,7 @@ impl RobotCore {
 
     fn take_checked(&mut self, text: &[u8]) -> Option<RobotEvent> {
         self.good();
-        match read_command(text, self.form()) {
+        match read_command(text, self.form(PacketTrust::Checked)) {
             Ok(command) => {
                 // A host that agreed on a binary form and sends text has stopped using it, and so does the robot.
                 self.binary_left |= self.binary.drive && matches!(command, Command::Drive(_));
@@ -74,7 +74,7 @@ impl RobotCore {
             self.bad();
             return self.refuse_with(None, Refusal::NoCrc);
         }
-        match read_command(text, self.form()) {
+        match read_command(text, self.form(PacketTrust::Unchecked)) {
             Ok(command) => self.accept(command, PacketTrust::Unchecked),
             Err(refused) => self.refuse(refused),
         }
@@ -87,7 +87,7 @@ impl RobotCore {
         }
         if self.session != 0
             && found == packet_crc(Direction::HostToRobot, 0, text)
-            && let Ok(command @ Command::Hello(_)) = read_command(text, self.form())
+            && let Ok(command @ Command::Hello(_)) = read_command(text, self.form(PacketTrust::Checked))
         {
             return self.accept(command, PacketTrust::Checked);
         }
@@ -95,10 +95,12 @@ impl RobotCore {
         self.bad()
     }
 
-    fn form(&self) -> Form {
-        match self.mode {
-            Mode::Checked => Form::Checked,
-            Mode::Hand => Form::Hand { now: self.now },
+    fn form(&self, trust: PacketTrust) -> Form {
+        let now = self.now;
+        match (self.mode, trust) {
+            (Mode::Checked, _) => Form::Checked,
+            (Mode::Hand, PacketTrust::Checked) => Form::SealedHand { now },
+            (Mode::Hand, PacketTrust::Unchecked) => Form::Hand { now },
         }
     }
 

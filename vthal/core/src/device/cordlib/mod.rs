@@ -19,6 +19,7 @@ use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Tick};
 use self::encoders::Encoders;
 use self::events::LastStart;
 use self::tap::Tap;
+use super::supervisor::CLEANER_REPEAT_US;
 use super::{
     CleanerDrive, CleanerPower, CommandError, Description, Device, DeviceIo, Drive, LeaveDock, Level, Light,
     LightPattern, LinkQuality, Make, Opening, Tone,
@@ -28,8 +29,10 @@ use crate::Direction;
 /// Lease of motion commands on the wire. Shorter than the firmware's default of 250 ms, so that braking too is over 300 ms
 /// after the host's death (S1).
 const LEASE_MS: u16 = 120;
-/// Lease of brushes and suction on the wire: the longest allowed, because they stand still only 2 s later anyway.
+/// Lease of brushes and suction on the wire: the longest allowed. The robot ends it to the millisecond, and it is renewed
+/// three times in it, so that two lost packets do not stop and start them.
 const CLEANER_LEASE_MS: u16 = 1000;
+const _: () = assert!(3 * CLEANER_REPEAT_US <= CLEANER_LEASE_MS as u64 * 1000);
 
 /// Robots that run our own firmware.
 pub const MAKE: Make = Make {

@@ -13,8 +13,8 @@ use super::{
 use crate::Direction;
 
 /// Pause between repetitions of the command to brushes and suction: three fall into their lease on the wire of our own
-/// firmware.
-const CLEANER_REPEAT_US: u64 = 300_000;
+/// firmware, which the robot ends to the millisecond.
+pub(super) const CLEANER_REPEAT_US: u64 = 300_000;
 
 /// A robot that has rested for so long is let go, so that it can sleep and charge.
 const RELEASE_AFTER_US: u64 = 5_000_000;
