@@ -26,6 +26,8 @@ enum Subject {
     Safety,
     /// Bits that flip in the robot's firmware's memory and registers.
     Flips,
+    /// Edges that flood the receive pin of the robot's firmware.
+    Flood,
     /// The robot's firmware charging packs in the emulated chip.
     Charges,
     /// The robot's firmware in the emulated chip beside the built-in one: how well they clean the same home.
@@ -74,7 +76,7 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
         _ => None,
     };
     let usual = match arguments.subject {
-        Subject::Safety | Subject::Flips | Subject::Charges | Subject::Coverage => {
+        Subject::Safety | Subject::Flips | Subject::Flood | Subject::Charges | Subject::Coverage => {
             Some(firmware::usual_elf()?)
         }
         _ => None,
@@ -157,6 +159,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
         Subject::Safety => &["--bin", "bench-safety"],
         Subject::Flips => &["--bin", "bench-flips"],
+        Subject::Flood => &["--bin", "bench-flood"],
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
         Subject::Navigation => &["--bin", "bench-navigation"],
@@ -178,6 +181,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Writes
         | Subject::Cordlib
         | Subject::Flips
+        | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
         | Subject::Docking
@@ -193,6 +197,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Writes => &["--kills", "100000"],
         Subject::Safety => &["--phases", "200"],
         Subject::Flips => &["--count", "100000"],
+        Subject::Flood => &["--count", "40", "--seconds", "10"],
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Navigation => &["--homes", "report", "--seeds", "20"],

@@ -131,6 +131,7 @@ pub fn trials() -> Vec<Trial> {
         &start(),
         &hangs(),
         &touch(),
+        &flooded(),
         &cliffs(),
         &motors(),
         &battery(),
@@ -289,6 +290,58 @@ fn touch() -> [Trial; 6] {
             OperatingState::Cleaning,
             |testbed, cycle| hold(testbed, Contact::AnyButton, cycle),
             (Expectation::AllOffSaying(Inhibit::ButtonStop), 50),
+        ),
+    ]
+}
+
+/// Another sender on the wire to the robot, from this cycle on: 750,000 edges a second, for longer than a trial looks.
+fn flood(testbed: &mut Testbed, cycle: u64) {
+    testbed.robot_mut().flood_line(1_500_000, cycle, 1_000);
+}
+
+fn flooded() -> [Trial; 5] {
+    [
+        trial(
+            ("S1", "edges flood the receive pin: wheels"),
+            OperatingState::Driving,
+            flood,
+            (Expectation::WheelsOff, 300),
+        ),
+        trial(
+            ("S6", "bumper, and edges flood the receive pin"),
+            OperatingState::Driving,
+            |testbed, cycle| {
+                flood(testbed, cycle);
+                hold(testbed, Contact::BumperRight, cycle);
+            },
+            (Expectation::WheelsOff, 20),
+        ),
+        trial(
+            ("S8", "cliff, and edges flood the receive pin"),
+            OperatingState::Driving,
+            |testbed, cycle| {
+                flood(testbed, cycle);
+                read(testbed, CLIFF_MIDDLE, DROP, cycle);
+            },
+            (Expectation::WheelsOff, 20),
+        ),
+        trial(
+            ("S10", "a wheel hangs, and edges flood the receive pin"),
+            OperatingState::Cleaning,
+            |testbed, cycle| {
+                flood(testbed, cycle);
+                hold(testbed, Contact::WheelDropLeft, cycle);
+            },
+            (Expectation::AllOff, 50),
+        ),
+        trial(
+            ("S28", "button, and edges flood the receive pin"),
+            OperatingState::Cleaning,
+            |testbed, cycle| {
+                flood(testbed, cycle);
+                hold(testbed, Contact::AnyButton, cycle);
+            },
+            (Expectation::AllOff, 50),
         ),
     ]
 }

@@ -11,6 +11,7 @@ mod catalog;
 pub mod charges;
 mod ending;
 pub mod flips;
+pub mod flood;
 mod testbed;
 mod trial;
 

@@ -146,6 +146,8 @@ impl Fixture {
             drive: None,
             cleaners: Throttle::ZERO,
             speaks: true,
+            said: Vec::new(),
+            steps_hz: None,
         }
     }
 }
@@ -163,6 +165,9 @@ pub struct Testbed {
     drive: Option<(Speed, AngularSpeed)>,
     cleaners: Throttle,
     speaks: bool,
+    /// The packet that the robot is sending.
+    said: Vec<u8>,
+    steps_hz: Option<u32>,
 }
 
 impl Testbed {
@@ -194,11 +199,29 @@ impl Testbed {
         let mut heard = std::mem::take(&mut self.from_robot);
         self.robot.tick(&mut heard);
         for byte in &heard {
+            self.read_steps(*byte);
             if let Some(event) = self.session.receive(*byte, now) {
                 self.take(&event);
             }
         }
         self.from_robot = heard;
+    }
+
+    /// Reads the loop's frequency off the line: a robot that went back to hand mode reports it to nobody in particular.
+    fn read_steps(&mut self, byte: u8) {
+        const KEY: &str = r#""main-steps":"#;
+        if byte != 0x1F {
+            self.said.push(byte);
+            return;
+        }
+        let packet = String::from_utf8_lossy(&self.said);
+        let figure = packet.split_once(KEY).map(|(_, rest)| rest);
+        let digits = figure.map(|rest| rest.split(|letter: char| !letter.is_ascii_digit()).next());
+        self.steps_hz = digits
+            .flatten()
+            .and_then(|digits| digits.parse().ok())
+            .or(self.steps_hz);
+        self.said.clear();
     }
 
     /// So many milliseconds.
@@ -294,6 +317,18 @@ impl Testbed {
     /// The host falls silent, or speaks again.
     pub fn set_speaking(&mut self, speaks: bool) {
         self.speaks = speaks;
+    }
+
+    /// Passes of the robot's main loop in a second, by its newest report.
+    #[must_use]
+    pub const fn steps_hz(&self) -> Option<u32> {
+        self.steps_hz
+    }
+
+    /// Whether a session is open.
+    #[must_use]
+    pub fn is_connected(&self) -> bool {
+        self.session.is_open() && self.session.robot_tick().is_some()
     }
 
     /// The robot.

@@ -91,13 +91,14 @@ fn owner(elf: &Path) -> Command {
 }
 
 /// The real firmware under faults, a little of each; `cargo xtask bench safety --long` and its like take more.
-const TRIALS: [(&str, &[&str]); 3] = [
+const TRIALS: [(&str, &[&str]); 4] = [
     ("bench-safety", &["--phases", "4"]),
     (
         "bench-flips",
         &["--count", "500", "--courses", "1", "--image-checks", "2"],
     ),
     ("bench-charges", &["--count", "4"]),
+    ("bench-flood", &["--count", "2"]),
 ];
 
 fn trial(name: &str, words: &[&str], elf: &Path) -> Command {

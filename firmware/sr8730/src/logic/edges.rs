@@ -9,20 +9,24 @@ pub const EDGES: usize = 512;
 
 /// The queue. The interrupt relies on the order of the fields.
 ///
-/// If the queue is full, the interrupt sets a flag and disables itself, so that an oscillating wire takes at most the
-/// time of 512 edges in a millisecond. The main loop enables it again when it has emptied the queue.
+/// The main loop gives room back to the interrupt once a millisecond only, however often it empties the queue. If there is
+/// no room, the interrupt sets a flag and disables itself, until the main loop enables it in its next millisecond. A wire
+/// that oscillates, whatever its rate, therefore costs at most [`EDGES`] interrupts in a millisecond, and as many edges to
+/// decode.
 #[derive(Debug)]
 #[repr(C)]
 pub struct EdgeQueue {
     /// Pushed so far; written by the interrupt.
     head: AtomicU32,
-    /// Taken so far; written by the main program.
+    /// Up to here the places are free for the interrupt; written by the main program.
     tail: AtomicU32,
     /// Level at the last edge, 0 or 1; written by the interrupt.
     level: AtomicU32,
     /// Not 0 when edges were lost; set by the interrupt, cleared by the main program.
     lost: AtomicU32,
     edges: [AtomicU32; EDGES],
+    /// Taken so far by the main program.
+    taken: AtomicU32,
 }
 
 impl EdgeQueue {
@@ -35,29 +39,37 @@ impl EdgeQueue {
             level: AtomicU32::new(1),
             lost: AtomicU32::new(0),
             edges: [const { AtomicU32::new(0) }; EDGES],
+            taken: AtomicU32::new(0),
         }
+    }
+
+    /// Gives the places of what was taken back to the interrupt. Called once a millisecond.
+    pub fn give_back(&self) {
+        self.tail
+            .store(self.taken.load(Ordering::Relaxed), Ordering::Release);
     }
 
     /// The oldest entry. Reports a gap after everything before it has been taken.
     pub fn pop(&self) -> Option<Queued> {
         // Read first: while the flag is set, the interrupt adds nothing.
         let lost = self.lost.load(Ordering::Acquire) != 0;
-        let tail = self.tail.load(Ordering::Relaxed);
+        let taken = self.taken.load(Ordering::Relaxed);
         let head = self.head.load(Ordering::Acquire);
-        if head == tail {
+        if head == taken {
             if lost {
                 self.lost.store(0, Ordering::Release);
                 return Some(Queued::Overrun);
             }
             return None;
         }
-        if head.wrapping_sub(tail) > EDGES as u32 {
+        if head.wrapping_sub(taken) > EDGES as u32 {
             // The interrupt never does that: a bit of an index has flipped, and following it would take too long.
-            self.tail.store(head, Ordering::Release);
+            self.taken.store(head, Ordering::Relaxed);
+            self.give_back();
             return Some(Queued::Overrun);
         }
-        let word = self.edges.get(tail as usize % EDGES)?.load(Ordering::Relaxed);
-        self.tail.store(tail.wrapping_add(1), Ordering::Release);
+        let word = self.edges.get(taken as usize % EDGES)?.load(Ordering::Relaxed);
+        self.taken.store(taken.wrapping_add(1), Ordering::Relaxed);
         Some(Queued::Edge(Edge::unpacked(word)))
     }
 
@@ -116,6 +128,7 @@ mod tests {
     fn edges_come_out_in_their_order_across_the_end_of_the_queue() {
         let queue = EdgeQueue::new();
         for round in 0..20 {
+            queue.give_back();
             for number in 0..100 {
                 assert!(queue.push(edge(round + number)));
             }
@@ -152,6 +165,22 @@ mod tests {
         }
         assert_eq!(queue.pop(), Some(Queued::Overrun));
         assert_eq!(queue.pop(), None);
+        queue.give_back();
         assert!(queue.push(edge(9)));
+    }
+
+    #[test]
+    fn a_consumer_that_keeps_up_bounds_the_edges_of_a_millisecond_too() {
+        let queue = EdgeQueue::new();
+        for _ in 0..3 {
+            queue.give_back();
+            let mut taken = 0;
+            while queue.push(edge(taken)) {
+                assert_eq!(queue.pop(), Some(Queued::Edge(edge(taken))));
+                taken += 1;
+            }
+            assert_eq!(taken, EDGES as u32);
+            assert_eq!(queue.pop(), Some(Queued::Overrun));
+        }
     }
 }

@@ -29,6 +29,8 @@ static BRUSH_BUDGET: InterruptRateLimit = InterruptRateLimit::new(BRUSH_PER_MS);
 static BRUSH_PIN: HandlerCell<vector::CHANGE_NOTICE, Pin<'B', 5, Input>> = HandlerCell::empty();
 static BRUSH_LEVEL: AtomicU32 = AtomicU32::new(0);
 static BRUSH_PULSES: AtomicU32 = AtomicU32::new(0);
+/// Not 0 while the line of the brush is disabled for noise.
+static BRUSH_OFF: AtomicU32 = AtomicU32::new(0);
 
 const RECEIVE: u16 = mask(pins::LINK_RECEIVE);
 const BRUSH: u16 = mask(pins::BRUSH_MAIN_ENCODER);
@@ -40,14 +42,11 @@ const _: () = assert!(RECEIVE == 1 << 13);
 fn on_other_change(context: &mut Context<vector::CHANGE_NOTICE>) {
     let level = u32::from(Port::B.read() & BRUSH);
     Source::ChangeNotice.clear();
-    if level != BRUSH_LEVEL.load(Ordering::Relaxed) {
-        BRUSH_LEVEL.store(level, Ordering::Relaxed);
-        // Active low: a pulse begins with the falling edge.
-        let pulses = BRUSH_PULSES.load(Ordering::Relaxed);
-        BRUSH_PULSES.store(pulses.wrapping_add(u32::from(level == 0)), Ordering::Relaxed);
-    }
+    note_brush(level);
     if let Some(brush) = BRUSH_PIN.get(context) {
-        if BRUSH_BUDGET.spend() {
+        let is_on = BRUSH_BUDGET.spend();
+        BRUSH_OFF.store(u32::from(!is_on), Ordering::Relaxed);
+        if is_on {
             brush.enable_notice();
         } else {
             brush.disable_notice();
@@ -55,6 +54,15 @@ fn on_other_change(context: &mut Context<vector::CHANGE_NOTICE>) {
     }
 }
 interrupt!(CHANGE_NOTICE, on_other_change);
+
+fn note_brush(level: u32) {
+    if level != BRUSH_LEVEL.load(Ordering::Relaxed) {
+        BRUSH_LEVEL.store(level, Ordering::Relaxed);
+        // Active low: a pulse begins with the falling edge.
+        let pulses = BRUSH_PULSES.load(Ordering::Relaxed);
+        BRUSH_PULSES.store(pulses.wrapping_add(u32::from(level == 0)), Ordering::Relaxed);
+    }
+}
 
 /// Events of one edge: at most the end of a byte and an error, so four are enough.
 #[derive(Debug, Default)]
@@ -95,6 +103,8 @@ pub struct EdgeParts {
 pub struct EdgeInput {
     receiver: Receiver,
     events: Events,
+    /// The interrupt has disabled itself, until the next millisecond.
+    deaf: bool,
 }
 
 impl EdgeInput {
@@ -108,6 +118,18 @@ impl EdgeInput {
         Self {
             receiver: Receiver::starting_at(baud, CORE_HZ),
             events: Events::default(),
+            deaf: false,
+        }
+    }
+
+    /// Called once a millisecond: gives the interrupt its room for the next one. A pin that makes more edges than that is
+    /// not listened to for the rest of the millisecond; what is lost counts as an overrun.
+    pub fn service(&mut self) {
+        EDGES.give_back();
+        if core::mem::take(&mut self.deaf) {
+            // Changes of the brush were not heard either.
+            cpu::without_interrupts(|| note_brush(u32::from(Port::B.read() & BRUSH)));
+            listen();
         }
     }
 
@@ -124,7 +146,7 @@ impl EdgeInput {
                 Queued::Edge(edge) => self.receiver.edge(edge, &mut |event| events.push(event)),
                 Queued::Overrun => {
                     self.receiver.overrun(&mut |event| events.push(event));
-                    listen();
+                    self.deaf = true;
                 }
             }
             if let Some(event) = events.pop() {
@@ -160,9 +182,10 @@ pub(super) fn listen() {
     Source::ChangeNotice.enable();
 }
 
-/// Called once a millisecond: enables the brush's line again if it was disabled for noise.
+/// Called once a millisecond: enables the brush's line again if it was disabled for noise. An edge of the link may take
+/// the request away, so it is repeated until it was heard.
 pub(super) fn service_brush() {
-    if BRUSH_BUDGET.renew() {
+    if BRUSH_BUDGET.renew() || BRUSH_OFF.load(Ordering::Relaxed) != 0 {
         Source::ChangeNotice.request();
     }
 }

@@ -82,6 +82,9 @@ impl SampledInput {
         Self { broken: 0, lost: 0 }
     }
 
+    /// Called once a millisecond. The rate of the samples is fixed, whatever the pin does.
+    pub const fn service(&mut self) {}
+
     /// The next event; errors after the bytes that were received.
     pub fn next_event(&mut self) -> Option<Received> {
         if let Some(byte) = RECEIVED.pop() {

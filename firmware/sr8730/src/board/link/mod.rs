@@ -69,6 +69,7 @@ impl SerialLink {
 
     /// Called once a millisecond.
     pub fn service(&mut self) {
+        self.input.service();
         by_edges::service_brush();
     }
 

@@ -45,6 +45,12 @@ impl EmulatedRobot {
         self.to_host.cut_until(until);
     }
 
+    /// Another sender of this rate takes the wire to the robot for `ms` from this cycle on.
+    pub fn flood_line(&mut self, baud: u32, cycle: u64, ms: u32) {
+        let until = cycle + u64::from(ms) * CYCLES_PER_MS;
+        self.to_robot.flood(baud, (cycle, until));
+    }
+
     /// The host died: what its driver still held is gone.
     pub fn host_died(&mut self) {
         self.to_robot.flush();

@@ -27,6 +27,7 @@ pub struct Sender {
     drawn: Vec<u16>,
     held_until: u64,
     cut_until: u64,
+    flood: Option<Flood>,
     channel: Channel,
     faulty: bool,
     /// A host that was idle begins at any moment of a millisecond, not at its beginning.
@@ -34,6 +35,15 @@ pub struct Sender {
 }
 
 const STREAM: u64 = 0x11AE;
+
+/// Another sender of a high rate on the same wire: a console that prints, for example.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Flood {
+    bit_cycles: f64,
+    /// When its next bit begins.
+    next: f64,
+    until: u64,
+}
 
 impl Sender {
     /// An idle line; damage and moments follow from `seed`.
@@ -48,6 +58,7 @@ impl Sender {
             drawn: Vec::new(),
             held_until: 0,
             cut_until: 0,
+            flood: None,
             channel: Channel::new(seed, FaultRates::NONE),
             faulty: false,
             phase: Pcg::new(seed, STREAM),
@@ -68,6 +79,17 @@ impl Sender {
     /// Everything that is sent before `cycle` is lost.
     pub fn cut_until(&mut self, cycle: u64) {
         self.cut_until = self.cut_until.max(cycle);
+    }
+
+    /// Random bits of another sender take the wire from `from` until `until`, at so many bits per second: on average there
+    /// is an edge at every second bit. What the host sends meanwhile is lost.
+    pub fn flood(&mut self, baud: u32, (from, until): (u64, u64)) {
+        self.cut_until(until);
+        self.flood = Some(Flood {
+            bit_cycles: HostRate::exact(baud).bit_cycles(),
+            next: self.free.max(from as f64),
+            until,
+        });
     }
 
     /// Bytes that [`Self::send`] would take now.
@@ -92,6 +114,11 @@ impl Sender {
     /// the next millisecond are among them.
     pub fn pass_ms(&mut self, from: u64, edges: &mut Vec<(u64, Level)>) {
         let end = from + CYCLES_PER_MS;
+        if let Some(flood) = self.flood {
+            self.flood = self.babble(flood, end, edges);
+            self.free = self.free.max(end as f64);
+            return;
+        }
         if from < self.held_until {
             return;
         }
@@ -104,6 +131,26 @@ impl Sender {
             };
             self.put(frame, edges);
         }
+    }
+
+    /// The other sender's bits until `end`; what is left of it.
+    fn babble(&mut self, mut flood: Flood, end: u64, edges: &mut Vec<(u64, Level)>) -> Option<Flood> {
+        while flood.next < end.min(flood.until) as f64 {
+            let level = Level::of(self.phase.below(2) == 1);
+            if level != self.level {
+                self.level = level;
+                edges.push((flood.next as u64, level));
+            }
+            flood.next += flood.bit_cycles;
+        }
+        if flood.until > end {
+            return Some(flood);
+        }
+        if self.level == Level::Low {
+            self.level = Level::High;
+            edges.push((flood.until.min(end - 1), Level::High));
+        }
+        None
     }
 
     fn next_frame(&mut self) -> Option<u16> {
@@ -188,6 +235,20 @@ mod tests {
         sender.cut_until(10 * CYCLES_PER_MS);
         sender.send(b"abc");
         assert!(heard(&mut sender, rate, 12).iter().all(Vec::is_empty));
+    }
+
+    #[test]
+    fn a_flood_has_an_edge_at_every_second_bit_and_leaves_the_line_at_rest() {
+        let mut sender = Sender::new(HostRate::exact(230_400), 7);
+        sender.flood(1_500_000, (0, 100 * CYCLES_PER_MS));
+        sender.send(b"lost");
+        let mut edges = Vec::new();
+        for ms in 0..120 {
+            sender.pass_ms(ms * CYCLES_PER_MS, &mut edges);
+        }
+        assert!((74_000..76_000).contains(&edges.len()), "{}", edges.len());
+        assert_eq!(edges.last().map(|(_, level)| *level), Some(Level::High));
+        assert!(edges.is_sorted_by_key(|(cycle, _)| *cycle));
     }
 
     #[test]
