@@ -7,8 +7,8 @@ use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{
-    Board, BumperSwitches, Clock, Encoders, HardwareFault, Link, Parts, Received, ResetRecord, Watchdog,
-    WheelDrive, WheelDropSwitches, WheelMotors,
+    Board, BumperSwitches, CleaningMotor, Clock, CurrentSense, Encoders, HardwareFault, Link, Parts,
+    Received, ResetRecord, Watchdog, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
@@ -150,6 +150,28 @@ impl<P: Parts> Cord<P> {
         }
     }
 
+    /// Whether a blocked main brush is noticed (S11): by its pulses or by its current.
+    fn notices_blocked_brush(&mut self) -> bool {
+        let has_current = self.fitted.currents && P::Currents::BRUSH_MAIN;
+        has_current || self.board.brush_main.pulses().is_some()
+    }
+
+    /// Says which motors nothing guards against a stall (S11), so that nobody relies on it.
+    pub(crate) fn tell_unguarded_motors(&mut self) {
+        if self.fitted.brush_main && !self.notices_blocked_brush() {
+            self.journal
+                .note(LogLevel::Warn, "no stall detection:", "main brush");
+        }
+        if self.fitted.brush_sides {
+            self.journal
+                .note(LogLevel::Info, "no stall detection:", "side brushes");
+        }
+        if self.fitted.vacuum {
+            self.journal
+                .note(LogLevel::Info, "no stall detection:", "suction");
+        }
+    }
+
     fn run_reflexes(&mut self, now: Tick) {
         let count_nm = self.parameters.limits.count_nm;
         let ending = self.motion.expire(self.senses.counts, count_nm, now);
@@ -214,6 +236,7 @@ impl<P: Parts> Cord<P> {
         let current = self
             .senses
             .currents
+            .filter(|_| P::Currents::BRUSH_MAIN)
             .map(|all| (all.brush_main, self.parameters.guard.brush_current_max));
         match self.cleaning.control(&mut self.board, current, now) {
             BrushLoad::Free => {}

@@ -31,6 +31,7 @@ impl<P: Parts> Cord<P> {
             RobotEvent::SessionOpened => {
                 self.void_leases();
                 self.journal.note(LogLevel::Info, "session opened", "");
+                self.tell_unguarded_motors();
             }
             RobotEvent::SessionClosed(end) => {
                 self.void_leases();

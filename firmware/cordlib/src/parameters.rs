@@ -105,6 +105,9 @@ pub struct PackParameters {
     /// Standby current of the electronics, in mA, which maintenance charging makes up for on the dock; 0 = no maintenance
     /// charging.
     pub drain_ma: u16,
+    /// The capacity and the scale of the voltage were measured on this pack. Else they are assumed: the rules of S16 still
+    /// act on the voltage, but no charge is told to the host.
+    pub measured: bool,
     /// Load currents of the parts.
     pub loads: LoadParameters,
 }
@@ -132,6 +135,7 @@ impl PackParameters {
         current_max_ma: 1_000,
         resistance_mohm: 300,
         drain_ma: 15,
+        measured: true,
         loads: LoadParameters {
             electronics_ma: 150,
             wheel_ma: 200,

@@ -112,8 +112,11 @@ impl<P: Parts> Cord<P> {
     }
 
     /// The battery for telemetry; `None` while it is not measured or its charge is not known yet, so that no pack is
-    /// reported as empty before it was measured.
+    /// reported as empty before it was measured, and none as full whose capacity nobody knows.
     pub(crate) fn battery(&self) -> Option<Battery> {
+        if !self.parameters.pack.measured {
+            return None;
+        }
         let (voltage, current) = self.pack()?;
         let tenths = self
             .charger

@@ -36,6 +36,7 @@ fn pack_of(model: &RobotModel) -> PackParameters {
         current_max_ma: milli(battery.charge_a),
         resistance_mohm: milli(battery.resistance_ohm),
         drain_ma: milli(battery.trickle_a),
+        measured: true,
         loads: LoadParameters {
             electronics_ma: milli(battery.electronics_a),
             // A wheel at cruising speed takes a little more than one that turns freely.

@@ -7,6 +7,8 @@ use rvac_units::{Ratio, Temperature};
 pub trait CurrentSense {
     /// Whether currents are measured.
     const PRESENT: bool;
+    /// Whether that of the main brush is measured, too. Where it is not, it reads 0 and means nothing.
+    const BRUSH_MAIN: bool = Self::PRESENT;
 
     /// The newest readings, or `None` when there are none.
     fn currents(&mut self) -> Option<Currents>;

@@ -4,7 +4,9 @@ use crate::rig;
 use crate::rig::{Rig, drive, motor, movement};
 use cordlib::Cord;
 use cordlib::board::{Board, ChargeDrive, ChargerReadings};
-use rvac_protocol::message::{Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, Refusal};
+use rvac_protocol::message::{
+    Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, Refusal, Report,
+};
 use rvac_units::{Current, Temperature};
 
 fn everything() -> Capabilities {
@@ -211,4 +213,48 @@ fn a_charger_that_was_not_checked_never_switches_on_and_still_measures() {
     });
     assert_eq!(refused, Err(Refusal::Absent));
     let _: &Cord<rig::parts::Memory> = &rig.cord;
+}
+
+#[test]
+fn a_pack_that_nobody_measured_has_no_charge_to_tell() {
+    for measured in [true, false] {
+        let mut rig = Rig::switched_on_as(0, |parameters| parameters.pack.measured = measured);
+        rig.cord.board_mut().charger.readings = Some(ChargerReadings {
+            pack_mv: 16_800,
+            input_mv: 16_800,
+            current_ma: 0,
+            temperature: Ok(Temperature(250)),
+            age_ms: 0,
+            adapter: false,
+        });
+        rig.connect();
+        rig.run(5_000);
+        let told = rig
+            .reports
+            .iter()
+            .any(|report| matches!(report, Report::Info(info) if info.battery.is_some()));
+        assert_eq!(told, measured);
+        assert_eq!(rig.last_state().battery_voltage.0, 16_800, "the voltage is told");
+    }
+}
+
+#[test]
+fn motors_without_stall_detection_are_told_when_a_session_opens() {
+    let told = |rig: &Rig, what: &str| {
+        rig.reports.iter().any(|report| {
+            matches!(report, Report::Log { text, .. } if text.as_str() == format!("no stall detection: {what}"))
+        })
+    };
+    for (currents, pulses, guarded) in [(true, None, true), (false, Some(0), true), (false, None, false)] {
+        let fitted = Capabilities {
+            currents,
+            ..everything()
+        };
+        let mut rig = Rig::switched_on_as(0, |parameters| parameters.fitted = Some(fitted));
+        rig.cord.board_mut().brush_main.pulses = pulses;
+        rig.connect();
+        rig.run(500);
+        assert!(told(&rig, "side brushes") && told(&rig, "suction"));
+        assert_eq!(!told(&rig, "main brush"), guarded, "{currents} {pulses:?}");
+    }
 }

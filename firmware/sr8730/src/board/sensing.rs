@@ -160,6 +160,7 @@ impl WheelCurrents {
 
 impl CurrentSense for WheelCurrents {
     const PRESENT: bool = true;
+    const BRUSH_MAIN: bool = false;
 
     fn currents(&mut self) -> Option<Currents> {
         let known = self.calibration?;

@@ -50,7 +50,8 @@ impl MotorSample<'_> {
         is_straight.then_some(Load {
             time_us: now_us,
             wheels_a: Some([left_a, right_a]),
-            brush_a: brush_runs.then_some(brush_a),
+            // A brush that runs draws something: 0 A is that of a robot that does not measure it (SPEC, `z`).
+            brush_a: brush_runs.then_some(brush_a).filter(|drawn_a| *drawn_a != 0.0),
         })
     }
 }
