@@ -20,7 +20,8 @@ use crate::model::energy::EnergyModel;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::job_refusal::JobRefusal;
 use crate::model::learnt::{GyroLearnt, Learnt};
-use crate::model::observation::{Cliffs, Contacts, Observation};
+use crate::model::observation::Observation;
+use crate::model::onsets::Onsets;
 use crate::model::order::CleaningOrder;
 use crate::model::pose_estimate::PoseEstimate;
 use crate::model::random::Random;
@@ -42,8 +43,6 @@ pub struct Brain {
     carpet: CarpetDetector,
     behavior: Behavior,
     mind: TaskContext,
-    contacts_before: Contacts,
-    cliffs_before: Cliffs,
 }
 
 impl Brain {
@@ -66,8 +65,6 @@ impl Brain {
                 random: Random::new(seed),
                 journal: Vec::new(),
             },
-            contacts_before: Contacts::default(),
-            cliffs_before: Cliffs::default(),
         }
     }
 
@@ -126,7 +123,7 @@ impl Brain {
             .localization
             .learn(&self.map, &self.config, observation.time_us);
         self.correct_map(correction);
-        self.note_encounters(observation, &estimate);
+        self.note_encounters(advance.onsets, observation.time_us, &estimate);
         let mut jobs = Vec::new();
         for command in commands {
             match command {
@@ -419,19 +416,17 @@ impl Brain {
     }
 
     /// Marks and counts contacts and cliffs as they begin.
-    fn note_encounters(&mut self, observation: &Observation, estimate: &PoseEstimate) {
-        let (contacts, cliffs) = (observation.contacts, observation.cliffs);
-        let time_us = observation.time_us;
-        if contacts.any() && !self.contacts_before.any() {
+    fn note_encounters(&mut self, onsets: Onsets, time_us: u64, estimate: &PoseEstimate) {
+        let (contacts, cliffs) = (onsets.contacts, onsets.cliffs);
+        if contacts.any() {
             self.behavior.count_bump();
             let sides = (contacts.left, contacts.right);
             self.mark(HazardKind::Contact, (time_us, estimate), sides);
         }
-        if cliffs.any() && !self.cliffs_before.any() {
+        if onsets.is_first_cliff {
             let sides = (cliffs.left, cliffs.right);
             self.mark(HazardKind::Cliff, (time_us, estimate), sides);
         }
-        (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
     }
 
     fn mark(

@@ -20,6 +20,7 @@ use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::observation::Observation;
+use crate::model::onsets::OnsetDetector;
 
 /// Distance for which a hypothesis must explain the observations, metres,
 const PROVEN_M: f64 = 6.0;
@@ -64,6 +65,7 @@ pub struct StoreyPose {
 #[derive(Debug)]
 pub struct StoreyFinder {
     odometry: Odometry,
+    onsets: OnsetDetector,
     config: BrainConfig,
     seed: u64,
     /// Storeys whose maps are still loading, the last one first.
@@ -108,6 +110,7 @@ impl StoreyFinder {
         };
         Self {
             odometry: Odometry::new(config.body.track_m, rim_max_m_per_s),
+            onsets: OnsetDetector::default(),
             config: *config,
             seed,
             loading: floors.map(ready).collect(),
@@ -123,7 +126,10 @@ impl StoreyFinder {
 
     /// Takes an observation.
     pub fn follow(&mut self, observation: &Observation) -> StoreyFinding {
-        let advance = self.odometry.update(observation);
+        let advance = Advance {
+            onsets: self.onsets.take(observation),
+            ..self.odometry.update(observation)
+        };
         if !self.can_see || self.distance_m > GIVE_UP_M {
             return StoreyFinding::Unclear;
         }

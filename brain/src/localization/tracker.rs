@@ -25,7 +25,8 @@ use std::sync::Arc;
 
 use crate::model::config::SensorLayout;
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::observation::{Cliffs, Contacts, Observation};
+use crate::model::observation::Observation;
+use crate::model::onsets::Onsets;
 
 /// With fewer proximity sensors than this a robot with odometry cannot keep its pose in a map: in experiments it was metres off
 /// within minutes.
@@ -104,8 +105,6 @@ pub(super) struct Tracker {
     filter: ParticleFilter,
     pending: MotionDelta,
     pending_turn_rad: f64,
-    contacts_before: Contacts,
-    cliffs_before: Cliffs,
     lift: Lift,
     confidence: Confidence,
     lost: bool,
@@ -141,8 +140,6 @@ impl Tracker {
             filter: ParticleFilter::new(radius_m, layout, seed),
             pending: MotionDelta::default(),
             pending_turn_rad: 0.0,
-            contacts_before: Contacts::default(),
-            cliffs_before: Cliffs::default(),
             lift: Lift::default(),
             confidence: Confidence::default(),
             lost: false,
@@ -289,7 +286,11 @@ impl Tracker {
         if let Some(search) = &mut self.global_localizer {
             search.follow(advance);
         }
-        let (contacts, edges) = self.new_contacts(observation);
+        let Onsets {
+            contacts,
+            cliffs: edges,
+            ..
+        } = advance.onsets;
         self.lift.update(observation, advance);
         if self.lift.is_put_down() {
             self.history.forget();
@@ -436,23 +437,6 @@ impl Tracker {
             lost: self.lost,
             ..self.filter.estimate()
         }
-    }
-
-    /// Contacts and cliffs that begin now.
-    fn new_contacts(&mut self, observation: &Observation) -> (Contacts, Cliffs) {
-        let (contacts, cliffs) = (observation.contacts, observation.cliffs);
-        let first_contacts = if self.contacts_before.any() {
-            Contacts::default()
-        } else {
-            contacts
-        };
-        let first_cliffs = Cliffs {
-            left: cliffs.left && !self.cliffs_before.left,
-            middle: cliffs.middle && !self.cliffs_before.middle,
-            right: cliffs.right && !self.cliffs_before.right,
-        };
-        (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
-        (first_contacts, first_cliffs)
     }
 
     fn collect(&mut self, advance: Advance, gyro: GyroEstimate) {

@@ -51,6 +51,9 @@ impl Behavior {
         job.figures.path_m += situation.advance.distance_m.abs();
         job.brushes |= !self.facts.touching;
         job.returns &= situation.map.is_swept(situation.pose.position());
+        if situation.advance.onsets.is_held_by_cliff {
+            job.edges.note_cliff(self.facts.now_us);
+        }
         if self.facts.disarmed.any() {
             return self.wait_for_arm(context);
         }

@@ -12,7 +12,7 @@ use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Point2;
-use crate::model::observation::{Contacts, Observation};
+use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
 /// Distance between two checks, metres.
@@ -43,7 +43,6 @@ pub(super) struct ConsistencyMonitor {
     updated_us: u64,
     redrawn: u32,
     distance_m: f64,
-    contacts_before: Contacts,
     contradicted: f64,
     consistent_us: u64,
 }
@@ -57,8 +56,7 @@ impl ConsistencyMonitor {
         config: &BrainConfig,
     ) {
         self.distance_m += advance.distance_m.abs();
-        let touches = observation.contacts.any() && !self.contacts_before.any();
-        self.contacts_before = observation.contacts;
+        let touches = advance.onsets.contacts.any();
         let Some(reference_map) = &self.reference_map else {
             return;
         };
@@ -199,16 +197,19 @@ mod tests {
     use crate::mapping::{Cell, CellKnowledge, Keyframe, Map, Raster, StoredMap};
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
+    use crate::model::onsets::OnsetDetector;
 
     /// Checks of a robot that drives through the flat with a pose that is off by `believed_off`. Returns the greatest share.
     fn contradicted(home: &Map, believed_off: Pose2, steps: u32) -> f64 {
         let mut truth = SimulatedRobot::new(home, START);
         let mut monitor = ConsistencyMonitor::default();
         monitor.update_reference(home, LEARN_US);
+        let mut onsets = OnsetDetector::default();
         let mut greatest: f64 = 0.0;
         for _ in 0..steps {
             let before = truth.pose;
             let view = truth.step().clone();
+            let begins = onsets.take(&view);
             let estimate = PoseEstimate {
                 pose: believed_off * truth.pose,
                 sigma_m: 0.05,
@@ -216,6 +217,7 @@ mod tests {
             };
             let advance = Advance {
                 distance_m: before.position().distance_m(truth.pose.position()),
+                onsets: begins,
                 ..Advance::default()
             };
             monitor.observe((&view, advance), &estimate, &config());

@@ -70,7 +70,7 @@ impl Localization {
     /// Whether the dock's contacts were closed at the last observation.
     #[must_use]
     pub fn is_docked(&self) -> bool {
-        self.was_docked
+        self.is_docked
     }
 
     /// How a robot on its dock starts to localize in the map that it has made, with what it has learned of its gyro.

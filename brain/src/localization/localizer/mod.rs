@@ -21,6 +21,7 @@ use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
+use crate::model::onsets::{Docking, OnsetDetector};
 use crate::model::pose_estimate::PoseEstimate;
 use estimator::{Estimator, EstimatorKind, KnownMap};
 
@@ -56,6 +57,7 @@ const LEARN_EXPLAINED: f64 = 0.75;
 #[derive(Debug)]
 pub struct Localization {
     pub(super) odometry: Odometry,
+    onsets: OnsetDetector,
     map_from_odom: Pose2,
     reverse_budget: ReverseBudget,
     drift: Drift,
@@ -66,8 +68,7 @@ pub struct Localization {
     began_us: Option<u64>,
     /// Time of the last gyro reading.
     gyro_us: Option<u64>,
-    was_docked: bool,
-    was_off_dock: bool,
+    is_docked: bool,
     has_just_docked: bool,
     lift: Lift,
     learnt_us: u64,
@@ -79,6 +80,7 @@ impl Localization {
     pub fn new(track_m: f64, rim_max_m_per_s: f64) -> Self {
         Self {
             odometry: Odometry::new(track_m, rim_max_m_per_s),
+            onsets: OnsetDetector::default(),
             map_from_odom: Pose2::IDENTITY,
             reverse_budget: ReverseBudget::default(),
             drift: Drift::default(),
@@ -87,8 +89,7 @@ impl Localization {
             fingerprints: RssiFingerprints::default(),
             began_us: None,
             gyro_us: None,
-            was_docked: false,
-            was_off_dock: false,
+            is_docked: false,
             has_just_docked: false,
             lift: Lift::default(),
             learnt_us: 0,
@@ -97,7 +98,12 @@ impl Localization {
 
     /// Takes an observation and returns the motion since the last one.
     pub fn update(&mut self, observation: &Observation) -> Advance {
-        let advance = self.odometry.update(observation);
+        let advance = Advance {
+            onsets: self.onsets.take(observation),
+            ..self.odometry.update(observation)
+        };
+        self.is_docked = observation.docked;
+        self.has_just_docked = advance.onsets.docking == Some(Docking::Arrived);
         if observation.gyro_heading_rad.is_some() {
             self.gyro_us = Some(observation.time_us);
         }
@@ -191,12 +197,8 @@ impl Localization {
         let by_beacons = self.beacons.follow(observation, advance, self.estimate());
         self.leave_useless_map(observation.time_us);
         let moved = MotionUpdate::of(&self.odometry, advance, self.pose());
-        let docks = observation.docked && !self.was_docked;
-        self.was_docked = observation.docked;
-        self.was_off_dock |= !observation.docked;
-        self.has_just_docked = docks && self.was_off_dock;
         match (self.active_estimator(), by_beacons) {
-            (EstimatorKind::MonteCarlo, _) => self.follow_monte_carlo(observation, moved, docks),
+            (EstimatorKind::MonteCarlo, _) => self.follow_monte_carlo(observation, moved),
             (_, Some(estimate)) => self.adopt(estimate),
             (EstimatorKind::Beacons, None) => {}
             (EstimatorKind::LineSlam | EstimatorKind::Odometry, None) => {
@@ -205,7 +207,7 @@ impl Localization {
         }
     }
 
-    fn follow_monte_carlo(&mut self, observation: &Observation, moved: MotionUpdate, docks: bool) {
+    fn follow_monte_carlo(&mut self, observation: &Observation, moved: MotionUpdate) {
         let Some(KnownMap {
             tracker,
             reference_map,
@@ -213,6 +215,7 @@ impl Localization {
         else {
             return;
         };
+        let docks = moved.advance.onsets.docking.is_some();
         tracker.add_ranges(self.beacons.located_ranges());
         tracker.receive(&self.fingerprints);
         tracker.step_search(reference_map);
