@@ -7,8 +7,8 @@ use rvac_api::{
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, Event, Gyro, Inhibit, Inhibits, Limits, Motor, Name,
-    Report, ResetCause, State, WheelDrops,
+    BinaryKinds, Bumpers, Capabilities, Command, Description, Event, Gyro, Inhibit, Inhibits, Limits, Motor,
+    Name, Report, ResetCause, State, WheelDrops,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
@@ -273,6 +273,28 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     assert_eq!(pair.drive(ANNA, 0.0), None);
     pair.run_ms(50);
     assert_eq!(pair.drive(ANNA, 0.2), None);
+}
+
+/// A bump shorter than the pause between two reports is in no report: the event tells it.
+#[test]
+fn a_bump_between_two_reports_is_felt_once() {
+    let mut pair = Pair::new();
+    assert_eq!(pair.drive(ANNA, 0.2), None);
+    pair.run_ms(PERIOD_MS - pair.now_ms % PERIOD_MS);
+    let left = Bumpers {
+        left: true,
+        right: false,
+    };
+    for bumpers in [left, Bumpers::default()] {
+        pair.run_ms(4);
+        pair.robot
+            .queue_event(Event::Bump(bumpers), Tick(pair.now_ms as u32));
+    }
+    pair.run_ms(100);
+    let felt = pair.records.iter().filter(
+        |record| matches!(record, Record::Observation(seen) if seen.contacts.left && !seen.contacts.right),
+    );
+    assert_eq!(felt.count(), 1);
 }
 
 #[test]
