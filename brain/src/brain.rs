@@ -124,10 +124,10 @@ impl Brain {
             .learn(&self.map, &self.config, observation.time_us);
         self.correct_map(correction);
         self.note_encounters(advance.onsets, observation.time_us, &estimate);
-        let mut jobs = Vec::new();
+        let (mut jobs, mut edits) = (Vec::new(), Vec::new());
         for command in commands {
             match command {
-                Command::Edit(edit) => self.edit(edit, observation.docked),
+                Command::Edit(edit) => edits.push(self.edit(edit, observation.docked)),
                 Command::Job(job) => jobs.push(job),
             }
         }
@@ -164,6 +164,7 @@ impl Brain {
             arm: intent.arm,
             tones: intent.tones,
             decisions: core::mem::take(&mut self.mind.journal),
+            edits,
         }
     }
 

@@ -41,6 +41,8 @@ pub(crate) struct BrainSession {
     /// Of what the observer has seen.
     edges: Edges,
     waiting: Vec<Command>,
+    /// Edits that waited for a map which the brain has no more.
+    dropped_edits: usize,
     /// Offset of the map's number from the brains before this one.
     map_base: u32,
     /// Offset of the home's revision from the brains before this one.
@@ -80,6 +82,7 @@ impl BrainSession {
             observer: Observer::new(),
             edges: Edges::default(),
             waiting: Vec::new(),
+            dropped_edits: 0,
             map_base: 0,
             home_base: 0,
             runs: 0,
@@ -138,6 +141,23 @@ impl BrainSession {
             let anew = self.next.insert(NextRun::after(&self.brain, next.cause));
             anew.stick_was_centred = next.stick_was_centred;
         }
+    }
+
+    /// The robot is on this floor from now on. Edits that wait were admitted for the map of another one, and are not made in this one.
+    pub(super) fn change_floor(&mut self, floor: Option<u16>) {
+        if self.floor == floor {
+            return;
+        }
+        self.floor = floor;
+        let before = self.waiting.len();
+        self.waiting
+            .retain(|command| !matches!(command, Command::Edit(_)));
+        self.dropped_edits += before - self.waiting.len();
+    }
+
+    /// How many of the oldest edits were dropped since the last call.
+    pub(crate) fn take_dropped_edits(&mut self) -> usize {
+        core::mem::take(&mut self.dropped_edits)
     }
 
     /// Whether commands wait for a run whose home is being made ready.

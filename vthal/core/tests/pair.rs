@@ -1092,6 +1092,50 @@ fn a_change_of_the_map_goes_to_the_disk_before_anybody_hears_that_it_is_done() {
     assert_eq!(told.no_go[0].shape, NoGoShape::Wall([[3.0, 1.0], [3.0, 2.0]]));
 }
 
+/// Both are admitted before the next step of the brain, and the first one takes the wall away.
+#[test]
+fn an_edit_that_cannot_be_made_any_more_is_refused_by_its_name() {
+    let mut pair = on_the_dock();
+    assert_eq!(pair.ask(ANNA, wall([3.0, 1.0], [3.0, 2.0])), None);
+    pair.run_ms(200);
+    pair.edits.clear();
+    let before = pair.updates.len();
+    let removal = || RequestBody::RemoveNoGo { number: 1 };
+    assert_eq!(pair.ask(ANNA, removal()), None);
+    assert_eq!(pair.ask(BERT, removal()), None);
+    pair.run_ms(200);
+    let askers: Vec<_> = pair.edits.iter().map(|edit| (edit.client, edit.id)).collect();
+    assert_eq!(askers, [(ANNA, Some(1))]);
+    assert_eq!(failures(&pair.updates[before..]), [(Some(1), "no-such-no-go")]);
+    assert!(pair.log_lines().contains(
+        &"client 2 is refused (no-such-no-go): There is no such no-go zone: look at the map for those that there are."
+    ));
+}
+
+#[test]
+fn an_edit_of_a_map_that_the_robot_has_left_is_refused_and_not_made_in_another_one() {
+    let mut pair = Pair::with_floors(vec![floor_with_dock(1, 1.0), floor_with_dock(2, 2.0)]);
+    pair.state.docked = true;
+    assert_eq!(pair.ask(ANNA, RequestBody::ChooseFloor { floor: 1 }), None);
+    pair.run_ms(200);
+    let before = pair.updates.len();
+    assert_eq!(pair.ask(ANNA, wall([0.5, 1.0], [0.5, 2.0])), None);
+    assert_eq!(pair.ask(BERT, RequestBody::ChooseFloor { floor: 2 }), None);
+    pair.run_ms(200);
+    assert_eq!(pair.core.floors_view().here, Some(2));
+    assert!(pair.edits.is_empty());
+    assert_eq!(failures(&pair.updates[before..]), [(Some(1), "map-not-taken-up")]);
+}
+
+/// Requests that were refused, by their numbers, and why.
+fn failures(updates: &[Update]) -> Vec<(Option<u32>, &str)> {
+    let failures = updates.iter().filter_map(|update| match update {
+        Update::Failed(failure) => Some((failure.id, failure.reason.as_str())),
+        _ => None,
+    });
+    failures.collect()
+}
+
 #[test]
 fn forbidden_floor_has_a_name_that_no_other_has() {
     let mut pair = on_the_dock();

@@ -66,6 +66,7 @@ fn answers() -> [Actions; 2] {
         arm: None,
         tones: Vec::new(),
         decisions: Vec::new(),
+        edits: Vec::new(),
     };
     let busy = Actions {
         motion: Motion::Drive {
@@ -83,6 +84,7 @@ fn answers() -> [Actions; 2] {
             cause: DecisionCause::Reason(Reason::BumpLeft),
             value: 1.5,
         }],
+        edits: Vec::new(),
     };
     [busy, quiet]
 }

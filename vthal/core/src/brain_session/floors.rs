@@ -122,7 +122,7 @@ impl BrainSession {
         let number = self.storey_resolver.get_or_insert_default().by_dock(floors)?;
         let home = self.home_of(loading_floor, (number, floors.home(number)?))?;
         self.begin_with(Brain::with_home(self.config, self.seed, home));
-        self.floor = Some(number);
+        self.change_floor(Some(number));
         self.storey_resolver = None;
         self.hands = Hands::default();
         Some(FloorNews::Docked(number))
@@ -156,7 +156,7 @@ impl BrainSession {
             ..self.without_place()
         };
         self.go_on_with(now_us, (checkpoint, Some(ready)), recorder);
-        self.floor = Some(place.floor);
+        self.change_floor(Some(place.floor));
         self.storey_resolver = None;
         self.hands = Hands::default();
     }
@@ -194,7 +194,7 @@ impl BrainSession {
     fn forget_floor(&mut self, chosen: Option<u16>) {
         self.map_base = self.map_number();
         self.begin_with(Brain::new(self.config, self.seed));
-        self.floor = None;
+        self.change_floor(None);
         self.storey_resolver = Some(chosen.map_or_else(StoreyResolver::default, StoreyResolver::for_floor));
     }
 
@@ -215,7 +215,7 @@ impl BrainSession {
         if self.floor.is_some() {
             self.go_on_with(now_us, (self.without_place(), None), recorder);
         }
-        self.floor = Some(number);
+        self.change_floor(Some(number));
         self.storey_resolver = None;
         self.hands = Hands::default();
     }

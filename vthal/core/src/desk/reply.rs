@@ -13,8 +13,8 @@ pub(crate) enum Reply {
     ByShell,
     /// The desk answers when the shell says that the disk has the change or has not.
     WhenKept,
-    /// The shell answers when it has kept the map that the brain's next step changes; if that step leaves none to keep, the desk
-    /// does.
+    /// The shell answers when it has kept the map that the brain's next step changes. The desk answers if that step does not make the
+    /// change, or leaves no map to keep.
     AfterStep,
 }
 

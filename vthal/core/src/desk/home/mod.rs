@@ -1,20 +1,19 @@
-//! Edits of the stored home by clients. Each edit is admitted, applied in the next step of the brain, and answered when the map with
-//! it is on the disk.
+//! Edits of the stored home by clients. Each edit is admitted, made in the next step of the brain, and answered when the map with it
+//! is on the disk; one that cannot be made any more by then is refused by its name.
 
 mod no_go;
 mod places;
 mod rooms;
 
 use brain::{Brain, EditError, MapEdit, Pose2, Reason};
-use rvac_api::{Failure, LogLevel, Update};
+use rvac_api::LogLevel;
 
 use super::audience::{Asker, Asking, Teller};
 use super::journal::LogSource;
 use super::reply::Reply;
 use crate::brain_session::BrainSession;
-use crate::outputs::{Delivery, Recipients};
 use crate::refusal::Refusal;
-use crate::{EditedMap, FloorHome, Outputs};
+use crate::{EditedMap, FloorHome};
 
 pub(crate) use no_go::{NoGoRequest, to_no_go};
 pub(crate) use places::{PlaceRequest, to_shape, with_any_places, with_places};
@@ -56,12 +55,7 @@ pub(crate) struct HomeDesk {
 }
 
 impl HomeDesk {
-    /// Whether a client waits for an edit.
-    pub(crate) fn is_waited_for(&self) -> bool {
-        !self.waiting.is_empty()
-    }
-
-    /// Admits an edit for the next step of the brain. The client is answered when the map is on the disk.
+    /// Admits an edit for the next step of the brain. The client is answered by [`Self::keep`] or when the map is on the disk.
     ///
     /// # Errors
     /// Why the request is refused.
@@ -83,21 +77,39 @@ impl HomeDesk {
         Ok((edit, Reply::AfterStep))
     }
 
-    /// After the step that applied the edits: the map goes to the disk with all of them.
-    pub(crate) fn keep(&mut self, home: Option<&FloorHome>, outputs: &mut Outputs) {
-        for Asker { client, id } in self.waiting.drain(..) {
-            match home {
-                Some(home) => outputs.map_edits.push(EditedMap {
-                    client,
-                    id,
+    /// After a step of the brain: the map goes to the disk with the edits that were made, in the order of the requests. Those that the
+    /// edits before them have made impossible are refused.
+    pub(crate) fn keep(
+        &mut self,
+        made: &[Result<(), EditError>],
+        home: Option<&FloorHome>,
+        teller: &mut Teller<'_>,
+    ) {
+        let answered = self.waiting.len().min(made.len());
+        for (asker, made) in self.waiting.drain(..answered).zip(made) {
+            match (made, home) {
+                (Ok(()), Some(home)) => teller.outputs.map_edits.push(EditedMap {
+                    client: asker.client,
+                    id: asker.id,
                     home: home.clone(),
                 }),
-                None => outputs.deliveries.push(Delivery {
-                    to: Recipients::One(client),
-                    update: not_kept(id),
-                }),
+                (Ok(()), None) => teller.answer(asker, Err(not_kept())),
+                (Err(error), _) => teller.answer(asker, Err(Refusal::from(*error))),
             }
         }
+    }
+
+    /// The oldest `count` edits are not made: the brain has another map now.
+    pub(crate) fn refuse_oldest(&mut self, count: usize, teller: &mut Teller<'_>) {
+        let count = count.min(self.waiting.len());
+        for asker in self.waiting.drain(..count) {
+            teller.answer(asker, Err(Refusal::from("map-not-taken-up")));
+        }
+    }
+
+    /// As [`Self::refuse_oldest`], all of them.
+    pub(crate) fn refuse_all(&mut self, teller: &mut Teller<'_>) {
+        self.refuse_oldest(self.waiting.len(), teller);
     }
 }
 
@@ -109,12 +121,11 @@ pub(crate) fn known_home(brain_session: Option<&BrainSession>) -> Result<&BrainS
 }
 
 /// The robot got lost in the step.
-fn not_kept(id: Option<u32>) -> Update {
-    Update::Failed(Failure {
-        id,
-        reason: Reason::PlaceUnknown.name().to_owned(),
+fn not_kept() -> Refusal {
+    Refusal {
+        reason: Reason::PlaceUnknown.name(),
         text:
             "The robot has just lost its way, so its map is not kept: try again when it stands on its dock."
                 .to_owned(),
-    })
+    }
 }
