@@ -1,7 +1,7 @@
 //! The one entry point: inputs come in, the parts are asked in turn.
 
 mod clock;
-mod desk_request;
+pub(crate) mod desk_request;
 mod facts;
 mod firmware;
 mod hand;

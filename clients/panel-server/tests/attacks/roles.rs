@@ -1,6 +1,7 @@
 //! A1, A2: who has no token, and who has one of a role that is too low.
 
-use pairing::{Method, Need, PRESENCE, ROUTES, Role, VERBS};
+use pairing::{Method, Need, PRESENCE, ROUTES, Role};
+use rvac_api::VERBS;
 
 use crate::report::Report;
 use crate::rig::{Answer, Rig};

@@ -8,7 +8,8 @@ mod pairing_steps;
 
 use leptos::prelude::*;
 use pairing::wire::Session;
-use pairing::{Role, role_for};
+use pairing::Role;
+use rvac_api::role_for;
 
 pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, Needs, OnlyLooks};
 pub(crate) use devices_view::DevicesView;

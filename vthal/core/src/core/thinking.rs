@@ -119,7 +119,8 @@ impl Core {
         }
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.home.refuse_oldest(dropped, &mut teller);
-        self.home.keep(made, home.as_ref(), &mut teller);
+        self.home
+            .keep((made, brain_session.brain()), home.as_ref(), &mut teller);
     }
 
     fn follow_state(&mut self, now_us: u64, before: BehaviorState) {

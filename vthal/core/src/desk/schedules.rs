@@ -1,6 +1,6 @@
 //! Schedules: what people want of them, what the clock wants, and what the robot says to that.
 
-use rvac_api::{LogLevel, QuietHours, ScheduleEntry, ScheduledJob, Schedules, Topic, Update};
+use rvac_api::{LogLevel, ScheduleEntry, ScheduledJob, Schedules, Topic, Update};
 
 use super::audience::{Asking, Teller};
 use super::home::with_any_places;
@@ -22,16 +22,8 @@ pub(crate) enum ScheduleRequest {
     Add(ScheduleEntry),
     /// Another one in its place.
     Change { number: u32, entry: ScheduleEntry },
-    /// It is removed.
-    Remove { number: u32 },
-    /// It starts by itself, or no longer.
-    Enable { number: u32, enabled: bool },
-    /// Its next run is left out, or no longer.
-    SkipNext { number: u32, skip: bool },
-    /// When nothing starts.
-    SetQuiet(Option<QuietHours>),
-    /// The time zone by its name; `None` = the system's.
-    SetZone(Option<String>),
+    /// What needs no look at the home.
+    Edit(ScheduleEdit),
 }
 
 impl From<ScheduleError> for Refusal {
@@ -110,11 +102,7 @@ impl ScheduleDesk {
             ScheduleRequest::Change { number, entry } => {
                 ScheduleEdit::Change(number, plan(Plan::from_api(entry)?, readiness)?)
             }
-            ScheduleRequest::Remove { number } => ScheduleEdit::Remove(number),
-            ScheduleRequest::Enable { number, enabled } => ScheduleEdit::Enable(number, enabled),
-            ScheduleRequest::SkipNext { number, skip } => ScheduleEdit::SkipNext(number, skip),
-            ScheduleRequest::SetQuiet(quiet) => ScheduleEdit::quiet_from_api(quiet.as_ref())?,
-            ScheduleRequest::SetZone(zone) => ScheduleEdit::zone_from_api(zone.as_deref())?,
+            ScheduleRequest::Edit(edit) => edit,
         };
         if !self.scheduler.take(asker, edit) {
             return Err("disk-busy".into());

@@ -4,8 +4,8 @@
 
 mod answer;
 mod command;
+mod earlier_map_edit;
 mod flow;
-mod map_edit;
 mod order;
 mod packet;
 mod sensors;
@@ -13,7 +13,7 @@ mod state;
 
 pub use answer::{Answered, AnsweredNames, DecisionNames};
 pub use command::{GivenCommand, GivenJobCommand};
-pub use map_edit::{GivenDockEdit, GivenNoGoEdit, GivenPlaceEdit, GivenRoomEdit};
+pub use earlier_map_edit::EarlierMapEdit;
 pub use order::GivenOrder;
 pub use packet::SentPacket;
 pub use state::BrainState;
