@@ -3,16 +3,16 @@
 
 use brain::Observation;
 
-/// When something came that comes and goes.
+/// When a level came, and when it was last there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Presence {
+pub(crate) struct LevelTimes {
     /// Host time in microseconds; `None` = it is not there.
     came_us: Option<u64>,
     /// When it was there last.
     seen_us: Option<u64>,
 }
 
-impl Presence {
+impl LevelTimes {
     /// Takes whether it is there now. `true` if it has just come.
     pub(crate) fn take(&mut self, now_us: u64, is_there: bool) -> bool {
         let comes = is_there && self.came_us.is_none();
@@ -102,27 +102,27 @@ impl Sign {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Edges {
     /// In the order of [`Sign::ALL`].
-    presences: [Presence; Sign::ALL.len()],
+    levels: [LevelTimes; Sign::ALL.len()],
 }
 
 impl Edges {
     /// Takes in what is felt now.
     pub(crate) fn take(&mut self, now_us: u64, observation: &Observation) {
-        for (sign, presence) in Sign::ALL.into_iter().zip(&mut self.presences) {
-            presence.take(now_us, sign.is_in(observation));
+        for (sign, level) in Sign::ALL.into_iter().zip(&mut self.levels) {
+            level.take(now_us, sign.is_in(observation));
         }
     }
 
     /// Since when a sign is there; `None` = it is not.
     pub(crate) fn since_us(&self, sign: Sign) -> Option<u64> {
-        let mut all = Sign::ALL.into_iter().zip(self.presences);
+        let mut all = Sign::ALL.into_iter().zip(self.levels);
         all.find(|(other, _)| *other == sign)?.1.since_us()
     }
 
     /// The signs that are there.
     pub(crate) fn present(&self) -> impl Iterator<Item = Sign> {
-        let all = Sign::ALL.into_iter().zip(self.presences);
-        all.filter_map(|(sign, presence)| presence.is_there().then_some(sign))
+        let all = Sign::ALL.into_iter().zip(self.levels);
+        all.filter_map(|(sign, level)| level.is_there().then_some(sign))
     }
 }
 

@@ -237,6 +237,7 @@ mod tests {
                 turn_rad,
                 wheel_turn_rad: turn_rad,
                 gyro_turn_rad: Some(turn_rad),
+                ..Advance::default()
             };
             if let Some(fix) = slam.follow(OdometryStep { odom, advance }, turns, &view) {
                 pose = fix.map_from_odom * odom;

@@ -105,6 +105,7 @@ impl Core {
 
     /// After a step: if the brain has made edits of clients, its map goes to the disk. The others are refused.
     fn keep_edits(&mut self, now_us: u64, made: &[Result<(), EditError>], outputs: &mut Outputs) {
+        let now = self.now(now_us);
         let Some(brain_session) = &mut self.brain_session else {
             return;
         };
@@ -117,7 +118,7 @@ impl Core {
         if let Some(kept) = &home {
             self.floors.note_kept(kept);
         }
-        let mut teller = self.audience.teller(self.now(now_us), outputs);
+        let mut teller = self.audience.teller(now, outputs);
         self.home.refuse_oldest(dropped, &mut teller);
         self.home
             .keep((made, brain_session.brain()), home.as_ref(), &mut teller);

@@ -5,7 +5,7 @@ use brain::{Inhibit, Inhibits};
 
 use super::reflex::is_host;
 use super::{CommandError, Reflexes, Report};
-use crate::edges::Presence;
+use crate::edges::LevelTimes;
 
 /// A bumper that stays pressed for so long while the robot backs off is stuck.
 const STUCK_BACKING_US: u64 = 3_000_000;
@@ -32,9 +32,9 @@ pub(super) struct HostLatches {
 /// State of S7.
 #[derive(Clone, Copy, Debug, Default)]
 struct BumperLatch {
-    pressed: Presence,
-    pressed_off_dock: Presence,
-    pressed_backing: Presence,
+    pressed: LevelTimes,
+    pressed_off_dock: LevelTimes,
+    pressed_backing: LevelTimes,
     /// Way backed while pressed, less the way forward since: no sensor looks backwards, so a contact that opens and closes again does
     /// not restart it.
     backed_m: f64,
@@ -43,7 +43,7 @@ struct BumperLatch {
 /// State of S8.
 #[derive(Clone, Copy, Debug, Default)]
 struct CliffLatch {
-    seen: Presence,
+    seen: LevelTimes,
     /// Way backed since the cliff came, metres.
     backed_m: f64,
     onsets_us: [Option<u64>; CLIFFS_MAX],

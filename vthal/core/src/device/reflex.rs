@@ -6,7 +6,7 @@ use brain::Inhibit;
 use brain::observation::Contacts;
 
 use super::{Description, Drive, ReflexSite, Reflexes, Report};
-use crate::edges::Presence;
+use crate::edges::LevelTimes;
 
 /// Way that a robot may make between what happens and the wheels' answer, metres: less than the travel of a bumper, and
 /// than what lies between a cliff sensor and the wheel behind it.
@@ -29,7 +29,7 @@ pub(super) struct HostReflexes {
     reported_us: Option<u64>,
     contacts: Contacts,
     at_cliff: bool,
-    wheel_drop: Presence,
+    wheel_drop: LevelTimes,
 }
 
 impl HostReflexes {
@@ -41,7 +41,7 @@ impl HostReflexes {
             reported_us: None,
             contacts: Contacts::default(),
             at_cliff: false,
-            wheel_drop: Presence::default(),
+            wheel_drop: LevelTimes::default(),
         })
     }
 
@@ -149,7 +149,7 @@ mod tests {
     use brain::observation::{Cliffs, Contacts};
 
     use super::super::{Drive, ReflexSite, Reflexes, Report, WheelDrops};
-    use super::{HostReflexes, speed_limit_m_per_s};
+    use super::{HostReflexes, LevelTimes, speed_limit_m_per_s};
 
     const HOST: ReflexSite = ReflexSite::Host { latency_s: 0.2 };
     const ALL: Reflexes = Reflexes {
@@ -165,7 +165,7 @@ mod tests {
             reported_us: None,
             contacts: Contacts::default(),
             at_cliff: false,
-            wheel_drop: Presence::default(),
+            wheel_drop: LevelTimes::default(),
         };
         let mut told = report;
         reflexes.take(0, &mut told);
