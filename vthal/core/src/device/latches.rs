@@ -176,13 +176,11 @@ mod tests {
     fn latches_after(latches: &mut HostLatches, report: Report, m_per_s: f64) -> Option<u64> {
         (0..=150).find(|tenths| {
             let way_m = 0.1 * m_per_s * *tenths as f64;
-            let mut told = Report {
-                travel: WheelTravel {
-                    left_m: way_m,
-                    right_m: way_m,
-                    speeds: None,
-                },
-                ..report
+            let mut told = report;
+            told.travel = WheelTravel {
+                left_m: way_m,
+                right_m: way_m,
+                speeds: None,
             };
             latches.take(tenths * 100_000, &mut told, ALL)
         })
