@@ -1107,7 +1107,7 @@ fn an_edit_that_cannot_be_made_any_more_is_refused_by_its_name() {
     let askers: Vec<_> = pair.edits.iter().map(|edit| (edit.client, edit.id)).collect();
     assert_eq!(askers, [(ANNA, Some(1))]);
     assert_eq!(failures(&pair.updates[before..]), [(Some(1), "no-such-no-go")]);
-    let logged = |line: &&str| line.contains("client 2 is refused (no-such-no-go)");
+    let logged = |line: &&str| line.contains("client-2 is refused (no-such-no-go)");
     assert!(pair.log_lines().iter().any(logged));
 }
 
