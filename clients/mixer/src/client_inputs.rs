@@ -1,4 +1,4 @@
-//! What other clients tell, as the robot passes it on: each input ends by itself at the client that drives by it.
+//! Inputs of other clients, as the robot passes them on. Each expires by itself at the client that drives by it.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ struct Told {
 }
 
 impl ClientInputs {
-    /// The robot told this, in place of all that it told before. What no client could have told is left out: it is absent.
+    /// Replaces all inputs by those that the robot has just sent. An input that no client can have sent is left out and so is absent.
     pub fn hear(&mut self, now_us: u64, inputs: &[ClientInput]) {
         let told = inputs.iter().take(INPUTS_MAX).filter_map(|input| {
             let name = Name::new(&input.name).ok()?;
@@ -31,12 +31,12 @@ impl ClientInputs {
         self.told = told.collect();
     }
 
-    /// The connection to the robot is gone, and all that it told with it.
+    /// Forgets all inputs, because the connection to the robot is lost.
     pub fn forget(&mut self) {
         self.told.clear();
     }
 
-    /// What is told at this moment, for [`crate::Readings::clients`].
+    /// The inputs that are valid at this moment, for [`crate::Readings::clients`].
     #[must_use]
     pub fn at(&self, now_us: u64) -> BTreeMap<Name, f64> {
         let live = self.told.iter().filter(|(_, told)| now_us < told.until_us);

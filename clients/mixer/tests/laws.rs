@@ -127,7 +127,7 @@ proptest! {
         prop_assert_eq!(mixed.wish().axes, mixer::Axes::default());
     }
 
-    /// Whatever a client tells and whenever it falls silent: nothing moves when the longest lease is over.
+    /// Whatever a client sends and whenever it falls silent, nothing moves after the longest lease.
     #[test]
     fn a_client_that_falls_silent_drives_no_longer_than_a_lease(
         words in prop::collection::vec((-1.0_f64..=1.0, 1_u16..=500, 1_u64..300_000), 1..20),

@@ -19,7 +19,7 @@ use clap::Parser;
 use stage::Stage;
 use vthal_bench::{Processor, resident_max_mib, resident_mib};
 
-/// Numbers of clients of each way.
+/// Numbers of clients of each route.
 const CLIENTS: [usize; 2] = [1, 10];
 
 #[derive(Parser)]
@@ -61,13 +61,13 @@ fn measure_all(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What was measured of one way to the robot.
+/// What was measured on one route to the robot.
 struct Row {
     way: &'static str,
     clients: usize,
     telemetry: telemetry::Delays,
     requests: requests::Figures,
-    /// None of the daemon, of which all ways make use at once.
+    /// None of the daemon, which all routes use at once.
     server: Option<Server>,
 }
 

@@ -1,4 +1,4 @@
-//! How long telemetry of 50 Hz is under way to clients that follow what a page follows, by all ways in the same seconds.
+//! Latency of telemetry at 50 Hz to clients that follow the topics of a page, on all routes in the same seconds.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -18,10 +18,10 @@ const MARK: &str = "state";
 const HEAD_BYTES: usize = 80;
 /// Telemetry of the SR8730.
 const PERIOD: Duration = Duration::from_millis(20);
-/// For what is under way when time is over.
+/// For messages in transit when time is over.
 const LAST_WAIT: Duration = Duration::from_secs(3);
 
-/// From the write to the terminal to the end of the read by a client, over all clients of a way.
+/// From the write to the terminal to the end of the read by a client, over all clients of a route.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Delays {
     pub(crate) median_ms: f64,
@@ -30,7 +30,7 @@ pub(crate) struct Delays {
     pub(crate) took: Duration,
 }
 
-/// What a client tells while it listens.
+/// What a client reports while it listens.
 #[derive(Default)]
 struct Shared {
     /// Packets are counted from now on.
@@ -58,7 +58,7 @@ pub(crate) fn measure(
             listeners.push(listen(peer, Arc::clone(&shared)));
         }
     }
-    // All that is told at once, the map above all, arrives before the first packet that counts.
+    // The first messages, the map above all, arrive before the first packet that counts.
     stage
         .robot
         .live_until(Instant::now() + Duration::from_secs(2), |_| false)?;

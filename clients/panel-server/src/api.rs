@@ -36,7 +36,7 @@ type Answer = Result<Response<Body>, Fault>;
 /// Why a request is not done.
 #[derive(Debug)]
 enum Fault {
-    /// On the robot's own computer nobody needs to be let in.
+    /// On the robot's own computer no pairing is needed.
     NoGate,
     /// The body is none of ours.
     Body(String),
@@ -90,7 +90,7 @@ pub(crate) fn told(reason: &str, text: &str) -> Refused {
     }
 }
 
-/// An answer in JSON that nobody keeps.
+/// An answer in JSON that is not cached.
 pub(crate) fn json(status: StatusCode, body: &impl Serialize) -> Response<Body> {
     let text = serde_json::to_vec(body).unwrap_or_default();
     let headers = [

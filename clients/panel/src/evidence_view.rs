@@ -1,4 +1,4 @@
-//! Why the robot stands: what it felt in the seconds before, and what it tried.
+//! Why the robot stands still: sensor readings in the seconds before, and what it tried.
 
 use leptos::prelude::*;
 use panel_logic::{FeltRow, decision_text, felt_rows};
@@ -7,7 +7,7 @@ use rvac_api::{Evidence, Standstill, Status};
 use crate::language::words;
 use crate::store::Store;
 
-/// Of the standstill that goes on, folded; nothing while the robot works or stands because somebody wanted it.
+/// Of the present standstill, folded; nothing while the robot works or was ordered to stop.
 #[component]
 pub(crate) fn StandstillView(store: Store) -> impl IntoView {
     let told = Memo::new(move |_| going_on(store));
@@ -27,7 +27,7 @@ pub(crate) fn StandstillView(store: Store) -> impl IntoView {
     move || evidence.get().map(|evidence| view! { <EvidenceView evidence /> })
 }
 
-/// The standstill that the robot told last, if it still stands for it.
+/// The last reported standstill, if it still lasts.
 fn going_on(store: Store) -> Option<Standstill> {
     let told = store.standstill.get()?;
     let is_now = store.status.with(|status| {

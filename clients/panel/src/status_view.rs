@@ -40,7 +40,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
     }
 }
 
-/// Why the robot is in its state. That somebody asked for it needs no words while it works.
+/// Why the robot is in its state. That a person asked for it needs no words while it works.
 fn reason_text(status: &Status) -> String {
     let plain = matches!(
         status.reason.as_str(),

@@ -1,4 +1,4 @@
-//! Every message as it stands on the socket.
+//! Every message as the socket carries it.
 //!
 //! A red test here means that clients in the field would misread the daemon: take the change back, or raise `API_VERSION` and keep
 //! the old form readable. New messages and new optional keys get new lines.

@@ -50,7 +50,7 @@ fn print_decisions(mut connection: Connection, options: &WhyOptions) -> anyhow::
     Ok(())
 }
 
-/// Gives `take` what `topic` told up to now, each with its JSON, and returns the daemon's time.
+/// Gives `take` the past updates of `topic`, each with its JSON, and returns the daemon's time.
 fn told_before(
     connection: &mut Connection,
     topic: Topic,

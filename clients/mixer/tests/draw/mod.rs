@@ -37,7 +37,7 @@ fn switch_name(place: usize) -> Name {
     Name::new(&format!("switch {place}")).expect("a name")
 }
 
-/// A switch that may look at those before it.
+/// A switch that may refer to those before it.
 fn switch(place: usize) -> BoxedStrategy<Switch> {
     let of_input = (source(place), -1.0..=1.0).prop_map(|(input, level)| Condition::Above { input, level });
     let below = (source(place), -1.0..=1.0).prop_map(|(input, level)| Condition::Below { input, level });

@@ -13,7 +13,7 @@ pub struct Row {
     pub label: String,
     /// How much, with its unit.
     pub value: String,
-    /// Whether it wants attention.
+    /// Whether it needs attention.
     pub alarming: bool,
 }
 

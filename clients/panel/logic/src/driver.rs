@@ -49,8 +49,8 @@ pub fn keys_of(profile: &Profile) -> BTreeSet<KeyCode> {
         .collect()
 }
 
-/// A device in a hand is never so still that its browser tells nothing for so long (Chromium tells every change of a tenth of a
-/// degree): nobody holds it, or its sensor is gone.
+/// A device in a hand is never so still that its browser reports nothing for so long (Chromium reports every change of a tenth of a
+/// degree): it lies somewhere, or its sensor is gone.
 const TILT_SILENT_US: u64 = 1_000_000;
 
 /// What is held, the mix that it goes through, and the seat.
@@ -59,9 +59,9 @@ pub struct Driver {
     pilot: Pilot,
     keys: BTreeSet<KeyCode>,
     readings: Readings,
-    /// What other clients tell.
+    /// Inputs of other clients.
     told: ClientInputs,
-    /// When the tilt was told last.
+    /// When the tilt was last reported.
     tilted_us: u64,
     cleaners: bool,
 }
@@ -82,7 +82,7 @@ impl Default for Driver {
 }
 
 impl Driver {
-    /// Drives by another mix from now on; whatever is held is let go by it.
+    /// Drives by another mix from now on and releases all held inputs.
     ///
     /// # Errors
     /// What is wrong with the mix; then the one before goes on.
@@ -147,7 +147,7 @@ impl Driver {
         self.readings.remove(&Device::Tilt);
     }
 
-    /// The robot passes on what other clients tell.
+    /// Takes the inputs of other clients, which the robot passes on.
     pub fn hear_inputs(&mut self, now_us: u64, inputs: &[ClientInput]) {
         self.told.hear(now_us, inputs);
     }
@@ -157,7 +157,7 @@ impl Driver {
         self.told.forget();
     }
 
-    /// Hands are off keys and pad; whatever else is held is so still.
+    /// Hands are off keys and pad; other inputs stay held.
     pub fn let_go(&mut self) {
         let tilt = self.readings.tilt;
         let pads = std::mem::take(&mut self.readings.pads);
@@ -199,7 +199,7 @@ impl Driver {
         self.stand_by(now_us)
     }
 
-    /// Nothing drives at this moment, whatever hands do.
+    /// Nothing drives at this moment, regardless of the inputs.
     pub fn stand_by(&mut self, now_us: u64) -> Steered {
         self.forget_the_silent(now_us);
         let nothing = Readings::default();
@@ -207,7 +207,7 @@ impl Driver {
         self.pilot.step(now_us, &nothing, top_speeds(None))
     }
 
-    /// Inputs that are told, and not asked, end when nothing is told of them any more.
+    /// Inputs that arrive as events end when no event follows.
     fn forget_the_silent(&mut self, now_us: u64) {
         self.readings.clients = self.told.at(now_us);
         if now_us.saturating_sub(self.tilted_us) >= TILT_SILENT_US {
@@ -235,7 +235,7 @@ const FULL: CleaningPower = CleaningPower {
     side_brushes: Cleaning::FULL.side_brushes,
 };
 
-/// The page's own inputs with nobody at them.
+/// The page's own inputs at rest.
 fn at_rest() -> Readings {
     Readings {
         keys: Some(BTreeSet::new()),

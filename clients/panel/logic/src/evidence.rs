@@ -1,21 +1,21 @@
-//! What the robot felt before it stood still, as rows of a table.
+//! Sensor readings before the robot stopped, as rows of a table.
 
 use rvac_api::{Evidence, Felt};
 
 use crate::codes::explain;
 use crate::words::Words;
 
-/// Slower than this it stands, m/s and rad/s.
+/// Below this it counts as standing, m/s and rad/s.
 const STANDS_M_PER_S: f64 = 0.02;
 const STANDS_RAD_PER_S: f64 = 0.1;
-/// Length of what is felt at once, seconds.
+/// Length of one sample, seconds.
 const SAMPLE_S: f64 = 0.2;
-/// Begin of the ten seconds that are told.
+/// Begin of the ten seconds that are shown.
 const EARLIEST_S: f64 = -10.0;
-/// The shortest stretch that times with one digit can show, seconds.
+/// The shortest period that times with one digit can show, seconds.
 const SHOWN_S: f64 = 0.1;
 
-/// A stretch of time in which the robot felt and did the same.
+/// A period in which sensor readings and motion stayed the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FeltRow {
     pub when: String,
@@ -63,7 +63,7 @@ pub fn felt_rows(words: &Words, evidence: &Evidence) -> Vec<FeltRow> {
         .collect()
 }
 
-/// The row of a stretch; another one ended at `before_s`. The newest sample may be shorter than the others.
+/// The row of a period; the previous one ended at `before_s`. The newest sample may be shorter than the others.
 fn row(words: &Words, felt: &[Felt], before_s: f64) -> FeltRow {
     let first = felt.first().cloned().unwrap_or_default();
     let to_s = felt.last().map_or(first.at_s, |last| last.at_s);

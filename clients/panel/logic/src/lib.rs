@@ -1,4 +1,4 @@
-//! What the panel knows and decides, without browser and framework, so that it is tested on the host.
+//! State and decisions of the panel, without browser and framework, so that tests run on the host.
 //!
 //! Words used here. The *camera* says which part of the map is seen. The *playout* turns poses that arrive now and then into
 //! motion that flows. The *driver* turns what hands do into drive requests under a lease, by a control mix. An *offer* says

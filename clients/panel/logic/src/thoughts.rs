@@ -1,4 +1,4 @@
-//! What the robot thinks, for people: how sure it is, where it means to drive, what it decided.
+//! The robot's estimates, planned path and decisions, in words.
 
 use std::collections::VecDeque;
 
@@ -9,9 +9,9 @@ use crate::words::Words;
 
 /// Decisions that are kept.
 const KEPT: usize = 100;
-/// Corners of a planned way that are drawn at most.
+/// Most corners of a planned path that are drawn.
 const CORNERS_MAX: usize = 4_000;
-/// Dashes of a planned way at most.
+/// Most dashes of a planned path.
 const DASHES_MAX: usize = 20_000;
 
 /// The newest decisions, each once.
@@ -36,7 +36,7 @@ impl DecisionBook {
         self.entries.push_back(entry);
     }
 
-    /// Forgets everything, for a daemon that counts anew.
+    /// Forgets everything, for a daemon that starts counting again.
     pub fn clear(&mut self) {
         self.entries.clear();
     }
@@ -61,7 +61,7 @@ pub fn place_text(words: &Words, estimate: &Estimate) -> String {
     words.status.within.fill([&span])
 }
 
-/// What the robot can tell of its place and its work, a sentence each.
+/// The robot's estimates of position and coverage, a sentence each.
 #[must_use]
 pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
     let told = &words.status;
@@ -84,7 +84,7 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
     sentences
 }
 
-/// The planned way as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
+/// The planned path as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
 #[must_use]
 pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
     let corners: Vec<[f64; 2]> = way
@@ -102,7 +102,7 @@ pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
         return Vec::new();
     };
     let mut dashes = Vec::new();
-    // Way made since the last dash began.
+    // Distance since the last dash began.
     let mut phase_m = 0.0;
     for pair in corners.windows(2) {
         let &[from, to] = pair else { continue };

@@ -38,7 +38,7 @@ impl Edits {
         self.log.update(|log| log.on_done(id, home.revision));
     }
 
-    /// A refused edit has not happened; the refusal is told as any other.
+    /// A refused edit has not happened; the refusal is shown as any other.
     pub(crate) fn on_failed(self, failure: &Failure) {
         if let Some(id) = failure.id {
             self.log.update(|log| log.on_failed(id, &failure.reason));
@@ -137,7 +137,7 @@ impl Store {
         }
     }
 
-    /// The home as the robot told it last.
+    /// The home as last received from the robot.
     pub(crate) fn known_home(self) -> HomeView {
         self.map
             .with_value(|map| map.with(|scene| scene.home().cloned()))

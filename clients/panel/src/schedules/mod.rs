@@ -48,7 +48,7 @@ impl ScheduleDesk {
         }
     }
 
-    /// Whether the refusal is that of the form, beside which it stands.
+    /// Whether the refusal concerns the form, beside which it is displayed.
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_ours = failure.id == Some(SCHEDULE_ID);
         if is_ours {

@@ -17,7 +17,7 @@ use super::DriveEvent;
 use super::shaker::Shaker;
 use crate::socket::Connection;
 
-/// The mixer looks at the inputs so often.
+/// Period at which the mixer reads the inputs.
 const TICK: Duration = Duration::from_micros(STEP_EVERY_US);
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
@@ -30,13 +30,13 @@ pub(super) struct Session {
     top: TopSpeeds,
     pilot: Pilot,
     readings: Readings,
-    /// What other clients tell.
+    /// Inputs of other clients.
     told_inputs: ClientInputs,
     /// Pads that can shake, by their numbers.
     shakers: BTreeMap<u8, Shaker>,
     bumps: BumpWatch,
     start: Instant,
-    /// What was told to the person last.
+    /// The last message to the person.
     told: Option<MixState>,
 }
 
@@ -163,13 +163,13 @@ impl Session {
         steered.seat.map_or(Ok(()), |body| self.send(DRIVE_ID, body))
     }
 
-    /// Every hand that holds a pad feels a bump.
+    /// All pads rumble at a bump.
     fn feel(&mut self, status: &Status) {
         if !self.bumps.look(status) {
             return;
         }
         for shaker in self.shakers.values_mut() {
-            shaker.shake().ok(); // A pad that is gone is told of by its reader.
+            shaker.shake().ok(); // The reader of a pad reports that it is gone.
         }
     }
 
@@ -177,7 +177,7 @@ impl Session {
         u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
     }
 
-    /// Takes what other clients tell at this moment.
+    /// Takes the inputs of other clients at this moment.
     fn look_at_clients(&mut self, now_us: u64) -> anyhow::Result<()> {
         let now = self.told_inputs.at(now_us);
         let before = std::mem::replace(&mut self.readings.clients, now);

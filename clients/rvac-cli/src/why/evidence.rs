@@ -1,4 +1,4 @@
-//! What the robot felt and tried, as a table.
+//! Sensor readings and attempts of the robot, as a table.
 
 use std::fmt::Write as _;
 use std::io::{Write as _, stdout};
@@ -10,7 +10,7 @@ use super::{PATIENCE, ago, told_before};
 use crate::control;
 use crate::socket::Connection;
 
-/// Prints what the robot felt and tried up to now.
+/// Prints the recent sensor readings and attempts.
 pub(super) fn print_felt(mut connection: Connection, json: bool) -> anyhow::Result<()> {
     let request = (RequestBody::Evidence, PATIENCE);
     let (evidence, text) = control::answer(&mut connection, request, |update, text| match update {
@@ -27,7 +27,7 @@ pub(super) fn print_felt(mut connection: Connection, json: bool) -> anyhow::Resu
     Ok(())
 }
 
-/// Prints why the robot stood still by itself the last time.
+/// Prints why the robot last stopped by itself.
 pub(super) fn print_stop(mut connection: Connection, json: bool) -> anyhow::Result<()> {
     let mut newest = None;
     let now_s = told_before(&mut connection, Topic::Standstills, |update, text| {
@@ -63,7 +63,7 @@ fn in_words(told: &Standstill, now_s: f64) -> String {
     )
 }
 
-/// Tried and felt; decisions are told in seconds before `moment_s`, or without a time when that is 0.
+/// Decisions and readings. Decisions have their time in seconds before `moment_s`, or none when that is 0.
 fn table(evidence: &Evidence, moment_s: f64) -> String {
     let mut text = String::new();
     for decision in &evidence.tried {

@@ -1,4 +1,4 @@
-//! What the robot knows of the home: floors, rooms, what is forbidden, kept maps.
+//! The robot's map of the home: floors, rooms, what is forbidden, stored maps.
 
 use super::screen;
 
