@@ -51,7 +51,7 @@ pub(crate) enum LineOrder {
     NextRate,
 }
 
-/// Serves the device until the daemon's event queue closes: opens it, passes bytes both ways, and begins again when it is
+/// Serves the device until the daemon's event queue closes: opens it, passes bytes in both directions, and begins again when it is
 /// lost. Each outage is reported once.
 pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot: Receiver<LineOrder>) {
     let mut rates = robot.rates_baud.iter().copied().cycle();
@@ -127,14 +127,14 @@ fn drain(to_robot: &mut Receiver<LineOrder>) {
 }
 
 /// An open line. The lock is advisory and dies with the process, however that ends; it has a handle of its own because the
-/// port gives its one away to nobody.
+/// port keeps its only one.
 pub(crate) struct Line {
     /// Reads and writes.
     pub port: SerialPort,
     _lock: OwnedFd,
 }
 
-/// Locks the device against a second daemon, then sets raw mode at the wanted rate.
+/// Locks the device against a second daemon, then sets raw mode at the configured rate.
 pub(crate) fn open(settings: &SerialSettings) -> Result<Line, OpenError> {
     let path = settings.path.as_path();
     let refused = |error: io::Error| OpenError::Open {

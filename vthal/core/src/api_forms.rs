@@ -8,7 +8,7 @@ use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape};
 use crate::desk::home::{to_no_go as no_go_or_refusal, to_shape};
 use crate::desk::{room_power, words};
 
-/// An order but for its power, which clients tell in shares.
+/// An order without its power, which clients send in shares.
 #[must_use]
 pub fn order(order: &CleaningOrder) -> JobOrder {
     JobOrder {

@@ -253,7 +253,7 @@ impl BrainSession {
         self.next.is_some() || self.loading_floor.is_some()
     }
 
-    /// Goes on with the home of a floor, then with that of the next run, and begins that when it is ready.
+    /// Continues to load the home of a floor, then that of the next run, and begins the run when it is ready.
     pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
         if let Some(floor) = &mut self.loading_floor {
             floor.go_on();
@@ -363,7 +363,7 @@ enum StickPosition {
 }
 
 impl StickPosition {
-    /// Where a command says that it is; `None` for a command that says nothing of it.
+    /// Where a command says that the robot is; `None` for a command that does not say.
     fn of(command: &Command) -> Option<Self> {
         let Command::Job(JobCommand::Manual {
             speed_m_per_s,

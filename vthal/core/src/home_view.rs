@@ -1,4 +1,4 @@
-//! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
+//! The map of the home in the types of the interface to clients, of bounded size.
 
 use brain::mapping::{Annotations, Door, MapConfidence, Room, RoomChange, WallSegment};
 use brain::{CELL_M, Cell, CellKnowledge, KeptPlace, Map, NoGo, Raster, SurfaceKind};
@@ -20,7 +20,7 @@ const COARSE_MAX: usize = 16;
 /// Rooms, doors and walls that are sent at most. Walls come longest first.
 const ITEMS_MAX: usize = 1_000;
 
-/// Whether the robot can feel on which floor it is.
+/// Whether the robot can detect the floor's surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FeltFloors {
     /// It measures what its motors draw.
@@ -30,7 +30,7 @@ pub(crate) enum FeltFloors {
 }
 
 impl FeltFloors {
-    /// Of a map whose robot is not at hand: whoever has felt floors can.
+    /// For a map without its robot: a robot whose map contains surfaces can detect them.
     pub(crate) fn in_map(map: &Map) -> Self {
         match map.surface_kinds().next() {
             Some(_) => Self::Measured,
@@ -79,7 +79,7 @@ fn sureness(map: &Map) -> Vec<SurenessView> {
         .collect()
 }
 
-/// The kinds of floor in the window of what is known: 0 not felt, 1 hard, 2 carpet.
+/// The surfaces in the known window: 0 not measured, 1 hard, 2 carpet.
 fn floors(map: &Map, felt: FeltFloors) -> Option<Raster<u8>> {
     if felt == FeltFloors::NotMeasured {
         return None;
@@ -110,7 +110,7 @@ fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>, floors: Option
             return view;
         }
         if coarse >= COARSE_MAX {
-            // So much of so little is not a home; what is not told is not known.
+            // Such a pattern is no home; cells that are not sent are unknown.
             return HomeView {
                 cells: Rle::new(),
                 room_cells: Rle::new(),
@@ -125,7 +125,7 @@ fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>, floors: Option
     }
 }
 
-/// What was felt of the floor, in the window of [`cells_of`].
+/// The surfaces detected, in the window of [`cells_of`].
 fn carpet(coarse: usize, floors: &Raster<u8>) -> CarpetView {
     let window = Window::of(coarse, floors);
     let mut kinds = vec![0_u32; window.width * window.height];

@@ -1,4 +1,4 @@
-//! What each robot has learnt of itself, as it outlives the daemon: JSON of the file `learnt.json`.
+//! The calibration that each robot has learned, as it is stored: JSON of the file `learnt.json`.
 
 use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 use serde::{Deserialize, Serialize};
@@ -39,7 +39,7 @@ impl Learnings {
         self.devices.iter()
     }
 
-    /// This robot knows nothing of these parts any more. Gives what was kept of it; `None` = nothing was.
+    /// Deletes these parts of a robot's record. Returns the stored record; `None` = there was none.
     pub fn forget(&mut self, device: &str, parts: &[LearntPart]) -> Option<RobotRecord> {
         let known = self.devices.iter_mut().find(|kept| kept.device == device)?;
         let before = known.clone();
@@ -53,7 +53,7 @@ impl Learnings {
         Some(before)
     }
 
-    /// A robot knows this now. `true` when that is something new. A gyro of which it knows nothing any more is as it was.
+    /// Stores the learned values of a robot. `true` when that changes something. A gyro that the values lack keeps its old value.
     pub fn take(&mut self, mut kept: RobotRecord) -> bool {
         let before = self.of(&kept.device);
         kept.learnt.gyro = kept.learnt.gyro.or(before.gyro);

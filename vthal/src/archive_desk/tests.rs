@@ -39,7 +39,7 @@ impl Scratch {
         self.desk.obey(order, (&self.floors, self.now)).outcome
     }
 
-    /// A piece of an archive from a client; what it is told in one word.
+    /// Hands over a piece of an archive from a client and returns the answer in one word.
     fn hand(&mut self, client: u64, (from, size): (u64, u64), bytes: &[u8]) -> &'static str {
         let task = ArchiveTask::Import {
             from,
@@ -155,7 +155,7 @@ fn pieces_out_of_order_are_refused_and_end_the_upload() {
     for (from, said, bytes) in wrong {
         assert_eq!(scratch.hand(1, (0, size), piece), "waits");
         let told = scratch.hand(1, (from, said), bytes);
-        // The first piece once more begins anew.
+        // The first piece once more starts again.
         let expected = if from == 0 { "waits" } else { "archive-piece" };
         assert_eq!(told, expected, "{from} {said}");
         if from > 0 {

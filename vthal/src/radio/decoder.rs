@@ -269,7 +269,7 @@ mod tests {
                     BeaconSignal::Strength(strength) => prop_assert!((-130.0..=0.0).contains(&strength.dbm)),
                 }
             }
-            // The last lines were whole, whatever came before.
+            // The last lines are complete, whatever precedes them.
             let whole = if dwm1001 { 4 } else { 3 };
             prop_assert!(signals.len() >= whole, "{signals:?}");
         }

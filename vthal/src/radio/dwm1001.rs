@@ -115,11 +115,11 @@ fn is_number(text: &str) -> bool {
         && digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
 }
 
-/// A module that already prints is heard within this time.
+/// A module that already prints sends a line within this time.
 const LISTEN: Duration = Duration::from_secs(2);
 /// Time that the module takes to open its shell.
 const SHELL: Duration = Duration::from_secs(1);
-/// Longest silence before the module is told again. A tag that rests measures every ten seconds if it is left as it comes.
+/// Longest silence before the module gets the command again. A tag that rests measures every ten seconds if it is left as it comes.
 const SILENCE: Duration = Duration::from_secs(30);
 
 /// Makes a module print, and leaves one alone that does.

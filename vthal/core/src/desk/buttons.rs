@@ -1,4 +1,4 @@
-//! What a person means with the buttons on the robot: a short press, or a hold that only somebody beside the robot can do.
+//! What a person means with the buttons on the robot: a short press, or a hold that only a person beside the robot can do.
 //!
 //! Events say that a button went down or up and are never lost; reports say ever again which are down. A hold counts only as long as
 //! both agree without a gap, so that neither a broken line nor a button that was down already at the start can hold anything. Each hold is
@@ -95,7 +95,7 @@ impl Buttons {
         is_new.then_some(gesture)
     }
 
-    /// Events may have been lost: whatever is down must be let go first.
+    /// Events may have been lost: buttons that are down must be released first.
     pub(crate) fn forget(&mut self) {
         self.grip = None;
     }
@@ -112,7 +112,7 @@ impl Buttons {
         self.claims.remove(&client);
     }
 
-    /// Whether presses are for somebody else than the robot.
+    /// Whether presses are meant for pairing rather than for the robot.
     pub(crate) fn are_claimed(&self, now_us: u64) -> bool {
         self.claims.values().any(|until_us| now_us < *until_us)
     }

@@ -1,7 +1,7 @@
-//! Inputs of control mixes that clients tell, each under a lease: who drives by them looks at them as at a stick.
+//! Inputs of control mixes that clients send, each under a lease. The driver's mix reads them like a stick.
 //!
 //! The daemon passes them on and drives nothing by them. It holds to four things: a name has one teller at a time, a value is a
-//! share, what is told ends by itself, and there is a known amount of it.
+//! share, every input expires by itself, and their number is bounded.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use rvac_api::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MA
 
 use crate::ClientId;
 
-/// Why a client may not tell this.
+/// Why a client may not send this.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InputDenied {
     /// The lease is 0 or longer than [`INPUT_LEASE_MS_MAX`].
@@ -20,18 +20,18 @@ pub(crate) enum InputDenied {
     Value,
     /// Too many inputs, of this client or of all.
     TooMany,
-    /// Another client tells an input of this name.
+    /// Another client sends an input of this name.
     Taken,
 }
 
-/// All that one client tells.
+/// All inputs of one client.
 #[derive(Clone, Debug)]
 struct Told {
     values: BTreeMap<String, f64>,
     until_us: u64,
 }
 
-/// What all clients tell.
+/// The inputs of all clients.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClientInputs {
     told: BTreeMap<ClientId, Told>,

@@ -1,4 +1,4 @@
-//! What the robot has felt lately, for whoever asks why it stands.
+//! Recent sensor readings, for clients that ask why the robot stands still.
 
 use std::collections::VecDeque;
 
@@ -21,7 +21,7 @@ pub(crate) struct Perceived<'a> {
 }
 
 impl Perceived<'_> {
-    /// The names of what is felt now.
+    /// The names of the contacts and alarms at this moment.
     fn signs(&self) -> impl Iterator<Item = &'static str> {
         let inhibits = self.observation.inhibits.names();
         self.edges.present().map(Sign::name).chain(inhibits)
@@ -72,7 +72,7 @@ impl MotionReference {
         }
     }
 
-    /// Speed and turn rate until `now`; wheels tell the heading of a robot without gyro.
+    /// Speed and turn rate until `now`; the wheels give the heading of a robot without gyro.
     fn rates(self, now: Self, track_m: f64) -> (f64, f64) {
         let time_s = now.time_us.saturating_sub(self.time_us) as f64 * 1e-6;
         if time_s <= 0.0 {
@@ -108,7 +108,7 @@ impl Sensations {
         }
     }
 
-    /// The last ten seconds before `now_us`, oldest first, with what has been felt since the last sample.
+    /// The last ten seconds before `now_us`, oldest first, with the readings since the last sample.
     pub(crate) fn before(&self, now_us: u64, track_m: f64) -> Vec<Felt> {
         let earliest_us = now_us.saturating_sub(SAMPLES as u64 * SAMPLE_US);
         let at_s = |end_us: u64| -(now_us.saturating_sub(end_us) as f64) * 1e-6;
@@ -157,7 +157,7 @@ impl Open {
         };
     }
 
-    /// What it tells when it ends now, with the rates since a moment.
+    /// The sample if it ends now, with the rates since a moment.
     fn told(&self, rates_since: MotionReference, track_m: f64) -> Felt {
         let (v, w) = rates_since.rates(self.newest, track_m);
         Felt {
@@ -176,7 +176,7 @@ fn larger(one: f32, other: f32) -> f32 {
     if other.abs() > one.abs() { other } else { one }
 }
 
-/// To a thousandth: nobody sees more, and it is sent and stored.
+/// To a thousandth: more is not visible, and it is sent and stored.
 fn rounded(value: f64) -> f64 {
     if value.is_finite() {
         (1e3 * value).round() / 1e3

@@ -234,7 +234,7 @@ impl FloorDesk {
         Ok(Reply::Done)
     }
 
-    /// The shell has carried out what a client wanted of the floors.
+    /// The shell has carried out a client's order about floors.
     pub(crate) fn kept(
         &mut self,
         KeptFloors { task, floors, made }: KeptFloors<'_>,

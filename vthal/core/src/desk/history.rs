@@ -65,7 +65,7 @@ impl HistoryDesk {
         self.follower.commanded_by(by);
     }
 
-    /// A command that somebody gives to the brain: an order begins a run with the next step.
+    /// A command to the brain: an order begins a run with the next step.
     pub(crate) fn order(&mut self, by: RunAsker, command: &JobCommand, brain: Option<&Brain>) {
         self.follower.commanded_by(by.clone());
         if let Some(job) = brain.and_then(|brain| ordered_job(command, brain)) {

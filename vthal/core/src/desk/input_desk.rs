@@ -19,7 +19,7 @@ pub(crate) struct ToldInputs {
     pub(crate) lease_ms: u16,
 }
 
-/// What all clients tell.
+/// The inputs of all clients.
 #[derive(Debug, Default)]
 pub(crate) struct InputDesk {
     inputs: ClientInputs,
@@ -32,7 +32,7 @@ impl InputDesk {
     }
 
     /// # Errors
-    /// Why the client may not tell this.
+    /// Why the client may not send this.
     pub(crate) fn take(
         &mut self,
         client: ClientId,

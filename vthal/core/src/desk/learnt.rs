@@ -1,5 +1,5 @@
-//! What the robot has learnt of itself: it goes to the disk after each run, a robot that was seen before begins with it, and
-//! people may look at it and have it forgotten.
+//! Calibration that the robot has learned: it goes to the disk after each run, a robot that was seen before begins with it, and
+//! people may read it and delete it.
 
 use brain::{Learnt, LearntPart};
 use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
@@ -115,7 +115,7 @@ impl LearntDesk {
     }
 
     /// The disk has what it was given under this number, or says why it has not. The attached robot learns again all the same,
-    /// and with its next run the disk hears of that.
+    /// and its next run writes that to the disk.
     pub(crate) fn kept(&mut self, number: u64, result: Result<(), String>, teller: &mut Teller<'_>) {
         let result = result.map_err(|text| Refusal {
             reason: "learnt-unwritable",

@@ -1,4 +1,4 @@
-//! Schedules: what people want of them, what the clock wants, and what the robot says to that.
+//! Schedules: changes by people, runs that are due, and the robot's answers.
 
 use rvac_api::{LogLevel, QuietHours, ScheduleEntry, ScheduledJob, Schedules, Topic, Update};
 
@@ -15,7 +15,7 @@ use crate::schedule::{Book, Entry, Outcome, Plan, ScheduleEdit, ScheduleError, V
 /// Readiness changes without an event; followers receive it within this time.
 const TOLD_US: u64 = 5_000_000;
 
-/// What clients want changed of the schedules.
+/// Changes of the schedules by clients.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ScheduleRequest {
     /// A new one.
@@ -95,7 +95,7 @@ impl ScheduleDesk {
         }
     }
 
-    /// A client wants schedules changed. It is answered when the disk has the change.
+    /// Takes a client's change of schedules. The client is answered when the disk has the change.
     ///
     /// # Errors
     /// Why the request is refused.
@@ -132,7 +132,7 @@ impl ScheduleDesk {
     }
 
     /// The disk has the schedules that it was given under this number, or says why it has not. Gives a decision about a run, of
-    /// which the robot may hear now.
+    /// which the robot may receive now.
     pub(crate) fn kept(
         &mut self,
         number: u64,
@@ -210,7 +210,7 @@ impl ScheduleDesk {
     }
 }
 
-/// Hands a task to the disk, or tells whoever waits for it what came of it.
+/// Hands a task to the disk, or sends the result to the client that waits for it.
 fn do_task(task: Task, teller: &mut Teller<'_>) {
     let (asker, answer) = match task {
         Task::Keep(order) => {

@@ -24,7 +24,7 @@ pub(crate) struct StandstillDesk {
     felt: Sensations,
 }
 
-/// Where a robot stands.
+/// Where a robot stopped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stand {
     pub(crate) estimate: PoseEstimate,
@@ -32,7 +32,7 @@ pub(crate) struct Stand {
     pub(crate) track_m: Option<f64>,
 }
 
-/// Whether the robot stops with this decision although nobody ordered it.
+/// Whether the robot stops with this decision without an order.
 pub(crate) fn is_standstill(decision: &Decision) -> bool {
     let waits = matches!(
         decision.kind,
@@ -73,7 +73,7 @@ impl StandstillDesk {
         self.felt.take(perceived, track_m);
     }
 
-    /// What a robot of this track felt and tried up to now; nothing while its track is not known.
+    /// What the sensors of a robot with this track reported and what it tried up to now; empty while its track is not known.
     pub(crate) fn evidence(&self, now_us: u64, track_m: Option<f64>) -> Evidence {
         let Some(track_m) = track_m else {
             return Evidence::default();
@@ -91,7 +91,7 @@ impl StandstillDesk {
         }
     }
 
-    /// Takes in a decision of the brain and tells it.
+    /// Takes in a decision of the brain and reports it.
     pub(crate) fn decided(&mut self, decision: &Decision, teller: &mut Teller<'_>) {
         let is_refusal = decision.kind == DecisionKind::Refuse;
         let level = if is_refusal || decision.kind.state_name().is_some() {
@@ -121,7 +121,7 @@ impl StandstillDesk {
         }
     }
 
-    /// Tells of a stop that nobody wanted.
+    /// Reports a stop that nobody ordered.
     pub(crate) fn stands(
         &mut self,
         decision: &Decision,

@@ -11,7 +11,7 @@ use crate::to_api;
 
 /// Stops that are kept of a run; further ones are only counted.
 const STOPS_MAX: usize = 100;
-/// Stops of which it is kept what the robot felt, some four kilobytes each.
+/// Stops that are stored with their sensor readings, some four kilobytes each.
 const EVIDENCE_MAX: usize = 20;
 
 /// A run that goes on, or whose end is so young that the robot might still take it back.
@@ -24,7 +24,7 @@ pub(super) struct OpenRun {
     path_from: usize,
     /// Why the job became a return to the dock.
     turned_home: Option<&'static str>,
-    /// It stands: state and reason, and whether the newest stop of the record tells of it.
+    /// The present stop: state and reason, and whether it is the newest stop of the record.
     standing: Option<OngoingStop>,
     figures: JobFigures,
     /// Share of the floor that the brain says it has swept.
@@ -42,7 +42,7 @@ struct OngoingStop {
     is_told: bool,
 }
 
-/// Why a run stops, as its record tells it.
+/// Why a run stops, as its record has it.
 struct StopCause<'a> {
     state: &'static str,
     reason: &'static str,
@@ -271,7 +271,7 @@ impl OpenRun {
         }
     }
 
-    /// It stands no longer.
+    /// The stop is over.
     fn go_on(&mut self, now_us: u64) {
         let at_s = self.at_s(now_us);
         if let Some(standing) = self.standing.take()

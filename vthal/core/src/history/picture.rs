@@ -1,4 +1,4 @@
-//! What a run drew, in the words of the interface to clients: bounded, whatever the map holds.
+//! The map of a run in the types of the interface to clients, of bounded size.
 
 use brain::{Brain, CELL_M, CellKnowledge, Hazard, Map, PathPoint, SweptRun};
 use rvac_api::{RunJob, RunPicture};
@@ -168,7 +168,7 @@ fn farthest(path: &[PathPoint], (from, to): (usize, usize)) -> Option<(usize, f6
         .max_by(|one, other| one.1.total_cmp(&other.1))
 }
 
-/// Floor that a job was to sweep, as far as the map tells it.
+/// Floor that a job was to sweep, as far as it is mapped.
 pub(super) fn floor_m2(map: &Map, job: &RunJob) -> Option<f64> {
     let RunJob::Clean {
         rooms,

@@ -2,7 +2,7 @@
 //!
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
 //! its rooms, version 4 how rooms are cleaned, version 5 by which pattern. Version 6 begins with two poses of the dock: where
-//! it was felt, after how often, and where a person says that it is. Of earlier ones it was felt often enough; 0 = no pose follows.
+//! it was measured, how often, and where a person says that it is. In earlier ones it was measured often enough; 0 = no pose follows.
 //! Version 7 adds the names of no-go zones and virtual walls, version 8 the zones and spots that are kept. Version 9 keeps the kind
 //! of floor in two bits of each cell; in the oldest maps they may hold how much wheels slipped there, which nothing used.
 
@@ -14,7 +14,7 @@ use super::{DecodeError, Reader};
 
 /// Bits of a cell that held something else before version 9.
 const FLOOR_BITS: u16 = 0b11 << 8;
-/// How often a dock of a version before 6 counts as felt: its place does not change any more.
+/// Number of measurements assumed for a dock of a version before 6: its position does not change any more.
 const FELT_OFTEN_ENOUGH: u8 = 6;
 
 /// The body of a version before 10.
