@@ -60,11 +60,11 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot:
         baud: rates.next().unwrap_or_default(),
     };
     let mut pause = PAUSE_MIN;
-    let mut told = false;
+    let mut is_reported = false;
     loop {
         let event = match open_to_robot(&settings, robot.opening).await {
             Ok(line) => {
-                told = false;
+                is_reported = false;
                 drain(&mut to_robot);
                 if events.send(Event::Serial(SerialEvent::Opened)).await.is_err() {
                     return;
@@ -82,9 +82,9 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot:
                     }
                 }))
             }
-            Err(_) if told => None,
+            Err(_) if is_reported => None,
             Err(error) => {
-                told = true;
+                is_reported = true;
                 Some(SerialEvent::Absent(error))
             }
         };

@@ -28,7 +28,7 @@ pub(crate) struct Stage {
 
 /// A route from a client to the robot.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct Route {
     pub(crate) name: &'static str,
     pub(crate) kind: Kind,
     /// Of the server on the route.
@@ -71,16 +71,16 @@ impl Stage {
         })
     }
 
-    pub(crate) fn ways(&self) -> [Way; 3] {
-        let way = |name, kind, door: Option<&Door>| Way {
+    pub(crate) fn routes(&self) -> [Route; 3] {
+        let route = |name, kind, door: Option<&Door>| Route {
             name,
             kind,
             process: door.map(Door::id),
         };
         [
-            way("vthal", Kind::Direct, None),
-            way("panel", Kind::Plain, Some(&self.plain)),
-            way("panel, TLS", Kind::Guarded, Some(&self.guarded)),
+            route("vthal", Kind::Direct, None),
+            route("panel", Kind::Plain, Some(&self.plain)),
+            route("panel, TLS", Kind::Guarded, Some(&self.guarded)),
         ]
     }
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail};
 
 use crate::peer::Peer;
-use crate::stage::{Stage, Way};
+use crate::stage::{Route, Stage};
 
 /// What a page follows, and the packets by which telemetry is counted.
 const WATCH: &str = r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","schedules","runs","floors","standstills","packets"]}"#;
@@ -45,15 +45,15 @@ struct Listener {
 
 pub(crate) fn measure(
     stage: &mut Stage,
-    ways: &[Way],
+    routes: &[Route],
     clients: usize,
     time: Duration,
 ) -> anyhow::Result<Vec<Delays>> {
     let shared = Arc::new(Shared::default());
     let mut listeners = Vec::new();
-    for way in ways {
+    for route in routes {
         for _ in 0..clients {
-            let mut peer = stage.peer(way.kind)?;
+            let mut peer = stage.peer(route.kind)?;
             peer.say(WATCH)?;
             listeners.push(listen(peer, Arc::clone(&shared)));
         }
@@ -84,9 +84,10 @@ pub(crate) fn measure(
         };
         heard.push(arrivals?);
     }
-    ways.iter()
+    routes
+        .iter()
         .zip(heard.chunks(clients))
-        .map(|(way, heard)| delays(&moments, heard, took).with_context(|| way.name))
+        .map(|(route, heard)| delays(&moments, heard, took).with_context(|| route.name))
         .collect()
 }
 

@@ -11,10 +11,10 @@ use crate::gate::Gate;
 
 /// Answers every request with the HTTPS address of the robot.
 pub(crate) fn router(gate: Arc<Gate>) -> Router {
-    Router::new().fallback(tell_the_way).with_state(gate)
+    Router::new().fallback(point_to_https).with_state(gate)
 }
 
-async fn tell_the_way(State(gate): State<Arc<Gate>>) -> Response {
+async fn point_to_https(State(gate): State<Arc<Gate>>) -> Response {
     let links: String = gate
         .addresses()
         .iter()

@@ -1,7 +1,7 @@
 //! Why the robot stands still: sensor readings in the seconds before, and what it tried.
 
 use leptos::prelude::*;
-use panel_logic::{FeltRow, decision_text, felt_rows};
+use panel_logic::{EvidenceRow, decision_text, evidence_rows};
 use rvac_api::{Evidence, Standstill, Status};
 
 use crate::language::words;
@@ -39,16 +39,16 @@ fn going_on(store: Store) -> Option<Standstill> {
 
 /// Of a refusal: asked for when it is unfolded, because most are clear without.
 #[component]
-pub(crate) fn FeltView(store: Store) -> impl IntoView {
+pub(crate) fn RecentEvidenceView(store: Store) -> impl IntoView {
     let ask = move |_| {
-        if store.felt.with_untracked(Option::is_none) {
-            store.ask_what_it_felt();
+        if store.evidence.with_untracked(Option::is_none) {
+            store.ask_for_evidence();
         }
     };
     view! {
         <details class="evidence" on:toggle=ask>
             <summary>{words().evidence.title}</summary>
-            {move || store.felt.get().map(|evidence| view! { <EvidenceTables evidence /> })}
+            {move || store.evidence.get().map(|evidence| view! { <EvidenceTables evidence /> })}
         </details>
     }
 }
@@ -67,7 +67,7 @@ pub(crate) fn EvidenceView(evidence: Evidence) -> impl IntoView {
 #[component]
 fn EvidenceTables(evidence: Evidence) -> impl IntoView {
     let told = &words().evidence;
-    let rows = felt_rows(words(), &evidence);
+    let rows = evidence_rows(words(), &evidence);
     let tried: Vec<String> = evidence
         .tried
         .iter()
@@ -95,12 +95,12 @@ fn EvidenceTables(evidence: Evidence) -> impl IntoView {
 }
 
 fn row(
-    FeltRow {
+    EvidenceRow {
         when,
         motion,
         echo,
         signs,
-    }: FeltRow,
+    }: EvidenceRow,
 ) -> impl IntoView {
     view! {
         <tr>

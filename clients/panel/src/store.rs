@@ -107,7 +107,7 @@ pub(crate) struct Store {
     /// The last refusal, until it is dismissed.
     pub(crate) refusal: RwSignal<Option<Failure>>,
     /// Sensor readings and attempts at the time of a question about that refusal.
-    pub(crate) felt: RwSignal<Option<Evidence>>,
+    pub(crate) evidence: RwSignal<Option<Evidence>>,
     /// Who drives, and by which mix.
     pub(crate) seat: Seat,
     /// The mix that is edited.
@@ -146,7 +146,7 @@ impl Store {
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
-            felt: RwSignal::new(None),
+            evidence: RwSignal::new(None),
             seat: Seat::new(),
             bench: Bench::new(),
             entrance: Entrance::new(),
@@ -183,7 +183,7 @@ impl Store {
     }
 
     /// Requests the sensor readings and attempts up to now; the refusal that they explain stays.
-    pub(crate) fn ask_what_it_felt(self) {
+    pub(crate) fn ask_for_evidence(self) {
         self.send(Some(OTHER_ID), RequestBody::Evidence);
     }
 
@@ -394,7 +394,7 @@ impl Store {
                 self.estimate.set(Some(estimate));
             }
             Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
-            Message::Evidence { evidence, .. } => self.felt.set(Some(evidence)),
+            Message::Evidence { evidence, .. } => self.evidence.set(Some(evidence)),
             Message::Standstill(told) => self.standstill.set(Some(*told)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
             Message::Maps { floor, maps } => {

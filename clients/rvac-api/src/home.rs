@@ -34,9 +34,9 @@ pub struct HomeView {
     /// Pose of a robot on the dock, if that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dock: Option<Pose>,
-    /// Nobody but a person has said that it is there: the robot has not docked there yet.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub dock_told: bool,
+    /// A person reported it; the robot has not docked there yet.
+    #[serde(default, rename = "dock_told", skip_serializing_if = "is_false")]
+    pub dock_reported: bool,
     /// No-go zones and virtual walls, by their numbers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_go: Vec<NoGoView>,

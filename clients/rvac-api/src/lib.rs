@@ -45,8 +45,8 @@ pub use schedule::{
     ScheduledJob, Schedules, Weekday,
 };
 pub use simulated::{SimulatedPlan, SimulatedTruth};
-pub use stop::{Evidence, Felt, Standstill};
-pub use thought::{Decision, Estimate, PlannedWay};
+pub use stop::{Evidence, EvidenceSample, Standstill};
+pub use thought::{Decision, Estimate, PlannedPath};
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, LinkReading, LogEntry, LogLevel,
     MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, Status, Update, Versions,

@@ -22,7 +22,7 @@ pub struct Standstill {
     /// What to do about it; absent when there is nothing to do, and from older daemons.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub remedy: String,
-    /// Where it believed to be.
+    /// The estimated pose.
     pub place: Pose,
     /// It did not know where it was.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
@@ -36,8 +36,8 @@ pub struct Standstill {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
     /// Five a second, oldest first.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub felt: Vec<Felt>,
+    #[serde(default, rename = "felt", skip_serializing_if = "Vec::is_empty")]
+    pub samples: Vec<EvidenceSample>,
     /// Decisions, oldest first; twelve at most.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tried: Vec<Decision>,
@@ -47,20 +47,20 @@ impl Evidence {
     /// Whether it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.felt.is_empty() && self.tried.is_empty()
+        self.samples.is_empty() && self.tried.is_empty()
     }
 }
 
 /// A fifth of a second.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Felt {
+pub struct EvidenceSample {
     /// Its end in seconds before the moment that is explained: -10..=0.
     pub at_s: f64,
     /// Speed by the wheels' counts, m/s.
     pub v: f64,
     /// Turn rate by gyro, or by the wheels' counts where there is none, rad/s, counter-clockwise positive.
     pub w: f64,
-    /// What spoke at any time of it, by name: `bumper-left`, `cliff-front`, `wheel-drop`, `link-lost`, `docked` and the names of
+    /// Contacts and alarms during it, by name: `bumper-left`, `cliff-front`, `wheel-drop`, `link-lost`, `docked` and the names of
     /// what kept the firmware from moving.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub signs: Vec<String>,

@@ -28,7 +28,7 @@ pub struct Estimate {
 
 /// The planned path of the running or waiting job from here on.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PlannedWay {
+pub struct PlannedPath {
     /// Its corners as `[x0,y0,x1,y1,...]` in millimetres of the map frame; empty where the robot decides as it goes.
     pub points_mm: Vec<i32>,
 }

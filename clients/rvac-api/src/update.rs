@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     ClientInput, ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap,
-    LearntView, PlannedWay, Run, RunRecord, RunTrack, Schedules, SimulatedPlan, SimulatedTruth, Standstill,
+    LearntView, PlannedPath, Run, RunRecord, RunTrack, Schedules, SimulatedPlan, SimulatedTruth, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -50,7 +50,7 @@ pub enum Update {
     /// How sure the robot is.
     Estimate(Estimate),
     /// Where it means to drive.
-    Way(PlannedWay),
+    Way(PlannedPath),
     /// Something that it decided.
     Decision(Decision),
     /// The robot waits, or gave up, without having been ordered to.

@@ -23,7 +23,7 @@ use rvac_api::HomeView;
 use crate::device::{Description, Part};
 use crate::edges::Edges;
 use crate::floors::Floors;
-use crate::home_view::{FeltFloors, home_view};
+use crate::home_view::{SurfaceSensing, home_view};
 use crate::observe::{LinkView, Observer};
 use crate::storey_resolver::StoreyResolver;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
@@ -182,14 +182,14 @@ impl BrainSession {
     pub(crate) fn home_view(&self) -> HomeView {
         HomeView {
             revision: self.home_revision(),
-            ..home_view(self.brain.map(), self.felt_floors())
+            ..home_view(self.brain.map(), self.surface_sensing())
         }
     }
 
-    fn felt_floors(&self) -> FeltFloors {
+    fn surface_sensing(&self) -> SurfaceSensing {
         match self.measures_currents {
-            true => FeltFloors::Measured,
-            false => FeltFloors::NotMeasured,
+            true => SurfaceSensing::Measured,
+            false => SurfaceSensing::NotMeasured,
         }
     }
 

@@ -22,14 +22,14 @@ const ITEMS_MAX: usize = 1_000;
 
 /// Whether the robot can detect the floor's surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum FeltFloors {
+pub(crate) enum SurfaceSensing {
     /// It measures what its motors draw.
     Measured,
     /// It does not, and nothing is sent about carpets.
     NotMeasured,
 }
 
-impl FeltFloors {
+impl SurfaceSensing {
     /// For a map without its robot: a robot whose map contains surfaces can detect them.
     pub(crate) fn in_map(map: &Map) -> Self {
         match map.surface_kinds().next() {
@@ -40,7 +40,7 @@ impl FeltFloors {
 }
 
 /// What is known of the home.
-pub(crate) fn home_view(map: &Map, felt: FeltFloors) -> HomeView {
+pub(crate) fn home_view(map: &Map, felt: SurfaceSensing) -> HomeView {
     let rooms = map.rooms();
     let floors = floors(map, felt);
     let view = cells(map.knowledge(), rooms.labels(), floors.as_ref());
@@ -55,7 +55,7 @@ pub(crate) fn home_view(map: &Map, felt: FeltFloors) -> HomeView {
         doors: rooms.doors().iter().take(ITEMS_MAX).map(door).collect(),
         walls: map.walls().iter().take(ITEMS_MAX).map(wall).collect(),
         dock: map.dock().map(|dock| to_api::pose(dock, 0)),
-        dock_told: map.dock_location().is_reported(),
+        dock_reported: map.dock_location().is_reported(),
         no_go: map.annotations().no_go().map(no_go).collect(),
         places: map.annotations().places().map(place).collect(),
         room_changes: map.annotations().room_changes().made().map(room_change).collect(),
@@ -80,8 +80,8 @@ fn sureness(map: &Map) -> Vec<SurenessView> {
 }
 
 /// The surfaces in the known window: 0 not measured, 1 hard, 2 carpet.
-fn floors(map: &Map, felt: FeltFloors) -> Option<Raster<u8>> {
-    if felt == FeltFloors::NotMeasured {
+fn floors(map: &Map, felt: SurfaceSensing) -> Option<Raster<u8>> {
+    if felt == SurfaceSensing::NotMeasured {
         return None;
     }
     let knowledge = map.knowledge();

@@ -70,7 +70,7 @@ impl Learnings {
 }
 
 /// For people; `None` when nothing was learnt.
-pub(crate) fn told(learnt: &Learnt) -> Option<String> {
+pub(crate) fn summary(learnt: &Learnt) -> Option<String> {
     let gyro = learnt.gyro.map(|gyro| {
         format!(
             "the gyro counts {:+.2} % too little (sure to {:.2} %)",
@@ -224,7 +224,7 @@ impl StoredDevice {
 
 #[cfg(test)]
 mod tests {
-    use super::{DEVICES_MAX, Learnings, LearntError, OtherVersion, RobotRecord, StoredLearnings, told};
+    use super::{DEVICES_MAX, Learnings, LearntError, OtherVersion, RobotRecord, StoredLearnings, summary};
     use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 
     fn learnt(scale: f64) -> Learnt {
@@ -331,8 +331,8 @@ mod tests {
 
     #[test]
     fn people_are_told_what_it_begins_with() {
-        assert_eq!(told(&Learnt::default()), None);
-        let text = told(&learnt(0.012)).expect("something was learnt");
+        assert_eq!(summary(&Learnt::default()), None);
+        let text = summary(&learnt(0.012)).expect("something was learnt");
         assert!(text.contains("+1.20 %") && text.contains("100 %"), "{text}");
     }
 }

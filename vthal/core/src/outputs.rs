@@ -353,7 +353,7 @@ pub enum Record {
         table: Box<DeviceTable>,
     },
     /// The summary of the run for people, when its job is over. The newest one counts.
-    Told {
+    RunSummary {
         /// Host time in microseconds.
         time_us: u64,
         /// The record, without its picture.

@@ -2,7 +2,7 @@
 
 use brain::{Brain, CELL_M, Hazard, HazardKind, JobFigures, MapPart, Pose2, SweptShare};
 use rvac_api::{
-    BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedWay, Pose,
+    BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedPath, Pose,
     RobotDescription,
 };
 
@@ -97,10 +97,10 @@ pub(crate) fn estimate(brain: &Brain, swept: Option<SweptShare>) -> Estimate {
 const CORNERS_MAX: usize = 4_000;
 
 /// Where the robot means to drive; of a very long path its beginning.
-pub(crate) fn way(brain: &Brain) -> PlannedWay {
+pub(crate) fn way(brain: &Brain) -> PlannedPath {
     let corners = brain.planned_path();
     let millimetres = |metres: f64| (1000.0 * metres).round() as i32;
-    PlannedWay {
+    PlannedPath {
         points_mm: corners
             .iter()
             .take(CORNERS_MAX)

@@ -100,10 +100,10 @@ fn a_map_that_cannot_be_read_is_named() {
     let archive = encode(&broken).expect("is small");
     let error = decode(&archive).expect_err("is refused");
     assert_eq!(error.name(), "archive-map-wrong");
-    let told = error.to_string();
+    let text = error.to_string();
     assert!(
-        told.contains("floor 3 of the archive (Cellar)") && told.contains("checksum"),
-        "{told}"
+        text.contains("floor 3 of the archive (Cellar)") && text.contains("checksum"),
+        "{text}"
     );
 }
 

@@ -283,15 +283,15 @@ async fn a_dock_that_was_moved_is_shown_by_two_places_and_taken_back() {
     browser.says("dock-place", "where somebody marked it").await;
     let mut moved = None;
     onlooker.sees(|home| {
-        moved = home.dock.filter(|_| home.dock_told);
+        moved = home.dock.filter(|_| home.dock_reported);
         moved.is_some()
     });
     browser.shot("desktop-dock-moved").await;
     browser.click("#undo").await;
     browser.says("dock-place", "where the robot has docked").await;
-    onlooker.sees(|home| !home.dock_told);
+    onlooker.sees(|home| !home.dock_reported);
     browser.click("#redo").await;
-    onlooker.sees(|home| home.dock_told && home.dock == moved);
+    onlooker.sees(|home| home.dock_reported && home.dock == moved);
     // Far outside there is no floor for it; a message says so over the hint of the drawing.
     browser.click("#draw-dock").await;
     keys(browser, &["ArrowUp"; 16]).await;

@@ -43,8 +43,8 @@ pub fn dock_border([x, y, heading]: DockPose, radius_m: f64) -> Vec<[f64; 2]> {
 #[must_use]
 pub fn dock_text(words: &Words, home: &HomeView) -> Option<&'static str> {
     home.dock?;
-    Some(if home.dock_told {
-        words.home.dock_told
+    Some(if home.dock_reported {
+        words.home.dock_reported
     } else {
         words.home.dock_felt
     })
@@ -88,7 +88,7 @@ mod tests {
         assert_eq!(dock_text(words, &home), None);
         home.dock = Some(Pose::default());
         let felt = dock_text(words, &home);
-        home.dock_told = true;
+        home.dock_reported = true;
         assert!(felt.is_some() && dock_text(words, &home) != felt);
     }
 }

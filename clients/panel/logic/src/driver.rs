@@ -60,7 +60,7 @@ pub struct Driver {
     keys: BTreeSet<KeyCode>,
     readings: Readings,
     /// Inputs of other clients.
-    told: ClientInputs,
+    client_inputs: ClientInputs,
     /// When the tilt was last reported.
     tilted_us: u64,
     cleaners: bool,
@@ -74,7 +74,7 @@ impl Default for Driver {
             keys: keys_of(pilot.profile()),
             pilot,
             readings: at_rest(),
-            told: ClientInputs::default(),
+            client_inputs: ClientInputs::default(),
             tilted_us: 0,
             cleaners: false,
         }
@@ -149,12 +149,12 @@ impl Driver {
 
     /// Takes the inputs of other clients, which the robot passes on.
     pub fn hear_inputs(&mut self, now_us: u64, inputs: &[ClientInput]) {
-        self.told.hear(now_us, inputs);
+        self.client_inputs.replace(now_us, inputs);
     }
 
     /// The connection to the robot is gone.
     pub fn forget_inputs(&mut self) {
-        self.told.forget();
+        self.client_inputs.forget();
     }
 
     /// Hands are off keys and pad; other inputs stay held.
@@ -209,7 +209,7 @@ impl Driver {
 
     /// Inputs that arrive as events end when no event follows.
     fn forget_the_silent(&mut self, now_us: u64) {
-        self.readings.clients = self.told.at(now_us);
+        self.readings.clients = self.client_inputs.at(now_us);
         if now_us.saturating_sub(self.tilted_us) >= TILT_SILENT_US {
             self.forget_tilt();
         }
@@ -401,10 +401,10 @@ mod tests {
         page.driver.set_tilt(page.now_us, [0.0, 0.0]);
         page.step();
         page.step();
-        let told_us = page.now_us;
-        page.driver.set_tilt(told_us, [0.0, 0.5]);
+        let reported_us = page.now_us;
+        page.driver.set_tilt(reported_us, [0.0, 0.5]);
         assert!((page.speeds().1 - 0.4).abs() < 1e-9);
-        while page.now_us + STEP_EVERY_US < told_us + super::TILT_SILENT_US {
+        while page.now_us + STEP_EVERY_US < reported_us + super::TILT_SILENT_US {
             assert_ne!(page.step().seat, Some(RequestBody::Release));
         }
         assert_eq!(page.step().seat, Some(RequestBody::Release));

@@ -193,7 +193,7 @@ impl EditLog {
             Ok(body) => Ok(self.ask((course, edit), body)),
             Err(EditError::ChangedMeanwhile) if self.confirmed_at == Some(revision) => {
                 self.put_back(course, edit);
-                Err(EditError::NotToldYet)
+                Err(EditError::NotReportedYet)
             }
             Err(error) => Err(error),
         }
@@ -322,7 +322,7 @@ mod tests {
         assert_eq!(log.take_put_off(), Some(Step::Undo));
         // The answer came before the news: that wall is not in the home yet.
         let asked = log.undo(&home(2, &[(6, 1.0)], None)).unwrap();
-        assert_eq!(asked, Err(EditError::NotToldYet));
+        assert_eq!(asked, Err(EditError::NotReportedYet));
         log.put_off_again(Step::Undo);
         assert_eq!(log.take_put_off(), Some(Step::Undo));
         let asked = log.undo(&home(3, &[(6, 1.0), (7, 2.0)], None)).unwrap().unwrap();
@@ -472,7 +472,7 @@ mod tests {
         log.on_done(number(&asked), 1);
         assert_eq!(
             log.undo(&home(1, &[], None)),
-            Some(Err(EditError::NotToldYet)),
+            Some(Err(EditError::NotReportedYet)),
             "the robot has not told of the name"
         );
         let asked = log.undo(&home(2, &[], Some("Hall"))).unwrap().unwrap();

@@ -129,7 +129,7 @@ pub enum EditError {
     /// What it changes is not there any more, or another client changed it.
     ChangedMeanwhile,
     /// The robot has confirmed what it changes, but not sent it yet.
-    NotToldYet,
+    NotReportedYet,
 }
 
 impl EditError {
@@ -138,7 +138,7 @@ impl EditError {
     pub const fn text(self, words: &Words) -> &'static str {
         match self {
             Self::ChangedMeanwhile => words.map.changed_meanwhile,
-            Self::NotToldYet => words.map.not_told_yet,
+            Self::NotReportedYet => words.map.not_reported_yet,
         }
     }
 }

@@ -61,7 +61,7 @@ pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
 pub use edit_log::{Change, EditLog, Step};
 pub use edits::{Edit, EditError, Forbidden, Kept};
-pub use evidence::{FeltRow, felt_rows};
+pub use evidence::{EvidenceRow, evidence_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use floor_upload::{FloorUpload, floor_file_problem};
 pub use frame_meter::FrameMeter;
@@ -97,7 +97,7 @@ pub use schedule_rows::{
 };
 pub use sketch::{Drawn, NoGoRow, Sketch, Tool, no_go_rows, no_go_strokes, spot_border, zone_strokes};
 pub use swept_grid::{DirtyRows, SweptGrid};
-pub use thoughts::{DecisionBook, estimate_sentences, place_text, way_dashes};
+pub use thoughts::{DecisionBook, estimate_sentences, path_dashes, place_text};
 pub use tilt::Tilt;
 pub use wall_blocks::{BLOCK_NUMBERS, WallBlocks};
-pub use words::{Language, Told, Words};
+pub use words::{Language, Template, Words};

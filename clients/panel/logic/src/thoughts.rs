@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use rvac_api::{Decision, Estimate, PlannedWay};
+use rvac_api::{Decision, Estimate, PlannedPath};
 
 use crate::figures::percent_text;
 use crate::words::Words;
@@ -86,7 +86,7 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
 
 /// The planned path as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
 #[must_use]
-pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
+pub fn path_dashes(way: &PlannedPath, dash_m: f64) -> Vec<f32> {
     let corners: Vec<[f64; 2]> = way
         .points_mm
         .chunks_exact(2)
@@ -135,9 +135,9 @@ pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::{DecisionBook, KEPT, estimate_sentences, place_text, way_dashes};
+    use super::{DecisionBook, KEPT, estimate_sentences, path_dashes, place_text};
     use crate::words::{Language, Words};
-    use rvac_api::{Decision, Estimate, PlannedWay};
+    use rvac_api::{Decision, Estimate, PlannedPath};
 
     const ENGLISH: &Words = Language::English.words();
 
@@ -209,10 +209,10 @@ mod tests {
 
     #[test]
     fn a_way_becomes_dashes_that_go_on_round_corners() {
-        let way = PlannedWay {
+        let way = PlannedPath {
             points_mm: vec![0, 0, 1500, 0, 1500, 1500],
         };
-        let dashes = way_dashes(&way, 1.0);
+        let dashes = path_dashes(&way, 1.0);
         assert_eq!(
             dashes,
             [0.0, 0.0, 1.0, 0.0, 1.5, 0.5, 1.5, 1.5].map(|metres: f64| metres as f32)
@@ -222,14 +222,14 @@ mod tests {
     #[test]
     fn strange_ways_do_no_harm() {
         for points_mm in [vec![], vec![5], vec![1, 2, 3], vec![7; 4]] {
-            assert!(way_dashes(&PlannedWay { points_mm }, 0.1).is_empty());
+            assert!(path_dashes(&PlannedPath { points_mm }, 0.1).is_empty());
         }
-        let endless = PlannedWay {
+        let endless = PlannedPath {
             points_mm: (0..40_000)
                 .map(|at| if at % 4 < 2 { i32::MIN } else { i32::MAX })
                 .collect(),
         };
-        assert!(way_dashes(&endless, 0.0).len() <= 80_000);
-        assert!(way_dashes(&endless, f64::NAN).is_empty());
+        assert!(path_dashes(&endless, 0.0).len() <= 80_000);
+        assert!(path_dashes(&endless, f64::NAN).is_empty());
     }
 }

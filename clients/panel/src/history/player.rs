@@ -123,7 +123,7 @@ fn picture(
         replay.with(|replay| {
             replay
                 .as_ref()
-                .map(|replay| replay.way_until(time.get()))
+                .map(|replay| replay.path_until(time.get()))
                 .unwrap_or_default()
         })
     };

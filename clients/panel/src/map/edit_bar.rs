@@ -2,7 +2,7 @@
 
 use leptos::ev;
 use leptos::prelude::*;
-use panel_logic::{Change, Edit, EditError, EditLog, RoomChoice, Step, Told};
+use panel_logic::{Change, Edit, EditError, EditLog, RoomChoice, Step, Template};
 use rvac_api::{Failure, HomeView, Request, RequestBody};
 use wasm_bindgen::JsCast;
 
@@ -85,7 +85,7 @@ impl Store {
     pub(crate) fn take_put_off_steps(self) {
         while let Some(step) = self.edits.log.try_update(EditLog::take_put_off).flatten() {
             let asked = self.take_step(step);
-            if matches!(asked, Some(Err(EditError::NotToldYet))) {
+            if matches!(asked, Some(Err(EditError::NotReportedYet))) {
                 self.edits.log.update(|log| log.put_off_again(step));
                 return;
             }
@@ -149,7 +149,7 @@ impl Store {
 pub(super) fn EditBar(store: Store) -> impl IntoView {
     let log = store.edits.log;
     let label =
-        |way: Told<1>, change: Option<&Change>| change.map(|change| way.fill([&change.what(words())]));
+        |way: Template<1>, change: Option<&Change>| change.map(|change| way.fill([&change.what(words())]));
     let undo = Memo::new(move |_| log.with(|log| label(words().map.undo, log.last())));
     let redo = Memo::new(move |_| log.with(|log| label(words().map.redo, log.next())));
     let keys = window_event_listener(ev::keydown, move |event| {

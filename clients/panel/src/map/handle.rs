@@ -6,7 +6,7 @@ use std::rc::Rc;
 use leptos::prelude::{RwSignal, Track, Update, request_animation_frame, window};
 use panel_logic::{FrameMeter, RoomChoice};
 use rvac_api::{
-    Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, RobotDescription, SimulatedPlan,
+    Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, RobotDescription, SimulatedPlan,
 };
 use wasm_bindgen::JsCast;
 use web_sys::{HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, WebGlContextAttributes};
@@ -142,7 +142,7 @@ impl MapHandle {
         self.change(|_| {});
     }
 
-    pub(crate) fn on_way(&self, way: &PlannedWay) {
+    pub(crate) fn on_way(&self, way: &PlannedPath) {
         self.change(|scene| scene.on_way(way));
     }
 

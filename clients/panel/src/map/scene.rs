@@ -2,10 +2,10 @@
 
 use panel_logic::{
     Bounds, Camera, ITEMS_MAX, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan, no_go_strokes,
-    outlined, plan_bounds, room_at, wall_strokes, way_dashes, zone_strokes,
+    outlined, path_dashes, plan_bounds, room_at, wall_strokes, zone_strokes,
 };
 use rvac_api::{
-    BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, SimulatedPlan,
+    BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, SimulatedPlan,
 };
 
 use crate::theme::Theme;
@@ -198,8 +198,8 @@ impl Scene {
     }
 
     /// Takes where the robot means to drive.
-    pub(crate) fn on_way(&mut self, way: &PlannedWay) {
-        self.way = way_dashes(way, DASH_M);
+    pub(crate) fn on_way(&mut self, way: &PlannedPath) {
+        self.way = path_dashes(way, DASH_M);
         self.strokes_changed = true;
     }
 

@@ -28,7 +28,7 @@ pub(crate) enum NoValue {
         "{0} mm is no way to measure by: push it {least} to {most} mm, and type those",
         least = PUSHED_MM.start(), most = PUSHED_MM.end()
     )]
-    Way(i64),
+    Distance(i64),
     /// Some sensors answered and some did not.
     #[error(
         "the levels rose by {least} to {greatest}, which is neither yes nor no: keep it still over a light floor"
@@ -71,7 +71,7 @@ pub(crate) fn travelled(before: (i32, i32), after: (i32, i32)) -> (i64, i64) {
 /// Distance of one count in nm after a push of `distance_mm`. Signs of the wheels do not matter yet.
 pub(crate) fn distance_per_count_nm((left, right): (i64, i64), distance_mm: i64) -> Result<i64, NoValue> {
     if !PUSHED_MM.contains(&distance_mm) {
-        return Err(NoValue::Way(distance_mm));
+        return Err(NoValue::Distance(distance_mm));
     }
     let (left, right) = (left.abs(), right.abs());
     let sum = left + right;
@@ -227,11 +227,11 @@ pub(crate) fn scale_uv(pack_mv: i64, mean_milli: i64) -> Result<i64, NoValue> {
 }
 
 /// mm/s of a distance in nm; nm per ms are µm/s.
-pub(crate) fn speed_mm_per_s(way_nm: i64, elapsed_ms: i64) -> Result<i64, NoValue> {
-    if elapsed_ms < 100 || way_nm == 0 {
+pub(crate) fn speed_mm_per_s(distance_nm: i64, elapsed_ms: i64) -> Result<i64, NoValue> {
+    if elapsed_ms < 100 || distance_nm == 0 {
         return Err(NoValue::Still("the wheels did not run"));
     }
-    Ok((way_nm / elapsed_ms + 500) / 1000)
+    Ok((distance_nm / elapsed_ms + 500) / 1000)
 }
 
 #[cfg(test)]
@@ -250,7 +250,7 @@ mod tests {
         for distance_mm in [-1000, 0, 3, 499, 20_001, 999_999_999] {
             assert_eq!(
                 distance_per_count_nm((2000, 2000), distance_mm),
-                Err(NoValue::Way(distance_mm))
+                Err(NoValue::Distance(distance_mm))
             );
         }
         assert!(matches!(

@@ -31,7 +31,7 @@ pub(super) struct Session {
     pilot: Pilot,
     readings: Readings,
     /// Inputs of other clients.
-    told_inputs: ClientInputs,
+    client_inputs: ClientInputs,
     /// Pads that can shake, by their numbers.
     shakers: BTreeMap<u8, Shaker>,
     bumps: BumpWatch,
@@ -75,7 +75,7 @@ impl Session {
             top: top(robot),
             pilot: Pilot::new(Mixer::new(profile)?),
             readings: Readings::default(),
-            told_inputs: ClientInputs::default(),
+            client_inputs: ClientInputs::default(),
             shakers: BTreeMap::new(),
             bumps: BumpWatch::default(),
             start: Instant::now(),
@@ -146,7 +146,7 @@ impl Session {
                 robot: Some(robot), ..
             } => self.top = top(&robot),
             Update::Status(status) => self.feel(&status),
-            Update::Inputs { inputs } => self.told_inputs.hear(self.now_us(), &inputs),
+            Update::Inputs { inputs } => self.client_inputs.replace(self.now_us(), &inputs),
             _ => {}
         }
         Ok(())
@@ -154,7 +154,7 @@ impl Session {
 
     fn step(&mut self) -> anyhow::Result<()> {
         let now_us = self.now_us();
-        self.look_at_clients(now_us)?;
+        self.take_client_inputs(now_us)?;
         let steered = self.pilot.step(now_us, &self.readings, self.top);
         self.tell(&steered.mixed)?;
         for body in steered.presses {
@@ -178,8 +178,8 @@ impl Session {
     }
 
     /// Takes the inputs of other clients at this moment.
-    fn look_at_clients(&mut self, now_us: u64) -> anyhow::Result<()> {
-        let now = self.told_inputs.at(now_us);
+    fn take_client_inputs(&mut self, now_us: u64) -> anyhow::Result<()> {
+        let now = self.client_inputs.at(now_us);
         let before = std::mem::replace(&mut self.readings.clients, now);
         let gone = before
             .into_keys()

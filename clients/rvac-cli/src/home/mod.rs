@@ -100,7 +100,7 @@ fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> 
     };
     text += &match &home.dock {
         Some(dock) => {
-            let told = if home.dock_told {
+            let told = if home.dock_reported {
                 ", as somebody has said: the robot has not docked there yet"
             } else {
                 ""

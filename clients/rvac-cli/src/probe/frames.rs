@@ -316,8 +316,8 @@ fn answer([rest, left, right]: &[Vec<f64>; 3], part_s: f64) -> Option<Field> {
     let drift = left_drift.abs().min(right_drift.abs()) * (left.len().min(right.len()) as f64) / noise;
     if left_drift * right_drift < 0.0
         && drift > ANSWERS
-        && goes_one_way(left, noise)
-        && goes_one_way(right, noise)
+        && is_monotonic(left, noise)
+        && is_monotonic(right, noise)
     {
         return Some(field(Meaning::Heading, total(left), total(right), drift));
     }
@@ -328,7 +328,7 @@ fn answer([rest, left, right]: &[Vec<f64>; 3], part_s: f64) -> Option<Field> {
 }
 
 /// Whether nearly all steps have the same sign, however unevenly a person turns.
-fn goes_one_way(series: &[f64], noise: f64) -> bool {
+fn is_monotonic(series: &[f64], noise: f64) -> bool {
     let way: f64 = steps(series).into_iter().map(f64::abs).sum();
     way <= 1.25 * total(series).abs() + 2.0 * noise * (series.len() as f64).sqrt()
 }

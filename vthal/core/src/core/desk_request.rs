@@ -8,7 +8,7 @@ use crate::desk::floors::FloorRequest;
 use crate::desk::health::HealthRequest;
 use crate::desk::history;
 use crate::desk::home::{HomeRequest, NoGoRequest, PlaceRequest, RoomRequest};
-use crate::desk::input_desk::ToldInputs;
+use crate::desk::input_desk::LeasedInputs;
 use crate::desk::learnt::{Forgetting, LearntRequest};
 use crate::desk::schedules::ScheduleRequest;
 use crate::{ArchiveTask, MixTask, RunTask};
@@ -65,7 +65,7 @@ pub(super) enum HandRequest {
     /// The driver's seat is left.
     Release,
     /// What inputs of control mixes read.
-    Inputs(ToldInputs),
+    Inputs(LeasedInputs),
     /// Presses of buttons are for the client, for so many ms.
     ClaimButtons(u32),
 }
@@ -107,7 +107,7 @@ impl From<Body> for DeskRequest {
                 lease_ms: ttl,
                 power: power.unwrap_or(if clean { CleaningPower::FULL } else { NO_POWER }),
             })),
-            Body::SetInputs { values, ttl } => Self::Hand(HandRequest::Inputs(ToldInputs { values, lease_ms: ttl })),
+            Body::SetInputs { values, ttl } => Self::Hand(HandRequest::Inputs(LeasedInputs { values, lease_ms: ttl })),
             Body::Evidence => Self::Evidence,
             Body::AddNoGo { shape, name } => no_go(NoGoRequest::Add { shape, name }),
             Body::NameNoGo { number, name } => no_go(NoGoRequest::Name { number, name }),

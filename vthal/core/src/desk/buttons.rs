@@ -37,7 +37,7 @@ struct HeldButtons {
     since_us: u64,
     /// The newest event or report.
     seen_us: u64,
-    told: bool,
+    is_reported: bool,
 }
 
 /// The buttons of one robot.
@@ -75,11 +75,11 @@ impl Buttons {
             began_us: now_us,
             since_us: now_us,
             seen_us: now_us,
-            told: false,
+            is_reported: false,
         });
         grip.down |= bit;
         grip.ever |= bit;
-        (grip.since_us, grip.seen_us, grip.told) = (now_us, now_us, false);
+        (grip.since_us, grip.seen_us, grip.is_reported) = (now_us, now_us, false);
     }
 
     /// A report says which are down.
@@ -90,8 +90,8 @@ impl Buttons {
         }
         grip.seen_us = now_us;
         let gesture = held(grip.ever, now_us - grip.since_us).filter(|_| grip.down == grip.ever)?;
-        let is_new = !grip.told;
-        grip.told = true;
+        let is_new = !grip.is_reported;
+        grip.is_reported = true;
         is_new.then_some(gesture)
     }
 
@@ -145,14 +145,15 @@ mod tests {
         buttons: Buttons,
         down: u8,
         now_us: u64,
-        told: Vec<(u64, Gesture)>,
+        gestures: Vec<(u64, Gesture)>,
     }
 
     impl Robot {
         fn turn(&mut self, button: u8, pressed: bool) {
             self.down ^= 1 << button;
             let gesture = self.buttons.take_edge(self.now_us, button, pressed);
-            self.told.extend(gesture.map(|gesture| (self.now_us, gesture)));
+            self.gestures
+                .extend(gesture.map(|gesture| (self.now_us, gesture)));
         }
 
         fn run(&mut self, for_us: u64) {
@@ -160,7 +161,8 @@ mod tests {
             while self.now_us < end_us {
                 self.now_us += 20 * MS;
                 let gesture = self.buttons.take_report(self.now_us, self.down);
-                self.told.extend(gesture.map(|gesture| (self.now_us, gesture)));
+                self.gestures
+                    .extend(gesture.map(|gesture| (self.now_us, gesture)));
             }
         }
 
@@ -171,7 +173,7 @@ mod tests {
         }
 
         fn gestures(&self) -> Vec<Gesture> {
-            self.told.iter().map(|(_, gesture)| *gesture).collect()
+            self.gestures.iter().map(|(_, gesture)| *gesture).collect()
         }
     }
 
@@ -181,14 +183,14 @@ mod tests {
         robot.hold(START, 200 * MS);
         robot.run(SECOND);
         robot.hold(START, 3 * SECOND);
-        assert_eq!(robot.told, [(200 * MS, Gesture::Press)]);
+        assert_eq!(robot.gestures, [(200 * MS, Gesture::Press)]);
     }
 
     #[test]
     fn start_held_for_five_seconds_is_told_once_however_long_it_is_stuck() {
         let mut robot = Robot::default();
         robot.hold(START, 3600 * SECOND);
-        assert_eq!(robot.told, [(5 * SECOND, Gesture::PairingHold)]);
+        assert_eq!(robot.gestures, [(5 * SECOND, Gesture::PairingHold)]);
     }
 
     #[test]

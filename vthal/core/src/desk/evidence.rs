@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use brain::Observation;
-use rvac_api::Felt;
+use rvac_api::EvidenceSample;
 
 use crate::edges::{Edges, Sign};
 
@@ -40,7 +40,7 @@ pub(crate) struct Sensations {
 struct Sample {
     since: MotionReference,
     end_us: u64,
-    felt: Felt,
+    felt: EvidenceSample,
 }
 
 /// The sample that goes on.
@@ -95,7 +95,7 @@ impl Sensations {
         let open = self.open.get_or_insert_with(|| Open::from(now));
         open.take(perceived);
         if now.time_us >= open.since.time_us + SAMPLE_US {
-            let (since, felt) = (open.since, open.told(open.since, track_m));
+            let (since, felt) = (open.since, open.sample(open.since, track_m));
             self.open = Some(Open::from(now));
             if self.samples.len() == SAMPLES {
                 self.samples.pop_front();
@@ -109,7 +109,7 @@ impl Sensations {
     }
 
     /// The last ten seconds before `now_us`, oldest first, with the readings since the last sample.
-    pub(crate) fn before(&self, now_us: u64, track_m: f64) -> Vec<Felt> {
+    pub(crate) fn before(&self, now_us: u64, track_m: f64) -> Vec<EvidenceSample> {
         let earliest_us = now_us.saturating_sub(SAMPLES as u64 * SAMPLE_US);
         let at_s = |end_us: u64| -(now_us.saturating_sub(end_us) as f64) * 1e-6;
         let complete = self.samples.iter().filter(|sample| sample.end_us > earliest_us);
@@ -117,11 +117,11 @@ impl Sensations {
         // Few counts of a wheel come in the time of a sample that has just begun, so its rates are those since the one before it began.
         let rates_since = |open: &Open| self.samples.back().map_or(open.since, |sample| sample.since);
         complete
-            .map(|sample| Felt {
+            .map(|sample| EvidenceSample {
                 at_s: rounded(at_s(sample.end_us)),
                 ..sample.felt.clone()
             })
-            .chain(newest.map(|open| open.told(rates_since(open), track_m)))
+            .chain(newest.map(|open| open.sample(rates_since(open), track_m)))
             .collect()
     }
 }
@@ -158,9 +158,9 @@ impl Open {
     }
 
     /// The sample if it ends now, with the rates since a moment.
-    fn told(&self, rates_since: MotionReference, track_m: f64) -> Felt {
+    fn sample(&self, rates_since: MotionReference, track_m: f64) -> EvidenceSample {
         let (v, w) = rates_since.rates(self.newest, track_m);
-        Felt {
+        EvidenceSample {
             at_s: 0.0,
             v: rounded(v),
             w: rounded(w),

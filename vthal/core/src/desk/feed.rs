@@ -1,7 +1,7 @@
 //! What clients receive, and how often.
 
 use brain::{MapCursor, SweptShare};
-use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedWay, Pose, Status, Topic, Update};
+use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedPath, Pose, Status, Topic, Update};
 
 use super::audience::Teller;
 use super::clients::Clients;
@@ -55,7 +55,7 @@ pub(crate) struct Feed {
     share: Option<SweptShare>,
     floors: Option<FloorsView>,
     way_us: u64,
-    way: PlannedWay,
+    way: PlannedPath,
     state_changed_us: Option<u64>,
 }
 

@@ -77,7 +77,7 @@ impl HistoryDesk {
     pub(crate) fn follow(&mut self, moment: &Moment<'_>, floor: Option<u16>, teller: &mut Teller<'_>) {
         let step = self.follower.step(moment);
         if let Some(run) = step.done {
-            teller.record(|| Record::Told {
+            teller.record(|| Record::RunSummary {
                 time_us: moment.now_us,
                 run: Box::new(run),
             });

@@ -8,7 +8,7 @@ use super::audience::{Asker, Asking, Teller};
 use super::awaited::Awaited;
 use super::journal::LogSource;
 use crate::Outputs;
-use crate::learnt::{Learnings, RobotRecord, StoredLearnings, told};
+use crate::learnt::{Learnings, RobotRecord, StoredLearnings, summary};
 use crate::outputs::LearntOrder;
 use crate::refusal::Refusal;
 
@@ -65,7 +65,7 @@ impl LearntDesk {
 
     /// Tells what a robot of this name begins with.
     pub(crate) fn introduce(&self, device: &str, teller: &mut Teller<'_>) {
-        if let Some(text) = told(&self.of(device)) {
+        if let Some(text) = summary(&self.of(device)) {
             teller.log(LogLevel::Info, LogSource::Vthal, text);
         }
     }

@@ -13,7 +13,7 @@ use crate::refusal::Refusal;
 use crate::schedule::{Book, Entry, Outcome, Plan, ScheduleEdit, ScheduleError, Verdict, Zone};
 
 /// Readiness changes without an event; followers receive it within this time.
-const TOLD_US: u64 = 5_000_000;
+const SEND_PERIOD_US: u64 = 5_000_000;
 
 /// Changes of the schedules by clients.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,8 +54,8 @@ pub(crate) struct Decided<'a> {
 #[derive(Debug)]
 pub(crate) struct ScheduleDesk {
     scheduler: Scheduler,
-    told: Option<Schedules>,
-    told_us: u64,
+    sent: Option<Schedules>,
+    sent_us: u64,
     /// The daemon ends: nothing starts any more.
     ended: bool,
 }
@@ -65,8 +65,8 @@ impl ScheduleDesk {
     pub(crate) fn new(book: Book, system_zone: Zone, distrusts_marks: bool) -> Self {
         Self {
             scheduler: Scheduler::new(book, system_zone, distrusts_marks),
-            told: None,
-            told_us: 0,
+            sent: None,
+            sent_us: 0,
             ended: false,
         }
     }
@@ -90,7 +90,7 @@ impl ScheduleDesk {
     pub(crate) fn set_clock(&mut self, utc_s: i64, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
         self.scheduler.set_clock(utc_s);
         self.run(readiness, teller);
-        if teller.has_followers(Topic::Schedules) && teller.now_us >= self.told_us + TOLD_US {
+        if teller.has_followers(Topic::Schedules) && teller.now_us >= self.sent_us + SEND_PERIOD_US {
             self.tell(readiness, teller);
         }
     }
@@ -198,13 +198,13 @@ impl ScheduleDesk {
     }
 
     fn tell(&mut self, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
-        self.told_us = teller.now_us;
+        self.sent_us = teller.now_us;
         if !teller.has_followers(Topic::Schedules) {
             return;
         }
         let schedules = self.view(readiness);
-        if self.told.as_ref() != Some(&schedules) {
-            self.told = Some(schedules.clone());
+        if self.sent.as_ref() != Some(&schedules) {
+            self.sent = Some(schedules.clone());
             teller.tell(Topic::Schedules, Update::Schedules(schedules));
         }
     }

@@ -21,7 +21,7 @@ const TRIED_MAX: usize = 12;
 pub(crate) struct StandstillDesk {
     standstills: Newest<Standstill, KEPT>,
     diary: Diary,
-    felt: Sensations,
+    sensations: Sensations,
 }
 
 /// Where a robot stopped.
@@ -44,7 +44,7 @@ pub(crate) fn is_standstill(decision: &Decision) -> bool {
     let DecisionCause::Reason(reason) = decision.cause else {
         return false;
     };
-    let is_told = matches!(
+    let is_ordered = matches!(
         reason,
         Reason::Command | Reason::StartUp | Reason::Restored | Reason::Stopped
     );
@@ -54,7 +54,7 @@ pub(crate) fn is_standstill(decision: &Decision) -> bool {
             reason,
             Reason::Finished | Reason::Released | Reason::LinkRestored | Reason::Docked
         );
-    !is_told && (waits || gave_up)
+    !is_ordered && (waits || gave_up)
 }
 
 impl StandstillDesk {
@@ -70,7 +70,7 @@ impl StandstillDesk {
 
     /// What the robot perceives in this step.
     pub(crate) fn feel(&mut self, perceived: &Perceived<'_>, track_m: f64) {
-        self.felt.take(perceived, track_m);
+        self.sensations.take(perceived, track_m);
     }
 
     /// What the sensors of a robot with this track reported and what it tried up to now; empty while its track is not known.
@@ -86,7 +86,7 @@ impl StandstillDesk {
             .collect();
         tried.drain(..tried.len().saturating_sub(TRIED_MAX));
         Evidence {
-            felt: self.felt.before(now_us, track_m),
+            samples: self.sensations.before(now_us, track_m),
             tried,
         }
     }
@@ -104,13 +104,13 @@ impl StandstillDesk {
         } else {
             format!(" {:.2}", decision.value)
         };
-        let told = if is_refusal || is_standstill(decision) {
+        let explanation = if is_refusal || is_standstill(decision) {
             format!(": {}", refusal::text(decision.cause.name()))
         } else {
             String::new()
         };
         let text = format!(
-            "{} ({}){value}{told}",
+            "{} ({}){value}{explanation}",
             decision.kind.name(),
             decision.cause.name()
         );
@@ -130,7 +130,7 @@ impl StandstillDesk {
     ) {
         let now_us = teller.now_us;
         let evidence = self.evidence(now_us, track_m);
-        let told = self.standstills.keep(|number| Standstill {
+        let standstill = self.standstills.keep(|number| Standstill {
             number,
             t: to_api::seconds(now_us),
             state: decision
@@ -146,7 +146,7 @@ impl StandstillDesk {
             evidence,
         });
         if teller.has_followers(Topic::Standstills) {
-            teller.tell(Topic::Standstills, Update::Standstill(Box::new(told)));
+            teller.tell(Topic::Standstills, Update::Standstill(Box::new(standstill)));
         }
     }
 }

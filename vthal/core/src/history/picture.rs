@@ -3,7 +3,7 @@
 use brain::{Brain, CELL_M, CellKnowledge, Hazard, Map, PathPoint, SweptRun};
 use rvac_api::{RunJob, RunPicture};
 
-use crate::home_view::{FeltFloors, home_view};
+use crate::home_view::{SurfaceSensing, home_view};
 use crate::to_api;
 
 /// Points of the path that lie nearer than this to the line between their neighbours are left out, millimetres.
@@ -32,7 +32,7 @@ pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPi
         RunJob::Clean { .. } | RunJob::Spot => part.hazards,
     };
     RunPicture {
-        home: Some(home_view(map, FeltFloors::in_map(map))).filter(|home| !home.cells.is_empty()),
+        home: Some(home_view(map, SurfaceSensing::in_map(map))).filter(|home| !home.cells.is_empty()),
         ..drawn(&swept, path, hazards)
     }
 }
@@ -48,7 +48,7 @@ pub(super) fn of_checkpoint(checkpoint: &brain::Checkpoint) -> RunPicture {
         };
         let mut map = Map::new(body, brain::SensorLayout::default());
         map.load(stored);
-        home_view(&map, FeltFloors::in_map(&map))
+        home_view(&map, SurfaceSensing::in_map(&map))
     });
     RunPicture {
         home,

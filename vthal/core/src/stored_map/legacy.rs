@@ -9,7 +9,7 @@
 use brain::StoredMapError;
 
 use super::annotations::{NoGo, NoGoShape, Numbered, Pattern, RoomChanges, RoomSettings};
-use super::body::{Body, FeltDock, Layers, Pose};
+use super::body::{Body, Layers, Pose, StoredDock};
 use super::{DecodeError, Reader};
 
 /// Bits of a cell that held something else before version 9.
@@ -19,10 +19,10 @@ const FELT_OFTEN_ENOUGH: u8 = 6;
 
 /// The body of a version before 10.
 pub(super) fn body(reader: &mut Reader<'_>, version: u8) -> Result<Body, DecodeError> {
-    let (felt_dock, told_dock) = (felt_dock(reader, version)?, told_dock(reader, version)?);
+    let (measured_dock, reported_dock) = (measured_dock(reader, version)?, reported_dock(reader, version)?);
     Ok(Body {
-        felt_dock,
-        told_dock,
+        measured_dock,
+        reported_dock,
         layers: layers(reader, version)?,
         no_go: no_go(reader, version)?,
         names: match version {
@@ -41,7 +41,7 @@ pub(super) fn body(reader: &mut Reader<'_>, version: u8) -> Result<Body, DecodeE
     })
 }
 
-fn felt_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<FeltDock>, DecodeError> {
+fn measured_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<StoredDock>, DecodeError> {
     let times: u16 = reader.take(DecodeError::Number)?;
     if times == 0 {
         return Ok(None);
@@ -51,10 +51,10 @@ fn felt_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<FeltDock>, D
         ..6 => FELT_OFTEN_ENOUGH,
         _ => times.try_into().map_err(|_| DecodeError::Number)?,
     };
-    Ok(Some(FeltDock { pose, times }))
+    Ok(Some(StoredDock { pose, times }))
 }
 
-fn told_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<Pose>, DecodeError> {
+fn reported_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<Pose>, DecodeError> {
     if version < 6 {
         return Ok(None);
     }

@@ -177,7 +177,7 @@ pub fn run_text(words: &Words, run: &Run) -> String {
         return run.text.clone();
     }
     let told = &words.history;
-    let with_cause = |text: crate::words::Told<1>| {
+    let with_cause = |text: crate::words::Template<1>| {
         cause(words, &run.reason).map_or_else(|| run.text.clone(), |cause| text.fill([&cause]))
     };
     match (run.result, run.reason.as_str()) {

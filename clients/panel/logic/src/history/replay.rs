@@ -64,7 +64,7 @@ impl Replay {
 
     /// The path up to that time, in the path syntax of SVG.
     #[must_use]
-    pub fn way_until(&self, t_s: f64) -> String {
+    pub fn path_until(&self, t_s: f64) -> String {
         let t = t_s as f32;
         let driven = self.poses.partition_point(|pose| pose.0 <= t);
         let mut path = String::new();
@@ -113,8 +113,8 @@ mod tests {
             "nothing between far moments"
         );
         assert_eq!(replay.robot_at(500.0).map(|at| at.0), Some(300.0));
-        assert_eq!(replay.way_until(2.0), "M0 0L100 -50");
-        assert_eq!(replay.way_until(0.5), "");
+        assert_eq!(replay.path_until(2.0), "M0 0L100 -50");
+        assert_eq!(replay.path_until(0.5), "");
     }
 
     #[test]
@@ -131,7 +131,7 @@ mod tests {
         });
         assert_eq!(replay.robot_at(1.9), Some((50.0, 0.0, 0.0)));
         assert_eq!(replay.robot_at(2.5), Some((250.0, -100.0, 0.0)));
-        assert_eq!(replay.way_until(9.0), "M0 0L50 0M200 -100L300 -100");
+        assert_eq!(replay.path_until(9.0), "M0 0L50 0M200 -100L300 -100");
     }
 
     #[test]
