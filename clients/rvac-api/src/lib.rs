@@ -50,8 +50,8 @@ pub use schedule::{
     ScheduledJob, Schedules, Weekday,
 };
 pub use simulated::{SimulatedPlan, SimulatedTruth};
-pub use stop::{Evidence, Felt, Standstill};
-pub use thought::{Decision, Estimate, PlannedWay};
+pub use stop::{Evidence, EvidenceSample, Standstill};
+pub use thought::{Decision, Estimate, PlannedPath};
 pub use topic::Topic;
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, LinkReading, LogEntry, LogLevel,

@@ -24,7 +24,7 @@ pub fn to_map_edit(body: RequestBody) -> Option<MapEdit> {
     }
 }
 
-/// An order but for its power, which clients tell in shares.
+/// An order without its power, which clients send in shares.
 #[must_use]
 pub fn order(order: &CleaningOrder) -> JobOrder {
     JobOrder {

@@ -23,7 +23,7 @@ use rvac_api::HomeView;
 use crate::device::{Description, Part};
 use crate::edges::Edges;
 use crate::floors::Floors;
-use crate::home_view::{FeltFloors, home_view};
+use crate::home_view::{SurfaceSensing, home_view};
 use crate::observe::{LinkView, Observer};
 use crate::storey_resolver::StoreyResolver;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
@@ -202,14 +202,14 @@ impl BrainSession {
     pub(crate) fn home_view(&self) -> HomeView {
         HomeView {
             revision: self.home_revision(),
-            ..home_view(self.brain.map(), self.felt_floors())
+            ..home_view(self.brain.map(), self.surface_sensing())
         }
     }
 
-    fn felt_floors(&self) -> FeltFloors {
+    fn surface_sensing(&self) -> SurfaceSensing {
         match self.measures_currents {
-            true => FeltFloors::Measured,
-            false => FeltFloors::NotMeasured,
+            true => SurfaceSensing::Measured,
+            false => SurfaceSensing::NotMeasured,
         }
     }
 
@@ -273,7 +273,7 @@ impl BrainSession {
         self.next.is_some() || self.loading_floor.is_some()
     }
 
-    /// Goes on with the home of a floor, then with that of the next run, and begins that when it is ready.
+    /// Continues to load the home of a floor, then that of the next run, and begins the run when it is ready.
     pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
         if let Some(floor) = &mut self.loading_floor {
             floor.go_on();
@@ -383,7 +383,7 @@ enum StickPosition {
 }
 
 impl StickPosition {
-    /// Where a command says that it is; `None` for a command that says nothing of it.
+    /// Where a command says that the robot is; `None` for a command that does not say.
     fn of(command: &Command) -> Option<Self> {
         let Command::Job(JobCommand::Manual {
             speed_m_per_s,

@@ -1297,7 +1297,7 @@ fn a_dock_that_was_moved_is_kept_and_a_robot_on_it_was_carried_along() {
     let topics = vec![Topic::Home];
     pair.ask(BERT, RequestBody::Watch { topics });
     let told = pair.updates.iter().rev().find_map(|update| match update {
-        Update::Home(view) => Some(view.dock_told),
+        Update::Home(view) => Some(view.dock_reported),
         _ => None,
     });
     assert_eq!(told, Some(true));
@@ -1688,14 +1688,14 @@ fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does
     );
     let line = "state-paused (wheel-drop): A wheel hangs in the air. Put the robot flat on the floor.";
     assert!(pair.log_lines().contains(&line), "{:?}", pair.log_lines());
-    let newest = stop.evidence.felt.last().expect("it felt something");
+    let newest = stop.evidence.samples.last().expect("it felt something");
     assert!(newest.signs.iter().any(|sign| sign == "wheel-drop"), "{newest:?}");
-    let earlier = &stop.evidence.felt[stop.evidence.felt.len() - 3];
+    let earlier = &stop.evidence.samples[stop.evidence.samples.len() - 3];
     assert!(
         earlier.signs.iter().all(|sign| sign != "wheel-drop"),
         "{earlier:?}"
     );
-    assert!((45..=51).contains(&stop.evidence.felt.len()));
+    assert!((45..=51).contains(&stop.evidence.samples.len()));
     // Whoever comes later is told, too, and the record of the run has it.
     let before = pair.updates.len();
     let topics = vec![Topic::Standstills];
@@ -1712,7 +1712,7 @@ fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does
     };
     assert!(
         evidence
-            .felt
+            .samples
             .iter()
             .any(|felt| felt.signs.contains(&"wheel-drop".to_owned()))
     );

@@ -19,7 +19,7 @@ use serde::Serialize;
 
 /// How often a plan is made; the fastest counts.
 const TRIES: u32 = 5;
-/// Way between two places at which the ideal robot sweeps, metres.
+/// Distance between two places at which the ideal robot sweeps, metres.
 const STEP_M: f64 = 0.01;
 
 /// Measures plans.
@@ -34,7 +34,7 @@ struct Arguments {
     /// Standard deviation of the pose for which lanes overlap, metres.
     #[arg(long, default_value_t = 0.01)]
     sigma_m: f64,
-    /// In which way the floor is swept.
+    /// The pattern by which the floor is swept.
     #[arg(long, value_enum, default_value_t)]
     pattern: PatternArgument,
     /// Print JSON, one object a home.
@@ -165,7 +165,7 @@ fn timed_plan(
     best
 }
 
-/// Seconds that this thread has had a processor, where the system tells: others may use the machine, too.
+/// Processor seconds of this thread, where the system reports them: others may use the machine, too.
 fn processor_s() -> Option<f64> {
     let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: u64 = text.split_whitespace().next()?.parse().ok()?;

@@ -10,7 +10,7 @@ use crate::desk::floors::FloorRequest;
 use crate::desk::health::HealthRequest;
 use crate::desk::history;
 use crate::desk::home::{HomeEdit, to_line, to_no_go, to_place, to_shape};
-use crate::desk::input_desk::ToldInputs;
+use crate::desk::input_desk::LeasedInputs;
 use crate::desk::learnt::{Forgetting, LearntRequest};
 use crate::desk::room_power::{to_api, to_brain};
 use crate::desk::schedules::ScheduleRequest;
@@ -71,7 +71,7 @@ pub(crate) enum HandRequest {
     /// The driver's seat is left.
     Release,
     /// What inputs of control mixes read.
-    Inputs(ToldInputs),
+    Inputs(LeasedInputs),
     /// Presses of buttons are for the client, for so many ms.
     ClaimButtons(u32),
 }
@@ -116,7 +116,7 @@ impl DeskRequest {
                 lease_ms: ttl,
                 power: power.unwrap_or(if clean { CleaningPower::FULL } else { NO_POWER }),
             })),
-            Body::SetInputs { values, ttl } => Self::Hand(HandRequest::Inputs(ToldInputs { values, lease_ms: ttl })),
+            Body::SetInputs { values, ttl } => Self::Hand(HandRequest::Inputs(LeasedInputs { values, lease_ms: ttl })),
             Body::Evidence => Self::Evidence,
             Body::AddNoGo { shape, name } => no_go(NoGoEdit::Add(named_no_go(&shape, name)?), "forbids floor of the map"),
             Body::NameNoGo { number, name } => no_go(NoGoEdit::Name { number, name: name_if_any(name)? }, "names forbidden floor"),

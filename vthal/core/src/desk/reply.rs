@@ -8,7 +8,7 @@ pub(crate) enum Reply {
     /// It is done: the client is answered at once, if it gave a number.
     Done,
     /// This is the answer, at once.
-    Told(Box<Update>),
+    Update(Box<Update>),
     /// The shell answers when it has carried out the order.
     ByShell,
     /// The desk answers when the shell says that the disk has the change or has not.
@@ -20,6 +20,6 @@ pub(crate) enum Reply {
 
 impl From<Update> for Reply {
     fn from(update: Update) -> Self {
-        Self::Told(Box::new(update))
+        Self::Update(Box::new(update))
     }
 }

@@ -1,4 +1,4 @@
-//! The recorded forms of the brain's types, and the conversions both ways.
+//! The recorded forms of the brain's types, and the conversions in both directions.
 //!
 //! Numbers are written so that reading them gives the same bits again; a replay rests on it.
 
@@ -245,7 +245,7 @@ impl Seen {
         }
     }
 
-    /// First the ranges: what a step is told of beacons has no order.
+    /// First the ranges: the beacon readings of a step have no order.
     fn signals(&self) -> Vec<BeaconSignal> {
         let ranges = self.beacons.iter().map(|&(beacon, range_m, sigma_m)| {
             BeaconSignal::Range(BeaconRange {

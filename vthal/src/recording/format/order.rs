@@ -1,4 +1,4 @@
-//! Jobs for parts of the home as they stand in recordings and checkpoints.
+//! Jobs for parts of the home as recordings and checkpoints store them.
 
 use brain::{CleaningOrder, RoomPower};
 use rvac_api::JobOrder;
@@ -8,7 +8,7 @@ use vthal_core::api_forms;
 /// [`CleaningOrder`]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GivenOrder {
-    /// Suction, main brush and side brushes in percent, in place of the shares that clients tell.
+    /// Suction, main brush and side brushes in percent, in place of the shares that clients send.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     power: Option<[u8; 3]>,
     #[serde(flatten)]
