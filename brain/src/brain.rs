@@ -8,7 +8,7 @@ mod situation;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
-use crate::coverage::{JobEstimate, estimate};
+use crate::coverage::{JobConditions, JobEstimate, estimate};
 use crate::localization::Localization;
 use crate::mapping::{
     BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, StampedOdometry, StoredMap,
@@ -205,7 +205,13 @@ impl Brain {
     /// # Errors
     /// Why the order cannot be carried out in this map.
     pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, JobRefusal> {
-        estimate(order, (&self.map, self.pose()), (&self.config, &self.energy()))
+        let conditions = JobConditions {
+            map: &self.map,
+            start: self.pose(),
+            config: &self.config,
+            energy: &self.energy(),
+        };
+        estimate(order, conditions)
     }
 
     /// Strategy that suits the robot of the last step. [`StrategyName::Systematic`] needs range sensors with known mounting positions

@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use brain::coverage::plan::{CoveragePlan, PlanSettings, plan_pattern};
+use brain::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_pattern};
 use brain::{CELL_M, Cell, Pattern, Pose2, Raster};
 use clap::{Parser, ValueEnum};
 use home::{Home, RobotModel};
@@ -112,7 +112,12 @@ fn measured(
         y_m: pose.y_m,
         heading_rad: pose.heading_rad,
     };
-    let (plan, planning_s) = timed_plan(&ground, start, (arguments.pattern.into(), &settings), progress);
+    let (plan, planning_s) = timed_plan(
+        &ground,
+        Departure { start, settings },
+        arguments.pattern.into(),
+        progress,
+    );
     let curve = curve(home, &plan, &settings);
     let t0_s = home.t0_s();
     let reached = |share: f64| {
@@ -145,14 +150,14 @@ fn measured(
 /// The plan, and the least time that it took in a few tries.
 fn timed_plan(
     ground: &Raster<bool>,
-    start: Pose2,
-    (pattern, settings): (Pattern, &PlanSettings),
+    departure: Departure,
+    pattern: Pattern,
     mut progress: impl FnMut(f64),
 ) -> (CoveragePlan, f64) {
     let mut best = (CoveragePlan::default(), f64::INFINITY);
     for number in 1..=TRIES {
         let (began, began_s) = (Instant::now(), processor_s());
-        let plan = plan_pattern(ground, (pattern, |_| false), start, settings);
+        let plan = plan_pattern(ground, pattern, |_| false, departure);
         let planning_s = match (began_s, processor_s()) {
             (Some(began_s), Some(ended_s)) => ended_s - began_s,
             _ => began.elapsed().as_secs_f64(),
