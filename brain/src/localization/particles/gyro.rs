@@ -4,7 +4,7 @@
 
 use super::ParticleFilter;
 use super::parameters::GYRO;
-use crate::localization::calibration::BIAS_DRIFT_RAD2_PER_S3;
+use crate::localization::calibration::CALIBRATION;
 use crate::localization::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use crate::model::advance::Advance;
 use crate::model::random::Random;
@@ -53,7 +53,8 @@ impl ParticleGyro {
         if count.time_s <= 0.0 {
             return 0.0;
         }
-        self.bias_rad_per_s += libm::sqrt(BIAS_DRIFT_RAD2_PER_S3 * count.time_s) * random.normal();
+        self.bias_rad_per_s +=
+            libm::sqrt(CALIBRATION.bias_drift_rad2_per_s3 * count.time_s) * random.normal();
         self.scale += GYRO.scale_walk * libm::sqrt(count.counted_rad.abs()) * random.normal();
         (count.shown_rad - self.bias_rad_per_s * count.time_s) * (1.0 + self.scale) - count.counted_rad
     }
