@@ -317,14 +317,20 @@ impl OccupancyGrid {
 
 /// Lowest and highest key with a new tile; `None` when it is too far away.
 fn grown(keys: Option<(TileKey, TileKey)>, key: TileKey) -> Option<(TileKey, TileKey)> {
-    if key.0.abs() > KEY_MAX || key.1.abs() > KEY_MAX {
+    if key.column.abs() > KEY_MAX || key.row.abs() > KEY_MAX {
         return None;
     }
     let (low, high) = keys.unwrap_or((key, key));
-    let low = (low.0.min(key.0), low.1.min(key.1));
-    let high = (high.0.max(key.0), high.1.max(key.1));
-    let columns = i64::from(high.0) - i64::from(low.0) + 1;
-    let rows = i64::from(high.1) - i64::from(low.1) + 1;
+    let low = TileKey {
+        column: low.column.min(key.column),
+        row: low.row.min(key.row),
+    };
+    let high = TileKey {
+        column: high.column.max(key.column),
+        row: high.row.max(key.row),
+    };
+    let columns = i64::from(high.column) - i64::from(low.column) + 1;
+    let rows = i64::from(high.row) - i64::from(low.row) + 1;
     (columns.saturating_mul(rows) <= TILES_MAX).then_some((low, high))
 }
 

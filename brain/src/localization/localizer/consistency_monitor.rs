@@ -36,6 +36,13 @@ const DOUBTED_ABOVE: f64 = 0.1;
 /// The rollback begins this much earlier, microseconds, because not every place shows a contradiction at once.
 const ROLLBACK_LEAD_US: u64 = 20_000_000;
 
+/// An observation, and the motion since the one before.
+#[derive(Clone, Copy, Debug)]
+struct ObservedStep<'step> {
+    observation: &'step Observation,
+    advance: Advance,
+}
+
 /// The map of a few minutes ago, and the share of recent checks that contradict it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ConsistencyMonitor {
@@ -50,12 +57,8 @@ pub(super) struct ConsistencyMonitor {
 
 impl ConsistencyMonitor {
     /// Checks what the sensors show at the estimated pose.
-    pub(super) fn observe(
-        &mut self,
-        (observation, advance): (&Observation, Advance),
-        estimate: &PoseEstimate,
-        config: &BrainConfig,
-    ) {
+    fn observe(&mut self, step: ObservedStep<'_>, estimate: &PoseEstimate, config: &BrainConfig) {
+        let ObservedStep { observation, advance } = step;
         self.distance_m += advance.distance_m.abs();
         let touches = observation.contacts.any() && !self.contacts_before.any();
         self.contacts_before = observation.contacts;
@@ -128,9 +131,8 @@ impl Localization {
         if let Some(first_run) = self.estimator.first_run_mut()
             && !observation.wheel_drop
         {
-            first_run
-                .monitor
-                .observe((observation, advance), &estimate, config);
+            let step = ObservedStep { observation, advance };
+            first_run.monitor.observe(step, &estimate, config);
         }
     }
 }
@@ -192,7 +194,7 @@ fn is_surrounded_by_known(reference_map: &ReferenceMap, at: Point2) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{ConsistencyMonitor, LEARN_US, PoseEstimate};
+    use super::{ConsistencyMonitor, LEARN_US, ObservedStep, PoseEstimate};
     use crate::localization::known_home::{START, SimulatedRobot, TRACK_M, config, flat};
     use crate::localization::reference_map::ReferenceMap;
     use crate::localization::{Localization, MapCorrection};
@@ -218,7 +220,11 @@ mod tests {
                 distance_m: before.position().distance_m(truth.pose.position()),
                 ..Advance::default()
             };
-            monitor.observe((&view, advance), &estimate, &config());
+            let step = ObservedStep {
+                observation: &view,
+                advance,
+            };
+            monitor.observe(step, &estimate, &config());
             greatest = greatest.max(monitor.contradicted);
         }
         greatest
@@ -308,7 +314,7 @@ mod tests {
     }
 
     /// Draws so many steps of a robot whose pose has this standard deviation. Returns the number of known cells.
-    fn drawn(map: &mut Map, (truth, sigma_m): (&mut SimulatedRobot<'_>, f64), steps: u32) -> usize {
+    fn drawn(map: &mut Map, truth: &mut SimulatedRobot<'_>, sigma_m: f64, steps: u32) -> usize {
         for _ in 0..steps {
             let view = truth.step().clone();
             let estimate = PoseEstimate {
@@ -337,7 +343,7 @@ mod tests {
         let home = flat();
         for (sigma_m, is_trusted) in [(0.02, true), (0.4, false)] {
             let mut map = Map::new(config().body, config().sensors);
-            drawn(&mut map, (&mut SimulatedRobot::new(&home, START), sigma_m), 6_000);
+            drawn(&mut map, &mut SimulatedRobot::new(&home, START), sigma_m, 6_000);
             let mut monitor = ConsistencyMonitor::default();
             monitor.update_reference(&map, LEARN_US);
             assert_eq!(monitor.reference_map.is_some(), is_trusted, "{sigma_m} m");
@@ -349,8 +355,8 @@ mod tests {
         let home = flat();
         let mut truth = SimulatedRobot::new(&home, START);
         let mut map = Map::new(config().body, config().sensors);
-        let before = drawn(&mut map, (&mut truth, 0.02), 1_000);
-        let later = drawn(&mut map, (&mut truth, 0.02), 6_000);
+        let before = drawn(&mut map, &mut truth, 0.02, 1_000);
+        let later = drawn(&mut map, &mut truth, 0.02, 6_000);
         assert!(later > before + before / 10, "{before} cells, then {later}");
         let keyframe = Keyframe {
             time_us: 0,

@@ -9,22 +9,12 @@ use super::parameters::PLACING;
 use crate::localization::TrackingCheckpoint;
 use crate::localization::drift::Drift;
 use crate::localization::tracker::CONFIRMATION_BEAMS;
-use crate::mapping::{DockLocation, Map};
-use crate::model::config::BrainConfig;
+use crate::mapping::DockLocation;
 use crate::model::geometry::Pose2;
 
 impl Localization {
-    /// A person says that the robot is at `pose` in `map`, by eye. The pose counts as unsure until the sensors have confirmed it.
-    pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
-        self.place_at(pose);
-        self.start_monte_carlo(map, config, seed);
-        if self.estimator.known_map().is_none() {
-            self.start_line_slam(config);
-        }
-        self.begin_roughly_at(pose);
-    }
-
-    pub(super) fn begin_roughly_at(&mut self, pose: Pose2) {
+    /// A person says that the robot is at `pose`, by eye. The pose counts as unsure until the sensors have confirmed it.
+    pub fn place_roughly_at(&mut self, pose: Pose2) {
         self.set_pose(pose);
         self.odometry.calibration.interrupt();
         self.drift = Drift {

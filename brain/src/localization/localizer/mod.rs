@@ -224,7 +224,7 @@ impl Localization {
             && tracker.is_lost()
             && let Some(dock) = place.pose()
         {
-            self.begin_roughly_at(dock);
+            self.place_roughly_at(dock);
         } else if let Some(estimate) = tracker.follow(reference_map, observation, moved) {
             self.adopt_tracked(estimate);
         }
