@@ -39,16 +39,14 @@ impl Drift {
     /// Adds the uncertainty of a motion. The heading error rotates the rest of the path, so this is the figure of a straight path
     /// and an upper bound for others.
     pub(super) fn grow(&mut self, advance: Advance) {
+        let noise = &ODOMETRY_NOISE;
         let distance_m = advance.distance_m.abs();
         let turn_variance = turn_variance(advance);
         self.sigma_rad = libm::sqrt(self.sigma_rad * self.sigma_rad + turn_variance);
-        let slipped_m2 = ODOMETRY_NOISE.slip_m_per_sqrt_m * ODOMETRY_NOISE.slip_m_per_sqrt_m * distance_m;
+        let slipped_m2 = noise.slip_m_per_sqrt_m * noise.slip_m_per_sqrt_m * distance_m;
         self.sigma_m = libm::sqrt(self.sigma_m * self.sigma_m + slipped_m2)
             + distance_m
-                * libm::sqrt(
-                    ODOMETRY_NOISE.distance_scale * ODOMETRY_NOISE.distance_scale
-                        + self.sigma_rad * self.sigma_rad,
-                );
+                * libm::sqrt(noise.distance_scale * noise.distance_scale + self.sigma_rad * self.sigma_rad);
     }
 }
 
@@ -57,20 +55,17 @@ pub(super) fn turn_variance(advance: Advance) -> f64 {
     if advance.is_stationary() {
         return 0.0;
     }
+    let noise = &ODOMETRY_NOISE;
     match advance.gyro_turn_rad {
         Some(turn_rad) => {
-            let scale_rad = ODOMETRY_NOISE.gyro_turn_scale * turn_rad;
+            let scale_rad = noise.gyro_turn_scale * turn_rad;
             scale_rad * scale_rad
-                + ODOMETRY_NOISE.gyro_walk_rad_per_sqrt_s
-                    * ODOMETRY_NOISE.gyro_walk_rad_per_sqrt_s
-                    * advance.time_s
+                + noise.gyro_walk_rad_per_sqrt_s * noise.gyro_walk_rad_per_sqrt_s * advance.time_s
         }
         None => {
-            let scale_rad = ODOMETRY_NOISE.wheel_turn_scale * advance.wheel_turn_rad;
+            let scale_rad = noise.wheel_turn_scale * advance.wheel_turn_rad;
             scale_rad * scale_rad
-                + ODOMETRY_NOISE.slip_rad_per_sqrt_m
-                    * ODOMETRY_NOISE.slip_rad_per_sqrt_m
-                    * advance.distance_m.abs()
+                + noise.slip_rad_per_sqrt_m * noise.slip_rad_per_sqrt_m * advance.distance_m.abs()
         }
     }
 }
