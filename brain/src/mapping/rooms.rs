@@ -5,8 +5,12 @@
 //! keep their identities: a new room takes the identity of the old room with which it shares most cells. Splits and joins by
 //! people apply afterwards.
 
+mod parameters;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+use parameters::SEGMENTATION;
 
 use super::cell::neighbours;
 use super::distance::{squared_cells, window};
@@ -16,28 +20,6 @@ use super::room_changes::RoomChanges;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{StepBudget, at_once};
-
-/// What separates two rooms.
-struct SegmentationParameters {
-    /// Half of the widest passage that separates two rooms, metres.
-    passage_half_max_m: f64,
-    /// Least ratio of a room's width to that of the passage into it.
-    width_ratio_min: f64,
-    /// A smaller basin merges when it meets another one, square metres.
-    core_min_m2: f64,
-    /// Least area of a room, square metres.
-    room_min_m2: f64,
-    /// Largest area of furniture, square metres.
-    furniture_max_m2: f64,
-}
-
-const PARAMETERS: SegmentationParameters = SegmentationParameters {
-    passage_half_max_m: 0.55,
-    width_ratio_min: 1.25,
-    core_min_m2: 0.2,
-    room_min_m2: 1.0,
-    furniture_max_m2: 1.2,
-};
 
 /// Work per cell: visit, relabel, flood.
 const VISIT_WORK: usize = 8;
@@ -213,7 +195,7 @@ async fn space(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Ra
     for (place, kind) in space.values_mut().iter_mut().zip(knowledge.values()) {
         *place = *kind == CellKnowledge::Free;
     }
-    let furniture_max = (PARAMETERS.furniture_max_m2 / (CELL_M * CELL_M)) as usize;
+    let furniture_max = (SEGMENTATION.furniture_max_m2 / (CELL_M * CELL_M)) as usize;
     let mut seen = space.clone();
     for index in 0..seen.values().len() {
         if index % CELLS == 0 {
@@ -394,15 +376,15 @@ impl<'relief> Basins<'relief> {
 
     fn merges(&self, one: u32, other: u32, level: f32) -> bool {
         let half_m = f64::from(level).sqrt() * CELL_M;
-        if half_m > PARAMETERS.passage_half_max_m {
+        if half_m > SEGMENTATION.passage_half_max_m {
             return true;
         }
         let is_room = |root: u32| {
             let basin = self.basins.get(root as usize);
             basin.is_some_and(|basin| {
                 let is_wide_enough = f64::from(basin.deepest)
-                    >= PARAMETERS.width_ratio_min * PARAMETERS.width_ratio_min * f64::from(level);
-                f64::from(basin.cells) * CELL_M * CELL_M >= PARAMETERS.core_min_m2 && is_wide_enough
+                    >= SEGMENTATION.width_ratio_min * SEGMENTATION.width_ratio_min * f64::from(level);
+                f64::from(basin.cells) * CELL_M * CELL_M >= SEGMENTATION.core_min_m2 && is_wide_enough
             })
         };
         !(is_room(one) && is_room(other))
@@ -441,7 +423,7 @@ impl<'relief> Basins<'relief> {
                 continue;
             };
             let cells = self.basins.get(root as usize).map_or(0, |basin| basin.cells);
-            if f64::from(cells) * CELL_M * CELL_M < PARAMETERS.room_min_m2 {
+            if f64::from(cells) * CELL_M * CELL_M < SEGMENTATION.room_min_m2 {
                 continue;
             }
             let fresh = u16::try_from(known.len() + 1).unwrap_or(u16::MAX);

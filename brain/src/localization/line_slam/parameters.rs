@@ -258,7 +258,7 @@ pub(super) const TURN: TurnParameters = TurnParameters {
 };
 
 /// Noise of odometry, for a poor robot: a filter that is too sure keeps a wrong landmark.
-pub(super) struct OdometryNoise {
+pub(super) struct StepNoise {
     /// Slip of the position, square metres per metre.
     pub(super) slip_m2_per_m: f64,
     /// What each step adds to the slip, square metres.
@@ -269,7 +269,7 @@ pub(super) struct OdometryNoise {
     pub(super) slip_rad2_per_m: f64,
 }
 
-pub(super) const NOISE: OdometryNoise = OdometryNoise {
+pub(super) const NOISE: StepNoise = StepNoise {
     slip_m2_per_m: 4.0e-4,
     step_m2: 4.0e-6,
     gyro_rad2_per_s: 4.8e-7,

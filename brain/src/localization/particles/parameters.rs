@@ -142,7 +142,7 @@ pub(super) const BEAM: BeamParameters = BeamParameters {
 };
 
 /// How particles estimate the reflectance of the surfaces that the sensors see.
-pub(super) struct SurfaceParameters {
+pub(super) struct ReflectanceParameters {
     /// Standard deviation of the reflectance, relative: white walls and dark furniture.
     pub(super) reflectance_sigma: f64,
     /// Greatest deviation from the usual reflectance, relative.
@@ -157,7 +157,7 @@ pub(super) struct SurfaceParameters {
     pub(super) explained_min: f64,
 }
 
-pub(super) const SURFACE: SurfaceParameters = SurfaceParameters {
+pub(super) const SURFACE: ReflectanceParameters = ReflectanceParameters {
     reflectance_sigma: 0.2,
     reflectance_off_max: 0.6,
     level_sigma: 0.08,
