@@ -88,17 +88,12 @@ impl Brain {
 
     fn wake_on_dock(&mut self) {
         let dock = self.map.dock_location();
-        match dock.pose() {
-            Some(pose) if dock.is_reported() => {
-                let seed = self.mind.random.state();
-                self.localization
-                    .place_roughly_at(pose, (&self.map, &self.config), seed);
-            }
-            Some(pose) => {
-                self.localization.place_at(pose);
-                self.track();
-            }
-            None => self.track(),
+        if let Some(pose) = dock.pose() {
+            self.localization.place_at(pose);
+        }
+        self.track();
+        if let Some(pose) = dock.pose().filter(|_| dock.is_reported()) {
+            self.localization.place_roughly_at(pose);
         }
     }
 
