@@ -14,12 +14,12 @@ pub struct Onsets {
     /// A cliff holds the robot, by its sensors or by an inhibit of the firmware, and none did before.
     pub is_held_by_cliff: bool,
     /// How the robot came to be on the dock, if it was not on it before.
-    pub docking: Option<Docking>,
+    pub docking: Option<DockOnset>,
 }
 
 /// How a robot came to be on its dock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Docking {
+pub enum DockOnset {
     /// The first observation shows it there.
     Awoken,
     /// The contacts of the dock have closed.
@@ -54,9 +54,9 @@ impl OnsetDetector {
         let is_first = self.before.is_none();
         let before = self.before.replace(now).unwrap_or_default();
         let docking = if is_first {
-            Docking::Awoken
+            DockOnset::Awoken
         } else {
-            Docking::Arrived
+            DockOnset::Arrived
         };
         Onsets {
             contacts: if before.contacts.any() {
@@ -78,7 +78,7 @@ impl OnsetDetector {
 
 #[cfg(test)]
 mod tests {
-    use super::{Docking, OnsetDetector, Onsets};
+    use super::{DockOnset, OnsetDetector, Onsets};
     use crate::model::observation::{Cliffs, Contacts, Observation};
 
     fn felt(contacts: [bool; 2], cliffs: [bool; 3], docked: bool) -> Observation {
@@ -130,9 +130,9 @@ mod tests {
     fn a_robot_that_wakes_on_its_dock_has_not_docked() {
         let mut detector = OnsetDetector::default();
         let mut docking = |docked| detector.take(&felt([false; 2], [false; 3], docked)).docking;
-        assert_eq!(docking(true), Some(Docking::Awoken));
+        assert_eq!(docking(true), Some(DockOnset::Awoken));
         assert_eq!(docking(true), None);
         assert_eq!(docking(false), None);
-        assert_eq!(docking(true), Some(Docking::Arrived));
+        assert_eq!(docking(true), Some(DockOnset::Arrived));
     }
 }

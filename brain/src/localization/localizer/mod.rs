@@ -22,7 +22,7 @@ use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
-use crate::model::onsets::{Docking, OnsetDetector};
+use crate::model::onsets::{DockOnset, OnsetDetector};
 use crate::model::pose_estimate::PoseEstimate;
 use estimator::{Estimator, EstimatorKind, KnownMap};
 use parameters::PLACING;
@@ -96,7 +96,7 @@ impl Localization {
             ..self.odometry.update(observation)
         };
         self.is_docked = observation.docked;
-        self.has_just_docked = advance.onsets.docking == Some(Docking::Arrived);
+        self.has_just_docked = advance.onsets.docking == Some(DockOnset::Arrived);
         if observation.gyro_heading_rad.is_some() {
             self.gyro_us = Some(observation.time_us);
         }
