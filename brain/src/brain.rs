@@ -8,7 +8,7 @@ mod situation;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
 use crate::brain::checkpoint::{Checkpoint, CheckpointWork};
-use crate::coverage::{JobEstimate, estimate};
+use crate::coverage::{JobConditions, JobEstimate, estimate};
 use crate::localization::Localization;
 use crate::mapping::{
     BeamMemory, Brushes, CarpetDetector, Hazard, HazardKind, LoadedHome, Map, StampedOdometry, StoredMap,
@@ -20,7 +20,8 @@ use crate::model::energy::EnergyModel;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::job_refusal::JobRefusal;
 use crate::model::learnt::{GyroLearnt, Learnt};
-use crate::model::observation::{Cliffs, Contacts, Observation};
+use crate::model::observation::Observation;
+use crate::model::onsets::Onsets;
 use crate::model::order::CleaningOrder;
 use crate::model::pose_estimate::PoseEstimate;
 use crate::model::random::Random;
@@ -42,8 +43,6 @@ pub struct Brain {
     carpet: CarpetDetector,
     behavior: Behavior,
     mind: TaskContext,
-    contacts_before: Contacts,
-    cliffs_before: Cliffs,
 }
 
 impl Brain {
@@ -66,8 +65,6 @@ impl Brain {
                 random: Random::new(seed),
                 journal: Vec::new(),
             },
-            contacts_before: Contacts::default(),
-            cliffs_before: Cliffs::default(),
         }
     }
 
@@ -91,17 +88,12 @@ impl Brain {
 
     fn wake_on_dock(&mut self) {
         let dock = self.map.dock_location();
-        match dock.pose() {
-            Some(pose) if dock.is_reported() => {
-                let seed = self.mind.random.state();
-                self.localization
-                    .place_roughly_at(pose, (&self.map, &self.config), seed);
-            }
-            Some(pose) => {
-                self.localization.place_at(pose);
-                self.track();
-            }
-            None => self.track(),
+        if let Some(pose) = dock.pose() {
+            self.localization.place_at(pose);
+        }
+        self.track();
+        if let Some(pose) = dock.pose().filter(|_| dock.is_reported()) {
+            self.localization.place_roughly_at(pose);
         }
     }
 
@@ -126,11 +118,11 @@ impl Brain {
             .localization
             .learn(&self.map, &self.config, observation.time_us);
         self.correct_map(correction);
-        self.note_encounters(observation, &estimate);
-        let mut jobs = Vec::new();
+        self.note_encounters(advance.onsets, observation.time_us, &estimate);
+        let (mut jobs, mut edits) = (Vec::new(), Vec::new());
         for command in commands {
             match command {
-                Command::Edit(edit) => self.edit(edit, observation.docked),
+                Command::Edit(edit) => edits.push(self.edit(edit, observation.docked)),
                 Command::Job(job) => jobs.push(job),
             }
         }
@@ -167,6 +159,7 @@ impl Brain {
             arm: intent.arm,
             tones: intent.tones,
             decisions: core::mem::take(&mut self.mind.journal),
+            edits,
         }
     }
 
@@ -207,7 +200,13 @@ impl Brain {
     /// # Errors
     /// Why the order cannot be carried out in this map.
     pub fn estimate_order(&self, order: &CleaningOrder) -> Result<JobEstimate, JobRefusal> {
-        estimate(order, (&self.map, self.pose()), (&self.config, &self.energy()))
+        let conditions = JobConditions {
+            map: &self.map,
+            start: self.pose(),
+            config: &self.config,
+            energy: &self.energy(),
+        };
+        estimate(order, conditions)
     }
 
     /// Strategy that suits the robot of the last step. [`StrategyName::Systematic`] needs range sensors with known mounting positions
@@ -419,19 +418,17 @@ impl Brain {
     }
 
     /// Marks and counts contacts and cliffs as they begin.
-    fn note_encounters(&mut self, observation: &Observation, estimate: &PoseEstimate) {
-        let (contacts, cliffs) = (observation.contacts, observation.cliffs);
-        let time_us = observation.time_us;
-        if contacts.any() && !self.contacts_before.any() {
+    fn note_encounters(&mut self, onsets: Onsets, time_us: u64, estimate: &PoseEstimate) {
+        let (contacts, cliffs) = (onsets.contacts, onsets.cliffs);
+        if contacts.any() {
             self.behavior.count_bump();
             let sides = (contacts.left, contacts.right);
             self.mark(HazardKind::Contact, (time_us, estimate), sides);
         }
-        if cliffs.any() && !self.cliffs_before.any() {
+        if onsets.is_first_cliff {
             let sides = (cliffs.left, cliffs.right);
             self.mark(HazardKind::Cliff, (time_us, estimate), sides);
         }
-        (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
     }
 
     fn mark(

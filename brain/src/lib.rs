@@ -42,6 +42,7 @@ pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
 pub use model::map_edit::{MapEdit, NoGoEdit, PlaceEdit, RoomEdit};
 pub use model::no_go::{NoGo, NoGoShape, RoomName};
 pub use model::observation::Observation;
+pub use model::onsets::{DockOnset, Onsets};
 pub use model::order::{CleaningOrder, HomePart, SPOT_RADIUS_M};
 pub use model::pose_estimate::PoseEstimate;
 pub use model::reason::Reason;

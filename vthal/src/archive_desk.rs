@@ -10,7 +10,7 @@ use vthal_core::{ArchiveOrder, ArchiveTask, ClientId, KeptFloor};
 use crate::floor_archive::{self, ArchiveError};
 use crate::floor_folder::{FloorError, FloorFolder};
 
-/// An archive of which no piece came for so long is given up when somebody else hands one over.
+/// An upload of which no piece came for so long is dropped when another client starts one.
 const IDLE: Duration = Duration::from_secs(30);
 
 /// What came of an order.
@@ -55,7 +55,7 @@ pub(crate) enum DeskError {
         /// First byte of the next one.
         expected: u64,
     },
-    /// Another client's archive is on its way.
+    /// Another client is uploading an archive.
     #[error("Another archive is just being handed over: try again in half a minute.")]
     Busy,
 }
@@ -96,7 +96,7 @@ pub(crate) struct ArchiveDesk {
 }
 
 impl ArchiveDesk {
-    /// Does what a client wants at `now`.
+    /// Handles a client's order at `now`.
     pub(crate) fn obey(
         &mut self,
         order: ArchiveOrder,
@@ -118,7 +118,7 @@ impl ArchiveDesk {
         piece: Piece,
         (floors, now): (&FloorFolder, Instant),
     ) -> Result<ArchiveOutcome, DeskError> {
-        // What goes wrong ends the upload; only somebody else's goes on.
+        // A failure ends the upload; only that of another client continues.
         let mut upload = self.upload_of(client, &piece, now)?;
         take(&mut upload, &piece)?;
         if (upload.bytes.len() as u64) < upload.size {
@@ -169,7 +169,7 @@ fn take(upload: &mut Upload, piece: &Piece) -> Result<(), DeskError> {
     Ok(())
 }
 
-/// The archive is made anew for each piece, so nothing is kept for clients that may never ask for the next; its checksum tells
+/// The archive is built again for each piece, so nothing is kept for clients that may never ask for the next; its checksum shows
 /// them if a map changed in between.
 fn export(floors: &FloorFolder, floor: Option<u16>, from: u64) -> Result<ArchiveOutcome, DeskError> {
     let archived = floors.archived(floor);

@@ -1,6 +1,6 @@
 //! The checkpoint on disk: a header that proves it whole, and the state as JSON.
 //!
-//! It is replaced as [`kept_file`] tells. Age is measured on the system's uptime, which no clock change moves: a checkpoint of an earlier
+//! It is replaced as [`kept_file`] describes. Age is measured on the system's uptime, which no clock change moves: a checkpoint of an earlier
 //! boot is never young.
 
 use std::fs;
@@ -14,7 +14,7 @@ use vthal_core::Checkpoint;
 
 use crate::recording::format::BrainState;
 
-/// A checkpoint older than this is not taken up: somebody may have moved the robot.
+/// A checkpoint older than this is not used, because somebody may have moved the robot.
 const AGE_MAX_S: f64 = 60.0;
 /// First word of the header.
 const MAGIC: &str = "vthal-checkpoint-1";
@@ -27,7 +27,7 @@ struct Stored {
     #[serde(default)]
     floor: Option<u16>,
     brain: BrainState,
-    /// Absent in those of earlier versions.
+    /// Absent in checkpoints of earlier versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     run: Option<Box<RunRecord>>,
 }

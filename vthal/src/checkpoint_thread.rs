@@ -273,7 +273,7 @@ impl CheckpointHandle {
     }
 }
 
-/// Tells the daemon's loop. Nobody is left to hear it when the daemon ends.
+/// Sends it to the daemon's loop. There is no receiver when the daemon ends.
 fn answer(event: Event, events: &Sender<Event>) {
     events.blocking_send(event).ok();
 }
@@ -341,7 +341,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
     }
 }
 
-/// Whether that worked; a fault is told once, until it has worked again.
+/// Whether that worked. A fault is logged once, until it has worked again.
 fn keep_checkpoint((checkpoint, healthy): (&Checkpoint, bool), paths: &KeptPaths) -> bool {
     let result = BootTime::now().and_then(|now| checkpoint_file::save(&paths.checkpoint, checkpoint, now));
     if let Err(error) = &result

@@ -118,7 +118,7 @@ impl Client {
         all
     }
 
-    /// Adds a message to what waits. A client that lets too much wait must go; it is told, if it ever reads again.
+    /// Adds a message to what waits. A client that lets too much wait is disconnected; it receives the reason, if it ever reads again.
     pub(crate) fn push(&mut self, class: Class, message: Rc<[u8]>) {
         if self.leaving.is_none() && self.outbox.push(class, message) == Err(Overflow) {
             self.dismiss(

@@ -1,4 +1,4 @@
-//! A client's socket, which wakes the daemon only for what somebody waits for.
+//! A client's socket, which wakes the daemon only for bytes that it can read or write.
 //!
 //! tokio's own stream asks the system for news of both directions. Each client that reads would wake the daemon then
 //! ("there is room again"): fifty times a second for every client, and in the middle of serving the next one.
@@ -11,7 +11,7 @@ use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use tokio::io::Interest;
 use tokio::io::unix::AsyncFd;
 
-/// Pause between two looks whether a client that has said its last word is still there.
+/// Pause between two checks whether a client that has closed its sending side is still there.
 const CLOSED_LOOKS_EVERY: Duration = Duration::from_millis(100);
 /// Looks at such a client: three seconds are time for the slowest answer, one that waits for an SD card, and a script that follows
 /// something comes to an end.
@@ -40,7 +40,7 @@ impl ClientStream {
             .await
     }
 
-    /// Waits until nobody is there any more to whom bytes could be written, but not for ever.
+    /// Waits, for a limited time, until the client has gone and no bytes can be written.
     pub(crate) async fn closed(&self) {
         for _ in 0..CLOSED_LOOKS_MAX {
             if self.is_closed() {
@@ -50,7 +50,7 @@ impl ClientStream {
         }
     }
 
-    /// The system tells HUP only when both directions are closed; a watch of one direction would not tell them apart.
+    /// The system reports HUP only when both directions are closed; polling one direction would not distinguish them.
     fn is_closed(&self) -> bool {
         let mut handle = [PollFd::new(self.0.get_ref(), PollFlags::empty())];
         match poll(&mut handle, Some(&Timespec::default())) {
@@ -65,7 +65,7 @@ impl ClientStream {
     /// Writes what the socket takes at once.
     ///
     /// # Errors
-    /// `WouldBlock` when that is nothing, and those of the system.
+    /// `WouldBlock` when there is nothing, and the errors of the system.
     pub(crate) fn try_write(&self, slices: &[IoSlice<'_>]) -> io::Result<usize> {
         self.0.get_ref().write_vectored(slices)
     }

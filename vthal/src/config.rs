@@ -1,4 +1,4 @@
-//! The configuration: a TOML file, and flags that stand above it.
+//! The configuration: a TOML file, and flags that override it.
 
 use std::path::{Path, PathBuf};
 
@@ -100,7 +100,7 @@ pub enum ConfigError {
     },
 }
 
-/// Values of flags, which stand above the file.
+/// Values of flags, which override the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
     /// `--serial`

@@ -27,7 +27,7 @@ use crate::run_thread::RunHandle;
 use crate::serial::LineOrder;
 use crate::socket;
 
-/// Longest wait for the wheels to stand when the daemon ends.
+/// Longest wait for the wheels to stop when the daemon ends.
 const STOP_WAIT: Duration = Duration::from_millis(500);
 /// Events handled before clients get their mail and the clock is read again.
 const BATCH_MAX: usize = 64;
@@ -43,7 +43,7 @@ pub(crate) struct Wiring {
     pub event_sender: Sender<Event>,
     /// Bytes for the robot.
     pub to_robot: Sender<LineOrder>,
-    /// Recordings, if wanted.
+    /// Recordings, if enabled.
     pub recorder: Option<RecorderHandle>,
     /// Checkpoints.
     pub checkpoints: CheckpointHandle,
@@ -88,7 +88,7 @@ impl Daemon {
         }
     }
 
-    /// Runs until a signal ends it: the wheels stand (or have had their time to), and everything is on disk.
+    /// Runs until a signal ends it: the wheels have stopped (or their time for it is over), and everything is on disk.
     pub(crate) async fn run(mut self) {
         while !self.is_over() {
             self.poll_wall_clock();

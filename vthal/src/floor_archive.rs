@@ -35,7 +35,7 @@ pub(crate) enum ArchiveError {
         "The archive has version {0}, and this vthal reads version {VERSION}: install the newer one. Nothing was changed."
     )]
     TooNew(u8),
-    /// It changed on its way.
+    /// It was damaged in transit.
     #[error(
         "The archive is cut or damaged: its checksum is {computed:08X} and should be {stored:08X}. Copy it again. Nothing was changed."
     )]
@@ -84,7 +84,7 @@ impl ArchiveError {
 /// The bytes of an archive.
 ///
 /// # Errors
-/// [`ArchiveError::TooLarge`] when nobody would take it.
+/// [`ArchiveError::TooLarge`] when no daemon would accept it.
 pub(crate) fn encode(floors: &[ArchivedFloor]) -> Result<Vec<u8>, ArchiveError> {
     let mut bytes = MAGIC.to_vec();
     bytes.push(VERSION);
@@ -166,7 +166,7 @@ fn floor(reader: &mut Reader<'_>, place: usize) -> Result<ArchivedFloor, Archive
     }
 }
 
-/// A name is written in one way, so that what is read is written as it was: without spaces around it.
+/// A name has one spelling, without spaces around it, so that reading and writing give the same bytes.
 struct NotAName;
 
 fn name(bytes: &[u8]) -> Result<Option<RoomName>, NotAName> {

@@ -18,7 +18,7 @@ use crate::map_folder::MapFolder;
 const FLOORS_MAX: usize = 16;
 /// Name of the list.
 const LIST: &str = "floors.json";
-/// Largest list that is looked at.
+/// Largest list that is read.
 const LIST_BYTES_MAX: u64 = 1 << 16;
 
 /// The folder of maps with all its floors.
@@ -132,7 +132,7 @@ impl FloorFolder {
         (floors, complaints)
     }
 
-    /// Does what a client wants of the floors, and says what the number of a new one is.
+    /// Carries out a client's order about floors, and returns the number of a new one.
     ///
     /// # Errors
     /// See [`FloorError`]; then nothing is changed.
@@ -176,7 +176,7 @@ impl FloorFolder {
         Ok(())
     }
 
-    /// The versions of a floor that was removed long ago give way to a new one.
+    /// The versions of a floor that was removed long ago are deleted for a new one.
     fn discard(&self, number: u16) -> io::Result<()> {
         let maps = self.maps(number);
         for version in maps.list() {

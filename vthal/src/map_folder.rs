@@ -12,7 +12,7 @@ use vthal_core::stored_map;
 
 /// Versions kept: a map that was spoilt is noticed within some runs, and each change that a person makes is a version, too.
 const VERSIONS_MAX: usize = 40;
-/// Largest file that is looked at. A home of 150 square metres takes some ten kilobytes.
+/// Largest file that is read. A home of 150 square metres takes some ten kilobytes.
 const BYTES_MAX: u64 = 16 << 20;
 
 /// The folder.
@@ -90,7 +90,7 @@ impl MapFolder {
         Ok(())
     }
 
-    /// The newest map that is whole, and why newer ones are not; nothing of both when there is none yet.
+    /// The newest undamaged map, and why newer ones cannot be used; both empty when there is none yet.
     pub(crate) fn newest(&self) -> (Option<StoredMap>, Vec<String>) {
         let mut complaints = Vec::new();
         for number in self.numbers() {

@@ -82,7 +82,7 @@ impl MixFolder {
     pub(crate) fn remove(&self, name: &str) -> Result<(), MixError> {
         let known = Name::new(name).ok().filter(|name| self.names().contains(name));
         let known = known.ok_or_else(|| MixError::Absent(name.to_owned()))?;
-        // The predecessor goes first: otherwise it would stand in for what was removed, if the power failed in between.
+        // The predecessor goes first: otherwise it would replace the removed file, if the power failed in between.
         for version in kept_file::versions(&self.file(&known)).iter().rev() {
             if version.exists() {
                 fs::remove_file(version)?;

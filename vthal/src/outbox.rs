@@ -1,4 +1,4 @@
-//! What waits for one client: bounded, so that a stalled client costs a known amount of memory and nobody else any time.
+//! What waits for one client: bounded, so that a stalled client costs a known amount of memory and does not delay others.
 
 use std::collections::VecDeque;
 use std::io::{self, IoSlice};

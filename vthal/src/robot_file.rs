@@ -1,4 +1,4 @@
-//! The places of a robot's sensors, read from its description (`robots/*/robot.toml`). The wire tells only how many there
+//! The places of a robot's sensors, read from its description (`robots/*/robot.toml`). The wire reports only how many there
 //! are, and a figure of a robot is written once.
 
 use std::path::{Path, PathBuf};

@@ -13,7 +13,7 @@ use crate::recording::{self, Whole};
 use crate::run_folder::{RunError, RunFolder};
 
 /// Files that are made of several recordings and read at the same time. Whoever comes back to one that is not among them waits until
-/// it is made anew up to there.
+/// it is built again up to there.
 const READ_AT_ONCE: usize = 4;
 
 /// Where questions are answered.

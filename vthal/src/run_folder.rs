@@ -15,7 +15,7 @@ use crate::recording::Part;
 
 /// Records kept.
 const RUNS_MAX: usize = 200;
-/// Largest file that is looked at. Pictures are bounded; a large home takes some hundred kilobytes.
+/// Largest file that is read. Pictures are bounded; a large home takes some hundred kilobytes.
 const BYTES_MAX: u64 = 16 << 20;
 /// Ending of the files.
 const ENDING: &str = ".json";
@@ -131,7 +131,7 @@ impl RunFolder {
     }
 
     /// Runs with lower numbers than `before`, newest first. One that cannot be read is left out; who asks for it by its number
-    /// hears why.
+    /// is given the reason.
     pub(crate) fn list(&self, before: Option<u64>, count: usize) -> Update {
         let numbers = self.numbers();
         let older = numbers

@@ -1,4 +1,4 @@
-//! The thread that reads what is kept of runs for clients: recordings are large, and nobody who writes shall wait for them.
+//! The thread that reads what is kept of runs for clients: recordings are large, and writers must not wait for them.
 
 use std::io;
 use std::sync::mpsc::{SyncSender, sync_channel};

@@ -12,7 +12,7 @@ use crate::newest_file::{Newest, newest_json};
 pub(crate) struct FoundSchedules {
     /// The schedules.
     pub(crate) book: Book,
-    /// The newest file was damaged, so runs may have been decided of which this book knows nothing.
+    /// The newest file was damaged, so it lacks the newest decisions about runs.
     pub(crate) distrusted: bool,
     /// What is wrong, for the log.
     pub(crate) complaints: Vec<String>,

@@ -51,7 +51,7 @@ pub(crate) enum LineOrder {
     NextRate,
 }
 
-/// Serves the device until the daemon's event queue closes: opens it, passes bytes both ways, and begins again when it is
+/// Serves the device until the daemon's event queue closes: opens it, passes bytes in both directions, and begins again when it is
 /// lost. Each outage is reported once.
 pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot: Receiver<LineOrder>) {
     let mut rates = robot.rates_baud.iter().copied().cycle();
@@ -60,11 +60,11 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot:
         baud: rates.next().unwrap_or_default(),
     };
     let mut pause = PAUSE_MIN;
-    let mut told = false;
+    let mut is_reported = false;
     loop {
         let event = match open_to_robot(&settings, robot.opening).await {
             Ok(line) => {
-                told = false;
+                is_reported = false;
                 drain(&mut to_robot);
                 if events.send(Event::Serial(SerialEvent::Opened)).await.is_err() {
                     return;
@@ -82,9 +82,9 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot:
                     }
                 }))
             }
-            Err(_) if told => None,
+            Err(_) if is_reported => None,
             Err(error) => {
-                told = true;
+                is_reported = true;
                 Some(SerialEvent::Absent(error))
             }
         };
@@ -127,14 +127,14 @@ fn drain(to_robot: &mut Receiver<LineOrder>) {
 }
 
 /// An open line. The lock is advisory and dies with the process, however that ends; it has a handle of its own because the
-/// port gives its one away to nobody.
+/// port keeps its only one.
 pub(crate) struct Line {
     /// Reads and writes.
     pub port: SerialPort,
     _lock: OwnedFd,
 }
 
-/// Locks the device against a second daemon, then sets raw mode at the wanted rate.
+/// Locks the device against a second daemon, then sets raw mode at the configured rate.
 pub(crate) fn open(settings: &SerialSettings) -> Result<Line, OpenError> {
     let path = settings.path.as_path();
     let refused = |error: io::Error| OpenError::Open {

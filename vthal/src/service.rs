@@ -142,7 +142,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     announce()?;
     let daemon = Daemon::new(Core::new(core_config), Clock::start(speed), wiring);
     // As a task among its own kind: what the serial line's task wakes runs in the same round of the scheduler, without a
-    // look at the system in between.
+    // poll the system in between.
     Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
 }
 
@@ -197,7 +197,7 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
     })
 }
 
-/// The job that goes on, and the number of the next run. A run with which nobody goes on is kept as cut short.
+/// The job that goes on, and the number of the next run. A run that is not continued is stored as cut short.
 fn left_over(kept: &KeptPaths) -> (Option<Checkpoint>, u64) {
     let now = BootTime::now().ok();
     let found = now.and_then(|now| checkpoint_file::newest(&kept.checkpoint, &now));

@@ -17,8 +17,8 @@ fn named(localtime: Option<&Path>, timezone: Option<&str>) -> Option<Zone> {
         .and_then(Path::to_str)
         .and_then(|path| path.split_once("/zoneinfo/"));
     let linked = linked.map(|(_, name)| name.trim_start_matches("posix/").trim_start_matches("right/"));
-    let told = timezone.map(str::trim);
-    [linked, told].into_iter().flatten().find_map(Zone::named)
+    let written = timezone.map(str::trim);
+    [linked, written].into_iter().flatten().find_map(Zone::named)
 }
 
 #[cfg(test)]

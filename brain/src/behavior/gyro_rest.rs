@@ -11,7 +11,7 @@ pub(super) struct RestPace {
 
 impl RestPace {
     /// Without a map, only rests distinguish a turn from a bias.
-    const SURVEYING: Self = Self {
+    const UNTRACKED: Self = Self {
         every_us: 60_000_000,
         rest_us: 2_000_000,
     };
@@ -26,7 +26,7 @@ impl RestPace {
         if is_tracked {
             Self::TRACKED
         } else {
-            Self::SURVEYING
+            Self::UNTRACKED
         }
     }
 }
@@ -67,8 +67,8 @@ impl GyroRest {
 mod tests {
     use super::{GyroRest, RestPace};
 
-    const EVERY_US: u64 = RestPace::SURVEYING.every_us;
-    const REST_US: u64 = RestPace::SURVEYING.rest_us;
+    const EVERY_US: u64 = RestPace::UNTRACKED.every_us;
+    const REST_US: u64 = RestPace::UNTRACKED.rest_us;
 
     #[test]
     fn a_due_rest_is_taken_in_full_during_forward_travel() {

@@ -3,6 +3,7 @@
 use super::dock_retry::DockRetry;
 use super::gyro_rest::GyroRest;
 use super::{JobFigures, JobKind};
+use crate::behavior::parameters::DEPARTURE;
 use crate::coverage;
 use crate::coverage::Spot;
 use crate::docking::Docking;
@@ -13,10 +14,6 @@ use crate::model::random::Random;
 use crate::navigation::{BackOff, Manoeuvre, ManoeuvreSequence, Task, Turn};
 use crate::recovery::{CliffWatch, Pen, ProgressWatch, RecoverySequence, SlipWatch};
 
-/// Reverse travel from the dock before turning away, metres. No more, because contacts may close without a dock, and the ground behind is
-/// unknown then.
-const DEPART_M: f64 = 0.15;
-
 /// A running or waiting job.
 #[derive(Debug)]
 pub(super) struct Job {
@@ -25,7 +22,7 @@ pub(super) struct Job {
     pub(super) order: CleaningOrder,
     pub(super) task: Box<dyn Task>,
     pub(super) figures: JobFigures,
-    pub(super) ladder: RecoverySequence,
+    pub(super) recovery: RecoverySequence,
     /// Watches whether it leaves a small area.
     pub(super) pen: Pen,
     pub(super) progress: ProgressWatch,
@@ -61,11 +58,11 @@ pub(super) enum Purpose {
 impl Job {
     /// For the whole home.
     pub(super) fn new(kind: JobKind, figures: JobFigures) -> Self {
-        Self::with_order((kind, CleaningOrder::default()), figures)
+        Self::with_order(kind, CleaningOrder::default(), figures)
     }
 
     /// For what is ordered.
-    pub(super) fn with_order((kind, order): (JobKind, CleaningOrder), figures: JobFigures) -> Self {
+    pub(super) fn with_order(kind: JobKind, order: CleaningOrder, figures: JobFigures) -> Self {
         let task: Box<dyn Task> = match kind {
             JobKind::Clean(strategy) => coverage::strategy(strategy, &order),
             JobKind::Spot => Box::new(Spot::default()),
@@ -76,7 +73,7 @@ impl Job {
             order,
             task,
             figures,
-            ladder: RecoverySequence::default(),
+            recovery: RecoverySequence::default(),
             pen: Pen::default(),
             progress: ProgressWatch::default(),
             slip: SlipWatch::default(),
@@ -110,7 +107,7 @@ impl Job {
 
     /// A person resumes it: recovery attempts so far do not count any more.
     pub(super) fn reset_recovery(&mut self) {
-        self.ladder = RecoverySequence::default();
+        self.recovery = RecoverySequence::default();
         self.pen = Pen::default();
     }
 
@@ -127,9 +124,9 @@ impl Job {
         } else {
             TurnSide::Right
         };
-        let turn_rad = side.sign() * random.between(2.2, 3.1);
+        let turn_rad = side.sign() * random.within(&DEPARTURE.turn_rad);
         let parts = vec![
-            Manoeuvre::Back(BackOff::from_dock(DEPART_M)),
+            Manoeuvre::Back(BackOff::from_dock(DEPARTURE.back_m)),
             Manoeuvre::Turn(Turn::by(turn_rad)),
         ];
         self.detour = Some(Detour {

@@ -12,6 +12,7 @@ mod work;
 use super::facts::Facts;
 use super::job::Job;
 use super::{BehaviorState, JobFigures, JobKind, Status};
+use crate::behavior::parameters::ARMING;
 use crate::model::action::{Arm, Motion, Tone};
 use crate::model::command::JobCommand;
 use crate::model::config::BrainConfig;
@@ -19,11 +20,9 @@ use crate::model::energy::EnergyLearner;
 use crate::model::geometry::Point2;
 use crate::model::gradual::Gradual;
 use crate::model::reason::Reason;
-use crate::navigation::{BACK_AT_CLIFF_M_PER_S, Situation, TaskContext};
+use crate::navigation::parameters::CHASSIS;
+use crate::navigation::{Situation, TaskContext};
 use manual::ManualDrive;
-
-/// After a motion mode ends, standing still is commanded this long; then the leases are left to run out.
-const HALT_US: u64 = 500_000;
 
 /// What the state machine is in. [`BehaviorState`] is derived from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -261,7 +260,7 @@ impl Behavior {
         self.contacts_us = None;
         let state = self.state();
         if moved && !state.moves() {
-            self.halt_until_us = self.facts.now_us + HALT_US;
+            self.halt_until_us = self.facts.now_us + ARMING.halt_us;
             if let Some(job) = &mut self.job {
                 job.interrupt();
             }
@@ -338,7 +337,7 @@ impl Behavior {
             return Motion::Halt;
         }
         let slowest_m_per_s = if at_cliff {
-            -BACK_AT_CLIFF_M_PER_S
+            -CHASSIS.back_at_cliff_m_per_s
         } else {
             f64::NEG_INFINITY
         };

@@ -9,6 +9,7 @@ mod gyro_rest;
 mod job;
 mod job_checkpoint;
 mod machine;
+mod parameters;
 mod state;
 
 pub use job_checkpoint::JobCheckpoint;

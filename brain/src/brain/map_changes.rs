@@ -3,6 +3,7 @@
 use super::Brain;
 use crate::localization::MapCorrection;
 use crate::model::decision::DecisionKind;
+use crate::model::edit_error::EditError;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::map_edit::{MapEdit, NoGoEdit};
 use crate::model::reason::Reason;
@@ -26,11 +27,13 @@ impl Brain {
     }
 
     /// Makes an edit of the map. One that was admitted and does not hold any more changes nothing.
-    pub(super) fn edit(&mut self, edit: &MapEdit, is_docked: bool) {
-        match self.map.apply(edit) {
+    pub(super) fn edit(&mut self, edit: &MapEdit, is_docked: bool) -> Result<(), EditError> {
+        let made = self.map.apply(edit);
+        match made {
             Ok(()) => self.follow_edit(edit, is_docked),
             Err(error) => self.mind.refuse_edit(error),
         }
+        made
     }
 
     /// What an edit changes beside the map. A robot that is on the dock was carried along with it.

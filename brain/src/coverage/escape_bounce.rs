@@ -1,13 +1,9 @@
 //! Bouncing away from a place where nothing else works.
 
 use super::Bounce;
+use crate::coverage::parameters::ESCAPE_BOUNCE;
 use crate::model::geometry::Point2;
 use crate::navigation::{Situation, Task, TaskContext, TaskStatus};
-
-/// At this distance the robot has left the place, metres.
-const ESCAPE_M: f64 = 0.6;
-/// Longest time of bouncing, seconds.
-const ESCAPE_S: f64 = 20.0;
 
 /// A bounded time of bouncing.
 #[derive(Debug)]
@@ -23,7 +19,7 @@ impl EscapeBounce {
         Self {
             bounce: Bounce::default(),
             from: place,
-            left_s: ESCAPE_S,
+            left_s: ESCAPE_BOUNCE.time_max_s,
         }
     }
 
@@ -34,7 +30,7 @@ impl EscapeBounce {
         context: &mut TaskContext,
     ) -> Option<TaskStatus> {
         self.left_s -= situation.advance.time_s;
-        let is_away = self.from.distance_m(situation.pose.position()) > ESCAPE_M;
+        let is_away = self.from.distance_m(situation.pose.position()) > ESCAPE_BOUNCE.away_m;
         let is_over = (is_away || self.left_s <= 0.0) && !self.bounce.is_evading() && situation.is_free();
         (!is_over).then(|| self.bounce.step(situation, context))
     }

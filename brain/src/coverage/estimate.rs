@@ -1,6 +1,6 @@
 //! What a job will take, estimated before it begins.
 
-use super::margins::{CLEARANCE_M, SIGMA_MIN_M};
+use super::parameters::{ESTIMATE, MARGINS};
 use super::plan::{Area, CoveragePlan, Departure, PlanSettings, plan_area};
 use super::target_floor::TargetFloor;
 use crate::mapping::{Cell, CellKnowledge, Map, Raster};
@@ -13,14 +13,6 @@ use crate::model::job_refusal::JobRefusal;
 use crate::model::order::{CleaningOrder, HomePart};
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{Inflation, reachable};
-
-/// Real jobs take this many times as long as their plans, because of acceleration, contacts and leftovers of an uncertain
-/// pose.
-const PLAN_TO_JOB_TIME: f64 = 1.25;
-/// The low bound of the share assumes a pose this many times as uncertain as estimated.
-const LOW_BOUND_FACTOR: f64 = 2.0;
-/// Standard deviation of the position where the map holds none, metres.
-const SIGMA_UNKNOWN_M: f64 = 0.3;
 
 /// The estimate of a job.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -38,25 +30,40 @@ pub struct JobEstimate {
     pub share_low: f64,
 }
 
-/// What `order` takes for a robot that starts at `start`.
+/// Where and with which robot a job is to be done.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct JobConditions<'brain> {
+    pub(crate) map: &'brain Map,
+    /// Pose in which the robot starts.
+    pub(crate) start: Pose2,
+    pub(crate) config: &'brain BrainConfig,
+    pub(crate) energy: &'brain EnergyModel,
+}
+
+/// What `order` takes under these conditions.
 ///
 /// # Errors
 /// Why the order cannot be carried out in this map.
 pub(crate) fn estimate(
     order: &CleaningOrder,
-    (map, start): (&Map, Pose2),
-    (config, energy): (&BrainConfig, &EnergyModel),
+    conditions: JobConditions<'_>,
 ) -> Result<JobEstimate, JobRefusal> {
+    let JobConditions {
+        map,
+        start,
+        config,
+        energy,
+    } = conditions;
     map.admit_order(order)?;
     let settings = PlanSettings {
         swath_m: config.body.swath_m,
-        sigma_m: SIGMA_MIN_M,
+        sigma_m: MARGINS.sigma_min_m,
         cruise_m_per_s: config.speeds.cruise_m_per_s,
         turn_rad_per_s: config.speeds.turn_max_rad_per_s,
         takes_along: true,
     };
     let knowledge = map.knowledge_avoiding(order.avoid());
-    let radius_m = config.body.radius_m + CLEARANCE_M;
+    let radius_m = config.body.radius_m + MARGINS.clearance_m;
     let inflation = Inflation {
         radius_m,
         blocked: &[],
@@ -171,7 +178,7 @@ impl PartEstimator<'_> {
         let (kept, kept_low) = self.kept(&target, passes);
         PartEstimate {
             end,
-            time_s: PLAN_TO_JOB_TIME * f64::from(passes) * plan.time_s,
+            time_s: ESTIMATE.plan_to_job_time * f64::from(passes) * plan.time_s,
             kept,
             kept_low,
             plan,
@@ -191,7 +198,7 @@ impl PartEstimator<'_> {
                 let sigma_m = sigma_or_default_m(self.map.sigma_m(cell));
                 cells += 1;
                 sum += 1.0 - left(sigma_m);
-                sum_low += 1.0 - left(LOW_BOUND_FACTOR * sigma_m);
+                sum_low += 1.0 - left(ESTIMATE.low_bound_factor * sigma_m);
             }
         }
         let cells = f64::from(cells.max(1));
@@ -202,12 +209,14 @@ impl PartEstimator<'_> {
 /// Share of the floor that one pass sweeps where the position has this deviation, with twice the deviation for the low
 /// bound.
 pub(super) fn kept_low(sigma_m: Option<f64>, settings: &PlanSettings) -> f64 {
-    1.0 - gap_share(LOW_BOUND_FACTOR * sigma_or_default_m(sigma_m), settings)
+    1.0 - gap_share(ESTIMATE.low_bound_factor * sigma_or_default_m(sigma_m), settings)
 }
 
 /// Standard deviation of the position that the estimate uses.
 fn sigma_or_default_m(sigma_m: Option<f64>) -> f64 {
-    sigma_m.unwrap_or(SIGMA_UNKNOWN_M).max(SIGMA_MIN_M)
+    sigma_m
+        .unwrap_or(ESTIMATE.sigma_unknown_m)
+        .max(MARGINS.sigma_min_m)
 }
 
 /// Expected share of the floor between two lanes that neither sweeps, when the position of each is uncertain.

@@ -3,7 +3,7 @@
 mod bounce;
 mod escape_bounce;
 mod estimate;
-mod margins;
+mod parameters;
 mod perimeter;
 pub mod plan;
 mod recent_coverage;
@@ -17,7 +17,7 @@ mod whole_turns;
 
 pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;
-pub(crate) use estimate::estimate;
+pub(crate) use estimate::{JobConditions, estimate};
 pub(crate) use perimeter::{LapStep, Perimeter};
 pub(crate) use spot::Spot;
 use statistical::Statistical;

@@ -13,41 +13,12 @@ use core::f64::consts::TAU;
 
 use super::escape_bounce::EscapeBounce;
 use super::whole_turns::WholeTurns;
+use crate::coverage::parameters::PERIMETER;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::reason::Reason;
 use crate::navigation::{ManoeuvreStep, Situation, TaskContext, TaskStatus, Turn, WallFollower, WallStep};
-
-/// Distance between points of the track, metres.
-const TRACK_STEP_M: f64 = 0.1;
-/// A point nearer than this was passed before, metres; less certain poses get more.
-const SAME_M: f64 = 0.14;
-/// Upper limit of that distance, metres.
-const SAME_MAX_M: f64 = 0.5;
-/// As `SAME_M`, for the heading, radians.
-const SAME_RAD: f64 = 0.6;
-/// Shortest lap round an island, metres: the turning circle of the body alone.
-const ISLAND_MIN_M: f64 = 1.0;
-/// Shortest lap along walls, metres.
-const LAP_MIN_M: f64 = 4.0;
-/// This distance on its own track closes a lap, metres.
-const AGAIN_M: f64 = 0.4;
-/// This distance on the track of an earlier stretch ends a lap, metres: it leads to nothing new.
-const AGAIN_ELSEWHERE_M: f64 = 5.0;
-/// A point this near to an earlier one shows nothing new, whatever the heading, metres: its floor is swept.
-const SEEN_M: f64 = 0.22;
-/// This distance without anything new ends a lap, metres. Distance that shows something new counts three times against it.
-const STALE_MAX_M: f64 = 8.0;
-const FRESH_WORTH: f64 = 3.0;
-/// Longest lap, metres: twice that of a large home.
-const LAP_MAX_M: f64 = 400.0;
-/// A lap ends after this many islands without a wall.
-const ISLANDS_MAX: u32 = 12;
-/// Turn away from an island, radians.
-const AWAY_RAD: f64 = 1.5;
-/// Failures of the wall follower until the lap ends.
-const TROUBLES_MAX: u32 = 6;
 
 /// The lap.
 #[derive(Debug, Default)]
@@ -129,7 +100,10 @@ impl Perimeter {
     pub(crate) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> LapStep {
         self.turned_rad += situation.advance.turn_rad;
         self.driven_m += situation.advance.distance_m.max(0.0);
-        if self.driven_m > LAP_MAX_M || self.troubles > TROUBLES_MAX || self.islands > ISLANDS_MAX {
+        if self.driven_m > PERIMETER.lap_max_m
+            || self.troubles > PERIMETER.troubles_max
+            || self.islands > PERIMETER.islands_max
+        {
             return LapStep::Over(Reason::LongLap);
         }
         if let Some(turn) = &mut self.away {
@@ -200,7 +174,7 @@ impl Perimeter {
     }
 
     fn turn_away(&mut self) -> Motion {
-        self.away = Some(Turn::by(AWAY_RAD));
+        self.away = Some(Turn::by(PERIMETER.away_rad));
         Motion::Halt
     }
 
@@ -215,7 +189,7 @@ impl Perimeter {
             .track
             .last()
             .map_or(f64::INFINITY, |last| self.driven_m - last.driven_m);
-        if step_m < TRACK_STEP_M {
+        if step_m < PERIMETER.track_step_m {
             return None;
         }
         let here = LapPoint {
@@ -240,11 +214,11 @@ impl Perimeter {
             self.again_m = 0.0;
             return None;
         };
-        self.again_m += step_m.min(2.0 * TRACK_STEP_M);
+        self.again_m += step_m.min(2.0 * PERIMETER.track_step_m);
         if before.stretch != here.stretch {
-            return (self.again_m > AGAIN_ELSEWHERE_M).then_some(Reason::KnownWall);
+            return (self.again_m > PERIMETER.known_after_m).then_some(Reason::KnownWall);
         }
-        (self.again_m > AGAIN_M).then(|| {
+        (self.again_m > PERIMETER.closed_after_m).then(|| {
             if here.turns_since(&before) < 1.0 {
                 Reason::Island
             } else {
@@ -256,19 +230,19 @@ impl Perimeter {
     /// Counts a point of the track; `true` when enough points in a row showed nothing new.
     fn is_stale_after(&mut self, is_stale: bool) -> bool {
         self.stale_m = if is_stale {
-            self.stale_m + TRACK_STEP_M
+            self.stale_m + PERIMETER.track_step_m
         } else {
-            (self.stale_m - FRESH_WORTH * TRACK_STEP_M).max(0.0)
+            (self.stale_m - PERIMETER.fresh_worth * PERIMETER.track_step_m).max(0.0)
         };
-        self.stale_m > STALE_MAX_M
+        self.stale_m > PERIMETER.stale_max_m
     }
 }
 
 impl LapPoint {
     /// Whether this floor was already swept from an earlier point.
     fn shows_nothing_beyond(&self, before: &Self) -> bool {
-        self.driven_m - before.driven_m > LAP_MIN_M
-            && self.pose.position().distance_m(before.pose.position()) < SEEN_M
+        self.driven_m - before.driven_m > PERIMETER.lap_min_m
+            && self.pose.position().distance_m(before.pose.position()) < PERIMETER.swept_radius_m
     }
 
     /// Full turns to the left since an earlier point with the same heading.
@@ -279,20 +253,23 @@ impl LapPoint {
     fn repeats(&self, before: &Self) -> bool {
         let driven_m = self.driven_m - before.driven_m;
         let least_m = if self.stretch == before.stretch && self.turns_since(before) < 0.0 {
-            ISLAND_MIN_M
+            PERIMETER.island_min_m
         } else {
-            LAP_MIN_M
+            PERIMETER.lap_min_m
         };
-        let same_m = (SAME_M + 0.3 * (self.sigma_m - before.sigma_m)).clamp(SAME_M, SAME_MAX_M);
+        let same_m = (PERIMETER.same_place_m
+            + PERIMETER.same_place_per_sigma * (self.sigma_m - before.sigma_m))
+            .clamp(PERIMETER.same_place_m, PERIMETER.same_place_max_m);
         driven_m > least_m
             && self.pose.position().distance_m(before.pose.position()) < same_m
-            && normalize_rad(self.pose.heading_rad - before.pose.heading_rad).abs() < SAME_RAD
+            && normalize_rad(self.pose.heading_rad - before.pose.heading_rad).abs()
+                < PERIMETER.same_heading_rad
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LapPoint, Perimeter, STALE_MAX_M, TRACK_STEP_M};
+    use super::{LapPoint, PERIMETER, Perimeter};
     use crate::model::geometry::Pose2;
 
     fn at(x_m: f64, heading_rad: f64, driven_m: f64) -> LapPoint {
@@ -320,7 +297,7 @@ mod tests {
     #[test]
     fn a_lap_ends_after_a_long_distance_without_anything_new() {
         let mut lap = Perimeter::default();
-        let steps = (STALE_MAX_M / TRACK_STEP_M) as u32;
+        let steps = (PERIMETER.stale_max_m / PERIMETER.track_step_m) as u32;
         assert!((0..steps - 1).all(|_| !lap.is_stale_after(true)));
         assert!((0..3).any(|_| lap.is_stale_after(true)));
         let mut lap = Perimeter::default();

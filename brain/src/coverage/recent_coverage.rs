@@ -3,29 +3,19 @@
 //! Wheel odometry alone is wrong by metres after an hour and by some decimetres after ten minutes. Within that time it can
 //! still tell swept from unswept floor.
 
+use core::ops::Range;
 use std::collections::VecDeque;
 
-use crate::mapping::{CELL_M, Cell, Map};
+use crate::coverage::parameters::RECENT;
+use crate::mapping::{Cell, Map};
 use crate::model::geometry::{Point2, Pose2, TurnSide};
 use crate::navigation::{Situation, TaskContext};
 
-/// Older coverage and contacts are ignored, seconds.
-pub(super) const RECENT_S: u32 = 600;
-/// Contacts that are remembered.
-const CONTACTS_MAX: usize = 256;
-/// A ray ends this close to a contact, metres: a contact is mostly one point of a flat side.
-const NEAR_M: f64 = 0.2;
-/// Turns that are compared.
-const TURNS: u32 = 12;
-/// Length and step of the ray ahead, metres.
-const AHEAD_M: f64 = 2.5;
-const STEP_M: f64 = 2.0 * CELL_M;
-
 /// The turns that are allowed after a contact.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::coverage) struct TurnRange {
-    pub(in crate::coverage) low_rad: f64,
-    pub(in crate::coverage) high_rad: f64,
+pub(in crate::coverage) struct TurnRange<'range> {
+    /// Sizes of the turn, radians.
+    pub(in crate::coverage) range_rad: &'range Range<f64>,
     /// `None` = to both sides.
     pub(in crate::coverage) side: Option<TurnSide>,
 }
@@ -50,8 +40,8 @@ impl RecentContacts {
         let body_m = situation.config.body.radius_m;
         let at = situation.pose.transform(ahead(body_m));
         self.contacts.push_back(RecentContact { at, time_s: now_s });
-        let is_old = |contact: &RecentContact| now_s.saturating_sub(contact.time_s) > RECENT_S;
-        while self.contacts.len() > CONTACTS_MAX || self.contacts.front().is_some_and(is_old) {
+        let is_old = |contact: &RecentContact| now_s.saturating_sub(contact.time_s) > RECENT.memory_s;
+        while self.contacts.len() > RECENT.contacts_max || self.contacts.front().is_some_and(is_old) {
             self.contacts.pop_front();
         }
     }
@@ -60,25 +50,21 @@ impl RecentContacts {
     /// not swept recently.
     pub(in crate::coverage) fn turn_rad(
         &self,
-        range: TurnRange,
+        range: TurnRange<'_>,
         situation: &Situation<'_>,
         context: &mut TaskContext,
     ) -> f64 {
-        let TurnRange {
-            low_rad,
-            high_rad,
-            side,
-        } = range;
+        let TurnRange { range_rad, side } = range;
         let body_m = situation.config.body.radius_m;
-        let mut best_rad = low_rad;
+        let mut best_rad = range_rad.start;
         let mut most_m = f64::NEG_INFINITY;
-        for _ in 0..TURNS {
+        for _ in 0..RECENT.turns {
             let side = side.unwrap_or(if context.random.coin() {
                 TurnSide::Left
             } else {
                 TurnSide::Right
             });
-            let turn_rad = side.sign() * context.random.between(low_rad, high_rad);
+            let turn_rad = side.sign() * context.random.within(range_rad);
             let new_m = self.new_m(situation.pose.after_arc(0.0, turn_rad), body_m, situation.map);
             if new_m > most_m {
                 (best_rad, most_m) = (turn_rad, new_m);
@@ -91,22 +77,22 @@ impl RecentContacts {
     fn new_m(&self, from: Pose2, body_m: f64, map: &Map) -> f64 {
         let mut new_m = 0.0;
         let mut distance_m = body_m;
-        while distance_m < AHEAD_M {
+        while distance_m < RECENT.ray_max_m {
             let at = from.transform(ahead(distance_m));
             // The latest contact is beside the robot, which is already free of it.
-            let is_away = distance_m > body_m + NEAR_M;
+            let is_away = distance_m > body_m + RECENT.contact_radius_m;
             if is_away
                 && self
                     .contacts
                     .iter()
-                    .any(|contact| contact.at.distance_m(at) < NEAR_M)
+                    .any(|contact| contact.at.distance_m(at) < RECENT.contact_radius_m)
             {
                 break;
             }
-            if is_new(map, at, RECENT_S) {
-                new_m += STEP_M;
+            if is_new(map, at, RECENT.memory_s) {
+                new_m += RECENT.ray_step_m;
             }
-            distance_m += STEP_M;
+            distance_m += RECENT.ray_step_m;
         }
         new_m
     }
@@ -127,7 +113,7 @@ fn ahead(distance_m: f64) -> Point2 {
 
 #[cfg(test)]
 mod tests {
-    use super::{RECENT_S, RecentContact, RecentContacts, is_new};
+    use super::{RECENT, RecentContact, RecentContacts, is_new};
     use crate::mapping::{Brushes, Map};
     use crate::model::config::{Body, SensorLayout};
     use crate::model::geometry::{Point2, Pose2};
@@ -168,14 +154,14 @@ mod tests {
     fn floor_swept_long_ago_is_new_again() {
         let at = Point2 { x_m: 1.0, y_m: 0.0 };
         assert!(!is_new(
-            &swept_lane(100, 100 + u64::from(RECENT_S) - 8),
+            &swept_lane(100, 100 + u64::from(RECENT.memory_s) - 8),
             at,
-            RECENT_S
+            RECENT.memory_s
         ));
         assert!(is_new(
-            &swept_lane(100, 100 + u64::from(RECENT_S) + 8),
+            &swept_lane(100, 100 + u64::from(RECENT.memory_s) + 8),
             at,
-            RECENT_S
+            RECENT.memory_s
         ));
     }
 

@@ -5,21 +5,14 @@
 
 use core::f64::consts::TAU;
 
+use crate::coverage::parameters::SPOT;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::TurnSide;
 use crate::model::order::SPOT_RADIUS_M;
 use crate::model::reason::Reason;
+use crate::navigation::parameters::EVASION;
 use crate::navigation::{Evasion, EvasionStep, Situation, Task, TaskContext, TaskStatus};
-
-/// Radius of curvature at the start.
-const START_M: f64 = 0.06;
-/// Spacing of neighbouring turns, as a share of the swath.
-const SPACING: f64 = 0.8;
-/// Share of the maximum turn rate that the tight inner turns use.
-const TURN_SHARE: f64 = 0.8;
-/// Encounters until the place counts as obstructed.
-const ENCOUNTERS_MAX: u32 = 8;
 
 /// The task.
 #[derive(Clone, Debug)]
@@ -70,17 +63,17 @@ impl Spot {
             return self.evade(situation, context);
         }
         let config = situation.config;
-        let widening_m_per_rad = SPACING * config.body.swath_m / TAU;
+        let widening_m_per_rad = SPOT.spacing * config.body.swath_m / TAU;
         let outermost_m = SPOT_RADIUS_M - 0.5 * config.body.swath_m;
-        let radius_m = (START_M + widening_m_per_rad * self.turned_rad).min(outermost_m);
+        let radius_m = (SPOT.radius_start_m + widening_m_per_rad * self.turned_rad).min(outermost_m);
         // One more turn at the outermost radius closes the disc.
-        if self.turned_rad > (outermost_m - START_M) / widening_m_per_rad + TAU {
+        if self.turned_rad > (outermost_m - SPOT.radius_start_m) / widening_m_per_rad + TAU {
             return TaskStatus::Finished(Reason::Finished);
         }
         let speeds = config.speeds;
         let speed_m_per_s = speeds
             .cruise_m_per_s
-            .min(TURN_SHARE * speeds.turn_max_rad_per_s * radius_m);
+            .min(SPOT.turn_share * speeds.turn_max_rad_per_s * radius_m);
         TaskStatus::Go(Motion::Drive {
             speed_m_per_s,
             turn_rad_per_s: self.side.sign() * speed_m_per_s / radius_m,
@@ -90,7 +83,7 @@ impl Spot {
     /// Evades the obstacle and spirals on in the other direction, so that the rest of the disc lies ahead.
     fn evade(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         self.encounters += 1;
-        if self.encounters > ENCOUNTERS_MAX {
+        if self.encounters > SPOT.encounters_max {
             return TaskStatus::Finished(Reason::Obstructed);
         }
         let observation = situation.observation;
@@ -103,11 +96,11 @@ impl Spot {
         };
         self.side = turn_to;
         context.decide(DecisionKind::BackOff, reason, self.turned_rad);
-        let turn_rad = turn_to.sign() * context.random.between(1.2, 2.2);
+        let turn_rad = turn_to.sign() * context.random.within(&SPOT.away_rad);
         self.evasion = Some(if situation.at_cliff {
-            Evasion::from_cliff(0.08, turn_rad)
+            Evasion::from_cliff(EVASION.cliff_back_m, turn_rad)
         } else {
-            Evasion::from_contact(0.04, turn_rad)
+            Evasion::from_contact(SPOT.contact_back_m, turn_rad)
         });
         TaskStatus::Go(Motion::Halt)
     }

@@ -3,23 +3,13 @@
 
 use super::Bounce;
 use super::spiral::Spiral;
+use crate::coverage::parameters::{SPIRAL, WALL_BOUNCE};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{
     ManoeuvreStep, Situation, Task, TaskContext, TaskStatus, Turn, WallFollower, WallStep,
 };
-
-/// Distance of bouncing before the next drive along a wall, metres.
-const BOUNCE_M: (f64, f64) = (12.0, 30.0);
-/// Length of a drive along a wall, metres.
-const WALL_M: (f64, f64) = (5.0, 12.0);
-/// Turn away from the wall afterwards, radians.
-const AWAY_RAD: (f64, f64) = (0.5, 2.4);
-/// A longer straight without an encounter is on open floor, metres.
-const OPEN_STRAIGHT_M: f64 = 1.8;
-/// Distance between two spirals, metres.
-const SPIRAL_EVERY_M: f64 = 30.0;
 
 /// The strategy.
 #[derive(Clone, Debug)]
@@ -89,7 +79,9 @@ impl Task for WallBounce {
         self.bounce.interrupted();
         self.wall.interrupted();
         if let WallBounceMode::Spiral(_) | WallBounceMode::Away(_) = self.mode {
-            self.mode = WallBounceMode::Bounce { left_m: BOUNCE_M.0 };
+            self.mode = WallBounceMode::Bounce {
+                left_m: WALL_BOUNCE.bounce_m.start,
+            };
         }
     }
 }
@@ -97,7 +89,7 @@ impl Task for WallBounce {
 impl WallBounce {
     fn begin_bounce(&mut self, context: &mut TaskContext) {
         self.bounce.interrupted();
-        let left_m = context.random.between(BOUNCE_M.0, BOUNCE_M.1);
+        let left_m = context.random.within(&WALL_BOUNCE.bounce_m);
         self.mode = WallBounceMode::Bounce { left_m };
     }
 
@@ -125,11 +117,13 @@ impl WallBounce {
             if left_m <= 0.0 && !situation.is_free() {
                 context.decide(DecisionKind::FollowWall, Reason::Alternation, 0.0);
                 self.wall = WallFollower::default();
-                let left_m = context.random.between(WALL_M.0, WALL_M.1);
+                let left_m = context.random.within(&WALL_BOUNCE.wall_m);
                 self.mode = WallBounceMode::Wall { left_m };
                 return self.follow_wall(left_m, situation, context);
             }
-            if self.bounce.straight_m() > OPEN_STRAIGHT_M && self.since_spiral_m > SPIRAL_EVERY_M {
+            if self.bounce.straight_m() > SPIRAL.open_straight_m
+                && self.since_spiral_m > WALL_BOUNCE.spiral_every_m
+            {
                 context.decide(DecisionKind::Spiral, Reason::OpenFloor, self.bounce.straight_m());
                 self.mode = WallBounceMode::Spiral(Spiral::default());
                 return self.spiral(Spiral::default(), situation, context);
@@ -145,7 +139,7 @@ impl WallBounce {
         context: &mut TaskContext,
     ) -> TaskStatus {
         if left_m <= 0.0 && situation.is_free() && !self.wall.is_evading() {
-            let turn_rad = context.random.between(AWAY_RAD.0, AWAY_RAD.1);
+            let turn_rad = context.random.within(&WALL_BOUNCE.away_rad);
             context.decide(DecisionKind::LeaveWall, Reason::Alternation, turn_rad);
             self.mode = WallBounceMode::Away(Turn::by(turn_rad));
             return TaskStatus::Go(Motion::Halt);

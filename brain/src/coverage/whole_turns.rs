@@ -6,22 +6,11 @@
 
 use core::f64::consts::TAU;
 
+use crate::coverage::parameters::WHOLE_TURNS;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{ManoeuvreStep, Situation, TaskContext, Turn};
-
-/// Turns are worth it while the relative deviation of the scale is above this. A gyro is off by some 0.5 %; with a tenth of
-/// a percent a first run is wrong by 7 cm instead of 11 (design page on navigation).
-const WORTH_SIGMA: f64 = 3.0e-3;
-/// Most turns at a time: the direction of a wall segment is known to one degree, so three turns give the scale to 0.1 %.
-const TURNS_MAX: f64 = 3.0;
-/// Largest error of the count with which the wall after still matches the wall before, radians: 6 degrees at one deviation.
-const MISCOUNTED_RAD: f64 = 0.105;
-/// Distance along a wall that gives its direction, metres: the length of one segment in line SLAM.
-const WALL_M: f64 = 0.75;
-/// A wall is straight while the robot that follows it turns no more than this, radians.
-const STRAIGHT_RAD: f64 = 0.12;
 
 /// The turns of one lap.
 #[derive(Debug, Default)]
@@ -79,7 +68,7 @@ impl WholeTurns {
         let advance = situation.advance;
         let driven_m = advance.distance_m.max(0.0);
         self.turned_rad += advance.turn_rad;
-        if is_beside_wall && self.turned_rad.abs() < STRAIGHT_RAD {
+        if is_beside_wall && self.turned_rad.abs() < WHOLE_TURNS.straight_rad {
             self.wall_m += driven_m;
         } else {
             self.wall_m = 0.0;
@@ -89,8 +78,12 @@ impl WholeTurns {
 
     /// Number of turns that are due.
     fn due(&self, situation: &Situation<'_>) -> Option<f64> {
-        let sigma = situation.gyro_scale_sigma.filter(|sigma| *sigma > WORTH_SIGMA)?;
-        let is_due = !self.has_begun && self.wall_m > WALL_M && situation.is_free();
-        is_due.then(|| libm::floor(MISCOUNTED_RAD / (TAU * sigma)).clamp(1.0, TURNS_MAX))
+        let sigma = situation
+            .gyro_scale_sigma
+            .filter(|sigma| *sigma > WHOLE_TURNS.worth_sigma)?;
+        let is_due = !self.has_begun && self.wall_m > WHOLE_TURNS.wall_m && situation.is_free();
+        is_due.then(|| {
+            libm::floor(WHOLE_TURNS.miscounted_max_rad / (TAU * sigma)).clamp(1.0, WHOLE_TURNS.turns_max)
+        })
     }
 }

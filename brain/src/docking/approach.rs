@@ -7,6 +7,7 @@
 use core::f64::consts::PI;
 
 use super::centreline::CentrelineDrive;
+use super::parameters::APPROACH;
 use super::scan::{Scan, ScanStep};
 use crate::mapping::Lobe;
 use crate::model::action::Motion;
@@ -14,41 +15,6 @@ use crate::model::decision::DecisionKind;
 use crate::model::geometry::normalize_rad;
 use crate::model::reason::Reason;
 use crate::navigation::{Evasion, EvasionStep, Situation, TaskContext};
-
-/// Speed beside the centreline.
-const ASIDE_M_PER_S: f64 = 0.18;
-/// Turn rate per radian of heading error.
-const STEER_PER_S: f64 = 2.5;
-/// Larger heading errors are corrected on the spot.
-const TURN_FIRST_RAD: f64 = 0.3;
-/// Rates of such a turn, rad/s.
-const TURN_RAD_PER_S: (f64, f64) = (0.4, 1.2);
-/// Back-off and turn of a wiggle at the contacts: 5 degrees.
-const WIGGLE_BACK_M: f64 = 0.03;
-const WIGGLE_RAD: f64 = 0.087;
-/// Wiggles of one try.
-const WIGGLES_MAX: u32 = 2;
-/// Distance to back off before the robot turns round for another try; only this much floor is known.
-const RETRY_BACK_M: f64 = 0.08;
-/// Distance to drive away for another try, metres.
-const RETRY_AWAY_M: f64 = 0.5;
-/// Tries of one approach.
-pub(super) const TRIES_MAX: u32 = 5;
-/// Scans that may fail or lead nowhere in one approach.
-const SCANS_MAX: u32 = 8;
-/// Angles between the direction of the dock and the path to the centreline, seen from beside the centreline. The shortest
-/// path comes first, then paths past an obstacle.
-const ASIDE_RAD: [f64; 3] = [0.9, 0.35, 0.6];
-/// The same from so near that the centreline is too short: away from the dock.
-const ASIDE_NEAR_RAD: f64 = 2.2;
-/// The same from beside the dock, at its wall: to a point in front of it.
-const BESIDE_RAD: f64 = 1.4;
-const BESIDE_M: f64 = 0.75;
-/// Surplus of the proximity level on one side that shows the wall of the dock, as a share of a touch.
-const WALL_LEVEL: f64 = 0.1;
-/// Longest path to the centreline, and from where only the near field is received, metres.
-const ASIDE_MAX_M: f64 = 1.5;
-const ASIDE_NEAR_M: f64 = 0.5;
 
 /// An approach.
 #[derive(Clone, Debug)]
@@ -162,7 +128,7 @@ impl Approach {
                     }
                     AfterEvasion::Straight(heading_rad) => ApproachPhase::Straight(StraightDrive {
                         heading_rad,
-                        left_m: RETRY_AWAY_M,
+                        left_m: APPROACH.retry_away_m,
                         to_centreline: false,
                     }),
                 };
@@ -183,7 +149,7 @@ impl Approach {
             ScanStep::Failed => ApproachStep::Silent,
             ScanStep::Found(bearing_rad) => {
                 self.scans += 1;
-                if self.scans > SCANS_MAX {
+                if self.scans > APPROACH.scans_max {
                     return ApproachStep::Spent;
                 }
                 context.decide(DecisionKind::DockScan, Reason::DockBeam, bearing_rad);
@@ -215,9 +181,9 @@ impl Approach {
         let is_near = situation.beams.current().is_near();
         context.decide(DecisionKind::DockLine, Reason::DockBeam, to_centreline);
         let (aside_rad, left_m) = match (is_near, situation.beams.current().lobe()) {
-            (false, _) => (self.aside_rad(), ASIDE_MAX_M),
-            (true, Lobe::None) => (BESIDE_RAD, BESIDE_M),
-            (true, _) => (ASIDE_NEAR_RAD, ASIDE_NEAR_M),
+            (false, _) => (self.aside_rad(), APPROACH.beside_max_m),
+            (true, Lobe::None) => (APPROACH.at_wall_rad, APPROACH.at_wall_m),
+            (true, _) => (APPROACH.near_field_rad, APPROACH.near_field_m),
         };
         ApproachPhase::Straight(StraightDrive {
             heading_rad: dock_rad + to_centreline * aside_rad,
@@ -227,8 +193,9 @@ impl Approach {
     }
 
     fn aside_rad(&self) -> f64 {
-        ASIDE_RAD
-            .get(self.asides % ASIDE_RAD.len())
+        APPROACH
+            .beside_rad
+            .get(self.asides % APPROACH.beside_rad.len())
             .copied()
             .unwrap_or_default()
     }
@@ -249,7 +216,7 @@ impl Approach {
             return ApproachStep::Going(Motion::Halt);
         }
         self.phase = ApproachPhase::Straight(drive);
-        ApproachStep::Going(self.toward(drive.heading_rad, ASIDE_M_PER_S))
+        ApproachStep::Going(self.toward(drive.heading_rad, APPROACH.beside_m_per_s))
     }
 
     fn drive_centreline(
@@ -271,7 +238,7 @@ impl Approach {
             return self.leave(line.base_rad(), context);
         }
         let error_rad = normalize_rad(line.setpoint_rad() - self.heading_rad);
-        if line.is_lost() && error_rad.abs() < TURN_FIRST_RAD {
+        if line.is_lost() && error_rad.abs() < APPROACH.turn_first_rad {
             self.phase = ApproachPhase::Scan(Scan::new());
             return ApproachStep::Going(Motion::Halt);
         }
@@ -290,7 +257,7 @@ impl Approach {
             // An obstacle is in the path.
             return self.retry_elsewhere(Evasion::from_contact, reason, context);
         }
-        if self.wiggles >= WIGGLES_MAX {
+        if self.wiggles >= APPROACH.wiggles_max {
             return self.leave(line.base_rad(), context);
         }
         self.wiggles += 1;
@@ -299,11 +266,11 @@ impl Approach {
             Reason::DockMissed,
             f64::from(self.wiggles),
         );
-        let base_rad = line.base_rad() + self.wiggle_side * WIGGLE_RAD * f64::from(self.wiggles);
+        let base_rad = line.base_rad() + self.wiggle_side * APPROACH.wiggle_rad * f64::from(self.wiggles);
         self.wiggle_side = -self.wiggle_side;
         let turn_rad = normalize_rad(base_rad - self.heading_rad);
         self.phase = ApproachPhase::Evade(
-            Evasion::from_contact(WIGGLE_BACK_M, turn_rad),
+            Evasion::from_contact(APPROACH.wiggle_back_m, turn_rad),
             AfterEvasion::Centreline(base_rad),
         );
         ApproachStep::Going(Motion::Halt)
@@ -313,14 +280,17 @@ impl Approach {
     fn leave(&mut self, base_rad: f64, context: &mut TaskContext) -> ApproachStep {
         self.tries += 1;
         self.wiggles = 0;
-        if self.tries >= TRIES_MAX {
+        if self.tries >= APPROACH.tries_max {
             return ApproachStep::Spent;
         }
         context.decide(DecisionKind::DockRetry, Reason::DockMissed, f64::from(self.tries));
-        let away_rad = base_rad + PI + context.random.between(-0.3, 0.3);
+        let deviation_rad = context
+            .random
+            .between(-APPROACH.retry_spread_rad, APPROACH.retry_spread_rad);
+        let away_rad = base_rad + PI + deviation_rad;
         let turn_rad = normalize_rad(away_rad - self.heading_rad);
         self.phase = ApproachPhase::Evade(
-            Evasion::from_contact(RETRY_BACK_M, turn_rad),
+            Evasion::from_contact(APPROACH.retry_back_m, turn_rad),
             AfterEvasion::Straight(away_rad),
         );
         ApproachStep::Going(Motion::Halt)
@@ -334,7 +304,7 @@ impl Approach {
         context: &mut TaskContext,
     ) -> ApproachStep {
         self.tries += 1;
-        if self.tries >= TRIES_MAX {
+        if self.tries >= APPROACH.tries_max {
             return ApproachStep::Spent;
         }
         context.decide(DecisionKind::DockRetry, reason, f64::from(self.tries));
@@ -344,9 +314,9 @@ impl Approach {
             _ if context.random.coin() => 1.0,
             _ => -1.0,
         };
-        let turn_rad = side * context.random.between(1.0, 1.8);
+        let turn_rad = side * context.random.within(&APPROACH.obstacle_turn_rad);
         self.phase = ApproachPhase::Evade(
-            evasion(RETRY_BACK_M, turn_rad),
+            evasion(APPROACH.retry_back_m, turn_rad),
             AfterEvasion::Straight(self.heading_rad + turn_rad),
         );
         ApproachStep::Going(Motion::Halt)
@@ -355,29 +325,33 @@ impl Approach {
     /// Evades a contact during a scan or on the path to the centreline.
     fn evade_contact(&mut self, context: &mut TaskContext) -> ApproachStep {
         self.scans += 1;
-        if self.scans > SCANS_MAX {
+        if self.scans > APPROACH.scans_max {
             return ApproachStep::Spent;
         }
-        let turn_rad = context.random.between(-0.6, 0.6);
-        self.phase = ApproachPhase::Evade(Evasion::from_contact(RETRY_BACK_M, turn_rad), AfterEvasion::Scan);
+        let turn_rad = context
+            .random
+            .between(-APPROACH.contact_turn_max_rad, APPROACH.contact_turn_max_rad);
+        self.phase = ApproachPhase::Evade(
+            Evasion::from_contact(APPROACH.retry_back_m, turn_rad),
+            AfterEvasion::Scan,
+        );
         ApproachStep::Going(Motion::Halt)
     }
 
     /// The motion towards a heading. Large errors are corrected on the spot first.
     fn toward(&self, target_rad: f64, speed_m_per_s: f64) -> Motion {
         let error_rad = normalize_rad(target_rad - self.heading_rad);
-        if error_rad.abs() > TURN_FIRST_RAD {
-            let (least, most) = TURN_RAD_PER_S;
+        if error_rad.abs() > APPROACH.turn_first_rad {
             return Motion::Drive {
                 speed_m_per_s: 0.0,
-                turn_rad_per_s: (STEER_PER_S * error_rad.abs())
-                    .clamp(least, most)
+                turn_rad_per_s: (APPROACH.heading_gain_per_s * error_rad.abs())
+                    .clamp(APPROACH.turn_rad_per_s.start, APPROACH.turn_rad_per_s.end)
                     .copysign(error_rad),
             };
         }
         Motion::Drive {
             speed_m_per_s,
-            turn_rad_per_s: STEER_PER_S * error_rad,
+            turn_rad_per_s: APPROACH.heading_gain_per_s * error_rad,
         }
     }
 }
@@ -391,5 +365,5 @@ fn away_from_wall(bearing_rad: f64, situation: &Situation<'_>) -> Option<f64> {
         .zip(&situation.observation.proximity)
         .map(|(sensor, level)| libm::sin(sensor.heading_rad - bearing_rad) * f64::from(*level))
         .sum();
-    (on_left.abs() > WALL_LEVEL).then_some(-on_left.signum())
+    (on_left.abs() > APPROACH.wall_level).then_some(-on_left.signum())
 }

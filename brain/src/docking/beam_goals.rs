@@ -1,11 +1,9 @@
 //! Places to return to because the robot received a dock beam there.
 
+use super::parameters::DOCKING;
 use crate::mapping::{BeamMemory, BeamPlace};
 use crate::model::geometry::Point2;
 use crate::navigation::Goal;
-
-/// Detour that a place on the centreline is worth, compared with one beside it, metres.
-const ASIDE_DETOUR_M: f64 = 0.5;
 
 /// A place from which docking failed.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +26,11 @@ pub(super) fn goals(memory: &BeamMemory, failed: &[FailedPlace]) -> Vec<Goal> {
         .filter(|place| !has_failed(place))
         .map(|place| Goal {
             at: place.at,
-            detour_m: if place.on_line { 0.0 } else { ASIDE_DETOUR_M },
+            detour_m: if place.on_line {
+                0.0
+            } else {
+                DOCKING.beside_detour_m
+            },
         })
         .collect()
 }

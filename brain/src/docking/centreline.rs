@@ -2,30 +2,8 @@
 //!
 //! Terms are those of [`super::approach`].
 
+use super::parameters::CENTRELINE;
 use crate::mapping::{DockBeamFilter, Lobe};
-
-/// Speed on the centreline far from the dock, and while only one lobe is received.
-const LINE_M_PER_S: f64 = 0.2;
-const TRIM_M_PER_S: f64 = 0.12;
-/// Speed in the near field, for a soft touch of the dock contacts.
-const FINAL_M_PER_S: f64 = 0.05;
-/// Turn back to the centreline while only one lobe is received, radians. It is smaller in the near field, where no distance
-/// is left to straighten.
-const TRIM_RAD: f64 = 0.22;
-const TRIM_NEAR_RAD: f64 = 0.14;
-/// Correction of a base from beams alone when the robot lost the centreline and found it again, radians.
-const LEARN_RAD: f64 = 0.02;
-/// Sideways distance that the robot continues after it has found the centreline again, to reach its middle, metres.
-const MIDDLE_M: f64 = 0.05;
-const MIDDLE_NEAR_M: f64 = 0.02;
-/// After this distance in the near field it drives straight, metres: 0.1 m before the contacts.
-const STRAIGHT_M: f64 = 0.26;
-/// The near field begins 0.36 m before the contacts. After this distance in it the robot has missed them, metres.
-const NEAR_MAX_M: f64 = 0.6;
-/// Longest drive on the centreline, metres: beams reach 3 m.
-const LINE_MAX_M: f64 = 4.0;
-/// After this time without a beam in front the centreline is lost, seconds.
-const SILENCE_S: f64 = 1.0;
 
 /// The drive along the centreline.
 #[derive(Clone, Copy, Debug)]
@@ -70,12 +48,12 @@ impl CentrelineDrive {
 
     /// Whether the robot has driven so far that it missed the contacts.
     pub(super) fn is_missed(&self) -> bool {
-        self.near_m > NEAR_MAX_M || self.driven_m > LINE_MAX_M
+        self.near_m > CENTRELINE.near_max_m || self.driven_m > CENTRELINE.drive_max_m
     }
 
     /// Whether nothing was received in front for too long.
     pub(super) fn is_lost(&self) -> bool {
-        self.silent_s > SILENCE_S
+        self.silent_s > CENTRELINE.silence_max_s
     }
 
     /// Updates the drive with what is received after a step.
@@ -98,16 +76,16 @@ impl CentrelineDrive {
             Lobe::Left | Lobe::Right => {
                 self.lobe = lobe;
                 self.middle_m = if self.near_m > 0.0 {
-                    MIDDLE_NEAR_M
+                    CENTRELINE.to_middle_near_m
                 } else {
-                    MIDDLE_M
+                    CENTRELINE.to_middle_m
                 };
             }
             Lobe::Both if self.lobe != Lobe::Both => {
                 self.middle_m -= self.trim_rad() * distance_m.max(0.0);
                 if self.middle_m <= 0.0 {
                     if !self.is_known {
-                        self.base_rad += LEARN_RAD * toward_centreline(self.lobe);
+                        self.base_rad += CENTRELINE.base_step_rad * toward_centreline(self.lobe);
                     }
                     self.lobe = Lobe::Both;
                 }
@@ -118,15 +96,15 @@ impl CentrelineDrive {
 
     fn trim_rad(&self) -> f64 {
         if self.near_m > 0.0 {
-            TRIM_NEAR_RAD
+            CENTRELINE.trim_near_rad
         } else {
-            TRIM_RAD
+            CENTRELINE.trim_rad
         }
     }
 
     /// Direction to drive in, radians.
     pub(super) fn setpoint_rad(&self) -> f64 {
-        if self.near_m > STRAIGHT_M {
+        if self.near_m > CENTRELINE.straight_from_m {
             self.base_rad
         } else {
             self.base_rad + self.trim_rad() * toward_centreline(self.lobe)
@@ -136,11 +114,11 @@ impl CentrelineDrive {
     /// Speed to drive at.
     pub(super) fn speed_m_per_s(&self) -> f64 {
         if self.near_m > 0.0 {
-            FINAL_M_PER_S
+            CENTRELINE.near_m_per_s
         } else if self.lobe == Lobe::Both && self.silent_s == 0.0 {
-            LINE_M_PER_S
+            CENTRELINE.far_m_per_s
         } else {
-            TRIM_M_PER_S
+            CENTRELINE.trim_m_per_s
         }
     }
 }

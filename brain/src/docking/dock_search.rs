@@ -2,15 +2,13 @@
 //! the robot follows the walls and listens until it is back where it started. If that fails it roams, and then follows the
 //! next unknown wall.
 
+use super::parameters::DOCKING;
 use super::roam::Roam;
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
-
-/// Distance of roaming between two laps, metres: across a room and through a door.
-const ROAM_M: f64 = 10.0;
 
 /// The search. It keeps what it has seen across failed approaches.
 #[derive(Debug, Default)]
@@ -63,7 +61,7 @@ impl DockSearch {
             LapStep::Over(reason) => {
                 context.decide(DecisionKind::LeaveWall, reason, self.lap.driven_m());
                 self.roam.interrupted();
-                self.roam_left_m = Some(ROAM_M);
+                self.roam_left_m = Some(DOCKING.roam_m);
                 TaskStatus::Go(Motion::Halt)
             }
         }

@@ -12,6 +12,7 @@ mod approach;
 mod beam_goals;
 mod centreline;
 mod dock_search;
+mod parameters;
 mod roam;
 mod scan;
 mod travel;
@@ -25,18 +26,8 @@ use crate::navigation::{Situation, Task, TaskContext, TaskStatus};
 use approach::{Approach, ApproachStep};
 use beam_goals::{FailedPlace, goals};
 use dock_search::DockSearch;
+use parameters::DOCKING;
 use travel::{Travel, TravelStep};
-
-/// Time for which beams are ignored after a failed approach: the next one may work better from elsewhere.
-const IGNORE_S: f64 = 15.0;
-/// Time of searching at random after a known path was blocked or led to a place without beams.
-const SEARCH_S: f64 = 40.0;
-/// Within this distance of a place where nothing was received no beam is expected, metres. Where the beams were received
-/// and the approach failed, a place nearby may do.
-const SILENT_M: f64 = 0.5;
-const MISSED_M: f64 = 0.25;
-/// Returns to where beams were received, in one task.
-const BACK_TO_BEAMS_MAX: u32 = 12;
 
 /// The task.
 #[derive(Debug, Default)]
@@ -148,7 +139,7 @@ impl Docking {
     /// Drives back to where a beam was received, if there is such a place.
     fn begin_back(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> bool {
         let heard_at = goals(situation.beams, &self.failed_places);
-        if heard_at.is_empty() || self.back_to_beams >= BACK_TO_BEAMS_MAX {
+        if heard_at.is_empty() || self.back_to_beams >= DOCKING.back_to_beams_max {
             return false;
         }
         self.back_to_beams += 1;
@@ -190,7 +181,7 @@ impl Docking {
                 self.phase = DockingPhase::Approach(Approach::from_map(bearing_rad));
             }
             TravelStep::Blocked => {
-                self.search_s = SEARCH_S;
+                self.search_s = DOCKING.search_s;
                 self.begin_search(Reason::WayBlocked, context);
             }
         }
@@ -205,7 +196,7 @@ impl Docking {
                 self.begin_approach(Reason::DockHeard, context);
             }
             TravelStep::Blocked => {
-                self.search_s = SEARCH_S;
+                self.search_s = DOCKING.search_s;
                 self.begin_search(Reason::WayBlocked, context);
             }
         }
@@ -230,17 +221,17 @@ impl Docking {
         self.failed_places.push(FailedPlace {
             at: situation.pose.position(),
             within_m: if reason == Reason::NoBeam {
-                SILENT_M
+                DOCKING.silent_radius_m
             } else {
-                MISSED_M
+                DOCKING.missed_radius_m
             },
             time_us: situation.observation.time_us,
         });
-        self.ignore_s = IGNORE_S;
+        self.ignore_s = DOCKING.ignore_beams_s;
         self.search_s = match (reason, known_dock(situation)) {
-            (Reason::NoBeam, Ok(_)) => SEARCH_S,
+            (Reason::NoBeam, Ok(_)) => DOCKING.search_s,
             (Reason::NoBeam, Err(_)) => 0.0,
-            _ => IGNORE_S,
+            _ => DOCKING.ignore_beams_s,
         };
         self.begin_search(reason, context);
         TaskStatus::Go(Motion::Halt)

@@ -7,42 +7,15 @@
 use core::f64::consts::{FRAC_PI_3, TAU};
 use std::collections::BTreeSet;
 
+use super::parameters::ROAM;
 use crate::coverage::Bounce;
 use crate::mapping::{Cell, CellKnowledge};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::{Point2, normalize_rad};
 use crate::model::reason::Reason;
+use crate::navigation::parameters::{CHASSIS, EVASION};
 use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus, encounter};
-
-/// Edge of a block, metres.
-const BLOCK_M: f64 = 0.5;
-/// Number of directions that are compared, and the step and the length of a ray, metres.
-const DIRECTIONS: u32 = 32;
-const RAY_STEP_M: f64 = 0.1;
-const RAY_M: f64 = 5.0;
-/// A ray begins outside of the body, metres.
-const RAY_FROM_M: f64 = 0.3;
-/// A ray ends this close to a contact, metres.
-const TOUCHED_M: f64 = 0.17;
-/// Contacts kept; the oldest go first.
-const TOUCHED_MAX: usize = 400;
-/// After this distance without unseen blocks the robot looks for a better direction, metres.
-const COMPARE_EVERY_M: f64 = 1.0;
-/// A better direction crosses this many more unseen steps.
-const BETTER_STEPS: f64 = 8.0;
-/// Distances to back off after a contact and at a cliff, metres.
-const CONTACT_BACK_M: f64 = 0.04;
-const CLIFF_BACK_M: f64 = 0.08;
-/// Several drives in a row shorter than this, metres, mean a pocket: the robot bounces out of it.
-const SHORT_M: f64 = 0.3;
-const SHORT_MAX: u32 = 4;
-/// Time of bouncing, seconds.
-const BOUNCE_S: f64 = 15.0;
-/// Speed with an obstacle close ahead; the configuration gives the cruise speed.
-const NEAR_M_PER_S: f64 = 0.12;
-/// Proximity level that means an obstacle is close.
-const NEAR_LEVEL: f32 = 0.45;
 
 /// The drives, and what was seen on all of them.
 #[derive(Debug, Default)]
@@ -111,7 +84,7 @@ impl Roam {
         if let Some(reason) = encounter(situation) {
             return self.turn_from(reason, situation, context);
         }
-        if self.without_news_m > COMPARE_EVERY_M {
+        if self.without_news_m > ROAM.compare_every_m {
             self.without_news_m = 0.0;
             if let Some(turn_rad) = self.better_direction(situation, context) {
                 context.decide(DecisionKind::DockSearchTurn, Reason::DockUnknown, turn_rad);
@@ -130,15 +103,15 @@ impl Roam {
         context: &mut TaskContext,
     ) -> TaskStatus {
         self.remember(reason, situation);
-        self.short_straights = if self.straight_m < SHORT_M {
+        self.short_straights = if self.straight_m < ROAM.short_m {
             self.short_straights + 1
         } else {
             0
         };
         context.decide(DecisionKind::BackOff, reason, self.straight_m);
-        if self.short_straights > SHORT_MAX {
+        if self.short_straights > ROAM.short_max {
             self.short_straights = 0;
-            self.bounce = Some((Bounce::default(), BOUNCE_S));
+            self.bounce = Some((Bounce::default(), ROAM.bounce_s));
             return TaskStatus::Go(Motion::Halt);
         }
         let away_rad = match reason {
@@ -148,24 +121,24 @@ impl Roam {
         };
         let turn_rad = self.best(situation, context, |turn_rad| {
             let from_obstacle_rad = normalize_rad(turn_rad + away_rad);
-            from_obstacle_rad.abs() > 1.1
+            from_obstacle_rad.abs() > ROAM.turn_from_obstacle_min_rad
         });
         let turn_rad = turn_rad.map_or(core::f64::consts::PI, |(turn_rad, _)| turn_rad);
         self.evasion = Some(if situation.at_cliff {
-            Evasion::from_cliff(CLIFF_BACK_M, turn_rad)
+            Evasion::from_cliff(EVASION.cliff_back_m, turn_rad)
         } else {
-            Evasion::from_contact(CONTACT_BACK_M, turn_rad)
+            Evasion::from_contact(ROAM.contact_back_m, turn_rad)
         });
         TaskStatus::Go(Motion::Halt)
     }
 
     fn remember(&mut self, reason: Reason, situation: &Situation<'_>) {
         let side = match reason {
-            Reason::BumpLeft | Reason::CliffLeft => 0.7,
-            Reason::BumpRight | Reason::CliffRight => -0.7,
+            Reason::BumpLeft | Reason::CliffLeft => ROAM.contact_bearing_rad,
+            Reason::BumpRight | Reason::CliffRight => -ROAM.contact_bearing_rad,
             _ => 0.0,
         };
-        if self.touched.len() >= TOUCHED_MAX {
+        if self.touched.len() >= ROAM.contacts_max {
             self.touched.remove(0);
         }
         let in_base = Point2::in_direction(side, situation.config.body.radius_m);
@@ -176,7 +149,7 @@ impl Roam {
     fn better_direction(&self, situation: &Situation<'_>, context: &mut TaskContext) -> Option<f64> {
         let (turn_rad, news) = self.best(situation, context, |_| true)?;
         let straight = self.news(situation, 0.0);
-        (news > straight + BETTER_STEPS).then_some(turn_rad)
+        (news > straight + ROAM.better_steps).then_some(turn_rad)
     }
 
     /// The turn to the direction with most unseen floor, among the allowed ones; chance decides between equal ones.
@@ -186,13 +159,13 @@ impl Roam {
         context: &mut TaskContext,
         allowed: impl Fn(f64) -> bool,
     ) -> Option<(f64, f64)> {
-        (0..DIRECTIONS)
-            .map(|direction| normalize_rad(TAU * f64::from(direction) / f64::from(DIRECTIONS)))
+        (0..ROAM.directions)
+            .map(|direction| normalize_rad(TAU * f64::from(direction) / f64::from(ROAM.directions)))
             .filter(|turn_rad| allowed(*turn_rad))
             .map(|turn_rad| {
                 (
                     turn_rad,
-                    self.news(situation, turn_rad) + context.random.between(0.0, 3.0),
+                    self.news(situation, turn_rad) + context.random.between(0.0, ROAM.tie_steps),
                 )
             })
             .max_by(|one, other| one.1.total_cmp(&other.1))
@@ -202,8 +175,8 @@ impl Roam {
     fn news(&self, situation: &Situation<'_>, turn_rad: f64) -> f64 {
         let (sin, cos) = libm::sincos(turn_rad);
         let knowledge = situation.map.knowledge();
-        let (mut ray_m, mut news) = (RAY_FROM_M, 0.0);
-        while ray_m < RAY_M {
+        let (mut ray_m, mut news) = (ROAM.ray_from_m, 0.0);
+        while ray_m < ROAM.ray_max_m {
             let at = situation.pose.transform(Point2 {
                 x_m: ray_m * cos,
                 y_m: ray_m * sin,
@@ -216,12 +189,16 @@ impl Roam {
                 || self
                     .touched
                     .iter()
-                    .any(|touched| touched.distance_m(at) < TOUCHED_M)
+                    .any(|touched| touched.distance_m(at) < ROAM.contact_radius_m)
             {
                 break;
             }
-            news += if self.seen.contains(&block(at)) { 0.1 } else { 1.0 };
-            ray_m += RAY_STEP_M;
+            news += if self.seen.contains(&block(at)) {
+                ROAM.seen_step_worth
+            } else {
+                1.0
+            };
+            ray_m += ROAM.ray_step_m;
         }
         news
     }
@@ -229,8 +206,8 @@ impl Roam {
 
 fn block(at: Point2) -> (i32, i32) {
     (
-        libm::floor(at.x_m / BLOCK_M) as i32,
-        libm::floor(at.y_m / BLOCK_M) as i32,
+        libm::floor(at.x_m / ROAM.block_m) as i32,
+        libm::floor(at.y_m / ROAM.block_m) as i32,
     )
 }
 
@@ -240,10 +217,10 @@ fn ahead(situation: &Situation<'_>) -> Motion {
     let third = proximity.len() / 3;
     let front = proximity.get(third..proximity.len() - third).unwrap_or_default();
     let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
-    let is_near = front.iter().any(|level| *level > NEAR_LEVEL);
+    let is_near = front.iter().any(|level| *level > CHASSIS.near_level);
     Motion::Drive {
         speed_m_per_s: if is_near {
-            cruise_m_per_s.min(NEAR_M_PER_S)
+            cruise_m_per_s.min(CHASSIS.near_m_per_s)
         } else {
             cruise_m_per_s
         },

@@ -3,17 +3,9 @@
 //! The two front receivers face to the left and to the right of straight ahead. As the robot turns, both begin to receive
 //! the dock at one angle and cease at another. The dock is in the middle of the two.
 
-use core::f64::consts::TAU;
-
+use super::parameters::SCAN;
 use crate::mapping::DockBeamFilter;
 use crate::model::action::Motion;
-
-/// Turn rate, rad/s. It is below the maximum, so that an edge is not blurred over many degrees.
-const SCAN_RAD_PER_S: f64 = 0.8;
-/// A scan that turned this far without finding both edges has failed.
-const GIVE_UP_RAD: f64 = 1.6 * TAU;
-/// Both receivers receive the dock over some 70 degrees; a much smaller or larger angle is not one dock, radians.
-const WIDTH_RAD: core::ops::Range<f64> = 0.35..2.8;
 
 /// A scan in progress.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +62,7 @@ impl Scan {
                 }
                 Some(from_rad) => {
                     let width_rad = (self.turned_rad - from_rad).abs();
-                    if WIDTH_RAD.contains(&width_rad) {
+                    if SCAN.width_rad.contains(&width_rad) {
                         return ScanStep::Found(0.5 * (self.turned_rad + from_rad) - self.turned_rad);
                     }
                     self.from_rad = None;
@@ -80,12 +72,12 @@ impl Scan {
             self.was_ahead = true;
             self.from_rad = Some(self.turned_rad);
         }
-        if self.total_turn_rad > GIVE_UP_RAD {
+        if self.total_turn_rad > SCAN.turn_max_rad {
             return ScanStep::Failed;
         }
         ScanStep::Going(Motion::Drive {
             speed_m_per_s: 0.0,
-            turn_rad_per_s: self.side * SCAN_RAD_PER_S,
+            turn_rad_per_s: self.side * SCAN.turn_rad_per_s,
         })
     }
 

@@ -5,6 +5,7 @@
 
 use core::task::Poll;
 
+use super::parameters::TRAVEL;
 use crate::mapping::{CellKnowledge, Raster};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
@@ -12,38 +13,11 @@ use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::reason::Reason;
 use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::parameters::EVASION;
 use crate::navigation::{
     Evasion, FollowStep, Goal, Inflation, Obstructions, PathFollower, PathSegment, Situation, TaskContext,
     caution, encounter, plan_path, reachable,
 };
-
-/// Gaps between the body and known obstacles on planned paths, metres, the widest first, since docking is in no hurry. With
-/// the last one cells of the map may lie under the rim: a passage that is hardly wider than the body is one cell too narrow
-/// on the map.
-const CLEARANCE_M: [f64; 3] = [0.05, 0.01, -0.015];
-/// The same on the way back to where the robot has been. It fits through there, and the map of that place was drawn with a
-/// pose that has drifted since.
-const CLEARANCE_BACK_M: [f64; 5] = [0.05, 0.01, -0.015, -0.05, -0.09];
-/// Distances from the dock at which the approach by beams begins, metres: the best one first.
-const FRONT_M: [f64; 6] = [1.1, 1.3, 0.9, 0.75, 0.6, 0.5];
-/// Detour per metre that a place beside the centreline counts more than one on it.
-const ASIDE_DETOUR: f64 = 6.0;
-/// The same per metre of distance from the best place in front of the dock.
-const FRONT_DETOUR: f64 = 1.5;
-/// Sideways offsets from the centreline, metres.
-const ASIDE_M: [f64; 5] = [0.0, 0.12, -0.12, 0.25, -0.25];
-/// Distance to back off after a contact, and what each plan without progress adds.
-const CONTACT_BACK_M: f64 = 0.03;
-const MORE_BACK_M: f64 = 0.02;
-/// Distance to back off at a cliff.
-const CLIFF_BACK_M: f64 = 0.08;
-/// Nearer than this to the start of the last plan, that plan made no progress, metres.
-const FAILED_NEAR_M: f64 = 0.15;
-/// Plans without progress in a row, and plans in total, until the path counts as blocked.
-const FAILED_PLANS_MAX: u32 = 6;
-const PLANS_MAX: u32 = 40;
-/// Times that obstructions are forgotten.
-const FORGET_MAX: u32 = 2;
 
 /// The drive.
 #[derive(Debug)]
@@ -78,12 +52,12 @@ pub(super) enum TravelStep {
 impl Travel {
     /// To the place in front of `dock`, the pose of a docked robot.
     pub(super) fn to_dock(dock: Pose2) -> Self {
-        Self::to(goals(dock), &CLEARANCE_M, Reason::DockKnown)
+        Self::to(goals(dock), &TRAVEL.clearances_m, Reason::DockKnown)
     }
 
     /// To one of the places where a beam was received.
     pub(super) fn to_beam(heard_at: Vec<Goal>) -> Self {
-        Self::to(heard_at, &CLEARANCE_BACK_M, Reason::DockHeard)
+        Self::to(heard_at, &TRAVEL.clearances_back_m, Reason::DockHeard)
     }
 
     fn to(goals: Vec<Goal>, clearances_m: &'static [f64], reason: Reason) -> Self {
@@ -145,9 +119,12 @@ impl Travel {
         self.follower = None;
         self.path_search = None;
         self.evasion = Some(if situation.at_cliff {
-            Evasion::from_cliff(CLIFF_BACK_M, 0.0)
+            Evasion::from_cliff(EVASION.cliff_back_m, 0.0)
         } else {
-            Evasion::from_contact(CONTACT_BACK_M + MORE_BACK_M * f64::from(self.failed_plans), 0.0)
+            Evasion::from_contact(
+                TRAVEL.contact_back_m + TRAVEL.more_back_m * f64::from(self.failed_plans),
+                0.0,
+            )
         });
         TravelStep::Going(Motion::Halt)
     }
@@ -167,7 +144,7 @@ impl Travel {
             self.follower = Some(PathFollower::new(segments));
             return TravelStep::Going(Motion::Halt);
         }
-        if !is_blocked || self.forgotten >= FORGET_MAX {
+        if !is_blocked || self.forgotten >= TRAVEL.forget_max {
             return TravelStep::Blocked;
         }
         context.decide(
@@ -184,11 +161,11 @@ impl Travel {
         let here = situation.pose.position();
         let is_failed = self
             .planned_from
-            .is_some_and(|from| from.distance_m(here) < FAILED_NEAR_M);
+            .is_some_and(|from| from.distance_m(here) < TRAVEL.progress_min_m);
         self.failed_plans = if is_failed { self.failed_plans + 1 } else { 0 };
         self.planned_from = Some(here);
         self.plans += 1;
-        if self.failed_plans > FAILED_PLANS_MAX || self.plans > PLANS_MAX {
+        if self.failed_plans > TRAVEL.failed_plans_max || self.plans > TRAVEL.plans_max {
             return TravelStep::Blocked;
         }
         context.decide(DecisionKind::Wait, Reason::Planning, 0.0);
@@ -252,7 +229,7 @@ impl PathInputs {
 /// Starts the computation of the length of the path to the place in front of `dock`, metres; `None` when the map has none.
 pub(super) fn path_length_m(dock: Pose2, situation: &Situation<'_>) -> Gradual<Option<f64>> {
     let inputs = PathInputs::of(situation, goals(dock), Vec::new());
-    Gradual::new(async move { Some(length_m(&inputs.first_path(&CLEARANCE_M[1..2]).await?)) })
+    Gradual::new(async move { Some(length_m(&inputs.first_path(&TRAVEL.clearances_m[1..2]).await?)) })
 }
 
 fn length_m(segments: &[PathSegment]) -> f64 {
@@ -261,15 +238,16 @@ fn length_m(segments: &[PathSegment]) -> f64 {
 
 /// Places in front of the dock, those on the centreline at a good distance first.
 pub(super) fn goals(dock: Pose2) -> Vec<Goal> {
-    let mut goals = Vec::with_capacity(FRONT_M.len() * ASIDE_M.len());
-    for (rank, front_m) in FRONT_M.into_iter().enumerate() {
-        for aside_m in ASIDE_M {
+    let mut goals = Vec::with_capacity(TRAVEL.front_m.len() * TRAVEL.beside_m.len());
+    for (rank, front_m) in TRAVEL.front_m.into_iter().enumerate() {
+        for aside_m in TRAVEL.beside_m {
             goals.push(Goal {
                 at: dock.transform(Point2 {
                     x_m: -front_m,
                     y_m: aside_m,
                 }),
-                detour_m: FRONT_DETOUR * 0.2 * rank as f64 + ASIDE_DETOUR * aside_m.abs(),
+                detour_m: TRAVEL.front_detour * TRAVEL.front_step_m * rank as f64
+                    + TRAVEL.beside_detour * aside_m.abs(),
             });
         }
     }

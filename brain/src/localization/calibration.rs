@@ -7,30 +7,44 @@
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::stationary::StationaryInterval;
 use crate::model::advance::Advance;
-use crate::model::learnt::GyroLearnt;
+use crate::model::learnt::{GYRO_LIMITS, GyroLearnt};
 
-/// Length of a window in seconds.
-const WINDOW_S: f64 = 20.0;
-/// Prior standard deviations: 1 %, and some tenths of a degree a second.
-const SCALE_SIGMA: f64 = 0.008;
-const BIAS_SIGMA_RAD_PER_S: f64 = 5.0e-3;
-/// Noise of the heading, rad per square root of a second: 0.03 degrees, between a usual gyro and a bad one.
-const WALK_RAD_PER_SQRT_S: f64 = 5.0e-4;
-/// Error of any rest by swinging and by the resolution of the gyro, radians.
-const SWING_RAD: f64 = 8.0e-4;
-/// A rest that is off by more standard deviations than this loses weight, because the bias of a gyro changes slowly.
-const REST_GATE: f64 = 4.0;
-/// Possible change of a scale that was learned before: the gyro may have been colder.
-const RESUMED_SIGMA: f64 = 0.002;
-/// A scale with a larger standard deviation than this is not worth keeping.
-const LEARNT_SIGMA: f64 = 0.006;
-/// Random walk of the bias, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
-pub(super) const BIAS_DRIFT_RAD2_PER_S3: f64 = 7.0e-10;
-/// A window that is off by more standard deviations than this is rejected.
-const GATE: f64 = 3.5;
-/// Largest accepted scale error and bias.
-const SCALE_MAX: f64 = 0.05;
-const BIAS_MAX_RAD_PER_S: f64 = 0.03;
+/// Parameters of the gyro's calibration.
+pub(super) struct CalibrationParameters {
+    /// Length of a window, seconds.
+    pub(super) window_s: f64,
+    /// Prior standard deviation of the scale, relative: 1 %.
+    pub(super) scale_sigma: f64,
+    /// Prior standard deviation of the bias, radians per second: some tenths of a degree.
+    pub(super) bias_sigma_rad_per_s: f64,
+    /// Noise of the heading, radians per square root of a second: 0.03 degrees, between a usual gyro and a bad one.
+    pub(super) walk_rad_per_sqrt_s: f64,
+    /// Error of any rest by swinging and by the resolution of the gyro, radians.
+    pub(super) swing_rad: f64,
+    /// A rest that is off by more standard deviations than this loses weight, because the bias of a gyro changes slowly.
+    pub(super) rest_gate_sigmas: f64,
+    /// Possible change of a scale that was learned before: the gyro may have been colder.
+    pub(super) resumed_sigma: f64,
+    /// A scale with a larger standard deviation than this is not worth keeping.
+    pub(super) learnt_sigma_max: f64,
+    /// Random walk of the bias, (rad/s)^2 per second: 0.0015 degrees per second per square root of a second.
+    pub(super) bias_drift_rad2_per_s3: f64,
+    /// A window that is off by more standard deviations than this is rejected.
+    pub(super) window_gate_sigmas: f64,
+}
+
+pub(super) const CALIBRATION: CalibrationParameters = CalibrationParameters {
+    window_s: 20.0,
+    scale_sigma: 0.008,
+    bias_sigma_rad_per_s: 5.0e-3,
+    walk_rad_per_sqrt_s: 5.0e-4,
+    swing_rad: 8.0e-4,
+    rest_gate_sigmas: 4.0,
+    resumed_sigma: 0.002,
+    learnt_sigma_max: 0.006,
+    bias_drift_rad2_per_s3: 7.0e-10,
+    window_gate_sigmas: 3.5,
+};
 
 /// Estimated errors of the gyro, and the window in progress.
 #[derive(Clone, Copy, Debug)]
@@ -67,9 +81,9 @@ impl Default for Calibration {
             scale: 0.0,
             bias_rad_per_s: 0.0,
             covariance: [
-                SCALE_SIGMA * SCALE_SIGMA,
+                CALIBRATION.scale_sigma * CALIBRATION.scale_sigma,
                 0.0,
-                BIAS_SIGMA_RAD_PER_S * BIAS_SIGMA_RAD_PER_S,
+                CALIBRATION.bias_sigma_rad_per_s * CALIBRATION.bias_sigma_rad_per_s,
             ],
             window: CalibrationWindow::default(),
         }
@@ -83,12 +97,12 @@ impl Calibration {
             scale, scale_sigma, ..
         } = learnt;
         let mut resumed = Self::default();
-        if scale.abs() <= SCALE_MAX && scale_sigma >= 0.0 {
+        if scale.abs() <= GYRO_LIMITS.scale_max && scale_sigma >= 0.0 {
             resumed.scale = scale;
-            let variance = scale_sigma * scale_sigma + RESUMED_SIGMA * RESUMED_SIGMA;
-            resumed.covariance[0] = variance.min(SCALE_SIGMA * SCALE_SIGMA);
+            let variance = scale_sigma * scale_sigma + CALIBRATION.resumed_sigma * CALIBRATION.resumed_sigma;
+            resumed.covariance[0] = variance.min(CALIBRATION.scale_sigma * CALIBRATION.scale_sigma);
         }
-        if learnt.bias_rad_per_s.abs() <= BIAS_MAX_RAD_PER_S {
+        if learnt.bias_rad_per_s.abs() <= GYRO_LIMITS.bias_max_rad_per_s {
             resumed.bias_rad_per_s = learnt.bias_rad_per_s;
         }
         resumed
@@ -97,7 +111,7 @@ impl Calibration {
     /// What is worth keeping; `None` while the uncertainty is large.
     pub(super) fn learnt(&self) -> Option<GyroLearnt> {
         let scale_sigma = self.scale_sigma();
-        (scale_sigma <= LEARNT_SIGMA).then_some(GyroLearnt {
+        (scale_sigma <= CALIBRATION.learnt_sigma_max).then_some(GyroLearnt {
             scale: self.scale,
             scale_sigma,
             bias_rad_per_s: self.bias_rad_per_s,
@@ -119,7 +133,7 @@ impl Calibration {
         self.set_scale(belief.scale, belief.scale_sigma);
         self.bias_rad_per_s = belief
             .bias_rad_per_s
-            .clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
+            .clamp(-GYRO_LIMITS.bias_max_rad_per_s, GYRO_LIMITS.bias_max_rad_per_s);
         self.covariance[2] = belief.bias_sigma_rad_per_s * belief.bias_sigma_rad_per_s;
     }
 
@@ -146,12 +160,13 @@ impl Calibration {
     /// Zero-velocity update: takes the turn rate at rest. Returns it as a measurement of the bias.
     pub(super) fn update_at_rest(&mut self, interval: StationaryInterval) -> BiasMeasurement {
         let [ss, sb, bb] = self.covariance;
-        let swing_rad_per_s = SWING_RAD / interval.time_s;
-        let noise =
-            WALK_RAD_PER_SQRT_S * WALK_RAD_PER_SQRT_S / interval.time_s + swing_rad_per_s * swing_rad_per_s;
+        let swing_rad_per_s = CALIBRATION.swing_rad / interval.time_s;
+        let noise = CALIBRATION.walk_rad_per_sqrt_s * CALIBRATION.walk_rad_per_sqrt_s / interval.time_s
+            + swing_rad_per_s * swing_rad_per_s;
         let off_rad_per_s = interval.rad_per_s - self.bias_rad_per_s;
         let variance = bb + noise;
-        let surprise = off_rad_per_s * off_rad_per_s / (REST_GATE * REST_GATE * variance);
+        let surprise = off_rad_per_s * off_rad_per_s
+            / (CALIBRATION.rest_gate_sigmas * CALIBRATION.rest_gate_sigmas * variance);
         // A robot that slides along an obstacle turns slowly, too, while its wheels rest.
         let doubt = surprise.max(1.0);
         let weight = 1.0 / (variance * doubt);
@@ -166,20 +181,20 @@ impl Calibration {
 
     /// An estimator that has used all measurements sets the scale.
     pub(super) fn set_scale(&mut self, scale: f64, sigma: f64) {
-        self.scale = scale.clamp(-SCALE_MAX, SCALE_MAX);
+        self.scale = scale.clamp(-GYRO_LIMITS.scale_max, GYRO_LIMITS.scale_max);
         let [_, _, bias] = self.covariance;
         self.covariance = [sigma * sigma, 0.0, bias];
     }
 
     fn move_by(&mut self, scale: f64, bias_rad_per_s: f64) {
-        self.scale = (self.scale + scale).clamp(-SCALE_MAX, SCALE_MAX);
-        self.bias_rad_per_s =
-            (self.bias_rad_per_s + bias_rad_per_s).clamp(-BIAS_MAX_RAD_PER_S, BIAS_MAX_RAD_PER_S);
+        self.scale = (self.scale + scale).clamp(-GYRO_LIMITS.scale_max, GYRO_LIMITS.scale_max);
+        self.bias_rad_per_s = (self.bias_rad_per_s + bias_rad_per_s)
+            .clamp(-GYRO_LIMITS.bias_max_rad_per_s, GYRO_LIMITS.bias_max_rad_per_s);
     }
 
     /// Takes the (already corrected) turn of one step.
     pub(super) fn count(&mut self, advance: Advance) {
-        self.covariance[2] += BIAS_DRIFT_RAD2_PER_S3 * advance.time_s;
+        self.covariance[2] += CALIBRATION.bias_drift_rad2_per_s3 * advance.time_s;
         match advance.gyro_turn_rad {
             Some(turn_rad) => {
                 self.window.time_s += advance.time_s;
@@ -200,7 +215,7 @@ impl Calibration {
             };
             return;
         };
-        if self.window.time_s < WINDOW_S {
+        if self.window.time_s < CALIBRATION.window_s {
             return;
         }
         let CalibrationWindow {
@@ -240,7 +255,8 @@ impl Calibration {
         let by_bias = sb * counted_rad - bb * time_s;
         let variance = counted_rad * by_scale - time_s * by_bias + noise_rad2;
         // Written so that NaN is rejected.
-        let believable = off_rad * off_rad <= GATE * GATE * variance;
+        let believable =
+            off_rad * off_rad <= CALIBRATION.window_gate_sigmas * CALIBRATION.window_gate_sigmas * variance;
         if !believable {
             return;
         }
@@ -256,7 +272,7 @@ impl Calibration {
 
 #[cfg(test)]
 mod tests {
-    use super::{Calibration, HeadingGain, LEARNT_SIGMA, RESUMED_SIGMA, SCALE_SIGMA, StationaryInterval};
+    use super::{CALIBRATION, Calibration, HeadingGain, StationaryInterval};
     use crate::localization::gyro_estimate::BiasMeasurement;
     use crate::model::learnt::GyroLearnt;
 
@@ -278,7 +294,7 @@ mod tests {
 
     fn rests(calibration: &mut Calibration, times: u32, rad_per_s: f64) {
         for _ in 0..times {
-            calibration.covariance[2] += 100.0 * super::BIAS_DRIFT_RAD2_PER_S3;
+            calibration.covariance[2] += 100.0 * CALIBRATION.bias_drift_rad2_per_s3;
             calibration.update_at_rest(StationaryInterval {
                 rad_per_s,
                 time_s: 2.0,
@@ -331,14 +347,14 @@ mod tests {
         let after = Calibration::resumed(learnt);
         assert_eq!(after.scale_and_bias(), before.scale_and_bias());
         assert!(after.scale_sigma() > before.scale_sigma());
-        assert!((RESUMED_SIGMA..LEARNT_SIGMA).contains(&after.scale_sigma()));
+        assert!((CALIBRATION.resumed_sigma..CALIBRATION.learnt_sigma_max).contains(&after.scale_sigma()));
         for scale_sigma in [0.5, f64::NAN] {
             let vague = Calibration::resumed(GyroLearnt {
                 scale_sigma,
                 ..learnt
             });
             assert!(
-                (vague.scale_sigma() - SCALE_SIGMA).abs() < 1e-9,
+                (vague.scale_sigma() - CALIBRATION.scale_sigma).abs() < 1e-9,
                 "never less sure than at first"
             );
         }

@@ -3,25 +3,35 @@
 use super::global_localizer::PoseCandidate;
 use crate::model::geometry::Pose2;
 
-/// The result is ambiguous when another candidate has at least this share of the best score.
-const AMBIGUOUS_SHARE: f64 = 0.93;
-/// Least score of a result.
-const FIND_SCORE: f64 = 0.45;
-/// A cluster of particles is at a candidate within this distance, metres.
-const AT_PLACE_M: f64 = 0.4;
-/// Greatest drift before the map explains too little, metres.
-const DRIFT_M: f64 = 0.5;
+/// When a candidate pose of global localization is accepted.
+struct CandidateParameters {
+    /// Least score of a result.
+    score_min: f64,
+    /// The result is ambiguous when another candidate has at least this share of the best score.
+    ambiguous_share: f64,
+    /// A cluster of particles is at a candidate within this distance, metres.
+    cluster_max_m: f64,
+    /// Greatest drift before the map explains too little, metres.
+    drift_max_m: f64,
+}
+
+const PARAMETERS: CandidateParameters = CandidateParameters {
+    score_min: 0.45,
+    ambiguous_share: 0.93,
+    cluster_max_m: 0.4,
+    drift_max_m: 0.5,
+};
 
 /// Whether `pose` is at the best candidate, and no other one scores nearly as high.
 pub(super) fn is_alone(candidates: &[PoseCandidate], pose: Pose2) -> bool {
     let Some((best, others)) = candidates.split_first() else {
         return false;
     };
-    best.score >= FIND_SCORE
+    best.score >= PARAMETERS.score_min
         && is_at(best, pose)
         && others
             .iter()
-            .all(|other| is_at(other, pose) || other.score < AMBIGUOUS_SHARE * best.score)
+            .all(|other| is_at(other, pose) || other.score < PARAMETERS.ambiguous_share * best.score)
 }
 
 /// Whether `pose` is at any candidate.
@@ -32,7 +42,7 @@ pub(super) fn is_among(candidates: &[PoseCandidate], pose: Pose2) -> bool {
 /// For a robot that nobody has carried away: only the candidates near its odometry, if one of them scores nearly as high as the
 /// best. Rooms look alike, and the robot is more likely to be in the one where it was.
 pub(super) fn near_if_as_good(candidates: Vec<PoseCandidate>, carried: Pose2) -> Vec<PoseCandidate> {
-    let least = AMBIGUOUS_SHARE * candidates.first().map_or(0.0, |best| best.score);
+    let least = PARAMETERS.ambiguous_share * candidates.first().map_or(0.0, |best| best.score);
     let is_near = |place: &PoseCandidate| is_within_drift(place, carried);
     if candidates
         .iter()
@@ -46,16 +56,18 @@ pub(super) fn near_if_as_good(candidates: Vec<PoseCandidate>, carried: Pose2) ->
 
 /// The best candidate, if a robot at `pose` can have drifted there and the score suffices.
 pub(super) fn found_near(candidates: &[PoseCandidate], pose: Pose2) -> Option<Pose2> {
-    let best = candidates.first().filter(|best| best.score >= FIND_SCORE)?;
+    let best = candidates
+        .first()
+        .filter(|best| best.score >= PARAMETERS.score_min)?;
     is_within_drift(best, pose).then_some(best.pose)
 }
 
 fn is_within_drift(place: &PoseCandidate, pose: Pose2) -> bool {
-    place.pose.position().distance_m(pose.position()) <= DRIFT_M
+    place.pose.position().distance_m(pose.position()) <= PARAMETERS.drift_max_m
 }
 
 fn is_at(place: &PoseCandidate, pose: Pose2) -> bool {
-    place.pose.position().distance_m(pose.position()) <= AT_PLACE_M
+    place.pose.position().distance_m(pose.position()) <= PARAMETERS.cluster_max_m
 }
 
 #[cfg(test)]

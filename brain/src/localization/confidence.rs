@@ -2,27 +2,43 @@
 
 use super::particles::BeamScore;
 
-/// Informative beams over which the share of consistent ones is averaged. A long average shows whether the robot is lost, and
-/// ignores a door that was opened. A short one shows whether something is wrong here.
-const LONG_BEAMS: f64 = 220.0;
-const SHORT_BEAMS: f64 = 50.0;
-/// Below this share the robot is lost. A home whose doors and chairs moved explains 80 to 90 % of the beams, a wrong pose 10 to 40
-/// %.
-const LOST_BELOW: f64 = 0.5;
-/// Below this share the particles are spread a little.
-const DOUBT_BELOW: f64 = 0.6;
-/// Above this share particles keep what they have learned.
-const HOLD_FROM: f64 = 0.75;
-/// From this share on the pose is confirmed: more than in a home whose doors and chairs moved.
-const CONFIRM_FROM: f64 = 0.88;
-/// Informative beams since the robot was placed that a confirmation needs: the robot must have driven.
-const CONFIRM_BEAMS: u32 = 20;
-/// From this share on a lost robot is found.
-const FOUND_FROM: f64 = 0.8;
-/// Informative beams since the robot was lost that this needs.
-const FOUND_BEAMS: u32 = 60;
-/// Share before anything was compared.
-const START: f64 = 0.9;
+/// When the map explains enough. A share is that of the consistent ones among the informative beams. A home whose doors and
+/// chairs moved explains 80 to 90 % of the beams, a wrong pose 10 to 40 %.
+struct ConfidenceParameters {
+    /// Share before anything was compared.
+    start_share: f64,
+    /// Beams over which the long average is taken. It shows whether the robot is lost, and ignores a door that was opened.
+    long_beams: f64,
+    /// Beams over which the short average is taken. It shows whether something is wrong here.
+    short_beams: f64,
+    /// Below this share the robot is lost.
+    lost_below: f64,
+    /// Below this share the particles are spread a little.
+    doubt_below: f64,
+    /// From this share on particles keep what they have learned.
+    hold_from: f64,
+    /// From this share on the pose is confirmed: more than in a home whose doors and chairs moved.
+    confirm_from: f64,
+    /// Beams since the robot was placed that a confirmation needs: the robot must have driven.
+    confirm_beams_min: u32,
+    /// From this share on a lost robot is found.
+    found_from: f64,
+    /// Beams since the robot was lost that this needs.
+    found_beams_min: u32,
+}
+
+const PARAMETERS: ConfidenceParameters = ConfidenceParameters {
+    start_share: 0.9,
+    long_beams: 220.0,
+    short_beams: 50.0,
+    lost_below: 0.5,
+    doubt_below: 0.6,
+    hold_from: 0.75,
+    confirm_from: 0.88,
+    confirm_beams_min: 20,
+    found_from: 0.8,
+    found_beams_min: 60,
+};
 
 /// Share of the beams that the map explains.
 #[derive(Clone, Copy, Debug)]
@@ -47,8 +63,8 @@ pub(super) enum Verdict {
 impl Default for Confidence {
     fn default() -> Self {
         Self {
-            explained: START,
-            recently: START,
+            explained: PARAMETERS.start_share,
+            recently: PARAMETERS.start_share,
             beams: 0,
         }
     }
@@ -58,33 +74,33 @@ impl Confidence {
     /// Of a lost robot.
     pub(super) fn none() -> Self {
         Self {
-            explained: LOST_BELOW,
-            recently: LOST_BELOW,
+            explained: PARAMETERS.lost_below,
+            recently: PARAMETERS.lost_below,
             beams: 0,
         }
     }
 
     pub(super) fn take(&mut self, score: BeamScore) {
         let (informative, consistent) = (f64::from(score.informative), f64::from(score.consistent));
-        self.explained += (consistent - informative * self.explained) / LONG_BEAMS;
-        self.recently += (consistent - informative * self.recently) / SHORT_BEAMS;
+        self.explained += (consistent - informative * self.explained) / PARAMETERS.long_beams;
+        self.recently += (consistent - informative * self.recently) / PARAMETERS.short_beams;
         self.beams = self.beams.saturating_add(score.informative);
     }
 
     /// Whether nothing contradicts what was learned lately.
     pub(super) fn holds(self) -> bool {
-        self.explained >= HOLD_FROM && self.recently >= HOLD_FROM
+        self.explained >= PARAMETERS.hold_from && self.recently >= PARAMETERS.hold_from
     }
 
     /// Whether enough beams since the start clearly confirm the pose.
     pub(super) fn confirms(self) -> bool {
-        self.explained >= CONFIRM_FROM && self.beams >= CONFIRM_BEAMS
+        self.explained >= PARAMETERS.confirm_from && self.beams >= PARAMETERS.confirm_beams_min
     }
 
     pub(super) fn verdict(self) -> Verdict {
-        if self.explained < LOST_BELOW {
+        if self.explained < PARAMETERS.lost_below {
             Verdict::Wrong
-        } else if self.recently < DOUBT_BELOW {
+        } else if self.recently < PARAMETERS.doubt_below {
             Verdict::Doubtful
         } else {
             Verdict::Sure
@@ -93,7 +109,7 @@ impl Confidence {
 
     /// Whether a lost robot is found.
     pub(super) fn is_found(self) -> bool {
-        self.recently >= FOUND_FROM && self.beams >= FOUND_BEAMS
+        self.recently >= PARAMETERS.found_from && self.beams >= PARAMETERS.found_beams_min
     }
 
     /// Share of the beams that the map explains, 0..1.

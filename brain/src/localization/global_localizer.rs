@@ -10,35 +10,72 @@ use super::scan_history::{PointKind, ScanHistory};
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
-/// Poses that are tried in one step: a millisecond on a desktop core.
-const POSITIONS_PER_STEP: usize = 300;
-/// Directions that are tried.
-const DIRECTIONS: u32 = 72;
-/// Most points of each kind.
-const SOLID_MAX: usize = 70;
-const BODY_MAX: usize = 60;
-const OPEN_MAX: usize = 50;
-/// Fewest solid points.
-const SOLID_MIN: usize = 12;
-/// A coarse candidate must reach this share of the highest possible score,
-const COARSE_SHARE: f64 = 0.45;
-/// and this share of the best score so far.
-const COARSE_OF_BEST: f64 = 0.75;
-/// Coarse candidates that are refined.
-const COARSE_MAX: usize = 48;
-/// Candidates that are returned.
-const FINE_MAX: usize = 8;
-/// They must reach this share of the best score.
-const FINE_SHARE: f64 = 0.8;
-/// Poses closer than this are the same, metres and radians.
-const SAME_M: f64 = 0.4;
-const SAME_RAD: f64 = 0.35;
-/// Costs of a body inside a wall and of a free point inside a wall, in solid points.
-const BODY_COST: f64 = 2.0;
-const OPEN_COST: f64 = 0.7;
+/// Parameters of global localization. The figures come from experiments in simulated homes.
+struct SearchParameters {
+    /// Poses that are tried in one step: a millisecond on a desktop core.
+    positions_per_step: usize,
+    /// Directions that are tried.
+    directions: u32,
+    /// Most points on obstacles.
+    solid_max: usize,
+    /// Most points where the body was.
+    body_max: usize,
+    /// Most points that beams saw to be free.
+    open_max: usize,
+    /// Fewest points on obstacles for a search.
+    solid_min: usize,
+    /// Tolerance of the coarse search.
+    coarse: Tolerance,
+    /// A coarse candidate must reach this share of the highest possible score.
+    coarse_share_min: f64,
+    /// It must also reach this share of the best score so far.
+    coarse_of_best_min: f64,
+    /// Coarse candidates that are refined.
+    coarse_max: usize,
+    /// Solid points by which a pose may fall behind the required score before it is rejected.
+    slack: f64,
+    /// Tolerance of the refinement.
+    fine: Tolerance,
+    /// Refined candidates must reach this share of the best score.
+    fine_share_min: f64,
+    /// Candidates that are returned.
+    fine_max: usize,
+    /// Poses closer than this are the same, metres.
+    same_m: f64,
+    /// Poses with a smaller difference in heading than this are the same, radians.
+    same_rad: f64,
+    /// Cost of a body inside a wall, in solid points.
+    body_cost: f64,
+    /// Cost of a free point inside a wall, in solid points.
+    open_cost: f64,
+}
 
-/// Solid points by which a pose may fall behind the required score before it is rejected.
-const SLACK: f64 = 4.0;
+const PARAMETERS: SearchParameters = SearchParameters {
+    positions_per_step: 300,
+    directions: 72,
+    solid_max: 70,
+    body_max: 60,
+    open_max: 50,
+    solid_min: 12,
+    coarse: Tolerance {
+        floor_m: 0.14,
+        per_m: 0.05,
+    },
+    coarse_share_min: 0.45,
+    coarse_of_best_min: 0.75,
+    coarse_max: 48,
+    slack: 4.0,
+    fine: Tolerance {
+        floor_m: 0.05,
+        per_m: 0.02,
+    },
+    fine_share_min: 0.8,
+    fine_max: 8,
+    same_m: 0.4,
+    same_rad: 0.35,
+    body_cost: 2.0,
+    open_cost: 0.7,
+};
 
 /// Tolerance of a point: a constant, and a share of its distance from the robot, because directions are coarse and odometry bends.
 #[derive(Clone, Copy, Debug)]
@@ -46,15 +83,6 @@ struct Tolerance {
     floor_m: f64,
     per_m: f64,
 }
-
-const COARSE: Tolerance = Tolerance {
-    floor_m: 0.14,
-    per_m: 0.05,
-};
-const FINE: Tolerance = Tolerance {
-    floor_m: 0.05,
-    per_m: 0.02,
-};
 
 /// A point of the history relative to the robot.
 #[derive(Clone, Copy, Debug)]
@@ -91,15 +119,22 @@ pub(super) struct GlobalLocalizer {
     moved: Pose2,
 }
 
+/// The coarse search in one direction.
+#[derive(Clone, Debug)]
+struct CoarseSearch {
+    /// Number of the direction.
+    direction: u32,
+    /// The coarse points, turned to this direction.
+    turned: Vec<Probe>,
+    /// The next position to try.
+    position: usize,
+}
+
 /// The next work.
 #[derive(Clone, Debug)]
 enum SearchStage {
-    /// Tries this direction at the positions from this one on.
-    Coarse {
-        direction: u32,
-        turned: Vec<Probe>,
-        position: usize,
-    },
+    /// Tries one direction.
+    Coarse(CoarseSearch),
     /// Refines the candidates from this one on.
     Refine {
         next: usize,
@@ -110,19 +145,19 @@ enum SearchStage {
 impl GlobalLocalizer {
     /// For a robot of this radius; `None` when the history has too few points.
     pub(super) fn of(map: &impl Surroundings, history: &ScanHistory, radius_m: f64) -> Option<Self> {
-        let coarse = probes(history, COARSE);
+        let coarse = probes(history, PARAMETERS.coarse);
         let solid = coarse
             .iter()
             .filter(|probe| probe.kind == PointKind::Solid)
             .count();
-        (solid >= SOLID_MIN).then(|| Self {
-            fine: probes(history, FINE),
+        (solid >= PARAMETERS.solid_min).then(|| Self {
+            fine: probes(history, PARAMETERS.fine),
             solid,
             radius_m,
             positions: map.positions(),
             stage: coarse_stage(&coarse, 0),
             coarse,
-            least: COARSE_SHARE * solid as f64,
+            least: PARAMETERS.coarse_share_min * solid as f64,
             found: Vec::new(),
             rssi: None,
             moved: Pose2::IDENTITY,
@@ -155,11 +190,7 @@ impl GlobalLocalizer {
     /// Does a step.
     pub(super) fn go_on(&mut self, map: &impl Surroundings) {
         match core::mem::replace(&mut self.stage, SearchStage::Done) {
-            SearchStage::Coarse {
-                direction,
-                turned,
-                position,
-            } => self.stage = self.try_positions(map, direction, (turned, position)),
+            SearchStage::Coarse(search) => self.stage = self.try_positions(map, search),
             SearchStage::Refine { next } => {
                 if let Some(start) = self.found.get(next).map(|candidate| candidate.pose) {
                     let scoring = self.scoring(f64::NEG_INFINITY);
@@ -187,14 +218,18 @@ impl GlobalLocalizer {
     }
 
     /// Tries some more positions, and returns the next stage.
-    fn try_positions(
-        &mut self,
-        map: &impl Surroundings,
-        direction: u32,
-        (turned, position): (Vec<Probe>, usize),
-    ) -> SearchStage {
+    fn try_positions(&mut self, map: &impl Surroundings, search: CoarseSearch) -> SearchStage {
+        let CoarseSearch {
+            direction,
+            turned,
+            position,
+        } = search;
         let solid = self.solid as f64;
-        let tried = self.positions.iter().skip(position).take(POSITIONS_PER_STEP);
+        let tried = self
+            .positions
+            .iter()
+            .skip(position)
+            .take(PARAMETERS.positions_per_step);
         for position in tried {
             let scoring = self.scoring(self.least);
             let Some(score) = score(map, &turned, *position, scoring) else {
@@ -209,18 +244,18 @@ impl GlobalLocalizer {
             if score * solid < self.least {
                 continue;
             }
-            self.least = self.least.max(COARSE_OF_BEST * score * solid);
+            self.least = self.least.max(PARAMETERS.coarse_of_best_min * score * solid);
             self.found.push(PoseCandidate { pose, score });
         }
-        let position = position + POSITIONS_PER_STEP;
+        let position = position + PARAMETERS.positions_per_step;
         if position < self.positions.len() {
-            return SearchStage::Coarse {
+            return SearchStage::Coarse(CoarseSearch {
                 direction,
                 turned,
                 position,
-            };
+            });
         }
-        if direction + 1 < DIRECTIONS {
+        if direction + 1 < PARAMETERS.directions {
             return coarse_stage(&self.coarse, direction + 1);
         }
         best_first(&mut self.found);
@@ -230,23 +265,23 @@ impl GlobalLocalizer {
 }
 
 fn coarse_stage(coarse: &[Probe], direction: u32) -> SearchStage {
-    SearchStage::Coarse {
+    SearchStage::Coarse(CoarseSearch {
         direction,
         turned: turned(coarse, direction_rad(direction)),
         position: 0,
-    }
+    })
 }
 
 fn direction_rad(direction: u32) -> f64 {
-    normalize_rad(core::f64::consts::TAU * f64::from(direction) / f64::from(DIRECTIONS))
+    normalize_rad(core::f64::consts::TAU * f64::from(direction) / f64::from(PARAMETERS.directions))
 }
 
 fn probes(history: &ScanHistory, tolerance: Tolerance) -> Vec<Probe> {
     let mut probes = Vec::new();
     for (kind, most) in [
-        (PointKind::Solid, SOLID_MAX),
-        (PointKind::Body, BODY_MAX),
-        (PointKind::Open, OPEN_MAX),
+        (PointKind::Solid, PARAMETERS.solid_max),
+        (PointKind::Body, PARAMETERS.body_max),
+        (PointKind::Open, PARAMETERS.open_max),
     ] {
         probes.extend(history.points(kind, most).into_iter().map(|at| Probe {
             at,
@@ -289,7 +324,7 @@ fn thinned(found: Vec<PoseCandidate>) -> Vec<PoseCandidate> {
         if neighbours < 3 {
             kept.push(candidate);
         }
-        if kept.len() >= COARSE_MAX {
+        if kept.len() >= PARAMETERS.coarse_max {
             break;
         }
     }
@@ -297,8 +332,8 @@ fn thinned(found: Vec<PoseCandidate>) -> Vec<PoseCandidate> {
 }
 
 fn is_same_place(one: Pose2, other: Pose2) -> bool {
-    one.position().distance_m(other.position()) < SAME_M
-        && normalize_rad(one.heading_rad - other.heading_rad).abs() < SAME_RAD
+    one.position().distance_m(other.position()) < PARAMETERS.same_m
+        && normalize_rad(one.heading_rad - other.heading_rad).abs() < PARAMETERS.same_rad
 }
 
 fn best_first(candidates: &mut [PoseCandidate]) {
@@ -338,7 +373,7 @@ fn score(map: &impl Surroundings, probes: &[Probe], position: Point2, scoring: S
     } = scoring;
     let mut score = solid;
     let per_probe = (solid - least) / probes.len().max(1) as f64;
-    let mut allowed = SLACK;
+    let mut allowed = PARAMETERS.slack;
     for probe in probes {
         let clear_m = map.clearance_m(Point2 {
             x_m: position.x_m + probe.at.x_m,
@@ -346,8 +381,10 @@ fn score(map: &impl Surroundings, probes: &[Probe], position: Point2, scoring: S
         });
         score -= match probe.kind {
             PointKind::Solid => (clear_m.abs() / probe.tolerance_m).min(1.0),
-            PointKind::Body => BODY_COST * ((radius_m - clear_m) / probe.tolerance_m - 0.5).clamp(0.0, 1.0),
-            PointKind::Open => OPEN_COST * (-clear_m / probe.tolerance_m).clamp(0.0, 1.0),
+            PointKind::Body => {
+                PARAMETERS.body_cost * ((radius_m - clear_m) / probe.tolerance_m - 0.5).clamp(0.0, 1.0)
+            }
+            PointKind::Open => PARAMETERS.open_cost * (-clear_m / probe.tolerance_m).clamp(0.0, 1.0),
         };
         allowed += per_probe;
         if score + allowed < solid {
@@ -407,7 +444,10 @@ fn distinct(mut found: Vec<PoseCandidate>) -> Vec<PoseCandidate> {
     let mut kept: Vec<PoseCandidate> = Vec::new();
     for candidate in found {
         let is_new = !kept.iter().any(|other| is_same_place(other.pose, candidate.pose));
-        if is_new && candidate.score >= FINE_SHARE * best.score && kept.len() < FINE_MAX {
+        if is_new
+            && candidate.score >= PARAMETERS.fine_share_min * best.score
+            && kept.len() < PARAMETERS.fine_max
+        {
             kept.push(candidate);
         }
     }

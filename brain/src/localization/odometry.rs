@@ -115,6 +115,7 @@ impl Odometry {
             turn_rad: gyro_turn_rad.unwrap_or(wheel_turn_rad),
             wheel_turn_rad,
             gyro_turn_rad,
+            ..Advance::default()
         }
     }
 

@@ -9,16 +9,27 @@ use crate::model::config::ProximityLayout;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{Contacts, Observation};
 
-/// Distance that is remembered, metres: odometry bends a longer path too much.
-const HISTORY_M: f64 = 14.0;
-/// Distance between two samples, metres.
-const SAMPLE_M: f64 = 0.08;
-/// Turn between two samples, radians.
-const SAMPLE_RAD: f64 = 0.35;
-/// A beam without a reading is free up to this share of its range.
-const OPEN_SHARE: f64 = 0.75;
-/// Levels below this are no reading, 0..1.
-const LEVEL_MIN: f64 = 0.02;
+/// What is remembered of the last metres.
+struct HistoryParameters {
+    /// Distance that is remembered, metres: odometry bends a longer path too much.
+    length_m: f64,
+    /// Distance between two samples, metres.
+    sample_m: f64,
+    /// Turn between two samples, radians.
+    sample_rad: f64,
+    /// A beam without a reading is free up to this share of its range.
+    open_share: f64,
+    /// Levels below this are no reading, 0..1.
+    level_min: f64,
+}
+
+const PARAMETERS: HistoryParameters = HistoryParameters {
+    length_m: 14.0,
+    sample_m: 0.08,
+    sample_rad: 0.35,
+    open_share: 0.75,
+    level_min: 0.02,
+};
 
 /// Kind of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +91,9 @@ impl ScanHistory {
 
     /// Samples the sensors, as often as the robot has moved enough.
     pub(super) fn sample(&mut self, observation: &Observation, layout: &ProximityLayout) {
-        if self.distance_m - self.sampled_at_m < SAMPLE_M && self.turned_rad < SAMPLE_RAD {
+        if self.distance_m - self.sampled_at_m < PARAMETERS.sample_m
+            && self.turned_rad < PARAMETERS.sample_rad
+        {
             return;
         }
         self.sampled_at_m = self.distance_m;
@@ -90,8 +103,8 @@ impl ScanHistory {
             let level = f64::from(*level);
             let (distance_m, kind) = match layout.response.distance_m(level) {
                 Some(distance_m) => (distance_m, PointKind::Solid),
-                None if level > LEVEL_MIN => continue,
-                None => (OPEN_SHARE * layout.response.range_m, PointKind::Open),
+                None if level > PARAMETERS.level_min => continue,
+                None => (PARAMETERS.open_share * layout.response.range_m, PointKind::Open),
             };
             let at = sensor.transform(Point2 {
                 x_m: distance_m,
@@ -102,7 +115,7 @@ impl ScanHistory {
         while self
             .points
             .front()
-            .is_some_and(|oldest| self.distance_m - oldest.distance_m > HISTORY_M)
+            .is_some_and(|oldest| self.distance_m - oldest.distance_m > PARAMETERS.length_m)
         {
             self.points.pop_front();
         }
@@ -120,7 +133,7 @@ impl ScanHistory {
         while self
             .received
             .front()
-            .is_some_and(|oldest| distance_m - oldest.distance_m > HISTORY_M)
+            .is_some_and(|oldest| distance_m - oldest.distance_m > PARAMETERS.length_m)
         {
             self.received.pop_front();
         }

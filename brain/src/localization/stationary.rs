@@ -2,17 +2,28 @@
 
 use super::totals::Totals;
 
-/// The robot still swings for so long after the last encoder count, seconds.
-const SETTLE_S: f64 = 0.3;
-/// Shortest interval that is used, without the swinging, seconds.
-const REST_MIN_S: f64 = 0.3;
-/// Longest interval of one measurement, seconds.
-const REST_MAX_S: f64 = 2.0;
-/// A faster turn with resting wheels is a person who turns the robot, or a bump, radians per second.
-const CARRIED_RAD_PER_S: f64 = 0.03;
-/// Resolution of the reported heading, a hundredth of a degree, in radians. Two reports in quick succession may differ by one step.
-/// Counted as a turn, that would be degrees an hour on the dock.
-const STEP_RAD: f64 = 1.8e-4;
+/// When a robot counts as resting.
+struct RestParameters {
+    /// The robot still swings for so long after the last encoder count, seconds.
+    settle_s: f64,
+    /// Shortest interval that is used, without the swinging, seconds.
+    interval_min_s: f64,
+    /// Longest interval of one measurement, seconds.
+    interval_max_s: f64,
+    /// A faster turn with resting wheels is a person who turns the robot, or a bump, radians per second.
+    carried_rad_per_s: f64,
+    /// Resolution of the reported heading, a hundredth of a degree, in radians. Two reports in quick succession may differ by one
+    /// step. Counted as a turn, that would be degrees an hour on the dock.
+    resolution_rad: f64,
+}
+
+const PARAMETERS: RestParameters = RestParameters {
+    settle_s: 0.3,
+    interval_min_s: 0.3,
+    interval_max_s: 2.0,
+    carried_rad_per_s: 0.03,
+    resolution_rad: 1.8e-4,
+};
 
 /// Detects intervals at rest.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,10 +53,10 @@ fn seconds(from_us: u64, to: Totals) -> f64 {
 impl StationaryDetector {
     /// Whether the wheels have been at rest for longer than the swinging, and nobody turns the robot.
     pub(super) fn is_stationary(&self, now: Totals, seen_rad: f64, time_s: f64) -> bool {
-        let rests = self
-            .rest
-            .is_some_and(|rest| rest.since.wheels_agree_with(now) && seconds(rest.began_us, now) > SETTLE_S);
-        rests && seen_rad.abs() <= CARRIED_RAD_PER_S * time_s + STEP_RAD
+        let rests = self.rest.is_some_and(|rest| {
+            rest.since.wheels_agree_with(now) && seconds(rest.began_us, now) > PARAMETERS.settle_s
+        });
+        rests && seen_rad.abs() <= PARAMETERS.carried_rad_per_s * time_s + PARAMETERS.resolution_rad
     }
 
     /// Takes the totals of an observation. Returns the interval that ends here.
@@ -57,8 +68,8 @@ impl StationaryDetector {
             });
             return None;
         };
-        let settled = seconds(rest.began_us, now) > SETTLE_S;
-        let is_long = seconds(rest.since.time_us, now) >= REST_MAX_S;
+        let settled = seconds(rest.began_us, now) > PARAMETERS.settle_s;
+        let is_long = seconds(rest.since.time_us, now) >= PARAMETERS.interval_max_s;
         if !settled || is_long {
             self.rest = Some(Rest { since: now, ..rest });
         }
@@ -80,7 +91,7 @@ fn rested(since: Totals, now: Totals) -> Option<StationaryInterval> {
     let time_s = seconds(since.time_us, now);
     let rad_per_s = (now.gyro_rad? - since.gyro_rad?) / time_s;
     // Written so that NaN is not used.
-    let is_usable = time_s >= REST_MIN_S && rad_per_s.abs() <= CARRIED_RAD_PER_S;
+    let is_usable = time_s >= PARAMETERS.interval_min_s && rad_per_s.abs() <= PARAMETERS.carried_rad_per_s;
     is_usable.then_some(StationaryInterval { rad_per_s, time_s })
 }
 

@@ -20,23 +20,38 @@ use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
 use crate::model::gradual::{Gradual, StepBudget};
 use crate::model::observation::Observation;
+use crate::model::onsets::OnsetDetector;
 
-/// Distance for which a hypothesis must explain the observations, metres,
-const PROVEN_M: f64 = 6.0;
-/// informative beams on it,
-const PROVEN_BEAMS: u32 = 150;
-/// and the share of them that must be consistent with its map.
-const PROVEN_SHARE: f64 = 0.8;
-/// The last metres must match the winner's map with this score,
-const WINNER_SCORE: f64 = 0.6;
-/// and the maps of the others with at most this share of it.
-const OTHERS_SHARE: f64 = 0.85;
-/// Distance after an inconclusive second look until the next one, metres.
-const LOOK_AGAIN_M: f64 = 6.0;
-/// After this distance without a winner the robot asks a person, metres. The search continues
-const ASK_AFTER_M: f64 = 40.0;
-/// up to this distance, metres.
-const GIVE_UP_M: f64 = 120.0;
+/// When a storey counts as found. A hypothesis is one storey's map with the robot in it.
+struct FinderParameters {
+    /// Distance for which a hypothesis must explain the observations, metres.
+    proven_m: f64,
+    /// Informative beams that it needs over this distance.
+    proven_beams_min: u32,
+    /// Share of these that must be consistent with its map.
+    proven_share_min: f64,
+    /// The last metres must match the winner's map with this score.
+    winner_score_min: f64,
+    /// They may match the maps of the others with at most this share of it.
+    others_share_max: f64,
+    /// Distance after an inconclusive second look until the next one, metres.
+    look_again_m: f64,
+    /// After this distance without a winner the robot asks a person and continues to search, metres.
+    ask_after_m: f64,
+    /// After this distance it gives up, metres.
+    give_up_m: f64,
+}
+
+const PARAMETERS: FinderParameters = FinderParameters {
+    proven_m: 6.0,
+    proven_beams_min: 150,
+    proven_share_min: 0.8,
+    winner_score_min: 0.6,
+    others_share_max: 0.85,
+    look_again_m: 6.0,
+    ask_after_m: 40.0,
+    give_up_m: 120.0,
+};
 
 /// Result of the search.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +79,7 @@ pub struct StoreyPose {
 #[derive(Debug)]
 pub struct StoreyFinder {
     odometry: Odometry,
+    onsets: OnsetDetector,
     config: BrainConfig,
     seed: u64,
     /// Storeys whose maps are still loading, the last one first.
@@ -108,6 +124,7 @@ impl StoreyFinder {
         };
         Self {
             odometry: Odometry::new(config.body.track_m, rim_max_m_per_s),
+            onsets: OnsetDetector::default(),
             config: *config,
             seed,
             loading: floors.map(ready).collect(),
@@ -123,8 +140,11 @@ impl StoreyFinder {
 
     /// Takes an observation.
     pub fn follow(&mut self, observation: &Observation) -> StoreyFinding {
-        let advance = self.odometry.update(observation);
-        if !self.can_see || self.distance_m > GIVE_UP_M {
+        let advance = Advance {
+            onsets: self.onsets.take(observation),
+            ..self.odometry.update(observation)
+        };
+        if !self.can_see || self.distance_m > PARAMETERS.give_up_m {
             return StoreyFinding::Unclear;
         }
         self.load_maps();
@@ -138,7 +158,7 @@ impl StoreyFinder {
         }
         match self.judge(advance) {
             Some(place) => StoreyFinding::Found(place),
-            None if self.distance_m > ASK_AFTER_M => StoreyFinding::Unclear,
+            None if self.distance_m > PARAMETERS.ask_after_m => StoreyFinding::Unclear,
             None => StoreyFinding::Open,
         }
     }
@@ -170,7 +190,7 @@ impl StoreyFinder {
         }
         let all: Vec<Vec<PoseCandidate>> = looks.iter().filter_map(GlobalLocalizer::candidates).collect();
         self.second_look = None;
-        self.looks_from_m = self.distance_m + LOOK_AGAIN_M;
+        self.looks_from_m = self.distance_m + PARAMETERS.look_again_m;
         let winner = self.hypotheses.get(proven)?;
         let place = is_clear(&all, proven, winner.tracker.estimate().pose).then(|| self.place_on(winner));
         self.winner = place.map(|_| proven);
@@ -237,9 +257,9 @@ impl StoreyHypothesis {
 
     fn is_proven(&self) -> bool {
         let score = self.tracker.since_found();
-        self.proven_m >= PROVEN_M
-            && score.informative >= PROVEN_BEAMS
-            && f64::from(score.consistent) >= PROVEN_SHARE * f64::from(score.informative)
+        self.proven_m >= PARAMETERS.proven_m
+            && score.informative >= PARAMETERS.proven_beams_min
+            && f64::from(score.consistent) >= PARAMETERS.proven_share_min * f64::from(score.informative)
     }
 
     fn second_look(&self) -> Option<GlobalLocalizer> {
@@ -255,8 +275,8 @@ fn is_clear(all: &[Vec<PoseCandidate>], winner: usize, pose: Pose2) -> bool {
     };
     let others = all.iter().enumerate().filter(|(place, _)| *place != winner);
     is_alone(own, pose)
-        && best(own) >= WINNER_SCORE
+        && best(own) >= PARAMETERS.winner_score_min
         && others
             .into_iter()
-            .all(|(_, candidates)| best(candidates) <= OTHERS_SHARE * best(own))
+            .all(|(_, candidates)| best(candidates) <= PARAMETERS.others_share_max * best(own))
 }

@@ -4,11 +4,14 @@
 //! over all free floor. It is *found* when one cluster of particles remains that the map explains.
 
 mod drift_check;
+mod parameters;
+
+use parameters::{SEARCH, TRACKING};
 
 use super::beacons::LocatedRange;
 use super::candidates::{is_alone, is_among, near_if_as_good};
 use super::confidence::{Confidence, Verdict};
-use super::drift::{WHEEL_TURN_SCALE, turn_variance};
+use super::drift::{ODOMETRY_NOISE, turn_variance};
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::lift::Lift;
@@ -25,51 +28,12 @@ use std::sync::Arc;
 
 use crate::model::config::SensorLayout;
 use crate::model::geometry::{Point2, Pose2};
-use crate::model::observation::{Cliffs, Contacts, Observation};
+use crate::model::observation::Observation;
+use crate::model::onsets::Onsets;
 
 /// With fewer proximity sensors than this a robot with odometry cannot keep its pose in a map: in experiments it was metres off
 /// within minutes.
 pub(super) const SENSORS_MIN: usize = 3;
-/// The filter is weighed after this distance, metres, or this turn, radians. More often gives no new information.
-const WEIGH_M: f64 = 0.05;
-const WEIGH_RAD: f64 = 0.15;
-/// A wrong scale has the same effect in all weighings of a turn. Particles draw independent errors, so theirs must be larger by
-/// this factor.
-const CORRELATED: f64 = 3.0;
-/// Distance between the place where people lift the robot and the place where they put it back.
-const CARRIED_SPREAD: PoseSpread = PoseSpread {
-    sigma_m: 0.3,
-    sigma_rad: 0.5,
-};
-/// Spread of the particles of a doubtful robot: the error of walls in a map that a robot has drawn. With 0.15 m and 0.12 rad a
-/// robot jumped to other furniture when it touched a leg that the map does not have.
-const DOUBT_SPREAD: PoseSpread = PoseSpread {
-    sigma_m: 0.04,
-    sigma_rad: 0.03,
-};
-/// The same for a hypothesis that competes with other storeys. It must not become sure too soon.
-const COMPETITOR_SPREAD: PoseSpread = PoseSpread {
-    sigma_m: 0.15,
-    sigma_rad: 0.12,
-};
-/// Weighings between two such spreads.
-const DOUBT_WEIGHINGS: u32 = 40;
-/// A lost robot is found when this share of its particles is in a cluster this narrow.
-const FOUND_SHARE: f64 = 0.9;
-const FOUND_SIGMA_M: f64 = 0.2;
-/// A robot with a larger spread than this is lost, metres.
-const LOST_SIGMA_M: f64 = 0.8;
-/// Global localization starts when the history has this length, metres, and again after so many more metres.
-const SEARCH_FROM_M: f64 = 4.0;
-const SEARCH_EVERY_M: f64 = 2.5;
-/// The same with RSSI fingerprints, which exclude most of the poses that a few metres leave open.
-const RSSI_SEARCH_FROM_M: f64 = 2.5;
-const RSSI_SEARCH_EVERY_M: f64 = 1.5;
-/// Spread of the particles around a candidate pose.
-const CANDIDATE_SPREAD: PoseSpread = PoseSpread {
-    sigma_m: 0.06,
-    sigma_rad: 0.03,
-};
 /// Number of informative beams after which a found pose counts as confirmed. Until then it must not lie in unknown space: global
 /// localization searches known space only, and a wrong pose leads out of it soon.
 pub(super) const CONFIRMATION_BEAMS: u32 = 200;
@@ -104,8 +68,6 @@ pub(super) struct Tracker {
     filter: ParticleFilter,
     pending: MotionDelta,
     pending_turn_rad: f64,
-    contacts_before: Contacts,
-    cliffs_before: Cliffs,
     lift: Lift,
     confidence: Confidence,
     lost: bool,
@@ -141,8 +103,6 @@ impl Tracker {
             filter: ParticleFilter::new(radius_m, layout, seed),
             pending: MotionDelta::default(),
             pending_turn_rad: 0.0,
-            contacts_before: Contacts::default(),
-            cliffs_before: Cliffs::default(),
             lift: Lift::default(),
             confidence: Confidence::default(),
             lost: false,
@@ -206,10 +166,10 @@ impl Tracker {
 
     /// The robot may be anywhere. Until global localization finds it, the particles stay around `pose`.
     pub(super) fn lose(&mut self, pose: Pose2) {
-        self.filter.gather(pose, CARRIED_SPREAD);
+        self.filter.gather(pose, TRACKING.carried);
         self.forget_motion();
         self.confidence = Confidence::none();
-        self.search_in_m = (SEARCH_FROM_M - self.history.length_m()).max(0.0);
+        self.search_in_m = (SEARCH.from_m - self.history.length_m()).max(0.0);
         self.global_localizer = None;
         self.since_found = BeamScore::default();
         self.lost = true;
@@ -243,7 +203,7 @@ impl Tracker {
             self.fingerprints = None;
         } else if self.fingerprints.is_none() && !fingerprints.is_empty() {
             self.fingerprints = Some(fingerprints.map());
-            let from_m = (RSSI_SEARCH_FROM_M - self.history.length_m()).max(0.0);
+            let from_m = (SEARCH.rssi_from_m - self.history.length_m()).max(0.0);
             self.search_in_m = self.search_in_m.min(from_m);
         }
     }
@@ -289,7 +249,11 @@ impl Tracker {
         if let Some(search) = &mut self.global_localizer {
             search.follow(advance);
         }
-        let (contacts, edges) = self.new_contacts(observation);
+        let Onsets {
+            contacts,
+            cliffs: edges,
+            ..
+        } = advance.onsets;
         self.lift.update(observation, advance);
         if self.lift.is_put_down() {
             self.history.forget();
@@ -298,8 +262,8 @@ impl Tracker {
         }
         self.history.sample(observation, &self.layout.proximity);
         self.history.touch(contacts, self.radius_m);
-        let due = self.pending.distance_m >= WEIGH_M
-            || self.pending_turn_rad >= WEIGH_RAD
+        let due = self.pending.distance_m >= TRACKING.weigh_m
+            || self.pending_turn_rad >= TRACKING.weigh_rad
             || contacts.any()
             || edges.any();
         if !due || observation.wheel_drop {
@@ -307,12 +271,12 @@ impl Tracker {
         }
         let mode = self.mode();
         let scale_sigma = match (advance.gyro_turn_rad, mode) {
-            (None, _) => Some(WHEEL_TURN_SCALE),
+            (None, _) => Some(ODOMETRY_NOISE.wheel_turn_scale),
             (Some(_), FilterMode::Searching) => Some(moved.gyro.scale_sigma),
             (Some(_), FilterMode::Holding) => None,
         };
         if let Some(scale_sigma) = scale_sigma {
-            let scale_rad = CORRELATED * scale_sigma * self.pending_turn_rad;
+            let scale_rad = TRACKING.correlated_scale * scale_sigma * self.pending_turn_rad;
             self.pending.turn_variance += scale_rad * scale_rad;
         }
         self.filter.set_mode(mode);
@@ -359,18 +323,18 @@ impl Tracker {
             self.confidence.take(score);
         }
         let verdict = self.confidence.verdict();
-        if estimate.sigma_m > LOST_SIGMA_M {
+        if estimate.sigma_m > TRACKING.lost_sigma_m {
             self.lose_by_drift(estimate.pose);
         } else if verdict == Verdict::Wrong {
             self.doubt(map, estimate.pose);
         } else {
             // The doubt is over, so a search that it started is obsolete.
             self.global_localizer = None;
-            if verdict == Verdict::Doubtful && self.weighings > DOUBT_WEIGHINGS {
+            if verdict == Verdict::Doubtful && self.weighings > TRACKING.doubt_weighings {
                 let doubt = if self.competes {
-                    COMPETITOR_SPREAD
+                    TRACKING.competitor_doubt
                 } else {
-                    DOUBT_SPREAD
+                    TRACKING.doubt
                 };
                 self.filter.widen(estimate.pose, doubt);
                 self.weighings = 0;
@@ -386,11 +350,11 @@ impl Tracker {
     fn search(&mut self, map: &impl Surroundings, carried: Pose2) -> PoseEstimate {
         let (estimate, share) = self.filter.cluster();
         self.confidence.take(self.filter.score(map, estimate.pose));
-        let gathered = share >= FOUND_SHARE && estimate.sigma_m <= FOUND_SIGMA_M;
+        let gathered = share >= TRACKING.found_share && estimate.sigma_m <= TRACKING.found_sigma_m;
         if self.global_localizer.is_none() && self.search_in_m <= 0.0 {
             self.search_in_m = match self.fingerprints {
-                Some(_) => RSSI_SEARCH_EVERY_M,
-                None => SEARCH_EVERY_M,
+                Some(_) => SEARCH.rssi_every_m,
+                None => SEARCH.every_m,
             };
             let matcher = self.fingerprints.clone();
             let matcher = matcher.map(|map| FingerprintMatcher::new(self.history.received(), map));
@@ -427,7 +391,7 @@ impl Tracker {
             return;
         }
         let poses: Vec<Pose2> = candidates.iter().map(|candidate| candidate.pose).collect();
-        self.filter.scatter(&poses, CANDIDATE_SPREAD);
+        self.filter.scatter(&poses, TRACKING.candidate);
         self.confidence = Confidence::none();
     }
 
@@ -436,23 +400,6 @@ impl Tracker {
             lost: self.lost,
             ..self.filter.estimate()
         }
-    }
-
-    /// Contacts and cliffs that begin now.
-    fn new_contacts(&mut self, observation: &Observation) -> (Contacts, Cliffs) {
-        let (contacts, cliffs) = (observation.contacts, observation.cliffs);
-        let first_contacts = if self.contacts_before.any() {
-            Contacts::default()
-        } else {
-            contacts
-        };
-        let first_cliffs = Cliffs {
-            left: cliffs.left && !self.cliffs_before.left,
-            middle: cliffs.middle && !self.cliffs_before.middle,
-            right: cliffs.right && !self.cliffs_before.right,
-        };
-        (self.contacts_before, self.cliffs_before) = (contacts, cliffs);
-        (first_contacts, first_cliffs)
     }
 
     fn collect(&mut self, advance: Advance, gyro: GyroEstimate) {

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 
 use super::cell::{CELL_M, Cell, index};
-use super::tile_grid::{Located, TILE_CELLS, TileGrid, first_cell, locate};
+use super::tile_grid::{Located, TILE_CELLS, TileGrid, TileKey, first_cell, locate};
 use crate::model::geometry::{Point2, Pose2};
 
 /// Most tiles of one map: 10,000 square metres. Cells beyond are not stored.
@@ -135,15 +135,15 @@ impl CoverageGrid {
 
     /// All swept cells as runs, in the order of their rows.
     pub(super) fn runs(&self) -> Vec<SweptRun> {
-        let mut rows: BTreeMap<i32, Vec<(i32, &CoverageTile)>> = BTreeMap::new();
-        for ((column, row), tile) in self.tiles.iter() {
-            rows.entry(row).or_default().push((column, tile));
+        let mut rows: BTreeMap<i32, Vec<(TileKey, &CoverageTile)>> = BTreeMap::new();
+        for (key, tile) in self.tiles.iter() {
+            rows.entry(key.row).or_default().push((key, tile));
         }
         let mut runs = Vec::new();
-        for (tile_row, tiles) in rows {
+        for tiles in rows.values() {
             for row in 0..TILE_CELLS {
-                for (column, tile) in &tiles {
-                    let low = first_cell((*column, tile_row));
+                for (key, tile) in tiles {
+                    let low = first_cell(*key);
                     let start = Cell {
                         y: low.y + row,
                         ..low

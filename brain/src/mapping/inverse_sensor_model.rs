@@ -1,52 +1,14 @@
 //! The inverse sensor model: turns sightings into evidence for cells.
 
+mod parameters;
+
+use parameters::{CONTACT, OCCUPANCY, SURFACE};
+
 use super::occupancy_grid::{Evidence, Flag, OccupancyGrid};
 use super::sighting::Sighting;
 use super::{CELL_M, Cell};
 use crate::model::config::{Body, SensorLayout};
 use crate::model::geometry::{Point2, Pose2};
-
-/// Occupancy step of a cell under the body: few sightings outweigh all earlier infrared.
-const BODY_STEP: i8 = -30;
-/// Occupancy step of a cell that a beam passes.
-const PASSED_STEP: i8 = -3;
-/// Occupancy step along a beam that sees nothing: dark things are invisible at the end of the range.
-const NOTHING_STEP: i8 = -1;
-/// A beam that sees nothing counts for this share of its range.
-const NOTHING_SHARE: f64 = 0.6;
-/// Occupancy step of an obstacle that touches the rim; half of it at [`HIT_HALF_M`] beyond the rim.
-const HIT_STEP: f64 = 30.0;
-/// As [`HIT_STEP`]. The error of a distance grows with it, because the albedo of a wall is unknown. The evidence falls with the
-/// square of the error; otherwise distant readings would build a crooked front before the wall.
-const HIT_HALF_M: f64 = 0.07;
-/// Limit of occupancy in both directions.
-const OCCUPANCY_MAX: i8 = 100;
-/// Levels below this are noise.
-const LEVEL_MIN: f64 = 0.045;
-/// A beam may meet the obstacle this far before the measured distance, metres: rounding to cells. A rim of cells that is never
-/// seen as free keeps the robot off its walls.
-const MARGIN_M: f64 = CELL_M;
-/// Evidence of a contact that infrared locates on the bumper.
-const CONTACT_LOCATED: u8 = 4;
-/// Evidence of a contact on a short arc of the bumper, up to [`SHORT_ARC_M`].
-const CONTACT_NARROW: u8 = 2;
-/// Evidence of a contact anywhere on half of the bumper. Most of these cells are free, so a cell needs two such contacts.
-const CONTACT_VAGUE: u8 = 1;
-/// Longest arc of the bumper that locates a contact, metres.
-const SHORT_ARC_M: f64 = 0.08;
-/// Limit of contact and cliff evidence.
-const COUNT_MAX: u8 = 8;
-/// A sensor locates contacts within this angle, radians: half of the angle between two sensors.
-const CONTACT_SPREAD_RAD: f64 = 0.26;
-/// Least level of a sensor that sees the touched thing.
-const CONTACT_LEVEL: f64 = 0.35;
-/// The motor load comes from the floor under most of the brush. This share in its middle gets most evidence. Its ends get less
-/// evidence than the middle of the next lane gives.
-const SURFACE_INNER: f64 = 0.5;
-const SURFACE_INNER_STEP: i8 = 6;
-const SURFACE_OUTER_STEP: i8 = 2;
-/// Most by which the body is drawn smaller than it is, metres.
-const SHRINK_MAX_M: f64 = CELL_M;
 
 /// The level of one proximity sensor.
 #[derive(Clone, Copy)]
@@ -101,10 +63,10 @@ impl InverseSensorModel {
                 continue;
             }
             last = Some(cell);
-            let weight = if share.abs() <= SURFACE_INNER {
-                SURFACE_INNER_STEP
+            let weight = if share.abs() <= SURFACE.inner_share {
+                SURFACE.inner_step
             } else {
-                SURFACE_OUTER_STEP
+                SURFACE.outer_step
             };
             grid.change(cell, |evidence| evidence.add_surface(observed.kind, weight));
         }
@@ -113,7 +75,7 @@ impl InverseSensorModel {
     /// Under the body is no obstacle. Contacts are newer evidence than this, so they are drawn after it.
     fn draw_body(&self, sighting: &Sighting, grid: &mut OccupancyGrid) {
         let sigma_m = 0.01 * f64::from(sighting.sigma_cm);
-        let radius_m = self.body.radius_m - sigma_m.clamp(0.5 * CELL_M, SHRINK_MAX_M);
+        let radius_m = self.body.radius_m - sigma_m.clamp(0.5 * CELL_M, OCCUPANCY.shrink_max_m);
         let centre = sighting.pose.position();
         let (low, high) = (centre.y_m - radius_m, centre.y_m + radius_m);
         for y in row_of(low)..=row_of(high) {
@@ -123,8 +85,8 @@ impl InverseSensorModel {
             let last = libm::floor((centre.x_m + half_m) / CELL_M - 0.5) as i32;
             for x in first..=last {
                 grid.change(Cell { x, y }, |evidence| {
-                    add_occupancy(evidence, BODY_STEP);
-                    evidence.contact = evidence.contact.saturating_sub(CONTACT_LOCATED);
+                    add_occupancy(evidence, OCCUPANCY.body_step);
+                    evidence.contact = evidence.contact.saturating_sub(CONTACT.located);
                     evidence.set(Flag::Body);
                     note_sigma(evidence, sighting);
                 });
@@ -136,14 +98,14 @@ impl InverseSensorModel {
         let response = self.sensors.proximity.response;
         let beam = sighting.pose * reading.sensor;
         let level = f64::from(reading.level) / 255.0;
-        let hit_m = if level < LEVEL_MIN {
+        let hit_m = if level < OCCUPANCY.level_min {
             None
         } else {
             response.distance_m(level)
         };
         let (clear_m, step) = match hit_m {
-            Some(hit_m) => (hit_m - MARGIN_M, PASSED_STEP),
-            None => (NOTHING_SHARE * response.range_m, NOTHING_STEP),
+            Some(hit_m) => (hit_m - OCCUPANCY.margin_m, OCCUPANCY.passed_step),
+            None => (OCCUPANCY.nothing_share * response.range_m, OCCUPANCY.nothing_step),
         };
         walk(beam, response.skin_m, clear_m, |cell| {
             grid.change(cell, |evidence| {
@@ -153,8 +115,8 @@ impl InverseSensorModel {
         });
         let Some(hit_m) = hit_m else { return };
         let beyond_m = (hit_m - response.skin_m).max(0.0);
-        let beyond = beyond_m / HIT_HALF_M;
-        let strength = (HIT_STEP / (1.0 + beyond * beyond)) as i8;
+        let beyond = beyond_m / OCCUPANCY.hit_half_m;
+        let strength = (OCCUPANCY.hit_step / (1.0 + beyond * beyond)) as i8;
         // The surface lies before the centre of its cell.
         let behind_m = hit_m + 0.5 * CELL_M;
         let reach_m = behind_m * libm::tan(response.half_angle_rad);
@@ -187,15 +149,15 @@ impl InverseSensorModel {
         let (arc, evidence) = match self.brightest_within(sighting, pressed) {
             Some(at_rad) => {
                 let seen = BumperArc {
-                    from_rad: (at_rad - CONTACT_SPREAD_RAD).max(pressed.from_rad),
-                    to_rad: (at_rad + CONTACT_SPREAD_RAD).min(pressed.to_rad),
+                    from_rad: (at_rad - CONTACT.spread_rad).max(pressed.from_rad),
+                    to_rad: (at_rad + CONTACT.spread_rad).min(pressed.to_rad),
                 };
-                (seen, CONTACT_LOCATED)
+                (seen, CONTACT.located)
             }
-            None if (pressed.to_rad - pressed.from_rad) * self.body.radius_m <= SHORT_ARC_M => {
-                (pressed, CONTACT_NARROW)
+            None if (pressed.to_rad - pressed.from_rad) * self.body.radius_m <= CONTACT.short_arc_m => {
+                (pressed, CONTACT.narrow)
             }
-            None => (pressed, CONTACT_VAGUE),
+            None => (pressed, CONTACT.vague),
         };
         let BumperArc { from_rad, to_rad } = arc;
         let radius_m = self.body.radius_m + 0.5 * CELL_M;
@@ -213,7 +175,7 @@ impl InverseSensorModel {
             }
             last = Some(cell);
             grid.change(cell, |gathered| {
-                gathered.contact = gathered.contact.saturating_add(evidence).min(COUNT_MAX);
+                gathered.contact = gathered.contact.saturating_add(evidence).min(CONTACT.limit);
                 note_sigma(gathered, sighting);
             });
         }
@@ -238,8 +200,8 @@ impl InverseSensorModel {
             let bearing_rad = libm::atan2(sensor.y_m, sensor.x_m);
             let level = f64::from(level) / 255.0;
             let within =
-                (arc.from_rad - CONTACT_SPREAD_RAD..=arc.to_rad + CONTACT_SPREAD_RAD).contains(&bearing_rad);
-            if within && level >= CONTACT_LEVEL && best.is_none_or(|(brightest, _)| level > brightest) {
+                (arc.from_rad - CONTACT.spread_rad..=arc.to_rad + CONTACT.spread_rad).contains(&bearing_rad);
+            if within && level >= CONTACT.level_min && best.is_none_or(|(brightest, _)| level > brightest) {
                 best = Some((level, bearing_rad));
             }
         }
@@ -252,7 +214,7 @@ impl InverseSensorModel {
             let cell = Cell::under(sighting.pose.transform(*place));
             grid.change(cell, |evidence| {
                 evidence.cliff = if gone {
-                    (evidence.cliff + CONTACT_LOCATED).min(COUNT_MAX)
+                    (evidence.cliff + CONTACT.located).min(CONTACT.limit)
                 } else {
                     evidence.cliff.saturating_sub(1)
                 };
@@ -270,7 +232,7 @@ fn add_occupancy(evidence: &mut Evidence, step: i8) {
     evidence.occupancy = evidence
         .occupancy
         .saturating_add(step)
-        .clamp(-OCCUPANCY_MAX, OCCUPANCY_MAX);
+        .clamp(-OCCUPANCY.limit, OCCUPANCY.limit);
 }
 
 /// Keeps the smallest uncertainty of the pose.

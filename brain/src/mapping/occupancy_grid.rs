@@ -62,14 +62,24 @@ pub(super) enum Flag {
     Pocket = 8,
 }
 
-/// Least occupancy of an occupied cell.
-const OCCUPIED_MIN: i8 = 12;
-/// Largest occupancy of a free cell.
-const FREE_MAX: i8 = -4;
-/// Least contact evidence of an occupied cell.
-const CONTACT_MIN: u8 = 2;
-/// Least evidence of a cliff.
-const CLIFF_MIN: u8 = 2;
+/// Evidence from which a cell counts as known.
+struct EvidenceThresholds {
+    /// Least occupancy of an occupied cell.
+    occupied_min: i8,
+    /// Largest occupancy of a free cell.
+    free_max: i8,
+    /// Least contact evidence of an occupied cell.
+    contact_min: u8,
+    /// Least evidence of a cliff.
+    cliff_min: u8,
+}
+
+const THRESHOLDS: EvidenceThresholds = EvidenceThresholds {
+    occupied_min: 12,
+    free_max: -4,
+    contact_min: 2,
+    cliff_min: 2,
+};
 
 /// Least evidence of carpet; its negative is that of hard floor. One pass of the outer brush reaches it.
 const SURFACE_MIN: i8 = 3;
@@ -111,11 +121,11 @@ impl Evidence {
     pub(super) fn knowledge(self) -> CellKnowledge {
         if self.has(Flag::NoGo) || self.has(Flag::Pocket) {
             CellKnowledge::NoGo
-        } else if self.cliff >= CLIFF_MIN {
+        } else if self.cliff >= THRESHOLDS.cliff_min {
             CellKnowledge::Cliff
-        } else if self.occupancy >= OCCUPIED_MIN || self.contact >= CONTACT_MIN {
+        } else if self.occupancy >= THRESHOLDS.occupied_min || self.contact >= THRESHOLDS.contact_min {
             CellKnowledge::Occupied
-        } else if self.has(Flag::Body) || self.occupancy <= FREE_MAX {
+        } else if self.has(Flag::Body) || self.occupancy <= THRESHOLDS.free_max {
             CellKnowledge::Free
         } else {
             CellKnowledge::Unknown
@@ -125,7 +135,7 @@ impl Evidence {
 
 /// Whether the obstacle is known from contacts alone.
 pub(super) fn is_touched_only(evidence: Evidence) -> bool {
-    evidence.contact >= CONTACT_MIN && evidence.occupancy < OCCUPIED_MIN
+    evidence.contact >= THRESHOLDS.contact_min && evidence.occupancy < THRESHOLDS.occupied_min
 }
 
 /// Cells from `low` to `high`, both included.
@@ -317,14 +327,20 @@ impl OccupancyGrid {
 
 /// Lowest and highest key with a new tile; `None` when it is too far away.
 fn grown(keys: Option<(TileKey, TileKey)>, key: TileKey) -> Option<(TileKey, TileKey)> {
-    if key.0.abs() > KEY_MAX || key.1.abs() > KEY_MAX {
+    if key.column.abs() > KEY_MAX || key.row.abs() > KEY_MAX {
         return None;
     }
     let (low, high) = keys.unwrap_or((key, key));
-    let low = (low.0.min(key.0), low.1.min(key.1));
-    let high = (high.0.max(key.0), high.1.max(key.1));
-    let columns = i64::from(high.0) - i64::from(low.0) + 1;
-    let rows = i64::from(high.1) - i64::from(low.1) + 1;
+    let low = TileKey {
+        column: low.column.min(key.column),
+        row: low.row.min(key.row),
+    };
+    let high = TileKey {
+        column: high.column.max(key.column),
+        row: high.row.max(key.row),
+    };
+    let columns = i64::from(high.column) - i64::from(low.column) + 1;
+    let rows = i64::from(high.row) - i64::from(low.row) + 1;
     (columns.saturating_mul(rows) <= TILES_MAX).then_some((low, high))
 }
 

@@ -189,8 +189,8 @@ mod tests {
         Point2 { x_m, y_m }
     }
 
-    fn line(from: (f64, f64), to: (f64, f64)) -> CutLine {
-        CutLine::new(at(from.0, from.1), at(to.0, to.1)).unwrap()
+    fn line(from: Point2, to: Point2) -> CutLine {
+        CutLine::new(from, to).unwrap()
     }
 
     /// Room 1 of 4 x 2 m, and room 2 of 1 x 2 m to its right.
@@ -208,10 +208,10 @@ mod tests {
     #[test]
     fn a_line_from_border_to_border_makes_two_parts_of_all_cells() {
         for line in [
-            line((1.0, -0.1), (1.0, 2.1)),
-            line((1.0, 0.3), (1.0, 1.7)),
-            line((0.6, 2.0), (1.4, 0.0)),
-            line((1.4, 0.1), (0.6, 1.9)),
+            line(at(1.0, -0.1), at(1.0, 2.1)),
+            line(at(1.0, 0.3), at(1.0, 1.7)),
+            line(at(0.6, 2.0), at(1.4, 0.0)),
+            line(at(1.4, 0.1), at(0.6, 1.9)),
         ] {
             let cut = cut(&labels(), None, &line).unwrap();
             let (left, right) = (cut.side(PartSide::Left), cut.side(PartSide::Right));
@@ -226,11 +226,23 @@ mod tests {
     #[test]
     fn lines_that_cut_nothing_are_refused_by_name() {
         for (room, line, reason) in [
-            (None, line((-3.0, 0.0), (-3.0, 2.0)), EditError::LineMissesRoom),
-            (Some(2), line((1.0, 0.0), (1.0, 2.0)), EditError::LineMissesRoom),
-            (Some(3), line((1.0, 0.0), (1.0, 2.0)), EditError::LineMissesRoom),
-            (None, line((1.0, 0.7), (1.0, 1.2)), EditError::LineEndsInRoom),
-            (None, line((0.2, -0.1), (0.2, 2.1)), EditError::PartTooSmall),
+            (
+                None,
+                line(at(-3.0, 0.0), at(-3.0, 2.0)),
+                EditError::LineMissesRoom,
+            ),
+            (
+                Some(2),
+                line(at(1.0, 0.0), at(1.0, 2.0)),
+                EditError::LineMissesRoom,
+            ),
+            (
+                Some(3),
+                line(at(1.0, 0.0), at(1.0, 2.0)),
+                EditError::LineMissesRoom,
+            ),
+            (None, line(at(1.0, 0.7), at(1.0, 1.2)), EditError::LineEndsInRoom),
+            (None, line(at(0.2, -0.1), at(0.2, 2.1)), EditError::PartTooSmall),
         ] {
             assert_eq!(cut(&labels(), room, &line).err(), Some(reason), "{line:?}");
         }
@@ -245,14 +257,14 @@ mod tests {
 
     #[test]
     fn a_line_over_two_rooms_cuts_the_one_in_which_it_is_longer_or_the_given_one() {
-        let along = line((1.0, 1.0), (5.0, 1.0));
+        let along = line(at(1.0, 1.0), at(5.0, 1.0));
         assert_eq!(nearest_cut(&labels(), None, &along).map(|cut| cut.room), Some(1));
         assert_eq!(cut(&labels(), Some(2), &along).map(|cut| cut.room), Ok(2));
     }
 
     #[test]
     fn a_line_that_no_longer_reaches_the_border_divides_the_room_by_the_nearer_side() {
-        let short = line((1.0, 0.7), (1.0, 1.2));
+        let short = line(at(1.0, 0.7), at(1.0, 1.2));
         let cut = nearest_cut(&labels(), Some(1), &short).unwrap();
         let (left, right) = (cut.side(PartSide::Left), cut.side(PartSide::Right));
         assert_eq!(left.len() + right.len(), 160 * 80);

@@ -5,8 +5,12 @@
 //! keep their identities: a new room takes the identity of the old room with which it shares most cells. Splits and joins by
 //! people apply afterwards.
 
+mod parameters;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+use parameters::SEGMENTATION;
 
 use super::cell::neighbours;
 use super::distance::{squared_cells, window};
@@ -16,17 +20,6 @@ use super::room_changes::RoomChanges;
 use super::{CELL_M, Cell, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::{StepBudget, at_once};
-
-/// Half of the widest passage that separates two rooms, metres.
-const DOOR_HALF_M: f64 = 0.55;
-/// Least ratio of a room's width to that of the passage into it.
-const WIDTH_RATIO_MIN: f64 = 1.25;
-/// A smaller basin merges when it meets another one, square metres.
-const CORE_M2: f64 = 0.2;
-/// Least area of a room, square metres.
-const ROOM_M2: f64 = 1.0;
-/// Largest area of furniture, square metres.
-const FURNITURE_M2: f64 = 1.2;
 
 /// Work per cell: visit, relabel, flood.
 const VISIT_WORK: usize = 8;
@@ -202,7 +195,7 @@ async fn space(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) -> Ra
     for (place, kind) in space.values_mut().iter_mut().zip(knowledge.values()) {
         *place = *kind == CellKnowledge::Free;
     }
-    let furniture_max = (FURNITURE_M2 / (CELL_M * CELL_M)) as usize;
+    let furniture_max = (SEGMENTATION.furniture_max_m2 / (CELL_M * CELL_M)) as usize;
     let mut seen = space.clone();
     for index in 0..seen.values().len() {
         if index % CELLS == 0 {
@@ -383,15 +376,15 @@ impl<'relief> Basins<'relief> {
 
     fn merges(&self, one: u32, other: u32, level: f32) -> bool {
         let half_m = f64::from(level).sqrt() * CELL_M;
-        if half_m > DOOR_HALF_M {
+        if half_m > SEGMENTATION.passage_half_max_m {
             return true;
         }
         let is_room = |root: u32| {
             let basin = self.basins.get(root as usize);
             basin.is_some_and(|basin| {
-                let is_wide_enough =
-                    f64::from(basin.deepest) >= WIDTH_RATIO_MIN * WIDTH_RATIO_MIN * f64::from(level);
-                f64::from(basin.cells) * CELL_M * CELL_M >= CORE_M2 && is_wide_enough
+                let is_wide_enough = f64::from(basin.deepest)
+                    >= SEGMENTATION.width_ratio_min * SEGMENTATION.width_ratio_min * f64::from(level);
+                f64::from(basin.cells) * CELL_M * CELL_M >= SEGMENTATION.core_min_m2 && is_wide_enough
             })
         };
         !(is_room(one) && is_room(other))
@@ -430,7 +423,7 @@ impl<'relief> Basins<'relief> {
                 continue;
             };
             let cells = self.basins.get(root as usize).map_or(0, |basin| basin.cells);
-            if f64::from(cells) * CELL_M * CELL_M < ROOM_M2 {
+            if f64::from(cells) * CELL_M * CELL_M < SEGMENTATION.room_min_m2 {
                 continue;
             }
             let fresh = u16::try_from(known.len() + 1).unwrap_or(u16::MAX);

@@ -7,8 +7,12 @@ use super::Cell;
 /// Cells along the edge of a tile.
 pub(super) const TILE_CELLS: i32 = 64;
 
-/// Column and row of a tile.
-pub(super) type TileKey = (i32, i32);
+/// Column and row of a tile. Keys are ordered column by column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct TileKey {
+    pub(super) column: i32,
+    pub(super) row: i32,
+}
 
 /// The allocated tiles.
 #[derive(Clone, Debug, Default)]
@@ -66,10 +70,10 @@ impl<T> TileGrid<T> {
 }
 
 /// The lowest cell of a tile.
-pub(super) const fn first_cell((column, row): TileKey) -> Cell {
+pub(super) const fn first_cell(key: TileKey) -> Cell {
     Cell {
-        x: column * TILE_CELLS,
-        y: row * TILE_CELLS,
+        x: key.column * TILE_CELLS,
+        y: key.row * TILE_CELLS,
     }
 }
 
@@ -90,7 +94,10 @@ impl Located {
 
 pub(super) fn locate(cell: Cell) -> Located {
     Located {
-        key: (cell.x.div_euclid(TILE_CELLS), cell.y.div_euclid(TILE_CELLS)),
+        key: TileKey {
+            column: cell.x.div_euclid(TILE_CELLS),
+            row: cell.y.div_euclid(TILE_CELLS),
+        },
         row: cell.y.rem_euclid(TILE_CELLS) as usize,
         column: cell.x.rem_euclid(TILE_CELLS) as usize,
     }

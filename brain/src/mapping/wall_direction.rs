@@ -12,19 +12,34 @@ use super::{CELL_M, CellKnowledge, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
-/// Width of the lines, metres: walls in a map are about two cells thick.
-const LINE_M: f64 = 2.0 * CELL_M;
-/// Directions of the coarse search in a quarter turn: 1.5 degrees each.
-const DIRECTIONS: u32 = 60;
-/// The fine search: steps to each side of the best direction, and their size in radians (0.1 degrees).
-const FINE_STEPS: i32 = 20;
-const FINE_RAD: f64 = 0.1 * core::f64::consts::PI / 180.0;
-/// Most boundary cells in the search.
-const CELLS_MAX: usize = 1_500;
-/// Fewer cells are no evidence: two metres of wall.
-const CELLS_MIN: usize = 80;
-/// Least ratio of the best energy to the median one. A round room has 1.04.
-const CLEAR: f64 = 1.15;
+/// How the main direction of the walls is found.
+struct DirectionParameters {
+    /// Width of the lines, metres: walls in a map are about two cells thick.
+    line_m: f64,
+    /// Directions of the coarse search in a quarter turn: 1.5 degrees each.
+    coarse_directions: u32,
+    /// Steps of the fine search to each side of the best direction.
+    fine_steps: i32,
+    /// Size of these steps, radians: 0.1 degrees.
+    fine_step_rad: f64,
+    /// Most boundary cells in the search.
+    cells_max: usize,
+    /// Fewer cells are no evidence: two metres of wall.
+    cells_min: usize,
+    /// Least ratio of the best energy to the median one. A round room has 1.04.
+    energy_ratio_min: f64,
+}
+
+const PARAMETERS: DirectionParameters = DirectionParameters {
+    line_m: 2.0 * CELL_M,
+    coarse_directions: 60,
+    fine_steps: 20,
+    fine_step_rad: 0.1 * core::f64::consts::PI / 180.0,
+    cells_max: 1_500,
+    cells_min: 80,
+    energy_ratio_min: 1.15,
+};
+
 /// Work of scanning a cell for boundaries, and of counting a cell in one direction.
 const SCAN_WORK: usize = 1;
 const COUNT_WORK: usize = 2;
@@ -55,25 +70,25 @@ pub(crate) async fn wall_direction_rad(
     budget: &mut StepBudget,
 ) -> Option<f64> {
     let boundary = boundary(knowledge, budget).await;
-    if boundary.len() < CELLS_MIN {
+    if boundary.len() < PARAMETERS.cells_min {
         return None;
     }
     let mut lines = Lines::around(&boundary);
-    let mut candidates: Vec<(u64, f64)> = Vec::with_capacity(DIRECTIONS as usize);
-    for step in 0..DIRECTIONS {
-        let direction_rad = f64::from(step) * FRAC_PI_2 / f64::from(DIRECTIONS);
+    let mut candidates: Vec<(u64, f64)> = Vec::with_capacity(PARAMETERS.coarse_directions as usize);
+    for step in 0..PARAMETERS.coarse_directions {
+        let direction_rad = f64::from(step) * FRAC_PI_2 / f64::from(PARAMETERS.coarse_directions);
         candidates.push((lines.energy(&boundary, direction_rad), direction_rad));
         budget.spend(COUNT_WORK * boundary.len()).await;
     }
     candidates.sort_unstable_by_key(|candidate| candidate.0);
     let (median, _) = *candidates.get(candidates.len() / 2)?;
     let (most, coarse_rad) = *candidates.last()?;
-    if (most as f64) < CLEAR * median as f64 {
+    if (most as f64) < PARAMETERS.energy_ratio_min * median as f64 {
         return None;
     }
     let mut best = (most, coarse_rad);
-    for step in -FINE_STEPS..=FINE_STEPS {
-        let direction_rad = coarse_rad + f64::from(step) * FINE_RAD;
+    for step in -PARAMETERS.fine_steps..=PARAMETERS.fine_steps {
+        let direction_rad = coarse_rad + f64::from(step) * PARAMETERS.fine_step_rad;
         let energy = lines.energy(&boundary, direction_rad);
         if energy > best.0 {
             best = (energy, direction_rad);
@@ -111,7 +126,7 @@ async fn boundary(knowledge: &Raster<CellKnowledge>, budget: &mut StepBudget) ->
             boundary.push(cell.middle());
         }
     }
-    let stride = boundary.len().div_ceil(CELLS_MAX).max(1);
+    let stride = boundary.len().div_ceil(PARAMETERS.cells_max).max(1);
     boundary.into_iter().step_by(stride).collect()
 }
 
@@ -134,7 +149,7 @@ impl Lines {
             .iter()
             .map(|point| point.distance_m(middle))
             .fold(0.0, f64::max);
-        let half = libm::ceil(farthest_m / LINE_M) + 1.0;
+        let half = libm::ceil(farthest_m / PARAMETERS.line_m) + 1.0;
         let counts = vec![0; 2 * half as usize + 1];
         Self {
             middle,
@@ -151,8 +166,8 @@ impl Lines {
         }
         for point in points {
             let (x, y) = (
-                (point.x_m - self.middle.x_m) / LINE_M,
-                (point.y_m - self.middle.y_m) / LINE_M,
+                (point.x_m - self.middle.x_m) / PARAMETERS.line_m,
+                (point.y_m - self.middle.y_m) / PARAMETERS.line_m,
             );
             for (counts, line) in self.counts.iter_mut().zip([x * cos + y * sin, y * cos - x * sin]) {
                 if let Some(count) = counts.get_mut((line + self.half + 0.5) as usize) {

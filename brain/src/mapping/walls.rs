@@ -21,23 +21,36 @@ pub struct WallSegment {
     pub sigma_m: f64,
 }
 
-/// Number of line directions in a half turn: 3 degrees each.
-const DIRECTIONS: i32 = 60;
-/// Distance between parallel lines, metres.
-const LINE_STEP_M: f64 = 2.0 * CELL_M;
-/// Largest distance of a cell from its line, metres.
-const NEAR_M: f64 = 1.6 * CELL_M;
-/// A longer gap ends a wall, metres. Where another wall meets it, cells are not clearly seen from either side; doors are wider.
-const GAP_M: f64 = 0.45;
-/// Shorter pieces are not walls, metres.
-const LENGTH_MIN_M: f64 = 0.5;
-/// Most lines in one search.
-const LINES_MAX: usize = 400;
+/// How straight walls are found in the occupied cells, by a Hough transform.
+struct WallParameters {
+    /// Number of line directions in a half turn: 3 degrees each.
+    directions: i32,
+    /// Distance between parallel lines, metres.
+    line_step_m: f64,
+    /// Largest distance of a cell from its line, metres.
+    near_m: f64,
+    /// A longer gap ends a wall, metres. Where another wall meets it, cells are not clearly seen from either side; doors are
+    /// wider.
+    gap_max_m: f64,
+    /// Shorter pieces are not walls, metres.
+    length_min_m: f64,
+    /// Most lines in one search.
+    lines_max: usize,
+}
+
+const PARAMETERS: WallParameters = WallParameters {
+    directions: 60,
+    line_step_m: 2.0 * CELL_M,
+    near_m: 1.6 * CELL_M,
+    gap_max_m: 0.45,
+    length_min_m: 0.5,
+    lines_max: 400,
+};
 
 #[derive(Clone, Copy)]
 struct BoundaryCell {
     at: Point2,
-    /// Direction of the free side, in steps of half a turn over [`DIRECTIONS`].
+    /// Direction of the free side, in steps of half a turn over `PARAMETERS.directions`.
     direction: i32,
     sigma_m: f64,
 }
@@ -45,9 +58,9 @@ struct BoundaryCell {
 /// A line of the Hough transform.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct HoughLine {
-    /// Direction of its normal, in steps of half a turn over [`DIRECTIONS`].
+    /// Direction of its normal, in steps of half a turn over `PARAMETERS.directions`.
     direction: i32,
-    /// Distance from the origin along the normal, in steps of [`LINE_STEP_M`].
+    /// Distance from the origin along the normal, in steps of `PARAMETERS.line_step_m`.
     step: i32,
 }
 
@@ -63,8 +76,8 @@ pub(super) fn walls(
         *votes.entry(line).or_default() += 1;
     }
     let mut walls = Vec::new();
-    let votes_min = (LENGTH_MIN_M / CELL_M) as u32;
-    for _ in 0..LINES_MAX {
+    let votes_min = (PARAMETERS.length_min_m / CELL_M) as u32;
+    for _ in 0..PARAMETERS.lines_max {
         let strongest = votes
             .iter()
             .max_by_key(|(line, count)| (**count, core::cmp::Reverse(**line)));
@@ -130,12 +143,13 @@ fn outward(distance: &DistanceField, at: Point2) -> Option<i32> {
         return None;
     }
     let turns = libm::atan2(y, x) / core::f64::consts::TAU;
-    Some(libm::round(turns * f64::from(2 * DIRECTIONS)) as i32)
+    Some(libm::round(turns * f64::from(2 * PARAMETERS.directions)) as i32)
 }
 
 /// Unit normal of a line.
 fn normal(direction: i32) -> (f64, f64) {
-    let (sin, cos) = libm::sincos(f64::from(direction) * core::f64::consts::PI / f64::from(DIRECTIONS));
+    let (sin, cos) =
+        libm::sincos(f64::from(direction) * core::f64::consts::PI / f64::from(PARAMETERS.directions));
     (cos, sin)
 }
 
@@ -147,16 +161,16 @@ fn across_m(at: Point2, direction: i32) -> f64 {
 /// The lines for which a cell votes.
 fn lines_of(cell: &BoundaryCell) -> [HoughLine; 3] {
     [-1, 0, 1].map(|turned| {
-        let direction = (cell.direction + turned).rem_euclid(2 * DIRECTIONS);
-        let step = libm::round(across_m(cell.at, direction) / LINE_STEP_M) as i32;
+        let direction = (cell.direction + turned).rem_euclid(2 * PARAMETERS.directions);
+        let step = libm::round(across_m(cell.at, direction) / PARAMETERS.line_step_m) as i32;
         HoughLine { direction, step }
     })
 }
 
 fn lies_on(cell: &BoundaryCell, line: HoughLine) -> bool {
-    let off_m = across_m(cell.at, line.direction) - f64::from(line.step) * LINE_STEP_M;
-    let turned = (cell.direction - line.direction).rem_euclid(2 * DIRECTIONS);
-    off_m.abs() <= NEAR_M && (turned <= 4 || turned >= 2 * DIRECTIONS - 4)
+    let off_m = across_m(cell.at, line.direction) - f64::from(line.step) * PARAMETERS.line_step_m;
+    let turned = (cell.direction - line.direction).rem_euclid(2 * PARAMETERS.directions);
+    off_m.abs() <= PARAMETERS.near_m && (turned <= 4 || turned >= 2 * PARAMETERS.directions - 4)
 }
 
 /// Splits the cells of one line at gaps and fits a segment to each piece.
@@ -165,9 +179,9 @@ fn pieces(cells: &mut [BoundaryCell], line: HoughLine) -> Vec<WallSegment> {
     let along_m = |cell: &BoundaryCell| cell.at.y_m * x - cell.at.x_m * y;
     cells.sort_by(|one, other| along_m(one).total_cmp(&along_m(other)));
     cells
-        .chunk_by(|one, next| along_m(next) - along_m(one) <= GAP_M)
+        .chunk_by(|one, next| along_m(next) - along_m(one) <= PARAMETERS.gap_max_m)
         .filter_map(fitted)
-        .filter(|wall| wall.from.distance_m(wall.to) >= LENGTH_MIN_M)
+        .filter(|wall| wall.from.distance_m(wall.to) >= PARAMETERS.length_min_m)
         .collect()
 }
 

@@ -1,6 +1,7 @@
 //! Actions that the brain requests. The shells perform them; the brain has no side effects.
 
 use super::decision::Decision;
+use super::edit_error::EditError;
 
 /// The answer to one observation.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Actions {
     pub tones: Vec<Tone>,
     /// Decisions taken in this step, each with its named cause.
     pub decisions: Vec<Decision>,
+    /// What became of each edit of the map among the commands of this step, in their order.
+    pub edits: Vec<Result<(), EditError>>,
 }
 
 /// Motion of the wheels.

@@ -1,6 +1,8 @@
-//! Motion between two observations.
+//! What changes between two observations: the motion of the robot, and what begins.
 
-/// Motion between two observations, by odometry.
+use super::onsets::Onsets;
+
+/// Motion between two observations, by odometry, and what the second one begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Advance {
     /// Duration in seconds.
@@ -13,6 +15,8 @@ pub struct Advance {
     pub wheel_turn_rad: f64,
     /// Change of heading by the gyro alone, in radians, if there is one.
     pub gyro_turn_rad: Option<f64>,
+    /// Contacts, cliffs and docking that begin.
+    pub onsets: Onsets,
 }
 
 impl Advance {

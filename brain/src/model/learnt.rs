@@ -2,10 +2,21 @@
 
 use super::energy::EnergyModel;
 
-/// Limits for values from outside: no working gyro exceeds them.
-const SCALE_MAX: f64 = 0.05;
-const SCALE_SIGMA_MAX: f64 = 0.01;
-const BIAS_MAX_RAD_PER_S: f64 = 0.03;
+/// Largest accepted errors of a gyro: no working one exceeds them.
+pub(crate) struct GyroLimits {
+    /// Greatest scale error, relative.
+    pub(crate) scale_max: f64,
+    /// Greatest standard deviation of the scale error, relative.
+    pub(crate) scale_sigma_max: f64,
+    /// Greatest bias, radians per second.
+    pub(crate) bias_max_rad_per_s: f64,
+}
+
+pub(crate) const GYRO_LIMITS: GyroLimits = GyroLimits {
+    scale_max: 0.05,
+    scale_sigma_max: 0.01,
+    bias_max_rad_per_s: 0.03,
+};
 
 /// Calibration of the gyro.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,9 +34,9 @@ impl GyroLearnt {
     #[must_use]
     pub fn checked(self) -> Option<Self> {
         // Written so that NaN is refused.
-        let is_plausible = self.scale.abs() <= SCALE_MAX
-            && (0.0..=SCALE_SIGMA_MAX).contains(&self.scale_sigma)
-            && self.bias_rad_per_s.abs() <= BIAS_MAX_RAD_PER_S;
+        let is_plausible = self.scale.abs() <= GYRO_LIMITS.scale_max
+            && (0.0..=GYRO_LIMITS.scale_sigma_max).contains(&self.scale_sigma)
+            && self.bias_rad_per_s.abs() <= GYRO_LIMITS.bias_max_rad_per_s;
         is_plausible.then_some(self)
     }
 }

@@ -19,6 +19,22 @@ pub enum MapEdit {
     Dock(Pose2),
 }
 
+impl MapEdit {
+    /// Whether it can be made only while the robot rests: each change of the division segments the rooms anew, and a job keeps the rooms
+    /// and the dock that it started with.
+    #[must_use]
+    pub const fn needs_rest(&self) -> bool {
+        match self {
+            Self::NoGo(_) | Self::Place(_) => false,
+            Self::Room(edit) => match edit {
+                RoomEdit::Name { .. } | RoomEdit::Set { .. } => false,
+                RoomEdit::Split { .. } | RoomEdit::Join { .. } | RoomEdit::Undo { .. } => true,
+            },
+            Self::Dock(_) => true,
+        }
+    }
+}
+
 /// A change of the no-go zones and virtual walls. They have the numbers of [`crate::mapping::Annotations`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoGoEdit {

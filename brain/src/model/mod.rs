@@ -19,6 +19,7 @@ pub(crate) mod map_edit;
 pub(crate) mod named_enum;
 pub mod no_go;
 pub mod observation;
+pub(crate) mod onsets;
 pub mod order;
 pub(crate) mod pose_estimate;
 pub(crate) mod random;

@@ -1,5 +1,7 @@
 //! A small seeded generator (PCG-XSH-RR 64/32, M. E. O'Neill 2014): the same numbers on every machine.
 
+use core::ops::Range;
+
 const MULTIPLIER: u64 = 6_364_136_223_846_793_005;
 const INCREMENT: u64 = 1_442_695_040_888_963_407;
 
@@ -37,6 +39,11 @@ impl Random {
     /// Uniform in `low..high`.
     pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * (f64::from(self.next()) / 4_294_967_296.0)
+    }
+
+    /// Uniform in a range.
+    pub(crate) fn within(&mut self, range: &Range<f64>) -> f64 {
+        self.between(range.start, range.end)
     }
 
     /// Approximately normal, with mean 0 and standard deviation 1, never beyond 3.5: the sum of four uniform numbers of 16 bits.

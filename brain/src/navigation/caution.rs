@@ -6,25 +6,7 @@ use super::{PathFollower, Situation};
 use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::model::config::ProximityLayout;
 use crate::model::geometry::Point2;
-
-/// Lower levels are too far away to matter.
-const LEVEL_MIN: f64 = 0.2;
-/// An obstacle that overlaps the robot's corridor by less than this is passed without a touch, metres.
-const GRAZE_M: f64 = 0.008;
-/// Approach speed, m/s for each metre of clearance beyond `STOP_DISTANCE_M`.
-const APPROACH_PER_S: f64 = 2.5;
-/// As `APPROACH_PER_S`, metres.
-const STOP_DISTANCE_M: f64 = 0.01;
-/// A smaller gap at a side is widened, metres.
-const GAP_M: f64 = 0.02;
-/// Sideways correction per metre of missing gap.
-const ASIDE_GAIN: f64 = 2.0;
-/// An obstacle closer to the centre line of the corridor than this share of the radius is ahead and not at a side.
-const SIDE_SHARE: f64 = 0.5;
-/// Obstacles farther back than this are ignored, metres.
-const BEHIND_M: f64 = -0.03;
-/// Offset to the other side for a sensor without distance, metres.
-const NEAR_ASIDE_M: f64 = 0.02;
+use crate::navigation::parameters::{CAUTION, CHASSIS};
 
 /// An obstacle ahead, as the sensors see it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +23,7 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &PathFollower) -> Cau
     let seen = hits(layout, &situation.observation.proximity);
     if layout.response.near_m.is_some() {
         return Caution {
-            offset_m: seen.map(|hit| -NEAR_ASIDE_M.copysign(hit.y_m)).sum(),
+            offset_m: seen.map(|hit| -CAUTION.near_aside_m.copysign(hit.y_m)).sum(),
             ..Caution::default()
         };
     }
@@ -56,9 +38,9 @@ pub(crate) fn caution(situation: &Situation<'_>, follower: &PathFollower) -> Cau
         speed_m_per_s: if follower.turns_on_spot() {
             f64::INFINITY
         } else {
-            APPROACH_PER_S * (ahead_m - STOP_DISTANCE_M).max(0.0)
+            CAUTION.approach_gain_per_s * (ahead_m - CAUTION.stop_distance_m).max(0.0)
         },
-        aside_m: ASIDE_GAIN * (sides.right_missing_m - sides.left_missing_m),
+        aside_m: CAUTION.aside_gain * (sides.right_missing_m - sides.left_missing_m),
         ahead_m,
         ..Caution::default()
     }
@@ -72,11 +54,10 @@ pub(crate) fn ahead(situation: &Situation<'_>) -> Option<Ahead> {
     }
     let radius_m = situation.config.body.radius_m;
     hits(layout, &situation.observation.proximity)
-        .map(|at| Ahead {
-            clear_m: distance_to_contact_m(at, radius_m),
-            at,
+        .filter_map(|at| {
+            let clear_m = distance_to_contact_m(at, radius_m)?;
+            Some(Ahead { clear_m, at })
         })
-        .filter(|ahead| ahead.clear_m.is_finite())
         .min_by(|one, other| one.clear_m.total_cmp(&other.clear_m))
 }
 
@@ -90,7 +71,7 @@ struct Sides {
 impl Sides {
     /// Records an obstacle at a point in the body frame with its gap to the rim.
     fn note(&mut self, at: Point2, gap_m: f64, radius_m: f64) {
-        if at.x_m < BEHIND_M || at.y_m.abs() < SIDE_SHARE * radius_m {
+        if at.x_m < CAUTION.behind_m || at.y_m.abs() < CAUTION.side_share * radius_m {
             return;
         }
         let missing_m = if at.y_m > 0.0 {
@@ -98,7 +79,7 @@ impl Sides {
         } else {
             &mut self.right_missing_m
         };
-        *missing_m = missing_m.max(GAP_M - gap_m.max(0.0));
+        *missing_m = missing_m.max(CAUTION.gap_min_m - gap_m.max(0.0));
     }
 }
 
@@ -107,7 +88,7 @@ fn note_map(situation: &Situation<'_>, sides: &mut Sides) {
     let knowledge = situation.map.knowledge();
     let body_from_map = situation.pose.inverse();
     let radius_m = situation.config.body.radius_m;
-    let reach = libm::ceil((radius_m + GAP_M) / CELL_M) as i32 + 1;
+    let reach = libm::ceil((radius_m + CAUTION.gap_min_m) / CELL_M) as i32 + 1;
     let middle = Cell::under(situation.pose.position());
     for rise in -reach..=reach {
         for shift in -reach..=reach {
@@ -131,7 +112,10 @@ fn note_map(situation: &Situation<'_>, sides: &mut Sides) {
 fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2> {
     layout.sensors().iter().zip(levels).filter_map(|(sensor, level)| {
         let level = f64::from(*level);
-        let distance_m = layout.response.distance_m(level).filter(|_| level >= LEVEL_MIN)?;
+        let distance_m = layout
+            .response
+            .distance_m(level)
+            .filter(|_| level >= CAUTION.level_min)?;
         Some(sensor.transform(Point2 {
             x_m: distance_m,
             y_m: 0.0,
@@ -139,32 +123,27 @@ fn hits(layout: &ProximityLayout, levels: &[f32]) -> impl Iterator<Item = Point2
     })
 }
 
-/// Straight distance until the rim touches a point; infinite when it passes beside the point.
-fn distance_to_contact_m(point: Point2, radius_m: f64) -> f64 {
-    if point.x_m <= 0.0 || point.y_m.abs() >= radius_m - GRAZE_M {
-        return f64::INFINITY;
-    }
-    (point.x_m - libm::sqrt(radius_m * radius_m - point.y_m * point.y_m)).max(0.0)
+/// Straight distance until the rim touches a point; `None` when it passes beside the point.
+pub(super) fn distance_to_contact_m(point: Point2, radius_m: f64) -> Option<f64> {
+    let half_m = radius_m - CHASSIS.graze_m;
+    (point.x_m > 0.0 && point.y_m.abs() < half_m)
+        .then(|| (point.x_m - libm::sqrt(radius_m * radius_m - point.y_m * point.y_m)).max(0.0))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{GAP_M, Sides, distance_to_contact_m};
+    use super::{CAUTION, Sides, distance_to_contact_m};
     use crate::model::geometry::Point2;
 
     const RADIUS_M: f64 = 0.175;
 
     #[test]
     fn only_obstacles_within_the_corridor_limit_the_clearance() {
-        assert!((distance_to_contact_m(Point2 { x_m: 0.3, y_m: 0.0 }, RADIUS_M) - 0.125).abs() < 1e-9);
-        assert_eq!(
-            distance_to_contact_m(Point2 { x_m: 0.1, y_m: 0.17 }, RADIUS_M),
-            f64::INFINITY
-        );
-        assert_eq!(
-            distance_to_contact_m(Point2 { x_m: -0.2, y_m: 0.0 }, RADIUS_M),
-            f64::INFINITY
-        );
+        let clear_m = |x_m: f64, y_m: f64| distance_to_contact_m(Point2 { x_m, y_m }, RADIUS_M);
+        assert!((clear_m(0.3, 0.0).unwrap() - 0.125).abs() < 1e-9);
+        assert_eq!(clear_m(0.1, 0.17), None);
+        assert_eq!(clear_m(0.1, -0.2), None);
+        assert_eq!(clear_m(-0.2, 0.0), None);
     }
 
     #[test]
@@ -174,9 +153,13 @@ mod tests {
             sides.note(Point2 { x_m, y_m }, gap_m, RADIUS_M);
             (sides.left_missing_m, sides.right_missing_m)
         };
-        assert_eq!(missing(0.05, 0.18, 0.0), (GAP_M, 0.0));
-        assert_eq!(missing(0.05, -0.18, -0.01), (0.0, GAP_M), "no more than touching");
-        assert_eq!(missing(0.05, 0.21, 2.0 * GAP_M), (0.0, 0.0));
+        assert_eq!(missing(0.05, 0.18, 0.0), (CAUTION.gap_min_m, 0.0));
+        assert_eq!(
+            missing(0.05, -0.18, -0.01),
+            (0.0, CAUTION.gap_min_m),
+            "no more than touching"
+        );
+        assert_eq!(missing(0.05, 0.21, 2.0 * CAUTION.gap_min_m), (0.0, 0.0));
         assert_eq!(missing(0.18, 0.02, 0.0), (0.0, 0.0));
         assert_eq!(missing(-0.1, 0.15, 0.0), (0.0, 0.0));
     }

@@ -1,34 +1,19 @@
 //! Follows the contour of an enclosing obstacle by touch alone: an arc against it, back a little, turn a little, and on.
 //! The robot reaches every part of the contour, so it finds an exit that is hardly wider than the body.
 
+use crate::navigation::parameters::{CONTOUR_TRACE, EVASION};
+use core::ops::Range;
+
 use super::{Evasion, Situation};
 use crate::model::action::Motion;
 use crate::model::geometry::TurnSide;
 use crate::model::random::Random;
 
-/// Speed along the contour, for soft contacts.
-const SPEED_M_PER_S: f64 = 0.2;
-/// Radius of the arcs towards the contour.
-const ARC_M: f64 = 0.3;
-/// After this turn without a contact the contour is lost.
-const LOST_RAD: f64 = 5.5;
-/// Distance to back off after a touch.
-const BACK_M: f64 = 0.025;
-/// Distance to back off at a cliff.
-const CLIFF_BACK_M: f64 = 0.08;
-/// Turns away from a contact on the side of the contour, radians: large, for long steps, or fine, into gaps that are hardly
-/// wider than the body.
-const COARSE_RAD: (f64, f64) = (0.3, 0.9);
-const FINE_RAD: (f64, f64) = (0.2, 0.5);
-/// The same for a contact ahead, and at a cliff.
-const AHEAD_RAD: (f64, f64) = (0.6, 1.2);
-const CLIFF_RAD: (f64, f64) = (0.8, 1.3);
-
 /// The drive along a contour. It ends by time.
 #[derive(Clone, Debug)]
 pub(crate) struct ContourTrace {
     side: TurnSide,
-    side_turn_rad: (f64, f64),
+    side_turn_rad: Range<f64>,
     left_s: f64,
     evasion: Option<Evasion>,
     /// Turned towards the contour since the last contact; `None` = the contour is not found yet.
@@ -43,7 +28,11 @@ impl ContourTrace {
         let is_fine = random.coin();
         Self {
             side,
-            side_turn_rad: if is_fine { FINE_RAD } else { COARSE_RAD },
+            side_turn_rad: if is_fine {
+                CONTOUR_TRACE.fine_turn_rad
+            } else {
+                CONTOUR_TRACE.coarse_turn_rad
+            },
             left_s,
             evasion: None,
             turned_rad: None,
@@ -74,21 +63,23 @@ impl ContourTrace {
             TurnSide::Left => contacts.left && !contacts.right,
             TurnSide::Right => contacts.right && !contacts.left,
         };
-        let (low_rad, high_rad) = match (situation.at_cliff, on_edge) {
-            (true, _) => CLIFF_RAD,
-            (false, true) => self.side_turn_rad,
-            (false, false) => AHEAD_RAD,
+        let range_rad = match (situation.at_cliff, on_edge) {
+            (true, _) => &CONTOUR_TRACE.cliff_turn_rad,
+            (false, true) => &self.side_turn_rad,
+            (false, false) => &CONTOUR_TRACE.ahead_turn_rad,
         };
-        let turn_rad = -self.side.sign() * self.random.between(low_rad, high_rad);
+        let turn_rad = -self.side.sign() * self.random.within(range_rad);
         self.evasion = Some(if situation.at_cliff {
-            Evasion::from_cliff(CLIFF_BACK_M, turn_rad)
+            Evasion::from_cliff(EVASION.cliff_back_m, turn_rad)
         } else {
-            Evasion::from_contact(BACK_M, turn_rad)
+            Evasion::from_contact(CONTOUR_TRACE.back_m, turn_rad)
         });
     }
 
     fn drive(&mut self, situation: &Situation<'_>) -> Motion {
-        let speed_m_per_s = SPEED_M_PER_S.min(situation.config.speeds.cruise_m_per_s);
+        let speed_m_per_s = CONTOUR_TRACE
+            .speed_m_per_s
+            .min(situation.config.speeds.cruise_m_per_s);
         // Straight on until the contour is found.
         let Some(turned_rad) = &mut self.turned_rad else {
             return Motion::Drive {
@@ -97,12 +88,12 @@ impl ContourTrace {
             };
         };
         *turned_rad += self.side.sign() * situation.advance.turn_rad;
-        if *turned_rad > LOST_RAD {
+        if *turned_rad > CONTOUR_TRACE.lost_rad {
             self.turned_rad = None;
         }
         Motion::Drive {
             speed_m_per_s,
-            turn_rad_per_s: self.side.sign() * speed_m_per_s / ARC_M,
+            turn_rad_per_s: self.side.sign() * speed_m_per_s / CONTOUR_TRACE.arc_radius_m,
         }
     }
 }

@@ -3,15 +3,7 @@
 use super::{BackOff, ManoeuvreStep, Situation, Turn};
 use crate::model::action::Motion;
 use crate::model::reason::Reason;
-
-/// Distance that is added each time the bumper is still pressed or the floor still missing.
-const EXTRA_M: f64 = 0.02;
-/// Longest back-off at a cliff; the firmware ends reversing after 0.15 m (S8).
-const CLIFF_MOST_M: f64 = 0.14;
-/// Longest back-off after a contact beyond the requested distance.
-const CONTACT_MOST_M: f64 = 0.12;
-/// Contacts during the turn until the robot counts as held.
-const TURN_CONTACTS_MAX: u32 = 3;
+use crate::navigation::parameters::EVASION;
 
 /// What the robot evades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,8 +47,8 @@ impl Evasion {
             phase: EvasionPhase::Back(BackOff::from_contact(back_m)),
             cause: EvasionCause::Contact,
             turn_rad,
-            extra_m: CONTACT_MOST_M,
-            contacts_left: TURN_CONTACTS_MAX,
+            extra_m: EVASION.contact_extra_max_m,
+            contacts_left: EVASION.turn_contacts_max,
         }
     }
 
@@ -65,7 +57,7 @@ impl Evasion {
         Self {
             phase: EvasionPhase::Back(BackOff::from_cliff(back_m)),
             cause: EvasionCause::Cliff,
-            extra_m: (CLIFF_MOST_M - back_m).max(0.0),
+            extra_m: (EVASION.cliff_back_max_m - back_m).max(0.0),
             ..Self::from_contact(back_m, turn_rad)
         }
     }
@@ -106,7 +98,7 @@ impl Evasion {
             return EvasionStep::Going(motion);
         }
         if situation.at_cliff && self.cause == EvasionCause::Contact {
-            *self = Self::from_cliff(EXTRA_M, self.turn_rad);
+            *self = Self::from_cliff(EVASION.extra_m, self.turn_rad);
         }
         let held = if self.cause == EvasionCause::Cliff {
             situation.at_cliff
@@ -120,11 +112,11 @@ impl Evasion {
         if step == ManoeuvreStep::Aborted || self.extra_m <= 0.0 {
             return EvasionStep::Held(self.held_reason());
         }
-        self.extra_m -= EXTRA_M;
+        self.extra_m -= EVASION.extra_m;
         let EvasionPhase::Back(back) = &mut self.phase else {
             return EvasionStep::Held(self.held_reason());
         };
-        back.lengthen(EXTRA_M);
+        back.lengthen(EVASION.extra_m);
         match back.step(situation) {
             ManoeuvreStep::Going(motion) => EvasionStep::Going(motion),
             ManoeuvreStep::Arrived | ManoeuvreStep::Aborted => EvasionStep::Going(Motion::Halt),
@@ -144,9 +136,9 @@ impl Evasion {
         }
         let contacts_left = self.contacts_left - 1;
         *self = if situation.at_cliff {
-            Self::from_cliff(EXTRA_M, self.turn_rad)
+            Self::from_cliff(EVASION.extra_m, self.turn_rad)
         } else {
-            Self::from_contact(EXTRA_M, self.turn_rad)
+            Self::from_contact(EVASION.extra_m, self.turn_rad)
         };
         self.contacts_left = contacts_left;
         EvasionStep::Going(Motion::Halt)

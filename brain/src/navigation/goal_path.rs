@@ -30,7 +30,7 @@ pub(crate) async fn plan_path(
     space.keep_connected(origin, budget).await;
     let router = Router::new(&space, budget).await;
     let mut cost_field = router.cost_field();
-    router.explore(origin, (&mut cost_field, budget), |_| false).await;
+    cost_field.explore(origin, |_| false, budget).await;
     let cell = goals
         .iter()
         .filter_map(|goal| {
@@ -40,8 +40,8 @@ pub(crate) async fn plan_path(
         })
         .min_by(|one, other| one.0.total_cmp(&other.0))
         .map(|(_, cell)| cell)?;
-    let corners: Vec<Point2> = router
-        .path(&cost_field, origin, cell)
+    let corners: Vec<Point2> = cost_field
+        .path(cell)
         .into_iter()
         .map(|cell| space.point(cell))
         .collect();

@@ -2,25 +2,7 @@
 
 use super::Situation;
 use crate::model::action::Motion;
-
-/// Reverse speed after a contact.
-const BACK_M_PER_S: f64 = 0.15;
-/// Reverse speed at a cliff; the firmware allows 0.1 m/s (S8).
-pub(crate) const BACK_AT_CLIFF_M_PER_S: f64 = 0.08;
-/// A free robot keeps this much of its reverse budget: it must be able to back off from a contact during the turn.
-pub(super) const RESERVE_M: f64 = 0.04;
-/// Slowest turn that overcomes the dead band of the motors.
-const TURN_MIN_RAD_PER_S: f64 = 0.4;
-/// Turn rate per radian of remaining turn: the robot brakes over the last part.
-const TURN_GAIN_PER_S: f64 = 4.0;
-/// Below this remaining angle a turn is finished.
-const TURN_DONE_RAD: f64 = 0.03;
-/// Extra time of a manoeuvre beyond what its length needs.
-const GRACE_S: f64 = 1.0;
-/// Backing without movement for this long is over: an obstacle is behind.
-const BLOCKED_S: f64 = 0.4;
-/// Share of the commanded speed below which the robot does not move.
-const BLOCKED_SHARE: f64 = 0.2;
+use crate::navigation::parameters::{CHASSIS, MANOEUVRE};
 
 /// State of a manoeuvre after a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,14 +29,14 @@ pub(crate) struct BackOff {
 impl BackOff {
     /// After a contact.
     pub(crate) fn from_contact(length_m: f64) -> Self {
-        Self::at_speed(length_m, BACK_M_PER_S)
+        Self::at_speed(length_m, CHASSIS.back_m_per_s)
     }
 
     /// At a cliff. A turn too close to the edge would detect it again, so no reverse budget is kept.
     pub(crate) fn from_cliff(length_m: f64) -> Self {
         Self {
             reserve_m: 0.0,
-            ..Self::at_speed(length_m, BACK_AT_CLIFF_M_PER_S)
+            ..Self::at_speed(length_m, CHASSIS.back_at_cliff_m_per_s)
         }
     }
 
@@ -70,9 +52,9 @@ impl BackOff {
         Self {
             left_m: length_m,
             speed_m_per_s,
-            left_s: 2.0 * length_m / speed_m_per_s + GRACE_S,
+            left_s: 2.0 * length_m / speed_m_per_s + MANOEUVRE.grace_s,
             blocked_s: 0.0,
-            reserve_m: RESERVE_M,
+            reserve_m: MANOEUVRE.reserve_m,
         }
     }
 
@@ -87,7 +69,7 @@ impl BackOff {
         self.left_m += advance.distance_m.min(0.0);
         self.left_s -= advance.time_s;
         let speed_m_per_s = self.speed_m_per_s.min(slow_m_per_s(situation));
-        let is_moving = -advance.distance_m > BLOCKED_SHARE * speed_m_per_s * advance.time_s;
+        let is_moving = -advance.distance_m > MANOEUVRE.blocked_share * speed_m_per_s * advance.time_s;
         self.blocked_s = if is_moving {
             0.0
         } else {
@@ -96,7 +78,10 @@ impl BackOff {
         let keeps_reserve = situation.is_free() && situation.reverse_budget_m < self.reserve_m;
         if self.left_m <= 0.0 || keeps_reserve {
             ManoeuvreStep::Arrived
-        } else if self.left_s <= 0.0 || self.blocked_s > BLOCKED_S || situation.reverse_budget_m <= 0.0 {
+        } else if self.left_s <= 0.0
+            || self.blocked_s > MANOEUVRE.blocked_s
+            || situation.reverse_budget_m <= 0.0
+        {
             ManoeuvreStep::Aborted
         } else {
             ManoeuvreStep::Going(Motion::Drive {
@@ -109,10 +94,10 @@ impl BackOff {
 
 /// Highest useful speed: near the end of the reverse budget the robot creeps, so that stopping uses little of it.
 fn slow_m_per_s(situation: &Situation<'_>) -> f64 {
-    if situation.reverse_budget_m < RESERVE_M {
-        BACK_AT_CLIFF_M_PER_S
+    if situation.reverse_budget_m < MANOEUVRE.reserve_m {
+        CHASSIS.back_at_cliff_m_per_s
     } else {
-        BACK_M_PER_S
+        CHASSIS.back_m_per_s
     }
 }
 
@@ -128,7 +113,7 @@ impl Turn {
     pub(crate) fn by(angle_rad: f64) -> Self {
         Self {
             left_rad: angle_rad,
-            left_s: 2.0 * angle_rad.abs() / TURN_MIN_RAD_PER_S.max(1.0) + GRACE_S,
+            left_s: 2.0 * angle_rad.abs() / CHASSIS.turn_min_rad_per_s.max(1.0) + MANOEUVRE.grace_s,
         }
     }
 
@@ -137,14 +122,18 @@ impl Turn {
         self.left_rad -= situation.advance.turn_rad;
         self.left_s -= situation.advance.time_s;
         let passed = before_rad * self.left_rad <= 0.0;
-        if passed || self.left_rad.abs() < TURN_DONE_RAD {
+        if passed || self.left_rad.abs() < MANOEUVRE.turn_done_rad {
             return ManoeuvreStep::Arrived;
         }
         if self.left_s <= 0.0 {
             return ManoeuvreStep::Aborted;
         }
-        let fastest = situation.config.speeds.turn_max_rad_per_s.max(TURN_MIN_RAD_PER_S);
-        let rate = (TURN_GAIN_PER_S * self.left_rad.abs()).clamp(TURN_MIN_RAD_PER_S, fastest);
+        let fastest = situation
+            .config
+            .speeds
+            .turn_max_rad_per_s
+            .max(CHASSIS.turn_min_rad_per_s);
+        let rate = (CHASSIS.turn_gain_per_s * self.left_rad.abs()).clamp(CHASSIS.turn_min_rad_per_s, fastest);
         ManoeuvreStep::Going(Motion::Drive {
             speed_m_per_s: 0.0,
             turn_rad_per_s: rate.copysign(self.left_rad),

@@ -1,13 +1,8 @@
 //! Several manoeuvres one after the other, for recovery and for leaving the dock.
 
-use super::manoeuvre::RESERVE_M;
 use super::{BackOff, ContourTrace, ManoeuvreStep, Situation, Turn};
 use crate::model::action::Motion;
-
-/// Speed of a swing.
-const SWING_M_PER_S: f64 = -0.1;
-/// Turn rate of a swing.
-const SWING_RAD_PER_S: f64 = 1.2;
+use crate::navigation::parameters::MANOEUVRE;
 
 /// One manoeuvre of a sequence.
 #[derive(Clone, Debug)]
@@ -85,17 +80,21 @@ fn swing(sign: f64, left_s: &mut f64, situation: &Situation<'_>) -> ManoeuvreSte
         return ManoeuvreStep::Arrived;
     }
     if situation.is_free() {
-        let keeps_reserve = situation.reverse_budget_m < RESERVE_M;
+        let keeps_reserve = situation.reverse_budget_m < MANOEUVRE.reserve_m;
         return ManoeuvreStep::Going(Motion::Drive {
-            speed_m_per_s: if keeps_reserve { 0.0 } else { SWING_M_PER_S },
-            turn_rad_per_s: sign * SWING_RAD_PER_S,
+            speed_m_per_s: if keeps_reserve {
+                0.0
+            } else {
+                MANOEUVRE.swing_m_per_s
+            },
+            turn_rad_per_s: sign * MANOEUVRE.swing_rad_per_s,
         });
     }
     if situation.reverse_budget_m <= 0.0 {
         return ManoeuvreStep::Arrived;
     }
     ManoeuvreStep::Going(Motion::Drive {
-        speed_m_per_s: SWING_M_PER_S,
+        speed_m_per_s: MANOEUVRE.swing_m_per_s,
         turn_rad_per_s: 0.0,
     })
 }

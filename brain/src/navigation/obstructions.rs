@@ -7,22 +7,7 @@ use super::Situation;
 use crate::mapping::{CELL_M, Cell, CellKnowledge};
 use crate::model::geometry::Point2;
 use crate::model::reason::Reason;
-
-/// An obstruction is remembered for this long.
-const KEPT_US: u64 = 240_000_000;
-/// Contacts kept; the oldest go first.
-const KEPT_MAX: usize = 64;
-/// Two contacts nearer than this are with the same object.
-const SAME_M: f64 = 0.12;
-/// A contact this near to an obstacle of the map is with that.
-const KNOWN_M: f64 = 0.06;
-/// Direction of a contact on one side from straight ahead without better information, radians.
-const SIDE_RAD: f64 = 0.7;
-/// Uncertainty on either side of `SIDE_RAD`, and of straight ahead when both halves of the bumper are pressed, radians.
-const SIDE_SPREAD_RAD: f64 = 0.35;
-const AHEAD_SPREAD_RAD: f64 = 0.2;
-/// Proximity level of a sensor that faces the touched object.
-const TOUCH_LEVEL: f32 = 0.5;
+use crate::navigation::parameters::OBSTRUCTION;
 
 /// The contacts of the last minutes.
 #[derive(Debug, Default)]
@@ -58,8 +43,8 @@ impl Obstructions {
         let is_again = self
             .kept
             .iter()
-            .any(|obstruction| obstruction.at.distance_m(at) < SAME_M);
-        if self.kept.len() >= KEPT_MAX {
+            .any(|obstruction| obstruction.at.distance_m(at) < OBSTRUCTION.same_object_m);
+        if self.kept.len() >= OBSTRUCTION.kept_max {
             self.kept.remove(0);
         }
         self.kept.push(Obstruction {
@@ -78,7 +63,7 @@ impl Obstructions {
     /// Points that plans must avoid.
     pub(crate) fn points(&mut self, now_us: u64) -> Vec<Point2> {
         self.kept
-            .retain(|obstruction| now_us < obstruction.since_us.saturating_add(KEPT_US));
+            .retain(|obstruction| now_us < obstruction.since_us.saturating_add(OBSTRUCTION.kept_us));
         self.kept
             .iter()
             .filter(|obstruction| obstruction.is_confirmed)
@@ -96,7 +81,7 @@ fn rim(bearing_rad: f64, situation: &Situation<'_>) -> Point2 {
 /// Whether the map has an obstacle near a point.
 fn is_known(at: Point2, situation: &Situation<'_>) -> bool {
     let knowledge = situation.map.knowledge();
-    let reach = libm::ceil(KNOWN_M / CELL_M) as i32;
+    let reach = libm::ceil(OBSTRUCTION.known_object_m / CELL_M) as i32;
     let middle = Cell::under(at);
     (-reach..=reach).any(|rise| {
         (-reach..=reach).any(|shift| {
@@ -118,11 +103,14 @@ fn bearing_rad(reason: Reason, situation: &Situation<'_>) -> (f64, f64) {
     let side = match reason {
         Reason::BumpLeft | Reason::CliffLeft => 1.0,
         Reason::BumpRight | Reason::CliffRight => -1.0,
-        _ => return (0.0, AHEAD_SPREAD_RAD),
+        _ => return (0.0, OBSTRUCTION.ahead_spread_rad),
     };
     let levels = &situation.observation.proximity;
     let sensors = situation.config.sensors.proximity;
-    let mut best = (TOUCH_LEVEL, (side * SIDE_RAD, SIDE_SPREAD_RAD));
+    let mut best = (
+        OBSTRUCTION.touch_level,
+        (side * OBSTRUCTION.side_bearing_rad, OBSTRUCTION.side_spread_rad),
+    );
     for (level, sensor) in levels.iter().zip(sensors.sensors()) {
         if sensor.heading_rad * side > 0.0 && *level > best.0 {
             best = (*level, (sensor.heading_rad, 0.0));

@@ -5,40 +5,7 @@
 use super::{PathSegment, Situation};
 use crate::model::action::Motion;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
-
-/// Steering per heading error, rad/s for each radian. Together with `OFFSET_GAIN` it removes an offset within some 0.4 m at
-/// cruise speed, without oscillation.
-const HEADING_GAIN_PER_S: f64 = 3.5;
-/// Steering for an offset, rad/s for each metre of offset and m/s of speed.
-const OFFSET_GAIN: f64 = 40.0;
-/// Smaller corrections are omitted, so that straights are really straight; calibrating the gyro needs that.
-const STEER_MIN_RAD_PER_S: f64 = 0.03;
-/// Deceleration and acceleration: below the 0.5 m/s2 of the firmware, so that it can follow.
-const BRAKE_M_PER_S2: f64 = 0.4;
-/// Delay from command to wheels: arcs start this much earlier.
-const LAG_S: f64 = 0.25;
-/// Slowest speed that overcomes the dead band of the motors.
-const CREEP_M_PER_S: f64 = 0.05;
-/// Turn rate per radian of remaining turn on the spot.
-const TURN_GAIN_PER_S: f64 = 4.0;
-/// Slowest turn on the spot.
-const TURN_MIN_RAD_PER_S: f64 = 0.4;
-/// A turn on the spot ends when less than this is left; steering does the rest.
-const TURN_DONE_RAD: f64 = 0.06;
-/// Share of the maximum turn rate that arcs use: the rest is for steering. With 0.8 known homes take 0.01 to 0.1 T0 longer
-/// to 90 %, with 0.95 the robot touches furniture more often.
-const ARC_SHARE: f64 = 0.9;
-/// With less clearance ahead than this, and less than that left of a segment, the robot goes on with the next one, metres.
-/// At the end of a path its sensors are more accurate than its pose.
-const NEXT_SEGMENT_M: f64 = 0.02;
-const NEAR_END_M: f64 = 0.08;
-/// Range of offsets from a straight at which the robot is keeping away from an obstacle, metres.
-const ASIDE_MIN_M: f64 = 0.005;
-const ASIDE_MAX_M: f64 = 0.03;
-/// Farther from the path than this the robot has left it.
-const LOST_M: f64 = 0.25;
-/// With a larger heading error the robot turns on the spot before it drives on.
-const TURN_FIRST_RAD: f64 = 1.2;
+use crate::navigation::parameters::{CHASSIS, PATH_FOLLOWER};
 
 /// A path that is being driven.
 #[derive(Clone, Debug, Default)]
@@ -144,7 +111,7 @@ impl PathFollower {
         let position = SegmentPosition::on(segment, situation.pose);
         let off_m = position.offset_m.abs();
         let is_beside = (0.0..=segment.length_m).contains(&position.along_m);
-        (is_beside && (ASIDE_MIN_M..ASIDE_MAX_M).contains(&off_m))
+        (is_beside && PATH_FOLLOWER.keeps_away_m.contains(&off_m))
             .then(|| segment.at(position.along_m / segment.length_m).position())
     }
 
@@ -162,12 +129,12 @@ impl PathFollower {
             } else {
                 let position = SegmentPosition::on(&segment, situation.pose);
                 let left_m = segment.length_m - position.along_m;
-                let is_at_wall = caution.ahead_m < NEXT_SEGMENT_M
-                    && left_m < NEAR_END_M
+                let is_at_wall = caution.ahead_m < PATH_FOLLOWER.next_segment_clear_m
+                    && left_m < PATH_FOLLOWER.next_segment_left_m
                     && self.current + 1 < self.segments.len();
                 let speeds = &situation.config.speeds;
                 let speed_m_per_s = segment_speed(&segment, speeds.cruise_m_per_s, speeds.turn_max_rad_per_s);
-                if !is_at_wall && left_m > 0.5 * LAG_S * speed_m_per_s {
+                if !is_at_wall && left_m > 0.5 * PATH_FOLLOWER.lag_s * speed_m_per_s {
                     return self.drive(&position, situation, caution);
                 }
             }
@@ -183,17 +150,25 @@ impl PathFollower {
         let error_rad = normalize_rad(target_rad - situation.pose.heading_rad);
         // A half turn keeps its direction.
         let left_rad = match self.turn_left_rad {
-            Some(before_rad) if error_rad.abs() > 2.0 => error_rad.abs().copysign(before_rad),
+            Some(before_rad) if error_rad.abs() > PATH_FOLLOWER.half_turn_from_rad => {
+                error_rad.abs().copysign(before_rad)
+            }
             Some(_) => error_rad,
-            None if error_rad.abs() > 2.0 => error_rad.abs().copysign(segment.turn_rad),
+            None if error_rad.abs() > PATH_FOLLOWER.half_turn_from_rad => {
+                error_rad.abs().copysign(segment.turn_rad)
+            }
             None => error_rad,
         };
         self.turn_left_rad = Some(left_rad);
-        if left_rad.abs() < TURN_DONE_RAD {
+        if left_rad.abs() < PATH_FOLLOWER.turn_done_rad {
             return None;
         }
-        let fastest = situation.config.speeds.turn_max_rad_per_s.max(TURN_MIN_RAD_PER_S);
-        let rate = (TURN_GAIN_PER_S * left_rad.abs()).clamp(TURN_MIN_RAD_PER_S, fastest);
+        let fastest = situation
+            .config
+            .speeds
+            .turn_max_rad_per_s
+            .max(CHASSIS.turn_min_rad_per_s);
+        let rate = (CHASSIS.turn_gain_per_s * left_rad.abs()).clamp(CHASSIS.turn_min_rad_per_s, fastest);
         Some(Motion::Drive {
             speed_m_per_s: 0.0,
             turn_rad_per_s: rate.copysign(left_rad),
@@ -202,11 +177,11 @@ impl PathFollower {
 
     fn drive(&self, position: &SegmentPosition, situation: &Situation<'_>, caution: Caution) -> FollowStep {
         let segment = &position.segment;
-        if position.offset_m.abs() > LOST_M {
+        if position.offset_m.abs() > PATH_FOLLOWER.lost_m {
             return FollowStep::Off;
         }
         let turn_max = situation.config.speeds.turn_max_rad_per_s;
-        if position.heading_rad.abs() > TURN_FIRST_RAD {
+        if position.heading_rad.abs() > PATH_FOLLOWER.turn_first_rad {
             return FollowStep::Going(Motion::Drive {
                 speed_m_per_s: 0.0,
                 turn_rad_per_s: -turn_max.copysign(position.heading_rad),
@@ -216,18 +191,19 @@ impl PathFollower {
         let left_m = segment.length_m - position.along_m;
         let free_m_per_s = segment_speed(segment, cruise_m_per_s, turn_max)
             .min(self.braked(left_m, cruise_m_per_s, turn_max))
-            .max(CREEP_M_PER_S);
-        let speed_m_per_s = free_m_per_s.min(caution.speed_m_per_s.max(CREEP_M_PER_S));
-        let curvature = self.curvature_ahead(segment, left_m, LAG_S * speed_m_per_s);
+            .max(CHASSIS.speed_min_m_per_s);
+        let speed_m_per_s = free_m_per_s.min(caution.speed_m_per_s.max(CHASSIS.speed_min_m_per_s));
+        let curvature = self.curvature_ahead(segment, left_m, PATH_FOLLOWER.lag_s * speed_m_per_s);
         let offset_m = caution.off_m(position.offset_m);
-        let steer = -HEADING_GAIN_PER_S * position.heading_rad - OFFSET_GAIN * speed_m_per_s * offset_m;
-        let steer = if steer.abs() < STEER_MIN_RAD_PER_S {
+        let steer = -PATH_FOLLOWER.heading_gain_per_s * position.heading_rad
+            - PATH_FOLLOWER.offset_gain * speed_m_per_s * offset_m;
+        let steer = if steer.abs() < PATH_FOLLOWER.steer_min_rad_per_s {
             0.0
         } else {
             steer
         };
         // A robot with a heading error turns first.
-        let facing = libm::cos(position.heading_rad).max(0.2);
+        let facing = libm::cos(position.heading_rad).max(PATH_FOLLOWER.facing_min);
         FollowStep::Going(Motion::Drive {
             speed_m_per_s: speed_m_per_s * facing,
             // Caution does not slow the turn: an arc gets tighter before an obstacle, and turns away from it.
@@ -241,7 +217,7 @@ impl PathFollower {
             Some(next) if !is_turn(next) => segment_speed(next, cruise_m_per_s, turn_max),
             _ => 0.0,
         };
-        libm::sqrt(after_m_per_s * after_m_per_s + 2.0 * BRAKE_M_PER_S2 * left_m.max(0.0))
+        libm::sqrt(after_m_per_s * after_m_per_s + 2.0 * PATH_FOLLOWER.brake_m_per_s2 * left_m.max(0.0))
     }
 
     /// Curvature of the path a little ahead.
@@ -267,7 +243,7 @@ fn segment_speed(segment: &PathSegment, cruise_m_per_s: f64, turn_max: f64) -> f
     if segment.turn_rad == 0.0 {
         cruise_m_per_s
     } else {
-        cruise_m_per_s.min(ARC_SHARE * turn_max / curvature(segment).abs())
+        cruise_m_per_s.min(PATH_FOLLOWER.arc_share * turn_max / curvature(segment).abs())
     }
 }
 

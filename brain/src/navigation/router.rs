@@ -16,6 +16,8 @@ const DIAGONAL: u32 = LONGEST_STEP_COST;
 const READ_WORK: usize = 2;
 const LINKS_WORK: usize = 100;
 const EXPAND_WORK: usize = 22;
+/// Work to search a path to a nearby cell, beyond that for its goal.
+pub(crate) const PATH_WORK: usize = 3_000;
 /// Blocks that are expanded between two checks of the budget.
 const EXPANSIONS: usize = 32;
 /// No block.
@@ -33,8 +35,10 @@ pub(crate) struct Router<'space> {
     straight_links: Vec<u8>,
 }
 
-/// Costs and parents of the blocks around a start.
-pub(crate) struct CostField {
+/// Costs and parents of the blocks around the cell of the last exploration.
+pub(crate) struct CostField<'router> {
+    router: &'router Router<'router>,
+    from: usize,
     costs: Vec<u32>,
     parents: Vec<u32>,
     touched: Vec<u32>,
@@ -113,54 +117,14 @@ impl<'space> Router<'space> {
         row / BLOCK * self.columns + column / BLOCK
     }
 
-    pub(crate) fn cost_field(&self) -> CostField {
+    /// A cost field for explorations over these blocks.
+    pub(crate) fn cost_field(&self) -> CostField<'_> {
         CostField {
+            router: self,
+            from: 0,
             costs: vec![u32::MAX; self.anchors.len()],
             parents: vec![NONE; self.anchors.len()],
             touched: Vec::new(),
-        }
-    }
-
-    /// Runs Dijkstra's algorithm from a cell until `enough` returns true for a reached block, nearest first.
-    pub(crate) async fn explore(
-        &self,
-        from: usize,
-        (cost_field, budget): (&mut CostField, &mut StepBudget),
-        mut enough: impl FnMut(usize) -> bool,
-    ) {
-        cost_field.reset();
-        let start = self.block(from);
-        cost_field.set(start, 0, NONE);
-        let mut queue = BucketQueue::of(start);
-        let mut left = 0;
-        while let Some((cost, block)) = queue.pop() {
-            if cost > cost_field.costs[block] {
-                continue;
-            }
-            if enough(block) {
-                return;
-            }
-            left += 1;
-            if left % EXPANSIONS == 0 {
-                budget.spend(EXPAND_WORK * EXPANSIONS).await;
-            }
-            self.expand(block, cost_field, &mut queue);
-        }
-    }
-
-    /// Relaxes the links of a block.
-    fn expand(&self, block: usize, cost_field: &mut CostField, queue: &mut BucketQueue) {
-        let cost = cost_field.costs[block];
-        let links = self.block_links[block];
-        for (number, (next, step)) in self.around(block).into_iter().enumerate() {
-            if links & 1 << number == 0 {
-                continue;
-            }
-            let through = cost + step;
-            if through < cost_field.costs[next] {
-                cost_field.set(next, through, block as u32);
-                queue.push(through, next);
-            }
         }
     }
 
@@ -191,18 +155,6 @@ impl<'space> Router<'space> {
             let y = row + BLOCK;
             (column..column + BLOCK).any(|x| free(x, y - 1) && free(x, y))
         }
-    }
-
-    /// The shortened path from the start of the exploration to `to`, both ends included.
-    pub(crate) fn path(&self, cost_field: &CostField, from: usize, to: usize) -> Vec<usize> {
-        let mut blocks = vec![self.block(to)];
-        while let Some(block) = blocks.last()
-            && cost_field.parents[*block] != NONE
-        {
-            blocks.push(cost_field.parents[*block] as usize);
-        }
-        blocks.reverse();
-        self.straightened(&self.joined(&blocks, from, to))
     }
 
     /// The anchors of the blocks after the first one, between the two end cells. Where two of them have no line of sight
@@ -299,7 +251,64 @@ impl<'space> Router<'space> {
     }
 }
 
-impl CostField {
+impl CostField<'_> {
+    /// Runs Dijkstra's algorithm from a cell until `enough` returns true for a reached block, nearest first.
+    pub(crate) async fn explore(
+        &mut self,
+        from: usize,
+        mut enough: impl FnMut(usize) -> bool,
+        budget: &mut StepBudget,
+    ) {
+        self.reset();
+        self.from = from;
+        let start = self.router.block(from);
+        self.set(start, 0, NONE);
+        let mut queue = BucketQueue::of(start);
+        let mut expanded = 0;
+        while let Some((cost, block)) = queue.pop() {
+            if cost > self.costs[block] {
+                continue;
+            }
+            if enough(block) {
+                return;
+            }
+            expanded += 1;
+            if expanded % EXPANSIONS == 0 {
+                budget.spend(EXPAND_WORK * EXPANSIONS).await;
+            }
+            self.expand(block, &mut queue);
+        }
+    }
+
+    /// Relaxes the links of a block.
+    fn expand(&mut self, block: usize, queue: &mut BucketQueue) {
+        let cost = self.costs[block];
+        let links = self.router.block_links[block];
+        for (number, (next, step)) in self.router.around(block).into_iter().enumerate() {
+            if links & 1 << number == 0 {
+                continue;
+            }
+            let through = cost + step;
+            if through < self.costs[next] {
+                self.set(next, through, block as u32);
+                queue.push(through, next);
+            }
+        }
+    }
+
+    /// The shortened path from the start of the exploration to `to`, both ends included.
+    pub(crate) fn path(&self, to: usize) -> Vec<usize> {
+        let router = self.router;
+        let mut blocks = vec![router.block(to)];
+        while let Some(block) = blocks.last()
+            && self.parents[*block] != NONE
+        {
+            blocks.push(self.parents[*block] as usize);
+        }
+        blocks.reverse();
+        router.straightened(&router.joined(&blocks, self.from, to))
+    }
+
     /// Length of the path to a block in metres; `None` when it was not reached.
     pub(crate) fn path_m(&self, block: usize) -> Option<f64> {
         let cost = self.costs.get(block).filter(|cost| **cost != u32::MAX)?;

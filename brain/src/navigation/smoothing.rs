@@ -5,20 +5,8 @@ use super::configuration_space::ConfigurationSpace;
 use super::heading::heading_rad;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::gradual::StepBudget;
+use crate::navigation::parameters::SMOOTHING;
 
-/// Longest part of a straight that an arc replaces at a corner.
-const CUT_MAX_M: f64 = 0.15;
-/// The same at the corners of rings: the next ring does not sweep what an arc cuts off.
-const RING_CUT_MAX_M: f64 = 0.08;
-/// An arc that replaces less than this is no better than a turn on the spot.
-const CUT_MIN_M: f64 = 0.02;
-/// A tighter arc takes as long as a turn on the spot, and a robot that enters it slightly early is off the path at once,
-/// metres.
-const RADIUS_MIN_M: f64 = 0.05;
-/// Sharper corners are turned on the spot.
-const SHARP_RAD: f64 = 2.5;
-/// Smaller turns are left to steering.
-const SLIGHT_RAD: f64 = 0.01;
 /// Work of a corner.
 const CORNER_WORK: usize = 300;
 
@@ -73,9 +61,9 @@ pub(crate) async fn segments(
         let (from, to) = (pair[0], pair[1]);
         builder.turn_to(heading_rad(from, to));
         let most_m = if position < polyline.ring_corners {
-            RING_CUT_MAX_M
+            SMOOTHING.ring_cut_max_m
         } else {
-            CUT_MAX_M
+            SMOOTHING.cut_max_m
         };
         let cut_m = corners
             .get(position + 2)
@@ -102,7 +90,7 @@ struct SegmentBuilder {
 impl SegmentBuilder {
     fn turn_to(&mut self, heading_rad: f64) {
         let turn_rad = normalize_rad(heading_rad - self.pose.heading_rad);
-        if turn_rad.abs() > SLIGHT_RAD {
+        if turn_rad.abs() > SMOOTHING.slight_turn_rad {
             self.add(0.0, turn_rad);
         }
         self.pose.heading_rad = heading_rad;
@@ -125,13 +113,15 @@ impl SegmentBuilder {
 /// How much of the straights before and after a corner an arc may replace, up to `most_m`; 0 = turn on the spot.
 fn cut_m([before, corner, after]: [Point2; 3], space: &ConfigurationSpace, most_m: f64) -> f64 {
     let turn_rad = normalize_rad(heading_rad(corner, after) - heading_rad(before, corner)).abs();
-    if !(0.1..SHARP_RAD).contains(&turn_rad) {
+    if !SMOOTHING.arc_turn_rad.contains(&turn_rad) {
         return 0.0;
     }
     let (behind_m, ahead_m) = (before.distance_m(corner), corner.distance_m(after));
     // Half of each straight, so that the corners at its two ends do not overlap.
     let mut cut_m = most_m.min(0.5 * behind_m).min(0.5 * ahead_m);
-    let least_m = CUT_MIN_M.max(RADIUS_MIN_M * libm::tan(0.5 * turn_rad));
+    let least_m = SMOOTHING
+        .cut_min_m
+        .max(SMOOTHING.radius_min_m * libm::tan(0.5 * turn_rad));
     while cut_m >= least_m {
         let start = between(corner, before, cut_m / behind_m);
         let end = between(corner, after, cut_m / ahead_m);

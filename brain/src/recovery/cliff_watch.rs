@@ -13,17 +13,17 @@ const WINDOW_US: u64 = 5_500_000;
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct CliffWatch {
     cliffs_us: [Option<u64>; 2],
-    was_at_cliff: bool,
     waits: bool,
 }
 
 impl CliffWatch {
+    /// A cliff has begun to hold the robot.
+    pub(crate) fn note_cliff(&mut self, now_us: u64) {
+        self.cliffs_us = [self.cliffs_us[1], Some(now_us)];
+    }
+
     /// Whether another cliff now would be one too many, so that a free robot must stand still.
     pub(crate) fn must_wait(&mut self, is_at_cliff: bool, now_us: u64, context: &mut TaskContext) -> bool {
-        if is_at_cliff && !self.was_at_cliff {
-            self.cliffs_us = [self.cliffs_us[1], Some(now_us)];
-        }
-        self.was_at_cliff = is_at_cliff;
         let is_one_too_many =
             self.cliffs_us[0].is_some_and(|cliffs_us| now_us < cliffs_us.saturating_add(WINDOW_US));
         let waits = is_one_too_many && !is_at_cliff;
@@ -38,6 +38,8 @@ impl CliffWatch {
 #[cfg(test)]
 mod tests {
     use super::{CliffWatch, WINDOW_US};
+    use crate::model::observation::{Cliffs, Observation};
+    use crate::model::onsets::OnsetDetector;
     use crate::model::random::Random;
     use crate::navigation::TaskContext;
 
@@ -48,7 +50,20 @@ mod tests {
             journal: Vec::new(),
         };
         let mut watch = CliffWatch::default();
-        let mut step = |is_at_cliff, now_us| watch.must_wait(is_at_cliff, now_us, &mut context);
+        let mut onsets = OnsetDetector::default();
+        let mut step = |middle, now_us| {
+            let observation = Observation {
+                cliffs: Cliffs {
+                    middle,
+                    ..Cliffs::default()
+                },
+                ..Observation::default()
+            };
+            if onsets.take(&observation).is_held_by_cliff {
+                watch.note_cliff(now_us);
+            }
+            watch.must_wait(observation.is_at_cliff(), now_us, &mut context)
+        };
         assert!(!step(true, 1_000_000), "it must back off");
         assert!(!step(false, 1_500_000), "one edge is none too many");
         assert!(!step(true, 3_000_000), "it must back off again");

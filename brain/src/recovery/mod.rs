@@ -4,6 +4,7 @@
 //! takes a bounded time, and between two of them the task has a bounded time to get out ([`Pen`]).
 
 mod cliff_watch;
+mod parameters;
 mod pen;
 mod progress;
 mod recovery_sequence;
@@ -19,11 +20,7 @@ use crate::model::geometry::TurnSide;
 use crate::model::random::Random;
 use crate::model::reason::Reason;
 use crate::navigation::{BackOff, ContourTrace, Manoeuvre, ManoeuvreSequence, Turn};
-
-/// Time along a contour: once round a closet.
-const CONTOUR_S: f64 = 75.0;
-/// Time for people to leave.
-const WAIT_S: f64 = 60.0;
+use parameters::MANOEUVRES;
 
 /// How the robot is stuck, by the reason.
 pub(crate) const fn stuck_kind(reason: Reason) -> StuckKind {
@@ -36,32 +33,46 @@ pub(crate) const fn stuck_kind(reason: Reason) -> StuckKind {
 /// The manoeuvres of a behavior.
 pub(crate) fn escape(behavior: RecoveryBehavior, random: &mut Random) -> ManoeuvreSequence {
     let sign = if random.coin() { 1.0 } else { -1.0 };
-    let mut turn = |low_rad, high_rad| Manoeuvre::Turn(Turn::by(sign * random.between(low_rad, high_rad)));
+    let mut turn = |range_rad| Manoeuvre::Turn(Turn::by(sign * random.within(range_rad)));
     let parts = match behavior {
-        RecoveryBehavior::BackOut => vec![Manoeuvre::Back(BackOff::from_contact(0.12)), turn(1.0, 2.2)],
+        RecoveryBehavior::BackOut => vec![
+            Manoeuvre::Back(BackOff::from_contact(MANOEUVRES.back_out_m)),
+            turn(&MANOEUVRES.back_out_turn_rad),
+        ],
         RecoveryBehavior::Wiggle => vec![
-            Manoeuvre::Swing { sign, left_s: 0.5 },
+            Manoeuvre::Swing {
+                sign,
+                left_s: MANOEUVRES.wiggle_first_s,
+            },
             Manoeuvre::Swing {
                 sign: -sign,
-                left_s: 0.8,
+                left_s: MANOEUVRES.wiggle_s,
             },
-            Manoeuvre::Swing { sign, left_s: 0.8 },
-            turn(1.5, 2.8),
+            Manoeuvre::Swing {
+                sign,
+                left_s: MANOEUVRES.wiggle_s,
+            },
+            turn(&MANOEUVRES.wiggle_turn_rad),
         ],
-        RecoveryBehavior::Reverse => vec![Manoeuvre::Back(BackOff::from_contact(0.15)), turn(2.2, 3.1)],
+        RecoveryBehavior::Reverse => vec![
+            Manoeuvre::Back(BackOff::from_contact(MANOEUVRES.reverse_m)),
+            turn(&MANOEUVRES.reverse_turn_rad),
+        ],
         RecoveryBehavior::ContourLeft => vec![Manoeuvre::Contour(ContourTrace::new(
             TurnSide::Left,
-            CONTOUR_S,
+            MANOEUVRES.contour_s,
             random,
         ))],
         RecoveryBehavior::ContourRight => vec![Manoeuvre::Contour(ContourTrace::new(
             TurnSide::Right,
-            CONTOUR_S,
+            MANOEUVRES.contour_s,
             random,
         ))],
         RecoveryBehavior::Wait => vec![
-            Manoeuvre::Back(BackOff::from_contact(0.02)),
-            Manoeuvre::Wait { left_s: WAIT_S },
+            Manoeuvre::Back(BackOff::from_contact(MANOEUVRES.wait_back_m)),
+            Manoeuvre::Wait {
+                left_s: MANOEUVRES.wait_s,
+            },
         ],
     };
     ManoeuvreSequence::new(parts)

@@ -1,18 +1,7 @@
 //! Whether the robot gets anywhere: the bounding box of where it has been.
 
+use super::parameters::PEN;
 use crate::model::geometry::Point2;
-
-/// The robot has left a box whose diagonal exceeds this. It is longer than a closet and shorter than any room in which
-/// people would let a robot clean.
-const LEFT_M: f64 = 2.3;
-/// A held robot has moved off at this distance.
-const MOVED_OFF_M: f64 = 0.3;
-/// After this time in one box the robot is penned. A box of that size is clean in less than a minute.
-const PATIENCE_S: f64 = 240.0;
-/// After each behavior the task has this time to get out by itself.
-const PATIENCE_AGAIN_S: f64 = 45.0;
-/// A job that ends with most of the home unswept after this time in one box ends in a pen.
-const ENDS_IN_PEN_S: f64 = 20.0;
 
 /// What became of the robot in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +38,7 @@ impl Pen {
             x_m: high.x_m.max(place.x_m),
             y_m: high.y_m.max(place.y_m),
         };
-        if low.distance_m(high) > LEFT_M {
+        if low.distance_m(high) > PEN.left_m {
             let stuck_at = self.stuck_at;
             *self = Self {
                 corners: Some((place, place)),
@@ -61,7 +50,7 @@ impl Pen {
         self.time_s += time_s;
         if self
             .held_at
-            .is_some_and(|held| held.distance_m(place) > MOVED_OFF_M)
+            .is_some_and(|held| held.distance_m(place) > PEN.moved_off_m)
         {
             self.held_at = None;
             return Whereabouts::MovedOff;
@@ -82,18 +71,18 @@ impl Pen {
 
     /// A behavior is over: the task gets some time before the robot counts as penned again.
     pub(crate) fn try_again(&mut self) {
-        let due_s = self.due_s.unwrap_or(PATIENCE_S);
-        self.due_s = Some(due_s.max(self.time_s + PATIENCE_AGAIN_S));
+        let due_s = self.due_s.unwrap_or(PEN.patience_s);
+        self.due_s = Some(due_s.max(self.time_s + PEN.patience_again_s));
     }
 
     /// Whether the robot counts as penned now.
     pub(crate) fn is_due(&self) -> bool {
-        self.time_s >= self.due_s.unwrap_or(PATIENCE_S)
+        self.time_s >= self.due_s.unwrap_or(PEN.patience_s)
     }
 
     /// Whether a job that ends here, with most of the home not swept, ends in a pen.
     pub(crate) fn holds_the_end(&self) -> bool {
-        self.time_s >= ENDS_IN_PEN_S
+        self.time_s >= PEN.ends_in_pen_s
     }
 }
 

@@ -1,18 +1,8 @@
 //! Detects that a commanded robot does not move (S15).
 
+use super::parameters::PROGRESS;
 use crate::model::action::Motion;
 use crate::model::advance::Advance;
-
-/// Not moving for this long means that the robot is stuck.
-const PATIENCE_S: f64 = 2.0;
-/// Distance that counts as moving.
-const MOVED_M: f64 = 0.02;
-/// Turn that counts as moving.
-const TURNED_RAD: f64 = 0.1;
-/// Slower commands are ignored: the dead band of a motor may swallow them.
-const SPEED_MIN_M_PER_S: f64 = 0.03;
-/// As `SPEED_MIN_M_PER_S`.
-const TURN_MIN_RAD_PER_S: f64 = 0.25;
 
 /// Compares commanded with actual movement.
 #[derive(Clone, Debug, Default)]
@@ -26,7 +16,7 @@ impl ProgressWatch {
     /// Updates with the movement that followed `commanded`; true when the robot is stuck.
     pub(crate) fn is_stuck(&mut self, commanded: Motion, advance: Advance) -> bool {
         let demanding = matches!(commanded, Motion::Drive { speed_m_per_s, turn_rad_per_s }
-            if speed_m_per_s.abs() >= SPEED_MIN_M_PER_S || turn_rad_per_s.abs() >= TURN_MIN_RAD_PER_S);
+            if speed_m_per_s.abs() >= PROGRESS.speed_min_m_per_s || turn_rad_per_s.abs() >= PROGRESS.turn_min_rad_per_s);
         if !demanding {
             *self = Self::default();
             return false;
@@ -34,10 +24,10 @@ impl ProgressWatch {
         self.commanded_s += advance.time_s;
         self.moved_m += advance.distance_m;
         self.turned_rad += advance.turn_rad;
-        if self.moved_m.abs() >= MOVED_M || self.turned_rad.abs() >= TURNED_RAD {
+        if self.moved_m.abs() >= PROGRESS.moved_m || self.turned_rad.abs() >= PROGRESS.turned_rad {
             *self = Self::default();
         }
-        self.commanded_s >= PATIENCE_S
+        self.commanded_s >= PROGRESS.patience_s
     }
 }
 

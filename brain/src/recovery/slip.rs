@@ -1,13 +1,7 @@
 //! Detects wheel slip from the difference of gyro and wheels (S14).
 
+use super::parameters::SLIP;
 use crate::model::advance::Advance;
-
-/// Length of a comparison.
-const WINDOW_S: f64 = 0.5;
-/// Disagreement in one window that cannot come from unequal wheels or a drifting gyro: 0.4 rad/s.
-const DISAGREEMENT_RAD: f64 = 0.2;
-/// Slipping this long is a reason to stop.
-const PATIENCE_S: f64 = 5.0;
 
 /// How well the wheels grip the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,8 +28,8 @@ impl SlipWatch {
             self.difference_rad += gyro_turn_rad - advance.wheel_turn_rad;
         }
         self.window_s += advance.time_s;
-        if self.window_s >= WINDOW_S {
-            let slips = self.difference_rad.abs() > DISAGREEMENT_RAD;
+        if self.window_s >= SLIP.window_s {
+            let slips = self.difference_rad.abs() > SLIP.disagreement_rad;
             self.slipping_s = if slips {
                 self.slipping_s + self.window_s
             } else {
@@ -43,7 +37,7 @@ impl SlipWatch {
             };
             (self.window_s, self.difference_rad) = (0.0, 0.0);
         }
-        if self.slipping_s > PATIENCE_S {
+        if self.slipping_s > SLIP.patience_s {
             Traction::Lost
         } else if self.slipping_s > 0.0 {
             Traction::Slipping

@@ -2,7 +2,7 @@
 
 use crate::passed::passed;
 use crate::plane::{BODY, SPEEDS};
-use brain::coverage::plan::{CoveragePlan, PlanSettings, plan_pattern};
+use brain::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_pattern};
 use brain::{Cell, Pattern, Pose2, Raster};
 use proptest::prelude::*;
 
@@ -20,6 +20,13 @@ const START: Pose2 = Pose2 {
     heading_rad: 1.0,
 };
 
+fn from(start: Pose2) -> Departure {
+    Departure {
+        start,
+        settings: SETTINGS,
+    }
+}
+
 /// Ground of so many cells without some rectangles: column, row, width and height of each.
 fn ground((width, height): (i32, i32), furniture: &[[i32; 4]]) -> Raster<bool> {
     let mut ground = Raster::filled(Cell::default(), width as usize, height as usize, true);
@@ -34,7 +41,7 @@ fn ground((width, height): (i32, i32), furniture: &[[i32; 4]]) -> Raster<bool> {
 }
 
 fn plan(ground: &Raster<bool>, pattern: Pattern) -> CoveragePlan {
-    plan_pattern(ground, (pattern, |_| false), START, &SETTINGS)
+    plan_pattern(ground, pattern, |_| false, from(START))
 }
 
 fn turned_deg(plan: &CoveragePlan) -> f64 {
@@ -77,7 +84,7 @@ fn rings_sweep_nearly_as_much_as_lanes_in_no_more_time() {
 fn a_corridor_narrower_than_a_swath_is_driven_once() {
     let ground = ground((200, 1), &[]);
     let start = Pose2 { x_m: 0.05, ..START };
-    let plan = plan_pattern(&ground, (Pattern::Contour, |_| false), start, &SETTINGS);
+    let plan = plan_pattern(&ground, Pattern::Contour, |_| false, from(start));
     assert!(passed(&plan, &ground) > 0.99);
     // It is 5 m long.
     assert!(length_m(&plan) < 6.0, "{} m", length_m(&plan));
@@ -87,7 +94,7 @@ fn a_corridor_narrower_than_a_swath_is_driven_once() {
 fn what_is_swept_is_not_driven_again() {
     let ground = ground((160, 120), &[]);
     let left_half = |cell: Cell| cell.x < 80;
-    let rest = plan_pattern(&ground, (Pattern::Contour, left_half), START, &SETTINGS);
+    let rest = plan_pattern(&ground, Pattern::Contour, left_half, from(START));
     let whole = plan(&ground, Pattern::Contour);
     assert!(
         rest.time_s < 0.65 * whole.time_s,
@@ -95,7 +102,7 @@ fn what_is_swept_is_not_driven_again() {
         rest.time_s,
         whole.time_s
     );
-    let nothing = plan_pattern(&ground, (Pattern::Contour, |_| true), START, &SETTINGS);
+    let nothing = plan_pattern(&ground, Pattern::Contour, |_| true, from(START));
     assert_eq!((nothing.lanes, nothing.open_m2), (0, 0.0));
 }
 
@@ -121,12 +128,12 @@ proptest! {
     fn any_ground_is_swept_on_ground((ground, start) in any_ground(), swept in [0..90, 0..90, 0..60, 0..60]) {
         let [x, y, wide, high] = swept;
         let is_swept = |cell: Cell| (x..x + wide).contains(&cell.x) && (y..y + high).contains(&cell.y);
-        let plan = plan_pattern(&ground, (Pattern::Contour, is_swept), start, &SETTINGS);
+        let plan = plan_pattern(&ground, Pattern::Contour, is_swept, from(start));
         for corner in &plan.corners {
             prop_assert_eq!(ground.get(Cell::under(*corner)), Some(&true));
         }
         prop_assert!(plan.left_m2 <= plan.open_m2);
-        let lanes = plan_pattern(&ground, (Pattern::Lines, is_swept), start, &SETTINGS);
+        let lanes = plan_pattern(&ground, Pattern::Lines, is_swept, from(start));
         prop_assert!(plan.left_m2 <= lanes.left_m2 + 0.15, "{} and {} m2", plan.left_m2, lanes.left_m2);
     }
 }

@@ -307,10 +307,14 @@ fn an_edit_is_answered_once() {
     let wall = NoGo::wall(Point2 { x_m: 0.3, y_m: 0.5 }, Point2 { x_m: 1.0, y_m: 0.5 }).unwrap();
     let named = wall.with_name(RoomName::new("Vase").ok());
     let removal = || MapEdit::NoGo(NoGoEdit::Remove { number: 1 });
-    for (asked, decisions) in [
-        (MapEdit::NoGo(NoGoEdit::Add(named)), vec![]),
-        (removal(), vec![]),
-        (removal(), vec![("edit-refused", "no-such-no-go")]),
+    for (asked, decisions, answer) in [
+        (MapEdit::NoGo(NoGoEdit::Add(named)), vec![], Ok(())),
+        (removal(), vec![], Ok(())),
+        (
+            removal(),
+            vec![("edit-refused", "no-such-no-go")],
+            Err(EditError::NoSuchNoGo),
+        ),
     ] {
         let actions = stage.brain.step(&stage.world.observation, &[asked.into()]);
         let made: Vec<_> = actions
@@ -319,6 +323,7 @@ fn an_edit_is_answered_once() {
             .map(|made| (made.kind.name(), made.cause.name()))
             .collect();
         assert_eq!(made, decisions);
+        assert_eq!(actions.edits, [answer]);
     }
 }
 

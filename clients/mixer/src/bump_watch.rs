@@ -1,11 +1,11 @@
-//! When hands that hold a gamepad should feel the bumper.
+//! When a gamepad should rumble because of the bumper.
 
 use rvac_api::Status;
 
 /// Name of the inhibit of a pressed bumper.
 const BUMPER: &str = "bumper";
 
-/// Notices that the bumper goes down. What is pressed when somebody begins to look is no bump.
+/// Notices that the bumper goes down. A bumper that is pressed at the first status is no bump.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct BumpWatch {
     pressed: Option<bool>,

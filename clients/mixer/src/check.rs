@@ -118,7 +118,7 @@ pub enum ProfileError {
         /// Where.
         place: String,
     },
-    /// A switch is named that does not stand before the place.
+    /// A switch is named that is not defined before this place.
     #[error("{place}: no switch before it has the name `{name}`: add one, or take another")]
     NoSwitch {
         /// Where.

@@ -1,4 +1,4 @@
-//! What other clients tell, as the robot passes it on: each input ends by itself at the client that drives by it.
+//! Inputs of other clients, as the robot passes them on. Each expires by itself at the client that drives by it.
 
 use std::collections::BTreeMap;
 
@@ -9,38 +9,38 @@ use crate::Name;
 /// Inputs of other clients with the ends of their leases, by the clock of whoever mixes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClientInputs {
-    told: BTreeMap<Name, Told>,
+    inputs: BTreeMap<Name, LeasedInput>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Told {
+struct LeasedInput {
     value: f64,
     until_us: u64,
 }
 
 impl ClientInputs {
-    /// The robot told this, in place of all that it told before. What no client could have told is left out: it is absent.
-    pub fn hear(&mut self, now_us: u64, inputs: &[ClientInput]) {
-        let told = inputs.iter().take(INPUTS_MAX).filter_map(|input| {
+    /// Replaces all inputs by those that the robot has just sent. An input that no client can have sent is left out and so is absent.
+    pub fn replace(&mut self, now_us: u64, inputs: &[ClientInput]) {
+        let valid = inputs.iter().take(INPUTS_MAX).filter_map(|input| {
             let name = Name::new(&input.name).ok()?;
             let value = Some(input.value).filter(|value| (-1.0..=1.0).contains(value))?;
             let left_us = u64::from(input.left_ms.min(INPUT_LEASE_MS_MAX)) * 1000;
             let until_us = now_us.saturating_add(left_us);
-            Some((name, Told { value, until_us }))
+            Some((name, LeasedInput { value, until_us }))
         });
-        self.told = told.collect();
+        self.inputs = valid.collect();
     }
 
-    /// The connection to the robot is gone, and all that it told with it.
+    /// Forgets all inputs, because the connection to the robot is lost.
     pub fn forget(&mut self) {
-        self.told.clear();
+        self.inputs.clear();
     }
 
-    /// What is told at this moment, for [`crate::Readings::clients`].
+    /// The inputs that are valid at this moment, for [`crate::Readings::clients`].
     #[must_use]
     pub fn at(&self, now_us: u64) -> BTreeMap<Name, f64> {
-        let live = self.told.iter().filter(|(_, told)| now_us < told.until_us);
-        live.map(|(name, told)| (name.clone(), told.value)).collect()
+        let live = self.inputs.iter().filter(|(_, input)| now_us < input.until_us);
+        live.map(|(name, input)| (name.clone(), input.value)).collect()
     }
 }
 
@@ -65,14 +65,14 @@ mod tests {
     #[test]
     fn each_input_ends_with_its_own_lease() {
         let mut inputs = ClientInputs::default();
-        inputs.hear(1_000, &[input("go", 1.0, 300), input("steer", -0.5, 100)]);
+        inputs.replace(1_000, &[input("go", 1.0, 300), input("steer", -0.5, 100)]);
         assert_eq!(
             at(&inputs, 100_999),
             [("go".to_owned(), 1.0), ("steer".to_owned(), -0.5)]
         );
         assert_eq!(at(&inputs, 101_000), [("go".to_owned(), 1.0)]);
         assert_eq!(at(&inputs, 301_000), []);
-        inputs.hear(302_000, &[input("steer", 0.0, 100)]);
+        inputs.replace(302_000, &[input("steer", 0.0, 100)]);
         assert_eq!(at(&inputs, 302_000), [("steer".to_owned(), 0.0)]);
         inputs.forget();
         assert_eq!(at(&inputs, 302_000), []);
@@ -87,15 +87,15 @@ mod tests {
             input("nan", f64::NAN, 300),
             input("over", 1.0, 0),
         ];
-        inputs.hear(0, &wrong);
+        inputs.replace(0, &wrong);
         assert_eq!(at(&inputs, 0), []);
-        inputs.hear(0, &[input("long", 1.0, u16::MAX)]);
+        inputs.replace(0, &[input("long", 1.0, u16::MAX)]);
         assert_eq!(at(&inputs, 399_999).len(), 1);
         assert_eq!(at(&inputs, 400_000), [], "no lease is longer than the longest");
         let flood: Vec<ClientInput> = (0..1000)
             .map(|number| input(&format!("x{number}"), 0.0, 300))
             .collect();
-        inputs.hear(0, &flood);
+        inputs.replace(0, &flood);
         assert_eq!(at(&inputs, 0).len(), INPUTS_MAX);
     }
 }

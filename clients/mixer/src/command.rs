@@ -48,10 +48,10 @@ pub enum Press {
     Dock,
 }
 
-/// What a person wants of the robot at this moment.
+/// What a person commands at this moment.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wish {
-    /// The robot should be driven by hand now. Otherwise nothing of it may be asked but presses.
+    /// The person drives the robot by hand now. Otherwise only presses may be sent.
     pub drives: bool,
     /// How it should move.
     pub axes: Axes,

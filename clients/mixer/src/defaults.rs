@@ -6,7 +6,7 @@ use crate::{
 
 /// Sticks at rest read up to this much.
 const STICK_DEAD_BAND: f64 = 0.1;
-/// The stick on the screen has a middle that fingers cannot feel.
+/// The stick on the screen has a centre that fingers cannot find by touch.
 const TOUCH_DEAD_BAND: f64 = 0.08;
 /// Hands that hold still tilt by some degrees.
 const TILT_DEAD_BAND: f64 = 0.08;
@@ -16,7 +16,7 @@ const STICK_EXPO: f64 = 0.3;
 const KEY_SHARE: f64 = 0.7;
 /// The cross of a pad is for slow steps.
 const CROSS_SHARE: f64 = 0.5;
-/// Backwards the robot sees nothing: it goes slower.
+/// No sensor covers the floor behind the robot, so it reverses more slowly.
 const REVERSE_SHARE: f64 = 0.5;
 /// With the left shoulder button everything is slower by this.
 const SLOW_SHARE: f64 = 0.4;

@@ -18,7 +18,7 @@ pub enum Order {
     Release,
 }
 
-/// Whether the robot was told to drive.
+/// Whether the robot has been commanded to drive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Helm {
     driving: bool,
@@ -39,7 +39,7 @@ impl Helm {
         if self.refused {
             return Order::Nothing;
         }
-        // A hold begins in the middle: the daemon wants to see that nobody holds on through a stop.
+        // A hold begins at the centre, because the daemon requires that no stick is held through a stop.
         if !core::mem::replace(&mut self.driving, true) {
             return Order::Drive {
                 axes: Axes::default(),

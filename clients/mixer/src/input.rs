@@ -27,7 +27,7 @@ pub enum Device {
     Touch,
     /// The device that is held in the hand and tilted.
     Tilt,
-    /// An input that another client tells the robot: each ends by itself.
+    /// An input that another client sends to the robot. It expires by itself.
     Client(Name),
 }
 
@@ -81,7 +81,7 @@ pub enum Source {
     TiltForward,
     /// Left edge of the device tilted down; a quarter turn is 1.
     TiltLeft,
-    /// What another client tells the robot under this name, -1..=1.
+    /// The value that another client sends under this name, -1..=1.
     Client(Name),
     /// A switch of the profile, 0 or 1.
     Switch(Name),

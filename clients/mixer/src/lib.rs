@@ -1,8 +1,8 @@
-//! Control mixes: from sticks, keys and buttons to what a robot does, the way radio transmitters do it.
+//! Control mixes: from sticks, keys and buttons to what a robot does, as radio transmitters do it.
 //!
 //! Words used here. An *input* is one stick axis, button, key or the like, -1..=1. A *line* takes one input, shapes it (curve,
 //! weight, delay, slow) and adds it to an *output*, multiplies the output by it, or replaces it. An output is one thing that
-//! the robot can be told: a speed, a turn, suction, Start. A *switch* is a condition on inputs that lines may depend on. A
+//! the robot can be commanded: a speed, a turn, suction, Start. A *switch* is a condition on inputs that lines may depend on. A
 //! *profile* is all of these, as a person saved them. *Rest* is what an input gives when nobody touches it. *Failsafe* is
 //! what an output gives when an input was lost. A *pilot* is a mixer at work whose orders leave as requests.
 //!

@@ -313,7 +313,7 @@ impl Step {
         )
     }
 
-    /// Notes whether a line says that somebody drives.
+    /// Notes whether a line makes the person the driver.
     fn note(&mut self, (profile, line): (&Profile, &Line), stages: &LineStages, is_on: bool) {
         if line.mix == Mix::Multiply || line.is_background() {
             return;

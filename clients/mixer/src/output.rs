@@ -1,4 +1,4 @@
-//! What a robot can be told.
+//! What a robot can be commanded to do.
 
 use core::fmt;
 
@@ -46,7 +46,7 @@ pub enum OutputKind {
 }
 
 impl OutputName {
-    /// All of them, in the order in which people look for them.
+    /// All of them, in the order in which lists show them.
     pub const ALL: [Self; 11] = [
         Self::Forward,
         Self::Turn,

@@ -4,7 +4,7 @@ use rvac_api::{CleaningPower, RequestBody};
 
 use crate::{Axes, Cleaning, Helm, Mixed, Mixer, Order, Press, Profile, Readings};
 
-/// The mixer should look at the inputs so often.
+/// Period at which the mixer reads the inputs.
 pub const STEP_EVERY_US: u64 = 20_000;
 /// What does not change is said again so often: two renewals of the lease may be lost.
 const RENEW_US: u64 = 80_000;
@@ -20,7 +20,7 @@ pub struct TopSpeeds {
     pub turn_rad_per_s: f64,
 }
 
-/// What came of one look at the inputs.
+/// Result of one reading of the inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steered {
     /// Stage by stage.

@@ -20,7 +20,7 @@ pub struct Calibration {
     pub centre: f64,
     /// Reading at its upper end.
     pub high: f64,
-    /// Share of the way to an end that counts as rest, 0..=0.9.
+    /// Dead band: the share of the range to an end that counts as rest, 0..=0.9.
     pub dead_band: f64,
 }
 
@@ -45,7 +45,7 @@ impl Calibration {
         } else {
             self.high - self.centre
         };
-        // A trigger rests at one of its ends: there is no way beyond it.
+        // A trigger rests at one of its ends, and there is no travel beyond it.
         if reach <= 0.0 {
             return 0.0;
         }
@@ -66,7 +66,7 @@ pub struct Profile {
     /// Inputs that are not read as they are.
     #[serde(default)]
     pub inputs: Vec<Calibration>,
-    /// Switches; each sees those before it.
+    /// Switches. Each may refer to those before it.
     #[serde(default)]
     pub switches: Vec<Switch>,
     /// Outputs, each at most once.

@@ -29,7 +29,7 @@ pub struct Readings {
     pub touch: Option<[f64; 2]>,
     /// Tilt of the device: forward and left, a quarter turn is 1.
     pub tilt: Option<[f64; 2]>,
-    /// What other clients tell, each of them a device of its own: see [`crate::ClientInputs`].
+    /// Inputs of other clients, each of them a device of its own: see [`crate::ClientInputs`].
     pub clients: BTreeMap<Name, f64>,
 }
 

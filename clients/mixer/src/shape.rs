@@ -1,6 +1,6 @@
 //! Curves: from -1..=1 to -1..=1.
 
-/// Bends a straight line: 0 leaves it, towards 1 the middle is gentler and the ends steeper, towards -1 the other way round.
+/// Bends a straight line: 0 leaves it, towards 1 the middle is gentler and the ends steeper, towards -1 the reverse.
 /// Both ends and the middle stay where they are.
 #[must_use]
 pub fn with_expo(value: f64, expo: f64) -> f64 {

@@ -14,7 +14,7 @@ pub struct Switch {
     pub on: Condition,
 }
 
-/// When a switch is on. Other switches that it names must stand before it.
+/// When a switch is on. Other switches that it names must be defined before it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     rename_all = "kebab-case",
@@ -61,7 +61,7 @@ pub enum Condition {
 }
 
 impl Condition {
-    /// The input that it looks at.
+    /// The input that it reads.
     #[must_use]
     pub const fn input(&self) -> Option<&Source> {
         match self {
@@ -70,7 +70,7 @@ impl Condition {
         }
     }
 
-    /// The switches that it looks at.
+    /// The switches that it refers to.
     #[must_use]
     pub fn switches(&self) -> Vec<&Name> {
         match self {
@@ -86,7 +86,7 @@ impl Condition {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SwitchMemory {
     pub(crate) on: bool,
-    /// What it looks at was on in the step before. True at the start: what is on already does not go on.
+    /// Its input was on in the previous step. True at the start, so that an input that is on already does not count as switched on.
     seen: bool,
     since_us: Option<u64>,
 }
@@ -102,7 +102,7 @@ impl Default for SwitchMemory {
 }
 
 impl SwitchMemory {
-    /// Looks again. `value` reads an input, `is_on` a switch that stands before this one.
+    /// Evaluates the condition. `value` reads an input, `is_on` a switch that is defined before this one.
     pub(crate) fn step(
         &mut self,
         now_us: u64,

@@ -45,7 +45,7 @@ fn sticks(axes: &[f64]) -> Readings {
     }
 }
 
-fn told(value: f64, left_ms: u16) -> ClientInput {
+fn client_input(value: f64, left_ms: u16) -> ClientInput {
     ClientInput {
         name: "steer".to_owned(),
         value,
@@ -127,7 +127,7 @@ proptest! {
         prop_assert_eq!(mixed.wish().axes, mixer::Axes::default());
     }
 
-    /// Whatever a client tells and whenever it falls silent: nothing moves when the longest lease is over.
+    /// Whatever a client sends and whenever it falls silent, nothing moves after the longest lease.
     #[test]
     fn a_client_that_falls_silent_drives_no_longer_than_a_lease(
         words in prop::collection::vec((-1.0_f64..=1.0, 1_u16..=500, 1_u64..300_000), 1..20),
@@ -142,13 +142,13 @@ proptest! {
         };
         for value in [0.0, 0.0, 1.0] {
             now_us += STEP_US;
-            inputs.hear(now_us, &[told(value, 400)]);
+            inputs.replace(now_us, &[client_input(value, 400)]);
             let mixed = step(now_us, &inputs);
             prop_assert_eq!(mixed.outputs[0].value, value, "at rest first, then it drives");
         }
         for (value, left_ms, pause_us) in words {
             now_us += pause_us;
-            inputs.hear(now_us, &[told(value, left_ms)]);
+            inputs.replace(now_us, &[client_input(value, left_ms)]);
             step(now_us, &inputs);
         }
         let over_us = now_us + u64::from(INPUT_LEASE_MS_MAX) * 1000;
@@ -159,7 +159,7 @@ proptest! {
         let mixed = step(now_us, &inputs);
         prop_assert_eq!(mixed.outputs[0].value, 0.0);
         prop_assert!(!mixed.wish().drives);
-        inputs.hear(now_us, &[told(1.0, 400)]);
+        inputs.replace(now_us, &[client_input(1.0, 400)]);
         for _ in 0..3 {
             now_us += STEP_US;
             prop_assert_eq!(step(now_us, &inputs).outputs[0].value, 0.0, "it comes back held");

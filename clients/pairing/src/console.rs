@@ -1,4 +1,4 @@
-//! What `rvac` and the server say to each other over the server's own Unix socket, one line of JSON each way.
+//! What `rvac` and the server exchange over the server's own Unix socket: one line of JSON in each direction.
 
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ pub enum Order {
     },
     /// Forgets all devices.
     ForgetAll {
-        /// The robot's identity too: whatever trusts its certificate must trust a new one.
+        /// Also the robot's identity: devices that trust its certificate must trust a new one.
         identity: bool,
     },
     /// Asks for what devices may trust.

@@ -40,7 +40,7 @@ pub struct Door {
 const ROLE_BY_PRESSES: Role = Role::Drive;
 
 impl Door {
-    /// The door as it was kept, or of a robot that knows nobody yet. No window is open.
+    /// The stored door, or that of a robot without paired devices. No window is open.
     ///
     /// # Errors
     /// See [`StoredError`].
@@ -95,13 +95,13 @@ impl Door {
         self.forgotten = Some(why);
     }
 
-    /// The robot is somebody else from now on: proofs for the one before are none.
+    /// The robot has a new identity from now on; proofs for the previous one are not valid.
     pub fn rename(&mut self, robot: RobotId) {
         self.robot = robot;
         self.attempts.clear();
     }
 
-    /// Whether somebody can be let in.
+    /// Whether pairing is possible now.
     #[must_use]
     pub fn is_open(&self, now_us: u64) -> bool {
         self.window.current(now_us).is_some()
@@ -122,7 +122,7 @@ impl Door {
     }
 
     /// Opens a window because a person holds the button: a device that shows the presses it asks for can be let in. The window is counted:
-    /// [`Self::stored`] must be on the disk before anybody hears of it.
+    /// [`Self::stored`] must be on the disk before anybody is informed.
     ///
     /// # Errors
     /// [`Refusal::OpenAlready`], [`Refusal::Waiting`].
@@ -183,7 +183,7 @@ impl Door {
         }
     }
 
-    /// Time passes: a whole pattern that is not that of any device that waits ends the window.
+    /// Lets time pass. A complete pattern that matches no waiting device closes the window.
     pub fn judge_presses(&mut self, now_us: u64) {
         if self.is_open_for_presses(now_us) && self.matching.judge(now_us) == Some(false) {
             self.window.on_wrong_presses(now_us);
@@ -281,7 +281,7 @@ impl Door {
         Ok((Finished { proof, role }, token))
     }
 
-    /// Lets a program in, by the word of somebody at the console.
+    /// Pairs a program on behalf of a person at the console.
     ///
     /// # Errors
     /// [`Refusal::Full`].

@@ -27,10 +27,10 @@ const PURPOSE: &[u8] = b"librvac pairing 1";
 #[error("The message of the other end is malformed.")]
 pub struct ExchangeError;
 
-/// Who meets: the proof holds for these two and nobody else.
+/// The two parties. The proof is valid only between them.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends<'a> {
-    /// How the guest wants to be called.
+    /// The name that the guest asks for.
     pub guest: &'a DeviceName,
     /// The robot's full number.
     pub robot: &'a str,
@@ -45,7 +45,7 @@ impl Ends<'_> {
     }
 }
 
-/// The end that wants in.
+/// The end that asks to be paired.
 pub struct Guest {
     spake: Spake2<Ed25519Group>,
     message: [u8; MESSAGE],
@@ -211,7 +211,7 @@ impl RngCore for Given {
 
     fn fill_bytes(&mut self, to: &mut [u8]) {
         let given = self.bytes.get(self.taken..self.taken + to.len());
-        // A library that wanted more would make keys that can be guessed: better none at all.
+        // A library that needed more random bytes would make keys that can be guessed, so refuse.
         to.copy_from_slice(given.expect("SPAKE2 takes 64 random bytes, which a test counts"));
         self.taken += to.len();
     }
@@ -239,7 +239,7 @@ mod tests {
         DeviceName::new("phone").unwrap()
     }
 
-    /// Whether guest and host believe each other.
+    /// Whether guest and host accept each other's proofs.
     fn meet(guest: (&str, &str, &str), host: (&str, &str, &str)) -> bool {
         let [guest_name, host_name] = [guest.1, host.1].map(|name| DeviceName::new(name).unwrap());
         let ends = |guest, robot| Ends { guest, robot };

@@ -7,14 +7,14 @@ use crate::rhythm::{Heard, Rhythm};
 /// Devices that can ask in one window.
 pub const MATCHING_MAX: usize = 4;
 
-/// Presses in a group. A single one is what people press who want the robot to start.
+/// Presses in a group. People press once to start the robot.
 const PRESSES_MIN: u8 = 2;
 const PRESSES_MAX: u8 = 6;
 
 /// How often to press before and after the pause.
 pub type Pattern = [u8; 2];
 
-/// How it stands with a device that asked.
+/// State of a device that asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Standing {
     /// Nothing was pressed yet, or not all.
@@ -82,7 +82,7 @@ impl Matching {
         }
     }
 
-    /// Whether a whole pattern was pressed, and that of somebody.
+    /// Whether a complete pattern was pressed, and whose it is.
     pub(crate) fn judge(&mut self, now_us: u64) -> Option<bool> {
         let pressed = match self.rhythm.heard(now_us, PRESSES_MAX) {
             Heard::Unfinished => return None,
@@ -99,7 +99,7 @@ impl Matching {
         Some(self.asking.iter().any(|one| one.standing == Standing::Chosen))
     }
 
-    /// How it stands with this device.
+    /// State of this device.
     pub(crate) fn standing(&self, session: &[u8; 16]) -> Option<Standing> {
         let one = self.asking.iter().find(|one| one.session == *session)?;
         Some(one.standing)

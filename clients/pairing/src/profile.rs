@@ -6,7 +6,7 @@ use crate::console::Trust;
 use crate::sha256;
 
 impl Trust {
-    /// The certificate as Android and Windows want it.
+    /// The certificate in the form that Android and Windows require.
     #[must_use]
     pub fn der(&self) -> Option<Vec<u8>> {
         let body: String = self

@@ -1,8 +1,8 @@
-//! Why somebody is not let in.
+//! Why a device is not paired.
 
 use crate::wire::Refused;
 
-/// Why somebody is not let in, or something not done.
+/// Why a device is not paired, or a request is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Refusal {
     /// No window is open.

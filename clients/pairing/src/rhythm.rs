@@ -61,7 +61,7 @@ impl Rhythm {
 mod tests {
     use super::{Heard, Rhythm};
 
-    /// Presses at these tenths of a second, heard at the last one.
+    /// Presses at these tenths of a second, received at the last one.
     #[track_caller]
     fn check(at: &[u64], heard_at: u64, expected: Heard) {
         let mut rhythm = Rhythm::default();

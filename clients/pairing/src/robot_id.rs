@@ -1,4 +1,4 @@
-//! The name of a robot that nobody can take: it is made from the robot's own key.
+//! The name of a robot that nobody else can take: it is derived from the robot's own key.
 
 use data_encoding::BASE32_NOPAD;
 use sha2::{Digest as _, Sha256};
@@ -17,7 +17,7 @@ pub fn sha256(bytes: &[u8]) -> [u8; 32] {
 }
 
 impl RobotId {
-    /// From the public key as it stands in certificates (SubjectPublicKeyInfo, DER).
+    /// From the public key as certificates contain it (SubjectPublicKeyInfo, DER).
     #[must_use]
     pub fn of_public_key(spki_der: &[u8]) -> Self {
         Self(BASE32_NOPAD.encode(&sha256(spki_der)).to_ascii_lowercase())

@@ -89,7 +89,7 @@ impl Token {
 pub(crate) struct TokenDigest(#[serde(with = "hex")] [u8; 32]);
 
 impl TokenDigest {
-    /// Compares without telling by its time where the difference is.
+    /// Compares in constant time, so that the duration does not reveal where the difference is.
     pub(crate) fn matches(&self, other: &Self) -> bool {
         self.0.ct_eq(&other.0).into()
     }

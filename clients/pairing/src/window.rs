@@ -56,7 +56,7 @@ pub(crate) struct Window {
 }
 
 impl Window {
-    /// Shut, at the start of the server. Nobody knows how long it was off, so a pause that was due begins anew.
+    /// Shut, at the start of the server. The time that it was off is unknown, so a pause that was due starts again.
     pub(crate) fn new(now_us: u64, counters: Counters) -> Self {
         let mut window = Self {
             counters,
@@ -184,7 +184,7 @@ impl Window {
     }
 }
 
-/// How long it stays shut after so many windows in vain.
+/// How long it stays shut after so many failed windows.
 fn pause_us(in_vain: u8) -> u64 {
     let Some(place) = usize::from(in_vain).checked_sub(1) else {
         return 0;

@@ -15,7 +15,7 @@ pub struct Invitation {
     pub presses: bool,
     /// The robot's full number, which goes into the proof.
     pub robot: String,
-    /// Why the robot knows nobody any more, until an administrator is let in.
+    /// Why the robot has no paired devices any more, until an administrator is paired.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub forgotten: Option<Forgotten>,
 }
@@ -74,7 +74,7 @@ pub struct Finished {
     pub role: Role,
 }
 
-/// `POST /api/pairing/match`: the device wants to be let in by presses.
+/// `POST /api/pairing/match`: the device asks to be paired by presses.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Join {
     /// How it shall be called.
@@ -84,7 +84,7 @@ pub struct Join {
 /// Its answer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Joined {
-    /// Names the device until it is let in. Whoever knows it comes in its place.
+    /// Names the device until it is paired. Whoever has it is paired in its place.
     #[serde(with = "hex")]
     pub session: [u8; 16],
     /// How often START is to be pressed before and after the pause.
@@ -112,10 +112,10 @@ pub struct Matched {
 pub struct Session {
     /// What it may do.
     pub role: Role,
-    /// Its number; none on the robot's own computer, where nobody needs to be let in.
+    /// Its number; none on the robot's own computer, where no pairing is needed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub client: Option<TokenId>,
-    /// To be said first on the WebSocket, once; none where nobody needs to be let in.
+    /// To be sent first on the WebSocket, once; none where no pairing is needed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nonce: Option<String>,
 }
@@ -183,7 +183,7 @@ pub struct Opened {
     pub seconds: u32,
 }
 
-/// The answer of the server, which knows where it is.
+/// The answer of the server, which has its own address.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OpenedHere {
     /// Code and time.
@@ -194,7 +194,7 @@ pub struct OpenedHere {
 }
 
 impl OpenedHere {
-    /// The address for a camera: one that phones find without anybody who knows the robot's name.
+    /// The address for a camera: one that phones find without resolving the robot's name.
     #[must_use]
     pub fn to_scan(&self) -> Option<&str> {
         self.addresses.iter().map(String::as_str).find(|address| {

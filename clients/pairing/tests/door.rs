@@ -51,7 +51,7 @@ impl Hall {
         Ok(Code::parse(&opened.code).unwrap())
     }
 
-    /// The proof of a guest who believes in this code.
+    /// The proof of a guest who was given this code.
     fn begin(&mut self, code: &Code) -> Result<Finish, Refusal> {
         let name = DeviceName::new("phone").unwrap();
         let robot = robot();

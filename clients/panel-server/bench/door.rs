@@ -30,7 +30,7 @@ impl<T: Read + Write + Send> Stream for T {}
 pub(crate) struct Door {
     server: Daemon,
     address: SocketAddr,
-    /// As it stands in `Host`.
+    /// As in the header `Host`.
     host: String,
     /// None without a gate.
     pass: Option<Pass>,
@@ -124,7 +124,7 @@ impl Door {
         lines
     }
 
-    /// A new WebSocket, let in, whose reads wait as long as one look.
+    /// A new WebSocket of a paired client, whose reads wait for one polling period.
     pub(crate) fn open_socket(&self) -> anyhow::Result<WebSocket<Box<dyn Stream>>> {
         let scheme = if self.pass.is_some() { "s" } else { "" };
         let mut request = format!("ws{scheme}://{}/api/ws", self.host).into_client_request()?;

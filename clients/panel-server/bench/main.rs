@@ -19,7 +19,7 @@ use clap::Parser;
 use stage::Stage;
 use vthal_bench::{Processor, resident_max_mib, resident_mib};
 
-/// Numbers of clients of each way.
+/// Numbers of clients of each route.
 const CLIENTS: [usize; 2] = [1, 10];
 
 #[derive(Parser)]
@@ -61,13 +61,13 @@ fn measure_all(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What was measured of one way to the robot.
+/// What was measured on one route to the robot.
 struct Row {
-    way: &'static str,
+    route: &'static str,
     clients: usize,
     telemetry: telemetry::Delays,
     requests: requests::Figures,
-    /// None of the daemon, of which all ways make use at once.
+    /// None of the daemon, which all routes use at once.
     server: Option<Server>,
 }
 
@@ -82,21 +82,21 @@ struct Server {
 
 fn measure(clients: usize, time: Duration) -> anyhow::Result<Vec<Row>> {
     let mut stage = Stage::set()?;
-    let ways = stage.ways();
-    let processes: Vec<Option<u32>> = ways.iter().map(|way| way.process).collect();
+    let routes = stage.routes();
+    let processes: Vec<Option<u32>> = routes.iter().map(|route| route.process).collect();
     let before = usage(&processes)?;
-    let delays = telemetry::measure(&mut stage, &ways, clients, time)?;
+    let delays = telemetry::measure(&mut stage, &routes, clients, time)?;
     let after = usage(&processes)?;
     let resident: Vec<Option<f64>> = map_each(&processes, resident_mib)?;
     let mut rows = Vec::new();
-    let all = ways
+    let all = routes
         .iter()
         .zip(&processes)
         .zip(delays)
         .zip(before.iter().zip(after))
         .zip(resident);
-    for ((((way, process), telemetry), (before, after)), resident) in all {
-        let requests = requests::measure(&mut stage, way, clients, time / 2)?;
+    for ((((route, process), telemetry), (before, after)), resident) in all {
+        let requests = requests::measure(&mut stage, route, clients, time / 2)?;
         let server = match (process, before, after, resident) {
             (Some(process), Some(before), Some(after), Some(resident_mib)) => Some(Server {
                 cpu_share: (after.ran_s - before.ran_s) / telemetry.took.as_secs_f64(),
@@ -106,7 +106,7 @@ fn measure(clients: usize, time: Duration) -> anyhow::Result<Vec<Row>> {
             _ => None,
         };
         rows.push(Row {
-            way: way.name,
+            route: route.name,
             clients,
             telemetry,
             requests,
@@ -156,7 +156,7 @@ impl Row {
         });
         format!(
             "{:13} {:3} clients: telemetry at 50 Hz: median {:.2} ms, p99 {:.2} ms; {:6.0} requests/s, median {:.2} ms, p99 {:.2} ms{server}",
-            self.way,
+            self.route,
             self.clients,
             self.telemetry.median_ms,
             self.telemetry.p99_ms,
@@ -168,7 +168,7 @@ impl Row {
 
     fn as_json(&self) -> serde_json::Value {
         serde_json::json!({
-            "way": self.way,
+            "way": self.route,
             "clients": self.clients,
             "telemetry_median_ms": self.telemetry.median_ms,
             "telemetry_p99_ms": self.telemetry.p99_ms,

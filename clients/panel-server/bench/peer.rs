@@ -1,4 +1,4 @@
-//! A client, whichever way it takes.
+//! A client on any of the routes.
 
 use std::io::ErrorKind;
 use std::time::{Duration, Instant};
@@ -10,13 +10,13 @@ use vthal_bench::Client;
 use crate::door::Stream;
 use crate::http;
 
-/// Longest wait of one look for a message.
+/// Longest wait for a message in one poll.
 pub(crate) const LOOK: Duration = Duration::from_millis(100);
 
 /// For one answer.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Who sends texts and hears texts.
+/// A sender and receiver of texts.
 pub(crate) enum Peer {
     /// At the daemon's own socket.
     Direct(Client),

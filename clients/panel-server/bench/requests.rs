@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail};
 
 use crate::peer::Asker;
-use crate::stage::{Stage, Way};
+use crate::stage::{Route, Stage};
 use crate::telemetry::ranks;
 
 /// What was measured.
@@ -22,12 +22,12 @@ pub(crate) struct Figures {
 
 pub(crate) fn measure(
     stage: &mut Stage,
-    way: &Way,
+    route: &Route,
     clients: usize,
     time: Duration,
 ) -> anyhow::Result<Figures> {
     let askers: Vec<Asker> = (0..clients)
-        .map(|_| stage.asker(way.kind))
+        .map(|_| stage.asker(route.kind))
         .collect::<anyhow::Result<_>>()?;
     let ends = Arc::new(AtomicBool::new(false));
     let began = Instant::now();

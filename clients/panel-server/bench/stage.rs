@@ -1,4 +1,4 @@
-//! A robot on its dock in a large home that it knows, the daemon, and two servers before it.
+//! A robot on its dock in a large known home, the daemon, and two servers before it.
 
 use anyhow::bail;
 use std::time::{Duration, Instant};
@@ -26,12 +26,12 @@ pub(crate) struct Stage {
     scratch: Scratch,
 }
 
-/// A way from a client to the robot.
+/// A route from a client to the robot.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Way {
+pub(crate) struct Route {
     pub(crate) name: &'static str,
     pub(crate) kind: Kind,
-    /// Of the server on the way.
+    /// Of the server on the route.
     pub(crate) process: Option<u32>,
 }
 
@@ -60,7 +60,7 @@ impl Stage {
             bail!("the daemon opened no session");
         }
         let (plain, guarded) = (Door::start(&scratch, false)?, Door::start(&scratch, true)?);
-        // The map is taken up while the robot tells that it is on its dock.
+        // The map is loaded while the robot reports that it is on its dock.
         robot.live_until(Instant::now() + Duration::from_secs(3), |_| false)?;
         Ok(Self {
             robot,
@@ -71,16 +71,16 @@ impl Stage {
         })
     }
 
-    pub(crate) fn ways(&self) -> [Way; 3] {
-        let way = |name, kind, door: Option<&Door>| Way {
+    pub(crate) fn routes(&self) -> [Route; 3] {
+        let route = |name, kind, door: Option<&Door>| Route {
             name,
             kind,
             process: door.map(Door::id),
         };
         [
-            way("vthal", Kind::Direct, None),
-            way("panel", Kind::Plain, Some(&self.plain)),
-            way("panel, TLS", Kind::Guarded, Some(&self.guarded)),
+            route("vthal", Kind::Direct, None),
+            route("panel", Kind::Plain, Some(&self.plain)),
+            route("panel, TLS", Kind::Guarded, Some(&self.guarded)),
         ]
     }
 

@@ -1,4 +1,4 @@
-//! How long telemetry of 50 Hz is under way to clients that follow what a page follows, by all ways in the same seconds.
+//! Latency of telemetry at 50 Hz to clients that follow the topics of a page, on all routes in the same seconds.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, bail};
 
 use crate::peer::Peer;
-use crate::stage::{Stage, Way};
+use crate::stage::{Route, Stage};
 
 /// What a page follows, and the packets by which telemetry is counted.
 const WATCH: &str = r#"{"c":"watch","topics":["status","pose","device","map","home","estimate","way","decisions","log","schedules","runs","floors","standstills","packets"]}"#;
@@ -18,10 +18,10 @@ const MARK: &str = "state";
 const HEAD_BYTES: usize = 80;
 /// Telemetry of the SR8730.
 const PERIOD: Duration = Duration::from_millis(20);
-/// For what is under way when time is over.
+/// For messages in transit when time is over.
 const LAST_WAIT: Duration = Duration::from_secs(3);
 
-/// From the write to the terminal to the end of the read by a client, over all clients of a way.
+/// From the write to the terminal to the end of the read by a client, over all clients of a route.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Delays {
     pub(crate) median_ms: f64,
@@ -30,7 +30,7 @@ pub(crate) struct Delays {
     pub(crate) took: Duration,
 }
 
-/// What a client tells while it listens.
+/// What a client reports while it listens.
 #[derive(Default)]
 struct Shared {
     /// Packets are counted from now on.
@@ -45,20 +45,20 @@ struct Listener {
 
 pub(crate) fn measure(
     stage: &mut Stage,
-    ways: &[Way],
+    routes: &[Route],
     clients: usize,
     time: Duration,
 ) -> anyhow::Result<Vec<Delays>> {
     let shared = Arc::new(Shared::default());
     let mut listeners = Vec::new();
-    for way in ways {
+    for route in routes {
         for _ in 0..clients {
-            let mut peer = stage.peer(way.kind)?;
+            let mut peer = stage.peer(route.kind)?;
             peer.say(WATCH)?;
             listeners.push(listen(peer, Arc::clone(&shared)));
         }
     }
-    // All that is told at once, the map above all, arrives before the first packet that counts.
+    // The first messages, the map above all, arrive before the first packet that counts.
     stage
         .robot
         .live_until(Instant::now() + Duration::from_secs(2), |_| false)?;
@@ -84,9 +84,10 @@ pub(crate) fn measure(
         };
         heard.push(arrivals?);
     }
-    ways.iter()
+    routes
+        .iter()
         .zip(heard.chunks(clients))
-        .map(|(way, heard)| delays(&moments, heard, took).with_context(|| way.name))
+        .map(|(route, heard)| delays(&moments, heard, took).with_context(|| route.name))
         .collect()
 }
 

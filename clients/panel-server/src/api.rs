@@ -36,7 +36,7 @@ type Answer = Result<Response<Body>, Fault>;
 /// Why a request is not done.
 #[derive(Debug)]
 enum Fault {
-    /// On the robot's own computer nobody needs to be let in.
+    /// On the robot's own computer no pairing is needed.
     NoGate,
     /// The body is none of ours.
     Body(String),
@@ -54,14 +54,14 @@ impl IntoResponse for Fault {
         let (status, refused) = match self {
             Self::NoGate => (
                 StatusCode::NOT_FOUND,
-                told(
+                refused_as(
                     "no-gate",
                     "This panel is only for the computer it runs on, where nobody needs to be let in; start panel-server with --state to pair devices.",
                 ),
             ),
             Self::Body(why) => (
                 StatusCode::BAD_REQUEST,
-                told(
+                refused_as(
                     "syntax",
                     &format!("The request could not be read: {why}. Reload the page."),
                 ),
@@ -83,14 +83,14 @@ fn status_of(error: &NotDone) -> StatusCode {
 }
 
 /// A refusal of the server's own.
-pub(crate) fn told(reason: &str, text: &str) -> Refused {
+pub(crate) fn refused_as(reason: &str, text: &str) -> Refused {
     Refused {
         reason: reason.to_owned(),
         text: text.to_owned(),
     }
 }
 
-/// An answer in JSON that nobody keeps.
+/// An answer in JSON that is not cached.
 pub(crate) fn json(status: StatusCode, body: &impl Serialize) -> Response<Body> {
     let text = serde_json::to_vec(body).unwrap_or_default();
     let headers = [
@@ -245,7 +245,7 @@ async fn read<T: DeserializeOwned>(request: Request) -> Result<T, Fault> {
 /// Nobody known asks for something that is not for everybody.
 pub(crate) fn not_paired() -> Response<Body> {
     let text = "This device is not paired with the robot: open the panel on it and follow what it says.";
-    json(StatusCode::UNAUTHORIZED, &told("not-paired", text))
+    json(StatusCode::UNAUTHORIZED, &refused_as("not-paired", text))
 }
 
 /// Somebody known asks for what is not theirs.
@@ -254,7 +254,7 @@ pub(crate) fn not_allowed(role: Role) -> Response<Body> {
         "This device may only {}: an administrator can change that.",
         may(role)
     );
-    json(StatusCode::FORBIDDEN, &told("not-allowed", &text))
+    json(StatusCode::FORBIDDEN, &refused_as("not-allowed", &text))
 }
 
 /// What a role may, in words.

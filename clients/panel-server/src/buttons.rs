@@ -1,4 +1,4 @@
-//! What the person beside the robot does with its buttons, as the daemon tells it.
+//! What the person beside the robot does with its buttons, as the daemon reports it.
 
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ const CLAIM_MS: u32 = 2_000;
 /// Ticks after which the claim is renewed.
 const CLAIM_EVERY: u8 = 10;
 
-/// Hears what the daemon tells of the buttons, for ever.
+/// Receives what the daemon reports of the buttons, for ever.
 pub(crate) async fn watch_buttons(gate: &Gate) {
     let mut ears = Ears {
         gate,

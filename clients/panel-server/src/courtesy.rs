@@ -3,7 +3,7 @@
 use crate::guarded::Newcomer;
 use rvac_api::{Failure, Request, RequestBody, SEPARATOR, Status, Update};
 
-/// What vthal must hear again after a reconnect, and whether the browser sits in the driver's seat.
+/// What must be sent to vthal again after a reconnect, and whether the browser sits in the driver's seat.
 #[derive(Debug, Default)]
 pub(crate) struct Courtesy {
     hello: Option<String>,
@@ -53,7 +53,7 @@ pub(crate) fn is_stop(text: &str) -> bool {
     serde_json::from_str::<Request>(text).is_ok_and(|request| request.body == RequestBody::Stop)
 }
 
-/// What a client says of itself when it begins.
+/// The introduction of a client.
 pub(crate) fn introduction(id: Option<u32>, name: &str) -> String {
     text_of(&Request {
         id,
@@ -63,7 +63,7 @@ pub(crate) fn introduction(id: Option<u32>, name: &str) -> String {
     })
 }
 
-/// What everybody hears when a device was let in.
+/// The message to all clients when a device was paired.
 pub(crate) fn new_device(newcomer: Newcomer) -> String {
     text_of(&Update::NewDevice {
         name: newcomer.name,
@@ -72,7 +72,7 @@ pub(crate) fn new_device(newcomer: Newcomer) -> String {
     })
 }
 
-/// What a browser hears while vthal is away.
+/// The message to a browser while vthal is not connected.
 pub(crate) fn disconnected() -> String {
     let status = Status {
         state: "disconnected".to_owned(),

@@ -69,7 +69,7 @@ struct Piece {
 struct Whole {
     /// Unknown of a file that is made while it is read.
     size: Option<u64>,
-    /// Of a file that is made anew for each piece; recordings only grow.
+    /// Of a file that is built again for each piece; recordings only grow.
     check: Option<u32>,
 }
 

@@ -23,7 +23,7 @@ use crate::rules::{Rules, Scheme};
 use crate::settings::Guard;
 use crate::upstream::Upstream;
 
-/// How often names, addresses and the certificate's age are looked at.
+/// How often names, addresses and the certificate's age are checked.
 const LOOK_EVERY: Duration = Duration::from_secs(60);
 
 /// A daemon that takes longer for a beep is left alone.
@@ -54,7 +54,7 @@ pub(crate) struct Gate {
     pub(crate) guarded: Guarded,
     authority: RwLock<Arc<Authority>>,
     identity: PathBuf,
-    /// The certificate and the names must be looked at now.
+    /// The certificate and the names must be checked now.
     renamed: Notify,
     extra_names: Vec<String>,
     port: u16,
@@ -183,7 +183,7 @@ impl Gate {
         }
     }
 
-    /// Opens the window, and lets the robot beep, so that whoever is near it knows.
+    /// Opens the window, and lets the robot beep, so that people near it are warned.
     pub(crate) async fn open(&self, wanted: OpenWindow) -> Result<OpenedHere, NotDone> {
         let opened = self.guarded.open(wanted).await?;
         self.beep();

@@ -1,12 +1,12 @@
 //! Serves the panel and relays between browsers and vthal.
 //!
 //! Words used here. A *browser* is one WebSocket connection. Its *upstream* is the Unix socket connection to vthal that belongs to
-//! it alone, so that vthal sees each browser as one client with its own lease and its own topics. The *outbox* holds what waits
-//! to be sent to the browser. The *rules* say which requests are answered at all. The *gate* is what stands before a robot on a
+//! it alone, so that each browser is one client of vthal with its own lease and its own topics. The *outbox* holds what waits
+//! to be sent to the browser. The *rules* say which requests are answered. The *gate* protects a robot on a
 //! network: TLS under the robot's own certificate authority, and the list of paired clients with their roles.
 //!
 //! The server decides nothing about the robot: it passes messages on, says `disconnected` while vthal is away, and gives up the
-//! driver's seat of a browser that went away. On loopback there is no gate; beyond it there is no way around.
+//! driver's seat of a browser that went away. On loopback there is no gate; beyond it nothing bypasses it.
 #![forbid(unsafe_code)]
 
 mod api;

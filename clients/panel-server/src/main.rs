@@ -1,4 +1,4 @@
-//! The binary: reads the command line, serves until it is told to stop.
+//! The binary: reads the command line, serves until a signal ends it.
 #![forbid(unsafe_code)]
 
 use std::io::Write;
@@ -41,7 +41,7 @@ struct Arguments {
     /// Folder of the card that this computer starts from: a file librvac-reset in it has all devices forgotten
     #[arg(long, value_name = "DIR", requires = "state")]
     card: Option<PathBuf>,
-    /// Port of a page that tells the way to the HTTPS address, usually 80
+    /// Port of a page that points to the HTTPS address, usually 80
     #[arg(long, value_name = "PORT", requires = "state")]
     page_port: Option<u16>,
 }

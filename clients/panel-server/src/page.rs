@@ -1,4 +1,4 @@
-//! The page at the plain HTTP port: it tells the way to the HTTPS address and does nothing else.
+//! The page at the plain HTTP port: it points to the HTTPS address and does nothing else.
 
 use std::sync::Arc;
 
@@ -9,12 +9,12 @@ use axum::response::{Html, IntoResponse, Response};
 
 use crate::gate::Gate;
 
-/// The way to the robot, for whatever is asked.
+/// Answers every request with the HTTPS address of the robot.
 pub(crate) fn router(gate: Arc<Gate>) -> Router {
-    Router::new().fallback(tell_the_way).with_state(gate)
+    Router::new().fallback(point_to_https).with_state(gate)
 }
 
-async fn tell_the_way(State(gate): State<Arc<Gate>>) -> Response {
+async fn point_to_https(State(gate): State<Arc<Gate>>) -> Response {
     let links: String = gate
         .addresses()
         .iter()

@@ -36,9 +36,9 @@ pub(crate) enum Change {
 pub(crate) enum Judged {
     /// It was the word that opens the connection.
     Greeted,
-    /// The daemon shall hear this.
+    /// To be sent to the daemon.
     PassOn(String),
-    /// The browser shall hear this.
+    /// To be sent to the browser.
     Answer(String),
     /// The connection was never opened rightly.
     Stranger,
@@ -111,7 +111,7 @@ impl Pass {
         }
     }
 
-    /// The same, with the name under which the client was paired where it tells one: the daemon and everybody who reads its log
+    /// The same, with the name under which the client was paired where it sends one: the daemon and everybody who reads its log
     /// shall know which phone drives, and none may call itself another.
     fn under_own_name(&self, request: String) -> String {
         let register = self.register.borrow();

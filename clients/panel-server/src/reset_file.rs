@@ -15,7 +15,7 @@ const DONE: &str = "librvac-reset.done";
 /// The word in it that has the robot's identity forgotten too.
 const EVERYTHING: &str = "everything";
 
-/// What the owner wants forgotten.
+/// What the owner asks to delete.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wish {
     /// All devices.

@@ -1,4 +1,4 @@
-//! Which requests are answered at all: the checks of Host, Origin and Sec-Fetch-Site, and of what a change looks like.
+//! Which requests are answered: the checks of Host, Origin and Sec-Fetch-Site, and of the form of a change.
 //!
 //! They keep foreign web pages out. A page of another site can make the owner's browser send requests here; the browser tells
 //! their origin in headers that the page cannot forge. A page whose name was re-pointed to this address (DNS rebinding) betrays
@@ -39,7 +39,7 @@ impl Scheme {
     }
 }
 
-/// An address as it stands in `Host`.
+/// An address as in the header `Host`.
 pub(crate) fn in_authority(ip: IpAddr) -> String {
     match ip {
         IpAddr::V4(ip) => ip.to_string(),
@@ -121,7 +121,7 @@ impl Rules {
         Self { scheme, authorities }
     }
 
-    /// Checks a request before anything else looks at it.
+    /// Checks a request before anything else handles it.
     ///
     /// # Errors
     /// The first rule that it breaks.
@@ -164,7 +164,7 @@ impl Rules {
     }
 }
 
-/// A change goes to our own interface and looks like nothing that a page of another site can send unasked.
+/// A change goes to our own interface and has a form that a page of another site cannot send by itself.
 fn check_change(request: &Parts) -> Result<(), Refusal> {
     if request.method != Method::POST || !request.uri.path().starts_with("/api/") {
         return Err(Refusal::Method);
@@ -177,7 +177,7 @@ fn check_change(request: &Parts) -> Result<(), Refusal> {
     is_ours.then_some(()).ok_or(Refusal::NotOurs)
 }
 
-/// The text of a header that stands exactly once.
+/// The text of a header that is present exactly once.
 fn only<'h>(headers: &'h HeaderMap, name: &HeaderName) -> Option<&'h str> {
     let mut values = headers.get_all(name).iter();
     let first = values.next()?;

@@ -158,7 +158,7 @@ impl Server {
         &self.url
     }
 
-    /// Where the page listens that tells the way.
+    /// Address of the page that points to HTTPS.
     #[must_use]
     pub fn page_address(&self) -> Option<SocketAddr> {
         self.page.as_ref()?.local_addr().ok()
@@ -280,7 +280,7 @@ async fn serve(stream: impl AsyncRead + AsyncWrite + Unpin + Send + 'static, rou
     }
 }
 
-/// Lets through what keeps to the rules and whom the gate knows, and adds the security headers to every answer.
+/// Lets requests through that keep the rules and that the gate permits, and adds the security headers to every answer.
 async fn guard(State(site): State<Arc<Site>>, request: Request, next: Next) -> Response<Body> {
     let (parts, body) = request.into_parts();
     let checked = site
@@ -341,7 +341,7 @@ async fn download_floors(State(site): State<Arc<Site>>) -> Response<Body> {
     download::answer(site.vthal.clone(), Wanted::Floors).await
 }
 
-/// The robot's certificate for devices that shall trust it; everybody sees it in each TLS connection.
+/// The robot's certificate for devices that shall trust it; it is public in each TLS connection.
 fn trust_file(gate: &Gate, path: &str) -> Option<Response<Body>> {
     let trust = gate.trust();
     let (media_type, bytes) = match path {

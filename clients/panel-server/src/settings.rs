@@ -1,4 +1,4 @@
-//! What the server is told at its start, and why it may refuse to start.
+//! The settings of the server, and why it may refuse to start.
 
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
@@ -33,7 +33,7 @@ pub struct Guard {
     pub console: Option<PathBuf>,
     /// Folder in which the owner may put the file that has all devices forgotten.
     pub card: Option<PathBuf>,
-    /// Port of a page that only tells the way to the HTTPS address.
+    /// Port of a page that only points to the HTTPS address.
     pub page_port: Option<u16>,
     /// The board's clock, seconds since 1970, on which nothing but the life of the certificate depends: see [`crate::unix_s`].
     pub clock: fn() -> u64,
@@ -51,7 +51,7 @@ pub enum StartError {
     /// Another program has the port.
     #[error("port {} on {} is already in use: stop the other program or choose another port with --port", .0.port(), .0.ip())]
     PortInUse(SocketAddr),
-    /// Listening failed in another way.
+    /// Listening failed for another reason.
     #[error("cannot listen on {address}: {source}; choose another --bind or --port")]
     Listen {
         /// Where.
@@ -65,7 +65,7 @@ pub enum StartError {
     /// Certificate or clients are not to be had.
     #[error(transparent)]
     Gate(#[from] GateError),
-    /// The owner wants devices forgotten, which does not succeed.
+    /// Deleting all devices, as the owner asked, failed.
     #[error(
         "cannot forget all devices, as the file on the card asks: {0}; then rename that file back and start again"
     )]

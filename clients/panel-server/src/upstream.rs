@@ -23,7 +23,7 @@ const MESSAGE_BYTES_MAX: usize = 8 << 20;
 /// What happened on the connection.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) enum Event {
-    /// It stands now.
+    /// It is open now.
     Connected,
     /// It is gone, or could not be made.
     Lost,

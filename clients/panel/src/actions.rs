@@ -8,7 +8,7 @@ use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::Store;
 
-/// How a button looks and what it is called.
+/// Style and label of a button.
 #[derive(Clone, Copy, Debug)]
 struct Face {
     id: &'static str,

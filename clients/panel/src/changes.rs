@@ -1,4 +1,4 @@
-//! Signals that wake those who look at them only for news.
+//! Signals that wake their readers only when the value changes.
 
 use leptos::prelude::*;
 

@@ -1,4 +1,4 @@
-//! Where the dock stands, and how to say that it was moved.
+//! Where the dock is, and how to report that it was moved.
 
 use leptos::prelude::*;
 use panel_logic::Tool;

@@ -1,13 +1,13 @@
-//! Why the robot stands: what it felt in the seconds before, and what it tried.
+//! Why the robot stands still: sensor readings in the seconds before, and what it tried.
 
 use leptos::prelude::*;
-use panel_logic::{FeltRow, decision_text, felt_rows};
+use panel_logic::{EvidenceRow, decision_text, evidence_rows};
 use rvac_api::{Evidence, Standstill, Status};
 
 use crate::language::words;
 use crate::store::Store;
 
-/// Of the standstill that goes on, folded; nothing while the robot works or stands because somebody wanted it.
+/// Of the present standstill, folded; nothing while the robot works or was ordered to stop.
 #[component]
 pub(crate) fn StandstillView(store: Store) -> impl IntoView {
     let told = Memo::new(move |_| going_on(store));
@@ -27,7 +27,7 @@ pub(crate) fn StandstillView(store: Store) -> impl IntoView {
     move || evidence.get().map(|evidence| view! { <EvidenceView evidence /> })
 }
 
-/// The standstill that the robot told last, if it still stands for it.
+/// The last reported standstill, if it still lasts.
 fn going_on(store: Store) -> Option<Standstill> {
     let told = store.standstill.get()?;
     let is_now = store.status.with(|status| {
@@ -39,16 +39,16 @@ fn going_on(store: Store) -> Option<Standstill> {
 
 /// Of a refusal: asked for when it is unfolded, because most are clear without.
 #[component]
-pub(crate) fn FeltView(store: Store) -> impl IntoView {
+pub(crate) fn RecentEvidenceView(store: Store) -> impl IntoView {
     let ask = move |_| {
-        if store.felt.with_untracked(Option::is_none) {
-            store.ask_what_it_felt();
+        if store.evidence.with_untracked(Option::is_none) {
+            store.ask_for_evidence();
         }
     };
     view! {
         <details class="evidence" on:toggle=ask>
             <summary>{words().evidence.title}</summary>
-            {move || store.felt.get().map(|evidence| view! { <EvidenceTables evidence /> })}
+            {move || store.evidence.get().map(|evidence| view! { <EvidenceTables evidence /> })}
         </details>
     }
 }
@@ -67,7 +67,7 @@ pub(crate) fn EvidenceView(evidence: Evidence) -> impl IntoView {
 #[component]
 fn EvidenceTables(evidence: Evidence) -> impl IntoView {
     let told = &words().evidence;
-    let rows = felt_rows(words(), &evidence);
+    let rows = evidence_rows(words(), &evidence);
     let tried: Vec<String> = evidence
         .tried
         .iter()
@@ -95,12 +95,12 @@ fn EvidenceTables(evidence: Evidence) -> impl IntoView {
 }
 
 fn row(
-    FeltRow {
+    EvidenceRow {
         when,
         motion,
         echo,
         signs,
-    }: FeltRow,
+    }: EvidenceRow,
 ) -> impl IntoView {
     view! {
         <tr>

@@ -17,7 +17,7 @@ const ARCHIVE_ID: u32 = 7;
 const ADDRESS: &str = "/api/floors/archive";
 const FILE_NAME: &str = "home.rvacfloors";
 
-/// A file on its way to the robot.
+/// An upload to the robot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FloorDesk {
     upload: RwSignal<Option<FloorUpload>>,
@@ -47,7 +47,7 @@ impl FloorDesk {
         is_ours
     }
 
-    /// The connection is lost, and with it what was on its way.
+    /// The connection is lost, and with it the upload.
     pub(crate) fn on_close(self) {
         if self.upload.with_untracked(Option::is_some) {
             self.end(words().home.floors_lost.to_owned());

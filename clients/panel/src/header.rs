@@ -1,4 +1,4 @@
-//! The bar at the top: whose robot, is it there, how much charge, and the look of the page.
+//! The bar at the top: name of the robot, connection, charge, and the theme.
 
 use leptos::prelude::*;
 use panel_logic::percent_text;

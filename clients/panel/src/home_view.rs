@@ -1,4 +1,4 @@
-//! What the robot knows of the home, in words: how sure it is, the floors, the rooms, what is forbidden, and the kept versions of the map.
+//! The robot's map of the home, in words: its confidence, the floors, the rooms, what is forbidden, and the stored versions.
 
 use std::time::Duration;
 
@@ -17,13 +17,13 @@ use crate::store::Store;
 
 /// A board whose clock shows less has a clock that was not set.
 const CLOCK_IS_SET_FROM_S: i64 = 1_704_067_200;
-/// The list of kept maps is asked for so often while it is looked at.
+/// The list of stored maps is requested so often while it is shown.
 const RENEW_EVERY: Duration = Duration::from_secs(5);
 
 #[component]
 pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
     store.ask_for_maps();
-    // A map is kept some seconds after a run, and nobody tells of it.
+    // A map is stored some seconds after a run, and no message announces it.
     if let Ok(renewal) = set_interval_with_handle(move || store.ask_for_maps(), RENEW_EVERY) {
         on_cleanup(move || renewal.clear());
     }

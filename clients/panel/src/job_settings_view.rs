@@ -1,4 +1,4 @@
-//! How hard and in which way a job cleans, as two fields of a form.
+//! Power and pattern of a job, as two fields of a form.
 
 use leptos::prelude::*;
 use panel_logic::{JobSettings, SettingChoice};

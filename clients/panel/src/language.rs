@@ -1,4 +1,4 @@
-//! The language of the page: as the browser wants until a person chooses.
+//! The language of the page: that of the browser until a person chooses.
 
 use std::cell::Cell;
 
@@ -28,12 +28,12 @@ pub(crate) fn words() -> &'static Words {
     SPOKEN.get().words()
 }
 
-/// Makes it the choice, for the next visit; the page begins anew with it.
+/// Stores the choice for the next visit and reloads the page.
 fn choose(language: Language) {
     if let Ok(Some(storage)) = window().local_storage() {
         storage.set_item(KEY, language.tag()).ok(); // Without storage the browser's wish stays in force.
     }
-    window().location().reload().ok(); // A page that cannot be loaded anew goes on in the old language.
+    window().location().reload().ok(); // A page that cannot be reloaded goes on in the old language.
 }
 
 #[component]

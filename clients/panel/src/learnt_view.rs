@@ -20,7 +20,7 @@ const FORGETS: &str = "forget-learnt";
 /// The title takes the focus of a row that is gone.
 const TITLE_ID: &str = "learnt-title";
 
-/// What somebody is about to have forgotten.
+/// What a person is about to delete.
 type Asked = RwSignal<Option<(String, LearntPart)>>;
 
 #[component]

@@ -15,7 +15,7 @@ use web_sys::{Event, MessageEvent, WebSocket};
 use crate::access::Access;
 use crate::store::Store;
 
-/// Bytes that may wait in the browser. A drive request behind more than this would arrive late and still look fresh.
+/// Bytes that may wait in the browser. A drive request behind more than this would arrive late and still count as fresh.
 const WAITING_MAX: u32 = 2048;
 
 /// The connection or the wish for one.
@@ -39,7 +39,7 @@ struct Listeners {
 }
 
 impl Link {
-    /// Connects, if the robot knows this device; after a loss tries again with growing pauses.
+    /// Connects, if this device is paired; after a loss tries again with growing pauses.
     pub(crate) fn connect(&self, store: Store) {
         let link = self.clone();
         leptos::task::spawn_local(async move {
@@ -67,7 +67,7 @@ impl Link {
         inner.listeners = Some(listeners);
     }
 
-    /// Sends a request if the connection stands. A drive request is dropped rather than sent late.
+    /// Sends a request if the connection is open. A drive request is dropped rather than sent late.
     pub(crate) fn send(&self, request: &Request) {
         let inner = self.inner.borrow();
         let Some(socket) = inner
@@ -82,7 +82,7 @@ impl Link {
             return;
         }
         if let Ok(text) = serde_json::to_string(request) {
-            socket.send_with_str(&text).ok(); // A socket that is closing tells so by its own event.
+            socket.send_with_str(&text).ok(); // A closing socket reports that by its own event.
         }
     }
 
@@ -119,7 +119,7 @@ impl Link {
     fn greet(&self, greeting: Option<&str>) {
         let inner = self.inner.borrow();
         if let (Some(socket), Some(greeting)) = (&inner.socket, greeting) {
-            socket.send_with_str(greeting).ok(); // A socket that is closing tells so by its own event.
+            socket.send_with_str(greeting).ok(); // A closing socket reports that by its own event.
         }
     }
 

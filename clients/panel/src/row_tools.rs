@@ -1,4 +1,4 @@
-//! The buttons of a row that stands for something drawn: rename, reshape, remove.
+//! The buttons of a row for something drawn: rename, reshape, remove.
 
 use leptos::prelude::*;
 use panel_logic::Target;
@@ -7,7 +7,7 @@ use crate::access::{EDITS_HOME, Needs};
 use crate::language::words;
 use crate::store::Store;
 
-/// What the row stands for.
+/// What the row shows.
 #[derive(Clone, Debug)]
 pub(crate) struct DrawnRow {
     /// What reshapes it; its number makes the names of the buttons unique, too.

@@ -7,7 +7,7 @@ use panel_logic::{
 };
 use rvac_api::Status;
 
-use crate::evidence_view::{FeltView, StandstillView};
+use crate::evidence_view::{RecentEvidenceView, StandstillView};
 use crate::icons::{Icon, icon};
 use crate::language::words;
 use crate::store::Store;
@@ -40,7 +40,7 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
     }
 }
 
-/// Why the robot is in its state. That somebody asked for it needs no words while it works.
+/// Why the robot is in its state. That a person asked for it needs no words while it works.
 fn reason_text(status: &Status) -> String {
     let plain = matches!(
         status.reason.as_str(),
@@ -191,7 +191,7 @@ pub(crate) fn RefusalView(store: Store) -> impl IntoView {
     };
     Effect::new(move |_| {
         store.refusal.track();
-        store.felt.set(None);
+        store.evidence.set(None);
     });
     view! {
         <div role="alert" class="alert-place">
@@ -201,7 +201,7 @@ pub(crate) fn RefusalView(store: Store) -> impl IntoView {
                     <div>
                         <p>{text}</p>
                         <Show when=move || store.robot_refused()>
-                            <FeltView store />
+                            <RecentEvidenceView store />
                         </Show>
                     </div>
                     <button type="button" class="round" aria-label=words().frame.dismiss on:click=move |_| store.refusal.set(None)>

@@ -1,4 +1,4 @@
-//! What the page knows, as signals that the views follow.
+//! The state of the page, as signals that the views follow.
 
 use leptos::prelude::*;
 use mixer::Steered;
@@ -24,11 +24,11 @@ use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
 use crate::schedules::ScheduleDesk;
 
-/// Under this reason a button that waits tells why. No robot gives it.
+/// The reason code of a button that waits. No robot gives it.
 const NOT_NOW: &str = "not-now";
-/// Under this one an edit of the map tells why it cannot be.
+/// The reason code of an edit of the map that cannot be made.
 pub(crate) const NOT_DRAWN: &str = "edit";
-/// The reason of the state while nobody answers behind the server.
+/// The reason of the state while the daemon behind the server does not answer.
 const NO_DAEMON: &str = "no-daemon";
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
@@ -48,7 +48,7 @@ const HEALTH_ID: u32 = 6;
 /// Number of the requests that have something forgotten.
 const LEARNT_ID: u32 = 8;
 
-/// Number of the requests that tell what is lent, so that a refusal of one is known as such.
+/// Number of the requests with lent inputs, so that a refusal of one is recognized.
 const LEND_ID: u32 = 9;
 
 /// Number of the requests that have what is chosen cleaned.
@@ -72,15 +72,15 @@ pub(crate) struct Store {
     pub(crate) truth: RwSignal<Option<SimulatedTruth>>,
     /// Name of the simulated home.
     pub(crate) home: RwSignal<Option<String>>,
-    /// Rooms that the robot knows.
+    /// Rooms on the robot's map.
     pub(crate) rooms: RwSignal<Vec<RoomRow>>,
-    /// What it has felt of the floor, in words.
+    /// The detected surfaces, in words.
     pub(crate) carpet: RwSignal<Option<String>>,
     /// How sure it is.
     pub(crate) estimate: RwSignal<Option<Estimate>>,
     /// What it decided.
     pub(crate) decisions: RwSignal<DecisionBook>,
-    /// The newest time it stood still by itself.
+    /// Its newest standstill without an order.
     pub(crate) standstill: RwSignal<Option<Standstill>>,
     /// The floors, and on which of them the robot is.
     pub(crate) floors: RwSignal<FloorsView>,
@@ -90,7 +90,7 @@ pub(crate) struct Store {
     pub(crate) maps: RwSignal<Vec<KeptMap>>,
     /// That floor.
     pub(crate) maps_floor: RwSignal<Option<u16>>,
-    /// What a person wants of the home.
+    /// What a person orders.
     pub(crate) orders: Orders,
     /// What was edited in the map.
     pub(crate) edits: Edits,
@@ -106,8 +106,8 @@ pub(crate) struct Store {
     pub(crate) log: RwSignal<LogBook>,
     /// The last refusal, until it is dismissed.
     pub(crate) refusal: RwSignal<Option<Failure>>,
-    /// What the robot had felt and tried when somebody asked about that refusal.
-    pub(crate) felt: RwSignal<Option<Evidence>>,
+    /// Sensor readings and attempts at the time of a question about that refusal.
+    pub(crate) evidence: RwSignal<Option<Evidence>>,
     /// Who drives, and by which mix.
     pub(crate) seat: Seat,
     /// The mix that is edited.
@@ -146,7 +146,7 @@ impl Store {
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             refusal: RwSignal::new(None),
-            felt: RwSignal::new(None),
+            evidence: RwSignal::new(None),
             seat: Seat::new(),
             bench: Bench::new(),
             entrance: Entrance::new(),
@@ -177,13 +177,13 @@ impl Store {
         }
     }
 
-    /// Asks for something that nobody pressed a button for.
+    /// Sends a request that no button press caused.
     pub(crate) fn ask_quietly(self, body: RequestBody) {
         self.send(None, body);
     }
 
-    /// Asks what the robot has felt and tried up to now; the refusal about which somebody asks stays.
-    pub(crate) fn ask_what_it_felt(self) {
+    /// Requests the sensor readings and attempts up to now; the refusal that they explain stays.
+    pub(crate) fn ask_for_evidence(self) {
         self.send(Some(OTHER_ID), RequestBody::Evidence);
     }
 
@@ -200,33 +200,33 @@ impl Store {
         self.send(Some(id), body);
     }
 
-    /// Looks at all inputs and sends what they ask. To be called fifty times a second.
+    /// Reads all inputs and sends the resulting commands. To be called fifty times a second.
     pub(crate) fn drive(self) {
         let top = self.robot.with_untracked(|robot| top_speeds(robot.as_ref()));
         self.send_steered(self.seat.step(top));
     }
 
-    /// All inputs are lost: whatever is held is let go, and says so at once.
+    /// All inputs are lost: releases them, and sends that at once.
     pub(crate) fn let_go(self) {
         self.send_steered(self.seat.lose());
         self.pause_lending();
     }
 
-    /// Looks at all inputs, and drives nothing by them; the time of it.
+    /// Reads all inputs without driving; returns the time of the reading.
     pub(crate) fn step_aside(self) -> u64 {
         let (steered, now_us) = self.seat.step_aside();
         self.send_steered(steered);
         now_us
     }
 
-    /// Tells the robot of what is lent, if there is anything to tell.
+    /// Sends the lent inputs to the robot, if there is anything to send.
     pub(crate) fn say_lent(self, said: Option<RequestBody>) {
         if let Some(body) = said {
             self.send(Some(LEND_ID), body);
         }
     }
 
-    /// Looks at all inputs for the mix that is edited.
+    /// Reads all inputs for the mix that is edited.
     pub(crate) fn edit_step(self) {
         let now_us = self.step_aside();
         self.pause_lending();
@@ -305,14 +305,14 @@ impl Store {
         for press in steered.presses {
             self.ask(press);
         }
-        // Sticks and keys are looked at fifty times a second: on a device that may not drive they say nothing.
+        // Sticks and keys are read fifty times a second: on a device that may not drive they send nothing.
         let may_drive = self.entrance.access.with_untracked(|access| access.may("drive"));
         if let Some(body) = steered.seat.filter(|_| may_drive) {
             self.send(Some(DRIVE_ID), body);
         }
     }
 
-    /// The connection stands: introduces the page.
+    /// The connection is open: introduces the page.
     pub(crate) fn on_open(self) {
         self.log.update(LogBook::clear);
         self.decisions.update(DecisionBook::clear);
@@ -394,7 +394,7 @@ impl Store {
                 self.estimate.set(Some(estimate));
             }
             Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
-            Message::Evidence { evidence, .. } => self.felt.set(Some(evidence)),
+            Message::Evidence { evidence, .. } => self.evidence.set(Some(evidence)),
             Message::Standstill(told) => self.standstill.set(Some(*told)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
             Message::Maps { floor, maps } => {

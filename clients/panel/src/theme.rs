@@ -3,7 +3,7 @@
 use leptos::prelude::*;
 use panel_logic::MapPalette;
 
-/// The two looks.
+/// The two themes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Theme {
     Light,

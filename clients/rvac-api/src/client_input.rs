@@ -1,20 +1,20 @@
-//! Inputs of control mixes that a client tells, for another client to drive by.
+//! Inputs of control mixes that one client sends for another client to drive by.
 
 use alloc::string::String;
 use serde::{Deserialize, Serialize};
 
-/// Longest lease of told inputs in ms: the one of the driver's seat (S23), so that a chain of two clients stops no later than
+/// Longest lease of inputs in ms: the one of the driver's seat (S23), so that a chain of two clients stops no later than
 /// one.
 pub const INPUT_LEASE_MS_MAX: u16 = 400;
-/// Most inputs that one client tells: two sticks and a dozen of switches.
+/// Most inputs of one client: two sticks and a dozen switches.
 pub const INPUTS_PER_CLIENT_MAX: usize = 16;
-/// Most inputs that all clients tell together.
+/// Most inputs of all clients together.
 pub const INPUTS_MAX: usize = 32;
 
 /// Longest name in characters.
 const NAME_LENGTH_MAX: usize = 32;
 
-/// An input that a client tells.
+/// An input of a client.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClientInput {
     /// Its name, as in the input `client-NAME` of a mix.

@@ -20,7 +20,7 @@ pub struct FloorsView {
     /// Number of the floor on which the robot is, if that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub here: Option<u16>,
-    /// The robot tries to find out on which floor it is; while it drives, by what it meets.
+    /// The robot searches for the floor on which it is. While it drives it compares its sensors with the maps.
     pub sought: bool,
     /// What a person should answer with `choose-floor` or `new-floor`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -39,7 +39,7 @@ pub struct FloorView {
     pub area_m2: f64,
     /// Rooms in its map.
     pub rooms: u32,
-    /// Its map knows where a dock stands.
+    /// Its map contains the position of a dock.
     pub has_dock: bool,
     /// A person has removed it.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]

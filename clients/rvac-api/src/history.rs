@@ -1,4 +1,4 @@
-//! Runs of the robot that are over: what was asked, what came of it, and why it stopped on the way.
+//! Runs of the robot that are over: what was ordered, how it ended, and why the robot stopped during it.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -30,10 +30,10 @@ pub struct Run {
     pub moving_s: f64,
     /// Floor that it swept, square metres, by the robot's own estimate.
     pub swept_m2: f64,
-    /// The same as a share of the floor that it was to sweep, 0..1; absent where the map does not tell that floor.
+    /// The same as a share of the floor that it was to sweep, 0..1; absent where the map does not contain that floor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
-    /// Way, metres.
+    /// Distance driven, metres.
     pub path_m: f64,
     /// Bumps.
     pub bumps: u32,
@@ -49,7 +49,7 @@ pub struct Run {
     pub reason: String,
     /// Result and reason as a sentence for people.
     pub text: String,
-    /// Times that it stood or waited on the way.
+    /// Number of times that it stopped or waited.
     pub stop_count: u32,
     /// The floor on which it was, as in [`crate::FloorView`]; absent where the robot did not know.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -57,7 +57,7 @@ pub struct Run {
     /// Version of that floor's map that was kept when it ended, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub map: Option<u64>,
-    /// Its recordings: one, none if none was wanted, or more if the daemon began anew on the way.
+    /// Its recordings: one, none if recording is off, or more if the daemon restarted during the run.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<RunRecording>,
 }
@@ -123,7 +123,7 @@ pub enum RunResult {
     GaveUp,
     /// The daemon was ended in good order meanwhile.
     DaemonEnded,
-    /// The daemon or its board died; what is told is what was known shortly before.
+    /// The daemon or its board failed. The record holds the last saved state.
     CutShort,
     /// Another robot was attached.
     OtherRobot,
@@ -146,14 +146,14 @@ pub struct RunRecording {
 pub struct RunRecord {
     /// The run.
     pub run: Run,
-    /// Where it stood or waited, in order.
+    /// Where it stopped or waited, in order.
     pub stops: Vec<RunStop>,
     /// What it drew; absent while it goes on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<RunPicture>,
 }
 
-/// The robot stood or waited.
+/// The robot stopped or waited.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunStop {
     /// Seconds since the run began.
@@ -170,7 +170,7 @@ pub struct RunStop {
     /// What to do about it; absent when there is nothing to do, and in older records.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub remedy: String,
-    /// Who wanted it, if somebody did, in English words.
+    /// Who asked for it, if somebody did, in English words.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
     /// The same for programs; absent in older records.
@@ -178,7 +178,7 @@ pub struct RunStop {
     pub asker: Option<RunAsker>,
     /// Where; its time is that of the daemon's clock.
     pub place: Pose,
-    /// What the robot felt and tried before, unless somebody wanted it to stop.
+    /// What the sensors reported and the robot tried before, unless a person stopped it.
     #[serde(flatten)]
     pub evidence: Evidence,
 }
@@ -190,7 +190,7 @@ pub struct RunPicture {
     pub cell_m: f64,
     /// Swept cells in rows: `[x0,y0,length0,x1,y1,length1,...]`.
     pub swept_rows: Vec<i32>,
-    /// Way as `[x0,y0,x1,y1,...]` in millimetres, without what lies within some centimetres of it.
+    /// Path as `[x0,y0,x1,y1,...]` in millimetres, simplified to within some centimetres.
     pub path_mm: Vec<i32>,
     /// Bumps.
     pub bumps: Vec<BumpMark>,
@@ -199,7 +199,7 @@ pub struct RunPicture {
     pub home: Option<HomeView>,
 }
 
-/// What recordings tell of a run in few numbers, for a replay: thinned, so that it stays below a megabyte. Times are seconds
+/// A summary of a run's recordings for a replay: thinned, so that it stays below a megabyte. Times are seconds
 /// since the run began.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RunTrack {
@@ -208,8 +208,8 @@ pub struct RunTrack {
     /// Which of its recordings, from 0; absent = all of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recording: Option<u32>,
-    /// When each recording begins of which it tells, in order: what lies on both sides was told by two lives of the daemon, or in
-    /// two maps.
+    /// Start times of the recordings in it, in order. On either side of one the daemon ran anew, or the robot was in
+    /// another map.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub begins_s: Vec<f32>,
     /// Poses, at most two a second.
@@ -220,7 +220,7 @@ pub struct RunTrack {
     pub truncated: bool,
 }
 
-/// Where the robot believed to be: time in seconds, x and y in metres, heading in radians.
+/// An estimated pose: time in seconds, x and y in metres, heading in radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TrackPose(pub f32, pub f32, pub f32, pub f32);
 

@@ -1,4 +1,4 @@
-//! What the robot knows of the home, over all of its jobs.
+//! The robot's map of the home, over all of its jobs.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{NoGoView, PlaceView, Pose, Rle, RoomChangeView, RoomSettings};
 
-/// The home as far as the robot knows it, in the frame of its poses.
+/// The home as far as it is mapped, in the frame of the robot's poses.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HomeView {
     /// Grows when something is known that was not.
@@ -31,12 +31,12 @@ pub struct HomeView {
     pub doors: Vec<DoorView>,
     /// Straight walls.
     pub walls: Vec<WallView>,
-    /// Pose of a robot that stands on the dock, if that is known.
+    /// Pose of a robot on the dock, if that is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dock: Option<Pose>,
-    /// Nobody but a person has said that it is there: the robot has not docked there yet.
-    #[serde(default, skip_serializing_if = "is_false")]
-    pub dock_told: bool,
+    /// A person reported it; the robot has not docked there yet.
+    #[serde(default, rename = "dock_told", skip_serializing_if = "is_false")]
+    pub dock_reported: bool,
     /// No-go zones and virtual walls, by their numbers.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_go: Vec<NoGoView>,
@@ -49,24 +49,24 @@ pub struct HomeView {
     /// How sure all of it is, then how sure each room is.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sureness: Vec<SurenessView>,
-    /// Where carpets lie, as far as the robot has felt it; absent where it does not measure what its motors draw: then nobody knows.
+    /// Where carpets lie, as far as the robot has detected them; absent where it does not measure motor currents.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub carpet: Option<CarpetView>,
 }
 
-/// Where carpets lie, by what wheels and main brush draw on them beside what they draw elsewhere in the home. Nothing is said of
-/// either kind of floor before the robot has met both.
+/// Where carpets lie, detected by the currents of wheels and main brush compared with those elsewhere in the home. Absent for
+/// either kind of floor before the robot has driven over both.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CarpetView {
     /// Floor that is carpet, square metres.
     pub area_m2: f64,
-    /// Floor that is none, square metres; the robot has not felt the rest.
+    /// Floor that is none, square metres; the rest is not measured yet.
     pub hard_m2: f64,
-    /// What was felt of each cell of the home's window: 0 nothing, 1 hard floor, 2 carpet.
+    /// The surface detected in each cell of the home's window: 0 nothing, 1 hard floor, 2 carpet.
     pub cells: Rle,
 }
 
-/// How sure what is known of the home or of a room is. Shares are from 0 to 1.
+/// Confidence of the map of the home or of a room. Shares are from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct SurenessView {
     /// Identity of the room; absent for the whole home.
@@ -76,7 +76,7 @@ pub struct SurenessView {
     pub sigma_m: f64,
     /// Share of the floor on which the robot's body has been; the rest it saw from afar.
     pub driven: f64,
-    /// Share of what borders the floor that the robot has only touched: it knows points of that, not lines.
+    /// Share of the floor's border that the robot knows by contacts alone: as points, not as lines.
     pub touched: f64,
 }
 

@@ -8,6 +8,7 @@
 
 extern crate alloc;
 
+mod cleaning_power;
 mod client_input;
 mod floor;
 mod health;
@@ -17,12 +18,15 @@ mod learnt;
 mod order;
 mod reasons;
 mod request;
+mod role;
 mod schedule;
 mod simulated;
 mod stop;
 mod thought;
+mod topic;
 mod update;
 
+pub use cleaning_power::CleaningPower;
 pub use client_input::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MAX, is_mix_name};
 pub use floor::{
     ARCHIVE_BYTES_MAX, ARCHIVE_PIECE_BYTES, ARCHIVE_UPLOAD_BYTES, FloorQuestion, FloorView, FloorsView,
@@ -39,14 +43,16 @@ pub use order::{
     RoomChangeView, RoomNaming, RoomSettings, RoomSplitting, SPOT_RADIUS_M,
 };
 pub use reasons::{Explanation, explain, explanations, remedy};
-pub use request::{CleaningPower, Request, RequestBody, Topic};
+pub use request::{Request, RequestBody, VERBS, role_for};
+pub use role::{Role, UnknownRole};
 pub use schedule::{
     InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
     ScheduledJob, Schedules, Weekday,
 };
 pub use simulated::{SimulatedPlan, SimulatedTruth};
-pub use stop::{Evidence, Felt, Standstill};
-pub use thought::{Decision, Estimate, PlannedWay};
+pub use stop::{Evidence, EvidenceSample, Standstill};
+pub use thought::{Decision, Estimate, PlannedPath};
+pub use topic::Topic;
 pub use update::{
     BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, LinkReading, LogEntry, LogLevel,
     MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, Status, Update, Versions,

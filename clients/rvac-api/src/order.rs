@@ -26,7 +26,7 @@ pub struct JobOrder {
     pub pattern: Option<CleaningPattern>,
 }
 
-/// In which way floor is swept.
+/// The pattern by which floor is swept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CleaningPattern {
@@ -56,7 +56,7 @@ impl CleaningPattern {
         Self::ALL.into_iter().find(|pattern| pattern.name() == name)
     }
 
-    /// Whether it is what floor is swept by if nobody says otherwise.
+    /// Whether it is the default.
     #[must_use]
     pub fn is_usual(&self) -> bool {
         *self == Self::default()
@@ -127,11 +127,11 @@ pub struct JobEstimate {
     pub floor_m2: f64,
     /// Time, seconds, without pauses for charging.
     pub time_s: f64,
-    /// Share of a full battery that the job and the way home take; above 1 the robot must charge in between.
+    /// Share of a full battery that the job and the drive home take; above 1 the robot must charge in between.
     pub charge: f64,
     /// Share of `floor_m2` that is expected to be swept, 0..1.
     pub share: f64,
-    /// The same if the robot knows its place half as well as it believes.
+    /// The same if the true position error is twice the estimated one.
     pub share_low: f64,
 }
 
@@ -166,7 +166,7 @@ pub struct RoomSettings {
     /// How hard brushes and suction run in it, in whole percent. What a robot lacks is ignored.
     #[serde(default = "full_power")]
     pub power: CleaningPower,
-    /// In which way it is swept; absent = lines.
+    /// The pattern by which it is swept; absent = lines.
     #[serde(default, skip_serializing_if = "CleaningPattern::is_usual")]
     pub pattern: CleaningPattern,
 }

@@ -6,8 +6,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    JobOrder, LearntPart, NoGoShape, PlaceShape, QuietHours, RoomNaming, RoomSettings, RoomSplitting,
-    ScheduleEntry,
+    CleaningPower, JobOrder, LearntPart, NoGoShape, PlaceShape, QuietHours, Role, RoomNaming, RoomSettings,
+    RoomSplitting, ScheduleEntry, Topic,
 };
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
@@ -19,76 +19,6 @@ pub struct Request {
     /// What.
     #[serde(flatten)]
     pub body: RequestBody,
-}
-
-/// Parts of the update stream a client can follow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Topic {
-    /// [`crate::Update::Status`] on each change.
-    Status,
-    /// [`crate::Update::Pose`], 20 a second while the robot moves.
-    Pose,
-    /// [`crate::Update::Device`], twice a second.
-    Device,
-    /// A [`crate::Update::Map`] snapshot at once, then [`crate::Update::MapDelta`], five a second while the robot cleans.
-    Map,
-    /// [`crate::Update::Home`] at once, then when the robot knows more, at most every five seconds.
-    Home,
-    /// [`crate::Update::Estimate`] when it changes, at most twice a second.
-    Estimate,
-    /// [`crate::Update::Way`] when it changes, at most every two seconds.
-    Way,
-    /// [`crate::Update::Decision`]: the last 100 at once, then each new one.
-    Decisions,
-    /// [`crate::Update::Log`]: the last 200 entries at once, then each new one.
-    Log,
-    /// [`crate::Update::Packet`]: each packet of the wire, both directions.
-    Packets,
-    /// [`crate::Update::Schedules`] at once, then when it changes.
-    Schedules,
-    /// [`crate::Update::RunKept`] for each run that ends, when it is on the disk.
-    Runs,
-    /// [`crate::Update::Floors`] at once, then when it changes.
-    Floors,
-    /// [`crate::Update::Standstill`]: the last ten at once, then each new one.
-    Standstills,
-    /// [`crate::Update::Button`] for each press and each hold.
-    Buttons,
-    /// [`crate::Update::Inputs`] at once, then with each word of a client that tells some, and when one is gone.
-    Inputs,
-}
-
-/// How hard brushes and suction run while a person drives or in a room, each 0..=1. What a robot lacks is ignored.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CleaningPower {
-    /// Suction.
-    pub suction: f64,
-    /// The main brush.
-    pub main_brush: f64,
-    /// The side brushes.
-    pub side_brushes: f64,
-}
-
-impl CleaningPower {
-    /// As hard as they can.
-    pub const FULL: Self = Self {
-        suction: 1.0,
-        main_brush: 1.0,
-        side_brushes: 1.0,
-    };
-    /// For daily dust, and less to be heard.
-    pub const NORMAL: Self = Self {
-        suction: 0.7,
-        main_brush: 0.8,
-        side_brushes: 0.8,
-    };
-    /// As little as still cleans.
-    pub const QUIET: Self = Self {
-        suction: 0.4,
-        main_brush: 0.6,
-        side_brushes: 0.6,
-    };
 }
 
 /// The closed set of requests; on the wire `{"c":"start","strategy":"bounce"}` and so on.
@@ -433,4 +363,102 @@ pub enum RequestBody {
         /// The JSON object as text.
         packet: String,
     },
+}
+
+/// The least role that may ask each request over the network, by its word in `c`. On the robot's own socket all may.
+#[rustfmt::skip]
+pub const VERBS: [(&str, Role); 60] = [
+    ("hello",           Role::View),
+    ("watch",           Role::View),
+    ("estimate",        Role::View),
+    ("evidence",        Role::View),
+    ("health",          Role::View),
+    ("learnt",          Role::View),
+    ("maps",            Role::View),
+    ("mixes",           Role::View),
+    ("runs",            Role::View),
+    ("run",             Role::View),
+    ("run-track",       Role::View),
+    ("run-file",        Role::View),
+    ("export-floors",   Role::View),
+    ("stop",            Role::View),
+    ("start",           Role::Drive),
+    ("clean",           Role::Drive),
+    ("spot",            Role::Drive),
+    ("pause",           Role::Drive),
+    ("resume",          Role::Drive),
+    ("dock",            Role::Drive),
+    ("drive",           Role::Drive),
+    ("release",         Role::Drive),
+    ("set-inputs",      Role::Drive),
+    ("locate",          Role::Drive),
+    ("clear",           Role::Drive),
+    ("run-schedule",    Role::Drive),
+    ("skip-next",       Role::Drive),
+    ("choose-floor",    Role::Drive),
+    ("add-no-go",       Role::Admin),
+    ("remove-no-go",    Role::Admin),
+    ("name-no-go",      Role::Admin),
+    ("reshape-no-go",   Role::Admin),
+    ("keep-place",      Role::Admin),
+    ("name-place",      Role::Admin),
+    ("reshape-place",   Role::Admin),
+    ("forget-place",    Role::Admin),
+    ("name-room",       Role::Admin),
+    ("set-room",        Role::Admin),
+    ("split-room",      Role::Admin),
+    ("join-rooms",      Role::Admin),
+    ("undo-room-change", Role::Admin),
+    ("move-dock",       Role::Admin),
+    ("reset-health",    Role::Admin),
+    ("forget-learnt",   Role::Admin),
+    ("restore-map",     Role::Admin),
+    ("new-floor",       Role::Admin),
+    ("name-floor",      Role::Admin),
+    ("remove-floor",    Role::Admin),
+    ("restore-floor",   Role::Admin),
+    ("import-floors",   Role::Admin),
+    ("save-mix",        Role::Admin),
+    ("remove-mix",      Role::Admin),
+    ("add-schedule",    Role::Admin),
+    ("change-schedule", Role::Admin),
+    ("remove-schedule", Role::Admin),
+    ("enable-schedule", Role::Admin),
+    ("set-quiet",       Role::Admin),
+    ("set-zone",        Role::Admin),
+    ("claim-buttons",   Role::Admin),
+    ("raw",             Role::Admin),
+];
+
+/// The role that a request needs, by its word in `c`; one that is not in the table needs the highest.
+#[must_use]
+pub fn role_for(verb: &str) -> Role {
+    let row = VERBS.iter().find(|(known, _)| *known == verb);
+    row.map_or(Role::Admin, |(_, role)| *role)
+}
+
+#[cfg(test)]
+mod tests {
+    use alloc::borrow::ToOwned;
+    use alloc::string::{String, ToString};
+    use alloc::vec::Vec;
+
+    use super::{Request, VERBS};
+
+    /// The words of all requests, as the interface itself tells them.
+    fn words_of_the_interface() -> Vec<String> {
+        let error = serde_json::from_str::<Request>(r#"{"c":"no-such-word"}"#).unwrap_err();
+        let text = error.to_string();
+        let listed = text.split("expected one of ").nth(1).unwrap();
+        listed.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn every_request_stands_in_the_table_once() {
+        let mut listed: Vec<&str> = VERBS.iter().map(|(verb, _)| *verb).collect();
+        let mut words = words_of_the_interface();
+        listed.sort_unstable();
+        words.sort_unstable();
+        assert_eq!(listed, words, "give each request a role in VERBS");
+    }
 }

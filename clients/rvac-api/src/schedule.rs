@@ -1,6 +1,6 @@
-//! Schedules: what starts by itself, when, and what came of it.
+//! Schedules: what starts by itself, when, and how it ended.
 //!
-//! Times of day are `HH:MM`, dates `YYYY-MM-DD`, both as clocks in the time zone of the robot show them. Instants are told as such
+//! Times of day are `HH:MM`, dates `YYYY-MM-DD`, both as clocks in the time zone of the robot show them. Instants are given as such
 //! clocks show them, with their distance from UTC: `2026-11-23T07:30:00+02:00`.
 
 use alloc::string::String;

@@ -1,4 +1,4 @@
-//! What only a simulator can tell: the home as it is, and where the robot really stands in it.
+//! What only a simulator can report: the true home, and the true pose of the robot in it.
 
 use alloc::string::String;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! Why the robot stood still by itself, with what it felt before and what it tried.
+//! Why the robot stopped by itself, with what its sensors reported before and what it tried.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Decision, Pose};
 
-/// The robot stands and waits, or gave up.
+/// The robot waits, or gave up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Standstill {
     /// Rising number since the daemon's start, from 1.
@@ -22,49 +22,49 @@ pub struct Standstill {
     /// What to do about it; absent when there is nothing to do, and from older daemons.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub remedy: String,
-    /// Where it believed to be.
+    /// The estimated pose.
     pub place: Pose,
     /// It did not know where it was.
     #[serde(default, skip_serializing_if = "core::ops::Not::not")]
     pub lost: bool,
-    /// What it felt and what it tried before.
+    /// What its sensors reported and what it tried before.
     #[serde(flatten)]
     pub evidence: Evidence,
 }
 
-/// What the robot felt in the last ten seconds, and what it tried in the last half minute.
+/// What the sensors reported in the last ten seconds, and what the robot tried in the last half minute.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
     /// Five a second, oldest first.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub felt: Vec<Felt>,
+    #[serde(default, rename = "felt", skip_serializing_if = "Vec::is_empty")]
+    pub samples: Vec<EvidenceSample>,
     /// Decisions, oldest first; twelve at most.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tried: Vec<Decision>,
 }
 
 impl Evidence {
-    /// Whether there is nothing to tell.
+    /// Whether it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.felt.is_empty() && self.tried.is_empty()
+        self.samples.is_empty() && self.tried.is_empty()
     }
 }
 
 /// A fifth of a second.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Felt {
+pub struct EvidenceSample {
     /// Its end in seconds before the moment that is explained: -10..=0.
     pub at_s: f64,
     /// Speed by the wheels' counts, m/s.
     pub v: f64,
     /// Turn rate by gyro, or by the wheels' counts where there is none, rad/s, counter-clockwise positive.
     pub w: f64,
-    /// What spoke at any time of it, by name: `bumper-left`, `cliff-front`, `wheel-drop`, `link-lost`, `docked` and the names of
+    /// Contacts and alarms during it, by name: `bumper-left`, `cliff-front`, `wheel-drop`, `link-lost`, `docked` and the names of
     /// what kept the firmware from moving.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub signs: Vec<String>,
-    /// Strongest echo of the sensors that look ahead and aside, 0 (nothing) to 1. Only of robots that have some.
+    /// Strongest echo of the sensors at the front and the sides, 0 (nothing) to 1. Only of robots that have some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub echo: Option<f32>,
     /// Motor currents in amperes: left wheel, right wheel, main brush. Only of robots that measure them.

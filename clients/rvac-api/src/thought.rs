@@ -1,10 +1,10 @@
-//! What the robot thinks: how sure it is, where it means to drive, and why it did what it did.
+//! The robot's estimates, its planned path, and the reasons of its decisions.
 
 use alloc::string::String;
 use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
-/// How sure the robot is of its place and of its work. What it cannot tell is absent.
+/// How certain the robot is of its position and of its coverage. Unknown values are absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Standard deviation of its place along the worst direction, metres.
@@ -13,22 +13,22 @@ pub struct Estimate {
     pub sigma_rad: f64,
     /// It does not know where it is: its pose is where odometry has carried the last one that it believed.
     pub lost: bool,
-    /// Share of what its sensors see lately that its map explains, 0..1. Only of a robot that compares with a map.
+    /// Share of the recent sensor readings that the map explains, 0..1. Only of a robot that compares with a map.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub agreement: Option<f64>,
-    /// Share of the floor that it can reach, as far as it knows, that the running or waiting job has swept, 0..1. Only of
-    /// strategies that know what there is to sweep, or reckon it by statistics; of a job for parts of the home that of the part which is being cleaned, and of one
-    /// with several passes that of the present pass.
+    /// Share of the reachable floor, as far as mapped, that the running or waiting job has swept, 0..1. Only of
+    /// strategies that know the floor to sweep or estimate it by statistics. For a job for parts of the home it is the share of the current part, for one
+    /// with several passes the share of the current pass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered: Option<f64>,
-    /// The same if the robot knows its place half as well as it believes; by statistics, if there is more floor than it reckons.
+    /// The same if the true position error is twice the estimated one; by statistics, if there is more floor than estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered_low: Option<f64>,
 }
 
-/// The way that the running or waiting job means to drive from here on.
+/// The planned path of the running or waiting job from here on.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct PlannedWay {
+pub struct PlannedPath {
     /// Its corners as `[x0,y0,x1,y1,...]` in millimetres of the map frame; empty where the robot decides as it goes.
     pub points_mm: Vec<i32>,
 }

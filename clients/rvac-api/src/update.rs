@@ -1,4 +1,4 @@
-//! What the daemon tells its clients.
+//! What the daemon sends to its clients.
 
 use alloc::boxed::Box;
 use alloc::string::String;
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     ClientInput, ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap,
-    LearntView, PlannedWay, Run, RunRecord, RunTrack, Schedules, SimulatedPlan, SimulatedTruth, Standstill,
+    LearntView, PlannedPath, Run, RunRecord, RunTrack, Schedules, SimulatedPlan, SimulatedTruth, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -37,7 +37,7 @@ pub enum Update {
     Failed(Failure),
     /// What the robot is doing.
     Status(Status),
-    /// Where it believes to be.
+    /// The estimated pose.
     Pose(Pose),
     /// The device table.
     Device(DeviceTable),
@@ -50,12 +50,12 @@ pub enum Update {
     /// How sure the robot is.
     Estimate(Estimate),
     /// Where it means to drive.
-    Way(PlannedWay),
+    Way(PlannedPath),
     /// Something that it decided.
     Decision(Decision),
-    /// The robot stands and waits, or gave up, and nobody told it to.
+    /// The robot waits, or gave up, without having been ordered to.
     Standstill(Box<Standstill>),
-    /// What the robot has felt and tried up to now.
+    /// What the sensors have reported and the robot has tried up to now.
     Evidence {
         /// Number of the request.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -119,7 +119,7 @@ pub enum Update {
     Run(Box<RunRecord>),
     /// A run is over, and what is kept of it is on the disk.
     RunKept(Box<Run>),
-    /// What recordings tell of a run.
+    /// The summary of a run's recordings.
     RunTrack(Box<RunTrack>),
     /// A piece of the recording of a run.
     RunFile {
@@ -157,7 +157,7 @@ pub enum Update {
         /// Host time, seconds since the daemon's start.
         t: f64,
     },
-    /// The inputs of control mixes that clients tell now.
+    /// The inputs of control mixes that clients send now.
     Inputs {
         /// By their names.
         inputs: Vec<ClientInput>,
@@ -257,14 +257,14 @@ pub struct Status {
     pub job_s: f64,
     /// Swept area of the running or last job in square metres, by the robot's own estimate.
     pub swept_m2: f64,
-    /// Way of the running or last job in metres.
+    /// Distance driven in the running or last job, metres.
     pub path_m: f64,
     /// Bumps of the running or last job.
     pub bumps: u32,
     /// Name of the client in the driver's seat.
     #[serde(default)]
     pub driver: Option<String>,
-    /// The room in which the robot is, if it knows the home and its place in it.
+    /// The room in which the robot is, if home and pose are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub room: Option<RoomHere>,
 }

@@ -1,4 +1,4 @@
-//! Every message as it stands on the socket.
+//! Every message as the socket carries it.
 //!
 //! A red test here means that clients in the field would misread the daemon: take the change back, or raise `API_VERSION` and keep
 //! the old form readable. New messages and new optional keys get new lines.
@@ -7,14 +7,15 @@
 
 use rvac_api::{
     BatteryReading, BumpMark, CarpetView, CleaningPattern, CleaningPower, ClientInput, ComponentHealth,
-    Decision, DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, Failure, Felt, FloorQuestion,
-    FloorView, FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap,
-    LearntPart, LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot, NoGoShape, NoGoView,
-    PlaceShape, PlaceView, PlannedRun, PlannedWay, Pose, QuietHours, Request, RequestBody, RobotDescription,
-    RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
-    RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
-    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, Standstill, Status,
-    SurenessView, Topic, TrackPose, TrackReading, Update, Versions, WallView, Weekday, is_mix_name,
+    Decision, DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, EvidenceSample, Failure,
+    FloorQuestion, FloorView, FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder,
+    JobPart, KeptMap, LearntPart, LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
+    NoGoShape, NoGoView, PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours, Request,
+    RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting,
+    RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
+    ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
+    SimulatedTruth, Standstill, Status, SurenessView, Topic, TrackPose, TrackReading, Update, Versions,
+    WallView, Weekday, is_mix_name,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -512,7 +513,7 @@ fn the_home() {
             sigma_m: 0.25,
         }],
         dock: None,
-        dock_told: false,
+        dock_reported: false,
         no_go: vec![],
         places: vec![],
         room_changes: vec![],
@@ -749,7 +750,7 @@ fn what_the_robot_thinks() {
         &Update::Estimate(estimate),
         r#"{"e":"estimate","sigma_m":0.5,"sigma_rad":0.25,"lost":false,"covered":0.75,"covered_low":0.625}"#,
     );
-    let way = PlannedWay {
+    let way = PlannedPath {
         points_mm: vec![0, -100, 2500, 40],
     };
     check(&Update::Way(way), r#"{"e":"way","points_mm":[0,-100,2500,40]}"#);
@@ -1274,7 +1275,7 @@ fn a_new_device() {
 }
 
 fn standstill() {
-    let felt = Felt {
+    let felt = EvidenceSample {
         at_s: -0.2,
         v: 0.25,
         w: -0.1,
@@ -1283,7 +1284,7 @@ fn standstill() {
         currents_a: Some([0.5, 0.25, 0.0]),
     };
     let evidence = Evidence {
-        felt: vec![felt, Felt::default()],
+        samples: vec![felt, EvidenceSample::default()],
         tried: Vec::new(),
     };
     check(

@@ -23,7 +23,7 @@ pub(crate) fn send(body: RequestBody, daemon: &Daemon) -> anyhow::Result<ExitCod
     ask(&mut Connection::open(daemon)?, body)
 }
 
-/// As [`send`], over a connection that stands.
+/// As [`send`], over an open connection.
 pub(crate) fn ask(connection: &mut Connection, body: RequestBody) -> anyhow::Result<ExitCode> {
     answer(connection, (body, ANSWER), |update, _| match update {
         Update::Done { id: REQUEST_ID } => Some(ExitCode::SUCCESS),
@@ -31,7 +31,7 @@ pub(crate) fn ask(connection: &mut Connection, body: RequestBody) -> anyhow::Res
     })
 }
 
-/// Sends a request and waits for the update that answers it, which `found` knows; it is also given the daemon's own text.
+/// Sends a request and waits for the update that answers it, which `found` recognizes; it is also given the daemon's own text.
 pub(crate) fn answer<Found>(
     connection: &mut Connection,
     (body, patience): (RequestBody, Duration),
@@ -44,7 +44,7 @@ pub(crate) fn answer<Found>(
     awaited(connection, patience, found)
 }
 
-/// Follows topics and waits for the view that `found` knows. The request has no number: its `done` would come after the view, and be
+/// Follows topics and waits for the view that `found` recognizes. The request has no number: its `done` would come after the view, and be
 /// taken for the answer to the next request.
 pub(crate) fn followed<Found>(
     connection: &mut Connection,

@@ -51,7 +51,7 @@ pub(crate) fn run(job: &FloorJob) -> anyhow::Result<ExitCode> {
     control::ask(&mut connection, body)
 }
 
-/// The floors as the daemon tells them, and its own text.
+/// The floors as the daemon reports them, and its own text.
 pub(crate) fn ask(connection: &mut Connection) -> anyhow::Result<(FloorsView, String)> {
     control::followed(connection, vec![Topic::Floors], |update, text| match update {
         Update::Floors(floors) => Some((floors, text)),

@@ -42,7 +42,7 @@ fn table(parts: &[ComponentHealth]) -> String {
             }
             _ => format!("{} of 10 minutes of cleaning measured", part.minutes),
         };
-        // A string takes whatever it is given.
+        // Writing to a string cannot fail.
         writeln!(text, "{:12} {:9} {load}", part.component, part.verdict).ok();
         if !part.text.is_empty() {
             writeln!(text, "             {}", part.text).ok();

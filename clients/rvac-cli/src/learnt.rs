@@ -44,7 +44,7 @@ fn in_words(devices: &[LearntView]) -> String {
     } in devices
     {
         let here = if *here { ", attached" } else { "" };
-        // A string takes whatever it is given.
+        // Writing to a string cannot fail.
         let when = learnt_s.map(|learnt_s| format!(", last calibrated {}", when(Some(learnt_s))));
         writeln!(text, "{device}{here}{}", when.unwrap_or_default()).ok();
         if let Some(gyro) = gyro {

@@ -75,7 +75,7 @@ fn main() -> ExitCode {
         Ok(code) => code,
         Err(error) if is_closed_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            // Nobody is left to tell when even this cannot be written.
+            // There is no other place to report that even this cannot be written.
             writeln!(std::io::stderr(), "rvac: {error:#}").ok();
             ExitCode::FAILURE
         }

@@ -16,11 +16,11 @@ const CRC_BYTES: usize = 9;
 pub(crate) fn run(job: &PacketJob) -> anyhow::Result<ExitCode> {
     match &job.verb {
         PacketVerb::Crc(options) => append_crc(options),
-        PacketVerb::Check(options) => look_at_all(options, |shown| {
+        PacketVerb::Check(options) => for_each_packet(options, |shown| {
             let good = matches!(shown.verdict, Verdict::Checked | Verdict::CheckedBeforeSession);
             (good, shown.verdict.in_words())
         }),
-        PacketVerb::Decode(options) => look_at_all(options, |shown| (shown.is_good(), explain(shown))),
+        PacketVerb::Decode(options) => for_each_packet(options, |shown| (shown.is_good(), explain(shown))),
     }
 }
 
@@ -42,7 +42,7 @@ fn append_crc(options: &PacketOptions) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn look_at_all(
+fn for_each_packet(
     options: &PacketOptions,
     judge: impl Fn(&Shown) -> (bool, String),
 ) -> anyhow::Result<ExitCode> {

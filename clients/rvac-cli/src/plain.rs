@@ -15,7 +15,7 @@ pub(crate) fn plain(text: &str) -> String {
     text.replace(is_order, &MARK.to_string())
 }
 
-/// The same in one line: nobody can add lines of their own to a list.
+/// The same in one line, so that a text cannot add lines to a list.
 pub(crate) fn one_line(text: &str) -> String {
     text.replace(char::is_control, &MARK.to_string())
 }

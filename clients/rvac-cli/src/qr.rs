@@ -5,7 +5,7 @@ use qrcodegen::{QrCode, QrCodeEcc};
 /// Light cells around it, without which cameras do not find it.
 const QUIET: i32 = 4;
 
-/// Light on dark and dark on light whatever the colours of the terminal: black cells on white ones.
+/// Black cells on white ones, independent of the terminal's colours.
 const COLOURS: &str = "\u{1b}[30;107m";
 const PLAIN: &str = "\u{1b}[0m";
 

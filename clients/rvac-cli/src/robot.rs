@@ -21,15 +21,15 @@ use crate::listen::listen;
 
 /// The robot must answer the handshake, and each question, within this time.
 const PATIENCE: Duration = Duration::from_secs(5);
-/// Longest pause between two looks at the session.
+/// Longest pause between two polls of the session.
 const LOOK: Duration = Duration::from_millis(10);
 /// Life of a motor command, and the pause after which it is given again.
 const LEASE_MS: u16 = 250;
 const RENEW: Duration = Duration::from_millis(100);
 
-/// Within this time the robot tells its state anew.
+/// Within this time the robot sends its state again.
 const STATE: Duration = Duration::from_millis(100);
-/// A robot that was put down is believed to stand after a second (S10).
+/// A robot that was put down counts as standing after a second (S10).
 const STANDS: Duration = Duration::from_millis(2_500);
 
 enum RobotEvent {
@@ -39,7 +39,7 @@ enum RobotEvent {
     Lost(std::io::Error),
 }
 
-/// What has come in while somebody waited.
+/// What has come in during a wait.
 #[derive(Default)]
 struct Reports {
     /// Number of lights, once the robot has described itself.
@@ -104,7 +104,7 @@ pub(crate) struct Robot {
 }
 
 impl Robot {
-    /// Opens the line and a session on it, and waits until the robot has told what it is.
+    /// Opens the line and a session on it, and waits for the robot's description.
     pub(crate) fn open(port: &Path, baud: u32) -> anyhow::Result<Self> {
         let serial = SerialPort::open(port, baud)
             .with_context(|| format!("cannot open {} at {baud} baud", port.display()))?;
@@ -191,7 +191,7 @@ impl Robot {
     }
 
     /// Raw readings for `span`, or until the person has typed something if `until_typed`, as they come (each 50 ms), while
-    /// `motors` run open loop; whatever happens, they are stopped at the end. Motors need an armed robot; without any the
+    /// `motors` run open loop; they are always stopped at the end. Motors need an armed robot; without any the
     /// robot need not be armed.
     pub(crate) fn watch(
         &mut self,
@@ -301,7 +301,7 @@ impl Robot {
     /// A refusal in words, with what the robot says keeps it from moving.
     fn refused(&mut self, what: &str, refusal: Refusal) -> anyhow::Error {
         if refusal == Refusal::Inhibited {
-            // The next state tells what inhibits now.
+            // The next state contains the present inhibits.
             self.pass(STATE).ok();
         }
         let reasons: Vec<&str> = self.heard.inhibits.iter().map(Inhibit::name).collect();

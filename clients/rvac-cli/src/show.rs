@@ -19,16 +19,16 @@ pub(crate) enum Verdict {
     NoCrc,
     /// A wrong CRC.
     BadCrc {
-        /// The one it came with, if it can be told.
+        /// The one it came with, if it can be read.
         found: Option<u32>,
-        /// The one it should have, if it can be told.
+        /// The one it should have, if it can be computed.
         expected: Option<u32>,
     },
     /// Not whole.
     Broken(Poison),
 }
 
-/// One packet, looked at.
+/// One packet, examined.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Shown {
     pub(crate) verdict: Verdict,

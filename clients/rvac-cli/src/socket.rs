@@ -22,7 +22,7 @@ pub(crate) struct Connection {
     received: Vec<u8>,
 }
 
-/// One message as it came, and what it says if this program knows it.
+/// One message as it came, and its content if this program knows its kind.
 #[derive(Debug)]
 pub(crate) struct Message {
     pub(crate) text: String,

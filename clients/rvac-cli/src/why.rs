@@ -21,7 +21,7 @@ pub(crate) fn run(options: &WhyOptions) -> anyhow::Result<ExitCode> {
     if options.stop {
         evidence::print_stop(connection, options.json)?;
     } else if options.felt {
-        evidence::print_felt(connection, options.json)?;
+        evidence::print_evidence(connection, options.json)?;
     } else {
         print_decisions(connection, options)?;
     }
@@ -31,7 +31,7 @@ pub(crate) fn run(options: &WhyOptions) -> anyhow::Result<ExitCode> {
 /// Prints the newest decisions, the newest last.
 fn print_decisions(mut connection: Connection, options: &WhyOptions) -> anyhow::Result<()> {
     let mut decisions = Vec::new();
-    let now_s = told_before(&mut connection, Topic::Decisions, |update, text| {
+    let now_s = past_updates(&mut connection, Topic::Decisions, |update, text| {
         if let Update::Decision(decision) = update {
             decisions.push((decision, text));
         }
@@ -50,8 +50,8 @@ fn print_decisions(mut connection: Connection, options: &WhyOptions) -> anyhow::
     Ok(())
 }
 
-/// Gives `take` what `topic` told up to now, each with its JSON, and returns the daemon's time.
-fn told_before(
+/// Gives `take` the past updates of `topic`, each with its JSON, and returns the daemon's time.
+fn past_updates(
     connection: &mut Connection,
     topic: Topic,
     mut take: impl FnMut(Update, String),

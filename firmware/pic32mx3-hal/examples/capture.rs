@@ -1,5 +1,5 @@
 //! Measures the signal on RD8 (IC1): timer 2 gives the times of the input capture, timers 4 and 5 together count
-//! with 32 bits. Each rising edge gives a line on UART 1 (RF3, 115200 baud) with the time since the edge before, both ways
+//! with 32 bits. Each rising edge gives a line on UART 1 (RF3, 115200 baud) with the time since the previous edge, in both ways
 //! equal as long as it is below 52 ms: `1250 1250`. A falling edge on RE8 (INT1) gives `x`.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 

@@ -1,5 +1,5 @@
 //! A switch on RG9 (CN11) to ground, held high by the chip's own pull-up: each time it closes, the lamp on RG7 changes. A
-//! switch that bounces counts once: 2 ms after a change it is looked at again.
+//! switch that bounces counts once: 2 ms after a change it is read again.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 
 mod board;
@@ -14,7 +14,7 @@ const SETTLE_COUNTS: u32 = 2 * 40_000;
 static CHANGED: AtomicU32 = AtomicU32::new(0);
 
 fn on_change(_: &mut Context<vector::CHANGE_NOTICE>) {
-    // Reading the port tells the chip that this level is known; only then can the request be taken back.
+    // Reading the port makes this level the reference of the chip; only then can the request be cleared.
     let _levels = Port::G.read();
     Source::ChangeNotice.clear();
     CHANGED.store(1, Ordering::Release);

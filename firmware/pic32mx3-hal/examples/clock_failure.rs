@@ -1,5 +1,5 @@
 //! When the crystal fails, the chip goes on with its internal oscillator, ten times slower, and asks for an interrupt. Its
-//! handler takes the pulses off RD0 (OC1), which would last ten times longer now, and sets RG7; the main program is told and
+//! handler takes the pulses off RD0 (OC1), which would last ten times longer now, and sets RG7; the main program is informed and
 //! sets RG8 when it finds the same in the register.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 

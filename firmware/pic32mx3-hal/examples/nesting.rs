@@ -39,7 +39,7 @@ fn calculate(seed: u32) -> u32 {
     words.iter().fold(0, |sum, word| sum.rotate_left(3) ^ word)
 }
 
-// Fills every register that a function may change, lets time pass, and tells which bits are different then: 0 for none.
+// Fills every register that a function may change, lets time pass, and returns which bits differ then: 0 for none.
 #[cfg(target_arch = "mips")]
 core::arch::global_asm!(
     ".set push",

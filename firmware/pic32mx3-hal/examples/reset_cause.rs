@@ -1,5 +1,5 @@
-//! Says on UART 1 (RF3, 115200 baud) why the chip started, then lets itself be reset in another way: by an interrupt that
-//! nobody handles, by the watchdog while the program runs, by the watchdog while it sleeps, by software, by a bus error.
+//! Says on UART 1 (RF3, 115200 baud) why the chip started, then provokes the next kind of reset: by an interrupt that
+//! has no handler, by the watchdog while the program runs, by the watchdog while it sleeps, by software, by a bus error.
 //!
 //! Each line is: number of the start, bits of RCON in hexadecimal, and what broke before, if something did.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]

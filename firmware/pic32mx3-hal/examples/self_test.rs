@@ -16,7 +16,7 @@ image_crc!([0x5EA1_5EA1, 0xFFFF_FFFF]);
 
 static TABLE: HandlerCell<vector::TIMER_2, [u32; 32]> = HandlerCell::empty();
 
-/// Each word of the table goes through the same changes, so all are equal unless somebody else wrote there.
+/// Each word of the table goes through the same changes, so all are equal unless other code wrote there.
 fn on_timer(context: &mut Context<vector::TIMER_2>) {
     if let Some(table) = TABLE.get(context) {
         let [first, ..] = *table;

@@ -1,7 +1,7 @@
 //! A UART on pins without one: receives on RC13 (CN1), finds the rate from the letter `U`, and sends every byte back on RB7.
 //! Framing errors come back as `!`, overruns as `?`.
 //!
-//! Edges are noted at level 6, bits are sent by timer 4 at level 5, the main program looks once a millisecond.
+//! Edges are noted at level 6, bits are sent by timer 4 at level 5, the main program polls once a millisecond.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 
 mod board;
@@ -167,7 +167,7 @@ fn echo(mut receiver: Receiver) -> ! {
         receiver.poll(now, &mut answer);
         if let Some(baud) = receiver.rate() {
             RATE.store(baud.bits_per_second(), Ordering::Relaxed);
-            // It looks at the queue once more before it says that it does not send, so no byte stays behind.
+            // It checks the queue once more before it reports that it does not send, so no byte stays behind.
             if !OUTGOING.is_empty() && !SENDING.load(Ordering::Acquire) {
                 Source::Timer4.request();
             }

@@ -1,5 +1,5 @@
 //! Timer 2 sets a word and RG7; the main program sleeps until the word is set and clears both. Between two sleeps it works
-//! for a time that differs each time, so that the interrupt meets every instruction on the way into the sleep. RG7 is never
+//! for a time that differs each time, so that the interrupt hits every instruction on the path into sleep. RG7 is never
 //! high for long: no wake-up is lost.
 #![cfg_attr(target_arch = "mips", no_std, no_main)]
 

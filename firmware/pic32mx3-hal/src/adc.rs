@@ -58,7 +58,7 @@ impl Channels {
         self.0 == 0
     }
 
-    /// Where the result of a channel stands among those of a scan, or `None` when it is not in the set.
+    /// Index of a channel's result among those of a scan, or `None` when it is not in the set.
     #[must_use]
     pub const fn position(self, channel: u8) -> Option<u8> {
         let bit = 1_u16 << (channel & 15);
@@ -152,7 +152,7 @@ impl Scanner {
     }
 
     /// Converts one channel and waits for it: some microseconds. `None` when a scan is under way, or when the ADC does not
-    /// answer within 100,000 looks at it.
+    /// answer within 100,000 reads of its status.
     pub fn read(&mut self, results: &Results, channel: u8) -> Option<u16> {
         const LOOKS_MAX: u32 = 100_000;
         if !self.start_single(channel) {

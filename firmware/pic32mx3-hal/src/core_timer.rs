@@ -44,7 +44,7 @@ impl Ticker {
     /// missed are skipped and counted here.
     pub fn advance(&mut self) -> u32 {
         let mut ended = 0;
-        // Matches may pass while this runs, so look again after each change.
+        // Matches may pass while this runs, so check again after each change.
         while self.is_behind() {
             let behind = cpu::count().wrapping_sub(self.next);
             let periods = behind.checked_div(self.period_counts).unwrap_or(0) + 1;
@@ -53,7 +53,7 @@ impl Ticker {
             ended += periods;
         }
         crate::interrupt::Source::CoreTimer.clear();
-        // A match between the last look and the clearing would have been cleared with it.
+        // A match between the last check and the clearing would have been cleared with it.
         if self.is_behind() {
             crate::interrupt::Source::CoreTimer.request();
         }
@@ -119,7 +119,7 @@ const fn join(half_turns: u32, count: u32) -> u64 {
     ((half_turns as u64) << 31) | (count & 0x7FFF_FFFF) as u64
 }
 
-/// Waiting by looking at the counter. Interrupts lengthen it.
+/// Waiting by polling the counter. Interrupts lengthen it.
 #[derive(Clone, Copy, Debug)]
 pub struct Delay {
     counts_per_us: u32,

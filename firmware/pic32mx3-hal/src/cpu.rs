@@ -19,8 +19,8 @@ pub fn count() -> u32 {
 
 /// Sleeps until an interrupt when the word is zero (the instruction WAIT, in Idle mode: peripherals go on).
 ///
-/// No wake-up is lost: a handler of level 1 to 5 that comes between the look at the word and the instruction makes this
-/// code begin anew, so when it set the word, this returns. It may also return without the word being set.
+/// No wake-up is lost: a handler of level 1 to 5 that comes between the reading of the word and the instruction makes this
+/// code start again, so when it set the word, this returns. It may also return without the word being set.
 #[inline(always)]
 pub fn sleep_while_zero(word: &AtomicU32) {
     read::sleep(word);
@@ -62,7 +62,7 @@ pub fn level() -> u32 {
     }
 }
 
-/// DI: turns interrupts off, tells whether they were on.
+/// DI: turns interrupts off, returns whether they were on.
 #[inline(always)]
 pub(crate) fn disable_interrupts() -> bool {
     read::disable() & INTERRUPTS_ENABLED != 0

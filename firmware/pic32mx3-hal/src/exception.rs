@@ -1,4 +1,4 @@
-//! When the program breaks: bus errors, unaligned accesses, reserved instructions, interrupts that nobody handles.
+//! When the program breaks: bus errors, unaligned accesses, reserved instructions, interrupts without a handler.
 //!
 //! What happened is noted in memory that a reset leaves alone ([`take_last`]), then the hook runs: the program's own
 //! ([`exception_hook!`](crate::exception_hook!)), or else a software reset, which makes every pin an input.
@@ -40,7 +40,7 @@ pub enum ExceptionKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
 pub struct Exception {
-    /// Cause: code in bits 6:2, level of an interrupt in bits 15:10, bit 31 set when the instruction stands in the delay
+    /// Cause: code in bits 6:2, level of an interrupt in bits 15:10, bit 31 set when the instruction is in the delay
     /// slot of the branch at `program_counter`.
     pub cause: u32,
     /// EPC: the instruction. When `status` shows that a handler of level 6 was running (EXL was set before), it is the

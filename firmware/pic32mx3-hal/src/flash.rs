@@ -1,6 +1,6 @@
 //! Writing program flash: only the pages that the linker script keeps for data (section 16).
 //!
-//! While the controller works the processor stands still, because it runs from the same flash: 20 ms for a page, some tens
+//! While the controller works the processor stalls, because it runs from the same flash: 20 ms for a page, some tens
 //! of microseconds for a word. So nothing must move while it is used. Erased flash is all ones; a word is programmed once.
 
 use crate::cpu;
@@ -16,7 +16,7 @@ const BUSY: u32 = 1 << 15;
 const FAILED: u32 = 0x3000;
 const FIRST_KEY: u32 = 0xAA99_6655;
 const SECOND_KEY: u32 = 0x5566_99AA;
-/// The low-voltage detector wants 6 us; 1000 counts are 12.5 us at the fastest clock.
+/// The low-voltage detector needs 6 us; 1000 counts are 12.5 us at the fastest clock.
 const DETECTOR_COUNTS: u32 = 1_000;
 const FLASH_PHYSICAL: u32 = 0x1D00_0000;
 

@@ -30,7 +30,7 @@
 //! entry!(main);
 //! # #[cfg(not(target_arch = "mips"))] #[unsafe(no_mangle)] extern "C" fn main_is_elsewhere() {}
 //! ```
-//! with a `#[panic_handler]`, and a build script that says `cargo:rustc-link-arg=-Tlink.x`. The README tells how it is
+//! with a `#[panic_handler]`, and a build script that says `cargo:rustc-link-arg=-Tlink.x`. The README describes how it is
 //! compiled.
 //!
 //! # What is where

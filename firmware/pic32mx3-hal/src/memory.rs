@@ -2,7 +2,7 @@
 
 use crate::cpu;
 
-/// Start of RAM and of program flash as the processor sees them cached (section 2).
+/// Start of RAM and of program flash at their cached addresses (section 2).
 const RAM_BASE: u32 = 0x8000_0000;
 const FLASH_BASE: u32 = 0x9D00_0000;
 
@@ -46,7 +46,7 @@ pub fn flash_words(offset: u32, count: u32) -> impl Iterator<Item = u32> {
 }
 
 /// Tests one word of RAM in place: each bit can be 0 and 1, whatever its neighbours in the word are. Its content is the same
-/// afterwards. Interrupts are off for about 30 cycles, so that nobody sees it meanwhile. `None` outside of RAM or when
+/// afterwards. Interrupts are off for about 30 cycles, so that no other code reads it meanwhile. `None` outside of RAM or when
 /// unaligned.
 ///
 /// Called for each word in turn, in slices; a word of the stack or of a variable may be tested at any time.
@@ -59,7 +59,7 @@ fn within(offset: u32, size: u32) -> bool {
     offset < size && offset.is_multiple_of(4)
 }
 
-/// What the linker knows of the image. All of it is constant memory.
+/// Addresses of the image from the linker. All of it is constant memory.
 pub mod image {
     use super::access;
 

@@ -47,8 +47,8 @@ impl<const N: usize> Persistent<N> {
     pub fn load(&self) -> Option<[u32; N]> {
         let (words, check) = cpu::without_interrupts(|| {
             let mut words = [0; N];
-            // SAFETY: interrupts are off, so nobody writes meanwhile; any bits are words. Volatile, because the compiler
-            // knows only of the initial zeros.
+            // SAFETY: interrupts are off, so no handler writes meanwhile; any bits are words. Volatile, because the compiler
+            // assumes the initial zeros.
             unsafe {
                 for (index, word) in words.iter_mut().enumerate() {
                     *word = self.words().add(index).read_volatile();
@@ -71,7 +71,7 @@ impl<const N: usize> Persistent<N> {
 
     fn put(&self, words: [u32; N], check: u32) {
         cpu::without_interrupts(|| {
-            // SAFETY: interrupts are off, so nobody else reads or writes meanwhile.
+            // SAFETY: interrupts are off, so no handler reads or writes meanwhile.
             unsafe {
                 for (index, word) in words.iter().enumerate() {
                     self.words().add(index).write_volatile(*word);

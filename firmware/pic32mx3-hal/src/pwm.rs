@@ -75,7 +75,7 @@ impl PwmTimer<2> {
 }
 
 impl PwmTimer<2> {
-    /// Starts anew with another prescaler and period. Channels keep their width in counts.
+    /// Starts again with another prescaler and period. Channels keep their width in counts.
     pub fn restart(&mut self, prescaler: Prescaler, period_counts: u32) {
         Timer::<2>::new().start(prescaler, period_counts.clamp(2, 0xFFFF));
     }
@@ -105,7 +105,7 @@ impl<const TIMER: u8> PwmTimer<TIMER> {
     }
 
     /// Changes the period for all channels, from the next one on: 2 to 65535 counts. Channels keep their width in counts,
-    /// so set it anew afterwards.
+    /// so set it again afterwards.
     pub fn set_period(&mut self, period_counts: u32) {
         Timer::<TIMER>::new().set_period(period_counts.clamp(2, 0xFFFF));
     }
@@ -194,7 +194,7 @@ pub fn stop(compare: u8) {
 }
 
 /// What [`PwmTimer`] was set up to be. Between motors a register may change by itself, and without its timer an output
-/// compare leaves its pin where it is, whatever width is asked for.
+/// compare leaves its pin as it is at any requested width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TimeBase<const TIMER: u8> {
     control: u32,

@@ -25,7 +25,7 @@ impl Causes {
         | Self::PIN
         | Self::CONFIGURATION;
 
-    /// Reads the causes and clears them, so that the next start sees its own only: the chip does not clear them.
+    /// Reads the causes and clears them, so that the next start reads its own only: the chip does not clear them.
     #[must_use]
     pub fn take() -> Self {
         let causes = RCON.read() & Self::ALL;

@@ -99,7 +99,7 @@ impl<const NUMBER: u8> Timer<NUMBER> {
 }
 
 impl Timer<1> {
-    /// Starts it anew with periods of 1 to 65536 counts.
+    /// Restarts it with periods of 1 to 65536 counts.
     pub fn start(&mut self, prescaler: SlowPrescaler, period_counts: u32) {
         self.begin(prescaler as u32, period_counts);
     }
@@ -109,7 +109,7 @@ impl Timer<1> {
 macro_rules! start {
     ($($number:literal)*) => {
         $(impl Timer<$number> {
-            /// Starts it anew with periods of 1 to 65536 counts.
+            /// Restarts it with periods of 1 to 65536 counts.
             pub fn start(&mut self, prescaler: Prescaler, period_counts: u32) {
                 self.begin(prescaler as u32, period_counts);
             }
@@ -161,7 +161,7 @@ impl<const LOW: u8> LongTimer<LOW> {
         _ => panic!("pairs begin with timer 2 or 4"),
     };
 
-    /// Starts it anew. `last_count` is one less than the counts in a period.
+    /// Restarts it. `last_count` is one less than the counts in a period.
     pub fn start(&mut self, prescaler: Prescaler, last_count: u32) {
         timer_control(LOW).write(0);
         timer_control(LOW + 1).write(0);

@@ -55,7 +55,7 @@ impl ReceivePin<2> for Pin<'F', 4, Input> {}
 /// A rate that the clock cannot make within 2.5 %.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RateError {
-    /// The rate that was wanted, in bits a second.
+    /// The requested rate, in bits a second.
     pub wanted: u32,
 }
 
@@ -173,7 +173,7 @@ impl<const NUMBER: u8, P> Receiver<NUMBER, P> {
     pub fn try_read(&mut self) -> Option<Result<u8, Error>> {
         let status = uart_status(NUMBER).read();
         if status & OVERRUN != 0 {
-            // Clearing it empties the queue, and without that the receiver stands still.
+            // Clearing it empties the queue, and without that the receiver stops.
             uart_status(NUMBER).clear(OVERRUN);
             return Some(Err(Error::Overrun));
         }
@@ -247,7 +247,7 @@ mod io {
     }
 
     impl<const NUMBER: u8, P> Read for Receiver<NUMBER, P> {
-        /// Waits for one byte, then takes what is there. An error that follows good bytes is told with the next call.
+        /// Waits for one byte, then takes what is there. An error that follows good bytes is returned by the next call.
         fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Error> {
             let mut taken = 0;
             for place in buffer.iter_mut() {

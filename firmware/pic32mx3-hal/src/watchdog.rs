@@ -22,7 +22,7 @@ impl Watchdog {
         WDTCON.set(ON);
     }
 
-    /// Begins its period anew.
+    /// Restarts its period.
     #[inline(always)]
     pub fn feed(&mut self) {
         WDTCON.set(CLEAR);

@@ -23,7 +23,7 @@ fn drive(left: f64, right: f64) -> Actuation {
 }
 
 /// Nanoseconds that this process has spent on a processor, so that a busy machine does not spoil the figures; where the
-/// system does not tell, those of the clock on the wall.
+/// system does not tell, those of the wall clock.
 fn processor_ns(start: Instant) -> f64 {
     std::fs::read_to_string("/proc/self/schedstat")
         .ok()

@@ -37,13 +37,13 @@ impl Home {
     /// (with the PGM or PNG that it names), a Valetudo map JSON of version 1 or 2, or a home TOML of our own.
     ///
     /// # Errors
-    /// [`HomeError`]; nothing else can happen, whatever the file contains.
+    /// [`HomeError`]; no file content can cause anything else.
     pub fn load(path: &Path, model: &RobotModel) -> Result<Self, HomeError> {
         let draft = load::read_draft(path, model.body.climb_m)?;
         Self::prepare(draft, model, path)
     }
 
-    /// As [`Self::load`], for the text of a home TOML of our own that is not in a file. `name` stands for the file in
+    /// As [`Self::load`], for the text of a home TOML that is not in a file. `name` takes the place of the file in
     /// errors, and for the home's name if the text gives none.
     ///
     /// # Errors
@@ -121,7 +121,7 @@ impl Home {
         changed
     }
 
-    /// The same home with every door open that is ever open, and without people: as its owner knows it.
+    /// The same home with every door open that is ever open, and without people.
     #[must_use]
     pub fn with_doors_open(&self) -> Self {
         let mut changed = self.clone();
@@ -217,7 +217,7 @@ impl Home {
     }
 }
 
-/// A cell and those around it, columns and rows: a robot that just fits may stand between two cells.
+/// A cell and those around it, columns and rows: a robot that just fits may be between two cells.
 const NEIGHBOURS: [(f64, f64); 5] = [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)];
 
 fn set_door(grid: &mut Grid, door: &Door, open: bool) {
@@ -236,7 +236,7 @@ fn with_doors_open(draft: &Draft) -> Grid {
     grid
 }
 
-/// The same plan with drops where a robot with cliff sensors sees drops: on black rugs.
+/// The same plan with drops where cliff sensors report drops: on black rugs.
 fn without_black(draft: &Draft, mut grid: Grid) -> Grid {
     if draft.surfaces.has_black() {
         for (index, cell) in grid.cells.iter_mut().enumerate() {

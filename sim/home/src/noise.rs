@@ -69,7 +69,7 @@ impl Noise {
         analog: 0.01,
     };
 
-    /// No imperfection at all.
+    /// No imperfection.
     #[must_use]
     pub const fn ideal() -> Self {
         Self::NOMINAL.scaled(0.0)

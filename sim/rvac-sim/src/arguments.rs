@@ -52,7 +52,7 @@ pub(crate) struct SceneArguments {
     #[arg(long, requires = "firmware")]
     uncalibrated: bool,
     /// The gyro module of the emulated board: `placeholder` of robots/samsung-sr8730/gyro.md, `none`, or a number that makes
-    /// up port, rate and frames which no program knows. Without it the placeholder; 1 with --uncalibrated.
+    /// up port, rate and frames at random. Without it the placeholder; 1 with --uncalibrated.
     #[arg(long, value_name = "WHICH", requires = "firmware", value_parser = gyro)]
     gyro: Option<GyroFitted>,
 }

@@ -74,7 +74,7 @@ pub fn title(strategy: &str, noise: &str, seed: u64) -> String {
 }
 
 /// Runs `bounce` for all kept runs that have no such run beside them, and keeps that in the same folder. `progress` is
-/// told shares of all of it.
+/// given shares of all of it.
 ///
 /// # Errors
 /// As [`Origin::bounce`], and when a run cannot be written.

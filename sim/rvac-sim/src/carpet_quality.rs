@@ -4,7 +4,7 @@ use brain::Point2;
 use brain::mapping::{Cell, Map, SurfaceKind};
 use home::{Pose, World};
 
-/// Agreement of the carpets that were felt with the truth.
+/// Agreement of the detected carpets with the truth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CarpetQuality {
     /// Share of the rug floor under the swath that the map has as carpet; `None` = the swath was on no rug, or nothing

@@ -129,7 +129,7 @@ impl Host {
         self.health.clone()
     }
 
-    /// What its robot has learnt of itself, which a daemon after this one finds on its disk.
+    /// The calibration that its robot has learned, which the next daemon finds on its disk.
     #[must_use]
     pub fn kept_learnt(&self) -> Option<StoredLearnings> {
         self.learnt.clone()
@@ -148,7 +148,7 @@ impl Host {
         kept.and_then(Result::ok).unwrap_or_default()
     }
 
-    /// Hands over what came from the robot and lets time pass.
+    /// Hands over the bytes from the robot and lets time pass.
     pub fn step(&mut self, now_us: u64, from_robot: &[u8]) {
         if !from_robot.is_empty() {
             self.handle(now_us, Input::LinkBytes(from_robot));
@@ -278,7 +278,7 @@ impl Host {
         self.log.get_or_insert_default();
     }
 
-    /// What it has logged since somebody wanted to know.
+    /// What it has logged since the last call.
     #[must_use]
     pub fn log(&self) -> &[LogEntry] {
         self.log.as_deref().unwrap_or_default()
@@ -305,19 +305,19 @@ impl Host {
         self.checkpoint.as_ref()
     }
 
-    /// Where the host believes the robot to be.
+    /// The host's estimate of the robot's pose.
     #[must_use]
     pub fn pose(&self) -> Pose {
         self.core.pose()
     }
 
-    /// What the brain is doing; `None` before it knows its robot.
+    /// What the brain is doing; `None` before it has the robot's description.
     #[must_use]
     pub fn state(&self) -> Option<BehaviorState> {
         self.core.brain().map(|brain| brain.status().state)
     }
 
-    /// The brain, once it knows its robot.
+    /// The brain, once the robot's description is known.
     #[must_use]
     pub fn brain(&self) -> Option<&Brain> {
         self.core.brain()
@@ -329,7 +329,7 @@ impl Host {
         self.core.measures_currents()
     }
 
-    /// Gives the brain a map of the home; `false` before it knows its robot.
+    /// Gives the brain a map of the home; `false` before it has the robot's description.
     pub(crate) fn take_up_home(&mut self, home: &StoredMap) -> bool {
         self.core.take_up_home(home)
     }

@@ -1,6 +1,6 @@
 //! The wall clock of a simulated host: it follows the virtual clock.
 
-/// Microseconds of a second, the pause between two looks at it.
+/// Microseconds of a second, the pause between two readings of it.
 const LOOK_US: u64 = 1_000_000;
 
 /// A clock on the wall.

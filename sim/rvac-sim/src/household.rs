@@ -29,7 +29,7 @@ pub struct Household {
     figures: Collector,
     stuck: StuckWatch,
     pose_source: PoseSource,
-    /// A map that the host shall get when it knows its robot.
+    /// A map for the host as soon as it has the robot's description.
     known_home: Option<StoredMap>,
     /// With that map the robot's pose in it is given.
     tells_place: bool,
@@ -107,7 +107,7 @@ impl Household {
         }
     }
 
-    /// The same household whose host has a perfect map of the home as soon as it knows its robot.
+    /// The same household whose host has a perfect map of the home as soon as it has the robot's description.
     #[must_use]
     pub fn with_known_map(self) -> Self {
         let home = Arc::clone(self.robot.world().home());
@@ -125,7 +125,7 @@ impl Household {
         }
     }
 
-    /// The same household whose host has this map of the home as soon as it knows its robot.
+    /// The same household whose host has this map of the home as soon as it has the robot's description.
     #[must_use]
     pub fn with_map(self, map: StoredMap) -> Self {
         Self {

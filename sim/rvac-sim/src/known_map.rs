@@ -4,7 +4,7 @@ use brain::mapping::{CellKnowledge, StoredMap};
 use brain::{CELL_M, Cell, Point2, Pose2, Raster};
 use home::{Cell as PlanCell, Home, Pose};
 
-/// The home in the map frame of a robot, every cell as it is in truth; doors that are ever open stand open. `docked` is the pose
+/// The home in the map frame of a robot, every cell as it is in truth; doors that are ever open are open. `docked` is the pose
 /// of a robot on the dock in the plan, if there is a dock.
 pub(crate) fn known_map(home: &Home, map_from_plan: Pose, docked: Option<Pose>) -> StoredMap {
     let home = home.with_doors_open();

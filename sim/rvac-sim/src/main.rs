@@ -38,7 +38,7 @@ fn main() -> ExitCode {
         SimCommand::Report(arguments) => write_page(&arguments),
     };
     outcome.unwrap_or_else(|error| {
-        // If standard error is closed, nobody can be informed.
+        // If standard error is closed, the message is lost.
         writeln!(io::stderr(), "rvac-sim: {error:#}").ok();
         ExitCode::from(BAD_INPUT)
     })

@@ -18,7 +18,7 @@ pub(crate) struct MapQuality {
     pub(crate) aligned: Agreement,
 }
 
-/// Agreement of a map that is laid over the plan in one way.
+/// Agreement of a map with the plan for one alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Agreement {
     /// Floor that the robot knows as free, over that and what it does not know of the reachable floor and what it

@@ -22,9 +22,9 @@ pub struct RunReport {
     pub path_m: f64,
     /// Times the body came into contact with something.
     pub bumps: u32,
-    /// Times the robot wanted to drive and did not get away from its place for half a minute.
+    /// Number of times that the robot tried to drive and did not leave its place for half a minute.
     pub stuck: u32,
-    /// Times the body came into contact with somebody who walks, or with a pet.
+    /// Number of contacts of the body with a walker or a pet.
     pub foot_contacts: u32,
     /// Longest time for which the wheels went on against one of them, milliseconds.
     pub foot_pushed_max_ms: u32,
@@ -40,7 +40,7 @@ pub struct RunReport {
     pub sim_seconds: f64,
     /// Time on the wall.
     pub wall_seconds: f64,
-    /// What the host took of a processor; left out unless somebody asked, since it differs from run to run.
+    /// What the host took of a processor; left out unless requested, since it differs from run to run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub host_cost: Option<HostCost>,
 }

@@ -51,12 +51,12 @@ impl Robot {
         each!(self, robot => robot.reset(cause));
     }
 
-    /// Sets how often what goes wrong on the line, both ways.
+    /// Sets the rates of faults on the line, in both directions.
     pub fn set_line_rates(&mut self, rates: FaultRates) {
         each!(self, robot => robot.set_line_rates(rates));
     }
 
-    /// Both ways of the line wait for `ms`.
+    /// Both directions of the line pause for `ms`.
     pub fn hold_line(&mut self, ms: u32) {
         each!(self, robot => robot.hold_line(ms));
     }
@@ -112,7 +112,7 @@ impl Robot {
         each!(self, robot => robot.wheels_driven())
     }
 
-    /// A number that stands for everything that happened: every byte on the wire and the true pose ten times a second.
+    /// A hash of everything that happened: every byte on the wire and the true pose ten times a second.
     #[must_use]
     pub fn state_hash(&self) -> u64 {
         each!(self, robot => robot.state_hash())

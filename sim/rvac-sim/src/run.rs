@@ -12,7 +12,7 @@ use crate::{Host, Household, RunReport, Scene};
 pub struct RunSettings {
     /// How to clean.
     pub strategy: StrategyName,
-    /// In which way, for [`StrategyName::Systematic`]; without it as is set for the rooms.
+    /// The pattern for [`StrategyName::Systematic`]; without it the setting of the rooms.
     pub pattern: Option<CleaningPattern>,
     /// Seed of everything random.
     pub seed: u64,
@@ -48,11 +48,11 @@ impl RunEnd {
     }
 }
 
-/// What docking tells of the way so far is fitted and drawn within so long, milliseconds: what a robot keeps of its home is not there
+/// The path is optimized and redrawn within this time after docking, milliseconds: what a robot keeps of its home is not there
 /// before.
 const SETTLE_MS: u64 = 30_000;
 
-/// A robot that has just come to its dock gets the time to draw its map anew.
+/// A robot that has just come to its dock gets the time to redraw its map.
 fn settle(household: &mut Household) {
     let state = household.host().and_then(Host::state);
     if state == Some(brain::BehaviorState::Docked) {
@@ -85,7 +85,7 @@ pub fn household(scene: &Scene, settings: &RunSettings) -> Household {
     Household::new(robot, Host::start(0, config))
 }
 
-/// What the host of a scene's robot begins with: where the robot's sensors sit is told by no packet.
+/// What the host of a scene's robot begins with: no packet carries the positions of the sensors.
 #[must_use]
 pub fn core_config(scene: &Scene, seed: u64, strategy: StrategyName) -> CoreConfig {
     CoreConfig {
@@ -105,7 +105,7 @@ pub fn start_cleaning(household: &mut Household, strategy: StrategyName) -> bool
 /// A robot whose job is over is asked for the next one so often, milliseconds.
 const ASK_MS: u64 = 5_000;
 
-/// To be called each second: a household whose job is over is asked for the next one where it is, which may be on its way to the
+/// To be called each second: a household whose job is over is asked for the next one where it is, which may be the drive to the
 /// dock.
 pub fn keep_working(household: &mut Household, strategy: StrategyName) {
     if household.job_is_over() && household.robot().now_ms() % ASK_MS < 1_000 {
@@ -129,7 +129,7 @@ fn start_job(household: &mut Household, job: RequestBody) -> bool {
     false
 }
 
-/// Cleans until the time is over. After each simulated second `progress` is told the share of the time that has passed.
+/// Cleans until the time is over. After each simulated second `progress` is called with the share of the time that has passed.
 ///
 /// # Errors
 /// [`NoAnswer`] when the robot cannot be asked to clean.
@@ -144,7 +144,7 @@ pub fn run(
 /// A job waits for charge for at most so long in all: a dock that gives none would hold a run for ever. Three charges of 6 h.
 const CHARGING_MAX_MS: u64 = 18 * 3_600_000;
 
-/// Cleans until the run's end. After each simulated second `progress` is told the share of the longest time that has passed.
+/// Cleans until the run's end. After each simulated second `progress` is called with the share of the longest time that has passed.
 ///
 /// # Errors
 /// [`NoAnswer`] when the robot cannot be asked to clean.

@@ -3,7 +3,7 @@
 use brain::{BumperLayout, Point2, ProximityLayout, ProximityResponse, SensorLayout};
 use home::RobotModel;
 
-/// The sensors of a robot as the brain knows them.
+/// The sensors of a robot in the brain's types.
 #[must_use]
 pub fn sensor_layout(model: &RobotModel) -> SensorLayout {
     let proximity = model.proximity.as_ref().map(|part| {

@@ -132,7 +132,7 @@ impl Drawing {
         }
     }
 
-    /// What a host knows of its home; `None` = nothing.
+    /// The host's map of the home; `None` = none.
     #[must_use]
     pub fn of_map(host: &Host, plan_from_map: Pose) -> Option<Self> {
         let map = host.brain()?.map();

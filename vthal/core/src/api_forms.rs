@@ -2,13 +2,29 @@
 //!
 //! Each conversion back gives `None` for what the brain would refuse.
 
-use brain::{CleaningOrder, HomePart, NoGo, Pattern, PlaceShape, Zone};
-use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape};
+use brain::{CleaningOrder, HomePart, MapEdit, NoGo, Pattern, PlaceShape, Zone};
+use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape, RequestBody};
 
+use crate::core::desk_request::{DeskRequest, body_of};
 use crate::desk::home::{to_no_go as no_go_or_refusal, to_shape};
 use crate::desk::{room_power, words};
 
-/// An order but for its power, which clients tell in shares.
+/// What a client asks for this edit.
+#[must_use]
+pub fn map_edit(edit: &MapEdit) -> RequestBody {
+    body_of(edit)
+}
+
+/// The edit that this asks for; `None` for what asks for none.
+#[must_use]
+pub fn to_map_edit(body: RequestBody) -> Option<MapEdit> {
+    match DeskRequest::of(body) {
+        Ok(DeskRequest::Home(asked)) => Some(asked.edit),
+        Ok(_) | Err(_) => None,
+    }
+}
+
+/// An order without its power, which clients send in shares.
 #[must_use]
 pub fn order(order: &CleaningOrder) -> JobOrder {
     JobOrder {

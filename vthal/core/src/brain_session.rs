@@ -23,7 +23,7 @@ use rvac_api::HomeView;
 use crate::device::{Description, Part};
 use crate::edges::Edges;
 use crate::floors::Floors;
-use crate::home_view::{FeltFloors, home_view};
+use crate::home_view::{SurfaceSensing, home_view};
 use crate::observe::{LinkView, Observer};
 use crate::storey_resolver::StoreyResolver;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
@@ -41,6 +41,8 @@ pub(crate) struct BrainSession {
     /// Of what the observer has seen.
     edges: Edges,
     waiting: Vec<Command>,
+    /// Edits that waited for a map which the brain has no more.
+    dropped_edits: usize,
     /// Offset of the map's number from the brains before this one.
     map_base: u32,
     /// Offset of the home's revision from the brains before this one.
@@ -80,6 +82,7 @@ impl BrainSession {
             observer: Observer::new(),
             edges: Edges::default(),
             waiting: Vec::new(),
+            dropped_edits: 0,
             map_base: 0,
             home_base: 0,
             runs: 0,
@@ -140,6 +143,23 @@ impl BrainSession {
         }
     }
 
+    /// The robot is on this floor from now on. Edits that wait were admitted for the map of another one, and are not made in this one.
+    pub(super) fn change_floor(&mut self, floor: Option<u16>) {
+        if self.floor == floor {
+            return;
+        }
+        self.floor = floor;
+        let before = self.waiting.len();
+        self.waiting
+            .retain(|command| !matches!(command, Command::Edit(_)));
+        self.dropped_edits += before - self.waiting.len();
+    }
+
+    /// How many of the oldest edits were dropped since the last call.
+    pub(crate) fn take_dropped_edits(&mut self) -> usize {
+        core::mem::take(&mut self.dropped_edits)
+    }
+
     /// Whether commands wait for a run whose home is being made ready.
     pub(crate) fn holds_commands(&self) -> bool {
         self.next.is_some()
@@ -182,14 +202,14 @@ impl BrainSession {
     pub(crate) fn home_view(&self) -> HomeView {
         HomeView {
             revision: self.home_revision(),
-            ..home_view(self.brain.map(), self.felt_floors())
+            ..home_view(self.brain.map(), self.surface_sensing())
         }
     }
 
-    fn felt_floors(&self) -> FeltFloors {
+    fn surface_sensing(&self) -> SurfaceSensing {
         match self.measures_currents {
-            true => FeltFloors::Measured,
-            false => FeltFloors::NotMeasured,
+            true => SurfaceSensing::Measured,
+            false => SurfaceSensing::NotMeasured,
         }
     }
 
@@ -253,7 +273,7 @@ impl BrainSession {
         self.next.is_some() || self.loading_floor.is_some()
     }
 
-    /// Goes on with the home of a floor, then with that of the next run, and begins that when it is ready.
+    /// Continues to load the home of a floor, then that of the next run, and begins the run when it is ready.
     pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
         if let Some(floor) = &mut self.loading_floor {
             floor.go_on();
@@ -363,7 +383,7 @@ enum StickPosition {
 }
 
 impl StickPosition {
-    /// Where a command says that it is; `None` for a command that says nothing of it.
+    /// Where a command says that the robot is; `None` for a command that does not say.
     fn of(command: &Command) -> Option<Self> {
         let Command::Job(JobCommand::Manual {
             speed_m_per_s,

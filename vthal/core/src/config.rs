@@ -21,9 +21,9 @@ pub struct CoreConfig {
     pub strategy: Option<StrategyName>,
     /// Whether clients may send raw packets.
     pub expert: ExpertAccess,
-    /// Whether records are wanted.
+    /// Whether records are made.
     pub recording: Recording,
-    /// Whether checkpoints are wanted.
+    /// Whether checkpoints are made.
     pub checkpoints: Checkpoints,
     /// Where the robot's sensors sit; the wire carries only their number.
     pub sensors: SensorLayout,
@@ -98,7 +98,7 @@ pub enum Recording {
 /// Whether [`crate::Outputs::checkpoint`] is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Checkpoints {
-    /// No: nobody would write them, and each costs a walk over the map.
+    /// No: they would not be written, and each costs a pass over the map.
     Off,
     /// Yes, every second of a job while the map is small, less often when it is large.
     On,

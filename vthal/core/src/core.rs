@@ -1,7 +1,7 @@
 //! The one entry point: inputs come in, the parts are asked in turn.
 
 mod clock;
-mod desk_request;
+pub(crate) mod desk_request;
 mod facts;
 mod firmware;
 mod hand;
@@ -183,7 +183,7 @@ impl Core {
         }
     }
 
-    /// When the core wants [`Input::Wake`], in microseconds; `None` when only other inputs matter.
+    /// When the core needs [`Input::Wake`], in microseconds; `None` when only other inputs matter.
     #[must_use]
     pub fn next_wake_us(&self) -> Option<u64> {
         let step = self
@@ -242,7 +242,7 @@ impl Core {
         self.keep_learnt(outputs);
     }
 
-    /// Before anything else: the brain, which sees the same end, must not let the wheels roll out first.
+    /// Before anything else: the brain notices the same end and must not let the wheels roll out first.
     fn end_leases(&mut self, now_us: u64, outputs: &mut Outputs) {
         if let Some(client) = self.driver.arbiter.expire(now_us) {
             self.lease_ended(now_us, client, outputs);

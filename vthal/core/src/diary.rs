@@ -8,7 +8,7 @@ use crate::to_api;
 
 /// Decisions kept: some minutes of cleaning.
 const KEPT: usize = 100;
-/// Numbers in sentences stay below this, whatever a decision carries.
+/// Limit of numbers in sentences, because a decision may carry any value.
 const SHOWN_MAX: f64 = 1e6;
 
 /// The newest decisions.

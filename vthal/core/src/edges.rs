@@ -1,7 +1,48 @@
-//! What a robot feels that comes and goes: bumpers, cliffs, a wheel that hangs, the dock, the link. The one place where levels
-//! become edges; whoever asks since when something is felt asks here.
+//! What a robot feels that comes and goes: bumpers, cliffs, a wheel that hangs, the dock, the link. The one place of the daemon
+//! where levels become times; whoever asks since when something is felt asks here.
 
 use brain::Observation;
+
+/// When a level came, and when it was last there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct LevelTimes {
+    /// Host time in microseconds; `None` = it is not there.
+    came_us: Option<u64>,
+    /// When it was there last.
+    seen_us: Option<u64>,
+}
+
+impl LevelTimes {
+    /// Takes whether it is there now. `true` if it has just come.
+    pub(crate) fn take(&mut self, now_us: u64, is_there: bool) -> bool {
+        let comes = is_there && self.came_us.is_none();
+        self.came_us = is_there.then(|| self.came_us.unwrap_or(now_us));
+        if is_there {
+            self.seen_us = Some(now_us);
+        }
+        comes
+    }
+
+    /// Since when it is there; `None` = it is not.
+    pub(crate) const fn since_us(self) -> Option<u64> {
+        self.came_us
+    }
+
+    pub(crate) const fn is_there(self) -> bool {
+        self.came_us.is_some()
+    }
+
+    /// Whether it has been there for so long without a pause.
+    pub(crate) fn has_lasted(self, now_us: u64, span_us: u64) -> bool {
+        self.came_us
+            .is_some_and(|came_us| now_us >= came_us.saturating_add(span_us))
+    }
+
+    /// Whether it was there less than so long ago.
+    pub(crate) const fn was_there_within(self, now_us: u64, span_us: u64) -> bool {
+        matches!(self.seen_us, Some(seen_us) if now_us < seen_us.saturating_add(span_us))
+    }
+}
 
 /// Something that comes and goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,28 +101,28 @@ impl Sign {
 /// The edges of what is felt: when each sign that is there came.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Edges {
-    /// Host time in microseconds, in the order of [`Sign::ALL`]; `None` = it is not there.
-    came_us: [Option<u64>; Sign::ALL.len()],
+    /// In the order of [`Sign::ALL`].
+    levels: [LevelTimes; Sign::ALL.len()],
 }
 
 impl Edges {
     /// Takes in what is felt now.
     pub(crate) fn take(&mut self, now_us: u64, observation: &Observation) {
-        for (sign, came_us) in Sign::ALL.into_iter().zip(&mut self.came_us) {
-            *came_us = sign.is_in(observation).then(|| came_us.unwrap_or(now_us));
+        for (sign, level) in Sign::ALL.into_iter().zip(&mut self.levels) {
+            level.take(now_us, sign.is_in(observation));
         }
     }
 
     /// Since when a sign is there; `None` = it is not.
     pub(crate) fn since_us(&self, sign: Sign) -> Option<u64> {
-        let mut all = Sign::ALL.into_iter().zip(self.came_us);
-        all.find(|(other, _)| *other == sign)?.1
+        let mut all = Sign::ALL.into_iter().zip(self.levels);
+        all.find(|(other, _)| *other == sign)?.1.since_us()
     }
 
     /// The signs that are there.
     pub(crate) fn present(&self) -> impl Iterator<Item = Sign> {
-        let all = Sign::ALL.into_iter().zip(self.came_us);
-        all.filter_map(|(sign, came_us)| came_us.map(|_| sign))
+        let all = Sign::ALL.into_iter().zip(self.levels);
+        all.filter_map(|(sign, level)| level.is_there().then_some(sign))
     }
 }
 

@@ -1,4 +1,4 @@
-//! What the robot knows of the home, in the words of the interface to clients: bounded, whatever the map holds.
+//! The map of the home in the types of the interface to clients, of bounded size.
 
 use brain::mapping::{Annotations, Door, MapConfidence, Room, RoomChange, WallSegment};
 use brain::{CELL_M, Cell, CellKnowledge, KeptPlace, Map, NoGo, Raster, SurfaceKind};
@@ -20,17 +20,17 @@ const COARSE_MAX: usize = 16;
 /// Rooms, doors and walls that are sent at most. Walls come longest first.
 const ITEMS_MAX: usize = 1_000;
 
-/// Whether the robot can feel on which floor it is.
+/// Whether the robot can detect the floor's surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum FeltFloors {
+pub(crate) enum SurfaceSensing {
     /// It measures what its motors draw.
     Measured,
     /// It does not, and nothing is sent about carpets.
     NotMeasured,
 }
 
-impl FeltFloors {
-    /// Of a map whose robot is not at hand: whoever has felt floors can.
+impl SurfaceSensing {
+    /// For a map without its robot: a robot whose map contains surfaces can detect them.
     pub(crate) fn in_map(map: &Map) -> Self {
         match map.surface_kinds().next() {
             Some(_) => Self::Measured,
@@ -40,7 +40,7 @@ impl FeltFloors {
 }
 
 /// What is known of the home.
-pub(crate) fn home_view(map: &Map, felt: FeltFloors) -> HomeView {
+pub(crate) fn home_view(map: &Map, felt: SurfaceSensing) -> HomeView {
     let rooms = map.rooms();
     let floors = floors(map, felt);
     let view = cells(map.knowledge(), rooms.labels(), floors.as_ref());
@@ -55,7 +55,7 @@ pub(crate) fn home_view(map: &Map, felt: FeltFloors) -> HomeView {
         doors: rooms.doors().iter().take(ITEMS_MAX).map(door).collect(),
         walls: map.walls().iter().take(ITEMS_MAX).map(wall).collect(),
         dock: map.dock().map(|dock| to_api::pose(dock, 0)),
-        dock_told: map.dock_location().is_reported(),
+        dock_reported: map.dock_location().is_reported(),
         no_go: map.annotations().no_go().map(no_go).collect(),
         places: map.annotations().places().map(place).collect(),
         room_changes: map.annotations().room_changes().made().map(room_change).collect(),
@@ -79,9 +79,9 @@ fn sureness(map: &Map) -> Vec<SurenessView> {
         .collect()
 }
 
-/// The kinds of floor in the window of what is known: 0 not felt, 1 hard, 2 carpet.
-fn floors(map: &Map, felt: FeltFloors) -> Option<Raster<u8>> {
-    if felt == FeltFloors::NotMeasured {
+/// The surfaces in the known window: 0 not measured, 1 hard, 2 carpet.
+fn floors(map: &Map, felt: SurfaceSensing) -> Option<Raster<u8>> {
+    if felt == SurfaceSensing::NotMeasured {
         return None;
     }
     let knowledge = map.knowledge();
@@ -110,7 +110,7 @@ fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>, floors: Option
             return view;
         }
         if coarse >= COARSE_MAX {
-            // So much of so little is not a home; what is not told is not known.
+            // Such a pattern is no home; cells that are not sent are unknown.
             return HomeView {
                 cells: Rle::new(),
                 room_cells: Rle::new(),
@@ -125,7 +125,7 @@ fn cells(knowledge: &Raster<CellKnowledge>, labels: &Raster<u16>, floors: Option
     }
 }
 
-/// What was felt of the floor, in the window of [`cells_of`].
+/// The surfaces detected, in the window of [`cells_of`].
 fn carpet(coarse: usize, floors: &Raster<u8>) -> CarpetView {
     let window = Window::of(coarse, floors);
     let mut kinds = vec![0_u32; window.width * window.height];

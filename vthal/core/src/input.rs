@@ -99,7 +99,7 @@ pub enum Input<'a> {
     },
     /// A client will ask for nothing more, but may listen; a driver's seat it held is empty and the wheels stop.
     ClientSilent(ClientId),
-    /// What [`crate::Outputs::run`] tells of a run is on the disk, or is not.
+    /// The record of [`crate::Outputs::run`] is on the disk, or is not.
     RunKept {
         /// Number of the run.
         number: u64,

@@ -1,4 +1,4 @@
-//! What each robot has learnt of itself, as it outlives the daemon: JSON of the file `learnt.json`.
+//! The calibration that each robot has learned, as it is stored: JSON of the file `learnt.json`.
 
 use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 use serde::{Deserialize, Serialize};
@@ -39,7 +39,7 @@ impl Learnings {
         self.devices.iter()
     }
 
-    /// This robot knows nothing of these parts any more. Gives what was kept of it; `None` = nothing was.
+    /// Deletes these parts of a robot's record. Returns the stored record; `None` = there was none.
     pub fn forget(&mut self, device: &str, parts: &[LearntPart]) -> Option<RobotRecord> {
         let known = self.devices.iter_mut().find(|kept| kept.device == device)?;
         let before = known.clone();
@@ -53,7 +53,7 @@ impl Learnings {
         Some(before)
     }
 
-    /// A robot knows this now. `true` when that is something new. A gyro of which it knows nothing any more is as it was.
+    /// Stores the learned values of a robot. `true` when that changes something. A gyro that the values lack keeps its old value.
     pub fn take(&mut self, mut kept: RobotRecord) -> bool {
         let before = self.of(&kept.device);
         kept.learnt.gyro = kept.learnt.gyro.or(before.gyro);
@@ -70,7 +70,7 @@ impl Learnings {
 }
 
 /// For people; `None` when nothing was learnt.
-pub(crate) fn told(learnt: &Learnt) -> Option<String> {
+pub(crate) fn summary(learnt: &Learnt) -> Option<String> {
     let gyro = learnt.gyro.map(|gyro| {
         format!(
             "the gyro counts {:+.2} % too little (sure to {:.2} %)",
@@ -224,7 +224,7 @@ impl StoredDevice {
 
 #[cfg(test)]
 mod tests {
-    use super::{DEVICES_MAX, Learnings, LearntError, OtherVersion, RobotRecord, StoredLearnings, told};
+    use super::{DEVICES_MAX, Learnings, LearntError, OtherVersion, RobotRecord, StoredLearnings, summary};
     use brain::{EnergyModel, GyroLearnt, Learnt, LearntPart};
 
     fn learnt(scale: f64) -> Learnt {
@@ -331,8 +331,8 @@ mod tests {
 
     #[test]
     fn people_are_told_what_it_begins_with() {
-        assert_eq!(told(&Learnt::default()), None);
-        let text = told(&learnt(0.012)).expect("something was learnt");
+        assert_eq!(summary(&Learnt::default()), None);
+        let text = summary(&learnt(0.012)).expect("something was learnt");
         assert!(text.contains("+1.20 %") && text.contains("100 %"), "{text}");
     }
 }

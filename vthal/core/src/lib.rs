@@ -1,13 +1,13 @@
 //! The deterministic core of the vthal daemon: everything the daemon decides, and nothing it does.
 //!
 //! [`Core::handle`] takes one [`Input`] with the present time and appends to [`Outputs`] what the shell must perform:
-//! bytes for the link, updates for clients, log entries, records. [`Core::next_wake_us`] says when it wants
-//! [`Input::Wake`]. It knows no clock, no sockets and no files, so the daemon, a test and the batch simulator run the
+//! bytes for the link, updates for clients, log entries, records. [`Core::next_wake_us`] says when it needs
+//! [`Input::Wake`]. It uses no clock, no sockets and no files, so the daemon, a test and the batch simulator run the
 //! same code.
 //!
 //! A telemetry report passes the parts in this order: [`device`] (the device model, what holds for every make, and
 //! the makes), [`observe`] (reports to observations), `brain_session` (the brain and the borders of runs), back through `device` to the link.
-//! Beside it stand the desks of `desk`: each owns what it knows (who may command, what buttons mean, what clients follow, floors,
+//! Beside it stand the desks of `desk`: each owns one subject (who may command, what buttons mean, what clients follow, floors,
 //! [`schedule`]s, runs, loads of motors, learned values, what clients receive and how often). `core` holds them all, routes inputs and
 //! requests to them, and hands the facts of one to another. [`stored_map`] is the bytes of maps, [`api_forms`] are orders and places
 //! as clients and recordings write them. A [`Checkpoint`] is what survives a crash.

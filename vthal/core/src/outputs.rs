@@ -30,7 +30,7 @@ pub struct Outputs {
     pub map_orders: Vec<MapOrder>,
     /// Maps that clients have changed, in order.
     pub map_edits: Vec<EditedMap>,
-    /// What clients want of the floors, in order.
+    /// Orders of clients about floors, in order.
     pub floor_orders: Vec<FloorOrder>,
     /// What clients ask of archives of floors, in order.
     pub archive_orders: Vec<ArchiveOrder>,
@@ -42,7 +42,7 @@ pub struct Outputs {
     pub health: Option<HealthOrder>,
     /// What robots have learnt of themselves, for the disk; replaces what was kept before.
     pub learnt: Option<LearntOrder>,
-    /// A run that is over, for the disk. The shell says with [`crate::Input::RunKept`] what came of it; until then no further
+    /// A run that is over, for the disk. The shell reports the result with [`crate::Input::RunKept`]; until then no further
     /// one comes.
     pub run: Option<Box<RunRecord>>,
     /// What clients ask of the kept runs, in order.
@@ -100,7 +100,7 @@ pub enum RunTask {
     },
     /// Tell all that is kept of one: [`Update::Run`].
     Show(u64),
-    /// Tell what recordings of one tell: [`Update::RunTrack`].
+    /// Send the summary of its recordings: [`Update::RunTrack`].
     Track {
         /// Number of the run.
         number: u64,
@@ -134,7 +134,7 @@ pub struct MixOrder {
 pub enum MixTask {
     /// Tell the client which there are: [`Update::Mixes`].
     List,
-    /// Keep this profile, which nobody has looked at yet.
+    /// Keep this profile, which is not checked yet.
     Save(String),
     /// Remove the one with this name.
     Remove(String),
@@ -231,7 +231,7 @@ pub enum MapOrder {
     },
 }
 
-/// A map that a person has changed: the shell keeps it as the newest one and tells the client when it is on the disk.
+/// A map that a person has changed: the shell keeps it as the newest one and answers the client when it is on the disk.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EditedMap {
     /// Who changed it.
@@ -353,7 +353,7 @@ pub enum Record {
         table: Box<DeviceTable>,
     },
     /// The summary of the run for people, when its job is over. The newest one counts.
-    Told {
+    RunSummary {
         /// Host time in microseconds.
         time_us: u64,
         /// The record, without its picture.

@@ -7,7 +7,7 @@ use rvac_api::{Explanation, explain};
 /// Why a request is refused, by name.
 pub(crate) type Refused = &'static str;
 
-/// A refusal for which nobody has words.
+/// A refusal without an explanation.
 const NOT_NOW: &str = "The robot cannot do this in its present state; the reason has the name of the cause.";
 
 /// A refusal.
@@ -67,7 +67,7 @@ impl Refusal {
         Self::because(EditError::NoSuchRoom, text)
     }
 
-    /// A part of an order lies where the map knows no floor.
+    /// A part of an order lies where the map has no floor.
     pub(crate) fn no_floor_there(what: &str, brain: &Brain) -> Self {
         let known = brain.map().knowledge();
         let free = (0..known.values().len())

@@ -11,7 +11,7 @@ use crate::floors::Floors;
 /// Why a person is asked for the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Question {
-    /// Several floors have a dock, and the robot stands on one.
+    /// Several floors have a dock, and the robot is on one of them.
     WhichDock,
     /// No map fits the robot's path, or several do.
     FloorUnknown,

@@ -1,6 +1,6 @@
 //! How sure the robot was of its place when it swept: beside the swept cells in their order, cells of one deviation joined.
 
-/// Deviations are sent in whole centimetres up to this; a robot that knows less does not know where it sweeps.
+/// Deviations are sent in whole centimetres up to this; with a larger one the robot does not know where it sweeps.
 const SIGMA_CM_MAX: f64 = 100.0;
 
 /// Pairs of a number of cells and their deviation in centimetres.
@@ -39,7 +39,7 @@ impl SweptSigma {
     }
 }
 
-/// What nobody knows counts as the most.
+/// Unknown deviations count as the largest.
 fn centimetres(sigma_m: f64) -> u32 {
     let rounded = (100.0 * sigma_m).round();
     if rounded.is_nan() {

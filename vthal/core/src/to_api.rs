@@ -2,7 +2,7 @@
 
 use brain::{Brain, CELL_M, Hazard, HazardKind, JobFigures, MapPart, Pose2, SweptShare};
 use rvac_api::{
-    BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedWay, Pose,
+    BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedPath, Pose,
     RobotDescription,
 };
 
@@ -71,7 +71,7 @@ pub(crate) fn map_delta(map: u32, part: &MapPart<'_>, sigma: &SweptSigma) -> Map
     }
 }
 
-/// A place where something was met.
+/// A place of a contact or cliff.
 pub(crate) fn bump(mark: &Hazard) -> BumpMark {
     BumpMark {
         x: mark.at.x_m,
@@ -80,7 +80,7 @@ pub(crate) fn bump(mark: &Hazard) -> BumpMark {
     }
 }
 
-/// How sure the robot is, of its place and of what it has swept.
+/// How certain the robot is of its position and of its coverage.
 pub(crate) fn estimate(brain: &Brain, swept: Option<SweptShare>) -> Estimate {
     let estimate = brain.estimate();
     Estimate {
@@ -97,10 +97,10 @@ pub(crate) fn estimate(brain: &Brain, swept: Option<SweptShare>) -> Estimate {
 const CORNERS_MAX: usize = 4_000;
 
 /// Where the robot means to drive; of a very long path its beginning.
-pub(crate) fn way(brain: &Brain) -> PlannedWay {
+pub(crate) fn way(brain: &Brain) -> PlannedPath {
     let corners = brain.planned_path();
     let millimetres = |metres: f64| (1000.0 * metres).round() as i32;
-    PlannedWay {
+    PlannedPath {
         points_mm: corners
             .iter()
             .take(CORNERS_MAX)
@@ -138,7 +138,7 @@ fn charge_state(state: ChargeState) -> &'static str {
     }
 }
 
-/// Status of the brain, without what only the core knows (inhibits, driver).
+/// Status of the brain, without inhibits and driver, which the core adds.
 pub(crate) fn status(status: brain::Status, job: JobFigures) -> rvac_api::Status {
     rvac_api::Status {
         state: status.state.name().to_owned(),

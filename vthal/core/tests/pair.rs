@@ -7,8 +7,8 @@ use rvac_api::{
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, Event, Gyro, Inhibit, Inhibits, Limits, Motor, Name,
-    Report, ResetCause, State, WheelDrops,
+    BinaryKinds, Bumpers, Capabilities, Command, Description, Event, Gyro, Inhibit, Inhibits, Limits, Motor,
+    Name, Report, ResetCause, State, WheelDrops,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
@@ -273,6 +273,28 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     assert_eq!(pair.drive(ANNA, 0.0), None);
     pair.run_ms(50);
     assert_eq!(pair.drive(ANNA, 0.2), None);
+}
+
+/// A bump shorter than the pause between two reports is in no report: the event tells it.
+#[test]
+fn a_bump_between_two_reports_is_felt_once() {
+    let mut pair = Pair::new();
+    assert_eq!(pair.drive(ANNA, 0.2), None);
+    pair.run_ms(PERIOD_MS - pair.now_ms % PERIOD_MS);
+    let left = Bumpers {
+        left: true,
+        right: false,
+    };
+    for bumpers in [left, Bumpers::default()] {
+        pair.run_ms(4);
+        pair.robot
+            .queue_event(Event::Bump(bumpers), Tick(pair.now_ms as u32));
+    }
+    pair.run_ms(100);
+    let felt = pair.records.iter().filter(
+        |record| matches!(record, Record::Observation(seen) if seen.contacts.left && !seen.contacts.right),
+    );
+    assert_eq!(felt.count(), 1);
 }
 
 #[test]
@@ -1099,6 +1121,49 @@ fn a_change_of_the_map_goes_to_the_disk_before_anybody_hears_that_it_is_done() {
     assert_eq!(told.no_go[0].shape, NoGoShape::Wall([[3.0, 1.0], [3.0, 2.0]]));
 }
 
+/// Both are admitted before the next step of the brain, and the first one takes the wall away.
+#[test]
+fn an_edit_that_cannot_be_made_any_more_is_refused_by_its_name() {
+    let mut pair = on_the_dock();
+    assert_eq!(pair.ask(ANNA, wall([3.0, 1.0], [3.0, 2.0])), None);
+    pair.run_ms(200);
+    pair.edits.clear();
+    let before = pair.updates.len();
+    let removal = || RequestBody::RemoveNoGo { number: 1 };
+    assert_eq!(pair.ask(ANNA, removal()), None);
+    assert_eq!(pair.ask(BERT, removal()), None);
+    pair.run_ms(200);
+    let askers: Vec<_> = pair.edits.iter().map(|edit| (edit.client, edit.id)).collect();
+    assert_eq!(askers, [(ANNA, Some(1))]);
+    assert_eq!(failures(&pair.updates[before..]), [(Some(1), "no-such-no-go")]);
+    let logged = |line: &&str| line.contains("client-2 is refused (no-such-no-go)");
+    assert!(pair.log_lines().iter().any(logged));
+}
+
+#[test]
+fn an_edit_of_a_map_that_the_robot_has_left_is_refused_and_not_made_in_another_one() {
+    let mut pair = Pair::with_floors(vec![floor_with_dock(1, 1.0), floor_with_dock(2, 2.0)]);
+    pair.state.docked = true;
+    assert_eq!(pair.ask(ANNA, RequestBody::ChooseFloor { floor: 1 }), None);
+    pair.run_ms(200);
+    let before = pair.updates.len();
+    assert_eq!(pair.ask(ANNA, wall([0.5, 1.0], [0.5, 2.0])), None);
+    assert_eq!(pair.ask(BERT, RequestBody::ChooseFloor { floor: 2 }), None);
+    pair.run_ms(200);
+    assert_eq!(pair.core.floors_view().here, Some(2));
+    assert!(pair.edits.is_empty());
+    assert_eq!(failures(&pair.updates[before..]), [(Some(1), "map-not-taken-up")]);
+}
+
+/// Requests that were refused, by their numbers, and why.
+fn failures(updates: &[Update]) -> Vec<(Option<u32>, &str)> {
+    let failures = updates.iter().filter_map(|update| match update {
+        Update::Failed(failure) => Some((failure.id, failure.reason.as_str())),
+        _ => None,
+    });
+    failures.collect()
+}
+
 #[test]
 fn forbidden_floor_has_a_name_that_no_other_has() {
     let mut pair = on_the_dock();
@@ -1261,7 +1326,7 @@ fn a_dock_that_was_moved_is_kept_and_a_robot_on_it_was_carried_along() {
     let topics = vec![Topic::Home];
     pair.ask(BERT, RequestBody::Watch { topics });
     let told = pair.updates.iter().rev().find_map(|update| match update {
-        Update::Home(view) => Some(view.dock_told),
+        Update::Home(view) => Some(view.dock_reported),
         _ => None,
     });
     assert_eq!(told, Some(true));
@@ -1652,14 +1717,14 @@ fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does
     );
     let line = "state-paused (wheel-drop): A wheel hangs in the air. Put the robot flat on the floor.";
     assert!(pair.log_lines().contains(&line), "{:?}", pair.log_lines());
-    let newest = stop.evidence.felt.last().expect("it felt something");
+    let newest = stop.evidence.samples.last().expect("it felt something");
     assert!(newest.signs.iter().any(|sign| sign == "wheel-drop"), "{newest:?}");
-    let earlier = &stop.evidence.felt[stop.evidence.felt.len() - 3];
+    let earlier = &stop.evidence.samples[stop.evidence.samples.len() - 3];
     assert!(
         earlier.signs.iter().all(|sign| sign != "wheel-drop"),
         "{earlier:?}"
     );
-    assert!((45..=51).contains(&stop.evidence.felt.len()));
+    assert!((45..=51).contains(&stop.evidence.samples.len()));
     // Whoever comes later is told, too, and the record of the run has it.
     let before = pair.updates.len();
     let topics = vec![Topic::Standstills];
@@ -1676,7 +1741,7 @@ fn a_robot_that_stops_by_itself_tells_what_it_felt_and_one_that_was_told_to_does
     };
     assert!(
         evidence
-            .felt
+            .samples
             .iter()
             .any(|felt| felt.signs.contains(&"wheel-drop".to_owned()))
     );

@@ -39,7 +39,7 @@ impl Scratch {
         self.desk.obey(order, (&self.floors, self.now)).outcome
     }
 
-    /// A piece of an archive from a client; what it is told in one word.
+    /// Hands over a piece of an archive from a client and returns the answer in one word.
     fn hand(&mut self, client: u64, (from, size): (u64, u64), bytes: &[u8]) -> &'static str {
         let task = ArchiveTask::Import {
             from,
@@ -56,11 +56,11 @@ impl Scratch {
 
     fn hand_all(&mut self, client: u64, archive: &[u8]) -> &'static str {
         let size = archive.len() as u64;
-        let mut told = "nothing";
+        let mut answer = "nothing";
         for (place, piece) in archive.chunks(ARCHIVE_UPLOAD_BYTES as usize).enumerate() {
-            told = self.hand(client, (place as u64 * ARCHIVE_UPLOAD_BYTES, size), piece);
+            answer = self.hand(client, (place as u64 * ARCHIVE_UPLOAD_BYTES, size), piece);
         }
-        told
+        answer
     }
 
     /// An archive, asked for piece by piece.
@@ -154,10 +154,10 @@ fn pieces_out_of_order_are_refused_and_end_the_upload() {
     ];
     for (from, said, bytes) in wrong {
         assert_eq!(scratch.hand(1, (0, size), piece), "waits");
-        let told = scratch.hand(1, (from, said), bytes);
-        // The first piece once more begins anew.
+        let answer = scratch.hand(1, (from, said), bytes);
+        // The first piece once more starts again.
         let expected = if from == 0 { "waits" } else { "archive-piece" };
-        assert_eq!(told, expected, "{from} {said}");
+        assert_eq!(answer, expected, "{from} {said}");
         if from > 0 {
             let next = scratch.hand(1, (ARCHIVE_UPLOAD_BYTES, size), piece);
             assert_eq!(next, "archive-piece", "it is over");

@@ -1,4 +1,4 @@
-//! Who asks without end, and who wants to change something meanwhile.
+//! A client that asks without end, and one that changes something meanwhile.
 
 use std::fs;
 
@@ -64,7 +64,7 @@ fn answered_before_the_change(events: &mut Receiver<Event>) -> usize {
 
 #[test]
 fn questions_without_end_leave_room_for_changes() {
-    // Nobody hears the answers yet, so that nothing is carried out but the first question.
+    // The answers are not read yet, so that only the first question is carried out.
     let (sender, mut events) = channel(1);
     let thread = start(paths("flood"), sender).expect("starts");
     let taken = (0..MANY)

@@ -14,7 +14,7 @@ use crate::outbox::Class;
 use crate::run_thread::RunAnswer;
 
 impl Daemon {
-    /// Tells a client what came of its order, and the core what it has to know.
+    /// Sends a client the result of its order, and the core what it needs.
     pub(super) fn take_map_answer(&mut self, MapAnswer { client, id, outcome }: MapAnswer) {
         let answer = match outcome {
             MapOutcome::Listed(floor, maps) => Some(Update::Maps {

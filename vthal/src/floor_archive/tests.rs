@@ -29,7 +29,7 @@ fn floors() -> Vec<ArchivedFloor> {
     ]
 }
 
-/// An archive whose checksum is right, whatever is in it.
+/// An archive with this content and the right checksum.
 fn with_checksum(mut body: Vec<u8>) -> Vec<u8> {
     body.extend(sum(&body).to_le_bytes());
     body
@@ -100,10 +100,10 @@ fn a_map_that_cannot_be_read_is_named() {
     let archive = encode(&broken).expect("is small");
     let error = decode(&archive).expect_err("is refused");
     assert_eq!(error.name(), "archive-map-wrong");
-    let told = error.to_string();
+    let text = error.to_string();
     assert!(
-        told.contains("floor 3 of the archive (Cellar)") && told.contains("checksum"),
-        "{told}"
+        text.contains("floor 3 of the archive (Cellar)") && text.contains("checksum"),
+        "{text}"
     );
 }
 
@@ -119,7 +119,7 @@ fn an_archive_that_nobody_would_take_is_not_written() {
 }
 
 proptest! {
-    /// Whatever comes, it is a sentence or an archive that is written in the same way.
+    /// All bytes give either an error sentence or an archive that is written back to the same bytes.
     #[test]
     fn any_bytes_are_refused_or_read(bytes in prop::collection::vec(any::<u8>(), 0..300), is_headed: bool) {
         let bytes = if is_headed { headed(&bytes) } else { bytes };
@@ -128,7 +128,7 @@ proptest! {
         }
     }
 
-    /// The same of archives in which something was changed by somebody who mends the checksum.
+    /// The same for archives that were changed and given the right checksum.
     #[test]
     fn changed_archives_are_refused_or_read(place in 9_usize..400, value: u8) {
         let mut body = encode(&floors()).expect("is small");

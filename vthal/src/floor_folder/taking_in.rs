@@ -1,6 +1,6 @@
 //! Floors of archives: what goes into one, and how those of one are kept beside the floors that there are.
 //!
-//! The maps are written first, into folders that nobody looks at (`floor-3.new`). The list with the new floors, written at one
+//! The maps are written first, into folders that nothing reads (`floor-3.new`). The list with the new floors, written at one
 //! stroke, decides; then the folders get their names. After a crash the folders of floors on the list get theirs, and the
 //! others go: either all floors of an archive are there or none is.
 
@@ -67,7 +67,7 @@ impl FloorFolder {
         floors: &[ArchivedFloor],
     ) -> Result<Vec<FloorEntry>, FloorError> {
         for floor in floors {
-            // The first floor's maps lie in the folder of all: what was there once would be in the way.
+            // The first floor's maps lie in the folder of all: older files there would conflict.
             let is_free = |number: &u16| {
                 entries.iter().all(|entry| entry.number != *number) && !self.maps(*number).path().exists()
             };
@@ -81,7 +81,7 @@ impl FloorFolder {
         Ok(entries)
     }
 
-    /// Writes the maps where nobody looks for them.
+    /// Writes the maps into folders that nothing reads.
     fn stage(&self, fresh: &[FloorEntry], floors: &[ArchivedFloor]) -> io::Result<()> {
         for (entry, floor) in fresh.iter().zip(floors) {
             MapFolder::new(self.staged(entry.number)).save_bytes(&floor.map)?;

@@ -160,7 +160,7 @@ fn read_waiting(device: &mut File, bytes: &mut [u8]) -> Result<usize, ImuError> 
     }
 }
 
-/// Files of the kernel give their value anew when they are read from the start.
+/// Files of the kernel give the current value when they are read from the start.
 fn ask(raw: &mut File) -> Result<i64, ImuError> {
     let path = || PathBuf::from("the sensor");
     let refused = |error| ImuError::Refused { path: path(), error };

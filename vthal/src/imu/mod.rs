@@ -120,13 +120,13 @@ pub(crate) fn start(settings: ImuSettings, events: Sender<Event>) -> io::Result<
 
 fn serve(settings: &ImuSettings, events: &Sender<Event>) {
     let mut turn = Turn::default();
-    let mut told = false;
+    let mut is_reported = false;
     loop {
-        match attend(settings, &mut turn, events, &mut told) {
+        match attend(settings, &mut turn, events, &mut is_reported) {
             Ok(ReceiverGone) => return,
-            Err(_) if told => {}
+            Err(_) if is_reported => {}
             Err(error) => {
-                told = true;
+                is_reported = true;
                 let text = error.to_string();
                 if events.blocking_send(Event::Imu(ImuEvent::Absent(text))).is_err() {
                     return;
@@ -143,7 +143,7 @@ fn attend(
     settings: &ImuSettings,
     turn: &mut Turn,
     events: &Sender<Event>,
-    told: &mut bool,
+    is_reported: &mut bool,
 ) -> Result<ReceiverGone, ImuError> {
     let mut gyro = Gyro::open(settings)?;
     let start = Instant::now();
@@ -151,8 +151,8 @@ fn attend(
     loop {
         let mut total_urad = None;
         gyro.read(|sample| total_urad = Some(take(turn, sample, start)))?;
-        if *told || sent.is_none() {
-            *told = false;
+        if *is_reported || sent.is_none() {
+            *is_reported = false;
             let opened = Event::Imu(ImuEvent::Opened(gyro.manner()));
             if events.blocking_send(opened).is_err() {
                 return Ok(ReceiverGone);

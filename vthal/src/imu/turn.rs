@@ -1,6 +1,6 @@
 //! Integrates turn rates to the angle turned.
 
-/// A pause between two samples for which nobody can tell how far the robot turned, ns.
+/// A pause between two samples after which the turn is unknown, ns.
 const GAP_NS: i64 = 100_000_000;
 
 /// Adds up a rate over time.

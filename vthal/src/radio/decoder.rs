@@ -10,7 +10,7 @@ use super::roster::{BeaconNumber, Roster};
 use super::{RadioForm, RadioSettings, dwm1001, json};
 
 /// Refused lines are reported at the first, and then at most this often.
-const TELL_EVERY: Duration = Duration::from_secs(60);
+const REPORT_EVERY: Duration = Duration::from_secs(60);
 /// Letters of a refused line that are reported.
 const EXCERPT: usize = 60;
 
@@ -47,7 +47,7 @@ pub(super) struct RadioDecoder {
     lines: Lines,
     roster: Roster,
     untold: u64,
-    told_at: Option<Duration>,
+    reported_at: Option<Duration>,
 }
 
 impl RadioDecoder {
@@ -59,7 +59,7 @@ impl RadioDecoder {
             lines: Lines::default(),
             roster: Roster::new(&settings.beacons),
             untold: 0,
-            told_at: None,
+            reported_at: None,
         }
     }
 
@@ -119,9 +119,11 @@ impl RadioDecoder {
 
     fn refuse(&mut self, now: Duration, (line, error): (&str, &LineError), heard: &mut Heard) {
         self.untold += 1;
-        let is_due = self.told_at.is_none_or(|told| now >= told + TELL_EVERY);
+        let is_due = self
+            .reported_at
+            .is_none_or(|reported| now >= reported + REPORT_EVERY);
         if is_due {
-            self.told_at = Some(now);
+            self.reported_at = Some(now);
             heard.refused = Some(Refused {
                 count: std::mem::take(&mut self.untold),
                 line: line.chars().take(EXCERPT).collect(),
@@ -210,14 +212,14 @@ mod tests {
     #[test]
     fn broken_lines_are_counted_and_told_once_a_minute() {
         let mut decoder = RadioDecoder::new(&settings(RadioForm::Lines));
-        let mut told = Vec::new();
+        let mut refusals = Vec::new();
         for second in 0..=120 {
             let heard = decoder.take(Duration::from_secs(second), b"\nnonsense\n");
             assert_eq!((heard.signals.len(), heard.is_speaking), (0, false));
-            told.extend(heard.refused.map(|refused| (second, refused.count, refused.line)));
+            refusals.extend(heard.refused.map(|refused| (second, refused.count, refused.line)));
         }
         let line = || "nonsense".to_owned();
-        assert_eq!(told, [(0, 1, line()), (60, 60, line()), (120, 60, line())]);
+        assert_eq!(refusals, [(0, 1, line()), (60, 60, line()), (120, 60, line())]);
     }
 
     #[test]
@@ -269,7 +271,7 @@ mod tests {
                     BeaconSignal::Strength(strength) => prop_assert!((-130.0..=0.0).contains(&strength.dbm)),
                 }
             }
-            // The last lines were whole, whatever came before.
+            // The last lines are complete, whatever precedes them.
             let whole = if dwm1001 { 4 } else { 3 };
             prop_assert!(signals.len() >= whole, "{signals:?}");
         }

@@ -115,11 +115,11 @@ fn is_number(text: &str) -> bool {
         && digits.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.')
 }
 
-/// A module that already prints is heard within this time.
+/// A module that already prints sends a line within this time.
 const LISTEN: Duration = Duration::from_secs(2);
 /// Time that the module takes to open its shell.
 const SHELL: Duration = Duration::from_secs(1);
-/// Longest silence before the module is told again. A tag that rests measures every ten seconds if it is left as it comes.
+/// Longest silence before the module gets the command again. A tag that rests measures every ten seconds if it is left as it comes.
 const SILENCE: Duration = Duration::from_secs(30);
 
 /// Makes a module print, and leaves one alone that does.
@@ -181,7 +181,7 @@ mod tests {
     use super::super::reading::Measured;
     use super::{Waker, read};
 
-    fn told(line: &str) -> Vec<(String, f64)> {
+    fn ranges(line: &str) -> Vec<(String, f64)> {
         let readings = read(line).unwrap();
         readings
             .into_iter()
@@ -197,14 +197,14 @@ mod tests {
         let expected = vec![("1151".to_owned(), 6.48), ("0CA8".to_owned(), 6.51)];
         let lec =
             "DIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,-8.00,2.25,6.51,POS,2.57,1.98,1.68,100\r";
-        assert_eq!(told(lec), expected);
+        assert_eq!(ranges(lec), expected);
         assert_eq!(
-            told("DIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,8.00,2.25,6.51"),
+            ranges("DIST,2,AN0,1151,5.00,8.00,2.25,6.48,AN1,0CA8,0.00,8.00,2.25,6.51"),
             expected
         );
         let les = "1151[5.00,8.00,2.25]=6.48 0CA8[0.00,-8.00,2.25]=6.51 le_us=2576 est[2.57,1.98,1.68,100]";
-        assert_eq!(told(les), expected);
-        assert_eq!(told("DIST,0"), []);
+        assert_eq!(ranges(les), expected);
+        assert_eq!(ranges("DIST,0"), []);
     }
 
     #[test]
@@ -217,7 +217,7 @@ mod tests {
             "POS,7.10,5.24,-2.03,53",
             "[000541.890 INF] mode: tn (act,twr,np,le)",
         ] {
-            assert_eq!(told(line), [], "{line}");
+            assert_eq!(ranges(line), [], "{line}");
         }
     }
 

@@ -1,5 +1,5 @@
-//! Lines that any program can write: `{"beacon":"kitchen","range_m":3.21}`, with `"sigma_m"` where the program knows how far
-//! off that may be, or `{"beacon":"kitchen","rssi_dbm":-63}` of a radio that knows only how strongly it receives.
+//! Lines that any program can send: `{"beacon":"kitchen","range_m":3.21}`, with `"sigma_m"` where the program can estimate how far
+//! off that may be, or `{"beacon":"kitchen","rssi_dbm":-63}` of a radio that measures signal strength only.
 
 use serde::Deserialize;
 

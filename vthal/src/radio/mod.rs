@@ -1,9 +1,9 @@
 //! A radio on the Linux board that measures how far beacons are, or how strongly it receives them.
 //!
-//! Terms. *Beacon*: a radio that stands somewhere in the home; nobody needs to know where. *Form*: in which words the radio
-//! tells that ([`RadioForm`]). *RadioDecoder*: what makes signals of its bytes. *Port*: where the bytes come from.
+//! Terms. *Beacon*: a radio at an unknown place in the home. *Form*: the format in which the radio
+//! sends its readings ([`RadioForm`]). *RadioDecoder*: what makes signals of its bytes. *Port*: where the bytes come from.
 //!
-//! A task keeps the port open and sends signals as events. It knows nothing of the robot; what is not heard is missing, and
+//! A task keeps the port open and sends signals as events. It does not depend on the robot; what is not received is missing, and
 //! the robot goes by its wheels.
 
 mod decoder;
@@ -38,7 +38,7 @@ const SILENCE: Duration = Duration::from_secs(60);
 /// Longest wait for a radio that does not take the words which make it speak.
 const WRITE_WAIT: Duration = Duration::from_secs(1);
 
-/// Deviation of a range where neither radio nor configuration tells another, metres: ultra-wideband in motion (Sensors 22
+/// Deviation of a range where neither radio nor configuration gives one, metres: ultra-wideband in motion (Sensors 22
 /// (2022) 2927).
 pub const SIGMA_M: f64 = 0.2;
 
@@ -223,7 +223,7 @@ impl Listener {
         if let Some(refused) = heard.refused {
             self.tell(RadioEvent::Refused(refused)).await?;
         }
-        // A loop that is busy gets the next ones: an old signal says nothing of the present.
+        // A loop that is busy gets the next ones: an old signal is worthless.
         let signals = Event::Radio(RadioEvent::Heard(heard.signals));
         match self.events.try_send(signals) {
             Err(TrySendError::Closed(_)) => Err(ReceiverGone),

@@ -32,7 +32,7 @@ pub(super) enum PortError {
 }
 
 impl Port {
-    /// Opens what stands at the path.
+    /// Opens the device or pipe at the path.
     pub(super) async fn open(path: &Path, baud: u32) -> Result<Self, PortError> {
         let refused = |error| PortError::Open {
             path: path.to_owned(),
@@ -93,7 +93,7 @@ impl Port {
     }
 }
 
-/// tokio was told of something that was gone by the time.
+/// tokio was notified of something that has gone meanwhile.
 fn is_early(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::WouldBlock
 }

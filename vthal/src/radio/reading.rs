@@ -6,12 +6,12 @@ use serde::Deserialize;
 
 /// Longest name of a beacon, bytes: a network address as text, or a word or two.
 const NAME_MAX: usize = 32;
-/// Longest distance that a line may tell, metres; no radio for homes reaches farther.
+/// Longest distance that a line may report, metres; no radio for homes reaches farther.
 const RANGE_MAX_M: f64 = 200.0;
-/// Largest deviation that a line may tell, metres; one that knows less knows nothing.
+/// Largest deviation that a line may report, metres; a range with a larger one is useless.
 const SIGMA_MAX_M: f64 = 10.0;
 
-/// Received powers that a line may tell, dBm: thermal noise of a narrow receiver, and as much as any radio stands. A strength told
+/// Received powers that a line may report, dBm: thermal noise of a narrow receiver, and the most that any radio tolerates. A strength reported
 /// as a positive number of some scale is none of these.
 const STRENGTH_MIN_DBM: f64 = -130.0;
 const STRENGTH_MAX_DBM: f64 = 0.0;
@@ -60,7 +60,7 @@ pub(super) struct Reading {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Measured {
-    /// Distance and its deviation, metres, if the radio tells that.
+    /// Distance and its deviation, metres, if the radio measures them.
     Range(f64, Option<f64>),
     /// Received power, dBm.
     Strength(f64),

@@ -3,7 +3,7 @@
 use super::BEACONS_MAX;
 use super::reading::BeaconName;
 
-/// Names with their numbers: those of the configuration in its order, or else all in the order in which they were heard
+/// Names with their numbers: those of the configuration in its order, or else all in the order in which they were received
 /// first, so that a beacon keeps its number as long as the daemon runs.
 #[derive(Debug)]
 pub(super) struct Roster {

@@ -72,6 +72,7 @@ mod tests {
             arm: None,
             tones: Vec::new(),
             decisions: decisions.collect(),
+            edits: Vec::new(),
         }
     }
 

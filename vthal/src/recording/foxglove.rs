@@ -1,4 +1,4 @@
-//! Messages in Foxglove's own forms, which its panels draw without being told how: the robot as a disc that moves through
+//! Messages in Foxglove's own forms, which its panels draw without configuration: the robot as a disc that moves through
 //! the frame `map`, and the lines of the log.
 //!
 //! Names and fields are those of <https://docs.foxglove.dev/docs/sdk/schemas>. Times are host time since the daemon's
@@ -11,11 +11,11 @@ use serde_json::{Value, json};
 
 use super::schemas::list;
 
-/// Frame of the map: where the brain believes things to be.
+/// Frame of the map: the brain's map frame.
 const MAP: &str = "map";
 /// Frame of the robot: x forward, y left, origin on the floor between the wheels.
 const ROBOT: &str = "robot";
-/// Height of the disc; no measure of any robot, only so that it looks like one.
+/// Height of the disc; not of any robot, only to look like one.
 const DRAWN_HEIGHT_M: f64 = 0.08;
 
 /// Host time of something that carries it in seconds, in microseconds.
@@ -192,7 +192,7 @@ pub(super) fn frame_transform(pose: Pose) -> FrameTransform {
     }
 }
 
-/// A robot of this radius, looking along x.
+/// A robot of this radius, facing along x.
 pub(super) fn robot(time_us: u64, radius_m: f64) -> SceneUpdate {
     SceneUpdate {
         deletions: [],

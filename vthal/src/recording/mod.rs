@@ -25,7 +25,7 @@ pub(crate) const RUN: &str = "/run";
 pub(crate) const OBSERVATIONS: &str = "/observations";
 /// Channel of the commands that the brain was given.
 pub(crate) const COMMANDS: &str = "/commands";
-/// Channel of the brain's answers; one stands until the next.
+/// Channel of the brain's answers; each is valid until the next.
 pub(crate) const DECISIONS: &str = "/decisions";
 /// Channel of the wire's packets.
 pub(crate) const PACKETS: &str = "/packets";
@@ -37,7 +37,7 @@ pub(crate) const DEVICE: &str = "/device";
 pub(crate) const POSE: &str = "/pose";
 /// Channel of the robot's frame in the map's, for Foxglove.
 pub(crate) const TRANSFORM: &str = "/tf";
-/// Channel of the robot's looks, for Foxglove.
+/// Channel of the robot's shape, for Foxglove.
 pub(crate) const ROBOT: &str = "/robot";
 /// Channel of the log, for Foxglove.
 pub(crate) const LOG: &str = "/log";

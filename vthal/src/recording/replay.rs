@@ -105,7 +105,7 @@ pub fn replay(path: &Path) -> Result<Replay, ReplayError> {
     })
 }
 
-/// Cause of a run that goes on with that of a daemon that was killed.
+/// Cause of a run that continues the run of a killed daemon.
 const AFTER_A_KILL: &str = RunCause::ResumedAfterRestart.name();
 
 /// A step whose answer is not compared yet.
@@ -119,7 +119,7 @@ struct Open {
 struct Player {
     brain: Brain,
     commands: Vec<Command>,
-    /// The recorded answer that stands.
+    /// The recorded answer that is valid now.
     standing: Vec<u8>,
     /// The last step, not compared yet: a recorded answer may follow.
     open: Option<Open>,
@@ -207,7 +207,7 @@ impl Player {
         Ok(())
     }
 
-    /// Compares the last answer with the recorded one that stands now.
+    /// Compares the last answer with the recorded one that is valid now.
     fn settle(&mut self) {
         let Some(Open {
             time_us,

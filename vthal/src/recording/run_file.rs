@@ -165,7 +165,7 @@ impl RunFile {
                 self.write_json((TRANSFORM, time_us), &foxglove::frame_transform(*pose))
             }
             Record::Device { time_us, table } => self.write_json((DEVICE, *time_us), table),
-            Record::Told { time_us, run } => self.attach(("run.json", *time_us), run),
+            Record::RunSummary { time_us, run } => self.attach(("run.json", *time_us), run),
             Record::Log(entry) => self.write_json((LOG, foxglove::time_us(entry.t)), &foxglove::log(entry)),
         }
     }

@@ -46,7 +46,7 @@ fn channel<T: JsonSchema>(topic: &'static str, name: &'static str) -> Channel {
     Channel { topic, name, schema }
 }
 
-/// Foxglove knows neither choices of types nor types of nothing, and what stands in comments and defaults is not for who looks at a recording.
+/// Foxglove supports neither unions nor null types, and readers of a recording need neither descriptions nor defaults.
 fn plain(schema: &mut Schema) {
     let object = schema.ensure_object();
     object.remove("description");

@@ -22,7 +22,7 @@ pub struct RecorderHandle {
     lost: u64,
 }
 
-/// Starts the thread. `settings` goes into the metadata of each file; `opened` is told the number of each run that is recorded
+/// Starts the thread. `settings` goes into the metadata of each file; `opened` is called with the number of each run that is recorded
 /// and the name of its file.
 ///
 /// # Errors
@@ -52,7 +52,7 @@ pub fn start(
 }
 
 impl RecorderHandle {
-    /// Hands a record over. When the disk is too slow for the queue the record is lost, and the first loss is told.
+    /// Hands a record over. When the disk is too slow for the queue the record is lost, and the first loss is logged.
     pub fn send(&mut self, record: Record) {
         let Some(records) = &self.records else { return };
         if let Err(TrySendError::Full(_)) = records.try_send(record) {

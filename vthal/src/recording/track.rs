@@ -1,4 +1,4 @@
-//! What recordings tell of a run in few numbers.
+//! A summary of the recordings of a run.
 
 use std::collections::BTreeMap;
 use std::io::{self, Read};
@@ -10,13 +10,13 @@ use serde::Deserialize;
 use super::records::Records;
 use super::{DEVICE, POSE, Part};
 
-/// Poses and readings that are told at most. Of a longer run every second one is left out, again and again.
+/// Most poses and readings in a summary. Of a longer run every second one is left out, repeatedly.
 const POSES_MAX: usize = 10_000;
 const READINGS_MAX: usize = 2_000;
 /// Times between two of them in a run that is short, seconds.
 const POSE_S: f64 = 0.45;
 const READING_S: f64 = 0.9;
-/// Reads the recordings of a run, each with the time of its clock at which the run began. What one tells of the time of the next
+/// Reads the recordings of a run, each with the time of its clock at which the run began. What one contains of the time of the next
 /// one is left out: the daemon went on from before that.
 ///
 /// # Errors
@@ -127,7 +127,7 @@ impl<T> Thinned<T> {
         }
     }
 
-    /// Leaves out what is not before `t_s`; the next entry is that of then.
+    /// Leaves out entries from `t_s` on; the next entry is that of `t_s`.
     fn cut(&mut self, t_s: f64, is_before: impl Fn(&T) -> bool) {
         self.kept.retain(is_before);
         self.next_s = t_s;
@@ -151,7 +151,7 @@ impl<T> Thinned<T> {
     }
 }
 
-/// As much of a `foxglove.PoseInFrame` as is wanted.
+/// The needed part of a `foxglove.PoseInFrame`.
 #[derive(Deserialize)]
 struct Posed {
     pose: LoggedPose,

@@ -32,7 +32,7 @@ pub struct Part<R> {
     pub file: R,
 }
 
-/// The bytes of one file that tells what all recordings tell. Those that were read are gone.
+/// The bytes of one file with the content of all recordings. It consumes those that it reads.
 pub struct Whole<R> {
     /// What is not begun yet.
     parts: VecDeque<Part<R>>,
@@ -100,7 +100,7 @@ impl<R: Read> Read for Whole<R> {
     }
 }
 
-/// Where the file is written, until somebody reads it.
+/// Where the file is written until it is read.
 struct Sink(Rc<RefCell<VecDeque<u8>>>);
 
 impl Write for Sink {
@@ -214,7 +214,7 @@ impl Joiner {
             .write_to_known_channel(&moved, stamped.as_deref().unwrap_or(data))
     }
 
-    /// By how much the times of this part are moved, whose first one is `first_ns`. The file tells it.
+    /// The shift of this part's times, whose first one is `first_ns`. The file contains it.
     fn settled(&mut self, first_ns: u64) -> Result<i64, mcap::McapError> {
         let wanted_ns = match self.shift {
             Shift::Is(shift_ns) => return Ok(shift_ns),

@@ -66,6 +66,7 @@ fn answers() -> [Actions; 2] {
         arm: None,
         tones: Vec::new(),
         decisions: Vec::new(),
+        edits: Vec::new(),
     };
     let busy = Actions {
         motion: Motion::Drive {
@@ -83,6 +84,7 @@ fn answers() -> [Actions; 2] {
             cause: DecisionCause::Reason(Reason::BumpLeft),
             value: 1.5,
         }],
+        edits: Vec::new(),
     };
     [busy, quiet]
 }
@@ -195,7 +197,7 @@ fn measured() -> Record {
 fn told() -> Record {
     let text = r#"{"run":{"number":4,"job":"spot","by":"button","duration_s":60.0,"moving_s":50.0,"swept_m2":1.0,
         "path_m":9.0,"bumps":0,"result":"finished","reason":"finished","text":"Finished.","stop_count":0},"stops":[]}"#;
-    Record::Told {
+    Record::RunSummary {
         time_us: BEGIN_US + 4,
         run: serde_json::from_str(text).expect("a record"),
     }

@@ -135,14 +135,14 @@ impl Behavior {
     pub(super) fn obey(&mut self, command: &JobCommand, context: &mut TaskContext) {
         let whole = CleaningOrder::default();
         match *command {
-            JobCommand::Clean { strategy } => self.begin((JobKind::Clean(strategy), whole), context),
+            JobCommand::Clean { strategy } => self.begin(JobKind::Clean(strategy), whole, context),
             JobCommand::CleanParts { ref order } => {
                 let kind = JobKind::Clean(StrategyName::Systematic);
-                self.begin((kind, order.clone()), context);
+                self.begin(kind, order.clone(), context);
             }
-            JobCommand::Spot => self.begin((JobKind::Spot, whole), context),
+            JobCommand::Spot => self.begin(JobKind::Spot, whole, context),
             JobCommand::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, context),
-            JobCommand::Dock => self.begin((JobKind::Dock, whole), context),
+            JobCommand::Dock => self.begin(JobKind::Dock, whole, context),
             JobCommand::Pause => self.pause(context),
             JobCommand::Resume => {
                 if let Some(job) = &mut self.job {

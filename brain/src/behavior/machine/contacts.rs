@@ -4,16 +4,11 @@
 //! until its pack is empty.
 
 use super::{Behavior, Mode};
+use crate::behavior::parameters::CHARGING;
 use crate::model::decision::DecisionKind;
 use crate::model::observation::ChargeFlow;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
-
-/// Current must flow within this time, microseconds, if it can be expected at all. The firmware checks dock and pack for some seconds
-/// before it enables the charger, and reports the current once a second.
-const FLOW_PATIENCE_US: u64 = 20_000_000;
-/// The robot undocks and docks again this often, because the contacts may close better the next time.
-const NO_CURRENT_TRIES_MAX: u32 = 2;
 
 impl Behavior {
     /// The contacts have closed at the end of the path home.
@@ -32,10 +27,10 @@ impl Behavior {
             context.decide(DecisionKind::WaitForCurrent, Reason::Docked, 0.0);
             return;
         };
-        if now_us.saturating_sub(since_us) < FLOW_PATIENCE_US {
+        if now_us.saturating_sub(since_us) < CHARGING.flow_within_us {
             return;
         }
-        if self.no_current_tries < NO_CURRENT_TRIES_MAX {
+        if self.no_current_tries < CHARGING.no_current_tries_max {
             self.no_current_tries += 1;
             self.announce(Reason::NoChargeCurrent, context);
         } else {

@@ -3,21 +3,16 @@
 use super::Behavior;
 use crate::behavior::dock_retry::DockRetry;
 use crate::behavior::job::Job;
+use crate::behavior::parameters::CHARGING;
 use crate::model::reason::Reason;
 use crate::navigation::Situation;
-
-/// A run that leaves more than this share of the known floor retries. (One of 75 first runs of generated homes left 0.27 of it; from the
-/// dock it reached 0.97.)
-const MUCH_LEFT: f64 = 0.1;
-/// With this charge it resumes at once and does not wait for more.
-const CHARGE_MIN: f32 = 0.5;
 
 impl Behavior {
     /// Whether the running job, which ends for this reason, retries from the dock.
     pub(super) fn retries_from_dock(&mut self, reason: Reason, situation: &Situation<'_>) -> bool {
         let has_left_much = self
             .swept_share(situation.map)
-            .is_some_and(|swept| 1.0 - swept.share > MUCH_LEFT);
+            .is_some_and(|swept| 1.0 - swept.share > CHARGING.retry_left_share);
         let Some(job) = &mut self.job else { return false };
         let retries = reason == Reason::RestOutOfReach
             && has_left_much
@@ -34,7 +29,7 @@ impl Behavior {
     /// Whether a job that returned to the dock only to retry has enough charge to resume.
     pub(super) fn may_retry(&self, charge: Option<f32>) -> bool {
         let is_due = |job: &Job| job.dock_retry == DockRetry::Due;
-        self.job.as_ref().is_some_and(is_due) && charge.is_some_and(|charge| charge >= CHARGE_MIN)
+        self.job.as_ref().is_some_and(is_due) && charge.is_some_and(|charge| charge >= CHARGING.retry_charge)
     }
 }
 

@@ -3,13 +3,12 @@
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
 use crate::behavior::job::Job;
+use crate::behavior::parameters::ARMING;
 use crate::model::decision::DecisionKind;
 use crate::model::fault::Fault;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
 
-/// An outage of the link up to this length, microseconds, needs no new announcement, because nobody has had time to come near.
-const SHORT_OUTAGE_US: u64 = 5_000_000;
 /// A cliff sensor that fails its self-test for this long, microseconds, is a fault. Sunlight or a dark rug cause shorter failures.
 const SENSOR_PATIENCE_US: u64 = 2_000_000;
 
@@ -62,8 +61,8 @@ impl Behavior {
     }
 
     fn reconnect(&mut self, since_us: Option<u64>, resume: bool, context: &mut TaskContext) {
-        let short =
-            since_us.is_some_and(|since_us| self.facts.now_us.saturating_sub(since_us) < SHORT_OUTAGE_US);
+        let short = since_us
+            .is_some_and(|since_us| self.facts.now_us.saturating_sub(since_us) < ARMING.short_outage_us);
         match (&self.job, resume) {
             // It was driving home or is on the dock already.
             (Some(_), true) if self.facts.docked && self.drives_home() => self.arrive(context),

@@ -8,6 +8,7 @@ use core::task::Poll;
 
 use super::{Behavior, Mode};
 use crate::behavior::job::Job;
+use crate::behavior::parameters::CHARGING;
 use crate::behavior::{JobCheckpoint, JobKind};
 use crate::docking;
 use crate::model::command::StrategyName;
@@ -15,13 +16,6 @@ use crate::model::energy::{Activity, EnergyLearner, EnergyModel, RemainingWork};
 use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
-
-/// Below this charge the path home is searched, and again after `RETURN_CHECK_US`, because each search is a plan.
-const RETURN_CHECK_BELOW: f32 = 0.5;
-const RETURN_CHECK_US: u64 = 20_000_000;
-/// Contacts that open this soon after they have closed, microseconds, touched at their edge; and how often the robot docks again then.
-const SLIPS_OFF_US: u64 = 1_000_000;
-const SLIPS_MAX: u32 = 3;
 
 impl Behavior {
     /// Learnt energy use of driving and cleaning.
@@ -73,7 +67,7 @@ impl Behavior {
             return true;
         }
         let charge = situation.observation.battery_charge;
-        let Some(charge) = charge.filter(|charge| *charge < RETURN_CHECK_BELOW) else {
+        let Some(charge) = charge.filter(|charge| *charge < CHARGING.return_check_below) else {
             return false;
         };
         let Some(way_m) = self.search_return_path(situation) else {
@@ -96,7 +90,7 @@ impl Behavior {
         let now_us = self.facts.now_us;
         let is_due = self
             .return_check_us
-            .is_none_or(|looked_us| now_us >= looked_us + RETURN_CHECK_US);
+            .is_none_or(|looked_us| now_us >= looked_us + CHARGING.return_check_us);
         if is_due {
             self.return_check_us = Some(now_us);
             self.return_search = docking::path_home_m(situation);
@@ -154,7 +148,7 @@ impl Behavior {
     /// Whether the robot, which has left the dock, has slipped off by itself and should dock again.
     pub(super) fn slips_off(&mut self) -> bool {
         let since_us = self.home_us.take().map(|home_us| self.facts.now_us - home_us);
-        since_us.is_some_and(|since_us| since_us < SLIPS_OFF_US)
+        since_us.is_some_and(|since_us| since_us < CHARGING.slips_off_us)
             && !self.facts.wheel_drop
             && self.slips_left()
     }
@@ -166,7 +160,7 @@ impl Behavior {
 
     /// Counts a slip and returns whether another attempt is allowed.
     pub(super) fn slips_left(&mut self) -> bool {
-        let left = self.slips < SLIPS_MAX;
+        let left = self.slips < CHARGING.slips_max;
         self.slips += u32::from(left);
         left
     }
@@ -251,7 +245,7 @@ impl Behavior {
 
     /// Restores a job after a restart.
     pub(crate) fn restore(&mut self, checkpoint: JobCheckpoint) {
-        let job = |kind| Job::with_order((kind, checkpoint.order.clone()), checkpoint.figures);
+        let job = |kind| Job::with_order(kind, checkpoint.order.clone(), checkpoint.figures);
         self.job = Some(job(checkpoint.kind));
         self.put_off = checkpoint.goes_on.map(|kind| Job {
             returns: true,

@@ -2,6 +2,7 @@
 
 use super::{Behavior, JobStart, Mode};
 use crate::behavior::job::Job;
+use crate::behavior::parameters::ARMING;
 use crate::behavior::{JobFigures, JobKind};
 use crate::model::action::{Arm, Motion, Tone};
 use crate::model::decision::DecisionKind;
@@ -9,8 +10,6 @@ use crate::model::order::CleaningOrder;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
 
-/// Pause between two attempts to arm, microseconds.
-const ARM_AGAIN_US: u64 = 500_000;
 /// Tones of the announcement (S24): three beeps.
 const BEEP: Tone = Tone {
     pitch_hz: 880,
@@ -20,16 +19,12 @@ const GAP: Tone = Tone {
     pitch_hz: 0,
     duration_ms: 150,
 };
-/// Length of the beeps and the two seconds after them (S24).
-const ANNOUNCEMENT_US: u64 = 5 * 150_000 + 2_000_000;
-/// The firmware must confirm arming within this time, microseconds.
-const ARM_PATIENCE_US: u64 = 3_000_000;
 
 impl Behavior {
     /// Waits for the end of the announcement, arms, and waits for the firmware's confirmation.
     pub(super) fn start(&mut self, since_us: u64, context: &mut TaskContext) -> Motion {
         let waited_us = self.facts.now_us.saturating_sub(since_us);
-        if waited_us < ANNOUNCEMENT_US {
+        if waited_us < ARMING.announcement_us {
             return Motion::Rest;
         }
         let asked_yet = self.armed_us.is_some();
@@ -43,7 +38,7 @@ impl Behavior {
             self.enter(Mode::Working, reason, context);
             return Motion::Halt;
         }
-        if waited_us > ANNOUNCEMENT_US + ARM_PATIENCE_US {
+        if waited_us > ARMING.announcement_us + ARMING.confirmed_within_us {
             self.enter(Mode::Paused, Reason::ArmRefused, context);
             return Motion::Rest;
         }
@@ -55,7 +50,7 @@ impl Behavior {
     pub(super) fn ask_to_arm(&mut self) {
         let due = self
             .armed_us
-            .is_none_or(|armed_us| self.facts.now_us >= armed_us + ARM_AGAIN_US);
+            .is_none_or(|armed_us| self.facts.now_us >= armed_us + ARMING.again_us);
         if due {
             self.armed_us = Some(self.facts.now_us);
             self.arm = Some(Arm {
@@ -81,8 +76,8 @@ impl Behavior {
     }
 
     /// Begins a new job and discards the old one.
-    pub(super) fn begin(&mut self, (kind, order): (JobKind, CleaningOrder), context: &mut TaskContext) {
-        self.job = Some(Job::with_order((kind, order), JobFigures::default()));
+    pub(super) fn begin(&mut self, kind: JobKind, order: CleaningOrder, context: &mut TaskContext) {
+        self.job = Some(Job::with_order(kind, order, JobFigures::default()));
         self.put_off = None;
         self.slips = 0;
         self.no_current_tries = 0;

@@ -4,6 +4,7 @@ use super::{Behavior, Mode};
 use crate::behavior::JobKind;
 use crate::behavior::gyro_rest::RestPace;
 use crate::behavior::job::{Detour, Job, Purpose};
+use crate::behavior::parameters::{ARMING, GYRO_SETTLING};
 use crate::mapping::Map;
 use crate::model::action::Motion;
 use crate::model::advance::Advance;
@@ -17,19 +18,10 @@ use crate::model::swept_share::SweptShare;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
 use crate::recovery::{self, StuckKind, Traction, Whereabouts};
 
-/// The firmware may stay disarmed for this long, microseconds, before the job is interrupted.
-const UNARMED_MAX_US: u64 = 3_000_000;
-/// Standard deviation of the gyro's bias after a rest of two seconds, rad/s. It turns a map by two degrees a minute at most.
-const SETTLED_RAD_PER_S: f64 = 6.0e-4;
-/// The same after twelve seconds, for a robot that is about to draw a map. Until the first wall it has no other source of heading, and
-/// the whole map is rotated by the error up to then.
-const SETTLED_SURVEYING_RAD_PER_S: f64 = 2.0e-4;
-/// Longest wait for that before the first motion of a job, seconds.
-const SETTLE_MAX_S: f64 = 16.0;
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
 /// A place that took so many recovery behaviors to leave is not entered again in this job.
-const POCKET_RUNGS: u8 = 3;
+const POCKET_BEHAVIORS: u8 = 3;
 
 impl Behavior {
     /// A contact began.
@@ -51,6 +43,9 @@ impl Behavior {
         job.figures.path_m += situation.advance.distance_m.abs();
         job.brushes |= !self.facts.touching;
         job.returns &= situation.map.is_swept(situation.pose.position());
+        if situation.advance.onsets.is_held_by_cliff {
+            job.edges.note_cliff(self.facts.now_us);
+        }
         if self.facts.disarmed.any() {
             return self.wait_for_arm(context);
         }
@@ -80,14 +75,14 @@ impl Behavior {
             .follow(situation.pose.position(), situation.advance.time_s)
         {
             Whereabouts::Inside => {}
-            Whereabouts::MovedOff => job.ladder.move_off(),
+            Whereabouts::MovedOff => job.recovery.move_off(),
             Whereabouts::Left(troubled_at) => {
-                let rungs = job.ladder.leave();
-                if rungs == 0 {
+                let behaviors = job.recovery.leave();
+                if behaviors == 0 {
                     return;
                 }
-                context.decide(DecisionKind::Free, Reason::CameFree, f64::from(rungs));
-                if rungs >= POCKET_RUNGS {
+                context.decide(DecisionKind::Free, Reason::CameFree, f64::from(behaviors));
+                if behaviors >= POCKET_BEHAVIORS {
                     self.pocket = troubled_at;
                 }
             }
@@ -96,11 +91,12 @@ impl Behavior {
 
     /// Whether the robot must rest before its first motion, because it was just switched on and the gyro's bias is not measured yet.
     fn settles_gyro(&self, situation: &Situation<'_>) -> bool {
-        let has_not_moved = |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < SETTLE_MAX_S;
+        let has_not_moved =
+            |job: &Job| job.figures.path_m == 0.0 && job.figures.time_s < GYRO_SETTLING.wait_max_s;
         let settled_rad_per_s = if situation.is_tracked {
-            SETTLED_RAD_PER_S
+            GYRO_SETTLING.tracked_sigma_rad_per_s
         } else {
-            SETTLED_SURVEYING_RAD_PER_S
+            GYRO_SETTLING.mapping_sigma_rad_per_s
         };
         self.job.as_ref().is_some_and(has_not_moved)
             && situation
@@ -121,7 +117,7 @@ impl Behavior {
 
     fn wait_for_arm(&mut self, context: &mut TaskContext) -> Motion {
         let since_us = *self.unarmed_since_us.get_or_insert(self.facts.now_us);
-        if self.facts.now_us.saturating_sub(since_us) > UNARMED_MAX_US {
+        if self.facts.now_us.saturating_sub(since_us) > ARMING.unarmed_max_us {
             let reason = if self.facts.disarmed.link_lost {
                 Reason::LinkLost
             } else {
@@ -216,17 +212,17 @@ impl Behavior {
     fn escape(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) {
         let Some(job) = &mut self.job else { return };
         job.task.interrupted();
-        let grip = recovery::stuck_kind(reason);
-        let Some(rung) = job.ladder.trouble(grip) else {
+        let stuck_kind = recovery::stuck_kind(reason);
+        let Some(behavior) = job.recovery.trouble(stuck_kind) else {
             self.enter(Mode::Stuck, reason, context);
             return;
         };
-        match grip {
+        match stuck_kind {
             StuckKind::Held => job.pen.hold(situation.pose.position()),
             StuckKind::Penned => job.pen.begin_recovery(situation.pose.position()),
         }
-        context.decide(rung.decision(), reason, 0.0);
-        let sequence = recovery::escape(rung, &mut context.random);
+        context.decide(behavior.decision(), reason, 0.0);
+        let sequence = recovery::escape(behavior, &mut context.random);
         job.detour = Some(Detour {
             sequence,
             purpose: Purpose::Escape,

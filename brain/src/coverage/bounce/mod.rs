@@ -4,6 +4,7 @@
 //! short. There the robot backs off further, turns more and always to the same side. That leads out of corners and from
 //! between chair legs, where a fresh coin toss each time would keep it in.
 
+mod parameters;
 mod pocket;
 
 use super::recent_coverage::{RecentContacts, TurnRange};
@@ -11,21 +12,10 @@ use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
+use crate::navigation::parameters::{CHASSIS, EVASION};
 use crate::navigation::{Evasion, Situation, Task, TaskContext, TaskStatus};
+use parameters::BOUNCE;
 use pocket::Pocket;
-
-/// A longer straight without an encounter is implausible, since a home has walls: perhaps the wheels spin.
-const STRAIGHT_MAX_M: f64 = 14.0;
-/// Distance to back off at a cliff. The sensors lead the wheels by little, so the robot must clear the edge before it
-/// turns.
-const CLIFF_BACK_M: f64 = 0.08;
-/// Turn angles away from a cliff, radians. They are close to a half turn, so that the robot does not meet the edge again at
-/// once: three cliffs in 5 s latch the firmware (S8).
-const CLIFF_TURN_RAD: (f64, f64) = (1.9, 2.8);
-/// Proximity level above which contact is near: about 7 cm for the sensors of the SR8730.
-const NEAR_LEVEL: f32 = 0.45;
-/// Speed with an obstacle close ahead, for a soft contact.
-const NEAR_M_PER_S: f64 = 0.12;
 
 /// The strategy.
 #[derive(Clone, Debug, Default)]
@@ -103,21 +93,13 @@ impl Bounce {
     /// Turn away from a contact, radians. Positive is to the left.
     fn turn_rad(&self, encounter: Encounter, situation: &Situation<'_>, context: &mut TaskContext) -> f64 {
         let Encounter { reason, side } = encounter;
-        let (low_rad, high_rad) = self.pocket.turn_range_rad(reason);
+        let range_rad = self.pocket.turn_range_rad(reason);
         match &self.recent_contacts {
             Some(recent_contacts) if self.pocket.is_open() => {
                 let side = (reason != Reason::BumpFront).then_some(side);
-                recent_contacts.turn_rad(
-                    TurnRange {
-                        low_rad,
-                        high_rad,
-                        side,
-                    },
-                    situation,
-                    context,
-                )
+                recent_contacts.turn_rad(TurnRange { range_rad, side }, situation, context)
             }
-            _ => self.pocket.side().unwrap_or(side).sign() * context.random.between(low_rad, high_rad),
+            _ => self.pocket.side().unwrap_or(side).sign() * context.random.within(range_rad),
         }
     }
 
@@ -135,8 +117,8 @@ impl Bounce {
             let reason = Reason::of_cliffs(situation.observation.cliffs).unwrap_or(Reason::CliffFront);
             let side = self.side(reason, context);
             self.pocket.enter(self.straight_m, side);
-            let turn_rad = side.sign() * context.random.between(CLIFF_TURN_RAD.0, CLIFF_TURN_RAD.1);
-            return Some((reason, Evasion::from_cliff(CLIFF_BACK_M, turn_rad)));
+            let turn_rad = side.sign() * context.random.within(&BOUNCE.cliff_turn_rad);
+            return Some((reason, Evasion::from_cliff(EVASION.cliff_back_m, turn_rad)));
         }
         if situation.touching {
             let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
@@ -145,9 +127,9 @@ impl Bounce {
             let turn_rad = self.turn_rad(Encounter { reason, side }, situation, context);
             return Some((reason, Evasion::from_contact(self.pocket.back_m(), turn_rad)));
         }
-        (self.straight_m > STRAIGHT_MAX_M).then(|| {
+        (self.straight_m > BOUNCE.straight_max_m).then(|| {
             let side = self.side(Reason::LongRun, context);
-            let turn_rad = side.sign() * context.random.between(1.0, 2.5);
+            let turn_rad = side.sign() * context.random.within(&BOUNCE.long_straight_turn_rad);
             (
                 Reason::LongRun,
                 Evasion::from_contact(self.pocket.back_m(), turn_rad),
@@ -175,9 +157,9 @@ fn ahead(situation: &Situation<'_>) -> Motion {
         .get(third..proximity.len().saturating_sub(third))
         .unwrap_or_default();
     let cruise_m_per_s = situation.config.speeds.cruise_m_per_s;
-    let near = front.iter().any(|level| *level > NEAR_LEVEL);
+    let near = front.iter().any(|level| *level > CHASSIS.near_level);
     let speed_m_per_s = if near {
-        cruise_m_per_s.min(NEAR_M_PER_S)
+        cruise_m_per_s.min(CHASSIS.near_m_per_s)
     } else {
         cruise_m_per_s
     };

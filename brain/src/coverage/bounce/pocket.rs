@@ -1,22 +1,10 @@
 //! Memory of short straights.
 
+use core::ops::Range;
+
+use super::parameters::{BOUNCE, POCKET};
 use crate::model::geometry::TurnSide;
 use crate::model::reason::Reason;
-
-/// A straight below this is short.
-const SHORT_M: f64 = 0.25;
-/// A straight above this leads out of the pocket.
-const FREE_M: f64 = 0.6;
-/// Short straights until the robot follows the edge by touch.
-const EDGE_AFTER: u32 = 3;
-/// Short straights until it searches all round for an opening.
-const SCAN_AFTER: u32 = 10;
-/// Short straights until the pocket counts as closed.
-const CLOSED_AFTER: u32 = 22;
-/// Distance to back off in the open and along an edge.
-const BACK_M: f64 = 0.03;
-/// Distance to back off while searching. Between chair legs the next turn needs a different position.
-const SCAN_BACK_M: f64 = 0.08;
 
 /// What the last straights show about the place.
 #[derive(Clone, Debug, Default)]
@@ -39,9 +27,9 @@ enum PocketKind {
 impl Pocket {
     /// Records an encounter after a straight, and the side to which the robot would turn in the open.
     pub(super) fn enter(&mut self, straight_m: f64, side: TurnSide) {
-        if straight_m > FREE_M {
+        if straight_m > POCKET.free_m {
             *self = Self::default();
-        } else if straight_m < SHORT_M {
+        } else if straight_m < POCKET.short_m {
             self.short_straights += 1;
             if self.kind() == PocketKind::Cage {
                 self.side.get_or_insert(side);
@@ -57,20 +45,20 @@ impl Pocket {
     /// Distance of the next back-off.
     pub(super) fn back_m(&self) -> f64 {
         if self.kind() == PocketKind::Cage {
-            SCAN_BACK_M
+            POCKET.cage_back_m
         } else {
-            BACK_M
+            BOUNCE.back_m
         }
     }
 
-    /// Range of the next turn, radians. After a head-on contact the turn must be larger than after a touch on one side.
-    pub(super) fn turn_range_rad(&self, reason: Reason) -> (f64, f64) {
+    /// Range of the next turn, radians.
+    pub(super) fn turn_range_rad(&self, reason: Reason) -> &'static Range<f64> {
         match (self.kind(), reason) {
-            (PocketKind::Open, Reason::BumpFront) => (1.3, 3.1),
-            (PocketKind::Open, _) => (0.7, 2.6),
-            (PocketKind::Edge, Reason::BumpFront) => (0.8, 1.8),
-            (PocketKind::Edge, _) => (0.15, 0.6),
-            (PocketKind::Cage, _) => (0.4, 1.4),
+            (PocketKind::Open, Reason::BumpFront) => &BOUNCE.ahead_turn_rad,
+            (PocketKind::Open, _) => &BOUNCE.side_turn_rad,
+            (PocketKind::Edge, Reason::BumpFront) => &POCKET.edge_ahead_turn_rad,
+            (PocketKind::Edge, _) => &POCKET.edge_side_turn_rad,
+            (PocketKind::Cage, _) => &POCKET.cage_turn_rad,
         }
     }
 
@@ -81,14 +69,16 @@ impl Pocket {
 
     /// Whether all attempts have failed.
     pub(super) fn is_closed(&self) -> bool {
-        self.short_straights >= CLOSED_AFTER
+        self.short_straights >= POCKET.closed_after
     }
 
     fn kind(&self) -> PocketKind {
-        match self.short_straights {
-            0..EDGE_AFTER => PocketKind::Open,
-            EDGE_AFTER..SCAN_AFTER => PocketKind::Edge,
-            _ => PocketKind::Cage,
+        if self.short_straights < POCKET.edge_after {
+            PocketKind::Open
+        } else if self.short_straights < POCKET.cage_after {
+            PocketKind::Edge
+        } else {
+            PocketKind::Cage
         }
     }
 }
@@ -106,7 +96,7 @@ mod tests {
         for _ in 0..5 {
             pocket.enter(0.1, TurnSide::Left);
         }
-        assert!(pocket.turn_range_rad(Reason::BumpLeft).1 < open.1.1);
+        assert!(pocket.turn_range_rad(Reason::BumpLeft).end < open.1.end);
         assert_eq!(pocket.side(), None);
         for encounter in 0..8 {
             assert!(!pocket.is_closed());

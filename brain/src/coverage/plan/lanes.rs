@@ -10,17 +10,11 @@ use std::collections::BinaryHeap;
 use super::bit_grid::BitGrid;
 use super::free_strips::{FreeStrip, FreeStrips};
 use super::settings::PlanSettings;
+use crate::coverage::plan::parameters::LANES;
 use crate::mapping::CELL_M;
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::{Axis, ConfigurationSpace};
 
-/// Cells that one border edge less is worth.
-const BORDER_CELLS: i16 = 1;
-/// Smallest share of the gain of a lane over fully open floor in the same time, for each round.
-const ROUND_SHARES: [f64; 2] = [0.35, 0.07];
-/// Cost to enter and leave a lane, in radians of turning, added to the time of a lane. Besides the turns it covers braking
-/// and the path between lanes.
-const ENTER_RAD: f64 = 6.0;
 /// Work to weigh a position, to read it for the best lane, and to close the floor around it.
 const WEIGH_WORK: usize = 3;
 const READ_WORK: usize = 2;
@@ -94,7 +88,7 @@ impl<'space> Picker<'space> {
             strips: FreeStrips::of(space, budget).await,
             queue: BinaryHeap::new(),
             cell_s: CELL_M / settings.cruise_m_per_s,
-            enter_s: ENTER_RAD / settings.turn_rad_per_s,
+            enter_s: LANES.enter_rad / settings.turn_rad_per_s,
             disc: space.disc(),
             space,
         };
@@ -115,8 +109,8 @@ impl<'space> Picker<'space> {
 
     /// The lanes of each round.
     pub(super) async fn rounds(&mut self, budget: &mut StepBudget) -> Vec<Vec<Lane>> {
-        let mut rounds = Vec::with_capacity(ROUND_SHARES.len());
-        for share in ROUND_SHARES {
+        let mut rounds = Vec::with_capacity(LANES.round_shares.len());
+        for share in LANES.round_shares {
             rounds.push(self.round(share, budget).await);
         }
         rounds
@@ -344,7 +338,7 @@ impl GainMasks {
             ((here ^ here >> 1) & self.pairs).count_ones() + ((here ^ ahead) & self.swath).count_ones();
         let new = (here & self.sides).count_ones();
         // At most a few hundred cells: a word has 64.
-        swept as i16 + BORDER_CELLS * (gone as i16 - new as i16)
+        swept as i16 + LANES.border_cells * (gone as i16 - new as i16)
     }
 }
 

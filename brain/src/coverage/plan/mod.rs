@@ -11,6 +11,7 @@ mod bit_grid;
 mod contour;
 mod free_strips;
 mod lanes;
+mod parameters;
 mod settings;
 mod sweep_pattern;
 mod timing;
@@ -27,8 +28,8 @@ use crate::navigation::router::Router;
 use crate::navigation::smoothing::{self, Polyline};
 use contour::{RingFloor, RingStart, ring_path};
 use lanes::Picker;
-pub use settings::PlanSettings;
-pub(crate) use settings::{Departure, reach_cells};
+pub(crate) use settings::reach_cells;
+pub use settings::{Departure, PlanSettings};
 pub(crate) use sweep_pattern::SweepPattern;
 use tour::Tour;
 
@@ -93,26 +94,31 @@ pub fn plan_coverage(
     start: Pose2,
     settings: &PlanSettings,
 ) -> CoveragePlan {
-    plan_pattern(reachable, (Pattern::Lines, swept), start, settings)
+    let departure = Departure {
+        start,
+        settings: *settings,
+    };
+    plan_pattern(reachable, Pattern::Lines, swept, departure)
 }
 
 /// As [`plan_coverage`], with this pattern.
 #[must_use]
 pub fn plan_pattern(
     reachable: &Raster<bool>,
-    (pattern, swept): (Pattern, impl Fn(Cell) -> bool),
-    start: Pose2,
-    settings: &PlanSettings,
+    pattern: Pattern,
+    swept: impl Fn(Cell) -> bool,
+    departure: Departure,
 ) -> CoveragePlan {
-    let from = Departure {
-        start,
-        settings: *settings,
-    };
     let area = Area {
         pattern: |_| Some(SweepPattern::from(pattern)),
         is_swept: swept,
     };
-    at_once(plan_area(reachable, area, from, &mut StepBudget::unlimited()))
+    at_once(plan_area(
+        reachable,
+        area,
+        departure,
+        &mut StepBudget::unlimited(),
+    ))
 }
 
 /// The floor to sweep.

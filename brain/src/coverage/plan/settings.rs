@@ -30,9 +30,11 @@ impl PlanSettings {
 
 /// Where a plan begins, and its parameters.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Departure {
-    pub(crate) start: Pose2,
-    pub(crate) settings: PlanSettings,
+pub struct Departure {
+    /// Pose of the robot.
+    pub start: Pose2,
+    /// Parameters of the plan.
+    pub settings: PlanSettings,
 }
 
 /// Cells on either side of a lane that count as swept.

@@ -7,29 +7,15 @@
 use super::lanes::Lane;
 use super::settings::PlanSettings;
 use super::timing::{EndHeadings, path_s};
+use crate::coverage::plan::parameters::TOUR;
 use crate::mapping::CELL_M;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
-use crate::navigation::router::{CostField, Router};
+use crate::navigation::router::{CostField, PATH_WORK, Router};
 
-/// Number of nearest ends to which a path is searched; the costs of others are guessed.
-const NEAR_ENDS: usize = 20;
-/// Ratio of a guessed path to the straight distance.
-const GUESS: f64 = 1.6;
-/// Turning on a guessed path, radians.
-const GUESS_RAD: f64 = 4.0;
-/// Most rounds of improvement.
-const PASSES_MAX: usize = 30;
-/// Most lanes that are moved together.
-const MOVED_MAX: usize = 3;
-/// Lanes of a later round are driven early where they sweep at least this share of what a lane over fully open floor sweeps
-/// in the same time. This many passes look for more of them.
-const TAKE_ALONG_SHARE: f64 = 0.2;
-const TAKE_ALONG_PASSES: usize = 4;
-/// Work of a guess, of a path search beyond that for its goal, and of comparing two orders of lanes.
+/// Work of a guess, and of comparing two orders of lanes.
 const GUESS_WORK: usize = 5;
-const PATH_WORK: usize = 3_000;
 const COMPARE_WORK: usize = 3;
 
 /// A lane and the end at which it is entered (0 = `from`, 1 = `to`).
@@ -101,7 +87,7 @@ impl<'plan> Tour<'plan> {
     /// Inserts lanes that lie beside the path and are worth the detour. `true` when any was inserted.
     async fn take_along(&self, order: &mut Order<'_>, is_left: &mut [bool], budget: &mut StepBudget) -> bool {
         let mut any = false;
-        for _ in 0..TAKE_ALONG_PASSES {
+        for _ in 0..TOUR.take_along_passes {
             let mut more = false;
             for (lane, is_left) in is_left.iter_mut().enumerate().filter(|(_, is_left)| **is_left) {
                 budget
@@ -134,7 +120,7 @@ impl<'plan> Tour<'plan> {
     fn worth_s(&self, lane: usize) -> f64 {
         let width = (2 * self.router.space().reach + 1) as f64;
         let cells_per_s = width * self.settings.cruise_m_per_s / CELL_M;
-        self.lanes[lane].swept as f64 / (TAKE_ALONG_SHARE * cells_per_s)
+        self.lanes[lane].swept as f64 / (TOUR.take_along_share * cells_per_s)
     }
 
     fn cell(&self, end: End) -> usize {
@@ -177,26 +163,17 @@ impl<'plan> Tour<'plan> {
             costs.first[a] = self.guess_s(self.point(from), points[a]);
             budget.spend(GUESS_WORK * ends).await;
         }
-        let mut at_block: Vec<(usize, usize)> = cells
-            .iter()
-            .enumerate()
-            .map(|(end, cell)| (self.router.block(*cell), end))
-            .collect();
-        at_block.sort_unstable();
-        let mut cost_field = self.router.cost_field();
+        let mut nearest_ends = NearestEnds::new(self.router, &cells);
         let mut is_known = vec![false; ends * ends];
         for a in 0..ends {
             let start_rad = (!self.is_point(a)).then(|| self.out_rad(a));
-            for b in self
-                .near(cells[a], &at_block, (&mut cost_field, &mut *budget))
-                .await
-            {
+            for b in nearest_ends.to(cells[a], budget).await {
                 // Costs are symmetric: the other end may have found this one already.
                 if b / 2 == a / 2 || is_known[b * ends + a] {
                     continue;
                 }
                 is_known[a * ends + b] = true;
-                let path = self.router.path(&cost_field, cells[a], cells[b]);
+                let path = nearest_ends.path(cells[b]);
                 let leave_rad = (!self.is_point(b)).then(|| self.out_rad(b));
                 let seconds = self.path_s(&path, EndHeadings { start_rad, leave_rad });
                 costs.seconds[a * ends + b] = seconds;
@@ -204,8 +181,8 @@ impl<'plan> Tour<'plan> {
                 budget.spend(PATH_WORK).await;
             }
         }
-        for b in self.near(from, &at_block, (&mut cost_field, &mut *budget)).await {
-            let path = self.router.path(&cost_field, from, cells[b]);
+        for b in nearest_ends.to(from, budget).await {
+            let path = nearest_ends.path(cells[b]);
             let ends = EndHeadings {
                 start_rad: Some(direction_rad),
                 leave_rad: Some(self.out_rad(b)),
@@ -217,30 +194,8 @@ impl<'plan> Tour<'plan> {
     }
 
     fn guess_s(&self, from: Point2, to: Point2) -> f32 {
-        let drive_s = GUESS * from.distance_m(to) / self.settings.cruise_m_per_s;
-        (drive_s + GUESS_RAD / self.settings.turn_rad_per_s) as f32
-    }
-
-    /// The ends nearest to a cell; `cost_field` then holds the paths.
-    async fn near(
-        &self,
-        from: usize,
-        at_block: &[(usize, usize)],
-        (cost_field, budget): (&mut CostField, &mut StepBudget),
-    ) -> Vec<usize> {
-        let mut found = Vec::with_capacity(NEAR_ENDS + 8);
-        let enough = |block| {
-            let start = at_block.partition_point(|(other, _)| *other < block);
-            found.extend(
-                at_block[start..]
-                    .iter()
-                    .take_while(|(other, _)| *other == block)
-                    .map(|(_, end)| *end),
-            );
-            found.len() >= NEAR_ENDS
-        };
-        self.router.explore(from, (cost_field, budget), enough).await;
-        found
+        let drive_s = TOUR.guess * from.distance_m(to) / self.settings.cruise_m_per_s;
+        (drive_s + TOUR.guess_turn_rad / self.settings.turn_rad_per_s) as f32
     }
 
     fn path_s(&self, path: &[usize], ends: EndHeadings) -> f32 {
@@ -262,10 +217,8 @@ impl<'plan> Tour<'plan> {
             let (enter, leave) = (self.cell(*end), self.cell(end ^ 1));
             let goal = self.router.block(enter);
             let is_there = |block| block == goal;
-            self.router
-                .explore(at, (&mut cost_field, &mut *budget), is_there)
-                .await;
-            for cell in self.router.path(&cost_field, at, enter) {
+            cost_field.explore(at, is_there, budget).await;
+            for cell in cost_field.path(enter) {
                 push(cell);
             }
             push(leave);
@@ -285,6 +238,52 @@ impl Costs {
             // The tour may end anywhere.
             (_, None) => 0.0,
         }
+    }
+}
+
+/// Finds the ends nearest to a cell, and the paths there.
+struct NearestEnds<'plan> {
+    /// The block of each end and the end, in the order of blocks.
+    at_block: Vec<(usize, End)>,
+    cost_field: CostField<'plan>,
+}
+
+impl<'plan> NearestEnds<'plan> {
+    /// Of ends in these cells.
+    fn new(router: &'plan Router<'plan>, cells: &[usize]) -> Self {
+        let mut at_block: Vec<(usize, End)> = cells
+            .iter()
+            .enumerate()
+            .map(|(end, cell)| (router.block(*cell), end))
+            .collect();
+        at_block.sort_unstable();
+        Self {
+            at_block,
+            cost_field: router.cost_field(),
+        }
+    }
+
+    /// The ends nearest to a cell.
+    async fn to(&mut self, from: usize, budget: &mut StepBudget) -> Vec<End> {
+        let at_block = &self.at_block;
+        let mut found = Vec::with_capacity(TOUR.near_ends + 8);
+        let enough = |block| {
+            let start = at_block.partition_point(|(other, _)| *other < block);
+            found.extend(
+                at_block[start..]
+                    .iter()
+                    .take_while(|(other, _)| *other == block)
+                    .map(|(_, end)| *end),
+            );
+            found.len() >= TOUR.near_ends
+        };
+        self.cost_field.explore(from, enough, budget).await;
+        found
+    }
+
+    /// The path from that cell to a cell.
+    fn path(&self, cell: usize) -> Vec<usize> {
+        self.cost_field.path(cell)
     }
 }
 
@@ -353,7 +352,7 @@ impl Order<'_> {
     }
 
     async fn improve(&mut self, budget: &mut StepBudget) {
-        for _ in 0..PASSES_MAX {
+        for _ in 0..TOUR.passes_max {
             let turned = self.reverse_parts(budget).await;
             let moved = self.move_parts(budget).await;
             if !turned && !moved {
@@ -399,7 +398,7 @@ impl Order<'_> {
     /// Moves a few lanes elsewhere, in either direction, where that saves time (Or-opt).
     async fn move_parts(&mut self, budget: &mut StepBudget) -> bool {
         let mut any = false;
-        for count in 1..=MOVED_MAX {
+        for count in 1..=TOUR.moved_max {
             let mut first = self.fixed;
             while first + count <= self.visits.len() {
                 any |= self.move_part(first, count);

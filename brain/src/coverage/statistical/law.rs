@@ -5,27 +5,10 @@
 //! Conversely, the share that was new gives `A`, over distances so short that wheel odometry is still accurate. The swept
 //! share after a long distance comes from simulated homes.
 
-use crate::model::swept_share::SweptShare;
+use core::ops::Range;
 
-/// Floor that was swept longer ago counts as new, seconds: by then the position from wheel odometry alone is wrong by some
-/// decimetres.
-pub(super) const MEMORY_S: u32 = 1_200;
-/// No estimate before this time of sweeping, seconds: the robot has seen a part of the home only and would take that for
-/// all of it.
-const ESTIMATE_AFTER_S: f64 = MEMORY_S as f64;
-/// Range of the search for the floor area, square metres.
-const FLOOR_M2: (f64, f64) = (1.0, 1_000.0);
-/// Steps of the bisection: they leave less than a square centimetre.
-const HALVINGS: u32 = 24;
-/// The low bound assumes a floor this many times as large, and larger still by this factor of [`MEMORY_S`] over the time
-/// swept. In four simulated homes the real floor was up to 2.5 times the estimate after 20 minutes, 1.4 times after 45, 1.1
-/// times after 120.
-const LARGER: f64 = 1.4;
-const LARGER_EARLY: f64 = 1.5;
-/// Share that is still unswept after the floor's area was swept `n` times: `exp(-PACE n^SLOWING)`. That is slower than for
-/// independent points, since robots rarely leave a room and furniture hides floor. From simulated homes.
-const PACE: f64 = 0.69;
-const SLOWING: f64 = 0.7;
+use super::parameters::LAW;
+use crate::model::swept_share::SweptShare;
 
 /// What was counted on the drive.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,10 +30,13 @@ impl NoveltyCount {
         if self.seen == 0 {
             return None;
         }
-        let known_m = (f64::from(MEMORY_S) * self.driven_m / self.time_s.max(1.0)).min(self.driven_m);
+        let known_m = (f64::from(LAW.memory_s) * self.driven_m / self.time_s.max(1.0)).min(self.driven_m);
         let share = f64::from(self.new) / f64::from(self.seen);
-        let (mut low_m2, mut high_m2) = FLOOR_M2;
-        for _ in 0..HALVINGS {
+        let Range {
+            start: mut low_m2,
+            end: mut high_m2,
+        } = LAW.floor_m2;
+        for _ in 0..LAW.bisections {
             let middle_m2 = 0.5 * (low_m2 + high_m2);
             // More floor means a larger new share.
             if new_share(swath_m / middle_m2, known_m, self.driven_m) < share {
@@ -64,12 +50,12 @@ impl NoveltyCount {
 
     /// Share that is swept; `None` before it can be estimated.
     pub(super) fn share(&self, swath_m: f64) -> Option<SweptShare> {
-        if self.time_s < ESTIMATE_AFTER_S {
+        if self.time_s < LAW.estimate_after_s {
             return None;
         }
         let floor_m2 = self.floor_m2(swath_m)?;
         let times = (self.before_m + self.driven_m) * swath_m / floor_m2;
-        let larger = LARGER * (1.0 + LARGER_EARLY * ESTIMATE_AFTER_S / self.time_s);
+        let larger = LAW.larger * (1.0 + LAW.larger_early * LAW.estimate_after_s / self.time_s);
         Some(SweptShare {
             share: swept(times),
             share_low: swept(times / larger),
@@ -87,12 +73,12 @@ fn new_share(part_per_m: f64, known_m: f64, driven_m: f64) -> f64 {
 
 /// Share of a floor that is swept after this many times its area was.
 fn swept(times: f64) -> f64 {
-    1.0 - libm::exp(-PACE * libm::pow(times, SLOWING))
+    1.0 - libm::exp(-LAW.pace * libm::pow(times, LAW.slowing))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{MEMORY_S, NoveltyCount, swept};
+    use super::{LAW, NoveltyCount, swept};
     use crate::model::random::Random;
 
     const SWATH_M: f64 = 0.25;
@@ -110,7 +96,7 @@ mod tests {
             count.driven_m += STEP_M;
             count.time_s += STEP_M / SPEED_M_PER_S;
             let place = (random.between(0.0, places as f64) as usize).min(places - 1);
-            let is_known = swept_s[place].is_some_and(|at_s| count.time_s - at_s <= f64::from(MEMORY_S));
+            let is_known = swept_s[place].is_some_and(|at_s| count.time_s - at_s <= f64::from(LAW.memory_s));
             count.seen += 1;
             count.new += u32::from(!is_known);
             swept_s[place] = Some(count.time_s);

@@ -7,10 +7,12 @@
 
 mod law;
 mod novelty;
+mod parameters;
 
 use super::Bounce;
 use super::spiral::Spiral;
-use crate::coverage::recent_coverage::{RECENT_S, is_new};
+use crate::coverage::parameters::{RECENT, SPIRAL};
+use crate::coverage::recent_coverage::is_new;
 use crate::mapping::Map;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
@@ -21,26 +23,7 @@ use crate::navigation::{
     ManoeuvreStep, Situation, Task, TaskContext, TaskStatus, Turn, WallFollower, WallStep,
 };
 use novelty::Novelty;
-
-/// The robot leaves a place when no more than this share of its floor is new.
-const LEAVE_SHARE: f64 = 0.35;
-/// A spiral is worth it where more than this share is new.
-const SPIRAL_SHARE: f64 = 0.7;
-/// Shortest and longest drive along the walls to another place, metres.
-const WALL_M: (f64, f64) = (3.0, 20.0);
-/// Points beside the wall that are sampled: distances to the left of the robot's centre, metres.
-const BESIDE_M: [f64; 4] = [0.45, 0.7, 0.95, 1.2];
-/// This many of these points must be new, over this distance without interruption, metres.
-const NEW_MIN: usize = 3;
-const NEW_M: f64 = 1.5;
-/// Turn away from the wall afterwards, radians.
-const AWAY_RAD: (f64, f64) = (0.7, 2.0);
-/// A longer straight without an encounter is on open floor, metres.
-const OPEN_STRAIGHT_M: f64 = 1.8;
-/// Distance between two spirals, metres.
-const SPIRAL_EVERY_M: f64 = 25.0;
-/// The job is done when the low bound of the swept share reaches this.
-const ENOUGH_SHARE: f64 = 0.9;
+use parameters::STATISTICAL;
 
 /// The strategy.
 #[derive(Clone, Debug)]
@@ -85,7 +68,8 @@ impl WallDrive {
     }
 
     fn is_over(self) -> bool {
-        (self.driven_m > WALL_M.0 && self.new_m > NEW_M) || self.driven_m > WALL_M.1
+        (self.driven_m > STATISTICAL.wall_m.start && self.new_m > STATISTICAL.beside_new_m)
+            || self.driven_m > STATISTICAL.wall_m.end
     }
 }
 
@@ -108,7 +92,7 @@ impl Task for Statistical {
         self.begin(situation, context);
         self.novelty.follow(situation);
         let estimate = self.swept_share(situation.map).unwrap_or_default();
-        if estimate.share_low >= ENOUGH_SHARE {
+        if estimate.share_low >= STATISTICAL.enough_share {
             context.decide(DecisionKind::Covered, Reason::ByStatistics, estimate.share);
             return TaskStatus::Finished(Reason::ByStatistics);
         }
@@ -173,14 +157,15 @@ impl Statistical {
         if self.bounce.is_evading() {
             return self.bounce.step(situation, context);
         }
-        if share < LEAVE_SHARE && !situation.is_free() {
+        if share < STATISTICAL.leave_share && !situation.is_free() {
             context.decide(DecisionKind::FollowWall, Reason::SweptLately, share);
             self.wall = WallFollower::default();
             self.mode = StatisticalMode::Wall(WallDrive::default());
             return self.follow_wall(situation, context);
         }
-        let is_open = self.bounce.straight_m() > OPEN_STRAIGHT_M && self.since_spiral_m > SPIRAL_EVERY_M;
-        if is_open && share > SPIRAL_SHARE {
+        let is_open = self.bounce.straight_m() > SPIRAL.open_straight_m
+            && self.since_spiral_m > STATISTICAL.spiral_every_m;
+        if is_open && share > STATISTICAL.spiral_share {
             context.decide(DecisionKind::Spiral, Reason::OpenFloor, self.bounce.straight_m());
             self.mode = StatisticalMode::Spiral(Spiral::default());
             return self.spiral(situation, context);
@@ -191,7 +176,7 @@ impl Statistical {
     fn follow_wall(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let is_over = matches!(self.mode, StatisticalMode::Wall(wall_drive) if wall_drive.is_over());
         if is_over && situation.is_free() && !self.wall.is_evading() {
-            let turn_rad = context.random.between(AWAY_RAD.0, AWAY_RAD.1);
+            let turn_rad = context.random.within(&STATISTICAL.away_rad);
             context.decide(DecisionKind::LeaveWall, Reason::NewFloor, turn_rad);
             self.novelty.restart();
             self.mode = StatisticalMode::Away(Turn::by(turn_rad));
@@ -212,7 +197,7 @@ impl Statistical {
 fn is_new_beside(situation: &Situation<'_>) -> bool {
     let is_new_at = |y_m: &&f64| {
         let at = situation.pose.transform(Point2 { x_m: 0.0, y_m: **y_m });
-        is_new(situation.map, at, RECENT_S)
+        is_new(situation.map, at, RECENT.memory_s)
     };
-    BESIDE_M.iter().filter(is_new_at).count() >= NEW_MIN
+    STATISTICAL.beside_m.iter().filter(is_new_at).count() >= STATISTICAL.beside_new_min
 }

@@ -1,18 +1,11 @@
 //! The share of new floor on the robot's drive.
 
-use super::law::{MEMORY_S, NoveltyCount};
-use crate::coverage::recent_coverage::{RECENT_S, is_new};
+use super::law::NoveltyCount;
+use super::parameters::{LAW, NOVELTY};
+use crate::coverage::parameters::RECENT;
+use crate::coverage::recent_coverage::is_new;
 use crate::model::geometry::Point2;
 use crate::navigation::Situation;
-
-/// Distance over which the share is averaged, metres.
-const WINDOW_M: f64 = 10.0;
-/// Distance between samples, metres.
-const STEP_M: f64 = 0.05;
-/// Distance of the samples ahead of the robot's centre, metres: the brush has just swept what is nearer.
-const AHEAD_M: f64 = 0.15;
-/// Sample points across the swath, as shares of its width.
-const ACROSS: [f64; 4] = [-0.4, -0.15, 0.15, 0.4];
 
 /// A running average, and the count of the whole job.
 #[derive(Clone, Debug)]
@@ -55,27 +48,28 @@ impl Novelty {
         });
         count.time_s += situation.advance.time_s;
         self.since_m += situation.advance.distance_m.max(0.0);
-        if self.since_m < STEP_M {
+        if self.since_m < NOVELTY.step_m {
             return;
         }
         let new = |within_s| {
-            ACROSS
+            NOVELTY
+                .across
                 .iter()
                 .filter(|across| is_new_at(**across, within_s, situation))
                 .count()
         };
-        let weight = (self.since_m / WINDOW_M).min(1.0);
-        self.share += weight * (new(RECENT_S) as f64 / ACROSS.len() as f64 - self.share);
+        let weight = (self.since_m / NOVELTY.window_m).min(1.0);
+        self.share += weight * (new(RECENT.memory_s) as f64 / NOVELTY.across.len() as f64 - self.share);
         count.driven_m += core::mem::take(&mut self.since_m);
-        count.seen += ACROSS.len() as u32;
-        count.new += new(MEMORY_S) as u32;
+        count.seen += NOVELTY.across.len() as u32;
+        count.new += new(LAW.memory_s) as u32;
     }
 }
 
 /// Whether the floor ahead of a point across the swath is new.
 fn is_new_at(across: f64, within_s: u32, situation: &Situation<'_>) -> bool {
     let at = situation.pose.transform(Point2 {
-        x_m: AHEAD_M,
+        x_m: NOVELTY.ahead_m,
         y_m: across * situation.config.body.swath_m,
     });
     is_new(situation.map, at, within_s)

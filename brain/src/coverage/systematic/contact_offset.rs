@@ -1,13 +1,9 @@
 //! After a touch on one side the robot keeps a little to the other side: its pose was wrong there, and it would touch the
 //! same thing again on the same path.
 
+use super::parameters::STANDOFF;
 use crate::model::advance::Advance;
 use crate::model::reason::Reason;
-
-/// Offset from the path, metres.
-const OFFSET_M: f64 = 0.015;
-/// Distance for which the offset holds, metres.
-const KEPT_FOR_M: f64 = 0.5;
 
 /// The current offset.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,13 +16,13 @@ impl ContactOffset {
     /// Records a touch.
     pub(super) fn touched(&mut self, reason: Reason) {
         let offset_m = match reason {
-            Reason::BumpLeft => -OFFSET_M,
-            Reason::BumpRight => OFFSET_M,
+            Reason::BumpLeft => -STANDOFF.contact_offset_m,
+            Reason::BumpRight => STANDOFF.contact_offset_m,
             _ => 0.0,
         };
         *self = Self {
             offset_m,
-            left_m: KEPT_FOR_M,
+            left_m: STANDOFF.contact_offset_for_m,
         };
     }
 
@@ -39,7 +35,7 @@ impl ContactOffset {
 
 #[cfg(test)]
 mod tests {
-    use super::{ContactOffset, KEPT_FOR_M, OFFSET_M};
+    use super::{ContactOffset, STANDOFF};
     use crate::model::advance::Advance;
     use crate::model::reason::Reason;
 
@@ -57,13 +53,19 @@ mod tests {
         contact_offset.touched(Reason::BumpLeft);
         assert_eq!(
             contact_offset.offset_m(ahead(-0.03)),
-            -OFFSET_M,
+            -STANDOFF.contact_offset_m,
             "backing off does not count"
         );
-        assert_eq!(contact_offset.offset_m(ahead(0.9 * KEPT_FOR_M)), -OFFSET_M);
-        assert_eq!(contact_offset.offset_m(ahead(0.2 * KEPT_FOR_M)), 0.0);
+        assert_eq!(
+            contact_offset.offset_m(ahead(0.9 * STANDOFF.contact_offset_for_m)),
+            -STANDOFF.contact_offset_m
+        );
+        assert_eq!(
+            contact_offset.offset_m(ahead(0.2 * STANDOFF.contact_offset_for_m)),
+            0.0
+        );
         contact_offset.touched(Reason::BumpRight);
-        assert_eq!(contact_offset.offset_m(ahead(0.0)), OFFSET_M);
+        assert_eq!(contact_offset.offset_m(ahead(0.0)), STANDOFF.contact_offset_m);
         contact_offset.touched(Reason::BumpFront);
         assert_eq!(contact_offset.offset_m(ahead(0.0)), 0.0);
     }

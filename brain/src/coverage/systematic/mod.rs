@@ -16,6 +16,7 @@ mod contact_offset;
 mod frontier;
 mod new_obstacles;
 mod outline;
+mod parameters;
 mod passed;
 mod plan_evaluation;
 mod plan_progress;
@@ -26,9 +27,9 @@ mod squeeze;
 mod standoff;
 
 use super::escape_bounce::EscapeBounce;
-use super::margins::CLEARANCE_M;
 use super::perimeter::LapStep;
 use super::plan::{Departure, reach_cells};
+use crate::coverage::parameters::MARGINS;
 use crate::mapping::{CellKnowledge, Map, Raster};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
@@ -38,6 +39,7 @@ use crate::model::reason::Reason;
 use crate::model::swept_share::SweptShare;
 use crate::navigation::caution::{Ahead, ahead, caution};
 use crate::navigation::lane_frame::LaneFrame;
+use crate::navigation::parameters::EVASION;
 use crate::navigation::{
     Evasion, FollowStep, Obstructions, PathFollower, Situation, Task, TaskContext, TaskStatus, encounter,
 };
@@ -45,6 +47,7 @@ use assignment::{Assignment, Next};
 use contact_offset::ContactOffset;
 use frontier::margin_cells;
 use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
+use parameters::{SQUEEZE, SYSTEMATIC};
 use passed::{CellWindow, Passed};
 use plan_evaluation::MadePlan;
 use plan_progress::{PlanInputs, PlanProgress, settings};
@@ -52,17 +55,6 @@ use relocalization::{RelocalizationLap, RelocalizationStep};
 use share::{PassedFloor, Shares};
 use squeeze::Squeeze;
 use standoff::Standoff;
-
-/// Distance to back off after a contact: far enough to turn.
-const CONTACT_BACK_M: f64 = 0.03;
-/// Distance to back off from an obstacle seen ahead.
-const SEEN_BACK_M: f64 = 0.02;
-/// Additional back-off for each plan in a row without effect.
-const MORE_BACK_M: f64 = 0.02;
-/// Distance to back off at a cliff.
-const CLIFF_BACK_M: f64 = 0.08;
-/// Turn away from an unknown cliff, radians.
-const AWAY_RAD: f64 = 1.2;
 
 /// The strategy.
 #[derive(Debug, Default)]
@@ -255,12 +247,12 @@ impl Systematic {
         self.contact_offset.touched(reason);
         self.follower = None;
         if situation.at_cliff {
-            self.evasion = Some(Evasion::from_cliff(CLIFF_BACK_M, self.away_rad(reason)));
+            self.evasion = Some(Evasion::from_cliff(EVASION.cliff_back_m, self.away_rad(reason)));
             // At a cliff the plan must begin at the robot's actual position.
             self.plan_progress = None;
         } else {
             self.standoff.touched(ahead(situation));
-            self.back_off(CONTACT_BACK_M, situation);
+            self.back_off(SYSTEMATIC.contact_back_m, situation);
         }
         TaskStatus::Go(Motion::Halt)
     }
@@ -287,14 +279,14 @@ impl Systematic {
         context.decide(DecisionKind::LeaveWay, Reason::WallAhead, seen.clear_m);
         self.obstructions.add_seen(seen.at, situation);
         self.follower = None;
-        self.back_off(SEEN_BACK_M, situation);
+        self.back_off(SYSTEMATIC.seen_back_m, situation);
         TaskStatus::Go(Motion::Halt)
     }
 
     /// Backs off along its path, farther after plans without effect. The next plan is made meanwhile, from where the robot
     /// will stand.
     fn back_off(&mut self, least_m: f64, situation: &Situation<'_>) {
-        let back_m = least_m + MORE_BACK_M * f64::from(self.failed_plans);
+        let back_m = least_m + SYSTEMATIC.more_back_m * f64::from(self.failed_plans);
         self.evasion = Some(Evasion::from_contact(back_m, 0.0));
         self.plan_progress = Some(PlanProgress::Due(situation.pose.after_arc(-back_m, 0.0)));
     }
@@ -304,8 +296,8 @@ impl Systematic {
     fn away_rad(&self, reason: Reason) -> f64 {
         match (&self.outline, reason) {
             (Some(Outline::Known), _) => 0.0,
-            (_, Reason::CliffLeft) => -AWAY_RAD,
-            _ => AWAY_RAD,
+            (_, Reason::CliffLeft) => -SYSTEMATIC.cliff_turn_rad,
+            _ => SYSTEMATIC.cliff_turn_rad,
         }
     }
 
@@ -358,7 +350,7 @@ impl Systematic {
         }
         let squeezed_m = self.squeeze.radius_m(situation.config.body);
         let beyond_m = beyond_m.map(|beyond_m| match squeezed_m {
-            Some(_) => beyond_m.max(squeeze::BEYOND_M),
+            Some(_) => beyond_m.max(SQUEEZE.margin_m),
             None => beyond_m,
         });
         let window = CellWindow::around(knowledge, beyond_m.map_or(0, margin_cells));
@@ -375,7 +367,7 @@ impl Systematic {
         PlanProgress::begin(PlanInputs {
             knowledge: knowledge.clone(),
             beyond_m,
-            radius_m: situation.config.body.radius_m + CLEARANCE_M,
+            radius_m: situation.config.body.radius_m + MARGINS.clearance_m,
             squeezed_m,
             began: squeezed_m.filter(|_| self.misses_a_part).and(self.began.clone()),
             blocked: self.obstructions.points(situation.observation.time_us),

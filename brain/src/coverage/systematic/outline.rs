@@ -1,16 +1,9 @@
 //! What the robot knows of the outline of its home when it plans.
 
+use super::parameters::OUTLINE;
 use crate::coverage::perimeter::Perimeter;
 use crate::mapping::{CELL_M, CellKnowledge};
 use crate::navigation::Situation;
-
-/// If less than this share of the known free floor is reachable after the lap, the map wrongly encloses the robot.
-const SHUT_IN_SHARE: f64 = 0.4;
-/// Width of the optimistic margin, metres: a little, and the size of a room.
-const NEAR_M: f64 = 0.6;
-const FAR_M: f64 = 2.5;
-/// A robot without proximity sensors plans on a map that shows this much free floor, square metres.
-const KNOWN_M2: f64 = 4.0;
 
 /// What is known of the home.
 #[derive(Debug)]
@@ -35,23 +28,23 @@ pub(super) struct OptimisticMargin {
 impl OptimisticMargin {
     /// After a closed lap along the walls.
     pub(super) const CLOSED: Self = Self {
-        beyond_m: NEAR_M,
-        at_last_m: NEAR_M,
+        beyond_m: OUTLINE.margin_near_m,
+        at_last_m: OUTLINE.margin_near_m,
     };
     /// After a lap that ended because it showed nothing new.
     pub(super) const KNOWN: Self = Self {
-        beyond_m: NEAR_M,
-        at_last_m: FAR_M,
+        beyond_m: OUTLINE.margin_near_m,
+        at_last_m: OUTLINE.margin_far_m,
     };
     /// After a lap that ended for another reason.
     pub(super) const OPEN: Self = Self {
-        beyond_m: FAR_M,
-        at_last_m: FAR_M,
+        beyond_m: OUTLINE.margin_far_m,
+        at_last_m: OUTLINE.margin_far_m,
     };
 
     /// Whether the margin reaches as far as a room: where a wall was missed it includes floor outside of the home.
     pub(super) fn is_far(self) -> bool {
-        self.beyond_m > NEAR_M
+        self.beyond_m > OUTLINE.margin_near_m
     }
 
     /// Widens the margin when no other floor is left. `false` when it was as wide already.
@@ -64,7 +57,7 @@ impl OptimisticMargin {
 
 /// Whether the reachable floor is next to nothing of the known free floor.
 pub(super) fn shuts_in(reachable_m2: f64, free_m2: f64) -> bool {
-    reachable_m2 < SHUT_IN_SHARE * free_m2
+    reachable_m2 < OUTLINE.shut_in_share * free_m2
 }
 
 /// Whether the map was good enough to plan on when the job began.
@@ -75,7 +68,7 @@ pub(super) fn knows_home(situation: &Situation<'_>) -> bool {
         .iter()
         .filter(|kind| **kind == CellKnowledge::Free)
         .count();
-    let shows_home = free as f64 * CELL_M * CELL_M > KNOWN_M2;
+    let shows_home = free as f64 * CELL_M * CELL_M > OUTLINE.known_m2;
     situation.is_tracked || (is_blind && shows_home)
 }
 

@@ -1,30 +1,13 @@
 //! What to do with a finished plan: follow it, end the job, or treat the floor as cut off.
 
-use super::{Outline, Systematic, shuts_in, squeeze};
+use super::parameters::{EVALUATION, SQUEEZE};
+use super::{Outline, Systematic, shuts_in};
 use crate::coverage::escape_bounce::EscapeBounce;
 use crate::coverage::plan::CoveragePlan;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{PathFollower, Situation, Task, TaskContext, TaskStatus};
-
-/// A plan that swept less than this had no effect, square metres.
-const NOTHING_M2: f64 = 0.02;
-/// Plans in a row without effect until the robot bounces out of the place.
-const FAILED_PLANS_MAX: u32 = 4;
-/// Times that obstructions are forgotten for another attempt before `FRESH_WON_M2` were swept.
-const FRESH_STARTS_MAX: u32 = 2;
-/// Times that the robot bounces out of a place before `FRESH_WON_M2` were swept.
-const ESCAPES_MAX: u32 = 6;
-/// The same while a part of the home is cut off: giving up would leave all of that.
-const ESCAPES_CUT_OFF_MAX: u32 = 18;
-/// Newly swept floor that justifies a fresh start, square metres.
-const FRESH_WON_M2: f64 = 0.5;
-/// Below this share of the floor that was reachable at any time, something is cut off. A map drawn with a pose error of
-/// centimetres loses only a little floor along the walls.
-const WHOLE_SHARE: f64 = 0.85;
-/// Unswept floor that is worth waiting for people to leave, as a share of the floor that was reachable at any time.
-const REST_SHARE: f64 = 0.05;
 
 /// A plan, and how it was made.
 pub(super) struct MadePlan {
@@ -54,7 +37,7 @@ impl Systematic {
                 Some(self.end(&ended, situation, context))
             };
         }
-        let has_failed = (self.open_before_m2 - plan.open_m2).abs() < NOTHING_M2;
+        let has_failed = (self.open_before_m2 - plan.open_m2).abs() < EVALUATION.nothing_m2;
         self.failed_plans = if has_failed { self.failed_plans + 1 } else { 0 };
         self.open_before_m2 = plan.open_m2;
         let is_elsewhere = self.shares.is_elsewhere(plan);
@@ -64,9 +47,9 @@ impl Systematic {
             self.floor_m2 = self.floor_m2.max(plan.floor_m2);
             self.take_share(plan, situation);
         }
-        self.is_cut_off = is_elsewhere || plan.floor_m2 < WHOLE_SHARE * self.floor_m2;
-        self.misses_a_part = plan.floor_m2 < (1.0 - REST_SHARE) * self.floor_m2;
-        if plan.passed_m2() > self.passed_at_start_m2 + FRESH_WON_M2 {
+        self.is_cut_off = is_elsewhere || plan.floor_m2 < EVALUATION.whole_share * self.floor_m2;
+        self.misses_a_part = plan.floor_m2 < (1.0 - EVALUATION.rest_share) * self.floor_m2;
+        if plan.passed_m2() > self.passed_at_start_m2 + EVALUATION.fresh_won_m2 {
             (self.fresh_starts, self.escapes) = (0, 0);
             self.passed_at_start_m2 = plan.passed_m2();
             self.squeeze.reset_attempts();
@@ -85,7 +68,7 @@ impl Systematic {
         if plan.lanes == 0 {
             return Some(self.end(&made, situation, context));
         }
-        if self.failed_plans > FAILED_PLANS_MAX {
+        if self.failed_plans > EVALUATION.failed_plans_max {
             return Some(self.bounce_out(situation, context));
         }
         self.follower = Some(PathFollower::new(made.plan.segments));
@@ -96,7 +79,7 @@ impl Systematic {
     fn end(&mut self, made: &MadePlan, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let plan = &made.plan;
         self.is_cut_off = self.is_cut_off || self.is_shut_in(plan, situation);
-        if made.is_blocked && self.fresh_starts < FRESH_STARTS_MAX {
+        if made.is_blocked && self.fresh_starts < EVALUATION.fresh_starts_max {
             return self.start_fresh();
         }
         if self.widens_margin() {
@@ -105,11 +88,11 @@ impl Systematic {
         if self.assignment.is_whole_home() && self.squeeze.begin(plan) {
             return TaskStatus::Go(Motion::Halt);
         }
-        if self.is_cut_off && self.escapes < ESCAPES_CUT_OFF_MAX {
+        if self.is_cut_off && self.escapes < EVALUATION.escapes_cut_off_max {
             return self.bounce_out(situation, context);
         }
         let share = self.swept_share(situation.map).map_or(0.0, |swept| swept.share);
-        let is_missed = self.is_cut_off && share < WHOLE_SHARE;
+        let is_missed = self.is_cut_off && share < EVALUATION.whole_share;
         if self.turns_to_next(is_missed, situation.map, context) {
             return TaskStatus::Go(Motion::Halt);
         }
@@ -125,13 +108,15 @@ impl Systematic {
     /// Follows a plan through a gap if it is worth it; `false` when the robot gives up the gap.
     fn follows_squeeze(&mut self, plan: CoveragePlan, context: &mut TaskContext) -> bool {
         self.squeeze.record(plan.open_m2);
-        if plan.lanes > 0 && plan.open_m2 > squeeze::WORTH_M2 {
+        if plan.lanes > 0 && plan.open_m2 > SQUEEZE.worth_m2 {
             context.decide(DecisionKind::Squeeze, Reason::BoxedIn, plan.open_m2);
             self.follower = Some(PathFollower::new(plan.segments));
             return true;
         }
         self.squeeze.end_checks();
-        if matches!(self.outline, Some(Outline::Known)) && plan.open_m2 < REST_SHARE * self.floor_m2 {
+        if matches!(self.outline, Some(Outline::Known))
+            && plan.open_m2 < EVALUATION.rest_share * self.floor_m2
+        {
             // The part that is cut off now was swept before.
             self.is_cut_off = false;
         }
@@ -148,7 +133,7 @@ impl Systematic {
             _ => plan.floor_m2,
         };
         let most_m2 = self.shares.know_floor(known_m2);
-        if plan.floor_m2 < WHOLE_SHARE * most_m2 && self.shares.has_plan() {
+        if plan.floor_m2 < EVALUATION.whole_share * most_m2 && self.shares.has_plan() {
             return self.shares.pass_over();
         }
         let floor_m2 = match &self.outline {
@@ -191,9 +176,9 @@ impl Systematic {
         self.failed_plans = 0;
         self.escapes += 1;
         let most = if self.is_cut_off {
-            ESCAPES_CUT_OFF_MAX
+            EVALUATION.escapes_cut_off_max
         } else {
-            ESCAPES_MAX
+            EVALUATION.escapes_max
         };
         if self.escapes > most {
             return TaskStatus::Finished(Reason::RestOutOfReach);
@@ -202,7 +187,7 @@ impl Systematic {
         // In a narrow place obstructions block the path out on the map more than in reality.
         self.obstructions.clear();
         if self.is_cut_off {
-            self.squeeze.allow_one(REST_SHARE * self.floor_m2);
+            self.squeeze.allow_one(EVALUATION.rest_share * self.floor_m2);
         }
         self.escape_bounce = Some(EscapeBounce::from(situation.pose.position()));
         TaskStatus::Go(Motion::Halt)

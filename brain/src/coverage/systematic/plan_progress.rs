@@ -4,8 +4,9 @@ use core::task::Poll;
 
 use super::frontier::optimistic;
 use super::new_obstacles::without_new_obstacles;
+use super::parameters::SYSTEMATIC;
 use super::squeeze;
-use crate::coverage::margins::SIGMA_MIN_M;
+use crate::coverage::parameters::MARGINS;
 use crate::coverage::plan::{Area, CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
 use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::{CellKnowledge, Raster};
@@ -13,14 +14,6 @@ use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{Gradual, StepBudget};
 use crate::navigation::lane_frame::LaneFrame;
 use crate::navigation::{Inflation, Situation, reachable};
-
-/// A plan is discarded farther than this from its start, metres: back-offs get longer than expected.
-const OFF_START_M: f64 = 0.06;
-
-/// More overlap does not pay: errors of neighbouring lanes are correlated, and leftovers are cheaper. With the full
-/// deviation three known homes were swept to 0.98 instead of 0.97, in 2.7 to 3.1 times the time
-/// (`measurements/systematic-known.md`).
-const SIGMA_MAX_M: f64 = 0.015;
 
 /// All inputs of a plan.
 #[derive(Debug)]
@@ -78,7 +71,7 @@ pub(super) struct PlanRequest {
 impl PlanRequest {
     /// Whether a robot at this position can follow the plan.
     pub(super) fn begins_at(&self, place: Point2) -> bool {
-        self.start.position().distance_m(place) < OFF_START_M
+        self.start.position().distance_m(place) < SYSTEMATIC.off_start_m
     }
 }
 
@@ -117,7 +110,10 @@ impl PlanProgress {
 pub(super) fn settings(situation: &Situation<'_>) -> PlanSettings {
     PlanSettings {
         swath_m: situation.config.body.swath_m,
-        sigma_m: situation.estimate.sigma_m.clamp(SIGMA_MIN_M, SIGMA_MAX_M),
+        sigma_m: situation
+            .estimate
+            .sigma_m
+            .clamp(MARGINS.sigma_min_m, MARGINS.sigma_max_m),
         cruise_m_per_s: situation.config.speeds.cruise_m_per_s,
         turn_rad_per_s: situation.config.speeds.turn_max_rad_per_s,
         takes_along: situation.is_tracked,

@@ -6,25 +6,10 @@
 
 use std::collections::VecDeque;
 
+use super::parameters::RECENT_TRACK;
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::pose_estimate::PoseEstimate;
-
-/// Distance between two track points, metres.
-const STEP_M: f64 = 0.0125;
-/// Points kept; the oldest are settled.
-const KEPT_MAX: usize = 1_600;
-/// Corrections are distributed once they add up to this, metres.
-const DISTRIBUTED_FROM_M: f64 = 0.003;
-/// A smaller share of a correction is dropped.
-const SHARE_MIN: f64 = 0.05;
-/// Distance over which a correction fades, metres, however uncertain the pose: errors of the wheel calibration are
-/// corrected all the time and do not reach far back.
-const FADE_M: f64 = 15.0;
-/// Smaller errors are ignored, metres: lanes overlap by this much.
-const TOLERANCE_M: f64 = 0.02;
-/// A larger jump is no pose error: the robot was carried, metres.
-const ELSEWHERE_M: f64 = 0.5;
 
 /// A point of the track.
 #[derive(Clone, Copy, Debug)]
@@ -55,7 +40,7 @@ fn beyond_tolerance(error: Point2) -> Point2 {
     plus(
         Point2::ORIGIN,
         error,
-        1.0 - TOLERANCE_M / error_m.max(TOLERANCE_M),
+        1.0 - RECENT_TRACK.tolerance_m / error_m.max(RECENT_TRACK.tolerance_m),
     )
 }
 
@@ -83,7 +68,7 @@ impl RecentTrack {
         let mut settled = Vec::new();
         if let (Some(last), Some(advance)) = (self.last, advance) {
             let expected = last.after_arc(advance.distance_m, advance.turn_rad).position();
-            if estimate.lost || expected.distance_m(at) > ELSEWHERE_M {
+            if estimate.lost || expected.distance_m(at) > RECENT_TRACK.carried_m {
                 self.due = Point2::ORIGIN;
                 settled.extend(self.points.drain(..));
             } else {
@@ -95,7 +80,7 @@ impl RecentTrack {
         if self
             .points
             .back()
-            .is_none_or(|last| last.estimated.distance_m(at) >= STEP_M)
+            .is_none_or(|last| last.estimated.distance_m(at) >= RECENT_TRACK.step_m)
         {
             self.points.push_back(TrackPoint {
                 estimated: at,
@@ -104,7 +89,7 @@ impl RecentTrack {
                 error: Point2::ORIGIN,
             });
         }
-        while self.points.len() > KEPT_MAX {
+        while self.points.len() > RECENT_TRACK.kept_max {
             settled.extend(self.points.pop_front());
         }
         settled
@@ -129,7 +114,7 @@ impl RecentTrack {
 
     /// Distributes the pending correction back along the track, in proportion to the uncertainty of each point.
     fn distribute_correction(&mut self) {
-        if self.due.distance_m(Point2::ORIGIN) < DISTRIBUTED_FROM_M {
+        if self.due.distance_m(Point2::ORIGIN) < RECENT_TRACK.distributed_from_m {
             return;
         }
         let due = core::mem::replace(&mut self.due, Point2::ORIGIN);
@@ -138,19 +123,19 @@ impl RecentTrack {
             if later_m > point.sigma_m {
                 share *= point.sigma_m / later_m;
             }
-            if share < SHARE_MIN {
+            if share < RECENT_TRACK.share_min {
                 return;
             }
             later_m = point.sigma_m;
             point.error = plus(point.error, due, share);
-            share *= 1.0 - STEP_M / FADE_M;
+            share *= 1.0 - RECENT_TRACK.step_m / RECENT_TRACK.fade_m;
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{RecentTrack, TOLERANCE_M, TrackPoint};
+    use super::{RECENT_TRACK, RecentTrack, TrackPoint};
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
     use crate::model::pose_estimate::PoseEstimate;
@@ -200,7 +185,10 @@ mod tests {
         let points: Vec<Point2> = track.points().map(swept_from).collect();
         let (first, middle, last) = (points[0], points[50], points[100]);
         assert_eq!(first, Point2::ORIGIN);
-        assert!((last.y_m - (0.1 - TOLERANCE_M)).abs() < 1e-9, "{last:?}");
+        assert!(
+            (last.y_m - (0.1 - RECENT_TRACK.tolerance_m)).abs() < 1e-9,
+            "{last:?}"
+        );
         assert!((0.01..0.05).contains(&middle.y_m), "{middle:?}");
     }
 
@@ -211,12 +199,15 @@ mod tests {
         track.skip_beside(Point2 { x_m: 0.0, y_m: 0.02 });
         track.follow(&estimated(0.0, 0.1, 0.01), ahead(0.0));
         let given_up = track.points().next().unwrap().swept_from().nth(1).unwrap();
-        assert!((given_up.y_m - (0.12 - TOLERANCE_M)).abs() < 1e-9, "{given_up:?}");
+        assert!(
+            (given_up.y_m - (0.12 - RECENT_TRACK.tolerance_m)).abs() < 1e-9,
+            "{given_up:?}"
+        );
     }
 
     #[test]
     fn small_corrections_move_nothing() {
-        let track = corrected(TOLERANCE_M);
+        let track = corrected(RECENT_TRACK.tolerance_m);
         assert!(
             track
                 .points()

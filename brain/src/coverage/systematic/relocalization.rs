@@ -3,14 +3,11 @@
 //! Lanes on a wrong pose lead nowhere, and what they sweep is recorded in the wrong place. Walls give the particle filter
 //! most information, and following them leads through all rooms.
 
+use super::parameters::SYSTEMATIC;
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext, TaskStatus};
-
-/// Longest drive along walls before the robot goes on with its pose estimate, metres: once around a large home, so the map
-/// may be of another one.
-const SEEK_MAX_M: f64 = 120.0;
 
 /// The drive along walls.
 #[derive(Debug, Default)]
@@ -65,10 +62,14 @@ impl RelocalizationLap {
 
     fn follow(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> RelocalizationStep {
         let lap = self.lap.get_or_insert_default();
-        if lap.driven_m() > SEEK_MAX_M && !lap.is_evading() && situation.is_free() {
+        if lap.driven_m() > SYSTEMATIC.relocalization_max_m && !lap.is_evading() && situation.is_free() {
             self.lap = None;
             self.has_given_up = true;
-            context.decide(DecisionKind::EndLap, Reason::LongLap, SEEK_MAX_M);
+            context.decide(
+                DecisionKind::EndLap,
+                Reason::LongLap,
+                SYSTEMATIC.relocalization_max_m,
+            );
             return RelocalizationStep::Over;
         }
         RelocalizationStep::Driving(match lap.step(situation, context) {

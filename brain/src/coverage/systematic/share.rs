@@ -3,15 +3,12 @@
 //! The newest plan gives the floor area and the swept part; what was swept since is added. In the low bound a strip counts
 //! less, the less certain the pose was there.
 
+use super::parameters::EVALUATION;
 use crate::coverage::estimate::kept_low;
 use crate::coverage::plan::{CoveragePlan, PlanSettings};
 use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::{CELL_M, Map, Raster};
 use crate::model::swept_share::SweptShare;
-
-/// A plan that finds less than this share of the counted floor belongs to a robot that is cut off from the rest, or outside
-/// of the walls on its map.
-const ELSEWHERE_SHARE: f64 = 0.5;
 
 /// Floor that was passed, square metres, and its low bound.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -109,7 +106,7 @@ impl Shares {
     /// Whether this finished plan does not know most of what was passed.
     pub(super) fn is_elsewhere(&self, plan: &CoveragePlan) -> bool {
         let begun = self.next.filter(|_| self.has_plan());
-        begun.is_some_and(|tally| plan.passed_m2() < ELSEWHERE_SHARE * tally.counted.m2)
+        begun.is_some_and(|tally| plan.passed_m2() < EVALUATION.elsewhere_share * tally.counted.m2)
     }
 
     /// Whether any plan has given figures yet.

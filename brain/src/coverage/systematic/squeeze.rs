@@ -4,21 +4,12 @@
 //! Where the robot has nothing left to plan, it checks once more what a body without any gap to known obstacles could
 //! reach. If that is much more floor, it drives there, and its contacts decide.
 
+use super::parameters::SQUEEZE;
 use crate::coverage::plan::CoveragePlan;
 use crate::mapping::{Cell, Raster};
 use crate::model::config::Body;
 use crate::model::gradual::StepBudget;
 
-/// Floor that must become reachable, square metres.
-pub(super) const WORTH_M2: f64 = 0.4;
-/// Width of the optimistic margin, metres.
-pub(super) const BEYOND_M: f64 = 1.2;
-/// Reduction of the planned radius, metres: half a cell, since cells count as a whole.
-const LESS_M: f64 = 0.0125;
-/// Attempts until some floor is gained.
-const TRIES_MAX: u32 = 3;
-/// Floor nearer than this to the reachable floor is not new, cells: a slimmer body gets nearer to all walls.
-const NEAR: i32 = 3;
 /// Work to copy a cell with its neighbours.
 const GROW_WORK: usize = 20;
 
@@ -35,7 +26,7 @@ pub(super) struct Squeeze {
 impl Squeeze {
     /// Begins a check after a plan that left nothing. `false` when there were enough.
     pub(super) fn begin(&mut self, ended: &CoveragePlan) -> bool {
-        if self.tries >= TRIES_MAX {
+        if self.tries >= SQUEEZE.tries_max {
             return false;
         }
         self.tries += 1;
@@ -45,7 +36,7 @@ impl Squeeze {
 
     /// The radius to plan with during a check.
     pub(super) fn radius_m(&self, body: Body) -> Option<f64> {
-        self.ended.as_ref().map(|_| body.radius_m - LESS_M)
+        self.ended.as_ref().map(|_| body.radius_m - SQUEEZE.slimmer_m)
     }
 
     /// Ends a check: gives the plan that left nothing.
@@ -62,13 +53,13 @@ impl Squeeze {
     /// left meanwhile.
     pub(super) fn allow_one(&mut self, worth_m2: f64) {
         if self.seen_m2.is_none_or(|seen_m2| seen_m2 >= worth_m2) {
-            self.tries = self.tries.min(TRIES_MAX - 1);
+            self.tries = self.tries.min(SQUEEZE.tries_max - 1);
         }
     }
 
     /// No more checks until [`Self::reset_attempts`].
     pub(super) fn end_checks(&mut self) {
-        self.tries = TRIES_MAX;
+        self.tries = SQUEEZE.tries_max;
     }
 
     /// There is new floor, and there may be new gaps.
@@ -77,14 +68,15 @@ impl Squeeze {
     }
 }
 
-/// Cells within `NEAR` of these cells.
+/// Cells near these cells.
 pub(super) async fn near(cells: &Raster<bool>, budget: &mut StepBudget) -> Raster<bool> {
     let mut near = cells.clone();
     let (width, origin) = (cells.width().max(1), cells.origin());
     for (row, line) in cells.values().chunks(width).enumerate() {
         for (column, _) in line.iter().enumerate().filter(|(_, cell)| **cell) {
             let (x, y) = (origin.x + column as i32, origin.y + row as i32);
-            let around = (-NEAR..=NEAR).flat_map(|rise| (-NEAR..=NEAR).map(move |shift| (shift, rise)));
+            let around = (-SQUEEZE.near_cells..=SQUEEZE.near_cells)
+                .flat_map(|rise| (-SQUEEZE.near_cells..=SQUEEZE.near_cells).map(move |shift| (shift, rise)));
             for (shift, rise) in around {
                 if let Some(cell) = near.get_mut(Cell {
                     x: x + shift,
@@ -103,7 +95,7 @@ pub(super) async fn near(cells: &Raster<bool>, budget: &mut StepBudget) -> Raste
 
 #[cfg(test)]
 mod tests {
-    use super::{Squeeze, TRIES_MAX, near};
+    use super::{SQUEEZE, Squeeze, near};
     use crate::coverage::plan::CoveragePlan;
     use crate::mapping::{Cell, Raster};
     use crate::model::config::Body;
@@ -118,7 +110,7 @@ mod tests {
         };
         let mut squeeze = Squeeze::default();
         assert_eq!(squeeze.radius_m(body), None);
-        for _ in 0..TRIES_MAX {
+        for _ in 0..SQUEEZE.tries_max {
             assert!(squeeze.begin(&CoveragePlan::default()));
             assert!(
                 squeeze

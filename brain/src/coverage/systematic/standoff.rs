@@ -4,19 +4,9 @@
 //! appear farther away than they are. After touching an object that appeared farther ahead the robot stops earlier for a
 //! while, since the walls of one home are mostly alike.
 
+use super::parameters::STANDOFF;
 use crate::model::advance::Advance;
 use crate::navigation::caution::Ahead;
-
-/// Distance at which it stops before an apparent wall, metres: the path along the wall sweeps the rest.
-const STOP_M: f64 = 0.02;
-/// Additional distance after a touch of something that appeared farther away, metres.
-const DARK_M: f64 = 0.01;
-/// Upper limit of the additional distance, metres.
-const DARK_MAX_M: f64 = 0.03;
-/// What appeared farther away than this at the touch is a different object, metres.
-const SAME_M: f64 = 0.05;
-/// Distance after which a step of `DARK_M` is forgotten, metres.
-const FORGET_M: f64 = 10.0;
 
 /// The current stopping distance.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,26 +17,26 @@ pub(super) struct Standoff {
 impl Standoff {
     /// The robot has moved on.
     pub(super) fn follow(&mut self, advance: Advance) {
-        let forgotten_m = DARK_M * advance.distance_m.max(0.0) / FORGET_M;
+        let forgotten_m = STANDOFF.dark_step_m * advance.distance_m.max(0.0) / STANDOFF.dark_forget_m;
         self.dark_m = (self.dark_m - forgotten_m).max(0.0);
     }
 
     /// Records a touch while this was seen ahead.
     pub(super) fn touched(&mut self, ahead: Option<Ahead>) {
-        if ahead.is_some_and(|ahead| ahead.clear_m < SAME_M) {
-            self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
+        if ahead.is_some_and(|ahead| ahead.clear_m < STANDOFF.same_object_m) {
+            self.dark_m = (self.dark_m + STANDOFF.dark_step_m).min(STANDOFF.dark_max_m);
         }
     }
 
     /// Whether the robot must stop before this now.
     pub(super) fn is_reached(self, ahead: Ahead) -> bool {
-        ahead.clear_m < STOP_M + self.dark_m
+        ahead.clear_m < STANDOFF.stop_m + self.dark_m
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{FORGET_M, Standoff};
+    use super::{STANDOFF, Standoff};
     use crate::model::advance::Advance;
     use crate::model::geometry::Point2;
     use crate::navigation::caution::Ahead;
@@ -65,7 +55,7 @@ mod tests {
         standoff.touched(Some(at(0.028)));
         assert!(standoff.is_reached(at(0.025)));
         standoff.follow(Advance {
-            distance_m: 2.0 * FORGET_M,
+            distance_m: 2.0 * STANDOFF.dark_forget_m,
             ..Advance::default()
         });
         assert!(!standoff.is_reached(at(0.025)));

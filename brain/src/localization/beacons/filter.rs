@@ -1,33 +1,22 @@
 //! An extended Kalman filter over the pose, the errors of the wheels and the positions of the beacons.
 
-use super::hop::{BEACONS_MAX, Hop};
+use super::hop::Hop;
 use super::located_range::LocatedRange;
 use super::multilateration::{MeasuredRange, locate_beacon};
+use super::parameters::{FILTER, RANGE};
 use super::range_prediction::RangePrediction;
 use super::weight::weight;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::observation::BeaconRange;
 use crate::model::pose_estimate::PoseEstimate;
 
 /// Parameters of the wheels' errors: curvature of a straight path in radians a metre, scale error of turns, scale error of
 /// distances, both relative.
 pub(super) const WHEELS: usize = 3;
-/// Prior standard deviations: 0.6 degrees a metre, 3 % and 2 %, twice what robots of this class have.
-pub(super) const BEND_SIGMA: f64 = 0.0105;
-pub(super) const SCALE_SIGMA: f64 = 0.03;
-pub(super) const STRETCH_SIGMA: f64 = 0.02;
-/// Random walk of the parameters, per square root of a metre: rugs, dirt on wheels.
-const WHEELS_WALK: [f64; WHEELS] = [2.0e-4, 5.0e-4, 5.0e-4];
 /// Numbers of the pose.
 const POSE: usize = 3;
 /// Index of the first beacon in the state.
 const BEACONS: usize = POSE + WHEELS;
-/// A beacon that is heard first later is located from so many ranges.
-const LATE_RANGES: usize = 60;
-/// Standard deviation of such a position, metres.
-const LATE_SIGMA_M: f64 = 0.6;
-/// Standard deviations of a pose that another estimator gave, metres and radians.
-const PLACED_SIGMA_M: f64 = 0.03;
-const PLACED_SIGMA_RAD: f64 = 0.03;
 
 /// Result of the batch initialization.
 #[derive(Debug)]
@@ -87,7 +76,7 @@ impl BeaconFilter {
         for range in &hop.ranges {
             let known = self.beacons.iter().position(|beacon| beacon.0 == range.beacon);
             match known {
-                Some(beacon) => self.compare(hop, beacon, (range.range_m, range.sigma_m)),
+                Some(beacon) => self.compare(hop, range, beacon),
                 None => self.keep(
                     range.beacon,
                     MeasuredRange {
@@ -151,7 +140,7 @@ impl BeaconFilter {
             self.grow(place, 2, half_rad2 * turned);
             self.grow(2, place, half_rad2 * turned);
         }
-        for (number, walk) in WHEELS_WALK.into_iter().enumerate() {
+        for (number, walk) in FILTER.wheels_walk.into_iter().enumerate() {
             self.grow(POSE + number, POSE + number, walk * walk * hop.length_m);
         }
     }
@@ -199,7 +188,7 @@ impl BeaconFilter {
             .unwrap_or(0.0)
     }
 
-    fn compare(&mut self, hop: &Hop, beacon: usize, (range_m, sigma_m): (f64, f64)) {
+    fn compare(&mut self, hop: &Hop, range: &BeaconRange, beacon: usize) {
         let Some((_, place)) = self.beacons.get(beacon).copied() else {
             return;
         };
@@ -225,8 +214,8 @@ impl BeaconFilter {
             .iter()
             .map(|(place, by)| gains.get(*place).copied().unwrap_or(0.0) * by)
             .sum();
-        let off_m = range_m - predicted.away_m;
-        let noise_m2 = sigma_m * sigma_m;
+        let off_m = range.range_m - predicted.away_m;
+        let noise_m2 = range.sigma_m * range.sigma_m;
         let trust = weight(off_m / libm::sqrt(own_m2 + noise_m2));
         let variance_m2 = own_m2 + noise_m2 / trust;
         self.correct(&gains, off_m / variance_m2);
@@ -259,7 +248,7 @@ impl BeaconFilter {
 
     /// Stores a range to an unknown beacon, until its ranges locate it.
     fn keep(&mut self, beacon: u16, ranged: MeasuredRange) {
-        if self.beacons.len() >= BEACONS_MAX {
+        if self.beacons.len() >= RANGE.beacons_max {
             return;
         }
         self.late.push((beacon, ranged));
@@ -269,7 +258,7 @@ impl BeaconFilter {
             .filter(|late| late.0 == beacon)
             .map(|late| late.1)
             .collect();
-        if of_it.len() < LATE_RANGES {
+        if of_it.len() < FILTER.late_ranges {
             return;
         }
         self.late.retain(|late| late.0 != beacon);
@@ -291,7 +280,7 @@ impl BeaconFilter {
         }
         let at = self.covariance.len().saturating_sub(2);
         for number in [at, at + 1] {
-            self.grow(number, number, LATE_SIGMA_M * LATE_SIGMA_M);
+            self.grow(number, number, FILTER.late_sigma_m * FILTER.late_sigma_m);
         }
     }
 
@@ -307,9 +296,13 @@ impl BeaconFilter {
                 }
             }
         }
-        for (number, sigma) in [PLACED_SIGMA_M, PLACED_SIGMA_M, PLACED_SIGMA_RAD]
-            .into_iter()
-            .enumerate()
+        for (number, sigma) in [
+            FILTER.placed_sigma_m,
+            FILTER.placed_sigma_m,
+            FILTER.placed_sigma_rad,
+        ]
+        .into_iter()
+        .enumerate()
         {
             self.grow(number, number, sigma * sigma);
         }

@@ -1,32 +1,9 @@
 //! Collects motion and ranges into hops.
 
+use super::parameters::{HOP, RANGE};
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::observation::{BeaconRange, BeaconSignal, Observation};
-
-/// Most beacons; more than enough for a home.
-pub(super) const BEACONS_MAX: usize = 8;
-/// A hop ends after this distance, metres, or this turn, radians.
-const HOP_M: f64 = 0.15;
-const HOP_RAD: f64 = 0.5;
-/// Range error that stays the same around a place, metres, because of walls in the path. The mean of many ranges of a hop is no
-/// better than this. Several hops lie in one such place, so each counts less than it would alone.
-const PLACE_SIGMA_M: f64 = 0.45;
-/// Greatest accepted range and standard deviation, metres.
-const RANGE_MAX_M: f64 = 100.0;
-const SIGMA_MAX_M: f64 = 10.0;
-/// Least accepted standard deviation of one range, metres.
-const SIGMA_MIN_M: f64 = 0.02;
-/// Slip, metres per square root of a metre, and what each hop adds, metres.
-const SLIP_M_PER_SQRT_M: f64 = 0.012;
-const JITTER_M: f64 = 0.004;
-/// Heading error of the wheels: slip per square root of a metre, and turns per square root of a radian. Coarse encoders lose a
-/// count at each reversal.
-const SLIP_RAD_PER_SQRT_M: f64 = 0.01;
-const TURN_RAD_PER_SQRT_RAD: f64 = 0.015;
-/// Heading error of a gyro, radians per hop and per radian turned.
-const GYRO_RAD: f64 = 0.002;
-const GYRO_SCALE: f64 = 0.006;
 
 /// Motion and ranges of a hop.
 #[derive(Clone, Debug, Default)]
@@ -107,20 +84,20 @@ impl HopBuilder {
                 self.add(*range);
             }
         }
-        let over = self.hop.length_m >= HOP_M || self.turned_rad >= HOP_RAD;
+        let over = self.hop.length_m >= HOP.length_m || self.turned_rad >= HOP.turn_rad;
         over.then(|| self.end())
     }
 
     fn add(&mut self, range: BeaconRange) {
         // Written so that NaN is rejected.
         let believable = range.range_m >= 0.0
-            && range.range_m <= RANGE_MAX_M
+            && range.range_m <= RANGE.range_max_m
             && range.sigma_m > 0.0
-            && range.sigma_m <= SIGMA_MAX_M;
+            && range.sigma_m <= RANGE.sigma_max_m;
         if !believable {
             return;
         }
-        let room = self.sums.len() < BEACONS_MAX;
+        let room = self.sums.len() < RANGE.beacons_max;
         let known = self.sums.iter_mut().find(|sum| sum.beacon == range.beacon);
         match known {
             Some(sum) => {
@@ -132,7 +109,7 @@ impl HopBuilder {
                 beacon: range.beacon,
                 count: 1,
                 range_m: range.range_m,
-                sigma_m: range.sigma_m.max(SIGMA_MIN_M),
+                sigma_m: range.sigma_m.max(RANGE.sigma_min_m),
             }),
             None => {}
         }
@@ -141,13 +118,14 @@ impl HopBuilder {
     fn end(&mut self) -> Hop {
         let mut hop = core::mem::take(&mut self.hop);
         let turned_rad = core::mem::take(&mut self.turned_rad);
-        hop.distance_variance_m2 = SLIP_M_PER_SQRT_M * SLIP_M_PER_SQRT_M * hop.length_m + JITTER_M * JITTER_M;
+        hop.distance_variance_m2 =
+            HOP.slip_m_per_sqrt_m * HOP.slip_m_per_sqrt_m * hop.length_m + HOP.jitter_m * HOP.jitter_m;
         hop.turn_variance_rad2 = if hop.by_gyro {
-            let scale_rad = GYRO_SCALE * turned_rad;
-            GYRO_RAD * GYRO_RAD + scale_rad * scale_rad
+            let scale_rad = HOP.gyro_scale * turned_rad;
+            HOP.gyro_rad * HOP.gyro_rad + scale_rad * scale_rad
         } else {
-            SLIP_RAD_PER_SQRT_M * SLIP_RAD_PER_SQRT_M * hop.length_m
-                + TURN_RAD_PER_SQRT_RAD * TURN_RAD_PER_SQRT_RAD * turned_rad
+            HOP.slip_rad_per_sqrt_m * HOP.slip_rad_per_sqrt_m * hop.length_m
+                + HOP.turn_rad_per_sqrt_rad * HOP.turn_rad_per_sqrt_rad * turned_rad
         };
         hop.ranges = self.sums.drain(..).map(RangeSum::mean).collect();
         hop.ranges.sort_by_key(|range| range.beacon);
@@ -162,7 +140,7 @@ impl RangeSum {
         BeaconRange {
             beacon: self.beacon,
             range_m: self.range_m / count,
-            sigma_m: libm::sqrt(own_m2 + PLACE_SIGMA_M * PLACE_SIGMA_M),
+            sigma_m: libm::sqrt(own_m2 + RANGE.place_sigma_m * RANGE.place_sigma_m),
         }
     }
 }

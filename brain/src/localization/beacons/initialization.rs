@@ -4,9 +4,10 @@
 //! every few metres until the solution is certain. A straight path cannot tell a beacon from its mirror image, so it needs more
 //! hops.
 
-use super::filter::{BEND_SIGMA, BeaconFilter, InitialState, SCALE_SIGMA, STRETCH_SIGMA, WHEELS};
+use super::filter::{BeaconFilter, InitialState, WHEELS};
 use super::hop::Hop;
 use super::multilateration::{MeasuredRange, locate_beacon};
+use super::parameters::{BATCH, FILTER};
 use super::range_prediction::RangePrediction;
 use super::weight::weight;
 use crate::localization::skyline::{Factor, Solution, Summation, System};
@@ -14,29 +15,6 @@ use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::gradual::{StepBudget, at_once};
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Distance before the first attempt, and between two, metres.
-const FIRST_M: f64 = 8.0;
-const AGAIN_M: f64 = 2.0;
-/// After so many hops it starts again, because the wheels' errors bend a longer path too much for a first guess.
-const HOPS_MAX: usize = 250;
-/// Greatest standard deviations of the start, metres and radians. After long odometry the start is unknown, so a new frame begins
-/// there.
-const START_SIGMA_MAX_M: f64 = 0.1;
-const START_SIGMA_MAX_RAD: f64 = 0.05;
-/// Fewest ranges of a beacon.
-const RANGES_MIN: usize = 12;
-/// Fewest beacons: with odometry between two ranges, two beacons determine the pose.
-const BEACONS_MIN: usize = 2;
-/// Most iterations of Gauss-Newton, and the step that ends them.
-const ITERATIONS_MAX: u32 = 25;
-const DONE: f64 = 1e-3;
-/// Greatest standard deviation of a beacon's position, metres. Less certain beacons are located later.
-const SURE_M: f64 = 0.5;
-/// Greatest weighted root mean square deviation of a correct solution.
-const FIT_MAX: f64 = 1.3;
-/// Least standard deviations of the start, metres and radians.
-const START_SIGMA_M: f64 = 0.01;
-const START_SIGMA_RAD: f64 = 0.01;
 /// Unknowns of a pose.
 const POSE: usize = 3;
 
@@ -62,13 +40,13 @@ impl BatchInitializer {
     pub(super) fn new(start: PoseEstimate) -> Self {
         Self {
             start: PoseEstimate {
-                sigma_m: start.sigma_m.min(START_SIGMA_MAX_M),
-                sigma_rad: start.sigma_rad.min(START_SIGMA_MAX_RAD),
+                sigma_m: start.sigma_m.min(BATCH.start_sigma_max_m),
+                sigma_rad: start.sigma_rad.min(BATCH.start_sigma_max_rad),
                 ..start
             },
             hops: Vec::new(),
             length_m: 0.0,
-            next_m: FIRST_M,
+            next_m: BATCH.first_m,
         }
     }
 
@@ -79,13 +57,13 @@ impl BatchInitializer {
         if self.length_m < self.next_m {
             return None;
         }
-        self.next_m = self.length_m + AGAIN_M;
+        self.next_m = self.length_m + BATCH.again_m;
         self.solve()
     }
 
     /// Whether the path is too long for a solution, so that it should start again.
     pub(super) fn is_hopeless(&self) -> bool {
-        self.hops.len() >= HOPS_MAX
+        self.hops.len() >= BATCH.hops_max
     }
 
     /// The path by odometry.
@@ -102,11 +80,11 @@ impl BatchInitializer {
     fn solve(&self) -> Option<BeaconFilter> {
         let mut state = self.initial_state()?;
         let mut fit = f64::INFINITY;
-        for _ in 0..ITERATIONS_MAX {
+        for _ in 0..BATCH.iterations_max {
             let (change, factor, misfit) = self.step(&state)?;
             state.add(&change);
             fit = misfit;
-            if change.iter().all(|change| change.abs() < DONE) {
+            if change.iter().all(|change| change.abs() < BATCH.converged) {
                 return self.answer(&state, &factor, fit);
             }
         }
@@ -134,13 +112,13 @@ impl BatchInitializer {
                         })
                     })
                     .collect();
-                if ranges.len() < RANGES_MIN {
+                if ranges.len() < BATCH.ranges_min {
                     return None;
                 }
                 Some((number, locate_beacon(&ranges)?))
             })
             .collect();
-        (beacons.len() >= BEACONS_MIN).then_some(BatchState {
+        (beacons.len() >= BATCH.beacons_min).then_some(BatchState {
             poses,
             wheels: [0.0; WHEELS],
             beacons,
@@ -170,12 +148,14 @@ impl BatchInitializer {
         self.measure_start(state, &mut system, common);
         for (number, hop) in self.hops.iter().enumerate() {
             let (from, to) = (state.poses.get(number)?, state.poses.get(number + 1)?);
-            measure_hop(
-                hop,
-                (*from, *to),
-                (state.wheels, POSE * number, common),
-                &mut system,
-            );
+            let ends = HopEnds {
+                from: *from,
+                to: *to,
+                wheels: state.wheels,
+                pose_at: POSE * number,
+                wheels_at: common,
+            };
+            measure_hop(hop, &ends, &mut system);
         }
         let (mut misfit, mut count) = (0.0, 0_u32);
         for (number, range) in self.ranges() {
@@ -209,14 +189,18 @@ impl BatchInitializer {
     }
 
     fn measure_start(&self, state: &BatchState, system: &mut System, common: usize) {
-        let (start, sigma) = (self.start.pose, self.start.sigma_m.max(START_SIGMA_M));
+        let (start, sigma) = (self.start.pose, self.start.sigma_m.max(BATCH.start_sigma_min_m));
         let now = state.poses.first().copied().unwrap_or(start);
         measure(system, (now.x_m - start.x_m) / sigma, &[(0, 1.0 / sigma)]);
         measure(system, (now.y_m - start.y_m) / sigma, &[(1, 1.0 / sigma)]);
-        let sigma_rad = self.start.sigma_rad.max(START_SIGMA_RAD);
+        let sigma_rad = self.start.sigma_rad.max(BATCH.start_sigma_min_rad);
         let off_rad = normalize_rad(now.heading_rad - start.heading_rad);
         measure(system, off_rad / sigma_rad, &[(2, 1.0 / sigma_rad)]);
-        let sigmas = [BEND_SIGMA, SCALE_SIGMA, STRETCH_SIGMA];
+        let sigmas = [
+            FILTER.bend_sigma_rad_per_m,
+            FILTER.turn_scale_sigma,
+            FILTER.distance_scale_sigma,
+        ];
         for (number, (value, sigma)) in state.wheels.iter().zip(sigmas).enumerate() {
             measure(system, value / sigma, &[(common + number, 1.0 / sigma)]);
         }
@@ -224,7 +208,7 @@ impl BatchInitializer {
 
     fn answer(&self, state: &BatchState, factor: &Factor, fit: f64) -> Option<BeaconFilter> {
         // Written so that NaN does not fit.
-        let fits = fit <= FIT_MAX;
+        let fits = fit <= BATCH.misfit_max;
         if !fits {
             return None;
         }
@@ -248,8 +232,8 @@ impl BatchInitializer {
             beacons: &state.beacons,
             covariance: covariance?,
         });
-        follower.forget_beyond(SURE_M);
-        (follower.places().len() >= BEACONS_MIN).then_some(follower)
+        follower.forget_beyond(BATCH.sure_m);
+        (follower.places().len() >= BATCH.beacons_min).then_some(follower)
     }
 }
 
@@ -281,14 +265,22 @@ fn measure(system: &mut System, off: f64, derivatives: &[(usize, f64)]) {
     system.add_residual(derivatives, off, 1.0);
 }
 
+/// The part of a [`BatchState`] that a hop constrains.
+#[derive(Clone, Copy, Debug)]
+struct HopEnds {
+    from: Pose2,
+    to: Pose2,
+    wheels: [f64; WHEELS],
+    /// Row of the pose at the start in the system; that of the pose at the end comes next.
+    pose_at: usize,
+    /// Row of the wheels' errors.
+    wheels_at: usize,
+}
+
 /// Adds the residuals of a hop.
-fn measure_hop(
-    hop: &Hop,
-    (from, to): (Pose2, Pose2),
-    (wheels, at, common): ([f64; WHEELS], usize, usize),
-    system: &mut System,
-) {
-    let expected = hop.corrected(wheels);
+fn measure_hop(hop: &Hop, ends: &HopEnds, system: &mut System) {
+    let HopEnds { from, to, .. } = *ends;
+    let expected = hop.corrected(ends.wheels);
     let (sin, cos) = libm::sincos(from.heading_rad);
     let (dx, dy) = (to.x_m - from.x_m, to.y_m - from.y_m);
     let (along_m, left_m) = (cos * dx + sin * dy, cos * dy - sin * dx);
@@ -298,7 +290,8 @@ fn measure_hop(
         (hop.distance_m, hop.wheel_turn_rad)
     };
     let bent = |of: f64, towards: f64| 0.5 * of * towards;
-    let (bend, scale, stretch) = (common, common + 1, common + 2);
+    let at = ends.pose_at;
+    let [bend, scale, stretch] = [0, 1, 2].map(|number| ends.wheels_at + number);
     let per = 1.0 / libm::sqrt(hop.distance_variance_m2);
     measure(
         system,

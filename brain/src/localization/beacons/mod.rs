@@ -12,6 +12,7 @@ mod hop;
 mod initialization;
 mod located_range;
 mod multilateration;
+mod parameters;
 mod range_prediction;
 mod weight;
 

@@ -1,20 +1,8 @@
 //! Multilateration: locates a beacon from ranges along an approximate path.
 
+use super::parameters::MULTILATERATION;
 use super::weight::weight;
 use crate::model::geometry::Point2;
-
-/// Directions from the closest point of the path that are tried.
-const DIRECTIONS: u32 = 72;
-/// Distances that are tried, relative to the shortest range, metres.
-const OFF_M: [f64; 5] = [-0.6, -0.3, 0.0, 0.3, 0.6];
-/// Standard deviation of a range from an approximate path, metres.
-const ROUGH_SIGMA_M: f64 = 0.5;
-/// A position this far from the best one is an alternative: metres, and a share of the shortest range, because a short path far
-/// away gives a good distance and a bad direction.
-const OTHER_M: f64 = 1.5;
-const OTHER_SHARE: f64 = 0.8;
-/// An alternative must fit worse by this factor.
-const WORSE: f64 = 1.4;
 
 /// A range and where it was measured.
 #[derive(Clone, Copy, Debug)]
@@ -29,9 +17,11 @@ pub(super) fn locate_beacon(ranges: &[MeasuredRange]) -> Option<Point2> {
         .iter()
         .min_by(|one, other| one.range_m.total_cmp(&other.range_m))?;
     let mut tried: Vec<(f64, Point2)> = Vec::new();
-    for direction in 0..DIRECTIONS {
-        let (sin, cos) = libm::sincos(core::f64::consts::TAU * f64::from(direction) / f64::from(DIRECTIONS));
-        for off_m in OFF_M {
+    for direction in 0..MULTILATERATION.directions {
+        let (sin, cos) = libm::sincos(
+            core::f64::consts::TAU * f64::from(direction) / f64::from(MULTILATERATION.directions),
+        );
+        for off_m in MULTILATERATION.off_m {
             let away_m = (nearest.range_m + off_m).max(0.0);
             let place = Point2 {
                 x_m: nearest.from.x_m + away_m * cos,
@@ -44,11 +34,13 @@ pub(super) fn locate_beacon(ranges: &[MeasuredRange]) -> Option<Point2> {
         .iter()
         .min_by(|one, other| one.0.total_cmp(&other.0))
         .copied()?;
-    let other_m = OTHER_M.max(OTHER_SHARE * nearest.range_m);
+    let other_m = MULTILATERATION
+        .other_m
+        .max(MULTILATERATION.other_share * nearest.range_m);
     let alone = tried
         .iter()
         .filter(|(_, place)| place.distance_m(best) > other_m)
-        .all(|(misfit, _)| *misfit > WORSE * least);
+        .all(|(misfit, _)| *misfit > MULTILATERATION.worse_min * least);
     alone.then_some(best)
 }
 
@@ -57,7 +49,7 @@ pub(super) fn misfit(ranges: &[MeasuredRange], place: Point2) -> f64 {
     let sum: f64 = ranges
         .iter()
         .map(|range| {
-            let off = (range.range_m - range.from.distance_m(place)) / ROUGH_SIGMA_M;
+            let off = (range.range_m - range.from.distance_m(place)) / MULTILATERATION.sigma_m;
             weight(off) * off * off
         })
         .sum();

@@ -1,15 +1,8 @@
 //! Cleans up the graph: rejects outliers, merges landmarks that are one wall, and drops landmarks without observations.
 
 use super::graph::{Graph, LineLandmark, LineObservation};
+use super::parameters::CLEANUP;
 use crate::model::geometry::normalize_rad;
-
-/// Landmarks closer to each other than this are merged, metres, unless the gap between their ends is longer than that.
-const MERGE_M: f64 = 0.05;
-const MERGE_GAP_M: f64 = 0.5;
-/// Landmarks are merged only when their normals differ by less than this, radians: 7 degrees.
-const MERGE_RAD: f64 = 0.125;
-/// An observation farther than this from its landmark is an outlier, metres.
-pub(super) const OUTLIER_M: f64 = 0.12;
 
 /// Cleans up the graph. Returns for each landmark the one that replaces it; `None` = it was dropped.
 pub(super) fn clean_up(graph: &mut Graph) -> Vec<Option<usize>> {
@@ -40,7 +33,7 @@ pub(super) fn merge(graph: &mut Graph, merged: &[usize]) -> Vec<Option<usize>> {
 
 fn reject_outliers(graph: &mut Graph) {
     let mut observations = core::mem::take(&mut graph.observations);
-    observations.retain(|observation| graph.off_m(observation).abs() <= OUTLIER_M);
+    observations.retain(|observation| graph.off_m(observation).abs() <= CLEANUP.outlier_m);
     graph.observations = observations;
 }
 
@@ -95,7 +88,7 @@ fn drop_unobserved(graph: &mut Graph) -> Vec<Option<usize>> {
 /// Whether two landmarks face the same way.
 pub(super) fn face_the_same_way(one: &LineLandmark, other: &LineLandmark) -> bool {
     let turned_rad = normalize_rad(one.normal_rad - other.normal_rad);
-    turned_rad.abs() <= MERGE_RAD && one.quarter == other.quarter
+    turned_rad.abs() <= CLEANUP.merge_max_rad && one.quarter == other.quarter
 }
 
 fn are_mergeable(one: &LineLandmark, other: &LineLandmark) -> bool {
@@ -104,8 +97,8 @@ fn are_mergeable(one: &LineLandmark, other: &LineLandmark) -> bool {
     }
     let end = |along_m: f64| one.project(other.at(along_m));
     let ends = [end(other.low_m), end(other.high_m)];
-    let is_near = ends.iter().all(|end| end.off_m.abs() <= MERGE_M);
+    let is_near = ends.iter().all(|end| end.off_m.abs() <= CLEANUP.merge_max_m);
     let low_m = ends[0].along_m.min(ends[1].along_m);
     let high_m = ends[0].along_m.max(ends[1].along_m);
-    is_near && (low_m - one.high_m).max(one.low_m - high_m) <= MERGE_GAP_M
+    is_near && (low_m - one.high_m).max(one.low_m - high_m) <= CLEANUP.merge_gap_max_m
 }

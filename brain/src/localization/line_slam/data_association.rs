@@ -1,23 +1,11 @@
 //! Data association: which line segments belong to which landmarks.
 
+use super::LineSlam;
 use super::graph::{LineLandmark, LineObservation, Projection, direction};
 use super::line_segment::LineSegment;
 use super::manhattan::quarter;
-use super::{LineSlam, NODES_MAX};
+use super::parameters::{ASSOCIATION, UPDATE};
 use crate::model::geometry::{Pose2, normalize_rad};
-
-/// A segment belongs to a landmark when it lies within this many standard deviations of it,
-const GATE: f64 = 3.0;
-/// is no farther away than this, metres,
-const GATE_MAX_M: f64 = 0.3;
-/// and faces the same way within this angle, radians: 14 degrees.
-const GATE_RAD: f64 = 0.25;
-/// Standard deviation of a landmark's own position, metres.
-const LANDMARK_SIGMA_M: f64 = 0.03;
-/// A segment may lie this far beyond the known end of a landmark, metres.
-const EXTENSION_M: f64 = 0.6;
-/// The association is ambiguous when another landmark fits worse by less than this, metres.
-const AMBIGUITY_M: f64 = 0.12;
 
 impl LineSlam {
     /// Corrects the belief with the segments of the newest node and stores them as observations.
@@ -34,7 +22,7 @@ impl LineSlam {
             }
         }
         for segment in new {
-            if self.here >= NODES_MAX {
+            if self.here >= UPDATE.nodes_max {
                 break;
             }
             let landmark = self.graph.landmarks.len();
@@ -46,7 +34,7 @@ impl LineSlam {
 
     fn add_observation(&mut self, segment: LineSegment, landmark: usize) {
         let node = self.here;
-        if node >= NODES_MAX {
+        if node >= UPDATE.nodes_max {
             return;
         }
         self.graph.observations.push(LineObservation {
@@ -112,7 +100,7 @@ impl LineSlam {
         self.belief.measure(
             [normal.x_m, normal.y_m, arm],
             off_m,
-            segment.sigma_m * segment.sigma_m + LANDMARK_SIGMA_M * LANDMARK_SIGMA_M,
+            segment.sigma_m * segment.sigma_m + ASSOCIATION.landmark_sigma_m * ASSOCIATION.landmark_sigma_m,
         );
     }
 
@@ -134,7 +122,9 @@ impl LineSlam {
             }
         }
         match best {
-            Some((off_m, landmark)) if second_m - off_m >= AMBIGUITY_M || off_m < 0.3 * second_m => {
+            Some((off_m, landmark))
+                if second_m - off_m >= ASSOCIATION.ambiguity_m || off_m < 0.3 * second_m =>
+            {
                 Association::Landmark(landmark)
             }
             Some(_) => Association::Ambiguous,
@@ -145,7 +135,7 @@ impl LineSlam {
     /// Distance of a segment from a landmark, metres; `None` when it cannot belong to it.
     fn off_m(&self, segment: &LineSegment, pose: Pose2, landmark: &LineLandmark) -> Option<f64> {
         let turned_rad = normalize_rad(pose.heading_rad + segment.normal_rad - landmark.normal_rad);
-        if turned_rad.abs() > GATE_RAD {
+        if turned_rad.abs() > ASSOCIATION.gate_rad {
             return None;
         }
         let Projection { off_m, along_m } = landmark.project(pose.transform(segment.middle));
@@ -153,9 +143,9 @@ impl LineSlam {
         let normal = direction(landmark.normal_rad);
         let variance_m2 = self.belief.variance_along_m2(normal)
             + segment.sigma_m * segment.sigma_m
-            + LANDMARK_SIGMA_M * LANDMARK_SIGMA_M;
-        let gate_m = (GATE * libm::sqrt(variance_m2)).min(GATE_MAX_M);
-        (off_m.abs() <= gate_m && beyond_m <= EXTENSION_M).then(|| off_m.abs())
+            + ASSOCIATION.landmark_sigma_m * ASSOCIATION.landmark_sigma_m;
+        let gate_m = (ASSOCIATION.gate_sigmas * libm::sqrt(variance_m2)).min(ASSOCIATION.gate_max_m);
+        (off_m.abs() <= gate_m && beyond_m <= ASSOCIATION.extension_max_m).then(|| off_m.abs())
     }
 }
 

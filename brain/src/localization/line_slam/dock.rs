@@ -3,22 +3,10 @@
 use super::LineSlam;
 use super::graph::Graph;
 use super::local_submap::LocalSubmap;
+use super::parameters::DOCKING;
 use super::turns::TurnCalibration;
 use crate::localization::skyline::System;
 use crate::model::geometry::{Pose2, normalize_rad};
-
-/// How well two dockings agree, metres and radians. The contacts are some centimetres wide and close on a robot that is a few
-/// degrees askew: 2 cm and 2 degrees for each of the two.
-const SIGMAS: [f64; 3] = [0.028, 0.028, 0.05];
-/// Squared deviations at which a docking has a quarter of its weight (Geman and McClure's kernel): 25 deviations, which is 0.7 m. A
-/// graph that is off by half a metre at the dock is closed. A dock that somebody has moved by metres hardly pulls. A dock that was
-/// moved by decimetres pulls against the walls around it, which then tell the pose.
-const KERNEL: f64 = 625.0;
-/// A dock that is more than this many standard deviations from its expected pose does not correct the belief. The optimization
-/// decides.
-const GATE: f64 = 4.0;
-/// The robot must have driven this far since the last docking, metres. Contacts that open and close again add no information.
-const AWAY_M: f64 = 0.5;
 
 /// Detects when the robot comes back to its dock.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,7 +24,7 @@ impl DockWatch {
             return false;
         }
         self.away_m = Some(0.0);
-        away_m.is_none_or(|away_m| away_m >= AWAY_M)
+        away_m.is_none_or(|away_m| away_m >= DOCKING.away_min_m)
     }
 }
 
@@ -67,9 +55,11 @@ impl LineSlam {
         let [[xx, _, _], [_, yy, _], [_, _, turns]] = self.belief.covariance;
         let is_possible = off(self.belief.pose, dock)
             .into_iter()
-            .zip(SIGMAS)
+            .zip(DOCKING.sigmas)
             .zip([xx, yy, turns])
-            .all(|((off, sigma), variance)| off * off <= GATE * GATE * (variance + sigma * sigma));
+            .all(|((off, sigma), variance)| {
+                off * off <= DOCKING.gate_sigmas * DOCKING.gate_sigmas * (variance + sigma * sigma)
+            });
         if !is_possible {
             return;
         }
@@ -78,7 +68,7 @@ impl LineSlam {
             .enumerate()
         {
             let offs = off(self.belief.pose, dock);
-            if let (Some(off), Some(sigma)) = (offs.get(row), SIGMAS.get(row)) {
+            if let (Some(off), Some(sigma)) = (offs.get(row), DOCKING.sigmas.get(row)) {
                 self.belief.measure(slopes, *off, sigma * sigma);
             }
         }
@@ -104,13 +94,13 @@ impl Graph {
             return;
         };
         let offs = off(node.pose, dock.pose);
-        let weights = SIGMAS.map(|sigma| 1.0 / (sigma * sigma));
+        let weights = DOCKING.sigmas.map(|sigma| 1.0 / (sigma * sigma));
         let misfit: f64 = offs
             .iter()
             .zip(weights)
             .map(|(off, weight)| off * off * weight)
             .sum();
-        let trust = 1.0 / ((1.0 + misfit / KERNEL) * (1.0 + misfit / KERNEL));
+        let trust = 1.0 / ((1.0 + misfit / DOCKING.kernel) * (1.0 + misfit / DOCKING.kernel));
         for (row, (off, weight)) in offs.into_iter().zip(weights).enumerate() {
             let slopes = [(3 * first + row, -1.0), (3 * later + row, 1.0)];
             system.add_residual(&slopes, off, trust * weight);
@@ -237,6 +227,7 @@ mod tests {
                 turn_rad,
                 wheel_turn_rad: turn_rad,
                 gyro_turn_rad: Some(turn_rad),
+                ..Advance::default()
             };
             if let Some(fix) = slam.follow(OdometryStep { odom, advance }, turns, &view) {
                 pose = fix.map_from_odom * odom;

@@ -5,30 +5,10 @@
 //! one, because the beams or the robot would have crossed it. So both are one wall, or something was moved. A merge hypothesis
 //! decides: merge both, optimize the graph ([`super::graph_fit`]), and keep the merge when the graph stays consistent.
 
-use super::cleanup::{OUTLIER_M, face_the_same_way, merge};
+use super::cleanup::{face_the_same_way, merge};
 use super::graph::{Graph, LineLandmark, LineObservation, Projection};
+use super::parameters::{CLEANUP, DUPLICATE};
 use std::collections::BTreeMap;
-
-/// Landmarks are compared in stretches of this length, metres.
-const STRETCH_M: f64 = 0.1;
-/// Most stretches of one segment. A submap is shorter than that.
-const STRETCHES_MAX: i32 = 30;
-/// Landmarks that are closer in front of each other than this are merged by the cleanup, metres.
-const BEFORE_M: f64 = 0.05;
-/// Landmarks that are farther apart than this are different walls, metres. No sensor sees farther.
-const BEFORE_MAX_M: f64 = 0.6;
-/// The robot's body reaches at least this far beyond its centre, metres.
-const BODY_M: f64 = 0.1;
-/// The contradiction must be this long, metres. A chair that was moved is shorter.
-const ALONG_M: f64 = 0.55;
-
-/// At least this share of the merged observations must lie on the merged landmark,
-const INLIER_SHARE: f64 = 0.7;
-/// and the other outliers must be fewer than this share of the merged observations.
-const OUTLIER_SHARE: f64 = 0.3;
-/// The odometry chi-square may rise by this much since the last optimization: 40 cm over a path of 30 m. A false merge of something
-/// that was moved strains shorter paths more.
-const CHI_SQUARE_RISE_MAX: f64 = 15.0;
 
 /// A landmark that seems to be the same wall as an earlier one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +41,7 @@ pub(super) fn duplicates(graph: &Graph) -> Vec<DuplicateLandmark> {
         for (front, (other, observations)) in landmarks() {
             if front != back && is_close_before(other, landmark) {
                 let stretches = hidden_stretches(graph, landmark, &seen, observations);
-                if f64::from(stretches) * STRETCH_M >= ALONG_M {
+                if f64::from(stretches) * DUPLICATE.stretch_m >= DUPLICATE.length_min_m {
                     duplicates.push((stretches, in_time(graph, back, front)));
                 }
             }
@@ -98,7 +78,8 @@ fn is_close_before(front: &LineLandmark, back: &LineLandmark) -> bool {
         back.project(front.at(front.low_m)),
         back.project(front.at(front.high_m)),
     );
-    let is_before = low.off_m.max(high.off_m) > BEFORE_M && low.off_m.min(high.off_m) < BEFORE_MAX_M;
+    let is_before = low.off_m.max(high.off_m) > DUPLICATE.before_min_m
+        && low.off_m.min(high.off_m) < DUPLICATE.before_max_m;
     is_before && low.along_m.max(high.along_m) > back.low_m && low.along_m.min(high.along_m) < back.high_m
 }
 
@@ -133,7 +114,8 @@ fn hidden_stretches(
         .iter()
         .filter_map(|observation| ObservedStretch::of(graph, observation, landmark))
     {
-        let is_between = |from_m: f64| stretch.off_m > BEFORE_M && stretch.off_m < from_m + BODY_M;
+        let is_between =
+            |from_m: f64| stretch.off_m > DUPLICATE.before_min_m && stretch.off_m < from_m + DUPLICATE.body_m;
         hidden.extend(
             (stretch.low..stretch.high).filter(|place| seen.get(place).copied().is_some_and(is_between)),
         );
@@ -147,13 +129,13 @@ impl ObservedStretch {
     fn of(graph: &Graph, observation: &LineObservation, landmark: &LineLandmark) -> Option<Self> {
         let pose = graph.nodes.get(observation.node)?.pose;
         let Projection { off_m, along_m } = landmark.project(pose.transform(observation.segment.middle));
-        let low = libm::round((along_m - observation.segment.half_m) / STRETCH_M) as i32;
-        let length = libm::round(2.0 * observation.segment.half_m / STRETCH_M) as i32;
+        let low = libm::round((along_m - observation.segment.half_m) / DUPLICATE.stretch_m) as i32;
+        let length = libm::round(2.0 * observation.segment.half_m / DUPLICATE.stretch_m) as i32;
         Some(Self {
             off_m,
             from_m: landmark.project(pose.position()).off_m,
             low,
-            high: low.saturating_add(length.min(STRETCHES_MAX)),
+            high: low.saturating_add(length.min(DUPLICATE.stretches_max)),
         })
     }
 }
@@ -236,13 +218,15 @@ impl MergeHypothesis {
         let (mut merged, mut outliers) = (0_u32, 0_u32);
         for (was, is) in self.graph.observations.iter().zip(&fitted.observations) {
             merged += u32::from(is_later(was));
-            outliers += u32::from(!is_later(was) && fitted.off_m(is).abs() > OUTLIER_M);
+            outliers += u32::from(!is_later(was) && fitted.off_m(is).abs() > CLEANUP.outlier_m);
         }
-        let is_rejected =
-            |duplicate: &&DuplicateLandmark| self.inlier_share(duplicate, fitted) < INLIER_SHARE;
+        let is_rejected = |duplicate: &&DuplicateLandmark| {
+            self.inlier_share(duplicate, fitted) < DUPLICATE.inlier_share_min
+        };
         let rejected: Vec<DuplicateLandmark> = self.duplicates.iter().filter(is_rejected).copied().collect();
-        let is_bent = fitted.odometry_chi_square() > self.graph.fitted_chi_square + CHI_SQUARE_RISE_MAX
-            || f64::from(outliers) > OUTLIER_SHARE * f64::from(merged);
+        let is_bent = fitted.odometry_chi_square()
+            > self.graph.fitted_chi_square + DUPLICATE.chi_square_rise_max
+            || f64::from(outliers) > DUPLICATE.outlier_share_max * f64::from(merged);
         if rejected.is_empty() && is_bent {
             // One pair must be wrong: the one with the least evidence.
             return self.duplicates.last().copied().into_iter().collect();
@@ -256,7 +240,7 @@ impl MergeHypothesis {
         for (was, is) in self.graph.observations.iter().zip(&fitted.observations) {
             if was.landmark == duplicate.later {
                 all += 1;
-                inliers += u32::from(fitted.off_m(is).abs() <= OUTLIER_M);
+                inliers += u32::from(fitted.off_m(is).abs() <= CLEANUP.outlier_m);
             }
         }
         f64::from(inliers) / f64::from(all.max(1))

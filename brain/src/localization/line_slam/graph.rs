@@ -7,6 +7,7 @@
 
 use super::kalman::StepVariance;
 use super::line_segment::LineSegment;
+use super::parameters::OPTIMIZATION;
 use super::turns::{TurnErrors, TurnUnknowns, Turns};
 use crate::localization::skyline::{Summation, System};
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
@@ -63,11 +64,6 @@ pub(super) struct LineObservation {
     pub(super) landmark: usize,
     pub(super) segment: LineSegment,
 }
-
-/// Cauchy's constant, squared: observations within so many squared deviations have their full weight.
-pub(super) const KERNEL: f64 = 5.0;
-/// Longest accepted step of an iteration, metres or radians.
-const STEP_MAX: f64 = 0.5;
 
 /// Weight of a residual with this variance.
 fn weight(variance: f64) -> f64 {
@@ -134,8 +130,27 @@ pub(super) struct Unknowns {
     turns: TurnUnknowns,
 }
 
+/// The residuals of one iteration, linearized at the present poses and landmarks.
+#[derive(Debug)]
+pub(super) struct Linearization {
+    pub(super) unknowns: Unknowns,
+    pub(super) system: System,
+    /// Observations that are off by more squared deviations than this have little weight.
+    kernel: f64,
+}
+
 impl Graph {
-    pub(super) fn unknowns(&self) -> Unknowns {
+    /// A linearization that has no residuals yet.
+    pub(super) fn linearization(&self, kernel: f64) -> Linearization {
+        let unknowns = self.unknowns();
+        Linearization {
+            system: self.system(&unknowns),
+            unknowns,
+            kernel,
+        }
+    }
+
+    fn unknowns(&self) -> Unknowns {
         let manhattan = 3 * self.nodes.len();
         let mut count = manhattan + usize::from(self.manhattan_rad.is_some());
         let mut landmarks = Vec::with_capacity(self.landmarks.len());
@@ -155,7 +170,7 @@ impl Graph {
     }
 
     /// An empty system with weak priors that keep every unknown bounded.
-    pub(super) fn system(&self, unknowns: &Unknowns) -> System {
+    fn system(&self, unknowns: &Unknowns) -> System {
         let mut first: Vec<usize> = (0..self.nodes.len())
             .flat_map(|node| [3 * node.saturating_sub(1); 3])
             .collect();
@@ -191,7 +206,8 @@ impl Graph {
     }
 
     /// Adds the odometry residual between a node and the next one.
-    pub(super) fn add_odometry_residual(&self, index: usize, unknowns: &Unknowns, system: &mut System) {
+    pub(super) fn add_odometry_residual(&self, index: usize, linearization: &mut Linearization) {
+        let Linearization { unknowns, system, .. } = linearization;
         if let (Some(before), Some(after)) = (self.nodes.get(index), self.nodes.get(index + 1)) {
             let (from, to) = (3 * index, 3 * index + 3);
             let made = before.pose.inverse() * after.pose;
@@ -249,13 +265,13 @@ impl Graph {
             .sum()
     }
 
-    /// Adds the residual of an observation. One that is off by more than `kernel` squared deviations has little weight.
-    pub(super) fn add_line_residual(
-        &self,
-        (observation, kernel): (&LineObservation, f64),
-        unknowns: &Unknowns,
-        system: &mut System,
-    ) {
+    /// Adds the residual of an observation.
+    pub(super) fn add_line_residual(&self, observation: &LineObservation, linearization: &mut Linearization) {
+        let Linearization {
+            unknowns,
+            system,
+            kernel,
+        } = linearization;
         let (Some(node), Some(landmark), Some(place)) = (
             self.nodes.get(observation.node),
             self.landmarks.get(observation.landmark),
@@ -271,7 +287,7 @@ impl Graph {
             segment.sigma_rad * segment.sigma_rad,
         );
         let misfit = off_m * off_m / variance_m2 + off_rad * off_rad / variance_rad2;
-        let weight = 1.0 / (1.0 + misfit / kernel);
+        let weight = 1.0 / (1.0 + misfit / *kernel);
         let normal = direction(landmark.normal_rad);
         let arm = node.pose.transform(segment.middle);
         let (arm_x, arm_y) = (arm.x_m - node.pose.x_m, arm.y_m - node.pose.y_m);
@@ -302,9 +318,9 @@ impl Graph {
 
     pub(super) fn apply(&mut self, unknowns: &Unknowns, change: &[f64]) {
         let step = |unknown: usize| {
-            change
-                .get(unknown)
-                .map_or(0.0, |step| step.clamp(-STEP_MAX, STEP_MAX))
+            change.get(unknown).map_or(0.0, |step| {
+                step.clamp(-OPTIMIZATION.step_max, OPTIMIZATION.step_max)
+            })
         };
         for (index, node) in self.nodes.iter_mut().enumerate() {
             node.pose = Pose2 {

@@ -4,6 +4,7 @@
 //! one moment. *Line segment*: a straight line on which many range points of a submap lie. Beams are cones, so the nearest point of
 //! a wall within a cone is closer than the wall on the cone's axis. The fit corrects for that.
 
+use super::parameters::SEGMENT;
 use crate::model::config::ProximityResponse;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
@@ -31,36 +32,6 @@ pub(crate) struct LineSegment {
     pub(super) sigma_m: f64,
 }
 
-/// Directions of the Hough transform: 5 degrees apart.
-const DIRECTIONS: usize = 72;
-/// Offsets of the Hough transform, metres apart.
-const LINE_STEP_M: f64 = 0.02;
-/// Most offsets on either side of the submap's middle.
-const LINES: usize = 60;
-/// Points this close to a line may belong to it, metres.
-const NEAR_M: f64 = 0.035;
-/// After the fit they must be this close, metres.
-const FIT_M: f64 = 0.025;
-/// Fewest points and least length of a segment, metres.
-const POINTS_MIN: usize = 8;
-const LENGTH_MIN_M: f64 = 0.12;
-/// Longest gap within a segment, metres.
-const GAP_M: f64 = 0.2;
-/// Largest scatter of a segment, metres.
-const SCATTER_MAX_M: f64 = 0.013;
-/// Beams that hit a wall at a smaller cosine say little about its position.
-const COSINE_MIN: f64 = 0.35;
-/// Most segments of one submap.
-const SEGMENTS_MAX: usize = 4;
-/// Least standard deviations, however many points there are: walls reflect differently along their length.
-const SIGMA_M: f64 = 0.012;
-const SIGMA_RAD: f64 = 0.015;
-/// Error of one end of a segment relative to the other end, metres.
-const TURN_M: f64 = 0.02;
-/// The same two in units of the scatter, which shows noise and varying reflectance.
-const SIGMA_SCATTERS: f64 = 1.6;
-const TURN_SCATTERS: f64 = 3.0;
-
 /// A line in Hesse normal form: all points at the distance `offset_m` along the normal.
 #[derive(Clone, Copy, Debug)]
 struct HesseLine {
@@ -75,7 +46,7 @@ impl HesseLine {
         let (sin, cos) = libm::sincos(self.normal_rad);
         let (beam_y, beam_x) = libm::sincos(point.beam.heading_rad);
         let toward = -(cos * beam_x + sin * beam_y);
-        if toward < COSINE_MIN {
+        if toward < SEGMENT.cosine_min {
             return None;
         }
         let share = (toward + cone) / (1.0 + cone);
@@ -106,8 +77,8 @@ pub(super) fn extract_segments(points: &[RangePoint], response: &ProximityRespon
     let cone = libm::tan(response.half_angle_rad);
     let mut left: Vec<RangePoint> = points.to_vec();
     let mut found = Vec::new();
-    for _ in 0..2 * SEGMENTS_MAX {
-        if left.len() < POINTS_MIN || found.len() >= SEGMENTS_MAX {
+    for _ in 0..2 * SEGMENT.segments_max {
+        if left.len() < SEGMENT.points_min || found.len() >= SEGMENT.segments_max {
             break;
         }
         let Some(line) = strongest(&left, cone) else { break };
@@ -118,11 +89,11 @@ pub(super) fn extract_segments(points: &[RangePoint], response: &ProximityRespon
         };
         let on_it: Vec<RangePoint> = left
             .iter()
-            .filter(|point| lies_on(point, FIT_M))
+            .filter(|point| lies_on(point, SEGMENT.fit_m))
             .copied()
             .collect();
         let before = left.len();
-        left.retain(|point| !lies_on(point, NEAR_M));
+        left.retain(|point| !lies_on(point, SEGMENT.near_m));
         found.extend(segment_of(&on_it, line, cone));
         if left.len() == before {
             break;
@@ -134,16 +105,18 @@ pub(super) fn extract_segments(points: &[RangePoint], response: &ProximityRespon
 /// The line with the most points near it (Hough transform).
 fn strongest(points: &[RangePoint], cone: f64) -> Option<HesseLine> {
     let middle = points.get(points.len() / 2)?.beam.position();
-    let mut votes = vec![0_u32; DIRECTIONS * (2 * LINES + 1)];
+    let middle_step = SEGMENT.hough_offsets;
+    let steps = 2 * middle_step + 1;
+    let mut votes = vec![0_u32; SEGMENT.hough_directions * steps];
     for point in points {
-        for direction in 0..DIRECTIONS {
+        for direction in 0..SEGMENT.hough_directions {
             let line = line_of(direction, middle, 0.0);
             let Some((off_m, _)) = line.off_m(point, cone) else {
                 continue;
             };
-            let step = libm::round(off_m / LINE_STEP_M) + LINES as f64;
-            if (0.0..=2.0 * LINES as f64).contains(&step)
-                && let Some(vote) = votes.get_mut(direction * (2 * LINES + 1) + step as usize)
+            let step = libm::round(off_m / SEGMENT.hough_step_m) + middle_step as f64;
+            if (0.0..=2.0 * middle_step as f64).contains(&step)
+                && let Some(vote) = votes.get_mut(direction * steps + step as usize)
             {
                 *vote += 1;
             }
@@ -153,13 +126,13 @@ fn strongest(points: &[RangePoint], cone: f64) -> Option<HesseLine> {
         .iter()
         .enumerate()
         .max_by_key(|(place, count)| (**count, core::cmp::Reverse(*place)))?;
-    let (direction, step) = (place / (2 * LINES + 1), place % (2 * LINES + 1));
-    (*count as usize >= POINTS_MIN / 2)
-        .then(|| line_of(direction, middle, (step as f64 - LINES as f64) * LINE_STEP_M))
+    let (direction, step) = (place / steps, place % steps);
+    let offset_m = (step as f64 - middle_step as f64) * SEGMENT.hough_step_m;
+    (*count as usize >= SEGMENT.points_min / 2).then(|| line_of(direction, middle, offset_m))
 }
 
 fn line_of(direction: usize, middle: Point2, beyond_m: f64) -> HesseLine {
-    let normal_rad = core::f64::consts::TAU * direction as f64 / DIRECTIONS as f64;
+    let normal_rad = core::f64::consts::TAU * direction as f64 / SEGMENT.hough_directions as f64;
     let (sin, cos) = libm::sincos(normal_rad);
     HesseLine {
         normal_rad,
@@ -170,7 +143,7 @@ fn line_of(direction: usize, middle: Point2, beyond_m: f64) -> HesseLine {
 /// Fits a line to the points near it by reweighted least squares.
 fn fitted(points: &[RangePoint], mut line: HesseLine, cone: f64) -> HesseLine {
     for round in 0..6 {
-        let near_m = if round < 2 { 2.0 * NEAR_M } else { NEAR_M };
+        let near_m = SEGMENT.near_m * if round < 2 { 2.0 } else { 1.0 };
         let [mut aa, mut ab, mut bb, mut ra, mut rb] = [0.0; 5];
         for point in points {
             let Some((off_m, slope)) = line.off_m(point, cone) else {
@@ -207,7 +180,7 @@ fn segment_of(points: &[RangePoint], line: HesseLine, cone: f64) -> Option<LineS
     let mut along_m: Vec<f64> = points.iter().map(|point| line.along_m(point)).collect();
     along_m.sort_by(f64::total_cmp);
     let piece = along_m
-        .chunk_by(|one, next| next - one <= GAP_M)
+        .chunk_by(|one, next| next - one <= SEGMENT.gap_max_m)
         .max_by_key(|piece| piece.len())?;
     let (low_m, high_m) = (*piece.first()?, *piece.last()?);
     let squares_m2: f64 = points
@@ -217,12 +190,15 @@ fn segment_of(points: &[RangePoint], line: HesseLine, cone: f64) -> Option<LineS
         .sum();
     let scatter_m = libm::sqrt(squares_m2 / points.len().max(1) as f64);
     let length_m = high_m - low_m;
-    if piece.len() < POINTS_MIN || length_m < LENGTH_MIN_M || scatter_m > SCATTER_MAX_M {
+    if piece.len() < SEGMENT.points_min
+        || length_m < SEGMENT.length_min_m
+        || scatter_m > SEGMENT.scatter_max_m
+    {
         return None;
     }
     let (sin, cos) = libm::sincos(line.normal_rad);
     let along_m = 0.5 * (low_m + high_m);
-    let turn_rad = (TURN_SCATTERS * scatter_m).max(TURN_M) / length_m;
+    let turn_rad = (SEGMENT.end_error_scatters * scatter_m).max(SEGMENT.end_error_min_m) / length_m;
     Some(LineSegment {
         middle: Point2 {
             x_m: cos * line.offset_m - sin * along_m,
@@ -230,8 +206,8 @@ fn segment_of(points: &[RangePoint], line: HesseLine, cone: f64) -> Option<LineS
         },
         normal_rad: line.normal_rad,
         half_m: 0.5 * length_m,
-        sigma_rad: libm::sqrt(turn_rad * turn_rad + SIGMA_RAD * SIGMA_RAD),
-        sigma_m: (SIGMA_SCATTERS * scatter_m).max(SIGMA_M),
+        sigma_rad: libm::sqrt(turn_rad * turn_rad + SEGMENT.sigma_min_rad * SEGMENT.sigma_min_rad),
+        sigma_m: (SEGMENT.sigma_scatters * scatter_m).max(SEGMENT.sigma_min_m),
     })
 }
 
@@ -276,9 +252,9 @@ mod tests {
     }
 
     /// Readings along a path of so many centimetres from `x_m` on.
-    fn driven((x_m, steps): (f64, u32), heading_rad: f64, left_m: f64) -> Vec<RangePoint> {
+    fn driven(x_m: f64, centimetres: u32, heading_rad: f64, left_m: f64) -> Vec<RangePoint> {
         let mut points = Vec::new();
-        for step in 0..steps {
+        for step in 0..centimetres {
             let pose = Pose2 {
                 x_m: x_m + 0.01 * f64::from(step),
                 y_m: 0.0,
@@ -291,7 +267,7 @@ mod tests {
 
     #[test]
     fn a_wall_approached_at_an_angle_is_located() {
-        let points = driven((0.65, 15), 0.35, 9.0);
+        let points = driven(0.65, 15, 0.35, 9.0);
         let found = extract_segments(&points, &RESPONSE);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(
@@ -303,7 +279,7 @@ mod tests {
 
     #[test]
     fn a_corner_gives_two_segments() {
-        let points = driven((0.2, 60), 0.0, 0.25);
+        let points = driven(0.2, 60, 0.0, 0.25);
         let mut found = extract_segments(&points, &RESPONSE);
         found.sort_by(|one, other| one.normal_rad.abs().total_cmp(&other.normal_rad.abs()));
         assert_eq!(found.len(), 2, "{found:?}");
@@ -316,7 +292,7 @@ mod tests {
     fn scatter_of_the_points_raises_the_deviations_of_a_segment() {
         let sure = |noise_m: f64| {
             let mut random = crate::model::random::Random::new(4);
-            let mut points = driven((0.65, 15), 0.35, 9.0);
+            let mut points = driven(0.65, 15, 0.35, 9.0);
             for point in &mut points {
                 point.seen_m += noise_m * random.normal();
             }
@@ -324,7 +300,7 @@ mod tests {
             (found[0].sigma_m, found[0].sigma_rad)
         };
         let (calm, noisy) = (sure(0.003), sure(0.011));
-        assert_eq!(calm.0, super::SIGMA_M);
+        assert_eq!(calm.0, super::SEGMENT.sigma_min_m);
         assert!(noisy.0 > 1.1 * calm.0, "{noisy:?} after {calm:?}");
         assert!(noisy.1 > 1.1 * calm.1, "{noisy:?} after {calm:?}");
     }

@@ -2,27 +2,11 @@
 
 use super::OdometryStep;
 use super::line_segment::{LineSegment, RangePoint, extract_segments};
+use super::parameters::SUBMAP;
 use crate::model::advance::Advance;
 use crate::model::config::ProximityLayout;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
-
-/// A submap ends when nothing was seen for this distance, metres,
-const UNSEEN_M: f64 = 0.12;
-/// and at the latest after this distance, metres.
-const LENGTH_MAX_M: f64 = 0.7;
-/// Distance and turn between two samples, metres and radians.
-const STEP_M: f64 = 0.01;
-const STEP_RAD: f64 = 0.045;
-/// Most points of a submap.
-const POINTS_MAX: usize = 500;
-/// A larger turn on the spot calibrates the gyro, radians: no corner needs as much. What is seen during such a turn has no reliable
-/// direction, and it separates two submaps.
-const SPIN_RAD: f64 = 3.5;
-/// Distance that ends a turn on the spot, metres.
-const SPIN_DISTANCE_M: f64 = 0.02;
-/// Levels below this are noise.
-const LEVEL_MIN: f64 = 0.06;
 
 /// A completed submap.
 #[derive(Clone, Debug)]
@@ -59,7 +43,7 @@ impl Spin {
     fn follow(&mut self, advance: Advance, points: usize) {
         self.distance_m += advance.distance_m.abs();
         self.turned_rad += advance.turn_rad;
-        if self.distance_m > SPIN_DISTANCE_M {
+        if self.distance_m > SUBMAP.spin_distance_max_m {
             *self = Self {
                 began: points,
                 ..Self::default()
@@ -68,7 +52,7 @@ impl Spin {
     }
 
     fn is_whole_turn(&self) -> bool {
-        self.turned_rad.abs() > SPIN_RAD
+        self.turned_rad.abs() > SUBMAP.spin_min_rad
     }
 }
 
@@ -90,15 +74,15 @@ impl SubmapBuilder {
         }
         self.spin.follow(advance, self.points.len());
         let is_spinning = self.spin.is_whole_turn();
-        if !is_spinning && (self.step_m >= STEP_M || self.step_rad >= STEP_RAD) {
+        if !is_spinning && (self.step_m >= SUBMAP.step_m || self.step_rad >= SUBMAP.step_rad) {
             (self.step_m, self.step_rad) = (0.0, 0.0);
             self.sample(odom, observation, layout);
         }
         let is_cut = is_spinning && !self.points.is_empty();
         let over = is_cut
-            || self.unseen_m >= UNSEEN_M
-            || self.distance_m >= LENGTH_MAX_M
-            || self.points.len() >= POINTS_MAX;
+            || self.unseen_m >= SUBMAP.unseen_max_m
+            || self.distance_m >= SUBMAP.length_max_m
+            || self.points.len() >= SUBMAP.points_max;
         if !over {
             return None;
         }
@@ -132,7 +116,10 @@ impl SubmapBuilder {
     fn sample(&mut self, odom: Pose2, observation: &Observation, layout: &ProximityLayout) {
         for (sensor, level) in layout.sensors().iter().zip(&observation.proximity) {
             let level = f64::from(*level);
-            let seen = layout.response.distance_m(level).filter(|_| level >= LEVEL_MIN);
+            let seen = layout
+                .response
+                .distance_m(level)
+                .filter(|_| level >= SUBMAP.level_min);
             if let Some(seen_m) = seen {
                 self.unseen_m = 0.0;
                 self.points.push(RangePoint {

@@ -1,21 +1,12 @@
 //! Manhattan alignment: detects whether the walls are at right angles, and aligns them.
 
 use super::graph::{Graph, LineLandmark};
+use super::parameters::MANHATTAN;
 use crate::model::geometry::normalize_rad;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 /// Bins of a quarter turn: 2 degrees each.
 const BINS: usize = 45;
-/// Bins on each side of a peak that belong to it: 7 degrees with the middle one.
-const PEAK_BINS: usize = 3;
-/// Fewest observations for a decision.
-const OBSERVATIONS_MIN: usize = 6;
-/// A home has right angles when this share of its wall length lies in the four directions. Chance gives 0.16.
-const MANHATTAN_FROM: f64 = 0.6;
-/// A home with right angles loses them below this share.
-const MANHATTAN_TO: f64 = 0.45;
-/// Walls this close to one of the four directions are aligned with it, radians: 7 degrees.
-const NEAR_RAD: f64 = 0.12;
 
 /// Detects the four directions from the present observations and aligns the landmarks with them.
 pub(super) fn align_to_manhattan(graph: &mut Graph) {
@@ -46,11 +37,12 @@ pub(super) fn quarter(manhattan_rad: f64, normal_rad: f64, sigma_rad: f64) -> Op
     let turns = (normal_rad - manhattan_rad) / FRAC_PI_2;
     let nearest = libm::round(turns);
     let off_rad = (turns - nearest) * FRAC_PI_2;
-    (off_rad.abs() <= NEAR_RAD + sigma_rad.min(NEAR_RAD)).then(|| (nearest as i64).rem_euclid(4) as u8)
+    (off_rad.abs() <= MANHATTAN.near_rad + sigma_rad.min(MANHATTAN.near_rad))
+        .then(|| (nearest as i64).rem_euclid(4) as u8)
 }
 
 fn detected(graph: &Graph) -> Option<f64> {
-    if graph.observations.len() < OBSERVATIONS_MIN {
+    if graph.observations.len() < MANHATTAN.observations_min {
         return None;
     }
     // Directions of all segments, modulo a quarter turn, and their lengths.
@@ -73,14 +65,14 @@ fn detected(graph: &Graph) -> Option<f64> {
         sum += weight;
     }
     let around = |bin: usize| -> f64 {
-        (0..=2 * PEAK_BINS)
-            .filter_map(|offset| bins.get((bin + BINS + offset - PEAK_BINS) % BINS))
+        (0..=2 * MANHATTAN.peak_bins)
+            .filter_map(|offset| bins.get((bin + BINS + offset - MANHATTAN.peak_bins) % BINS))
             .sum()
     };
     let peak = (0..BINS).max_by(|one, other| around(*one).total_cmp(&around(*other)))?;
     let least = match graph.manhattan_rad {
-        Some(_) => MANHATTAN_TO,
-        None => MANHATTAN_FROM,
+        Some(_) => MANHATTAN.lost_share,
+        None => MANHATTAN.gained_share,
     };
     if around(peak) < least * sum {
         return None;
@@ -90,7 +82,7 @@ fn detected(graph: &Graph) -> Option<f64> {
     let (mut weighed, mut weights) = (0.0, 0.0);
     for (rad, weight) in &directions {
         let off_rad = normalize_rad((rad - middle_rad) * TAU / FRAC_PI_2) * FRAC_PI_2 / TAU;
-        if off_rad.abs() <= NEAR_RAD {
+        if off_rad.abs() <= MANHATTAN.near_rad {
             weighed += weight * off_rad;
             weights += weight;
         }
@@ -158,7 +150,7 @@ mod tests {
     }
 
     /// Laps in a home whose walls have these directions. Returns after each segment whether the home has right angles.
-    fn laps(directions_rad: &[f64], graph: &mut Graph, (laps, seed): (usize, u64)) -> Vec<bool> {
+    fn laps(directions_rad: &[f64], graph: &mut Graph, laps: usize, seed: u64) -> Vec<bool> {
         let mut random = Random::new(seed);
         let mut is_manhattan = Vec::new();
         for _ in 0..laps {
@@ -182,7 +174,7 @@ mod tests {
     fn walls_at_60_degrees_are_never_aligned() {
         for seed in 1..40 {
             let mut graph = Graph::default();
-            let is_manhattan = laps(&six(0.1 * seed as f64), &mut graph, (20, seed));
+            let is_manhattan = laps(&six(0.1 * seed as f64), &mut graph, 20, seed);
             assert!(!is_manhattan.contains(&true), "seed {seed}");
             assert!(graph.landmarks.iter().all(|landmark| landmark.quarter.is_none()));
         }
@@ -193,7 +185,7 @@ mod tests {
         for seed in 1..40 {
             let turned_rad = 0.1 * seed as f64;
             let mut graph = Graph::default();
-            let is_manhattan = laps(&four(turned_rad), &mut graph, (5, seed));
+            let is_manhattan = laps(&four(turned_rad), &mut graph, 5, seed);
             assert_eq!(
                 is_manhattan.iter().position(|is| *is),
                 Some(5),
@@ -216,9 +208,9 @@ mod tests {
     fn many_slanted_walls_end_the_alignment_and_a_few_do_not() {
         for seed in 1..40 {
             let mut graph = Graph::default();
-            laps(&four(0.3), &mut graph, (10, seed));
+            laps(&four(0.3), &mut graph, 10, seed);
             let slanted = |turned_rad: f64| [turned_rad, turned_rad + PI];
-            let few = laps(&slanted(0.3 + 0.7), &mut graph, (10, seed));
+            let few = laps(&slanted(0.3 + 0.7), &mut graph, 10, seed);
             assert!(!few.contains(&false), "seed {seed}");
             assert!(
                 graph
@@ -227,12 +219,12 @@ mod tests {
                     .is_some_and(|landmark| landmark.quarter.is_none())
             );
             for turned_rad in [0.3, 0.6, 0.9, 1.2] {
-                laps(&slanted(0.3 + turned_rad), &mut graph, (15, seed));
+                laps(&slanted(0.3 + turned_rad), &mut graph, 15, seed);
             }
             assert_eq!(graph.manhattan_rad, None, "seed {seed}");
             assert!(graph.landmarks.iter().all(|landmark| landmark.quarter.is_none()));
             // Between both thresholds the decision stays as it was, so it takes more evidence to align again.
-            let later = laps(&four(0.3), &mut graph, (10, seed));
+            let later = laps(&four(0.3), &mut graph, 10, seed);
             assert!(!later.contains(&true), "seed {seed}");
         }
     }

@@ -19,6 +19,7 @@ mod local_submap;
 mod loop_closure;
 mod manhattan;
 mod optimization;
+mod parameters;
 mod turns;
 
 use core::task::Poll;
@@ -28,6 +29,7 @@ use graph::{Graph, Node};
 use graph_fit::FittedGraph;
 use kalman::{Belief, StepVariance};
 use local_submap::{LocalSubmap, SubmapBuilder};
+use parameters::{NOISE, UPDATE};
 pub(super) use turns::{ScaleEstimate, TurnCalibration};
 use turns::{TurnErrors, Turns};
 
@@ -37,28 +39,6 @@ use crate::model::config::ProximityLayout;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 use crate::model::gradual::Gradual;
 use crate::model::observation::Observation;
-
-/// Slip of the position, square metres per metre, and what each step adds, for a poor robot. A filter that is too sure keeps a
-/// wrong landmark.
-const SLIP_M2_PER_M: f64 = 4.0e-4;
-const STEP_M2: f64 = 4.0e-6;
-/// Noise of a gyro's heading, square radians per second: 0.04 degrees per square root of a second, for a poor robot, too.
-const GYRO_RAD2_PER_S: f64 = 4.8e-7;
-/// Slip in heading without a gyro, square radians per metre.
-const SLIP_RAD2_PER_M: f64 = 7.6e-5;
-/// Most nodes. Later poses are corrected by the landmarks known by then.
-const NODES_MAX: usize = 2_000;
-/// The graph is optimized after so many new observations: this share of all, but at least this number.
-const FIT_SHARE: f64 = 0.03;
-const FIT_OBSERVATIONS: usize = 2;
-/// A step with a larger turn, in radians, has whole turns on the spot. It calibrates the gyro, so the graph is optimized at once.
-const CALIBRATION_TURN_RAD: f64 = 7.0;
-/// The map is redrawn when a pose has moved by this much, metres,
-const REDRAW_M: f64 = 0.025;
-/// at least this long after the last time, microseconds,
-const REDRAW_US: u64 = 60_000_000;
-/// and after this share of the time since the start: redrawing takes longer the more there is.
-const REDRAW_SHARE: u64 = 5;
 
 /// An advance of odometry and the pose at its end.
 #[derive(Clone, Copy, Debug)]
@@ -137,8 +117,8 @@ impl StepInProgress {
         self.turn_rad += advance.turn_rad;
         self.time_s += advance.time_s;
         self.noise_rad2 += match advance.gyro_turn_rad {
-            Some(_) => GYRO_RAD2_PER_S * advance.time_s,
-            None => SLIP_RAD2_PER_M * advance.distance_m.abs(),
+            Some(_) => NOISE.gyro_rad2_per_s * advance.time_s,
+            None => NOISE.slip_rad2_per_m * advance.distance_m.abs(),
         };
     }
 
@@ -161,7 +141,7 @@ impl StepInProgress {
         let bias_rad = turns.bias_sigma_rad_per_s * self.time_s;
         let scale_rad = turns.scale_sigma * self.turn_rad;
         let turn_rad2 = self.noise_rad2 + bias_rad * bias_rad + scale_rad * scale_rad + 1e-7;
-        let slip_m2 = SLIP_M2_PER_M * self.distance_m + STEP_M2;
+        let slip_m2 = NOISE.slip_m2_per_m * self.distance_m + NOISE.step_m2;
         let length_m2 = step.x_m * step.x_m + step.y_m * step.y_m;
         StepVariance {
             along_m2: slip_m2,
@@ -273,7 +253,7 @@ impl LineSlam {
         self.step_to(submap, turns);
         let expected_rad = self.belief.pose.heading_rad;
         self.associate_segments(&submap.segments);
-        if turned_rad.abs() > CALIBRATION_TURN_RAD {
+        if turned_rad.abs() > UPDATE.calibration_turn_min_rad {
             let off_rad = normalize_rad(self.belief.pose.heading_rad - expected_rad);
             self.graph.turn_errors.correct_scale(off_rad / turned_rad);
             self.has_urgent_constraint = true;
@@ -292,7 +272,7 @@ impl LineSlam {
         self.belief.step(step, pending.variance(step, turns));
         self.odom = submap.odom;
         self.here = self.graph.nodes.len();
-        if self.here < NODES_MAX {
+        if self.here < UPDATE.nodes_max {
             let sigma_rad_per_s = turns.bias_sigma_rad_per_s;
             let epoch = self
                 .graph
@@ -334,7 +314,9 @@ impl LineSlam {
 
     fn begin_fit(&mut self) {
         let observations = self.graph.observations.len();
-        let due = FIT_OBSERVATIONS.max((FIT_SHARE * observations as f64) as usize);
+        let due = UPDATE
+            .fit_observations_min
+            .max((UPDATE.fit_share * observations as f64) as usize);
         let is_urgent = core::mem::take(&mut self.has_urgent_constraint);
         self.redraws_at_once |= is_urgent;
         if is_urgent || observations >= self.observations_fitted + due {
@@ -355,14 +337,16 @@ impl LineSlam {
             .nodes
             .iter()
             .zip(&self.drawn)
-            .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > REDRAW_M);
+            .any(|(node, drawn)| node.pose.position().distance_m(drawn.position()) > UPDATE.redraw_m);
         self.redraws_at_once = (self.redraws_at_once || has_merged) && self.outdated;
     }
 
     /// The poses with which the map is to be redrawn; `None` while it is good enough.
     pub(super) fn redraw(&mut self, time_us: u64) -> Option<Vec<Keyframe>> {
         let began_us = self.graph.nodes.first()?.time_us;
-        let pause_us = REDRAW_US.max(self.drawn_us.saturating_sub(began_us) / REDRAW_SHARE);
+        let pause_us = UPDATE
+            .redraw_interval_us
+            .max(self.drawn_us.saturating_sub(began_us) / UPDATE.redraw_elapsed_divisor);
         let is_early = time_us < self.drawn_us.max(began_us).saturating_add(pause_us);
         let redraws_at_once = self.redraws_at_once && self.fit.is_none();
         if !self.outdated || (is_early && !redraws_at_once) {

@@ -1,22 +1,16 @@
 //! Optimizes all poses and landmarks by Gauss-Newton.
 
-use super::graph::{Graph, KERNEL, Unknowns};
-use crate::localization::skyline::{Solution, System};
+use super::graph::{Graph, Linearization};
+use super::parameters::OPTIMIZATION;
+use crate::localization::skyline::Solution;
 use crate::model::gradual::StepBudget;
 #[cfg(test)]
 use crate::model::gradual::at_once;
 
-/// Most iterations, and the step size that ends them, metres or radians.
-const ITERATIONS_MAX: usize = 5;
-const CONVERGED: f64 = 5e-4;
 /// Work of an odometry residual, of an observation, and of moving a node.
 const STEP_WORK: usize = 250;
 const OBSERVATION_WORK: usize = 250;
 const MOVE_WORK: usize = 15;
-
-/// Iterations in which far observations count, and their kernel in squared deviations: half a metre.
-const WIDE_ITERATIONS: usize = 3;
-const WIDE_KERNEL: f64 = 500.0;
 
 /// Range within which observations pull landmarks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +26,7 @@ impl CaptureRange {
     const fn wide_iterations(self) -> usize {
         match self {
             Self::Near => 0,
-            Self::Far => WIDE_ITERATIONS,
+            Self::Far => OPTIMIZATION.wide_iterations,
         }
     }
 }
@@ -40,22 +34,26 @@ impl CaptureRange {
 /// Optimizes the graph. Returns whether there is a solution.
 pub(super) async fn optimize(graph: &mut Graph, reach: CaptureRange, budget: &mut StepBudget) -> bool {
     let wide = reach.wide_iterations();
-    for round in 0..wide + ITERATIONS_MAX {
-        let kernel = if round < wide { WIDE_KERNEL } else { KERNEL };
-        let unknowns = graph.unknowns();
-        let mut system = graph.system(&unknowns);
+    for round in 0..wide + OPTIMIZATION.iterations_max {
+        let kernel = if round < wide {
+            OPTIMIZATION.wide_kernel
+        } else {
+            OPTIMIZATION.kernel
+        };
+        let mut linearization = graph.linearization(kernel);
         budget.spend(MOVE_WORK * graph.nodes.len()).await;
-        gather(graph, (&unknowns, kernel), &mut system, budget).await;
+        gather(graph, &mut linearization, budget).await;
+        let Linearization { unknowns, system, .. } = linearization;
         let Some(Solution { values, factor }) = system.solve(budget).await else {
             return false;
         };
         graph.apply(&unknowns, &values);
         graph.turn_errors.scale_sigma = Some(factor.last_sigma());
-        let is_still = values.iter().all(|step| step.abs() < CONVERGED);
+        let is_still = values.iter().all(|step| step.abs() < OPTIMIZATION.converged);
         if is_still && round >= wide {
             return true;
         }
-        if round + 1 < wide + ITERATIONS_MAX {
+        if round + 1 < wide + OPTIMIZATION.iterations_max {
             budget.spend(MOVE_WORK * graph.nodes.len()).await;
         }
     }
@@ -63,22 +61,17 @@ pub(super) async fn optimize(graph: &mut Graph, reach: CaptureRange, budget: &mu
 }
 
 /// Adds odometry, observations and dockings to the system.
-async fn gather(
-    graph: &Graph,
-    (unknowns, kernel): (&Unknowns, f64),
-    system: &mut System,
-    budget: &mut StepBudget,
-) {
+async fn gather(graph: &Graph, linearization: &mut Linearization, budget: &mut StepBudget) {
     for step in 0..graph.nodes.len().saturating_sub(1) {
-        graph.add_odometry_residual(step, unknowns, system);
+        graph.add_odometry_residual(step, linearization);
         budget.spend(STEP_WORK).await;
     }
     for observation in &graph.observations {
-        graph.add_line_residual((observation, kernel), unknowns, system);
+        graph.add_line_residual(observation, linearization);
         budget.spend(OBSERVATION_WORK).await;
     }
     for docking in 0..graph.docked.len() {
-        graph.add_dock_residual(docking, system);
+        graph.add_dock_residual(docking, &mut linearization.system);
         budget.spend(OBSERVATION_WORK).await;
     }
 }

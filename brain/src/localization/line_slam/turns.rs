@@ -2,6 +2,7 @@
 //! of the graph. Comparing headings after the optimization with the counted turns would underestimate the scale and be too sure of
 //! it, because walls that are seen rarely hardly move a heading.
 
+use super::parameters::TURN;
 use crate::localization::skyline::System;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
@@ -14,15 +15,6 @@ pub(in crate::localization) struct TurnCalibration {
     /// Standard deviation of the bias, radians per second.
     pub(in crate::localization) bias_sigma_rad_per_s: f64,
 }
-
-/// Length of an epoch, microseconds.
-const EPOCH_US: u64 = 60_000_000;
-/// A zero-velocity update that reduces the deviation below this share of the epoch's begins another epoch. The first update comes
-/// soon after the robot is switched on.
-const SURER_SHARE: f64 = 0.5;
-/// Least standard deviations, so that weights stay finite.
-const SCALE_SIGMA_MIN: f64 = 1e-4;
-const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 1e-5;
 
 /// An estimate of the scale error of the turns.
 #[derive(Clone, Copy, Debug)]
@@ -77,8 +69,8 @@ pub(super) struct BiasEpoch {
 
 impl BiasEpoch {
     fn takes_in(&self, time_us: u64, sigma_rad_per_s: f64) -> bool {
-        time_us < self.began_us.saturating_add(EPOCH_US)
-            && sigma_rad_per_s > SURER_SHARE * self.sigma_rad_per_s
+        time_us < self.began_us.saturating_add(TURN.epoch_us)
+            && sigma_rad_per_s > TURN.surer_share * self.sigma_rad_per_s
     }
 }
 
@@ -151,7 +143,7 @@ impl TurnErrors {
             1.0 / (sigma * sigma)
         };
         for (number, epoch) in self.epochs.iter().enumerate() {
-            let sure = weight(epoch.sigma_rad_per_s, BIAS_SIGMA_MIN_RAD_PER_S);
+            let sure = weight(epoch.sigma_rad_per_s, TURN.bias_sigma_min_rad_per_s);
             system.add_residual(
                 &[(unknowns.first_epoch + number, 1.0)],
                 epoch.bias_rad_per_s,
@@ -159,7 +151,7 @@ impl TurnErrors {
             );
         }
         let off = self.scale - self.known_scale;
-        let sure = weight(self.known_sigma, SCALE_SIGMA_MIN);
+        let sure = weight(self.known_sigma, TURN.scale_sigma_min);
         system.add_residual(&[(unknowns.scale, 1.0)], off, sure);
     }
 

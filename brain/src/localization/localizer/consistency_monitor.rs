@@ -12,29 +12,51 @@ use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Point2;
-use crate::model::observation::{Contacts, Observation};
+use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
-/// Distance between two checks, metres.
-const STEP_M: f64 = 0.1;
-/// An obstacle in known floor contradicts the map when it is this far from anything solid, metres, plus this many standard
-/// deviations of the pose. Line SLAM may be off by less.
-const ELSEWHERE_M: f64 = 0.35;
-const SIGMAS: f64 = 2.0;
-/// The floor must be known this far around an obstacle that contradicts the map, metres. A beam may have passed a wall that the
-/// robot later sees from the front: then the floor before the wall is known, the wall and what is behind it are not (this happened
-/// in a first run of home 17).
-const SURROUNDINGS_M: f64 = 0.15;
-/// Number of checks over which the share of contradictions is averaged, without those where nothing is known: two and a half metres
-/// along a wall.
-const AVERAGED_CHECKS: f64 = 25.0;
-/// Above this share the robot is elsewhere. In undisturbed first runs of generated homes it stayed below 0.1.
-const CONTRADICTED_ABOVE: f64 = 0.2;
-/// Above this share something is wrong. The present map is no reference, and is rolled back to this moment if the robot turns out
-/// to be elsewhere.
-const DOUBTED_ABOVE: f64 = 0.1;
-/// The rollback begins this much earlier, microseconds, because not every place shows a contradiction at once.
-const ROLLBACK_LEAD_US: u64 = 20_000_000;
+/// When what the sensors show contradicts the robot's own map.
+struct MonitorParameters {
+    /// Distance between two checks, metres.
+    step_m: f64,
+    /// An obstacle in known floor contradicts the map when it is this far from anything solid, metres. Line SLAM may be off by
+    /// less.
+    elsewhere_m: f64,
+    /// The distance grows with the pose's uncertainty by this many standard deviations.
+    elsewhere_sigmas: f64,
+    /// The floor must be known this far around an obstacle that contradicts the map, metres. A beam may have passed a wall that
+    /// the robot later sees from the front: then the floor before the wall is known, the wall and what is behind it are not (this
+    /// happened in a first run of home 17).
+    surroundings_m: f64,
+    /// Number of checks over which the share of contradictions is averaged, without those where nothing is known: two and a half
+    /// metres along a wall.
+    averaged_checks: f64,
+    /// Above this share the robot is elsewhere. In undisturbed first runs of generated homes it stayed below 0.1.
+    contradicted_above: f64,
+    /// Above this share something is wrong. The present map is no reference, and is rolled back to this moment if the robot turns
+    /// out to be elsewhere.
+    doubted_above: f64,
+    /// The rollback begins this much earlier, microseconds, because not every place shows a contradiction at once.
+    rollback_lead_us: u64,
+}
+
+const PARAMETERS: MonitorParameters = MonitorParameters {
+    step_m: 0.1,
+    elsewhere_m: 0.35,
+    elsewhere_sigmas: 2.0,
+    surroundings_m: 0.15,
+    averaged_checks: 25.0,
+    contradicted_above: 0.2,
+    doubted_above: 0.1,
+    rollback_lead_us: 20_000_000,
+};
+
+/// An observation, and the motion since the one before.
+#[derive(Clone, Copy, Debug)]
+struct ObservedStep<'step> {
+    observation: &'step Observation,
+    advance: Advance,
+}
 
 /// The map of a few minutes ago, and the share of recent checks that contradict it.
 #[derive(Clone, Debug, Default)]
@@ -43,35 +65,29 @@ pub(super) struct ConsistencyMonitor {
     updated_us: u64,
     redrawn: u32,
     distance_m: f64,
-    contacts_before: Contacts,
     contradicted: f64,
     consistent_us: u64,
 }
 
 impl ConsistencyMonitor {
     /// Checks what the sensors show at the estimated pose.
-    pub(super) fn observe(
-        &mut self,
-        (observation, advance): (&Observation, Advance),
-        estimate: &PoseEstimate,
-        config: &BrainConfig,
-    ) {
+    fn observe(&mut self, step: ObservedStep<'_>, estimate: &PoseEstimate, config: &BrainConfig) {
+        let ObservedStep { observation, advance } = step;
         self.distance_m += advance.distance_m.abs();
-        let touches = observation.contacts.any() && !self.contacts_before.any();
-        self.contacts_before = observation.contacts;
+        let touches = advance.onsets.contacts.any();
         let Some(reference_map) = &self.reference_map else {
             return;
         };
-        if self.distance_m < STEP_M && !touches {
+        if self.distance_m < PARAMETERS.step_m && !touches {
             return;
         }
         self.distance_m = 0.0;
         let solid = solid_in_base(observation, touches, config);
-        let far_m = ELSEWHERE_M + SIGMAS * estimate.sigma_m;
+        let far_m = PARAMETERS.elsewhere_m + PARAMETERS.elsewhere_sigmas * estimate.sigma_m;
         if let Some(contradicted) = contradicted(reference_map, estimate, &solid, far_m) {
-            self.contradicted += (contradicted - self.contradicted) / AVERAGED_CHECKS;
+            self.contradicted += (contradicted - self.contradicted) / PARAMETERS.averaged_checks;
         }
-        if self.contradicted <= DOUBTED_ABOVE {
+        if self.contradicted <= PARAMETERS.doubted_above {
             self.consistent_us = observation.time_us;
         }
     }
@@ -80,7 +96,7 @@ impl ConsistencyMonitor {
     /// which the robot could not relocalize is no reference, because the robot would be left with nothing.
     pub(super) fn update_reference(&mut self, map: &Map, time_us: u64) {
         let is_due = time_us >= self.updated_us.saturating_add(LEARN_US) || map.redrawn() != self.redrawn;
-        if is_due && self.contradicted <= DOUBTED_ABOVE {
+        if is_due && self.contradicted <= PARAMETERS.doubted_above {
             (self.updated_us, self.redrawn) = (time_us, map.redrawn());
             self.reference_map = ReferenceMap::is_trustworthy(map).then(|| Box::new(ReferenceMap::of(map)));
         }
@@ -88,10 +104,10 @@ impl ConsistencyMonitor {
 
     /// The contradicted map, and the time since which the robot drew in the wrong place.
     pub(super) fn take_contradicted(&mut self) -> Option<(Box<ReferenceMap>, u64)> {
-        if self.contradicted <= CONTRADICTED_ABOVE {
+        if self.contradicted <= PARAMETERS.contradicted_above {
             return None;
         }
-        let since_us = self.consistent_us.saturating_sub(ROLLBACK_LEAD_US);
+        let since_us = self.consistent_us.saturating_sub(PARAMETERS.rollback_lead_us);
         let reference_map = core::mem::take(self).reference_map?;
         Some((reference_map, since_us))
     }
@@ -128,9 +144,8 @@ impl Localization {
         if let Some(first_run) = self.estimator.first_run_mut()
             && !observation.wheel_drop
         {
-            first_run
-                .monitor
-                .observe((observation, advance), &estimate, config);
+            let step = ObservedStep { observation, advance };
+            first_run.monitor.observe(step, &estimate, config);
         }
     }
 }
@@ -184,31 +199,34 @@ fn is_surrounded_by_known(reference_map: &ReferenceMap, at: Point2) -> bool {
     let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
     sides.iter().all(|(x, y)| {
         reference_map.is_known(Point2 {
-            x_m: at.x_m + SURROUNDINGS_M * x,
-            y_m: at.y_m + SURROUNDINGS_M * y,
+            x_m: at.x_m + PARAMETERS.surroundings_m * x,
+            y_m: at.y_m + PARAMETERS.surroundings_m * y,
         })
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ConsistencyMonitor, LEARN_US, PoseEstimate};
+    use super::{ConsistencyMonitor, LEARN_US, ObservedStep, PoseEstimate};
     use crate::localization::known_home::{START, SimulatedRobot, TRACK_M, config, flat};
     use crate::localization::reference_map::ReferenceMap;
     use crate::localization::{Localization, MapCorrection};
     use crate::mapping::{Cell, CellKnowledge, Keyframe, Map, Raster, StoredMap};
     use crate::model::advance::Advance;
     use crate::model::geometry::{Point2, Pose2};
+    use crate::model::onsets::OnsetDetector;
 
     /// Checks of a robot that drives through the flat with a pose that is off by `believed_off`. Returns the greatest share.
     fn contradicted(home: &Map, believed_off: Pose2, steps: u32) -> f64 {
         let mut truth = SimulatedRobot::new(home, START);
         let mut monitor = ConsistencyMonitor::default();
         monitor.update_reference(home, LEARN_US);
+        let mut onsets = OnsetDetector::default();
         let mut greatest: f64 = 0.0;
         for _ in 0..steps {
             let before = truth.pose;
             let view = truth.step().clone();
+            let begins = onsets.take(&view);
             let estimate = PoseEstimate {
                 pose: believed_off * truth.pose,
                 sigma_m: 0.05,
@@ -216,9 +234,14 @@ mod tests {
             };
             let advance = Advance {
                 distance_m: before.position().distance_m(truth.pose.position()),
+                onsets: begins,
                 ..Advance::default()
             };
-            monitor.observe((&view, advance), &estimate, &config());
+            let step = ObservedStep {
+                observation: &view,
+                advance,
+            };
+            monitor.observe(step, &estimate, &config());
             greatest = greatest.max(monitor.contradicted);
         }
         greatest
@@ -243,7 +266,7 @@ mod tests {
                 ..PoseEstimate::default()
             };
             let solid = Point2 { x_m: 0.2, y_m: 0.0 };
-            super::contradicted(&reference_map, &estimate, &[solid], super::ELSEWHERE_M)
+            super::contradicted(&reference_map, &estimate, &[solid], super::PARAMETERS.elsewhere_m)
         };
         assert_eq!(below(1.99), Some(0.0), "in the last cells that are known");
         assert_eq!(below(1.5), Some(1.0), "in the midst of floor");
@@ -261,12 +284,15 @@ mod tests {
         let steps = 50 * 300;
         for drift in [off(0.0, 0.0, 0.0), off(0.15, -0.1, 0.0), off(-0.1, 0.1, 0.03)] {
             let greatest = contradicted(&home, drift, steps);
-            assert!(greatest < super::DOUBTED_ABOVE, "{greatest} with {drift:?}");
+            assert!(
+                greatest < super::PARAMETERS.doubted_above,
+                "{greatest} with {drift:?}"
+            );
         }
         for elsewhere in [off(1.6, 0.9, 0.0), off(4.2, 3.6, 3.0), off(-0.9, 1.0, -0.6)] {
             let greatest = contradicted(&home, elsewhere, steps);
             assert!(
-                greatest > super::CONTRADICTED_ABOVE,
+                greatest > super::PARAMETERS.contradicted_above,
                 "{greatest} with {elsewhere:?}"
             );
         }
@@ -308,7 +334,7 @@ mod tests {
     }
 
     /// Draws so many steps of a robot whose pose has this standard deviation. Returns the number of known cells.
-    fn drawn(map: &mut Map, (truth, sigma_m): (&mut SimulatedRobot<'_>, f64), steps: u32) -> usize {
+    fn drawn(map: &mut Map, truth: &mut SimulatedRobot<'_>, sigma_m: f64, steps: u32) -> usize {
         for _ in 0..steps {
             let view = truth.step().clone();
             let estimate = PoseEstimate {
@@ -337,7 +363,7 @@ mod tests {
         let home = flat();
         for (sigma_m, is_trusted) in [(0.02, true), (0.4, false)] {
             let mut map = Map::new(config().body, config().sensors);
-            drawn(&mut map, (&mut SimulatedRobot::new(&home, START), sigma_m), 6_000);
+            drawn(&mut map, &mut SimulatedRobot::new(&home, START), sigma_m, 6_000);
             let mut monitor = ConsistencyMonitor::default();
             monitor.update_reference(&map, LEARN_US);
             assert_eq!(monitor.reference_map.is_some(), is_trusted, "{sigma_m} m");
@@ -349,8 +375,8 @@ mod tests {
         let home = flat();
         let mut truth = SimulatedRobot::new(&home, START);
         let mut map = Map::new(config().body, config().sensors);
-        let before = drawn(&mut map, (&mut truth, 0.02), 1_000);
-        let later = drawn(&mut map, (&mut truth, 0.02), 6_000);
+        let before = drawn(&mut map, &mut truth, 0.02, 1_000);
+        let later = drawn(&mut map, &mut truth, 0.02, 6_000);
         assert!(later > before + before / 10, "{before} cells, then {later}");
         let keyframe = Keyframe {
             time_us: 0,

@@ -3,41 +3,28 @@
 //! A dock whose position only a person has given tells the robot's pose roughly. A robot that is sure of its pose tells where the
 //! dock is.
 
+use super::Localization;
 use super::estimator::{Estimator, KnownMap};
-use super::{Localization, START_SIGMA_M, START_SIGMA_RAD};
+use super::parameters::PLACING;
 use crate::localization::TrackingCheckpoint;
 use crate::localization::drift::Drift;
 use crate::localization::tracker::CONFIRMATION_BEAMS;
-use crate::mapping::{DockLocation, Map};
-use crate::model::config::BrainConfig;
+use crate::mapping::DockLocation;
 use crate::model::geometry::Pose2;
 
-/// Standard deviations of a pose that a person has pointed out, metres and radians.
-const ROUGH_SIGMA_M: f64 = 0.3;
-const ROUGH_SIGMA_RAD: f64 = 0.4;
-/// A pose with a smaller standard deviation than this may be used as a reference, metres.
-const CONFIRMED_M: f64 = 0.15;
-
 impl Localization {
-    /// A person says that the robot is at `pose` in `map`, by eye. The pose counts as unsure until the sensors have confirmed it.
-    pub fn place_roughly_at(&mut self, pose: Pose2, (map, config): (&Map, &BrainConfig), seed: u64) {
-        self.place_at(pose);
-        self.start_monte_carlo(map, config, seed);
-        if self.estimator.known_map().is_none() {
-            self.start_line_slam(config);
-        }
-        self.begin_roughly_at(pose);
-    }
-
-    pub(super) fn begin_roughly_at(&mut self, pose: Pose2) {
+    /// A person says that the robot is at `pose`, by eye. The pose counts as unsure until the sensors have confirmed it.
+    pub fn place_roughly_at(&mut self, pose: Pose2) {
         self.set_pose(pose);
         self.odometry.calibration.interrupt();
         self.drift = Drift {
-            sigma_m: ROUGH_SIGMA_M,
-            sigma_rad: ROUGH_SIGMA_RAD,
+            sigma_m: PLACING.person_sigma_m,
+            sigma_rad: PLACING.person_sigma_rad,
         };
         if let Some(known) = self.estimator.known_map_mut() {
-            known.tracker.place_at(pose, ROUGH_SIGMA_M, ROUGH_SIGMA_RAD);
+            known
+                .tracker
+                .place_at(pose, PLACING.person_sigma_m, PLACING.person_sigma_rad);
             known.tracker.require_confirmation(CONFIRMATION_BEAMS);
         }
     }
@@ -52,7 +39,7 @@ impl Localization {
     /// Whether the pose may be used as a reference: the sensors confirm it, or line SLAM has tracked it from the start.
     #[must_use]
     pub fn is_confirmed(&self) -> bool {
-        let is_narrow = self.drift.sigma_m <= CONFIRMED_M;
+        let is_narrow = self.drift.sigma_m <= PLACING.confirmed_sigma_m;
         is_narrow
             && match &self.estimator {
                 Estimator::MonteCarlo(known) => known.tracker.is_confirmed(),
@@ -70,7 +57,7 @@ impl Localization {
     /// Whether the dock's contacts were closed at the last observation.
     #[must_use]
     pub fn is_docked(&self) -> bool {
-        self.was_docked
+        self.is_docked
     }
 
     /// How a robot on its dock starts to localize in the map that it has made, with what it has learned of its gyro.
@@ -78,8 +65,8 @@ impl Localization {
     pub fn tracking_on_dock(&self) -> TrackingCheckpoint {
         let (gyro_scale, gyro_bias_rad_per_s) = self.odometry.gyro();
         TrackingCheckpoint {
-            sigma_m: START_SIGMA_M,
-            sigma_rad: START_SIGMA_RAD,
+            sigma_m: PLACING.dock_sigma_m,
+            sigma_rad: PLACING.dock_sigma_rad,
             gyro_scale,
             gyro_bias_rad_per_s,
             ..TrackingCheckpoint::default()
@@ -91,6 +78,6 @@ impl Localization {
     #[must_use]
     pub fn may_draw(&self) -> bool {
         let is_told = |known: &KnownMap| known.tracker.unconfirmed_beams() > 0;
-        !self.estimator.known_map().is_some_and(is_told) || self.drift.sigma_m <= CONFIRMED_M
+        !self.estimator.known_map().is_some_and(is_told) || self.drift.sigma_m <= PLACING.confirmed_sigma_m
     }
 }

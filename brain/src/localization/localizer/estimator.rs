@@ -1,7 +1,8 @@
 //! The estimators that correct odometry, and the transitions between them.
 
+use super::Localization;
 use super::consistency_monitor::ConsistencyMonitor;
-use super::{Localization, START_SIGMA_M, START_SIGMA_RAD};
+use super::parameters::PLACING;
 use crate::localization::line_slam::LineSlam;
 use crate::localization::reference_map::ReferenceMap;
 use crate::localization::tracker::Tracker;
@@ -101,8 +102,8 @@ impl Localization {
         let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
         tracker.place_at(
             self.pose(),
-            self.drift.sigma_m.max(START_SIGMA_M),
-            self.drift.sigma_rad.max(START_SIGMA_RAD),
+            self.drift.sigma_m.max(PLACING.dock_sigma_m),
+            self.drift.sigma_rad.max(PLACING.dock_sigma_rad),
         );
         self.compare_with(ReferenceMap::of(map), tracker);
     }

@@ -4,11 +4,12 @@ mod consistency_monitor;
 mod docked;
 mod estimator;
 mod gyro_knowledge;
+mod parameters;
 mod relocalization;
 
 use super::TrackingCheckpoint;
 use super::beacons::Beacons;
-use super::drift::{Drift, WHEEL_TURN_SCALE};
+use super::drift::{Drift, ODOMETRY_NOISE};
 use super::lift::Lift;
 use super::line_slam::{OdometryStep, ScaleEstimate, TurnCalibration};
 use super::map_correction::MapCorrection;
@@ -21,17 +22,10 @@ use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::observation::Observation;
+use crate::model::onsets::{DockOnset, OnsetDetector};
 use crate::model::pose_estimate::PoseEstimate;
 use estimator::{Estimator, EstimatorKind, KnownMap};
-
-/// Standard deviations of a pose on the dock, metres and radians: the dock is wider than the robot's contacts.
-const START_SIGMA_M: f64 = 0.02;
-const START_SIGMA_RAD: f64 = 0.03;
-/// Greatest standard deviation that is accepted, metres and radians.
-const SIGMA_MAX: f64 = 1.0;
-/// A given pose that is closer than this to the present one does not reset the filter, metres and radians.
-const PLACED_M: f64 = 0.05;
-const PLACED_RAD: f64 = 0.05;
+use parameters::PLACING;
 
 /// A gyro that was silent for so long counts as missing, microseconds.
 const GYRO_GONE_US: u64 = 10_000_000;
@@ -39,9 +33,9 @@ const GYRO_GONE_US: u64 = 10_000_000;
 /// Bounds a standard deviation from outside. NaN becomes the greatest one.
 fn finite(sigma: f64, least: f64) -> f64 {
     if sigma.is_finite() {
-        sigma.clamp(least, SIGMA_MAX)
+        sigma.clamp(least, PLACING.sigma_max)
     } else {
-        SIGMA_MAX
+        PLACING.sigma_max
     }
 }
 
@@ -56,6 +50,7 @@ const LEARN_EXPLAINED: f64 = 0.75;
 #[derive(Debug)]
 pub struct Localization {
     pub(super) odometry: Odometry,
+    onsets: OnsetDetector,
     map_from_odom: Pose2,
     reverse_budget: ReverseBudget,
     drift: Drift,
@@ -66,8 +61,7 @@ pub struct Localization {
     began_us: Option<u64>,
     /// Time of the last gyro reading.
     gyro_us: Option<u64>,
-    was_docked: bool,
-    was_off_dock: bool,
+    is_docked: bool,
     has_just_docked: bool,
     lift: Lift,
     learnt_us: u64,
@@ -79,6 +73,7 @@ impl Localization {
     pub fn new(track_m: f64, rim_max_m_per_s: f64) -> Self {
         Self {
             odometry: Odometry::new(track_m, rim_max_m_per_s),
+            onsets: OnsetDetector::default(),
             map_from_odom: Pose2::IDENTITY,
             reverse_budget: ReverseBudget::default(),
             drift: Drift::default(),
@@ -87,8 +82,7 @@ impl Localization {
             fingerprints: RssiFingerprints::default(),
             began_us: None,
             gyro_us: None,
-            was_docked: false,
-            was_off_dock: false,
+            is_docked: false,
             has_just_docked: false,
             lift: Lift::default(),
             learnt_us: 0,
@@ -97,7 +91,12 @@ impl Localization {
 
     /// Takes an observation and returns the motion since the last one.
     pub fn update(&mut self, observation: &Observation) -> Advance {
-        let advance = self.odometry.update(observation);
+        let advance = Advance {
+            onsets: self.onsets.take(observation),
+            ..self.odometry.update(observation)
+        };
+        self.is_docked = observation.docked;
+        self.has_just_docked = advance.onsets.docking == Some(DockOnset::Arrived);
         if observation.gyro_heading_rad.is_some() {
             self.gyro_us = Some(observation.time_us);
         }
@@ -150,8 +149,8 @@ impl Localization {
             .resume_gyro(before.gyro_scale, before.gyro_bias_rad_per_s);
         let pose = self.pose();
         self.drift = Drift {
-            sigma_m: finite(before.sigma_m, START_SIGMA_M),
-            sigma_rad: finite(before.sigma_rad, START_SIGMA_RAD),
+            sigma_m: finite(before.sigma_m, PLACING.dock_sigma_m),
+            sigma_rad: finite(before.sigma_rad, PLACING.dock_sigma_rad),
         };
         let Some(KnownMap { tracker, .. }) = self.estimator.known_map_mut() else {
             return;
@@ -191,12 +190,8 @@ impl Localization {
         let by_beacons = self.beacons.follow(observation, advance, self.estimate());
         self.leave_useless_map(observation.time_us);
         let moved = MotionUpdate::of(&self.odometry, advance, self.pose());
-        let docks = observation.docked && !self.was_docked;
-        self.was_docked = observation.docked;
-        self.was_off_dock |= !observation.docked;
-        self.has_just_docked = docks && self.was_off_dock;
         match (self.active_estimator(), by_beacons) {
-            (EstimatorKind::MonteCarlo, _) => self.follow_monte_carlo(observation, moved, docks),
+            (EstimatorKind::MonteCarlo, _) => self.follow_monte_carlo(observation, moved),
             (_, Some(estimate)) => self.adopt(estimate),
             (EstimatorKind::Beacons, None) => {}
             (EstimatorKind::LineSlam | EstimatorKind::Odometry, None) => {
@@ -205,7 +200,7 @@ impl Localization {
         }
     }
 
-    fn follow_monte_carlo(&mut self, observation: &Observation, moved: MotionUpdate, docks: bool) {
+    fn follow_monte_carlo(&mut self, observation: &Observation, moved: MotionUpdate) {
         let Some(KnownMap {
             tracker,
             reference_map,
@@ -213,6 +208,7 @@ impl Localization {
         else {
             return;
         };
+        let docks = moved.advance.onsets.docking.is_some();
         tracker.add_ranges(self.beacons.located_ranges());
         tracker.receive(&self.fingerprints);
         tracker.step_search(reference_map);
@@ -223,7 +219,7 @@ impl Localization {
             && is_better
             && let Some(dock) = place.pose()
         {
-            tracker.place_at(dock, START_SIGMA_M, START_SIGMA_RAD);
+            tracker.place_at(dock, PLACING.dock_sigma_m, PLACING.dock_sigma_rad);
             self.odometry.calibration.interrupt();
             self.beacons.place_at(dock);
             self.set_pose(dock);
@@ -231,7 +227,7 @@ impl Localization {
             && tracker.is_lost()
             && let Some(dock) = place.pose()
         {
-            self.begin_roughly_at(dock);
+            self.place_roughly_at(dock);
         } else if let Some(estimate) = tracker.follow(reference_map, observation, moved) {
             self.adopt_tracked(estimate);
         }
@@ -271,7 +267,7 @@ impl Localization {
         if !self.has_gyro(now_us) {
             return TurnCalibration {
                 scale: 0.0,
-                scale_sigma: WHEEL_TURN_SCALE,
+                scale_sigma: ODOMETRY_NOISE.wheel_turn_scale,
                 bias_sigma_rad_per_s: 0.0,
             };
         }
@@ -399,15 +395,17 @@ impl Localization {
         if let Some(first_run) = self.estimator.first_run_mut() {
             first_run.slam.begin_at(pose, odom);
         }
-        let is_there = before.position().distance_m(pose.position()) < PLACED_M
-            && normalize_rad(before.heading_rad - pose.heading_rad).abs() < PLACED_RAD;
+        let is_there = before.position().distance_m(pose.position()) < PLACING.same_m
+            && normalize_rad(before.heading_rad - pose.heading_rad).abs() < PLACING.same_rad;
         if !is_there {
             self.beacons.place_at(pose);
         }
         if let Some(known) = self.estimator.known_map_mut()
             && !is_there
         {
-            known.tracker.place_at(pose, START_SIGMA_M, START_SIGMA_RAD);
+            known
+                .tracker
+                .place_at(pose, PLACING.dock_sigma_m, PLACING.dock_sigma_rad);
         }
     }
 

@@ -1,6 +1,7 @@
 //! Relocalizes a robot that turns out to be somewhere else.
 
-use super::{Localization, SIGMA_MAX};
+use super::Localization;
+use super::parameters::PLACING;
 use crate::localization::reference_map::ReferenceMap;
 use crate::localization::tracker::Tracker;
 use crate::mapping::Map;
@@ -13,7 +14,7 @@ impl Localization {
             return self.lose_in_map(ReferenceMap::of(map), config, seed);
         }
         self.start_line_slam(config);
-        self.drift.sigma_m = SIGMA_MAX;
+        self.drift.sigma_m = PLACING.sigma_max;
     }
 
     /// The robot is somewhere in this map.
@@ -21,6 +22,6 @@ impl Localization {
         let mut tracker = Tracker::new(config.body.radius_m, config.sensors, seed);
         tracker.lose(self.pose());
         self.compare_with(reference_map, tracker);
-        self.drift.sigma_m = SIGMA_MAX;
+        self.drift.sigma_m = PLACING.sigma_max;
     }
 }

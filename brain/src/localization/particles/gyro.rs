@@ -3,28 +3,11 @@
 //! estimates both with the pose.
 
 use super::ParticleFilter;
-use crate::localization::calibration::BIAS_DRIFT_RAD2_PER_S3;
+use super::parameters::GYRO;
+use crate::localization::calibration::CALIBRATION;
 use crate::localization::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use crate::model::advance::Advance;
 use crate::model::random::Random;
-
-/// Random walk of the scale, relative per square root of a radian turned. No gyro has the same scale at all rates, and particles
-/// that agree too soon continue to learn.
-const SCALE_WALK: f64 = 2.0e-4;
-/// Share of the deviations that resampling draws again, because all copies of one particle would have the same scale (J. Liu and M.
-/// West 2001: the kernel keeps mean and variance).
-const REDRAWN: f64 = 0.05;
-/// Least standard deviations after resampling, relative and radians per second.
-const SCALE_SIGMA_MIN: f64 = 3.0e-4;
-const BIAS_SIGMA_MIN_RAD_PER_S: f64 = 5.0e-5;
-
-/// Greatest standard deviation of the bias with which particles start, radians per second, for a robot without any zero-velocity
-/// update. With a larger one some particles would turn until a wrong home fits.
-const BIAS_SIGMA_DRAWN_MAX_RAD_PER_S: f64 = 5.0e-4;
-
-/// Least variance of a zero-velocity update, square radians per square second. A smaller one would leave few particles and so few
-/// positions.
-const MEASURED_VARIANCE_MIN: f64 = 2.5e-8;
 
 /// What the gyro measured during a motion.
 #[derive(Clone, Copy, Debug, Default)]
@@ -57,10 +40,11 @@ pub(super) struct ParticleGyro {
 impl ParticleGyro {
     /// Draws a particle's gyro from the estimate.
     pub(super) fn drawn(belief: GyroEstimate, random: &mut Random) -> Self {
+        let bias_sigma_max = GYRO.bias_sigma_drawn_max_rad_per_s;
+        let bias_sigma_rad_per_s = belief.bias_sigma_rad_per_s.min(bias_sigma_max);
         Self {
             scale: belief.scale + belief.scale_sigma * random.normal(),
-            bias_rad_per_s: belief.bias_rad_per_s
-                + belief.bias_sigma_rad_per_s.min(BIAS_SIGMA_DRAWN_MAX_RAD_PER_S) * random.normal(),
+            bias_rad_per_s: belief.bias_rad_per_s + bias_sigma_rad_per_s * random.normal(),
         }
     }
 
@@ -69,34 +53,36 @@ impl ParticleGyro {
         if count.time_s <= 0.0 {
             return 0.0;
         }
-        self.bias_rad_per_s += libm::sqrt(BIAS_DRIFT_RAD2_PER_S3 * count.time_s) * random.normal();
-        self.scale += SCALE_WALK * libm::sqrt(count.counted_rad.abs()) * random.normal();
+        self.bias_rad_per_s +=
+            libm::sqrt(CALIBRATION.bias_drift_rad2_per_s3 * count.time_s) * random.normal();
+        self.scale += GYRO.scale_walk * libm::sqrt(count.counted_rad.abs()) * random.normal();
         (count.shown_rad - self.bias_rad_per_s * count.time_s) * (1.0 + self.scale) - count.counted_rad
     }
 
     /// Likelihood of a zero-velocity update; 1 at best.
     pub(super) fn likelihood(&self, measured: BiasMeasurement) -> f64 {
         let off = measured.rad_per_s - self.bias_rad_per_s;
-        libm::exp(-0.5 * off * off / measured.variance_rad2_per_s2.max(MEASURED_VARIANCE_MIN))
+        let least = GYRO.measured_variance_min_rad2_per_s2;
+        libm::exp(-0.5 * off * off / measured.variance_rad2_per_s2.max(least))
     }
 
     /// A variation of it for resampling.
     pub(super) fn redrawn(self, belief: GyroEstimate, random: &mut Random) -> Self {
-        let kept = libm::sqrt(1.0 - REDRAWN * REDRAWN);
+        let kept = libm::sqrt(1.0 - GYRO.redrawn_share * GYRO.redrawn_share);
         let about = |value: f64, mean: f64, sigma: f64, chance: f64| {
-            mean + kept * (value - mean) + REDRAWN * sigma * chance
+            mean + kept * (value - mean) + GYRO.redrawn_share * sigma * chance
         };
         Self {
             scale: about(
                 self.scale,
                 belief.scale,
-                belief.scale_sigma.max(SCALE_SIGMA_MIN),
+                belief.scale_sigma.max(GYRO.scale_sigma_min),
                 random.normal(),
             ),
             bias_rad_per_s: about(
                 self.bias_rad_per_s,
                 belief.bias_rad_per_s,
-                belief.bias_sigma_rad_per_s.max(BIAS_SIGMA_MIN_RAD_PER_S),
+                belief.bias_sigma_rad_per_s.max(GYRO.bias_sigma_min_rad_per_s),
                 random.normal(),
             ),
         }

@@ -1,24 +1,10 @@
 //! Beam model: how likely the infrared readings are at a pose in the map.
 
-use super::surface::{PLACE_SIGMA_M, REFLECTION_SIGMA, Range, Reflectance, Reflectances, UNMAPPED, bell};
+use super::parameters::{BEAM, SURFACE};
+use super::surface::{Range, Reflectance, Reflectances, bell};
 use super::surroundings::Surroundings;
 use crate::model::config::{PROXIMITY_MAX, ProximityLayout, ProximityResponse};
 use crate::model::geometry::Point2;
-
-/// Levels below this are noise of the conversion, 0..1.
-const LEVEL_MIN: f64 = 0.02;
-/// Likelihood of a reading in unknown space. It is neutral.
-const UNKNOWN: f64 = 0.5;
-/// Likelihood of no reading where the map has an obstacle: drop-outs, black surfaces, removed furniture.
-const UNSEEN: f64 = 0.08;
-/// Band around the end of the range in which a reading is uncertain, metres.
-const RANGE_BAND_M: f64 = 0.02;
-/// A beam hits an obstacle that is this close, metres.
-const MEET_M: f64 = 0.003;
-/// Smallest step along a beam, metres.
-const STEP_MIN_M: f64 = 0.012;
-/// Most steps along a beam.
-const STEPS_MAX: usize = 12;
 
 /// One sensor and its reading.
 #[derive(Clone, Copy, Debug, Default)]
@@ -94,7 +80,7 @@ impl BeamModel {
             count: layout.sensors().len(),
             range_m,
             spread: libm::tan(layout.response.half_angle_rad),
-            reach_m: mount_m + range_m + 4.0 * RANGE_BAND_M,
+            reach_m: mount_m + range_m + 4.0 * BEAM.range_band_m,
             mount_m,
         }
     }
@@ -119,15 +105,15 @@ impl BeamModel {
             let hits = beams.iter().filter(|beam| beam.seen.is_some());
             return hits.fold(1.0, |likelihood, beam| {
                 let into_unknown = looks_into_unknown(map, place, beam, None);
-                likelihood * if into_unknown { UNKNOWN } else { UNMAPPED }
+                likelihood * if into_unknown { BEAM.unknown } else { BEAM.unmapped }
             });
         }
         let each = beams.iter().zip(&mut surfaces.surfaces);
         each.fold(1.0, |likelihood, (beam, surface)| {
             let expected_m = self.cast(map, place, beam);
             let measured = self.beam_likelihood(beam.seen, expected_m, surface);
-            if measured < UNKNOWN && looks_into_unknown(map, place, beam, expected_m) {
-                likelihood * UNKNOWN
+            if measured < BEAM.unknown && looks_into_unknown(map, place, beam, expected_m) {
+                likelihood * BEAM.unknown
             } else {
                 likelihood * measured
             }
@@ -140,7 +126,7 @@ impl BeamModel {
         for beam in self.beams.get(..self.count).unwrap_or_default() {
             let expected_m = self
                 .cast(map, place, beam)
-                .filter(|expected_m| *expected_m < self.range_m - RANGE_BAND_M);
+                .filter(|expected_m| *expected_m < self.range_m - BEAM.range_band_m);
             let consistent = match (beam.seen, expected_m) {
                 (None, None) => continue,
                 (Some(BeamReading::At(range)), Some(expected_m)) => {
@@ -171,19 +157,19 @@ impl BeamModel {
         match (seen, expected_m) {
             (None, None) => 1.0,
             (None, Some(expected_m)) => {
-                let beyond = (expected_m - self.range_m) / RANGE_BAND_M + 0.5;
-                UNSEEN + (1.0 - UNSEEN) * beyond.clamp(0.0, 1.0)
+                let beyond = (expected_m - self.range_m) / BEAM.range_band_m + 0.5;
+                BEAM.unseen + (1.0 - BEAM.unseen) * beyond.clamp(0.0, 1.0)
             }
             (Some(BeamReading::Near), Some(expected_m)) => {
-                let within = (self.range_m - expected_m) / RANGE_BAND_M + 0.5;
-                UNMAPPED + (1.0 - UNMAPPED) * within.clamp(0.0, 1.0)
+                let within = (self.range_m - expected_m) / BEAM.range_band_m + 0.5;
+                BEAM.unmapped + (1.0 - BEAM.unmapped) * within.clamp(0.0, 1.0)
             }
-            (Some(BeamReading::Near), None) => UNMAPPED,
+            (Some(BeamReading::Near), None) => BEAM.unmapped,
             (Some(BeamReading::At(range)), Some(expected_m)) => surface.likelihood(range, expected_m),
             // The nearest obstacle in the map may be just beyond the range.
             (Some(BeamReading::At(range)), None) => {
-                let off = (self.range_m + 2.0 * RANGE_BAND_M - range.seen_m) * range.per_sigma;
-                UNMAPPED + (1.0 - UNMAPPED) * bell(off * off)
+                let off = (self.range_m + 2.0 * BEAM.range_band_m - range.seen_m) * range.per_sigma;
+                BEAM.unmapped + (1.0 - BEAM.unmapped) * bell(off * off)
             }
         }
     }
@@ -192,9 +178,9 @@ impl BeamModel {
     fn cast(&self, map: &impl Surroundings, place: &BodyPose, beam: &Beam) -> Option<f64> {
         let start = place.point(beam.x_m, beam.y_m);
         let (dx, dy) = place.direction(beam.cos, beam.sin);
-        let limit_m = self.range_m + RANGE_BAND_M;
+        let limit_m = self.range_m + BEAM.range_band_m;
         let mut distance_m = (0.95 * (place.clearance_m - self.mount_m)).max(0.0);
-        for _ in 0..STEPS_MAX {
+        for _ in 0..BEAM.steps_max {
             if distance_m > limit_m {
                 return None;
             }
@@ -202,10 +188,10 @@ impl BeamModel {
                 x_m: start.x_m + dx * distance_m,
                 y_m: start.y_m + dy * distance_m,
             });
-            if clear_m <= self.spread * distance_m + MEET_M {
+            if clear_m <= self.spread * distance_m + BEAM.meet_m {
                 return Some(distance_m + clear_m.max(0.0));
             }
-            distance_m += (0.95 * clear_m).max(STEP_MIN_M);
+            distance_m += (0.95 * clear_m).max(BEAM.step_min_m);
         }
         None
     }
@@ -234,7 +220,7 @@ fn looks_into_unknown(
 
 fn seen(level: f64, response: &ProximityResponse) -> Option<BeamReading> {
     // Written so that NaN is no reading.
-    let shows = level > LEVEL_MIN && response.half_level_m > 0.0;
+    let shows = level > BEAM.level_min && response.half_level_m > 0.0;
     if !shows {
         return None;
     }
@@ -245,8 +231,9 @@ fn seen(level: f64, response: &ProximityResponse) -> Option<BeamReading> {
     let distance_m = response.skin_m + response.half_level_m * beyond;
     // Derivative of the distance by the reflectance. Close to the rim the level saturates.
     let by_reflection_m = 0.5 * response.half_level_m * (1.0 + beyond * beyond) / beyond.max(0.5);
-    let level_sigma_m = by_reflection_m * REFLECTION_SIGMA;
-    let sigma_m = libm::sqrt(level_sigma_m * level_sigma_m + PLACE_SIGMA_M * PLACE_SIGMA_M);
+    let level_sigma_m = by_reflection_m * SURFACE.reflectance_sigma;
+    let sigma_m =
+        libm::sqrt(level_sigma_m * level_sigma_m + SURFACE.distance_sigma_m * SURFACE.distance_sigma_m);
     Some(BeamReading::At(Range {
         seen_m: distance_m.min(response.range_m),
         by_reflection_m,

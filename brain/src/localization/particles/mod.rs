@@ -8,6 +8,7 @@
 mod filter_mode;
 mod gyro;
 mod infrared;
+mod parameters;
 mod surface;
 mod surroundings;
 mod touch;
@@ -25,44 +26,10 @@ pub(super) use gyro::GyroCount;
 use gyro::ParticleGyro;
 pub(super) use infrared::BeamScore;
 use infrared::{BeamModel, BodyPose};
+use parameters::{MOTION, SAMPLING};
 use surface::Reflectances;
 pub(super) use surroundings::Surroundings;
 use touch::{BodyModel, Touch, body_likelihood};
-
-/// Fewest particles while the pose is known.
-const TRACKING_MIN: usize = 220;
-/// Most particles while the pose is known.
-const TRACKING_MAX: usize = 400;
-/// Particles around each candidate pose of a lost robot.
-const PARTICLES_PER_CANDIDATE: usize = 100;
-/// Particles are resampled when the effective share falls below this.
-const RESAMPLE_SHARE: f64 = 0.5;
-/// Edge of the bins for KLD sampling, metres.
-const BIN_M: f64 = 0.1;
-/// The same in heading, radians.
-const BIN_RAD: f64 = 0.17;
-/// Particles this close to each other are one cluster, metres and radians.
-const CLUSTER_M: f64 = 0.5;
-const CLUSTER_RAD: f64 = 0.5;
-/// Error bound of KLD sampling (D. Fox 2003), with quantile 2.33 of the normal distribution.
-const KLD_ERROR: f64 = 0.05;
-const KLD_QUANTILE: f64 = 2.33;
-/// Slip, metres per square root of a metre.
-const SLIP_M_PER_SQRT_M: f64 = 0.012;
-/// Noise that each motion adds, metres and radians, for cells and for samples of other moments. Particles keep their headings: a
-/// heading that walls gave in one corner of a room guides a lane across the room.
-const JITTER_M: f64 = 0.002;
-const JITTER_RAD: f64 = 0.0005;
-/// The same while the filter searches: headings from walls may be wrong, and particles must not keep them.
-const SEARCHING_JITTER_RAD: f64 = 0.002;
-/// Share of particles that turn by this much at each motion, radians: all particles may have a wrong heading.
-const UNCOUNTED_TURN_SHARE: f64 = 0.002;
-const UNCOUNTED_TURN_RAD: f64 = 0.03;
-/// Spread of the distance factor among robots, and its random walk on rugs, per square root of a metre.
-const DISTANCE_FACTOR_SIGMA: f64 = 0.01;
-const DISTANCE_FACTOR_WALK: f64 = 0.002;
-/// Least and greatest accepted factor.
-const DISTANCE_FACTORS: (f64, f64) = (0.9, 1.1);
 
 /// One particle.
 #[derive(Clone, Copy, Debug)]
@@ -170,7 +137,7 @@ impl ParticleFilter {
     /// Draws all particles around one pose.
     pub(super) fn gather(&mut self, around: Pose2, spread: PoseSpread) {
         self.particles.clear();
-        for _ in 0..TRACKING_MAX {
+        for _ in 0..SAMPLING.tracking_max {
             let particle = self.draw(around, spread);
             self.particles.push(particle);
         }
@@ -180,7 +147,7 @@ impl ParticleFilter {
     pub(super) fn scatter(&mut self, around: &[Pose2], spread: PoseSpread) {
         self.particles.clear();
         for pose in around {
-            for _ in 0..PARTICLES_PER_CANDIDATE {
+            for _ in 0..SAMPLING.per_candidate {
                 let particle = self.draw(*pose, spread);
                 self.particles.push(particle);
             }
@@ -208,7 +175,7 @@ impl ParticleFilter {
                 y_m: around.y_m + spread.sigma_m * self.random.normal(),
                 heading_rad: normalize_rad(around.heading_rad + spread.sigma_rad * self.random.normal()),
             },
-            distance_factor: 1.0 + DISTANCE_FACTOR_SIGMA * self.random.normal(),
+            distance_factor: 1.0 + MOTION.distance_factor_sigma * self.random.normal(),
             gyro: ParticleGyro::drawn(self.gyro, &mut self.random),
             surfaces: Reflectances::default(),
             weight: 1.0,
@@ -218,13 +185,13 @@ impl ParticleFilter {
     /// Predicts: moves every particle.
     pub(super) fn follow(&mut self, motion: MotionDelta) {
         let root_m = libm::sqrt(motion.distance_m);
-        let along_m = SLIP_M_PER_SQRT_M * root_m + JITTER_M;
+        let along_m = MOTION.slip_m_per_sqrt_m * root_m + MOTION.jitter_m;
         let (jitter_rad, kept) = match self.mode {
-            FilterMode::Searching => (SEARCHING_JITTER_RAD, 0.0),
-            FilterMode::Holding => (JITTER_RAD, Reflectances::kept_after(motion.distance_m)),
+            FilterMode::Searching => (MOTION.searching_jitter_rad, 0.0),
+            FilterMode::Holding => (MOTION.jitter_rad, Reflectances::kept_after(motion.distance_m)),
         };
         let turn_rad = libm::sqrt(motion.turn_variance) + jitter_rad;
-        let walk = DISTANCE_FACTOR_WALK * root_m;
+        let walk = MOTION.distance_factor_walk * root_m;
         for particle in &mut self.particles {
             particle.surfaces.move_on(kept);
             let uncounted_rad = match self.mode {
@@ -234,12 +201,11 @@ impl ParticleFilter {
                         + uncounted_turn_rad(&mut self.random)
                 }
             };
-            let (low, high) = DISTANCE_FACTORS;
-            particle.distance_factor =
-                (particle.distance_factor + walk * self.random.normal()).clamp(low, high);
+            particle.distance_factor = (particle.distance_factor + walk * self.random.normal())
+                .clamp(MOTION.distance_factor_min, MOTION.distance_factor_max);
             let step = Pose2 {
                 x_m: motion.step.x_m * particle.distance_factor + along_m * self.random.normal(),
-                y_m: motion.step.y_m * particle.distance_factor + JITTER_M * self.random.normal(),
+                y_m: motion.step.y_m * particle.distance_factor + MOTION.jitter_m * self.random.normal(),
                 heading_rad: motion.step.heading_rad + uncounted_rad + turn_rad * self.random.normal(),
             };
             particle.pose = particle.pose * step;
@@ -283,7 +249,7 @@ impl ParticleFilter {
             sum += particle.weight;
         }
         self.normalize(sum);
-        if self.effective_share() < RESAMPLE_SHARE {
+        if self.effective_share() < SAMPLING.resample_share {
             self.resample();
         }
     }
@@ -348,10 +314,10 @@ impl ParticleFilter {
         self.bins.dedup();
         let more = self.bins.len().saturating_sub(1).max(1) as f64;
         let shrink = 2.0 / (9.0 * more);
-        let root = 1.0 - shrink + libm::sqrt(shrink) * KLD_QUANTILE;
-        let needed = more / (2.0 * KLD_ERROR) * root * root * root;
-        let most = self.particles.len().max(TRACKING_MAX);
-        (needed as usize).clamp(TRACKING_MIN, most)
+        let root = 1.0 - shrink + libm::sqrt(shrink) * SAMPLING.kld_quantile;
+        let needed = more / (2.0 * SAMPLING.kld_error) * root * root * root;
+        let most = self.particles.len().max(SAMPLING.tracking_max);
+        (needed as usize).clamp(SAMPLING.tracking_min, most)
     }
 
     /// Mean of the particles and their spread.
@@ -365,8 +331,8 @@ impl ParticleFilter {
             return (self.estimate(), 0.0);
         };
         let near = |pose: Pose2| {
-            pose.position().distance_m(centre.position()) <= CLUSTER_M
-                && normalize_rad(pose.heading_rad - centre.heading_rad).abs() <= CLUSTER_RAD
+            pose.position().distance_m(centre.position()) <= SAMPLING.cluster_m
+                && normalize_rad(pose.heading_rad - centre.heading_rad).abs() <= SAMPLING.cluster_rad
         };
         self.spare.clear();
         self.spare
@@ -428,13 +394,15 @@ fn tempered(likelihood: f64, mode: FilterMode) -> f64 {
 /// Number of the bin of a pose, for bins `factor` times as wide as usual.
 fn bin(pose: Pose2, factor: f64) -> u64 {
     let number = |value: f64, edge: f64| (libm::floor(value / (edge * factor)) as i64 as u64) & 0xf_ffff;
-    number(pose.x_m, BIN_M) << 40 | number(pose.y_m, BIN_M) << 20 | number(pose.heading_rad, BIN_RAD)
+    number(pose.x_m, SAMPLING.bin_m) << 40
+        | number(pose.y_m, SAMPLING.bin_m) << 20
+        | number(pose.heading_rad, SAMPLING.bin_rad)
 }
 
 /// A turn that odometry did not count.
 fn uncounted_turn_rad(random: &mut Random) -> f64 {
-    if random.between(0.0, 1.0) < UNCOUNTED_TURN_SHARE {
-        UNCOUNTED_TURN_RAD * random.normal()
+    if random.between(0.0, 1.0) < MOTION.uncounted_turn_share {
+        MOTION.uncounted_turn_rad * random.normal()
     } else {
         0.0
     }

@@ -1,23 +1,7 @@
 //! Likelihood of an infrared distance, for a surface whose reflectance a particle has learned.
 
+use super::parameters::{BEAM, SURFACE};
 use crate::model::config::PROXIMITY_MAX;
-
-/// Standard deviation of the reflectance, relative: white walls and dark furniture.
-pub(super) const REFLECTION_SIGMA: f64 = 0.2;
-/// Noise of a level, relative: between a usual sensor and a bad one.
-const LEVEL_SIGMA: f64 = 0.08;
-/// A sensor sees another surface after this distance along a wall, on average, metres.
-const SURFACE_M: f64 = 1.0;
-/// Greatest deviation from the usual reflectance, relative.
-const REFLECTION_MAX: f64 = 0.6;
-/// A reading that is explained by less than this share teaches nothing about the surface.
-const EXPLAINED_MIN: f64 = 0.3;
-/// Error of a distance by the map's cells and by the time between sample and report, metres.
-pub(super) const PLACE_SIGMA_M: f64 = 0.015;
-/// Likelihood of a reading that the map does not explain, relative to a perfect match: people, bags, moved chairs.
-pub(super) const UNMAPPED: f64 = 0.12;
-/// The same for a beam that passes through an obstacle of the map.
-const THROUGH: f64 = 0.04;
 
 /// A distance, for a surface of usual reflectance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +32,7 @@ impl Default for Reflectance {
     fn default() -> Self {
         Self {
             darkness: 0.0,
-            variance: (REFLECTION_SIGMA * REFLECTION_SIGMA) as f32,
+            variance: (SURFACE.reflectance_sigma * SURFACE.reflectance_sigma) as f32,
         }
     }
 }
@@ -64,7 +48,7 @@ impl Default for Reflectances {
 impl Reflectances {
     /// Share of the knowledge of a surface that remains after a distance.
     pub(super) fn kept_after(distance_m: f64) -> f32 {
-        libm::exp(-distance_m / SURFACE_M) as f32
+        libm::exp(-distance_m / SURFACE.length_m) as f32
     }
 
     /// The sensors may see other surfaces now.
@@ -82,19 +66,19 @@ impl Reflectance {
     pub(super) fn likelihood(&mut self, range: Range, expected_m: f64) -> f64 {
         let (slope_m, known) = (range.by_reflection_m, f64::from(self.variance));
         let off_m = range.seen_m - expected_m - slope_m * f64::from(self.darkness);
-        let variance_m2 =
-            slope_m * slope_m * (known + LEVEL_SIGMA * LEVEL_SIGMA) + PLACE_SIGMA_M * PLACE_SIGMA_M;
+        let variance_m2 = slope_m * slope_m * (known + SURFACE.level_sigma * SURFACE.level_sigma)
+            + SURFACE.distance_sigma_m * SURFACE.distance_sigma_m;
         let off2 = off_m * off_m / variance_m2;
         let floor = if off_m > 0.0 && off2 > 9.0 {
-            THROUGH
+            BEAM.through
         } else {
-            UNMAPPED
+            BEAM.unmapped
         };
         let explained = (1.0 - floor) * bell(off2);
-        if explained >= EXPLAINED_MIN {
+        if explained >= SURFACE.explained_min {
             let gain = slope_m * known / variance_m2;
             let darkness = f64::from(self.darkness) + gain * off_m;
-            self.darkness = darkness.clamp(-REFLECTION_MAX, REFLECTION_MAX) as f32;
+            self.darkness = darkness.clamp(-SURFACE.reflectance_off_max, SURFACE.reflectance_off_max) as f32;
             self.variance = (known * (1.0 - gain * slope_m)) as f32;
         }
         floor + explained

@@ -2,44 +2,19 @@
 
 use super::filter_mode::FilterMode;
 use super::infrared::BodyPose;
+use super::parameters::TOUCH;
 use super::surroundings::Surroundings;
 use crate::model::config::SensorLayout;
 use crate::model::geometry::Point2;
 use crate::model::observation::{Cliffs, Contacts};
 
-/// The body may overlap an obstacle by this much without a penalty: half a cell and the bumper's travel, metres.
-const INSIDE_FREE_M: f64 = 0.015;
-/// Over this additional overlap the pose becomes implausible, metres.
-const INSIDE_BAND_M: f64 = 0.03;
-/// Likelihood of a body deep inside a wall: furniture moves, maps are wrong.
-const INSIDE: f64 = 0.005;
-/// Model of a contact: standard deviation of the gap between rim and wall in metres, and likelihood of a contact with something
-/// that is not in the map. While the filter holds, the values are those of maps that robots draw, which are wrong by 3 to 4 cm and
-/// lack many legs. While it searches, a contact must tell poses apart.
-const HOLDING: ContactModel = ContactModel {
-    sigma_m: 0.025,
-    unmapped: 0.3,
-};
-const SEARCHING: ContactModel = ContactModel {
-    sigma_m: 0.015,
-    unmapped: 0.08,
-};
-/// Factor for a contact with a wall on the other side of the robot.
-const CONTACT_ASIDE: f64 = 0.2;
-/// Uncertainty of the direction to the nearest wall, radians: corners and cells.
-const ASIDE_RAD: f64 = 0.35;
-/// Standard deviation of the position of a cliff edge, metres.
-const EDGE_SIGMA_M: f64 = 0.02;
-/// Likelihood of a cliff where the map has none, and the reverse.
-const EDGE_UNMAPPED: f64 = 0.1;
-/// Step for the gradient of the clearance, metres.
-const SLOPE_STEP_M: f64 = 0.02;
-
-/// Parameters of a contact.
+/// How likely a contact is.
 #[derive(Clone, Copy, Debug)]
-struct ContactModel {
-    sigma_m: f64,
-    unmapped: f64,
+pub(super) struct ContactModel {
+    /// Standard deviation of the gap between rim and wall, metres.
+    pub(super) sigma_m: f64,
+    /// Likelihood of a contact with something that is not in the map.
+    pub(super) unmapped: f64,
 }
 
 /// The body and its sensors.
@@ -60,12 +35,12 @@ pub(super) struct Touch {
 
 /// Likelihood of a body with this gap between its rim and the nearest obstacle; 1 at best.
 pub(super) fn body_likelihood(rim_gap_m: f64) -> f64 {
-    let depth = (-rim_gap_m - INSIDE_FREE_M) / INSIDE_BAND_M;
+    let depth = (-rim_gap_m - TOUCH.overlap_free_m) / TOUCH.overlap_band_m;
     if depth <= 0.0 {
         return 1.0;
     }
     let left = 1.0 - depth.min(1.0);
-    INSIDE + (1.0 - INSIDE) * left * left
+    TOUCH.inside + (1.0 - TOUCH.inside) * left * left
 }
 
 impl Touch {
@@ -94,8 +69,8 @@ impl Touch {
 
     fn contact(&self, map: &impl Surroundings, place: &BodyPose, body: BodyModel<'_>) -> f64 {
         let bump = match self.mode {
-            FilterMode::Holding => HOLDING,
-            FilterMode::Searching => SEARCHING,
+            FilterMode::Holding => TOUCH.holding,
+            FilterMode::Searching => TOUCH.searching,
         };
         let off = (place.clearance_m - body.radius_m) / bump.sigma_m;
         if off.abs() > 5.0 {
@@ -113,7 +88,7 @@ impl Touch {
             _ => (-bumper.half_arc_rad, 0.0),
         };
         let beside_rad = (low_rad - bearing_rad).max(bearing_rad - high_rad).max(0.0);
-        let side = (1.0 - beside_rad / ASIDE_RAD).max(CONTACT_ASIDE);
+        let side = (1.0 - beside_rad / TOUCH.aside_rad).max(TOUCH.aside);
         bump.unmapped + (1.0 - bump.unmapped) * side / (tail * tail)
     }
 }
@@ -126,8 +101,8 @@ fn towards(map: &impl Surroundings, at: Point2) -> (f64, f64) {
             y_m: at.y_m + y_m,
         })
     };
-    let x = clear(-SLOPE_STEP_M, 0.0) - clear(SLOPE_STEP_M, 0.0);
-    let y = clear(0.0, -SLOPE_STEP_M) - clear(0.0, SLOPE_STEP_M);
+    let x = clear(-TOUCH.slope_step_m, 0.0) - clear(TOUCH.slope_step_m, 0.0);
+    let y = clear(0.0, -TOUCH.slope_step_m) - clear(0.0, TOUCH.slope_step_m);
     let length = libm::sqrt(x * x + y * y);
     if length > 1e-9 {
         (x / length, y / length)
@@ -138,9 +113,9 @@ fn towards(map: &impl Surroundings, at: Point2) -> (f64, f64) {
 
 fn edge(map: &impl Surroundings, sensor: Point2) -> f64 {
     let Some(beyond_m) = map.drop_m(sensor) else {
-        return EDGE_UNMAPPED;
+        return TOUCH.edge_unmapped;
     };
-    let off = beyond_m / EDGE_SIGMA_M;
+    let off = beyond_m / TOUCH.edge_sigma_m;
     let body = 1.0 + 0.25 * off * off;
-    EDGE_UNMAPPED + (1.0 - EDGE_UNMAPPED) / (body * body)
+    TOUCH.edge_unmapped + (1.0 - TOUCH.edge_unmapped) / (body * body)
 }

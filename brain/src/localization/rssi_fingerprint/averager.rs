@@ -1,14 +1,9 @@
 //! Averages signal strengths over short paths: packets fade one by one, their mean does not.
 
 use super::mean_rssi::{BEACONS_MAX, MeanRssi};
+use super::parameters::FINGERPRINT;
 use crate::model::advance::Advance;
 use crate::model::observation::{BeaconSignal, Observation};
-
-/// Distance over which a mean is taken, metres: fading differs from one to the next, the shadow of walls hardly.
-const AVERAGING_M: f64 = 0.3;
-/// Range of plausible receiver powers, dBm.
-const LEAST_DBM: f64 = -130.0;
-const MOST_DBM: f64 = 0.0;
 
 /// Means in progress.
 #[derive(Clone, Debug, Default)]
@@ -36,12 +31,12 @@ impl RssiAverager {
         for signal in &observation.beacons {
             if let BeaconSignal::Strength(strength) = signal
                 && strength.beacon < BEACONS_MAX
-                && (LEAST_DBM..=MOST_DBM).contains(&strength.dbm)
+                && (FINGERPRINT.least_dbm..=FINGERPRINT.most_dbm).contains(&strength.dbm)
             {
                 self.add(strength.beacon, strength.dbm);
             }
         }
-        if self.distance_m >= AVERAGING_M {
+        if self.distance_m >= FINGERPRINT.averaging_m {
             self.distance_m = 0.0;
             levels.extend(self.sums.drain(..).map(|sum| MeanRssi {
                 beacon: sum.beacon,

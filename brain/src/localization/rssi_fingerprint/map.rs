@@ -1,22 +1,10 @@
 //! Mean signal strength of each beacon in each cell of the floor.
 
+use super::parameters::FINGERPRINT;
 use std::collections::BTreeMap;
 
 use super::mean_rssi::MeanRssi;
 use crate::model::geometry::Point2;
-
-/// Edge of a cell, metres.
-const CELL_M: f64 = 0.5;
-/// Neighbouring cells on each side that contribute to a position, and the width of their weight: shadows of walls are a metre or
-/// two wide.
-const NEIGHBOURS: i32 = 2;
-const REACH_M: f64 = 0.6;
-/// A position is known when its weights sum up to at least this, in means of the cell itself.
-const KNOWN: f64 = 0.5;
-/// Greatest number of means that a cell counts: the home changes, and the last means count most.
-const COUNT_MAX: f64 = 12.0;
-/// Greatest number of means by which a cell contributes to its neighbours.
-const CONTRIBUTION_MAX: f64 = 3.0;
 
 /// Signal strengths by beacon and cell.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +23,7 @@ impl FingerprintMap {
         let Some((x, y)) = cell(at) else { return };
         for level in levels {
             let cell = self.cells.entry((level.beacon, x, y)).or_default();
-            cell.count = (cell.count + 1.0).min(COUNT_MAX);
+            cell.count = (cell.count + 1.0).min(FINGERPRINT.count_max);
             cell.dbm += (level.dbm - cell.dbm) / cell.count;
         }
     }
@@ -44,16 +32,18 @@ impl FingerprintMap {
     pub(super) fn expected_dbm(&self, beacon: u16, at: Point2) -> Option<f64> {
         let (middle_x, middle_y) = cell(at)?;
         let (mut weight, mut sum) = (0.0, 0.0);
-        for x in middle_x - NEIGHBOURS..=middle_x + NEIGHBOURS {
-            let row = (beacon, x, middle_y - NEIGHBOURS)..=(beacon, x, middle_y + NEIGHBOURS);
+        for x in middle_x - FINGERPRINT.neighbours..=middle_x + FINGERPRINT.neighbours {
+            let row = (beacon, x, middle_y - FINGERPRINT.neighbours)
+                ..=(beacon, x, middle_y + FINGERPRINT.neighbours);
             for ((_, _, y), cell) in self.cells.range(row) {
-                let off_m = centre(x, *y).distance_m(at) / REACH_M;
-                let contribution = cell.count.min(CONTRIBUTION_MAX) * libm::exp(-0.5 * off_m * off_m);
+                let off_m = centre(x, *y).distance_m(at) / FINGERPRINT.reach_m;
+                let contribution =
+                    cell.count.min(FINGERPRINT.contribution_max) * libm::exp(-0.5 * off_m * off_m);
                 weight += contribution;
                 sum += contribution * cell.dbm;
             }
         }
-        (weight >= KNOWN).then(|| sum / weight)
+        (weight >= FINGERPRINT.known_min).then(|| sum / weight)
     }
 
     /// No signal was received yet.
@@ -65,7 +55,7 @@ impl FingerprintMap {
 /// The cell of a position, if that is in any home.
 fn cell(at: Point2) -> Option<(i32, i32)> {
     let number = |value_m: f64| {
-        let number = libm::floor(value_m / CELL_M);
+        let number = libm::floor(value_m / FINGERPRINT.cell_m);
         (number.abs() < 10_000.0).then_some(number as i32)
     };
     Some((number(at.x_m)?, number(at.y_m)?))
@@ -73,8 +63,8 @@ fn cell(at: Point2) -> Option<(i32, i32)> {
 
 fn centre(x: i32, y: i32) -> Point2 {
     Point2 {
-        x_m: (f64::from(x) + 0.5) * CELL_M,
-        y_m: (f64::from(y) + 0.5) * CELL_M,
+        x_m: (f64::from(x) + 0.5) * FINGERPRINT.cell_m,
+        y_m: (f64::from(y) + 0.5) * FINGERPRINT.cell_m,
     }
 }
 

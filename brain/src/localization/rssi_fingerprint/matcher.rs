@@ -1,20 +1,11 @@
 //! Compares the signals that a lost robot has received lately with the fingerprints.
 
+use super::parameters::MATCH;
 use std::sync::Arc;
 
 use super::map::FingerprintMap;
 use super::mean_rssi::MeanRssi;
 use crate::model::geometry::{Point2, Pose2};
-
-/// Standard deviation between a mean and the fingerprint of the same position, decibels: remaining fading, direction of the
-/// antenna, interpolation.
-const SIGMA_DB: f64 = 3.5;
-/// Greatest deviation that counts: somebody may be in the path.
-const OFF_MAX: f64 = 3.0;
-/// Cost of a pose, in the score of global localization, for each unit by which the mean square of the deviations exceeds 1.
-const COST: f64 = 0.08;
-/// Fewest comparisons for a cost.
-const COMPARED_MIN: usize = 4;
 
 /// Signal strengths around a robot, in its own frame, and the fingerprints of the home.
 #[derive(Clone, Debug)]
@@ -36,13 +27,13 @@ impl FingerprintMatcher {
             // Unknown positions count like a usual fit, so that no pose gains by being unknown.
             squares += expected_dbm.map_or(1.0, |expected_dbm| {
                 compared += 1;
-                let off = ((level.dbm - expected_dbm) / SIGMA_DB).clamp(-OFF_MAX, OFF_MAX);
+                let off = ((level.dbm - expected_dbm) / MATCH.sigma_db).clamp(-MATCH.off_max, MATCH.off_max);
                 off * off
             });
         }
-        if compared < COMPARED_MIN {
+        if compared < MATCH.compared_min {
             return 0.0;
         }
-        COST * (squares / self.around.len() as f64 - 1.0).max(0.0)
+        MATCH.cost * (squares / self.around.len() as f64 - 1.0).max(0.0)
     }
 }

@@ -11,6 +11,7 @@ mod averager;
 mod map;
 mod matcher;
 mod mean_rssi;
+mod parameters;
 #[cfg(test)]
 mod tests;
 

@@ -3,7 +3,8 @@
 //! A map that a robot has drawn lacks many legs and is distorted by some centimetres. Among obstacles that it lacks it explains as
 //! little as at a wrong pose, but the last metres match nowhere better.
 
-use super::{CANDIDATE_SPREAD, SEARCH_FROM_M, Tracker};
+use super::Tracker;
+use super::parameters::{SEARCH, TRACKING};
 use crate::localization::candidates::{found_near, near_if_as_good};
 use crate::localization::confidence::Confidence;
 use crate::localization::particles::Surroundings;
@@ -17,7 +18,7 @@ impl Tracker {
     /// The map explains too little at `pose`. The robot drives on while its last metres are matched against the map. Then it is at
     /// the match, if that is close, or lost.
     pub(super) fn doubt(&mut self, map: &impl Surroundings, pose: Pose2) {
-        let may_stay = !self.competes && self.unconfirmed == 0 && self.history.length_m() >= SEARCH_FROM_M;
+        let may_stay = !self.competes && self.unconfirmed == 0 && self.history.length_m() >= SEARCH.from_m;
         if self.global_localizer.is_none() && may_stay {
             self.global_localizer = self.second_look(map).map(Box::new);
         }
@@ -34,7 +35,7 @@ impl Tracker {
         let off = pose.inverse() * match_pose;
         if off.position().distance_m(Pose2::IDENTITY.position()) > STAY_M || off.heading_rad.abs() > STAY_RAD
         {
-            self.filter.scatter(&[match_pose], CANDIDATE_SPREAD);
+            self.filter.scatter(&[match_pose], TRACKING.candidate);
         }
         self.confidence = Confidence::default();
     }

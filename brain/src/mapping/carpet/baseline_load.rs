@@ -4,6 +4,7 @@
 //! carpet are excluded, so a large carpet does not become the baseline. Old samples are dropped, so the baseline follows hair
 //! around the brush and an emptying pack.
 
+use super::parameters::BASELINE;
 use std::collections::VecDeque;
 
 /// Currents of wheels and main brush, amperes.
@@ -29,15 +30,6 @@ pub(super) struct DrivingMode {
     pub(super) speed_step: u8,
 }
 
-/// Most samples: two and a half minutes of steady driving.
-const SAMPLES_MAX: usize = 300;
-/// Least samples for a baseline: a quarter of a minute.
-const SAMPLES_MIN: usize = 30;
-/// Share of the samples below the baseline.
-const QUANTILE: f32 = 0.2;
-/// A motor's load below this is noise of the converter, amperes.
-const LOAD_MIN_A: f32 = 0.02;
-
 /// Baseline of one driving mode.
 #[derive(Clone, Debug)]
 pub(super) struct BaselineLoad {
@@ -57,12 +49,12 @@ impl BaselineLoad {
 
     /// Adds a load that is not on carpet.
     pub(super) fn learn(&mut self, load: Load) {
-        if self.samples.len() >= SAMPLES_MAX {
+        if self.samples.len() >= BASELINE.samples_max {
             self.samples.pop_front();
         }
         self.samples.push_back(load);
-        if self.samples.len() >= SAMPLES_MIN {
-            let low = |of: fn(&Load) -> f32| quantile(self.samples.iter().map(of), QUANTILE);
+        if self.samples.len() >= BASELINE.samples_min {
+            let low = |of: fn(&Load) -> f32| quantile(self.samples.iter().map(of), BASELINE.quantile);
             self.baseline = Some(Load {
                 wheels_a: low(|load| load.wheels_a),
                 brush_a: low(|load| load.brush_a),
@@ -73,7 +65,8 @@ impl BaselineLoad {
     /// Excess of a load over the baseline; `None` while the baseline is unknown or below the noise.
     pub(super) fn excess(&self, load: Load) -> Option<Excess> {
         let baseline = self.baseline?;
-        let is_measurable = baseline.wheels_a >= LOAD_MIN_A && baseline.brush_a >= LOAD_MIN_A;
+        let is_measurable =
+            baseline.wheels_a >= BASELINE.load_min_a && baseline.brush_a >= BASELINE.load_min_a;
         is_measurable.then(|| Excess {
             wheels: load.wheels_a / baseline.wheels_a - 1.0,
             brush: load.brush_a / baseline.brush_a - 1.0,

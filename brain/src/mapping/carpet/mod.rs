@@ -14,10 +14,12 @@
 //! current measurement from a home without carpets.
 
 mod baseline_load;
+mod parameters;
 mod steady_driving;
 
 use crate::model::observation::Observation;
 use baseline_load::{BaselineLoad, DrivingMode, Load};
+use parameters::CARPET;
 use steady_driving::{FilteredLoad, SteadyDrivingDetector};
 
 /// The floor surface under the brush.
@@ -36,16 +38,6 @@ pub(crate) struct SurfaceObservation {
     /// Distance behind the robot, millimetres: the load is filtered over some time.
     pub(crate) behind_mm: u8,
 }
-
-/// Least excess at which carpet begins, and at which it ends. Half of what the flattest mats add, and four times the scatter.
-const EXCESS_ON: f32 = 0.20;
-const EXCESS_OFF: f32 = 0.12;
-/// Interval of baseline samples, microseconds.
-const SAMPLE_INTERVAL_US: u64 = 500_000;
-/// Carpet samples after which the robot knows both surfaces and may report hard floor: half a metre of travel.
-const CONTRAST_SAMPLES: u32 = 4;
-/// Most driving modes with a baseline: brush powers and speeds.
-const MODES_MAX: usize = 6;
 
 /// Detects the surface under the robot from observations.
 #[derive(Clone, Debug, Default)]
@@ -82,11 +74,15 @@ impl CarpetDetector {
 
     /// The surface of a load in steady driving. In a home with a single surface it is unknown.
     fn classify(&mut self, now_us: u64, mode: DrivingMode, load: Load) -> Option<SurfaceKind> {
-        let is_sample = now_us >= self.sampled_us.saturating_add(SAMPLE_INTERVAL_US);
+        let is_sample = now_us >= self.sampled_us.saturating_add(CARPET.sample_interval_us);
         if is_sample {
             self.sampled_us = now_us;
         }
-        let least = if self.is_on_carpet { EXCESS_OFF } else { EXCESS_ON };
+        let least = if self.is_on_carpet {
+            CARPET.excess_off
+        } else {
+            CARPET.excess_on
+        };
         let baseline = self.baseline_of(mode);
         let excess = baseline.excess(load);
         let is_carpet = excess.is_some_and(|excess| excess.wheels >= least && excess.brush >= least);
@@ -98,7 +94,7 @@ impl CarpetDetector {
             .saturating_add(u32::from(is_sample && is_carpet));
         match excess? {
             _ if is_carpet => Some(SurfaceKind::Carpet),
-            _ if self.carpet_samples >= CONTRAST_SAMPLES => Some(SurfaceKind::Hard),
+            _ if self.carpet_samples >= CARPET.contrast_samples => Some(SurfaceKind::Hard),
             _ => None,
         }
     }
@@ -108,7 +104,7 @@ impl CarpetDetector {
         let same_power = |baseline: &&BaselineLoad| baseline.mode.brush_percent == filtered.brush_percent;
         let baseline = self.baseline.iter().rev().find(same_power);
         let excess = baseline.and_then(|baseline| baseline.excess(filtered.load));
-        self.is_on_carpet && excess.is_some_and(|excess| excess.brush >= EXCESS_ON)
+        self.is_on_carpet && excess.is_some_and(|excess| excess.brush >= CARPET.excess_on)
     }
 
     fn baseline_of(&mut self, mode: DrivingMode) -> &mut BaselineLoad {
@@ -117,7 +113,7 @@ impl CarpetDetector {
             Some(index) => self.baseline.remove(index),
             None => BaselineLoad::new(mode),
         };
-        if self.baseline.len() >= MODES_MAX {
+        if self.baseline.len() >= CARPET.modes_max {
             self.baseline.remove(0);
         }
         let last = self.baseline.len();

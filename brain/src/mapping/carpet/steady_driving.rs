@@ -1,27 +1,10 @@
 //! Detects steady driving: straight ahead at constant speed, with no load on the motors but the floor.
 
+use super::parameters::STEADY;
 use std::collections::VecDeque;
 
 use super::baseline_load::{DrivingMode, Load, quantile};
 use crate::model::observation::{MotorCurrents, Observation};
-
-/// Window of the median load, microseconds: it rejects anything shorter than 3 cm.
-const WINDOW_US: u64 = 250_000;
-/// Window of the speed, microseconds.
-const SPEED_US: u64 = 120_000;
-/// Steady driving persists this long before its loads count, microseconds: transients have decayed.
-const SETTLE_US: u64 = 80_000;
-/// A brush runs evenly this long after a change of its power, microseconds.
-const SPIN_UP_US: u64 = 600_000;
-/// Least speed of steady driving. Slower driving is backing off, turning or probing.
-const SPEED_MIN_M_PER_S: f64 = 0.1;
-/// Steps of speed: loads are comparable within one.
-const SPEED_STEP_M_PER_S: f64 = 0.05;
-/// Least relative difference of the wheels in a curve, and least relative change of speed in an acceleration.
-const CURVE: f64 = 0.3;
-const CHANGE: f64 = 0.2;
-/// Delay of the measured current, seconds: the motor's lag and half a report.
-const LAG_S: f64 = 0.06;
 
 /// The filtered load of the last window.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +62,7 @@ impl SteadyDrivingDetector {
         } else {
             self.track_steadiness(now_us);
         }
-        (now_us >= self.brush_since_us.saturating_add(SPIN_UP_US)).then(|| self.filtered(now_us))
+        (now_us >= self.brush_since_us.saturating_add(STEADY.spin_up_us)).then(|| self.filtered(now_us))
     }
 
     fn reset(&mut self) {
@@ -101,7 +84,7 @@ impl SteadyDrivingDetector {
         while self
             .window
             .front()
-            .is_some_and(|first| first.time_us.saturating_add(WINDOW_US) < now_us)
+            .is_some_and(|first| first.time_us.saturating_add(STEADY.load_window_us) < now_us)
         {
             self.window.pop_front();
         }
@@ -110,7 +93,7 @@ impl SteadyDrivingDetector {
     fn track_steadiness(&mut self, now_us: u64) {
         self.since = match (self.since, self.straight_speed_m_per_s(now_us)) {
             (_, None) => None,
-            (Some((since_us, begun)), Some(now)) if (now - begun).abs() <= CHANGE * begun => {
+            (Some((since_us, begun)), Some(now)) if (now - begun).abs() <= STEADY.change_min * begun => {
                 Some((since_us, begun))
             }
             (_, Some(now)) => Some((now_us, now)),
@@ -121,7 +104,8 @@ impl SteadyDrivingDetector {
     fn straight_speed_m_per_s(&self, now_us: u64) -> Option<f64> {
         let [left, right] = self.rims_m_per_s(now_us)?;
         let speed_m_per_s = 0.5 * (left + right);
-        let is_straight = speed_m_per_s >= SPEED_MIN_M_PER_S && (right - left).abs() <= CURVE * speed_m_per_s;
+        let is_straight = speed_m_per_s >= STEADY.speed_min_m_per_s
+            && (right - left).abs() <= STEADY.curve_min * speed_m_per_s;
         is_straight.then_some(speed_m_per_s)
     }
 
@@ -129,7 +113,7 @@ impl SteadyDrivingDetector {
     fn rims_m_per_s(&self, now_us: u64) -> Option<[f64; 2]> {
         let last = self.window.back()?;
         let mut before = self.window.iter().rev();
-        let first = before.find(|sample| sample.time_us.saturating_add(SPEED_US) <= now_us)?;
+        let first = before.find(|sample| sample.time_us.saturating_add(STEADY.speed_window_us) <= now_us)?;
         let time_s = last.time_us.saturating_sub(first.time_us) as f64 * 1e-6;
         let speed = |distance_m: f64| distance_m / time_s;
         Some([
@@ -141,7 +125,7 @@ impl SteadyDrivingDetector {
     fn filtered(&self, now_us: u64) -> FilteredLoad {
         let middle = |of: fn(&Load) -> f32| quantile(self.window.iter().map(|sample| of(&sample.load)), 0.5);
         let first_us = self.window.front().map_or(now_us, |first| first.time_us);
-        let delay_s = 0.5e-6 * now_us.saturating_sub(first_us) as f64 + LAG_S;
+        let delay_s = 0.5e-6 * now_us.saturating_sub(first_us) as f64 + STEADY.lag_s;
         let speed_m_per_s = self
             .rims_m_per_s(now_us)
             .map_or(0.0, |[left, right]| 0.5 * (left + right));
@@ -160,10 +144,10 @@ impl SteadyDrivingDetector {
     fn mode(&self, now_us: u64) -> Option<DrivingMode> {
         let (since_us, _) = self.since?;
         let speed_m_per_s = self.straight_speed_m_per_s(now_us)?;
-        let is_settled = now_us >= since_us.saturating_add(SETTLE_US + WINDOW_US);
+        let is_settled = now_us >= since_us.saturating_add(STEADY.settle_us + STEADY.load_window_us);
         is_settled.then_some(DrivingMode {
             brush_percent: self.brush_percent,
-            speed_step: (speed_m_per_s / SPEED_STEP_M_PER_S + 0.5) as u8,
+            speed_step: (speed_m_per_s / STEADY.speed_step_m_per_s + 0.5) as u8,
         })
     }
 }

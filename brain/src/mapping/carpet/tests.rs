@@ -74,11 +74,11 @@ impl Drive {
 
     /// Straight ahead for some seconds.
     fn on(&mut self, time_s: f64, load_a: [f32; 2]) -> Reports {
-        self.at((time_s, [CRUISE_M_PER_S; 2]), |_| load_a)
+        self.at(time_s, [CRUISE_M_PER_S; 2], |_| load_a)
     }
 
     /// With these wheel speeds; the load depends on the time since the start.
-    fn at(&mut self, (time_s, wheels): (f64, [f64; 2]), load_a: impl Fn(f64) -> [f32; 2]) -> Reports {
+    fn at(&mut self, time_s: f64, wheels: [f64; 2], load_a: impl Fn(f64) -> [f32; 2]) -> Reports {
         let mut reports = Reports::default();
         let steps = (time_s * 1e6) as u64 / STEP_US;
         for step in 0..steps {
@@ -163,15 +163,15 @@ fn pushing_and_climbing_are_not_carpet() {
     let chair_or_slope = [PILE[0], HARD[1]];
     assert_eq!(drive.on(5.0, chair_or_slope).carpet, 0);
     let threshold = |since_s: f64| if since_s < 0.08 { [0.5, 1.5] } else { HARD };
-    assert_eq!(drive.at((2.0, [CRUISE_M_PER_S; 2]), threshold).carpet, 0);
+    assert_eq!(drive.at(2.0, [CRUISE_M_PER_S; 2], threshold).carpet, 0);
 }
 
 #[test]
 fn curves_and_changes_of_speed_report_nothing() {
     let mut drive = Drive::experienced();
-    let turning = drive.at((3.0, [0.2, 0.3]), |_| PILE);
+    let turning = drive.at(3.0, [0.2, 0.3], |_| PILE);
     assert!(turning.carpet == 0 && turning.hard <= 2, "{turning:?}");
-    let backing = drive.at((3.0, [-0.25, -0.25]), |_| PILE);
+    let backing = drive.at(3.0, [-0.25, -0.25], |_| PILE);
     assert_eq!(backing.nothing, 60);
     for step in 0..20 {
         let speed_m_per_s = 0.12 + 0.01 * f64::from(step);
@@ -197,7 +197,7 @@ fn the_baseline_follows_hair_and_an_emptying_pack_and_rugs_are_still_detected() 
                 brush_a * (1.0 + share * (end - 1.0)) as f32,
             ]
         };
-        let reports = drive.at((3_000.0, [CRUISE_M_PER_S; 2]), at);
+        let reports = drive.at(3_000.0, [CRUISE_M_PER_S; 2], at);
         assert_eq!(reports.carpet, 0, "times {end}");
         let [wheel_a, brush_a] = MAT;
         let rug = [wheel_a * wheels_end as f32, brush_a * end as f32];
@@ -213,8 +213,8 @@ fn only_loads_of_the_same_power_and_speed_are_compared() {
     drive.on(60.0, [HARD[0], 0.4 * HARD[1]]);
     drive.percent = 100;
     assert_eq!(drive.on(60.0, HARD).carpet, 0, "a brush that is asked for more");
-    assert_eq!(drive.at((60.0, [0.15; 2]), |_| [0.04, 0.5]).carpet, 0);
-    let faster = drive.at((60.0, [0.3; 2]), |_| [0.09, 0.7]);
+    assert_eq!(drive.at(60.0, [0.15; 2], |_| [0.04, 0.5]).carpet, 0);
+    let faster = drive.at(60.0, [0.3; 2], |_| [0.09, 0.7]);
     assert_eq!(faster.carpet, 0);
     drive.percent = 40;
     let known = drive.on(5.0, [PILE[0], 0.4 * PILE[1]]);

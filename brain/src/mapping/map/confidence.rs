@@ -46,7 +46,7 @@ impl Count {
         self.square_m2 += sigma_m * sigma_m;
         for obstacle in SIDES
             .into_iter()
-            .filter_map(|side| obstacle_beside(cell, side, map))
+            .filter_map(|(x, y)| obstacle_beside(map, cell, x, y))
         {
             self.faces += 1;
             self.touched += u32::from(is_touched_only(map.home.grid.at(obstacle)));
@@ -58,7 +58,7 @@ impl Count {
 const SIDES: [(i32, i32); 4] = [(-1, 0), (1, 0), (0, -1), (0, 1)];
 
 /// The obstacle at a side of a floor cell. A cell between may be unknown, because the body is drawn a little smaller than it is.
-fn obstacle_beside(cell: Cell, (x, y): (i32, i32), map: &Map) -> Option<Cell> {
+fn obstacle_beside(map: &Map, cell: Cell, x: i32, y: i32) -> Option<Cell> {
     let known = |cell: &Cell| map.knowledge().get(*cell).copied().unwrap_or_default();
     [1, 2]
         .map(|steps| Cell {

@@ -10,11 +10,30 @@ use crate::mapping::zone_cells::{cells_between, cells_of};
 use crate::mapping::{Annotations, Cell, CellKnowledge, Raster};
 use crate::model::edit_error::EditError;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::map_edit::NoGoEdit;
 use crate::model::no_go::{NoGo, RoomName};
 use crate::model::room_settings::RoomSettings;
 use crate::model::zone::{COORDINATE_MAX_M, Zone};
 
 impl Map {
+    pub(super) fn admit_no_go_edit(&self, edit: &NoGoEdit) -> Result<(), EditError> {
+        match edit {
+            NoGoEdit::Add(no_go) => self.admit_no_go(no_go),
+            NoGoEdit::Remove { number } => self.admit_no_go_removal(*number),
+            NoGoEdit::Name { number, name } => self.admit_no_go_name(*number, name.as_ref()),
+            NoGoEdit::Reshape { number, no_go } => self.admit_no_go_shape(*number, no_go),
+        }
+    }
+
+    pub(super) fn apply_no_go_edit(&mut self, edit: &NoGoEdit) -> Result<(), EditError> {
+        match edit {
+            NoGoEdit::Add(no_go) => self.add_no_go(no_go.clone()),
+            NoGoEdit::Remove { number } => self.remove_no_go(*number),
+            NoGoEdit::Name { number, name } => self.name_no_go(*number, name.clone()),
+            NoGoEdit::Reshape { number, no_go } => self.reshape_no_go(*number, no_go.clone()),
+        }
+    }
+
     /// Everything that people added to the map.
     #[must_use]
     pub fn annotations(&self) -> &Annotations {

@@ -4,10 +4,29 @@ use super::Map;
 use crate::mapping::annotations::PLACES_MAX;
 use crate::model::edit_error::EditError;
 use crate::model::kept_place::{KeptPlace, PlaceShape};
+use crate::model::map_edit::PlaceEdit;
 use crate::model::no_go::RoomName;
 use crate::model::order::CleaningOrder;
 
 impl Map {
+    pub(super) fn admit_place_edit(&self, edit: &PlaceEdit) -> Result<(), EditError> {
+        match edit {
+            PlaceEdit::Keep { place, number } => self.admit_place(place, *number),
+            PlaceEdit::Name { number, name } => self.admit_place_name(*number, name),
+            PlaceEdit::Reshape { number, shape } => self.admit_place_shape(*number, shape),
+            PlaceEdit::Forget { number } => self.admit_place_removal(*number),
+        }
+    }
+
+    pub(super) fn apply_place_edit(&mut self, edit: &PlaceEdit) -> Result<(), EditError> {
+        match edit {
+            PlaceEdit::Keep { place, number } => self.keep_place(place.clone(), *number),
+            PlaceEdit::Name { number, name } => self.name_place(*number, name.clone()),
+            PlaceEdit::Reshape { number, shape } => self.reshape_place(*number, shape),
+            PlaceEdit::Forget { number } => self.forget_place(*number),
+        }
+    }
+
     /// Whether a place can be saved: it must contain known floor. With a number it is restored under that number.
     ///
     /// # Errors

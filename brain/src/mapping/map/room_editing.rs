@@ -6,9 +6,30 @@ use crate::mapping::room_changes::{RoomChange, RoomJoin, RoomSplit};
 use crate::mapping::room_cut::{PartSide, cut};
 use crate::model::cut_line::CutLine;
 use crate::model::edit_error::EditError;
+use crate::model::map_edit::RoomEdit;
 use crate::model::no_go::in_micrometres;
 
 impl Map {
+    pub(super) fn admit_room_edit(&self, edit: &RoomEdit) -> Result<(), EditError> {
+        match edit {
+            RoomEdit::Name { room, name } => self.admit_room_name(*room, name.as_ref()),
+            RoomEdit::Set { room, .. } => self.admit_room_settings(*room),
+            RoomEdit::Split { room, line } => self.admit_room_split(*room, line),
+            RoomEdit::Join { rooms } => self.admit_room_join(*rooms),
+            RoomEdit::Undo { number } => self.admit_room_change_undo(*number),
+        }
+    }
+
+    pub(super) fn apply_room_edit(&mut self, edit: &RoomEdit) -> Result<(), EditError> {
+        match edit {
+            RoomEdit::Name { room, name } => self.name_room(*room, name.clone()),
+            RoomEdit::Set { room, settings } => self.set_room(*room, *settings),
+            RoomEdit::Split { room, line } => self.split_room(*room, *line),
+            RoomEdit::Join { rooms } => self.join_rooms(*rooms),
+            RoomEdit::Undo { number } => self.undo_room_change(*number),
+        }
+    }
+
     /// Whether a line can split a room; without a room, the one with the longest part of the line.
     ///
     /// # Errors

@@ -7,29 +7,49 @@
 
 use super::config::BrainConfig;
 
-/// A pack of 2 Ah lasts an hour of cleaning, or three of driving: the data sheet values of `robots/samsung-sr8730/robot.toml`,
-/// used until the robot has learnt its own.
-const CLEANING_PER_S: f64 = 1.0 / 3_600.0;
-const DRIVING_PER_S: f64 = 1.0 / 10_800.0;
-/// Length of a window: the reported charge is quantized and varies by some percent with the load.
-const WINDOW_S: f64 = 300.0;
-/// Share of a window's error that corrects the rates.
-const GAIN: f64 = 0.4;
-/// Limits of a learnt rate, as factors of the data sheet value.
-const FACTOR: (f64, f64) = (0.2, 5.0);
-/// Safety factor on the predicted consumption of the return to the dock.
-const MARGIN: f64 = 1.3;
-/// Charge that must remain at the dock.
-const RESERVE: f64 = 0.05;
-/// Ratio of the driving time along a planned path to its length at cruise speed.
-const PATH_TIME_FACTOR: f64 = 1.5;
-/// Time to find the dock's centre line and drive in, with a few attempts, seconds.
-const APPROACH_S: f64 = 90.0;
+/// Parameters of the energy model. The rates are the data sheet values of `robots/samsung-sr8730/robot.toml`, used until the
+/// robot has learnt its own: a pack of 2 Ah lasts an hour of cleaning, or three of driving.
+struct EnergyParameters {
+    /// Rate of cleaning.
+    cleaning_per_s: f64,
+    /// Rate of driving.
+    driving_per_s: f64,
+    /// Least learnt rate, as a factor of the data sheet value.
+    rate_factor_min: f64,
+    /// Greatest learnt rate, as a factor of the data sheet value.
+    rate_factor_max: f64,
+    /// Length of a window, seconds: the reported charge is quantized and varies by some percent with the load.
+    window_s: f64,
+    /// Share of a window's error that corrects the rates.
+    gain: f64,
+    /// Safety factor on the predicted consumption of the return to the dock.
+    margin: f64,
+    /// Charge that must remain at the dock, 0..1.
+    reserve: f64,
+    /// Ratio of the driving time along a planned path to its length at cruise speed.
+    path_time_factor: f64,
+    /// Time to find the dock's centre line and drive in, with a few attempts, seconds.
+    approach_s: f64,
+    /// Ratio of the cleaning time in corners to that of the same area in the open.
+    corner_factor: f64,
+    /// Largest share of a job's floor that may be left: in clutter a normal job leaves about as much.
+    negligible_share_max: f64,
+}
 
-/// Ratio of the cleaning time in corners to that of the same area in the open.
-const CORNER_FACTOR: f64 = 2.0;
-/// Largest share of a job's floor that may be left: in clutter a normal job leaves about as much.
-const NEGLIGIBLE_SHARE_MAX: f64 = 0.05;
+const PARAMETERS: EnergyParameters = EnergyParameters {
+    cleaning_per_s: 1.0 / 3_600.0,
+    driving_per_s: 1.0 / 10_800.0,
+    rate_factor_min: 0.2,
+    rate_factor_max: 5.0,
+    window_s: 300.0,
+    gain: 0.4,
+    margin: 1.3,
+    reserve: 0.05,
+    path_time_factor: 1.5,
+    approach_s: 90.0,
+    corner_factor: 2.0,
+    negligible_share_max: 0.05,
+};
 
 /// The work that remains when the pack is low.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,8 +86,8 @@ pub struct EnergyModel {
 impl Default for EnergyModel {
     fn default() -> Self {
         Self {
-            cleaning_per_s: CLEANING_PER_S,
-            driving_per_s: DRIVING_PER_S,
+            cleaning_per_s: PARAMETERS.cleaning_per_s,
+            driving_per_s: PARAMETERS.driving_per_s,
             seen_s: 0.0,
         }
     }
@@ -78,8 +98,8 @@ impl EnergyModel {
     #[must_use]
     pub fn checked(self) -> Self {
         Self {
-            cleaning_per_s: limited(self.cleaning_per_s, CLEANING_PER_S),
-            driving_per_s: limited(self.driving_per_s, DRIVING_PER_S),
+            cleaning_per_s: limited(self.cleaning_per_s, PARAMETERS.cleaning_per_s),
+            driving_per_s: limited(self.driving_per_s, PARAMETERS.driving_per_s),
             seen_s: if self.seen_s.is_finite() {
                 self.seen_s.max(0.0)
             } else {
@@ -97,28 +117,33 @@ impl EnergyModel {
     /// Least charge at which the robot must start its return over `path_m` metres at `cruise_m_per_s`.
     #[must_use]
     pub fn charge_to_return(&self, path_m: f64, cruise_m_per_s: f64) -> f64 {
-        MARGIN * self.charge_for(0.0, time_to_return_s(path_m, cruise_m_per_s)) + RESERVE
+        PARAMETERS.margin * self.charge_for(0.0, time_to_return_s(path_m, cruise_m_per_s))
+            + PARAMETERS.reserve
     }
 
     /// Whether the rest is too small to charge for, because driving there and back takes more than cleaning it. Then the job
     /// ends.
     pub(crate) fn is_negligible(&self, left: RemainingWork, config: &BrainConfig) -> bool {
         let cruise_m_per_s = config.speeds.cruise_m_per_s;
-        let cleaning_s = CORNER_FACTOR * left.left_m2 / (config.body.swath_m * cruise_m_per_s).max(0.01);
+        let cleaning_s =
+            PARAMETERS.corner_factor * left.left_m2 / (config.body.swath_m * cruise_m_per_s).max(0.01);
         let driving_s = 2.0 * time_to_return_s(left.dock_path_m, cruise_m_per_s);
-        left.share <= NEGLIGIBLE_SHARE_MAX
+        left.share <= PARAMETERS.negligible_share_max
             && self.charge_for(cleaning_s, 0.0) < self.charge_for(0.0, driving_s)
     }
 }
 
 /// Time to return over `path_m` metres, including docking, seconds.
 pub(crate) fn time_to_return_s(path_m: f64, cruise_m_per_s: f64) -> f64 {
-    PATH_TIME_FACTOR * path_m / cruise_m_per_s.max(0.05) + APPROACH_S
+    PARAMETERS.path_time_factor * path_m / cruise_m_per_s.max(0.05) + PARAMETERS.approach_s
 }
 
 fn limited(rate: f64, guess: f64) -> f64 {
     if rate.is_finite() {
-        rate.clamp(FACTOR.0 * guess, FACTOR.1 * guess)
+        rate.clamp(
+            PARAMETERS.rate_factor_min * guess,
+            PARAMETERS.rate_factor_max * guess,
+        )
     } else {
         guess
     }
@@ -167,7 +192,7 @@ impl EnergyLearner {
             Activity::Driving => window.driving_s += time_s,
             Activity::Other => {}
         }
-        if window.cleaning_s + window.driving_s >= WINDOW_S {
+        if window.cleaning_s + window.driving_s >= PARAMETERS.window_s {
             let window = *window;
             self.learn(window, window.charge - charge);
             self.window = None;
@@ -181,7 +206,7 @@ impl EnergyLearner {
         }
         let error = lost - self.model.charge_for(window.cleaning_s, window.driving_s);
         let square_s2 = window.cleaning_s * window.cleaning_s + window.driving_s * window.driving_s;
-        let step_per_s2 = GAIN * error / square_s2;
+        let step_per_s2 = PARAMETERS.gain * error / square_s2;
         self.model = EnergyModel {
             cleaning_per_s: self.model.cleaning_per_s + step_per_s2 * window.cleaning_s,
             driving_per_s: self.model.driving_per_s + step_per_s2 * window.driving_s,

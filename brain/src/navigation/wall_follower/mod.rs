@@ -7,6 +7,7 @@
 //! Everything is bounded: turns and arcs by their angle, the search by its distance, contacts by their number within a
 //! short distance.
 
+mod parameters;
 mod wall_line;
 mod wall_ranges;
 
@@ -14,66 +15,11 @@ use super::{Evasion, EvasionStep};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
 use crate::model::reason::Reason;
+use crate::navigation::parameters::{CHASSIS, EVASION};
 use crate::navigation::{Situation, TaskContext};
+use parameters::{CLIFFS, CONTACTS, CONTROL};
 use wall_line::WallLine;
 use wall_ranges::WallRanges;
-
-/// Gap to keep, metres. A dark wall is really nearer, a bright one farther away: half a centimetre more or less.
-const GAP_M: f64 = 0.035;
-/// Added to the gap after a contact with a wall that appeared farther away: it is very dark.
-const DARK_M: f64 = 0.01;
-/// Upper limit of that.
-const DARK_MAX_M: f64 = 0.04;
-/// Distance after which a step of `DARK_M` is forgotten.
-const DARK_FORGET_M: f64 = 3.0;
-/// Curvature per metre of excess gap, 1/m2. With `SLOPE_GAIN` an error is corrected within some 0.35 m.
-const GAP_GAIN: f64 = 16.0;
-/// Curvature for each radian of slope, 1/m.
-const SLOPE_GAIN: f64 = 8.0;
-/// Sharpest curve towards or away from a wall, 1/m.
-const CURVATURE_MAX: f64 = 4.0;
-/// Share of the maximum turn rate that curves use.
-const TURN_SHARE: f64 = 0.85;
-/// Deceleration before an obstacle ahead, m/s2.
-const BRAKE_M_PER_S2: f64 = 0.3;
-/// Delay from command to wheels, seconds.
-const LAG_S: f64 = 0.15;
-/// Slowest speed that overcomes the dead band of the motors, m/s.
-const CREEP_M_PER_S: f64 = 0.05;
-/// Nearer than this to an obstacle ahead the robot turns, metres.
-const STOP_M: f64 = 0.03;
-/// This much clearance ahead ends a turn at an inner corner, metres.
-const CLEAR_M: f64 = 0.16;
-/// A wall that is not seen for this distance has ended, metres.
-const ENDED_M: f64 = 0.02;
-/// Radius of the arc by touch beyond that of the body, metres.
-const TOUCH_ARC_M: f64 = 0.1;
-/// Radius of the arc back to a cliff beyond that of the body, metres, so that cliffs are met rarely (S8).
-const EDGE_ARC_M: f64 = 0.35;
-/// Straight drive after a cliff, for the same reason.
-const EDGE_PASS_M: f64 = 0.3;
-/// After this turn an arc leads round nothing, radians.
-const ARC_MAX_RAD: f64 = 7.0;
-/// After this angle a turn on the spot finds no way out, radians.
-const TURN_MAX_RAD: f64 = 7.0;
-/// No home has a longer straight search, metres.
-const SEEK_MAX_M: f64 = 14.0;
-/// Distance to back off after a contact and at a cliff, metres.
-const CONTACT_BACK_M: f64 = 0.02;
-const EDGE_BACK_M: f64 = 0.08;
-/// Turn away from a cliff, radians.
-const EDGE_TURN_RAD: f64 = 0.9;
-/// Added for each recent cliff: where cliffs meet, three of them in 5 s would latch the firmware (S8).
-const EDGES_TURN_RAD: f64 = 0.7;
-const EDGES_MAX: u32 = 2;
-/// Distance within which a cliff is recent, metres.
-const EDGES_M: f64 = 0.7;
-/// Each contact within `CROWDED_M` adds this much to the turn, radians.
-const CROWDED_RAD: f64 = 0.35;
-/// Distance within which contacts count as crowded, metres.
-const CROWDED_M: f64 = 0.25;
-/// After this many crowded contacts the robot is boxed in.
-const CROWDED_MAX: u32 = 10;
 
 /// Follows a wall on the right.
 #[derive(Clone, Debug, Default)]
@@ -127,7 +73,9 @@ impl WallFollower {
 
     /// Whether it sees a wall beside it and drives along it.
     pub(crate) fn is_along_wall(&self) -> bool {
-        self.phase == WallFollowPhase::Along && self.evasion.is_none() && self.line.is_seen_within(ENDED_M)
+        self.phase == WallFollowPhase::Along
+            && self.evasion.is_none()
+            && self.line.is_seen_within(CONTROL.ended_m)
     }
 
     /// Whether it is evading a contact.
@@ -160,8 +108,10 @@ impl WallFollower {
         self.count(situation.advance.distance_m.max(0.0));
         self.change_phase(situation, &ranges, context);
         match self.phase {
-            WallFollowPhase::Seek { driven_m } if driven_m > SEEK_MAX_M => self.trouble(Reason::LongRun),
-            WallFollowPhase::Turn { turned_rad } if turned_rad > TURN_MAX_RAD => {
+            WallFollowPhase::Seek { driven_m } if driven_m > CONTROL.seek_max_m => {
+                self.trouble(Reason::LongRun)
+            }
+            WallFollowPhase::Turn { turned_rad } if turned_rad > CONTROL.turn_max_rad => {
                 self.trouble(Reason::BoxedIn)
             }
             _ => WallStep::Going(self.motion(situation, &ranges)),
@@ -175,14 +125,14 @@ impl WallFollower {
 
     fn count(&mut self, driven_m: f64) {
         self.since_contact_m += driven_m;
-        if self.since_contact_m > CROWDED_M {
+        if self.since_contact_m > CONTACTS.crowded_m {
             self.contacts = 0;
         }
         self.since_edge_m += driven_m;
-        if self.since_edge_m > EDGES_M {
+        if self.since_edge_m > CLIFFS.recent_m {
             self.edges = 0;
         }
-        self.dark_m = (self.dark_m - DARK_M * driven_m / DARK_FORGET_M).max(0.0);
+        self.dark_m = (self.dark_m - CONTACTS.dark_step_m * driven_m / CONTACTS.dark_forget_m).max(0.0);
     }
 
     fn evade(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> WallStep {
@@ -190,33 +140,35 @@ impl WallFollower {
         if situation.at_cliff {
             let reason = Reason::of_cliffs(observation.cliffs).unwrap_or(Reason::CliffFront);
             context.decide(DecisionKind::BackOff, reason, 0.0);
-            let turn_rad = EDGE_TURN_RAD + EDGES_TURN_RAD * f64::from(self.edges);
-            self.edges = (self.edges + 1).min(EDGES_MAX);
+            let turn_rad = CLIFFS.turn_rad + CLIFFS.recent_turn_rad * f64::from(self.edges);
+            self.edges = (self.edges + 1).min(CLIFFS.recent_max);
             self.since_edge_m = 0.0;
-            self.evasion = Some(Evasion::from_cliff(EDGE_BACK_M, turn_rad));
+            self.evasion = Some(Evasion::from_cliff(EVASION.cliff_back_m, turn_rad));
             self.line.lose();
-            self.phase = WallFollowPhase::Pass { left_m: EDGE_PASS_M };
+            self.phase = WallFollowPhase::Pass {
+                left_m: CLIFFS.pass_m,
+            };
             return WallStep::Going(Motion::Halt);
         }
         let reason = Reason::of_contacts(observation.contacts).unwrap_or(Reason::BumpFront);
         self.contacts += 1;
-        if self.contacts > CROWDED_MAX {
+        if self.contacts > CONTACTS.crowded_max {
             self.contacts = 0;
             return self.trouble(Reason::BoxedIn);
         }
-        if reason == Reason::BumpRight && self.line.is_seen_within(CROWDED_M) {
-            self.dark_m = (self.dark_m + DARK_M).min(DARK_MAX_M);
+        if reason == Reason::BumpRight && self.line.is_seen_within(CONTACTS.crowded_m) {
+            self.dark_m = (self.dark_m + CONTACTS.dark_step_m).min(CONTACTS.dark_max_m);
         }
         let turn_rad = self.turn_after(reason);
         context.decide(DecisionKind::BackOff, reason, turn_rad);
-        self.evasion = Some(Evasion::from_contact(CONTACT_BACK_M, turn_rad));
+        self.evasion = Some(Evasion::from_contact(CONTACTS.back_m, turn_rad));
         self.since_contact_m = 0.0;
-        self.phase = if self.line.is_seen_within(ENDED_M) {
+        self.phase = if self.line.is_seen_within(CONTROL.ended_m) {
             WallFollowPhase::Along
         } else {
             WallFollowPhase::Around {
                 turned_rad: 0.0,
-                beyond_m: TOUCH_ARC_M,
+                beyond_m: CONTACTS.arc_beyond_m,
             }
         };
         WallStep::Going(Motion::Halt)
@@ -225,23 +177,24 @@ impl WallFollower {
     /// Turn after a contact, radians. After a first contact on the left the robot tries to pass on the right; after a
     /// second one the passage is too narrow.
     fn turn_after(&self, reason: Reason) -> f64 {
-        let crowded_rad = CROWDED_RAD * f64::from(self.contacts.saturating_sub(1)).min(4.0);
+        let crowded_rad = CONTACTS.crowded_turn_rad
+            * f64::from(self.contacts.saturating_sub(1)).min(CONTACTS.crowded_turns_max);
         match reason {
-            Reason::BumpRight => 0.3 + crowded_rad,
-            Reason::BumpLeft if self.contacts <= 1 => -0.2,
-            Reason::BumpLeft => 1.4 + crowded_rad,
-            _ => 0.8 + crowded_rad,
+            Reason::BumpRight => CONTACTS.right_turn_rad + crowded_rad,
+            Reason::BumpLeft if self.contacts <= 1 => CONTACTS.left_first_turn_rad,
+            Reason::BumpLeft => CONTACTS.left_turn_rad + crowded_rad,
+            _ => CONTACTS.ahead_turn_rad + crowded_rad,
         }
     }
 
     fn change_phase(&mut self, situation: &Situation<'_>, ranges: &WallRanges, context: &mut TaskContext) {
         let advance = situation.advance;
         let driven_m = advance.distance_m.max(0.0);
-        let stop_m = STOP_M + self.dark_m;
+        let stop_m = CONTROL.stop_m + self.dark_m;
         let is_blocked = ranges.ahead_m.is_some_and(|ahead_m| ahead_m < stop_m);
         let next = match self.phase {
             WallFollowPhase::Turn { turned_rad } => {
-                if ranges.ahead_m.is_none_or(|ahead_m| ahead_m > CLEAR_M) {
+                if ranges.ahead_m.is_none_or(|ahead_m| ahead_m > CONTROL.clear_m) {
                     WallFollowPhase::Along
                 } else {
                     WallFollowPhase::Turn {
@@ -263,15 +216,15 @@ impl WallFollower {
             WallFollowPhase::Pass { left_m } if left_m > 0.0 => WallFollowPhase::Pass {
                 left_m: left_m - driven_m,
             },
-            WallFollowPhase::Pass { .. } => around(EDGE_ARC_M),
-            WallFollowPhase::Along if !self.line.is_seen_within(ENDED_M) => {
-                let gap_m = self.line.gap_m.clamp(GAP_M, 2.0 * GAP_M);
+            WallFollowPhase::Pass { .. } => around(CLIFFS.arc_beyond_m),
+            WallFollowPhase::Along if !self.line.is_seen_within(CONTROL.ended_m) => {
+                let gap_m = self.line.gap_m.clamp(CONTROL.gap_m, 2.0 * CONTROL.gap_m);
                 self.line.lose();
                 context.decide(DecisionKind::Arc, Reason::WallEnded, gap_m);
                 around(gap_m)
             }
             WallFollowPhase::Along => WallFollowPhase::Along,
-            WallFollowPhase::Around { turned_rad, .. } if turned_rad > ARC_MAX_RAD => {
+            WallFollowPhase::Around { turned_rad, .. } if turned_rad > CONTROL.arc_max_rad => {
                 WallFollowPhase::default()
             }
             WallFollowPhase::Around { turned_rad, beyond_m } => WallFollowPhase::Around {
@@ -288,7 +241,7 @@ impl WallFollower {
             WallFollowPhase::Turn { .. } => {
                 return Motion::Drive {
                     speed_m_per_s: 0.0,
-                    turn_rad_per_s: TURN_SHARE * speeds.turn_max_rad_per_s,
+                    turn_rad_per_s: CONTROL.turn_share * speeds.turn_max_rad_per_s,
                 };
             }
             WallFollowPhase::Seek { .. } | WallFollowPhase::Pass { .. } => 0.0,
@@ -297,12 +250,12 @@ impl WallFollower {
                 self.arc(beyond_m, situation.config.body.radius_m, ranges)
             }
         };
-        let turn_max = TURN_SHARE * speeds.turn_max_rad_per_s;
+        let turn_max = CONTROL.turn_share * speeds.turn_max_rad_per_s;
         let speed_m_per_s = speeds
             .cruise_m_per_s
             .min(turn_max / curvature.abs().max(1e-6))
             .min(self.braked(ranges, speeds.cruise_m_per_s))
-            .max(CREEP_M_PER_S);
+            .max(CHASSIS.speed_min_m_per_s);
         Motion::Drive {
             speed_m_per_s,
             turn_rad_per_s: speed_m_per_s * curvature,
@@ -311,14 +264,17 @@ impl WallFollower {
 
     /// Curvature that keeps the gap.
     fn along(&self) -> f64 {
-        let gap_m = GAP_M + self.dark_m;
-        let error_m = (gap_m - self.line.gap_m).clamp(-0.1, 0.1);
-        (GAP_GAIN * error_m - SLOPE_GAIN * self.line.slope_rad).clamp(-CURVATURE_MAX, CURVATURE_MAX)
+        let gap_m = CONTROL.gap_m + self.dark_m;
+        let error_m = (gap_m - self.line.gap_m).clamp(-CONTROL.gap_error_max_m, CONTROL.gap_error_max_m);
+        (CONTROL.gap_gain_per_m2 * error_m - CONTROL.slope_gain_per_m * self.line.slope_rad)
+            .clamp(-CONTROL.curvature_max_per_m, CONTROL.curvature_max_per_m)
     }
 
     /// Curvature of the arc round an end; straight where an obstacle is too near.
     fn arc(&self, beyond_m: f64, radius_m: f64, ranges: &WallRanges) -> f64 {
-        let is_near = ranges.diagonal_m.is_some_and(|gap_m| gap_m < GAP_M + self.dark_m);
+        let is_near = ranges
+            .diagonal_m
+            .is_some_and(|gap_m| gap_m < CONTROL.gap_m + self.dark_m);
         if is_near {
             0.0
         } else {
@@ -331,8 +287,8 @@ impl WallFollower {
         let Some(ahead_m) = ranges.ahead_m else {
             return f64::INFINITY;
         };
-        let left_m = ahead_m - STOP_M - self.dark_m - LAG_S * cruise_m_per_s;
-        libm::sqrt(2.0 * BRAKE_M_PER_S2 * left_m.max(0.0))
+        let left_m = ahead_m - CONTROL.stop_m - self.dark_m - CONTROL.lag_s * cruise_m_per_s;
+        libm::sqrt(2.0 * CONTROL.brake_m_per_s2 * left_m.max(0.0))
     }
 }
 

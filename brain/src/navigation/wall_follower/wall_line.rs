@@ -3,17 +3,9 @@
 //! One side sensor is enough: the change of its distance while driving gives the angle. A second sensor that faces between
 //! ahead and the side gives the angle at once.
 
+use super::parameters::ESTIMATION;
 use super::wall_ranges::WallRanges;
 use crate::model::advance::Advance;
-
-/// Gain of the distance correction per metre driven.
-const GAP_SHARE_PER_M: f64 = 25.0;
-/// Gain of the angle correction from a distance error, radians per metre of error and metre driven.
-const SLOPE_PER_M2: f64 = 200.0;
-/// Gain of the angle correction per metre driven.
-const SLOPE_SHARE_PER_M: f64 = 12.0;
-/// A larger difference is another object, metres.
-const OTHER_M: f64 = 0.05;
 
 /// The wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,17 +38,21 @@ impl WallLine {
             return;
         };
         let apart_m = side_m - self.gap_m;
-        if self.unseen_m.is_none() || apart_m.abs() > OTHER_M {
+        if self.unseen_m.is_none() || apart_m.abs() > ESTIMATION.other_object_m {
             self.gap_m = side_m;
             self.slope_rad = ranges.slope_rad.unwrap_or(0.0);
         } else {
             let driven_m = driven_m.abs();
-            self.gap_m += (GAP_SHARE_PER_M * driven_m).min(1.0) * apart_m;
+            self.gap_m += (ESTIMATION.gap_gain_per_m * driven_m).min(1.0) * apart_m;
             match ranges.slope_rad {
                 Some(seen_rad) => {
-                    self.slope_rad += (SLOPE_SHARE_PER_M * driven_m).min(1.0) * (seen_rad - self.slope_rad);
+                    self.slope_rad +=
+                        (ESTIMATION.slope_gain_per_m * driven_m).min(1.0) * (seen_rad - self.slope_rad);
                 }
-                None => self.slope_rad += SLOPE_PER_M2 * driven_m * apart_m * driven_m.signum(),
+                None => {
+                    self.slope_rad +=
+                        ESTIMATION.slope_from_gap_per_m2 * driven_m * apart_m * driven_m.signum()
+                }
             }
         }
         self.unseen_m = Some(0.0);

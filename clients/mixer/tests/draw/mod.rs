@@ -20,7 +20,7 @@ fn source(switches: usize) -> impl Strategy<Value = Source> {
         Just(Source::TouchUp),
         Just(Source::TiltForward),
         Just(Source::TiltLeft),
-        Just(Source::Client(told_name())),
+        Just(Source::Client(client_name())),
         (0..switches.max(1)).prop_map(move |place| if switches == 0 {
             Source::Always
         } else {
@@ -29,7 +29,7 @@ fn source(switches: usize) -> impl Strategy<Value = Source> {
     ]
 }
 
-fn told_name() -> Name {
+fn client_name() -> Name {
     Name::new("steer").expect("a name")
 }
 
@@ -37,7 +37,7 @@ fn switch_name(place: usize) -> Name {
     Name::new(&format!("switch {place}")).expect("a name")
 }
 
-/// A switch that may look at those before it.
+/// A switch that may refer to those before it.
 fn switch(place: usize) -> BoxedStrategy<Switch> {
     let of_input = (source(place), -1.0..=1.0).prop_map(|(input, level)| Condition::Above { input, level });
     let below = (source(place), -1.0..=1.0).prop_map(|(input, level)| Condition::Below { input, level });
@@ -179,13 +179,13 @@ pub(crate) fn readings() -> impl Strategy<Value = Readings> {
     let pads = prop::collection::btree_map(0_u8..2, pad, 0..3);
     let pair = || prop::option::of(prop::array::uniform2(reading()));
     let keys = prop::option::of(any::<bool>());
-    let told = prop::option::of(reading());
-    (pads, keys, pair(), pair(), told).prop_map(|(pads, keys, touch, tilt, told)| Readings {
+    let client = prop::option::of(reading());
+    (pads, keys, pair(), pair(), client).prop_map(|(pads, keys, touch, tilt, client)| Readings {
         pads,
         keys: keys.map(|held| held.then(key).into_iter().collect()),
         touch,
         tilt,
-        clients: told.map(|value| (told_name(), value)).into_iter().collect(),
+        clients: client.map(|value| (client_name(), value)).into_iter().collect(),
     })
 }
 
@@ -200,6 +200,6 @@ pub(crate) fn everything_pushed() -> Readings {
         keys: Some([key()].into()),
         touch: Some([1.0, 1.0]),
         tilt: Some([1.0, 1.0]),
-        clients: [(told_name(), 1.0)].into(),
+        clients: [(client_name(), 1.0)].into(),
     }
 }

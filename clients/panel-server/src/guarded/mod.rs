@@ -1,4 +1,4 @@
-//! A server that knows its clients: who asks, who may be let in, and what of it lies on the disk.
+//! The paired clients of a server: who asks, who may be paired, and what of it is on the disk.
 
 mod console;
 mod cookie;
@@ -72,7 +72,7 @@ pub(crate) struct Known {
     pub(crate) role: Role,
 }
 
-/// A new device, as it is told to everybody.
+/// A new device, as it is announced to all clients.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Newcomer {
     pub(crate) name: String,
@@ -153,7 +153,7 @@ impl Guarded {
         self.nonces.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether somebody can be let in, and the robot's number.
+    /// Whether pairing is possible now, and the robot's number.
     pub(crate) async fn invitation(&self) -> pairing::wire::Invitation {
         let door = self.door.lock().await;
         let now_us = self.now_us();
@@ -174,7 +174,7 @@ impl Guarded {
         Ok(opened)
     }
 
-    /// Opens a window because somebody holds START.
+    /// Opens a window because a person holds START.
     pub(crate) async fn open_by_button(&self) -> Result<(), NotDone> {
         let random = random()?;
         self.change(|door, now_us| door.open_by_button(now_us, random))
@@ -216,7 +216,7 @@ impl Guarded {
         self.presses_wanted.notified().await;
     }
 
-    /// A button was pressed. What devices ask for with START is no proof that somebody is there for another reason.
+    /// A button was pressed. A press for pairing does not prove presence for another request.
     pub(crate) async fn press(&self, is_start: bool) {
         let now_us = self.now_us();
         let mut door = self.door.lock().await;
@@ -237,7 +237,7 @@ impl Guarded {
         door.waits_for_presses(now_us) || self.presence().is_waited(now_us)
     }
 
-    /// Whether somebody is known to be beside the robot on behalf of this client.
+    /// Whether the presence of a person beside the robot is proven for this client.
     pub(crate) fn is_present(&self, id: TokenId) -> bool {
         self.presence().is_proven(self.now_us(), id)
     }
@@ -327,7 +327,7 @@ impl Guarded {
         let register = self.register.borrow();
         let Some(client) = register.get(id) else { return };
         info!(%id, name = %client.name, role = %client.role, from, "a device was let in");
-        // Nobody may be connected, who could be told.
+        // No client may be connected to receive it.
         self.notices
             .send(Newcomer {
                 name: client.name.to_string(),
@@ -337,7 +337,7 @@ impl Guarded {
             .ok();
     }
 
-    /// Changes the door and writes what changed before anybody hears of it, also after a refusal: attempts are counted so.
+    /// Changes the door and writes what changed before anybody is informed, also after a refusal: attempts are counted so.
     async fn change<T>(&self, act: impl FnOnce(&mut Door, u64) -> Result<T, Refusal>) -> Result<T, NotDone> {
         let mut door = self.door.lock().await;
         let now_us = self.now_us();
@@ -376,7 +376,7 @@ fn random<const N: usize>() -> Result<[u8; N], getrandom::Error> {
     Ok(bytes)
 }
 
-/// The time as far as the system knows it, seconds since 1970.
+/// The system's time, seconds since 1970.
 #[must_use]
 pub fn unix_s() -> u64 {
     std::time::SystemTime::now()

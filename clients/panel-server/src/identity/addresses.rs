@@ -18,7 +18,7 @@ pub(super) const HOME_NETWORKS: [(IpAddr, u8); 6] = [
     ),
 ];
 
-/// What the network interfaces have now, sorted. A computer that cannot tell has none: it goes by its name then.
+/// What the network interfaces have now, sorted. A computer that cannot list them has none, and is reached by its name.
 pub(crate) fn own_addresses() -> Vec<IpAddr> {
     let interfaces = if_addrs::get_if_addrs().unwrap_or_default();
     let mut addresses: Vec<IpAddr> = interfaces

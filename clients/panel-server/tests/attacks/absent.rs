@@ -1,7 +1,8 @@
 //! A26, A27: updates and brokers, which do not exist: there is nothing to send a firmware to, and nothing that speaks MQTT.
 
-use pairing::{Role, VERBS};
+use pairing::Role;
 use rvac_api::Request;
+use rvac_api::VERBS;
 use tokio::io::AsyncWriteExt as _;
 use tokio::net::TcpStream;
 

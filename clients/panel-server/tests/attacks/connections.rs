@@ -1,4 +1,4 @@
-//! A18: too many connections, too much in one, and too slow ones, while somebody else is served.
+//! A18: too many connections, too much in one, and too slow ones, while another client is served.
 
 use std::time::Duration;
 
@@ -15,7 +15,7 @@ use crate::rig::{Rig, read_all};
 /// What the crowd and the flood may take.
 const GROWTH_KIB_MAX: u64 = 48 << 10;
 
-/// A hundred thousand pings of the longest kind are 13 MB, and so are their answers, which nobody reads.
+/// A hundred thousand pings of the longest kind are 13 MB, and so are their answers, which are not read.
 const PINGS: usize = 100_000;
 const PINGS_KIB_MAX: u64 = 8 << 10;
 const PING_TIME_MAX: Duration = Duration::from_secs(2);
@@ -156,7 +156,7 @@ async fn pings(rig: &Rig, cookie: &str, report: &mut Report) {
     );
 }
 
-/// A bomb needs somebody who unpacks.
+/// A compression bomb needs a receiver that decompresses.
 async fn packed(rig: &Rig, cookie: &str, report: &mut Report) {
     let lines = format!("Cookie: {cookie}\r\nContent-Encoding: gzip\r\n");
     let body = r#"{"name":"a","message":""}"#;

@@ -20,7 +20,7 @@ use crate::stack::Stack;
 const LEASE_MS: u32 = 250;
 const BETWEEN: Duration = Duration::from_millis(80);
 
-/// What the table allows from the loss to the stand. The robot is looked at a hundred times a second, so that the look adds a
+/// What the table allows from the loss to the standstill. The robot is polled a hundred times a second, so that polling adds a
 /// hundredth at most; how long it really takes is measured on a virtual clock (`scenarios/tests/all/lost_driver.rs`).
 const STANDS_MS: u128 = 400;
 
@@ -44,7 +44,7 @@ struct Scene {
 
 impl Drop for Scene {
     fn drop(&mut self) {
-        std::fs::remove_dir_all(&self.page).ok(); // A leftover in the temporary folder hurts nobody.
+        std::fs::remove_dir_all(&self.page).ok(); // A leftover in the temporary folder does no harm.
     }
 }
 

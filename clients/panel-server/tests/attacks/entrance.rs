@@ -20,7 +20,7 @@ fn code(digits: &str) -> Code {
     Code::parse(digits).unwrap()
 }
 
-/// The word of a refusal, or what came instead.
+/// The reason of a refusal, or the answer instead.
 fn reason(body: &str, status: u16) -> String {
     let refused: Option<pairing::wire::Refused> = serde_json::from_str(body).ok();
     refused.map_or_else(|| status.to_string(), |refused| refused.reason)

@@ -1,4 +1,4 @@
-//! A2 to A5 for what the robot's buttons allow: windows, patterns of presses, and requests that need somebody beside the robot.
+//! A2 to A5 for what the robot's buttons allow: windows, patterns of presses, and requests that need a person beside the robot.
 
 use pairing::Role;
 use pairing::console::Order;
@@ -113,7 +113,7 @@ async fn stuck(report: &mut Report) {
     );
 }
 
-/// The server hears of the hold on another connection than of the question.
+/// The server receives the hold on another connection than the question.
 async fn joined_soon(rig: &Rig) -> Result<pairing::wire::Joined, Answer> {
     for _ in 0..3 {
         if let Ok(joined) = rig.join("phone").await {
@@ -146,7 +146,7 @@ async fn presence(report: &mut Report) {
         word(&answer),
     );
     rig.gesture("press").await;
-    // The press and the request take different ways.
+    // The press and the request take different connections.
     loop {
         socket.say(raw).await;
         socket.say(r#"{"id":2,"c":"maps"}"#).await;

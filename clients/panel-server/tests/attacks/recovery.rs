@@ -1,4 +1,4 @@
-//! A28: forgetting all devices, which only somebody beside the robot, at its console or with its card in hand can do.
+//! A28: forgetting all devices, which only a person beside the robot, at its console or with its card in hand can do.
 
 use pairing::Role;
 use pairing::console::{Order, Reply};

@@ -1,6 +1,7 @@
 //! A1, A2: who has no token, and who has one of a role that is too low.
 
-use pairing::{Method, Need, PRESENCE, ROUTES, Role, VERBS};
+use pairing::{Method, Need, PRESENCE, ROUTES, Role};
+use rvac_api::VERBS;
 
 use crate::report::Report;
 use crate::rig::{Answer, Rig};
@@ -98,7 +99,7 @@ async fn addresses(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
     }
 }
 
-/// Every request, each followed by one that everybody may make: either the daemon hears it or it does not.
+/// Every request, each followed by one that everybody may make: either the daemon receives it or it does not.
 async fn verbs(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
     let mut socket = rig.socket(cookie).await;
     let mut daemon = rig.daemon().await;

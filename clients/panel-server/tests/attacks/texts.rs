@@ -1,4 +1,4 @@
-//! A20: texts of a robot and names of devices that would be orders elsewhere. In a browser a test of pairing looks at them, in a
+//! A20: texts of a robot and names of devices that would be orders elsewhere. In a browser a test of pairing checks them, in a
 //! terminal tests of `rvac`.
 
 use pairing::{DeviceName, Role};

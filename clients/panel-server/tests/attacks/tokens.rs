@@ -161,7 +161,7 @@ fn as_somebody_else(report: &mut Report, state: PathBuf) {
         )?;
         Ok::<_, rustix::io::Errno>((before, reached(&state)))
     };
-    // The kernel keeps users by threads: only this one becomes somebody else, and it ends.
+    // The kernel keeps users by threads: only this one changes its user, and it ends.
     match std::thread::spawn(tries).join().unwrap() {
         Ok((owner, other)) => {
             report.row(

@@ -45,7 +45,7 @@ async fn send(address: std::net::SocketAddr, bytes: &[u8]) -> String {
     read_all(&mut stream).await
 }
 
-/// The first message of a client that knows nothing newer than TLS 1.2.
+/// The first message of a client that supports nothing newer than TLS 1.2.
 fn old_hello() -> Vec<u8> {
     let mut body = vec![3, 3];
     body.extend([7; 32]); // random

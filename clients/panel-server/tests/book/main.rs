@@ -1,7 +1,7 @@
 //! The examples of the book, typed into a shell in front of the real daemon, simulator and server.
 //!
-//! A block `sh` that a block `json` follows is run, and must print that: each line of the latter stands for one line of the
-//! output, in this order, others may stand between. Numbers, texts and lists are examples; keys, and the words in `e`, `id`, `reason` and
+//! A block `sh` that a block `json` follows is run, and must print that: each line of the latter matches one line of the
+//! output, in this order, others may be between. Numbers, texts and lists are examples; keys, and the words in `e`, `id`, `reason` and
 //! `state`, are a promise. A block `sh` without such an answer defines what later ones use.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
@@ -18,7 +18,7 @@ use page::Example;
 use serde_json::Value;
 use stack::Stack;
 
-/// Keys whose values are told exactly.
+/// Keys whose values must be equal.
 const EXACT: [&str; 4] = ["e", "id", "reason", "state"];
 
 /// Longest wait for the robot to greet the daemon.
@@ -97,7 +97,7 @@ impl Shell {
 
 impl Drop for Shell {
     fn drop(&mut self) {
-        fs::remove_dir_all(&self.page).ok(); // A leftover in the temporary folder hurts nobody.
+        fs::remove_dir_all(&self.page).ok(); // A leftover in the temporary folder does no harm.
     }
 }
 

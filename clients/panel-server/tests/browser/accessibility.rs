@@ -1,4 +1,4 @@
-//! What axe-core finds wrong with what is seen: nothing, on every sheet, on both screens, in both looks and languages.
+//! axe-core finds nothing wrong with the visible page, on every sheet, on both screens, in both themes and languages.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use crate::browser::{Browser, Screen};
 /// Gives a line for each fault: the rule, what is wrong, and where.
 const RUN: &str = "
     const tags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice'];
-    // A colour on its way to another one is not what is read.
+    // A colour in transition is not the final one.
     const moving = document.getAnimations().filter(motion => motion.effect.getComputedTiming().endTime < Infinity);
     const still = Promise.allSettled(moving.map(motion => motion.finished));
     return still.then(() => axe.run(document, { runOnly: tags, resultTypes: ['violations'] })).then(
@@ -48,7 +48,7 @@ pub(crate) async fn expect_none(browser: &Browser, what: &str) {
     assert!(found.is_empty(), "{what}:\n{}", found.join("\n"));
 }
 
-/// Takes a language and a look for the visit.
+/// Sets a language and a theme for the visit.
 async fn dress(browser: &Browser, language: &str, look: &str) {
     let keep = format!(
         "localStorage.setItem('language', '{language}'); localStorage.setItem('theme', '{look}'); return ''"
@@ -63,7 +63,7 @@ async fn dress(browser: &Browser, language: &str, look: &str) {
     browser.until_state(&["idle", "docked"]).await;
 }
 
-/// What is done on the way to a view, and a script that is true when it is there.
+/// The steps to a view, and a script that is true when it is there.
 const VIEWS: [(&str, &[&str], &str); 12] = [
     ("drive", &["#tab-drive"], "#pad"),
     (

@@ -19,7 +19,7 @@ use crate::stack::Stack;
 /// Whatever is awaited comes within this time or the test fails. A busy machine draws slowly.
 const PATIENCE: Duration = Duration::from_secs(40);
 
-/// Pause between two looks at the page.
+/// Pause between two polls of the page.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 
 /// Scrolls to an element, and notes whether the next click arrives at it. A page that is left by the click forgets the note.
@@ -139,7 +139,7 @@ impl Browser {
         self.client.goto(address).await.unwrap();
     }
 
-    /// Takes the dark look.
+    /// Sets the dark theme.
     pub(crate) async fn darken(&self) {
         self.click("#theme").await;
         self.until("return document.documentElement.dataset.theme === 'dark'")
@@ -160,7 +160,7 @@ impl Browser {
     }
 
     /// Clicks in the middle of an element, which is scrolled into the middle first: the driver takes one below a bar that
-    /// stays at the edge for visible. A page that grows between the driver's look and its press lets the press end elsewhere;
+    /// stays at the edge for visible. A page that grows between the driver's measurement and its press makes the press land elsewhere;
     /// a person presses again then, and so does this.
     pub(crate) async fn click(&self, selector: &str) {
         let deadline = Instant::now() + PATIENCE;
@@ -179,7 +179,7 @@ impl Browser {
         }
     }
 
-    /// Presses Start as soon as it can be pressed: before the robot is there it only tells why not.
+    /// Presses Start as soon as it can be pressed: before the robot is there it only says why not.
     pub(crate) async fn press_start(&self) {
         self.until("return document.getElementById('start')?.getAttribute('aria-disabled') === 'false'")
             .await;
@@ -242,7 +242,7 @@ impl Browser {
             .await;
     }
 
-    /// Chooses an entry of the list `id` by its value, as far as the page can tell.
+    /// Chooses an entry of the list `id` by its value, with the events that a person causes.
     pub(crate) async fn choose(&self, id: &str, value: &str) {
         let chosen = format!(
             "const list = document.getElementById('{id}'); list.value = '{value}'; \
@@ -313,7 +313,7 @@ impl Browser {
         self.client.perform_actions(up).await.unwrap();
     }
 
-    /// Presses Tab until the element with this id has the focus, and looks that the focus can be seen.
+    /// Presses Tab until the element with this id has the focus, and checks that the focus is visible.
     pub(crate) async fn tab_to(&self, id: &str) {
         for _ in 0..40 {
             self.press(Key::Tab.into()).await;
@@ -358,12 +358,12 @@ impl Browser {
         Frozen::descendants_of(self.driver.id())
     }
 
-    /// Saves what is seen, if screenshots are wanted.
+    /// Saves the view, if screenshots are enabled.
     pub(crate) async fn shot(&self, name: &str) {
         self.save_in("RVAC_SCREENSHOTS", name).await;
     }
 
-    /// Saves what is seen as a picture of the README, if those are wanted.
+    /// Saves the view as a picture of the README, if those are enabled.
     pub(crate) async fn picture(&self, name: &str) {
         self.save_in("RVAC_PICTURES", name).await;
     }
@@ -416,6 +416,6 @@ fn capabilities(screen: Screen) -> Value {
     if let (Screen::WithoutWebGl, Some(list)) = (screen, options["args"].as_array_mut()) {
         list.push(json!("--disable-3d-apis"));
     }
-    // As somebody who goes past the warning before a robot's own certificate.
+    // As a person who accepts the warning about a robot's own certificate.
     json!({ "browserName": "chrome", "acceptInsecureCerts": true, "goog:chromeOptions": options })
 }

@@ -4,7 +4,7 @@ use crate::Visit;
 use crate::browser::Screen;
 use crate::stack::Stack;
 
-/// The map that the robot has made is shown, not that of the simulator, which knows its rug from the start.
+/// The map that the robot has made is shown, not that of the simulator, which contains its rug from the start.
 #[tokio::test]
 async fn carpet_that_was_felt_is_shown_with_a_word_for_it() {
     for (screen, shots) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {

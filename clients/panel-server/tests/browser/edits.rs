@@ -28,7 +28,7 @@ impl Onlooker {
         }
     }
 
-    /// Waits until it is told of such a home.
+    /// Waits until it receives such a home.
     fn sees(&mut self, mut is_it: impl FnMut(&HomeView) -> bool) {
         loop {
             let mut message = Vec::new();
@@ -138,7 +138,7 @@ async fn a_zone_is_drawn_and_cleaned_and_a_place_kept_out_of_for_that_job() {
     browser.until_state(&["idle", "docked"]).await;
 }
 
-/// How many zones and spots are in the bar, and how many numbers stand on the map.
+/// How many zones and spots are in the bar, and how many numbers are on the map.
 async fn drawn_parts(browser: &Browser, count: usize) {
     for labels in ["#drawn-parts .part", ".room-names .number"] {
         let script = format!("return document.querySelectorAll('{labels}').length === {count}");
@@ -283,16 +283,16 @@ async fn a_dock_that_was_moved_is_shown_by_two_places_and_taken_back() {
     browser.says("dock-place", "where somebody marked it").await;
     let mut moved = None;
     onlooker.sees(|home| {
-        moved = home.dock.filter(|_| home.dock_told);
+        moved = home.dock.filter(|_| home.dock_reported);
         moved.is_some()
     });
     browser.shot("desktop-dock-moved").await;
     browser.click("#undo").await;
     browser.says("dock-place", "where the robot has docked").await;
-    onlooker.sees(|home| !home.dock_told);
+    onlooker.sees(|home| !home.dock_reported);
     browser.click("#redo").await;
-    onlooker.sees(|home| home.dock_told && home.dock == moved);
-    // Far outside there is no floor on which it could stand; the words say so over the hint of the drawing.
+    onlooker.sees(|home| home.dock_reported && home.dock == moved);
+    // Far outside there is no floor for it; a message says so over the hint of the drawing.
     browser.click("#draw-dock").await;
     keys(browser, &["ArrowUp"; 16]).await;
     keys(browser, &["Enter", "ArrowUp", "Enter"]).await;

@@ -1,4 +1,4 @@
-//! A8 to A12 of the attack table, by real pages: what other sites can do with a robot in the browser of somebody whom the robot
+//! A8 to A12 of the attack table, by real pages: what other sites can do with a robot in the browser of a person whom the robot
 //! lets in as an administrator.
 
 use crate::Visit;
@@ -55,11 +55,11 @@ const FROM_A_SANDBOX: &str = "return new Promise(done => {
         document.body.append(frame);
     })";
 
-/// Shows the panel in a frame, beneath something that wants to be clicked.
+/// Shows the panel in a frame, beneath something that invites a click.
 const FRAME: &str = "document.body.innerHTML = '<iframe src=\"ROBOT/\"></iframe>';
     return new Promise(done => document.querySelector('iframe').onload = () => done('loaded'))";
 
-/// Whether a pairing window is open, as the panel's own page is told.
+/// Whether a pairing window is open, as the panel's own page receives it.
 const IS_OPEN: &str =
     "return fetch('/api/pairing').then(answer => answer.json()).then(told => String(told.open))";
 

@@ -1,5 +1,5 @@
 //! Other hands than one pad and a keyboard: two pads, a thumb on the screen, a tilted phone, another client. Each drives, is
-//! lost, and the wheels stand.
+//! lost, and the wheels stop.
 
 use std::time::{Duration, Instant};
 
@@ -181,7 +181,7 @@ async fn a_thumb_drives_on_the_screen_and_the_wheels_stand_when_it_is_gone() {
     of_tab.tell("the tab was hidden under the thumb");
 }
 
-/// How a phone is held: the browser itself tells the page, as from its sensors.
+/// How a phone is held: the browser itself sends it to the page, as from its sensors.
 fn hold(browser: &Browser, top_edge_raised_deg: f64, right_edge_lowered_deg: f64) {
     browser.devtools(
         "DeviceOrientation.setDeviceOrientationOverride",
@@ -189,7 +189,7 @@ fn hold(browser: &Browser, top_edge_raised_deg: f64, right_edge_lowered_deg: f64
     );
 }
 
-/// For so long nothing may be told of a tilt.
+/// For so long no tilt may be sent.
 const TILT_SILENT: Duration = Duration::from_secs(1);
 
 /// A hand that trembles, for what is never so still is not held.
@@ -269,7 +269,7 @@ async fn a_tilted_phone_drives_and_the_wheels_stand_when_it_is_not_followed() {
     of_tab.tell("the tab was hidden while the phone was tilted");
 }
 
-/// The other client tells a push until the robot turns.
+/// The other client sends a push until the robot turns.
 async fn steer_until_it_turns(browser: &Browser, teller: &Teller, witness: &Observer) {
     for _ in 0..5 {
         teller.tell(0.0);
@@ -337,7 +337,7 @@ async fn an_input_of_another_client_is_learnt_in_the_editor() {
     browser
         .until("return document.getElementById('line-1-0-input-set').ariaPressed === 'true'")
         .await;
-    // Some looks at the inputs pass with the stick at rest.
+    // Some readings of the inputs pass with the stick at rest.
     tokio::time::sleep(Duration::from_millis(300)).await;
     teller.tell(0.8);
     browser

@@ -1,4 +1,4 @@
-//! Whole ways through the page without a pointer, by keys as the browser gets them from a keyboard: at each of them the focus is to be
+//! Whole tasks in the page without a pointer, by keys as the browser gets them from a keyboard: at each of them the focus is to be
 //! seen. And what still moves for people who asked that nothing does.
 
 use serde_json::json;
@@ -236,7 +236,7 @@ async fn a_schedule_is_made_by_keys_alone() {
     browser.says("schedules", "Sat at 09:30").await;
 }
 
-/// Names of elements whose look changes over time, by a transition or an animation.
+/// Names of elements whose style changes over time, by a transition or an animation.
 const MOVING: &str = "
     const parts = [undefined, '::before', '::after'];
     const isLong = times => times.split(',').some(time => parseFloat(time) > 0);

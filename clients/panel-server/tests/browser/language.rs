@@ -1,9 +1,9 @@
-//! The page in another language: chosen in the bar, kept, told to the browser, in every sheet.
+//! The page in another language: chosen in the bar, stored, declared to the browser, in every sheet.
 
 use crate::Visit;
 use crate::browser::{Browser, Screen};
 
-/// English words that the page would show if a text of it stood outside of the catalogue.
+/// English words that the page would show if a text of it were outside of the catalogue.
 const ENGLISH: &str = "
     const text = document.body.innerText;
     const words = ['the', 'is', 'robot is', 'nothing', 'settings', 'Save', 'Battery', 'Rooms', 'Cleaned', 'Schedules'];

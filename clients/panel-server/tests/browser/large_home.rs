@@ -1,4 +1,4 @@
-//! A home of 400 square metres with a way of 10,000 points: how long a picture takes, and what the map costs on the wire.
+//! A home of 400 square metres with a path of 10,000 points: how long a picture takes, and what the map costs on the wire.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -12,7 +12,7 @@ use crate::wire_tap::WireTap;
 /// Sides of the home, and of its rooms, metres.
 const SIDE_M: f64 = 20.0;
 const ROOM_M: [f64; 2] = [5.0, 4.0];
-/// Points of the way, each 2 cm from the one before or more.
+/// Points of the path, each at least 2 cm from the previous one.
 const POINTS: usize = 10_000;
 const LONG_WAY: &str = "return Number(document.getElementById('map').dataset.pathPoints) >= 10000";
 /// A daemon on a busy machine plans for so large a home for a while before the robot moves.

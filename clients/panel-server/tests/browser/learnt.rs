@@ -1,4 +1,4 @@
-//! What robots have learnt of themselves in the page: told with how sure it is, and forgotten when somebody says so twice.
+//! Learned calibration in the page: shown with its uncertainty, and deleted after a second confirmation.
 
 use crate::Visit;
 use crate::accessibility::{SMALL_TARGETS, expect_none};
@@ -23,7 +23,7 @@ async fn is_shown(browser: &Browser, row: &str, is: bool) {
         .await;
 }
 
-/// Looks at the sheet in the look that the page has now.
+/// Checks the sheet in the theme that the page has now.
 async fn look(browser: &Browser, name: &str) {
     browser
         .text("document.getElementById('learnt').scrollIntoView({ block: 'center' }); return ''")

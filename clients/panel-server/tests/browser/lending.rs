@@ -1,4 +1,4 @@
-//! A phone lends its stick to whoever drives at another browser: the robot follows, and stands when the phone is lost in any way.
+//! A phone lends its stick to the driver at another browser: the robot follows, and stops whenever the phone is lost.
 
 use std::time::{Duration, Instant};
 
@@ -37,7 +37,7 @@ async fn push_until_it_turns([driver, phone]: [&Browser; 2], witness: &Observer)
     phone.fail("the robot does not turn").await
 }
 
-/// On a machine that is too busy the driver's lease ends between two words, and nobody drives: then the stick is pushed anew.
+/// On a machine that is too busy the driver's lease ends between two messages, and nobody drives: then the stick is pushed again.
 async fn the_driver_is_told([driver, phone]: [&Browser; 2], witness: &Observer) {
     let is_told =
         "return document.getElementById('lend-state').textContent.includes('the driver now is panel')";

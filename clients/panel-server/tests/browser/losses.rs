@@ -1,4 +1,4 @@
-//! How long the wheels go on when whoever drives is lost, in ways of which only a browser knows.
+//! How long the wheels turn after the driver is lost in ways that only a browser has.
 
 use std::time::{Duration, Instant};
 
@@ -8,7 +8,7 @@ use crate::rival::Rival;
 use crate::robot::Observer;
 use crate::{Visit, hold_until_it_turns};
 
-/// Longest time from the loss until the wheels stand, as a look ten times a second sees it.
+/// Longest time from the loss until the wheels stop, as measured ten times a second.
 const STANDS_WITHIN: Duration = Duration::from_millis(1000);
 
 /// How often each loss is tried.
@@ -46,7 +46,7 @@ impl Losses {
 /// Open floor in front of the dock, which a robot on it faces along x.
 const OFF_DOCK: &str = r#"{"c":"place","x":-0.6,"y":0.0,"heading":3.14}"#;
 
-/// A robot that somebody has put beside its dock, and who sees where it is.
+/// A robot that was put beside its dock, and an observer of its pose.
 pub(crate) async fn ready_to_drive(screen: Screen) -> Option<(Visit, Observer)> {
     let visit = Visit::begin_alone(screen).await?;
     visit.stack.hand(OFF_DOCK);
@@ -152,7 +152,7 @@ async fn second_is_refused(visit: &Visit, witness: &Observer) -> Rival {
         .await
 }
 
-/// Of two who want to drive one does; the other has the seat when the first is lost, and loses it in the same way.
+/// Of two clients that ask to drive one does; the other has the seat when the first is lost, and loses it in the same way.
 #[tokio::test]
 async fn a_second_driver_waits_until_the_first_is_lost() {
     let Some((visit, witness)) = ready_to_drive(Screen::Desktop).await else {

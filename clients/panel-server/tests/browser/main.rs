@@ -3,8 +3,8 @@
 //! They run only when `RVAC_BROWSER_TESTS` is set, because they need Chromium, its driver, a packed panel in the folder named by
 //! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal`, `rvac` and `rvac-sim` beside that of
 //! the server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
-//! `RVAC_PICTURES` names the folder for the pictures of the README, which are taken anew only then.
-//! `RVAC_LOSSES` says how often the driver is lost in each way, `RVAC_WATCH_MINUTES` how long the memory of the page is watched.
+//! `RVAC_PICTURES` names the folder for the pictures of the README, which are taken only then.
+//! `RVAC_LOSSES` says how often each loss of the driver is tried, `RVAC_WATCH_MINUTES` how long the memory of the page is watched.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 mod accessibility;
@@ -59,7 +59,7 @@ struct Visit {
 }
 
 impl Visit {
-    /// Starts all parts and waits for the robot; `None`, and a word about it, when browser tests are not wanted.
+    /// Starts all parts and waits for the robot; `None`, with a message, when browser tests are off.
     async fn begin(screen: Screen) -> Option<Self> {
         Self::with(Stack::start, screen).await
     }
@@ -69,7 +69,7 @@ impl Visit {
         Self::alone_with(Stack::start, screen).await
     }
 
-    /// In a home that the robot knows.
+    /// In a home that is on the robot's map.
     async fn begin_at_home(screen: Screen) -> Option<Self> {
         Self::with(Stack::start_at_home, screen).await
     }
@@ -320,7 +320,7 @@ async fn what_the_robot_knows_and_decides_is_shown() {
 /// Number of rooms that are chosen, by the list.
 const CHOSEN: &str = "return String(document.querySelectorAll('#rooms [aria-pressed=true]').length)";
 
-/// The first room of the list is chosen, named, and cleaned twice; what it takes is told before.
+/// The first room of the list is chosen, named, and cleaned twice; the estimate is shown before.
 async fn clean_one_room(browser: &Browser, shots: &str) {
     browser.click("#tab-home").await;
     browser

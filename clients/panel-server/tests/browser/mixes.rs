@@ -6,7 +6,7 @@ use crate::Visit;
 use crate::browser::{Browser, Screen};
 use crate::robot::Observer;
 
-/// A pad that the page sees as it sees one of metal; it counts how often it shakes.
+/// A pad that the page cannot distinguish from a real one; it counts its rumbles.
 const PAD: &str = "
     window.rumbles = 0;
     window.pad = {
@@ -63,7 +63,7 @@ pub(crate) async fn turn_by_pad(browser: &Browser, witness: &Observer) {
     panic!("the robot does not turn");
 }
 
-/// Until the robot has stood for twice as long as the page wants to see it stand before a start counts.
+/// Until the robot has stood for twice the standstill that the page requires before a start counts.
 fn come_to_rest(witness: &Observer) {
     let has_rested = (0..10).any(|_| !witness.moves_within(Duration::from_millis(500)));
     assert!(has_rested, "the robot moves although the stick is at rest");
@@ -283,7 +283,7 @@ async fn held_at(browser: &Browser, top_edge_raised_deg: i32) {
          window.dispatchEvent(new DeviceOrientationEvent('deviceorientation', held)); return ''"
     );
     browser.text(&script).await;
-    // Some looks at the inputs pass.
+    // Some readings of the inputs pass.
     browser
         .text("return new Promise((done) => setTimeout(() => done(''), 300))")
         .await;
@@ -295,7 +295,7 @@ const NAMELESS: &str = "
     return [...document.querySelectorAll('#mixes :is(input, select, [role=meter])')]
         .filter((element) => !named(element)).map((element) => element.id || element.className).join(', ')";
 
-/// The page hears of a robot without side brushes: what it is told is cut on its way into the page.
+/// The page gets a robot without side brushes: they are cut out of the messages to the page.
 const WITHOUT_SIDE_BRUSHES: &str = "
     const told = Object.getOwnPropertyDescriptor(MessageEvent.prototype, 'data');
     Object.defineProperty(MessageEvent.prototype, 'data', { get() {

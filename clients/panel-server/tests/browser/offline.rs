@@ -68,5 +68,5 @@ async fn the_page_opens_without_the_robot_and_a_new_version_takes_over() {
         .await;
     visit.browser.until_state(&["idle", "docked"]).await;
     visit.browser.until(LATER).await;
-    fs::remove_dir_all(&later).ok(); // A leftover in the temporary folder hurts nobody.
+    fs::remove_dir_all(&later).ok(); // A leftover in the temporary folder does no harm.
 }

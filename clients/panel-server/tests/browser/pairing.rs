@@ -11,7 +11,7 @@ use crate::robot::Observer;
 use crate::stack::Stack;
 use crate::turns::Company;
 
-/// Types into a field, as far as the page can tell.
+/// Types into a field, with the events that a person causes.
 async fn fill(browser: &Browser, id: &str, text: &str) {
     let typed = format!(
         "const field = document.getElementById('{id}'); field.value = {text:?}; \
@@ -27,7 +27,7 @@ fn open(stack: &Stack, role: &str) -> String {
     code.expect("a code").to_owned()
 }
 
-/// The first address that has no name in it, as a window that is opened at the console tells it.
+/// The first address that has no name in it, as a window that is opened at the console prints it.
 fn address(stack: &Stack) -> Option<String> {
     let said = stack.console(&["pair", "--role", "drive"]);
     let host = |line: &str| line.strip_prefix("https://").map(str::to_owned);

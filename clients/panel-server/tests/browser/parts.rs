@@ -1,4 +1,4 @@
-//! Wear in the page: a brush that runs hard is told with what to do, until a person says that it is clean.
+//! Wear in the page: a brush that runs hard is shown with a remedy, until a person says that it is clean.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! The pictures of the README: taken anew into the folder that `RVAC_PICTURES` names, and else passed over.
+//! The pictures of the README: taken into the folder that `RVAC_PICTURES` names, and skipped without it.
 
 use crate::Visit;
 use crate::browser::{Browser, Screen};
@@ -6,12 +6,12 @@ use crate::browser::{Browser, Screen};
 /// Cells of 25 mm that are swept before a picture is taken: some ten square metres, not half of the home.
 const SWEPT_CELLS: u32 = 16_000;
 
-/// Where the pictures go, if they are wanted.
+/// Where the pictures go, if they are enabled.
 fn are_wanted() -> bool {
     std::env::var_os("RVAC_PICTURES").is_some()
 }
 
-/// A robot at work in a home that it knows, with a sheet of the page open.
+/// A robot at work in a known home, with a sheet of the page open.
 async fn at_work(browser: &Browser, tab: &str) {
     browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
@@ -20,7 +20,7 @@ async fn at_work(browser: &Browser, tab: &str) {
     let minutes = std::time::Duration::from_secs(600);
     let swept = format!("return Number(document.getElementById('map').dataset.sweptCells) > {SWEPT_CELLS}");
     browser.until_within(minutes, &swept).await;
-    // What was pressed has scrolled to where it stands.
+    // The pressed element has scrolled into view.
     browser
         .text("window.scrollTo(0, 0); document.querySelector('.side').scrollTo(0, 0); return ''")
         .await;

@@ -1,4 +1,4 @@
-//! The processes of this computer, as Linux tells of them.
+//! The processes of this computer, as Linux lists them.
 
 /// What descends from the process of this number, without that process.
 pub(crate) fn descendants_of(ancestor: u32) -> Vec<u32> {
@@ -16,7 +16,7 @@ pub(crate) fn descendants_of(ancestor: u32) -> Vec<u32> {
     all.filter(|process| descends(*process)).collect()
 }
 
-/// A line of what the kernel tells about a process.
+/// A line of the kernel's status of a process.
 fn told(process: u32, name: &str) -> Option<String> {
     let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix(name))?;
@@ -29,7 +29,7 @@ pub(crate) fn memory_kib(process: u32) -> u64 {
     memory.unwrap_or(0)
 }
 
-/// Whether a word stands on its command line.
+/// Whether a word is on its command line.
 pub(crate) fn is_called_with(process: u32, word: &str) -> bool {
     let line = std::fs::read(format!("/proc/{process}/cmdline")).unwrap_or_default();
     String::from_utf8_lossy(&line).contains(word)

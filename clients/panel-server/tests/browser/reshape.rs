@@ -229,7 +229,7 @@ async fn an_older_map_is_taken_up_and_the_newest_brought_back() {
     browser.until(&walls(0)).await;
 }
 
-/// Waits until a version of the map is the newest, and looks that it has the extent of the one from which it was made.
+/// Waits until a version of the map is the newest, and checks that it has the extent of the one from which it was made.
 async fn in_use(browser: &Browser, newest: usize, source: usize) {
     let extent = |number: usize| {
         format!(

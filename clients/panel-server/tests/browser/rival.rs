@@ -1,4 +1,4 @@
-//! Somebody else who wants to drive, straight at the daemon's socket.
+//! Another client that asks to drive, directly at the daemon's socket.
 
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;

@@ -12,13 +12,13 @@ use std::time::{Duration, Instant};
 
 use rvac_api::{Pose, SEPARATOR, Update};
 
-/// Poses closer than this are the same: the wheels stand.
+/// Poses closer than this are the same: the wheels do not turn.
 const STILL_M: f64 = 0.0005;
 const STILL_RAD: f64 = 0.002;
-/// The wheels stand when the robot is where it was for so long: two of the poses that the simulator tells by itself.
+/// The wheels have stopped when the robot is at the same pose for so long: two of the poses that the simulator sends by itself.
 const STILL_FOR: Duration = Duration::from_millis(190);
 
-/// How often a close look asks where the robot is.
+/// Period of polling the robot's pose during a measurement.
 const CLOSE_LOOK: Duration = Duration::from_millis(10);
 
 /// Hears the true poses, ten a second, or asks for more.

@@ -1,4 +1,4 @@
-//! A device that may only look: what it cannot do says so beforehand, and nothing that can be pressed is refused.
+//! A device with the role `view`: controls that it may not use say so beforehand, and nothing that can be pressed is refused.
 
 use crate::Visit;
 use crate::accessibility::expect_none;

@@ -3,7 +3,7 @@
 use crate::Visit;
 use crate::browser::{Browser, Screen};
 
-/// Types into a field, as far as the page can tell.
+/// Types into a field, with the events that a person causes.
 async fn fill(browser: &Browser, id: &str, text: &str) {
     let typed = format!(
         "const field = document.getElementById('{id}'); field.value = '{text}'; \

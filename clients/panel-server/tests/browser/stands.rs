@@ -1,10 +1,10 @@
-//! A robot that stands for a reason: the mark on the map, what it felt before, and the same in the history afterwards.
+//! A robot that stops for a reason: the mark on the map, the sensor readings before, and the same in the history afterwards.
 
 use crate::Visit;
 use crate::accessibility::{SMALL_TARGETS, expect_none};
 use crate::browser::{Browser, Screen};
 
-/// Looks at what is on the screen in both looks, and that nothing of it is wrong.
+/// Checks the screen in both themes.
 async fn look(browser: &Browser, name: &str) {
     for theme in ["light", "dark"] {
         browser
@@ -36,7 +36,7 @@ async fn scroll_to(browser: &Browser, selector: &str) {
         .await;
 }
 
-/// The mark stands on the map as long as the robot does.
+/// The mark is on the map as long as the robot stands still.
 async fn is_marked(browser: &Browser, is: bool) {
     let seen = "[...document.querySelectorAll('.number.stop')].some(mark => mark.checkVisibility())";
     browser.until(&format!("return {seen} === {is}")).await;

@@ -1,4 +1,4 @@
-//! A web site of somebody else, with a certificate of its own: it shows an empty page at every path.
+//! A foreign web site, with a certificate of its own: it shows an empty page at every path.
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::JoinHandle;
 use tokio_rustls::TlsAcceptor;
 
-/// The name by which it is known beside the address of this computer; the browser of the tests looks it up here.
+/// The name by which it is known beside the address of this computer; the browser of the tests resolves it to here.
 pub(crate) const NAME: &str = "evil.example";
 
 const PAGE: &str = "HTTP/1.1 200 OK\r\nContent-Type: text/html\r\nContent-Length: 41\r\nConnection: close\r\n\r\n\

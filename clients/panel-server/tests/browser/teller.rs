@@ -1,4 +1,4 @@
-//! Another client, which tells an input of control mixes straight at the daemon's socket.
+//! Another client, which sends an input of control mixes directly to the daemon's socket.
 
 use std::io::{Read, Write};
 use std::os::unix::net::UnixStream;
@@ -41,7 +41,7 @@ impl Teller {
     pub(crate) fn of(name: &str, socket: &Path) -> Self {
         let mut stream = UnixStream::connect(socket).unwrap();
         let mut answers = stream.try_clone().unwrap();
-        // What it is told fills no buffer.
+        // Reads the messages, so that they fill no buffer.
         std::thread::spawn(move || while answers.read(&mut [0; 4096]).is_ok_and(|count| count > 0) {});
         let name = name.to_owned();
         let (turns, inbox) = channel();

@@ -1,4 +1,4 @@
-//! Stands between server and daemon: everything goes through unchanged, but that the first whole map has a longer way in it, and that
+//! A proxy between server and daemon: everything goes through unchanged, but that the first whole map has a longer path in it, and that
 //! what the map costs is counted.
 
 use std::io::{BufRead, BufReader, Write};
@@ -23,7 +23,7 @@ pub(crate) struct WireTap {
 }
 
 impl WireTap {
-    /// Puts `way_mm` before what each whole map tells of the way.
+    /// Puts `way_mm` before the path of each whole map.
     pub(crate) fn before(daemon: &Path, folder: &Path, way_mm: &[i32]) -> Self {
         let socket = folder.join("tap.sock");
         let listener = UnixListener::bind(&socket).unwrap();

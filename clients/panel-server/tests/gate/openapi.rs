@@ -54,7 +54,7 @@ fn the_description_has_exactly_the_routes_and_their_roles() {
     assert!(left.is_empty(), "described and not served: {left:?}");
 }
 
-/// The answer is one that the description knows, in status and content.
+/// The answer is one of the description, in status and content.
 #[track_caller]
 fn expect_described(spec: &Value, (method, path): (&str, &str), answer: &Answer) {
     let responses = &spec["paths"][path][method]["responses"];
@@ -124,7 +124,7 @@ async fn the_description_is_for_everybody_and_so_are_the_files_that_it_names() {
     assert_eq!(told, spec);
 }
 
-/// Every operation, broken in each way that the server's rules know.
+/// Every operation, with each violation of the server's rules.
 #[tokio::test]
 async fn what_breaks_the_rules_is_refused_as_described() {
     let (rig, spec) = (Rig::start().await, described());

@@ -71,7 +71,7 @@ pub(crate) struct Rig {
     pub(crate) address: SocketAddr,
     pub(crate) page: SocketAddr,
     pub(crate) vthal: UnixListener,
-    /// The connection on which the server hears of the robot's buttons.
+    /// The connection on which the server receives the robot's buttons.
     pub(crate) buttons: Daemon,
     pub(crate) trust: Trust,
     clock: fn() -> u64,
@@ -81,7 +81,7 @@ pub(crate) struct Rig {
 impl Drop for Rig {
     fn drop(&mut self) {
         self.server.abort();
-        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder hurts nobody.
+        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder does no harm.
     }
 }
 
@@ -176,7 +176,7 @@ impl Rig {
         }
     }
 
-    /// As it stands in `Host`.
+    /// As in the header `Host`.
     pub(crate) fn host(&self) -> String {
         format!("{}:{}", self.trust.host_name, self.address.port())
     }
@@ -220,7 +220,7 @@ impl Rig {
         TlsConnector::from(Arc::new(config)).connect(name, stream).await
     }
 
-    /// Sends a request as it stands.
+    /// Sends a request unchanged.
     pub(crate) async fn raw(&self, request: &str) -> Answer {
         let mut stream = self.tls().await;
         stream.write_all(request.as_bytes()).await.unwrap();
@@ -415,7 +415,7 @@ impl Socket {
         }
     }
 
-    /// Waits for the end, whatever is said before it.
+    /// Waits for the end and skips other messages.
     pub(crate) async fn until_ended(&mut self) {
         while self.hear().await.is_some() {}
     }

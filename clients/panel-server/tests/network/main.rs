@@ -66,7 +66,7 @@ fn here(stack: &Stack, words: &[&str]) -> String {
     )
 }
 
-/// The code of a new window, and an address by which the robot is found without anybody who knows its name.
+/// The code of a new window, and an address by which the robot is found without name resolution.
 fn open(stack: &Stack) -> (String, Option<String>) {
     let said = stack.console(&["pair", "--role", "admin"]);
     let code = said.lines().find_map(|line| line.strip_prefix("Code: ")).unwrap();
@@ -84,7 +84,7 @@ fn kept(settings: &Path) -> PathBuf {
     files.next().unwrap().unwrap().path()
 }
 
-/// Packets of its own need somebody beside the robot, or at its console.
+/// Packets of its own need a person beside the robot, or at its console.
 fn types_packets(desk: &Computer, stack: &Stack) {
     let words = ["term", "--linger", "3000", "--skip", "state"];
     let refused = desk.rvac(&words, "{\"c\":\"info\"}\n");
@@ -168,5 +168,5 @@ fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot()
         refused.contains("does not know this computer any more"),
         "{refused}"
     );
-    std::fs::remove_dir_all(&page).ok(); // A leftover in the temporary folder hurts nobody.
+    std::fs::remove_dir_all(&page).ok(); // A leftover in the temporary folder does no harm.
 }

@@ -82,7 +82,7 @@ impl Rig {
         }
     }
 
-    /// Sends a request as it stands, `PORT` replaced, and gives the whole answer.
+    /// Sends a request with `PORT` replaced and gives the whole answer.
     pub(crate) async fn raw(&self, request: &str) -> String {
         let mut stream = TcpStream::connect(self.address).await.unwrap();
         let request = request.replace("PORT", &self.address.port().to_string());
@@ -125,7 +125,7 @@ impl Rig {
         Browser(socket)
     }
 
-    /// The connection that vthal sees.
+    /// The connection on vthal's side.
     pub(crate) async fn accept(&self) -> Daemon {
         Daemon::accept(&self.vthal).await
     }

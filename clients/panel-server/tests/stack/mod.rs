@@ -69,14 +69,14 @@ impl Drop for Process {
     }
 }
 
-/// What the robot knows at the start.
+/// The robot's map at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Home {
     /// Nothing.
     Unknown,
     /// The home it is in.
     Kept,
-    /// The same after a whole job, in which it has felt what lies there.
+    /// The same after a whole job, in which it has detected the carpets.
     Cleaned,
 }
 
@@ -169,7 +169,7 @@ impl Stack {
         std::mem::replace(&mut self.address, open)
     }
 
-    /// Starts the daemon anew, with clients that may send packets of their own.
+    /// Restarts the daemon, with clients that may send packets of their own.
     fn allow_packets(&mut self) {
         let path = self.folder.join("vthal.toml");
         let configuration = std::fs::read_to_string(&path).unwrap();
@@ -300,7 +300,7 @@ impl Stack {
         );
     }
 
-    /// Whether the daemon has heard from the robot what it is.
+    /// Whether the daemon has received the robot's description.
     pub(crate) fn daemon_knows_a_robot(&self) -> bool {
         use std::io::Write as _;
         let mut stream = UnixStream::connect(self.daemon_socket()).unwrap();
@@ -399,6 +399,6 @@ impl Drop for Stack {
     fn drop(&mut self) {
         self.vthal = None;
         self.processes.clear();
-        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder hurts nobody.
+        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder does no harm.
     }
 }

@@ -8,7 +8,7 @@ const SCALE_MAX: f64 = 1000.0;
 
 /// Share of the view that [`Camera::fit`] leaves free on each side.
 const FIT_MARGIN: f64 = 0.06;
-/// On the right it leaves at least so many pixels free: the buttons of the map stand there, 46 wide and 16 from the edge.
+/// On the right it leaves at least so many pixels free: the buttons of the map are there, 46 wide and 16 from the edge.
 const TOOLS_PX: f64 = 68.0;
 
 /// Steps after which a picture from an orbit fits to a pixel or two.
@@ -159,7 +159,7 @@ impl Camera {
         self.projection().pixel_of([x, y, 0.0])
     }
 
-    /// What of the screen things cover that stand in `bounds` and are `height_m` high.
+    /// The part of the screen that things cover that are inside `bounds` and `height_m` high.
     #[must_use]
     pub fn screen_box(&self, bounds: Bounds, height_m: f64) -> ScreenBox {
         let projection = self.projection();
@@ -205,7 +205,7 @@ impl Camera {
     fn free_px(&self) -> (View, f64) {
         let View { width, height } = self.view;
         let left = FIT_MARGIN * width;
-        // A view that is hardly wider than the buttons is on its way to its size.
+        // A view that is hardly wider than the buttons has not reached its size yet.
         let right = left.max(TOOLS_PX.min(width / 2.0));
         let free = View {
             width: width - left - right,
@@ -245,7 +245,7 @@ impl Camera {
         }
     }
 
-    /// Comes nearer to having a point in the middle: all the way in about half a second of calls with `elapsed_s` each.
+    /// Moves towards having a point in the middle; calls with `elapsed_s` each get there in about half a second.
     pub fn follow(&mut self, (x, y): (f64, f64), elapsed_s: f64) {
         let share = 1.0 - (-elapsed_s * 8.0).exp();
         self.x += (x - self.x) * share;
@@ -253,7 +253,7 @@ impl Camera {
     }
 }
 
-/// The corners of a box that stands on the floor.
+/// The corners of a box on the floor.
 fn corners(bounds: Bounds, height_m: f64) -> impl Iterator<Item = [f64; 3]> {
     let sides = [
         (bounds.x_min, bounds.y_min),

@@ -1,10 +1,10 @@
-//! What the robot has felt of the floor, in words.
+//! The surfaces that the robot has detected, in words.
 
 use crate::figures::area_text;
 use crate::words::Words;
 use rvac_api::HomeView;
 
-/// How much of the home is carpet, as far as anybody knows; nothing while it has felt nothing, or has no map.
+/// How much of the home is carpet, as far as known; nothing without measurements or without a map.
 #[must_use]
 pub fn carpet_sentence(words: &Words, home: &HomeView) -> Option<String> {
     let told = &words.home;

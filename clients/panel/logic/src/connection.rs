@@ -4,7 +4,7 @@
 const FIRST_MS: u32 = 250;
 const LONGEST_MS: u32 = 5000;
 
-/// Pauses that double up to a limit and start anew after a success.
+/// Pauses that double up to a limit and start again after a success.
 #[derive(Clone, Copy, Debug)]
 pub struct Backoff {
     next_ms: u32,
@@ -24,7 +24,7 @@ impl Backoff {
         pause
     }
 
-    /// The connection stands.
+    /// The connection is open.
     pub fn succeeded(&mut self) {
         *self = Self::default();
     }

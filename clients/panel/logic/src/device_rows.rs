@@ -4,7 +4,7 @@ use rvac_api::{DeviceTable, LinkReading, RobotDescription, Versions};
 
 use crate::codes::reading_text;
 use crate::percent_text;
-use crate::words::{Told, Words};
+use crate::words::{Template, Words};
 
 /// One row.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -13,7 +13,7 @@ pub struct Row {
     pub label: String,
     /// How much, with its unit.
     pub value: String,
-    /// Whether it wants attention.
+    /// Whether it needs attention.
     pub alarming: bool,
 }
 
@@ -72,7 +72,7 @@ pub fn device_sections(words: &Words, table: &DeviceTable, robot: Option<&RobotD
 }
 
 /// A number with its unit.
-fn with_unit(words: &Words, unit: Told<1>, (value, decimals): (f64, usize)) -> String {
+fn with_unit(words: &Words, unit: Template<1>, (value, decimals): (f64, usize)) -> String {
     unit.fill([&words.number(value, decimals)])
 }
 

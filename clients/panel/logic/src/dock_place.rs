@@ -4,19 +4,19 @@ use rvac_api::HomeView;
 
 use crate::words::Words;
 
-/// Pose of a robot that stands on the dock: x and y in metres, heading in radians towards the dock's back.
+/// Pose of a robot on the dock: x and y in metres, heading in radians towards the dock's back.
 pub type DockPose = [f64; 3];
 
 /// Poses that differ by less are the same, metres and radians: the robot may round them.
 const SAME: f64 = 0.005;
 
-/// Where a robot stands on the dock that was drawn by two places: where it stands, and a place that it looks at.
+/// Pose of a robot on the dock that was drawn by two places: the robot's place, and a place that it faces.
 #[must_use]
 pub fn dock_pose((x, y): (f64, f64), (far_x, far_y): (f64, f64)) -> DockPose {
     [x, y, (far_y - y).atan2(far_x - x)]
 }
 
-/// Where the robot told that it stands on its dock.
+/// The pose on the dock that the robot reported.
 #[must_use]
 pub fn known_dock(home: &HomeView) -> Option<DockPose> {
     home.dock.map(|dock| [dock.x, dock.y, dock.heading])
@@ -27,24 +27,24 @@ pub(crate) fn is_same_dock(one: DockPose, other: DockPose) -> bool {
     (one[0] - other[0]).hypot(one[1] - other[1]) < SAME && turn.sin().atan2(turn.cos()).abs() < SAME
 }
 
-/// Outline of a robot on the dock and the direction in which it looks, as corners of a line.
+/// Outline of a robot on the dock and its heading, as corners of a line.
 #[must_use]
 pub fn dock_border([x, y, heading]: DockPose, radius_m: f64) -> Vec<[f64; 2]> {
     const CORNERS: u32 = 32;
     let at = |bearing: f64, way_m: f64| [x + way_m * bearing.cos(), y + way_m * bearing.sin()];
     let around = |corner| heading + std::f64::consts::TAU * f64::from(corner) / f64::from(CORNERS);
-    // From the middle to where it looks, and once round from there.
+    // From the middle to the front, and once round from there.
     core::iter::once([x, y])
         .chain((0..=CORNERS).map(|corner| at(around(corner), radius_m)))
         .collect()
 }
 
-/// What is known of the dock's place; nothing while it is not known at all.
+/// What is known of the dock's position; nothing while it is unknown.
 #[must_use]
 pub fn dock_text(words: &Words, home: &HomeView) -> Option<&'static str> {
     home.dock?;
-    Some(if home.dock_told {
-        words.home.dock_told
+    Some(if home.dock_reported {
+        words.home.dock_reported
     } else {
         words.home.dock_felt
     })
@@ -88,7 +88,7 @@ mod tests {
         assert_eq!(dock_text(words, &home), None);
         home.dock = Some(Pose::default());
         let felt = dock_text(words, &home);
-        home.dock_told = true;
+        home.dock_reported = true;
         assert!(felt.is_some() && dock_text(words, &home) != felt);
     }
 }

@@ -49,8 +49,8 @@ pub fn keys_of(profile: &Profile) -> BTreeSet<KeyCode> {
         .collect()
 }
 
-/// A device in a hand is never so still that its browser tells nothing for so long (Chromium tells every change of a tenth of a
-/// degree): nobody holds it, or its sensor is gone.
+/// A device in a hand is never so still that its browser reports nothing for so long (Chromium reports every change of a tenth of a
+/// degree): it lies somewhere, or its sensor is gone.
 const TILT_SILENT_US: u64 = 1_000_000;
 
 /// What is held, the mix that it goes through, and the seat.
@@ -59,9 +59,9 @@ pub struct Driver {
     pilot: Pilot,
     keys: BTreeSet<KeyCode>,
     readings: Readings,
-    /// What other clients tell.
-    told: ClientInputs,
-    /// When the tilt was told last.
+    /// Inputs of other clients.
+    client_inputs: ClientInputs,
+    /// When the tilt was last reported.
     tilted_us: u64,
     cleaners: bool,
 }
@@ -74,7 +74,7 @@ impl Default for Driver {
             keys: keys_of(pilot.profile()),
             pilot,
             readings: at_rest(),
-            told: ClientInputs::default(),
+            client_inputs: ClientInputs::default(),
             tilted_us: 0,
             cleaners: false,
         }
@@ -82,7 +82,7 @@ impl Default for Driver {
 }
 
 impl Driver {
-    /// Drives by another mix from now on; whatever is held is let go by it.
+    /// Drives by another mix from now on and releases all held inputs.
     ///
     /// # Errors
     /// What is wrong with the mix; then the one before goes on.
@@ -147,17 +147,17 @@ impl Driver {
         self.readings.remove(&Device::Tilt);
     }
 
-    /// The robot passes on what other clients tell.
+    /// Takes the inputs of other clients, which the robot passes on.
     pub fn hear_inputs(&mut self, now_us: u64, inputs: &[ClientInput]) {
-        self.told.hear(now_us, inputs);
+        self.client_inputs.replace(now_us, inputs);
     }
 
     /// The connection to the robot is gone.
     pub fn forget_inputs(&mut self) {
-        self.told.forget();
+        self.client_inputs.forget();
     }
 
-    /// Hands are off keys and pad; whatever else is held is so still.
+    /// Hands are off keys and pad; other inputs stay held.
     pub fn let_go(&mut self) {
         let tilt = self.readings.tilt;
         let pads = std::mem::take(&mut self.readings.pads);
@@ -199,7 +199,7 @@ impl Driver {
         self.stand_by(now_us)
     }
 
-    /// Nothing drives at this moment, whatever hands do.
+    /// Nothing drives at this moment, regardless of the inputs.
     pub fn stand_by(&mut self, now_us: u64) -> Steered {
         self.forget_the_silent(now_us);
         let nothing = Readings::default();
@@ -207,9 +207,9 @@ impl Driver {
         self.pilot.step(now_us, &nothing, top_speeds(None))
     }
 
-    /// Inputs that are told, and not asked, end when nothing is told of them any more.
+    /// Inputs that arrive as events end when no event follows.
     fn forget_the_silent(&mut self, now_us: u64) {
-        self.readings.clients = self.told.at(now_us);
+        self.readings.clients = self.client_inputs.at(now_us);
         if now_us.saturating_sub(self.tilted_us) >= TILT_SILENT_US {
             self.forget_tilt();
         }
@@ -235,7 +235,7 @@ const FULL: CleaningPower = CleaningPower {
     side_brushes: Cleaning::FULL.side_brushes,
 };
 
-/// The page's own inputs with nobody at them.
+/// The page's own inputs at rest.
 fn at_rest() -> Readings {
     Readings {
         keys: Some(BTreeSet::new()),
@@ -401,10 +401,10 @@ mod tests {
         page.driver.set_tilt(page.now_us, [0.0, 0.0]);
         page.step();
         page.step();
-        let told_us = page.now_us;
-        page.driver.set_tilt(told_us, [0.0, 0.5]);
+        let reported_us = page.now_us;
+        page.driver.set_tilt(reported_us, [0.0, 0.5]);
         assert!((page.speeds().1 - 0.4).abs() < 1e-9);
-        while page.now_us + STEP_EVERY_US < told_us + super::TILT_SILENT_US {
+        while page.now_us + STEP_EVERY_US < reported_us + super::TILT_SILENT_US {
             assert_ne!(page.step().seat, Some(RequestBody::Release));
         }
         assert_eq!(page.step().seat, Some(RequestBody::Release));

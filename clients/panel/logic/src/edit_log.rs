@@ -1,6 +1,6 @@
 //! What was changed on this page, taken back and done again.
 //!
-//! Edits of the map count when the robot has confirmed them; what is chosen for a job is known to this page alone, and stands among
+//! Edits of the map count when the robot has confirmed them; what is chosen for a job is known to this page alone, and is among
 //! them in the order in which it was chosen.
 
 use std::collections::VecDeque;
@@ -37,7 +37,7 @@ impl Change {
     }
 }
 
-/// What a person wants of the log.
+/// What a person asks of the log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
     /// Take the last change back.
@@ -46,7 +46,7 @@ pub enum Step {
     Redo,
 }
 
-/// Which way an edit goes.
+/// The direction of an edit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Course {
     Anew,
@@ -60,7 +60,7 @@ pub struct EditLog {
     done: Vec<Change>,
     undone: Vec<Change>,
     asked: Vec<(u32, Course, Edit)>,
-    /// What a person wanted meanwhile.
+    /// What a person asked for meanwhile.
     put_off: VecDeque<Step>,
     /// Revision of the home when the robot confirmed the last edit.
     confirmed_at: Option<u32>,
@@ -88,7 +88,7 @@ impl EditLog {
         };
     }
 
-    /// Whether the robot has still to answer, so that nobody knows yet which change is the last: then the step is put off.
+    /// Whether the robot has still to answer, so that the last change is not known yet: then the step is put off.
     pub fn puts_off(&mut self, step: Step) -> bool {
         let waits = !self.asked.is_empty();
         if waits && self.put_off.len() < KEPT_MAX {
@@ -102,12 +102,12 @@ impl EditLog {
         self.asked.is_empty().then(|| self.put_off.pop_front()).flatten()
     }
 
-    /// It could not be taken yet: the robot has not told of the home as it is now.
+    /// It could not be taken yet: the robot has not sent the present home yet.
     pub fn put_off_again(&mut self, step: Step) {
         self.put_off.push_front(step);
     }
 
-    /// The robot will not answer any more: whether it has done what was asked nobody knows.
+    /// The robot will not answer any more: whether it has done what was asked is unknown.
     pub fn on_lost(&mut self) {
         self.asked.clear();
         self.put_off.clear();
@@ -193,7 +193,7 @@ impl EditLog {
             Ok(body) => Ok(self.ask((course, edit), body)),
             Err(EditError::ChangedMeanwhile) if self.confirmed_at == Some(revision) => {
                 self.put_back(course, edit);
-                Err(EditError::NotToldYet)
+                Err(EditError::NotReportedYet)
             }
             Err(error) => Err(error),
         }
@@ -220,7 +220,7 @@ impl EditLog {
         }
     }
 
-    /// The robot has done what was asked under this number; `revision` is that of the home as it was told last.
+    /// The robot has done what was asked under this number; `revision` is that of the last received home.
     pub fn on_done(&mut self, id: u32, revision: u32) {
         let Some((course, edit)) = self.take_asked(id) else {
             return;
@@ -235,7 +235,7 @@ impl EditLog {
     }
 
     /// The robot has refused it, for this reason: nothing has changed. What does not exist any more never will again, and must not
-    /// stand before what can still be taken back.
+    /// come before what can still be taken back.
     pub fn on_failed(&mut self, id: u32, reason: &str) {
         let Some((course, edit)) = self.take_asked(id) else {
             return;
@@ -322,7 +322,7 @@ mod tests {
         assert_eq!(log.take_put_off(), Some(Step::Undo));
         // The answer came before the news: that wall is not in the home yet.
         let asked = log.undo(&home(2, &[(6, 1.0)], None)).unwrap();
-        assert_eq!(asked, Err(EditError::NotToldYet));
+        assert_eq!(asked, Err(EditError::NotReportedYet));
         log.put_off_again(Step::Undo);
         assert_eq!(log.take_put_off(), Some(Step::Undo));
         let asked = log.undo(&home(3, &[(6, 1.0), (7, 2.0)], None)).unwrap().unwrap();
@@ -472,7 +472,7 @@ mod tests {
         log.on_done(number(&asked), 1);
         assert_eq!(
             log.undo(&home(1, &[], None)),
-            Some(Err(EditError::NotToldYet)),
+            Some(Err(EditError::NotReportedYet)),
             "the robot has not told of the name"
         );
         let asked = log.undo(&home(2, &[], Some("Hall"))).unwrap().unwrap();

@@ -105,11 +105,11 @@ pub enum Edit {
     Join([u16; 2]),
     /// That was taken back.
     Unjoin([u16; 2]),
-    /// The dock stands elsewhere.
+    /// The dock was moved.
     Dock {
-        /// Where it was known to stand.
+        /// Its previous pose.
         before: DockPose,
-        /// Where it stands.
+        /// Its new pose.
         after: DockPose,
     },
     /// A version of the map was taken up again.
@@ -126,10 +126,10 @@ pub enum Edit {
 /// Why an edit cannot be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EditError {
-    /// What it changes is not there any more, or was changed by somebody else.
+    /// What it changes is not there any more, or another client changed it.
     ChangedMeanwhile,
-    /// The robot has confirmed what it changes, but not told of it yet.
-    NotToldYet,
+    /// The robot has confirmed what it changes, but not sent it yet.
+    NotReportedYet,
 }
 
 impl EditError {
@@ -138,7 +138,7 @@ impl EditError {
     pub const fn text(self, words: &Words) -> &'static str {
         match self {
             Self::ChangedMeanwhile => words.map.changed_meanwhile,
-            Self::NotToldYet => words.map.not_told_yet,
+            Self::NotReportedYet => words.map.not_reported_yet,
         }
     }
 }
@@ -163,7 +163,7 @@ impl Edit {
         }
     }
 
-    /// What was after is before, and the other way round; an edit without sides stays as it is.
+    /// Swaps before and after; an edit without sides stays as it is.
     fn swap_sides(&mut self) {
         match self {
             Self::NameForbidden { before, after, .. } | Self::Name { before, after, .. } => {

@@ -1,4 +1,4 @@
-//! A file with floors on its way to the robot: piece by piece, each when the one before it has arrived.
+//! The upload of a file with floors to the robot: piece by piece, each when the previous one has arrived.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;

@@ -17,7 +17,7 @@ pub struct PartRow {
     pub remedy: &'static str,
 }
 
-/// The rows, in the order in which the robot tells the parts.
+/// The rows, in the order in which the robot lists the parts.
 #[must_use]
 pub fn part_rows(words: &Words, parts: &[ComponentHealth]) -> Vec<PartRow> {
     parts.iter().map(|part| row(words, part)).collect()

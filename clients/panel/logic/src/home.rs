@@ -1,4 +1,4 @@
-//! The home as the robot knows it: as a picture, and as rows for people who read.
+//! The robot's map of the home: as a picture, and as rows of text.
 
 use rvac_api::{HomeView, Pose, RoomView, SimulatedPlan};
 
@@ -13,9 +13,9 @@ pub(crate) const NO_GO: u32 = 5;
 pub(crate) const CHOSEN: u32 = 6;
 /// First kind for floor of a room.
 pub(crate) const ROOM: u32 = 16;
-/// What the robot says of a cell in which it has felt carpet.
+/// The value of a cell with detected carpet.
 const FELT_CARPET: u32 = 2;
-/// Added to a kind of floor where it has. Chosen rooms are one tint: what a person chooses must stand out.
+/// Added to a kind of floor where it has. Chosen rooms are one tint: what a person chooses must be salient.
 pub(crate) const CARPET: u32 = 64;
 /// Tints of rooms.
 pub const ROOM_TINTS: u32 = 6;

@@ -1,4 +1,4 @@
-//! What a job says of itself: how hard and in which way it cleans, whatever is set for the rooms.
+//! What a job says of itself: power and pattern, which override the settings of the rooms.
 
 use rvac_api::{CleaningPattern, CleaningPower, JobOrder};
 
@@ -56,7 +56,7 @@ impl JobSettings {
         }
     }
 
-    /// The levels of power; one that is none of them stands among them.
+    /// The levels of power; another value is listed among them.
     #[must_use]
     pub fn powers(&self, words: &Words) -> Vec<SettingChoice> {
         let known = LEVELS.iter().any(|(_, power)| Some(*power) == self.power);

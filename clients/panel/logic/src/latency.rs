@@ -1,7 +1,7 @@
-//! How long it takes from a stick to the wheels, as a person sees it.
+//! Latency from a stick to the wheels, as a person sees it.
 //!
 //! It begins with the browser's time of the input that moved a robot at rest, and ends when the first pose arrives that shows
-//! it moving. So the way there, the robot's own start, and the way back of the news are in it, and up to 50 ms until the next
+//! it moving. It includes the transmission in both directions, the robot's own start, and up to 50 ms until the next
 //! pose.
 
 use mixer::{MixState, Mixed};

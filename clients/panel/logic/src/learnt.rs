@@ -17,7 +17,7 @@ pub struct LearntRobot {
     pub rows: Vec<LearntRow>,
 }
 
-/// A part of what it has learnt.
+/// A part of its calibration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LearntRow {
     /// As the robot names it.

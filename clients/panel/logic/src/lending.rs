@@ -1,7 +1,7 @@
 //! Lending what hands do at this device to whoever drives: as inputs of control mixes, which the robot passes on under a lease.
 //!
-//! Lent are the stick on the screen, the tilt, and the first gamepad: what is not there, or is not there any more, is not told, and
-//! whoever drives by it stands.
+//! Lent are the stick on the screen, the tilt, and the first gamepad: inputs that are absent or have vanished are not sent, and
+//! the robot driven by them stops.
 
 use std::collections::BTreeMap;
 
@@ -12,15 +12,15 @@ use crate::words::Words;
 
 /// Longest name of what is lent: with `-button-7` behind it still a name of an input, which has 32 characters at most.
 pub const LENT_NAME_MAX: usize = 20;
-/// Axes and buttons of a gamepad that are lent: with stick and tilt they are the 16 inputs that a client may tell.
+/// Axes and buttons of a gamepad that are lent: with stick and tilt they are the 16 inputs that a client may send.
 const AXES: usize = 4;
 const BUTTONS: usize = 8;
 /// What does not change is said again so often: two renewals of the lease may be lost.
 const RENEW_US: u64 = 80_000;
-/// The lease of what is told.
+/// The lease of the lent inputs.
 const LEASE_MS: u16 = 250;
 
-/// What is lent, and what was told of it last.
+/// What is lent, and the values sent last.
 #[derive(Clone, Debug, Default)]
 pub struct Lending {
     name: Option<Name>,
@@ -39,7 +39,7 @@ impl Lending {
         self.pause()
     }
 
-    /// Nobody looks at this page, or it has other work for its inputs; what to say about it. The next step lends again.
+    /// The page is not visible, or needs its inputs itself; returns what to send. The next step lends again.
     pub fn pause(&mut self) -> Option<RequestBody> {
         self.told.take().map(|_| tell(BTreeMap::new()))
     }

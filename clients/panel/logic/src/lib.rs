@@ -1,4 +1,4 @@
-//! What the panel knows and decides, without browser and framework, so that it is tested on the host.
+//! State and decisions of the panel, without browser and framework, so that tests run on the host.
 //!
 //! Words used here. The *camera* says which part of the map is seen. The *playout* turns poses that arrive now and then into
 //! motion that flows. The *driver* turns what hands do into drive requests under a lease, by a control mix. An *offer* says
@@ -61,7 +61,7 @@ pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, keys_of, knob_place, top_speeds};
 pub use edit_log::{Change, EditLog, Step};
 pub use edits::{Edit, EditError, Forbidden, Kept};
-pub use evidence::{FeltRow, felt_rows};
+pub use evidence::{EvidenceRow, evidence_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use floor_upload::{FloorUpload, floor_file_problem};
 pub use frame_meter::FrameMeter;
@@ -97,7 +97,7 @@ pub use schedule_rows::{
 };
 pub use sketch::{Drawn, NoGoRow, Sketch, Tool, no_go_rows, no_go_strokes, spot_border, zone_strokes};
 pub use swept_grid::{DirtyRows, SweptGrid};
-pub use thoughts::{DecisionBook, estimate_sentences, place_text, way_dashes};
+pub use thoughts::{DecisionBook, estimate_sentences, path_dashes, place_text};
 pub use tilt::Tilt;
 pub use wall_blocks::{BLOCK_NUMBERS, WallBlocks};
-pub use words::{Language, Told, Words};
+pub use words::{Language, Template, Words};

@@ -10,7 +10,7 @@ use crate::words::Words;
 /// Entries that are kept; older ones are in the daemon's files.
 const KEPT: usize = 2000;
 
-/// Which entries are wanted.
+/// Which entries are shown.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LogFilter {
     /// This grave or graver.
@@ -57,7 +57,7 @@ impl LogBook {
         }
     }
 
-    /// Forgets everything, for a daemon that counts anew.
+    /// Forgets everything, for a daemon that starts counting again.
     pub fn clear(&mut self) {
         self.entries.clear();
     }

@@ -1,4 +1,4 @@
-//! Colours of the map in both looks. What is drawn as lines and marks, and walls and furniture, can be told from every floor that lies
+//! Colours of the map in both themes. What is drawn as lines and marks, and walls and furniture, differ visibly from every floor that lies
 //! beside it by people who see little contrast. Tints of the floor are only tints.
 
 use crate::plan::PlanPalette;
@@ -15,9 +15,9 @@ pub struct MapPalette {
     pub grid: Rgb,
     /// Swept floor.
     pub swept: Rgb,
-    /// The way that was driven.
+    /// The driven path.
     pub path: Rgb,
-    /// Where something was felt.
+    /// Contacts and cliffs.
     pub mark: Rgb,
     /// The robot.
     pub body: Rgb,
@@ -31,13 +31,13 @@ pub struct MapPalette {
     pub wall_top: Rgb,
     /// Their sides.
     pub wall_side: Rgb,
-    /// The way it means to drive, and how far it may be from where it believes to be.
+    /// The planned path, and the uncertainty of the position.
     pub thought: Rgb,
-    /// Borders of what a person wants cleaned.
+    /// Borders of what a person chose for cleaning.
     pub wanted: Rgb,
     /// Borders of where it must not go.
     pub forbidden: Rgb,
-    /// Floor and what stands on it.
+    /// Floor and the things on it.
     pub plan: PlanPalette,
 }
 
@@ -211,7 +211,7 @@ mod tests {
         }
     }
 
-    /// A colour of the page in both looks.
+    /// A colour of the page in both themes.
     fn page_colours(name: &str) -> [Colour; 2] {
         let begin = format!("--{name}: light-dark(#");
         let (_, behind) = STYLE.split_once(&begin).expect("is a colour of the page");

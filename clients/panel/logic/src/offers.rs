@@ -20,7 +20,7 @@ pub enum Offer {
 pub enum Wait {
     /// There is no robot.
     Away,
-    /// A fault stands.
+    /// A fault is present.
     Fault,
     /// A paused job waits.
     Paused,
@@ -30,7 +30,7 @@ pub enum Wait {
     Runs,
     /// No job runs.
     NoJob,
-    /// It looks for the dock.
+    /// It searches for the dock.
     Docking,
     /// It is on the dock.
     Docked,
@@ -77,7 +77,7 @@ pub struct Offers {
     pub pause: Offer,
     /// Which of the two.
     pub pause_kind: PauseKind,
-    /// Stop. Offered whenever a robot is there, whatever it seems to do.
+    /// Stop. Offered whenever a robot is connected, in every state.
     pub stop: Offer,
     /// Dock.
     pub dock: Offer,

@@ -1,6 +1,6 @@
 //! The view of the map from an orbit: how points of the home get to the screen and back.
 //!
-//! The eye looks at the middle of the picture from a distance that makes the floor there as large as the flat map has it, so
+//! The camera faces the middle of the picture from a distance that makes the floor there as large as the flat map has it, so
 //! that a change between the two changes no size.
 
 use crate::camera::View;
@@ -15,7 +15,7 @@ const PIXELS_PER_RAD: f64 = 170.0;
 /// Nearest thing that is drawn, and farthest, in distances to the middle.
 const NEAR: f64 = 0.04;
 const FAR: f64 = 8.0;
-/// A point beside or behind the eye is on no screen; it is told as one this far outside, pixels.
+/// A point beside or behind the eye is on no screen; it is given as one this far outside, pixels.
 const NOWHERE_PX: f64 = -100_000.0;
 
 /// From where the middle of the map is seen.
@@ -63,7 +63,7 @@ impl Orbit {
     }
 }
 
-/// How a place of the home becomes a place on the screen. Places are told by how far they are from the middle of the picture to
+/// How a place of the home becomes a place on the screen. Places are given by their distance from the middle of the picture to
 /// the right and up, as the eye sees the floor.
 #[derive(Clone, Copy, Debug)]
 pub struct Projection {

@@ -1,4 +1,4 @@
-//! A floor plan as a picture: that of a simulated home, or the home as the robot knows it.
+//! A floor plan as a picture: that of a simulated home, or the robot's map.
 
 use rvac_api::{Pose, SimulatedPlan};
 
@@ -85,7 +85,7 @@ fn runs(plan: &SimulatedPlan, mut each: impl FnMut(usize, usize, u32)) {
 /// Thickness of the outline in cells.
 const OUTLINE: usize = 2;
 
-/// The plan with a wall around it: cells outside within two cells of floor or furniture become obstacles. What stands against the
+/// The plan with a wall around it: cells outside within two cells of floor or furniture become obstacles. Furniture against the
 /// border of a home is outside of it, and a home without walls is hard to read.
 #[must_use]
 pub fn outlined(plan: &SimulatedPlan) -> SimulatedPlan {

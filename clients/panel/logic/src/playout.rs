@@ -14,7 +14,7 @@ const DELAY_S: f64 = 0.12;
 /// Span over which the rate of the daemon's clock is measured, in seconds of the viewer's clock.
 const RATE_SPAN_S: f64 = 1.0;
 
-/// After such a silence the robot stood: what came before says nothing about the rate.
+/// After such a silence the robot stood, so earlier poses say nothing about the rate.
 const SILENCE_S: f64 = 0.5;
 
 #[derive(Clone, Copy, Debug)]

@@ -302,7 +302,7 @@ impl Reshape {
         self.is_too_small.then_some(words.map.too_small)
     }
 
-    /// Whether a part of the choice is reshaped that is no more what it was: it was taken out, or another one stands at its place.
+    /// Whether the reshaped part of the choice has changed: it was taken out, or another one took its place.
     #[must_use]
     pub fn is_orphaned(&self, choice: &RoomChoice) -> bool {
         let now = match self.target {

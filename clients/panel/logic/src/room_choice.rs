@@ -328,7 +328,7 @@ impl RoomChoice {
         })
     }
 
-    /// How hard and in which way the job cleans.
+    /// Power and pattern of the job.
     #[must_use]
     pub const fn settings(&self) -> JobSettings {
         self.settings

@@ -20,7 +20,7 @@ impl PowerPart {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Suction, Self::MainBrush, Self::SideBrushes];
 
-    /// Those that a robot has; all while nobody knows.
+    /// Those that a robot has; all while that is unknown.
     #[must_use]
     pub fn of(robot: Option<&RobotDescription>) -> Vec<Self> {
         let has =

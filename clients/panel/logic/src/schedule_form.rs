@@ -10,7 +10,7 @@ use crate::kept_places::shape_text;
 use crate::room_choice::PASSES_MAX;
 use crate::words::Words;
 
-/// What stands in the fields.
+/// The content of the fields.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScheduleForm {
     /// Number of the schedule that is changed; none for a new one.
@@ -29,7 +29,7 @@ pub struct ScheduleForm {
     pub parts: Vec<JobPart>,
     /// How often each room is cleaned.
     pub passes: u8,
-    /// How hard and in which way it cleans.
+    /// Power and pattern.
     pub settings: JobSettings,
     /// How late it may start, minutes.
     pub late_min: u16,
@@ -176,7 +176,7 @@ impl ScheduleForm {
         })
     }
 
-    /// Places to keep out of stay as they are, and strategies as long as nobody chooses parts.
+    /// Places to keep out of stay as they are, and strategies as long as no parts are chosen.
     fn job(&self) -> ScheduledJob {
         let passes = self.passes.clamp(1, PASSES_MAX);
         let is_same = (self.parts.clone(), passes) == parts_of(&self.job);

@@ -132,7 +132,7 @@ pub fn past_rows(words: &Words, schedules: &Schedules) -> Vec<String> {
     schedules.decisions.iter().map(row).collect()
 }
 
-/// In which zone times are told, and what its clocks show.
+/// In which zone times are shown, and what its clocks show.
 #[must_use]
 pub fn zone_text(words: &Words, schedules: &Schedules) -> String {
     let told = &words.schedule;

@@ -28,7 +28,7 @@ pub enum Tool {
     Spot,
     /// Draw a zone out of which the robot keeps for one job.
     AvoidZone,
-    /// Show where the dock stands now: where the robot stands on it, and what it looks at.
+    /// Show where the dock is now: the robot's place on it, and what it faces.
     Dock,
 }
 
@@ -56,7 +56,7 @@ pub enum Drawn {
     Avoid(NoGoShape),
     /// A line that cuts a room in two.
     Cut([[f64; 2]; 2]),
-    /// Where the robot stands on its dock.
+    /// The robot's place on its dock.
     Dock(DockPose),
 }
 
@@ -177,7 +177,7 @@ impl Sketch {
     }
 }
 
-/// Corners of the border of a spot: enough of them to look round.
+/// Corners of the border of a spot: enough of them to appear round.
 #[must_use]
 pub fn spot_border([x, y]: [f64; 2]) -> Vec<[f64; 2]> {
     let corner = |corner: u32| {

@@ -1,8 +1,8 @@
 //! How likely each cell was swept: the swept cells, blurred with the deviation of the place that the robot had when it swept them.
 //!
-//! The true place of a robot lies somewhere around the one that it believes. So the floor that it believes to have swept was
+//! The true position of a robot lies somewhere around the estimated one. So the floor that it counts as swept was
 //! swept somewhere around: the chance of a cell is the share of that, weighed with the deviation. Two boxes one after the other in each
-//! direction come near enough to a bell, and cost the same whatever their width. Deviations are told in few levels, each of which
+//! direction come near enough to a bell, and cost the same for every width. Deviations are given in few levels, each of which
 //! is blurred by itself.
 
 /// Deviations of the levels, metres. Beyond the last one a map says little, and a picture of it would say less.

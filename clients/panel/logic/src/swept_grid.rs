@@ -118,7 +118,7 @@ impl SweptGrid {
         }
     }
 
-    /// Reckons the chances of some cells anew.
+    /// Computes the chances of some cells again.
     fn shade(&mut self, span: Span, cell_m: f64) {
         self.make_room(span);
         let target = self.clipped(span);
@@ -175,7 +175,7 @@ impl SweptGrid {
         });
     }
 
-    /// Whether the picture changed its size since this was last asked: then all of it must be taken anew.
+    /// Whether the picture changed its size since this was last asked: then all of it must be taken again.
     pub fn take_resized(&mut self) -> bool {
         let resized = std::mem::take(&mut self.resized);
         if resized {

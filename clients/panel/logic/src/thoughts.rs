@@ -1,17 +1,17 @@
-//! What the robot thinks, for people: how sure it is, where it means to drive, what it decided.
+//! The robot's estimates, planned path and decisions, in words.
 
 use std::collections::VecDeque;
 
-use rvac_api::{Decision, Estimate, PlannedWay};
+use rvac_api::{Decision, Estimate, PlannedPath};
 
 use crate::figures::percent_text;
 use crate::words::Words;
 
 /// Decisions that are kept.
 const KEPT: usize = 100;
-/// Corners of a planned way that are drawn at most.
+/// Most corners of a planned path that are drawn.
 const CORNERS_MAX: usize = 4_000;
-/// Dashes of a planned way at most.
+/// Most dashes of a planned path.
 const DASHES_MAX: usize = 20_000;
 
 /// The newest decisions, each once.
@@ -36,7 +36,7 @@ impl DecisionBook {
         self.entries.push_back(entry);
     }
 
-    /// Forgets everything, for a daemon that counts anew.
+    /// Forgets everything, for a daemon that starts counting again.
     pub fn clear(&mut self) {
         self.entries.clear();
     }
@@ -61,7 +61,7 @@ pub fn place_text(words: &Words, estimate: &Estimate) -> String {
     words.status.within.fill([&span])
 }
 
-/// What the robot can tell of its place and its work, a sentence each.
+/// The robot's estimates of position and coverage, a sentence each.
 #[must_use]
 pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
     let told = &words.status;
@@ -84,9 +84,9 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
     sentences
 }
 
-/// The planned way as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
+/// The planned path as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
 #[must_use]
-pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
+pub fn path_dashes(way: &PlannedPath, dash_m: f64) -> Vec<f32> {
     let corners: Vec<[f64; 2]> = way
         .points_mm
         .chunks_exact(2)
@@ -102,7 +102,7 @@ pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
         return Vec::new();
     };
     let mut dashes = Vec::new();
-    // Way made since the last dash began.
+    // Distance since the last dash began.
     let mut phase_m = 0.0;
     for pair in corners.windows(2) {
         let &[from, to] = pair else { continue };
@@ -135,9 +135,9 @@ pub fn way_dashes(way: &PlannedWay, dash_m: f64) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::{DecisionBook, KEPT, estimate_sentences, place_text, way_dashes};
+    use super::{DecisionBook, KEPT, estimate_sentences, path_dashes, place_text};
     use crate::words::{Language, Words};
-    use rvac_api::{Decision, Estimate, PlannedWay};
+    use rvac_api::{Decision, Estimate, PlannedPath};
 
     const ENGLISH: &Words = Language::English.words();
 
@@ -209,10 +209,10 @@ mod tests {
 
     #[test]
     fn a_way_becomes_dashes_that_go_on_round_corners() {
-        let way = PlannedWay {
+        let way = PlannedPath {
             points_mm: vec![0, 0, 1500, 0, 1500, 1500],
         };
-        let dashes = way_dashes(&way, 1.0);
+        let dashes = path_dashes(&way, 1.0);
         assert_eq!(
             dashes,
             [0.0, 0.0, 1.0, 0.0, 1.5, 0.5, 1.5, 1.5].map(|metres: f64| metres as f32)
@@ -222,14 +222,14 @@ mod tests {
     #[test]
     fn strange_ways_do_no_harm() {
         for points_mm in [vec![], vec![5], vec![1, 2, 3], vec![7; 4]] {
-            assert!(way_dashes(&PlannedWay { points_mm }, 0.1).is_empty());
+            assert!(path_dashes(&PlannedPath { points_mm }, 0.1).is_empty());
         }
-        let endless = PlannedWay {
+        let endless = PlannedPath {
             points_mm: (0..40_000)
                 .map(|at| if at % 4 < 2 { i32::MIN } else { i32::MAX })
                 .collect(),
         };
-        assert!(way_dashes(&endless, 0.0).len() <= 80_000);
-        assert!(way_dashes(&endless, f64::NAN).is_empty());
+        assert!(path_dashes(&endless, 0.0).len() <= 80_000);
+        assert!(path_dashes(&endless, f64::NAN).is_empty());
     }
 }

@@ -3,7 +3,7 @@
 /// A quarter turn in the browser's degrees.
 const QUARTER_DEG: f64 = 90.0;
 
-/// A device that is tilted. How it is held first counts as level, for nobody looks at a screen that lies flat.
+/// A device that is tilted. Its first position counts as level, because people hold a screen at an angle.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tilt {
     level_deg: Option<[f64; 2]>,

@@ -1,12 +1,12 @@
 //! Walls and furniture of a plan as blocks that can be raised.
 //!
-//! Each tile of the plan has blocks of its own, and only those of a tile that changed are made anew.
+//! Each tile of the plan has blocks of its own, and only those of a tile that changed are made again.
 
 use rvac_api::{Pose, SimulatedPlan};
 
 use crate::plan::kinds;
 
-/// Kind of cells that stand up from the floor.
+/// Kind of cells that rise from the floor.
 const OBSTACLE: u32 = 2;
 /// Cells along the side of a tile.
 const TILE: usize = 64;
@@ -42,7 +42,7 @@ impl WallBlocks {
         &self.numbers
     }
 
-    /// Takes the plan that is shown now, and says how many tiles had to be made anew.
+    /// Takes the plan that is shown now, and returns how many tiles had to be made again.
     pub fn renew(&mut self, plan: Option<&SimulatedPlan>) -> usize {
         let Some((plan, cells)) = plan.and_then(|plan| Some((plan, kinds(plan)?))) else {
             *self = Self::default();

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Literals that look like words and are none, or are the same in every language.
+/// Literals that resemble words and are none, or are the same in every language.
 const ALLOWED: [&str; 14] = [
     "ArrowDown",
     "ArrowLeft",
@@ -23,7 +23,7 @@ const ALLOWED: [&str; 14] = [
     "rvac trust",
 ];
 
-/// What stands before a literal that nobody reads: names for the style sheet, words for the developer's console.
+/// Text before a literal that is not shown: names for the style sheet, words for the developer's console.
 const UNREAD: [&str; 5] = [
     "class=",
     "class: ",
@@ -45,7 +45,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Every literal of a line with what stands before it.
+/// Every literal of a line with the text before it.
 fn literals(line: &str) -> Vec<(&str, &str)> {
     let mut found = Vec::new();
     let mut from = None;

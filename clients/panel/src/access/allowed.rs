@@ -1,4 +1,4 @@
-//! What the role of this device lets it do: it is told beforehand, not learnt by a refusal.
+//! What the role of this device permits: shown beforehand, not learned by a refusal.
 
 use leptos::prelude::*;
 use panel_logic::Wait;
@@ -20,7 +20,7 @@ impl Store {
         self.entrance.access.with(|access| access.may(verb))
     }
 
-    /// Whether it may; if not, that is told.
+    /// Whether it may; if not, a message says so.
     pub(crate) fn admits(self, verb: &str) -> bool {
         let may = self.entrance.access.with_untracked(|access| access.may(verb));
         if !may {
@@ -37,7 +37,7 @@ impl Store {
     }
 }
 
-/// Controls that need a role: on a device that has a lower one they are there and cannot be used, and tell why.
+/// Controls that need a role: on a device with a lower one they are shown disabled, and say why.
 #[component]
 pub(crate) fn Needs(store: Store, verb: &'static str, children: Children) -> impl IntoView {
     let may = Memo::new(move |_| store.may(verb));
@@ -52,7 +52,7 @@ pub(crate) fn Needs(store: Store, verb: &'static str, children: Children) -> imp
     }
 }
 
-/// Over a sheet that this device may only look at.
+/// Over a sheet that is read-only for this device.
 #[component]
 pub(crate) fn OnlyLooks(store: Store, verb: &'static str) -> impl IntoView {
     view! {

@@ -1,4 +1,4 @@
-//! All devices that the robot knows: for administrators.
+//! All paired devices, for administrators.
 
 use leptos::prelude::*;
 use pairing::Role;
@@ -36,7 +36,7 @@ impl Devices {
         });
     }
 
-    /// Changes something and lists anew.
+    /// Changes something and reloads the list.
     fn change(self, path: &'static str, body: impl serde::Serialize + 'static) {
         self.wrong.set(String::new());
         leptos::task::spawn_local(async move {
@@ -66,7 +66,7 @@ impl Devices {
 pub(crate) fn DevicesView(entrance: Entrance) -> impl IntoView {
     let devices = Devices::new();
     let role = RwSignal::new(Role::Drive);
-    // A device that was let in stands in the list at once, and its code has served.
+    // A device that was paired is in the list at once, and its code is used up.
     Effect::new(move |_| {
         entrance.newcomer.track();
         devices.opened.set(None);

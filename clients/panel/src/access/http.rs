@@ -18,7 +18,7 @@ pub(super) enum Failed {
     NotPaired,
     /// The server says no.
     Refused(Refused),
-    /// The server says nothing, or nothing that this page knows.
+    /// The server does not answer, or not in a known form.
     Unreachable,
 }
 

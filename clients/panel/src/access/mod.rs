@@ -8,7 +8,8 @@ mod pairing_steps;
 
 use leptos::prelude::*;
 use pairing::wire::Session;
-use pairing::{Role, role_for};
+use pairing::Role;
+use rvac_api::role_for;
 
 pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, Needs, OnlyLooks};
 pub(crate) use devices_view::DevicesView;
@@ -25,12 +26,12 @@ pub(crate) enum Access {
     Asked,
     /// The robot does not know it.
     Stranger,
-    /// The robot knows it, or it is the robot's own computer.
+    /// It is paired, or it is the robot's own computer.
     Known(Session),
 }
 
 impl Access {
-    /// Whether its role is high enough for a request, by its word. As long as nobody knows, the robot decides.
+    /// Whether its role is high enough for a request, by its name. As long as the role is unknown, the robot decides.
     pub(crate) fn may(&self, verb: &str) -> bool {
         match self {
             Self::Known(session) => session.role >= role_for(verb),
@@ -52,7 +53,7 @@ pub(crate) struct Newcomer {
     pub(crate) from: String,
 }
 
-/// What this page knows about who may do what.
+/// The rights of this page.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Entrance {
     /// This device.

@@ -1,4 +1,4 @@
-//! What a device sees that the robot does not know.
+//! The page for a device that is not paired.
 
 use std::time::Duration;
 
@@ -22,7 +22,7 @@ struct PairForm {
     works: RwSignal<bool>,
     /// START was held: presses count, and no code.
     by_presses: RwSignal<bool>,
-    /// Why the robot knows nobody any more.
+    /// Why the robot has no paired devices any more.
     forgotten: RwSignal<Option<Forgotten>>,
     /// What to press.
     joined: RwSignal<Option<Joined>>,

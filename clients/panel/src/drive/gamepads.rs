@@ -12,7 +12,7 @@ use crate::language::words;
 
 /// As many pads as a profile can name.
 const PADS: u32 = 4;
-/// How long a bump is felt.
+/// Length of the rumble at a bump.
 const RUMBLE_MS: f64 = 250.0;
 
 /// What all pads read.

@@ -1,4 +1,4 @@
-//! Looks at the inputs fifty times a second, and lets go when the page can no longer be looked at.
+//! Reads the inputs fifty times a second, and releases them when the page is no longer visible.
 
 use std::time::Duration;
 
@@ -40,7 +40,7 @@ pub(super) fn watch(store: Store) {
     });
 }
 
-/// Nobody can look at the page, or somebody looks at another one.
+/// The page is not visible, or another one has the focus.
 fn is_away() -> bool {
     document().hidden() || !document().has_focus().unwrap_or(true)
 }

@@ -111,7 +111,7 @@ impl Store {
         self.seat.passed_on.set(Vec::new());
     }
 
-    /// Looks at all inputs, and tells the robot what they read.
+    /// Reads all inputs, and sends their values to the robot.
     pub(super) fn lend_step(self) {
         let now_us = self.step_aside();
         let seat = self.seat;
@@ -122,7 +122,7 @@ impl Store {
         self.say_lent(said.flatten());
     }
 
-    /// What is lent has another use for the moment, or nobody looks at it.
+    /// The lent inputs have another use for the moment, or the page is not visible.
     pub(crate) fn pause_lending(self) {
         self.say_of_lent(Lending::pause);
     }

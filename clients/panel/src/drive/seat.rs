@@ -78,7 +78,7 @@ impl Seat {
         self.driver.update_value(Driver::let_go);
     }
 
-    /// Looks at all inputs, and drives by them.
+    /// Reads all inputs, and drives by them.
     pub(crate) fn step(self, top: TopSpeeds) -> Steered {
         let now = self.look();
         let stepped = self
@@ -94,7 +94,7 @@ impl Seat {
         steered
     }
 
-    /// Looks at all inputs for a mix that is edited: nothing drives by them.
+    /// Reads all inputs for a mix that is edited: nothing drives by them.
     pub(crate) fn step_aside(self) -> (Steered, u64) {
         let now_us = micros(self.look());
         let stepped = self.driver.try_update_value(|driver| driver.stand_by(now_us));
@@ -131,7 +131,7 @@ impl Seat {
         self.apply();
     }
 
-    /// The robot told which mixes it keeps.
+    /// Takes the list of mixes that the robot stores.
     pub(crate) fn on_mixes(self, texts: &[String]) {
         let profiles = texts.iter().filter_map(|text| {
             Profile::parse(text)
@@ -156,7 +156,7 @@ impl Seat {
             .update_value(|driver| driver.set_tilt(now_us, reading));
     }
 
-    /// What other clients tell of inputs.
+    /// Inputs of other clients.
     pub(crate) fn on_inputs(self, inputs: &[ClientInput]) {
         let now_us = micros(now_ms());
         self.driver
@@ -165,7 +165,7 @@ impl Seat {
         set_if_changed(self.passed_on, passed_on);
     }
 
-    /// What the robot does; a hand that holds a gamepad feels the bumper.
+    /// Takes the robot's state; gamepads rumble at a bump.
     pub(crate) fn on_status(self, status: &Status) {
         let is_felt = self.bumps.try_update_value(|bumps| bumps.look(status));
         if is_felt == Some(true) {

@@ -108,7 +108,7 @@ fn class() -> Option<JsValue> {
         .filter(JsValue::is_function)
 }
 
-/// Asks where browsers want to be asked; others permit it.
+/// Asks for permission where browsers require it; others permit it.
 async fn is_permitted() -> bool {
     let Some(class) = class() else { return false };
     let ask = Reflect::get(&class, &"requestPermission".into()).unwrap_or(JsValue::UNDEFINED);

@@ -72,7 +72,7 @@ impl HistoryDesk {
         }
     }
 
-    /// Whether the refusal is that of the run that is shown, beside which it stands.
+    /// Whether the refusal concerns the shown run, beside which it is displayed.
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_ours = failure.id == Some(RUN_ID);
         if is_ours {

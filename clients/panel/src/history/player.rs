@@ -11,7 +11,7 @@ use crate::store::Store;
 
 /// Pause between two pictures of a replay.
 const STEP: Duration = Duration::from_millis(100);
-/// What a robot measures that has not told: the picture needs some width.
+/// Diameter for a robot without description: the picture needs some width.
 const SWATH_M: f64 = 0.25;
 const RADIUS_M: f64 = 0.17;
 /// How many times as fast as it was.
@@ -123,7 +123,7 @@ fn picture(
         replay.with(|replay| {
             replay
                 .as_ref()
-                .map(|replay| replay.way_until(time.get()))
+                .map(|replay| replay.path_until(time.get()))
                 .unwrap_or_default()
         })
     };
@@ -163,7 +163,7 @@ fn picture(
     }
 }
 
-/// Numbers where it stood or waited.
+/// Numbers where it stopped or waited.
 fn marks(record: StoredValue<RunRecord>) -> impl IntoView {
     let places = record.with_value(|record| {
         let stops = record

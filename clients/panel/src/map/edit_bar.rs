@@ -2,7 +2,7 @@
 
 use leptos::ev;
 use leptos::prelude::*;
-use panel_logic::{Change, Edit, EditError, EditLog, RoomChoice, Step, Told};
+use panel_logic::{Change, Edit, EditError, EditLog, RoomChoice, Step, Template};
 use rvac_api::{Failure, HomeView, Request, RequestBody};
 use wasm_bindgen::JsCast;
 
@@ -38,7 +38,7 @@ impl Edits {
         self.log.update(|log| log.on_done(id, home.revision));
     }
 
-    /// A refused edit has not happened; the refusal is told as any other.
+    /// A refused edit has not happened; the refusal is shown as any other.
     pub(crate) fn on_failed(self, failure: &Failure) {
         if let Some(id) = failure.id {
             self.log.update(|log| log.on_failed(id, &failure.reason));
@@ -85,7 +85,7 @@ impl Store {
     pub(crate) fn take_put_off_steps(self) {
         while let Some(step) = self.edits.log.try_update(EditLog::take_put_off).flatten() {
             let asked = self.take_step(step);
-            if matches!(asked, Some(Err(EditError::NotToldYet))) {
+            if matches!(asked, Some(Err(EditError::NotReportedYet))) {
                 self.edits.log.update(|log| log.put_off_again(step));
                 return;
             }
@@ -137,7 +137,7 @@ impl Store {
         }
     }
 
-    /// The home as the robot told it last.
+    /// The home as last received from the robot.
     pub(crate) fn known_home(self) -> HomeView {
         self.map
             .with_value(|map| map.with(|scene| scene.home().cloned()))
@@ -149,7 +149,7 @@ impl Store {
 pub(super) fn EditBar(store: Store) -> impl IntoView {
     let log = store.edits.log;
     let label =
-        |way: Told<1>, change: Option<&Change>| change.map(|change| way.fill([&change.what(words())]));
+        |way: Template<1>, change: Option<&Change>| change.map(|change| way.fill([&change.what(words())]));
     let undo = Memo::new(move |_| log.with(|log| label(words().map.undo, log.last())));
     let redo = Memo::new(move |_| log.with(|log| label(words().map.redo, log.next())));
     let keys = window_event_listener(ev::keydown, move |event| {

@@ -157,7 +157,7 @@ pub(crate) fn layout(gl: &Gl) -> Result<WebGlVertexArrayObject, GlError> {
         .ok_or_else(|| GlError("no vertex array".to_owned()))
 }
 
-/// How a texture looks when it is drawn larger or smaller than it is.
+/// Filter of a texture that is drawn larger or smaller than it is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Look {
     /// Sharp cells when large, averaged when small.

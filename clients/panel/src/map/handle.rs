@@ -1,4 +1,4 @@
-//! The map as the rest of the page sees it: takes what is new and draws when there is something to draw.
+//! The interface of the map to the rest of the page: takes what is new and draws when there is something to draw.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -6,7 +6,7 @@ use std::rc::Rc;
 use leptos::prelude::{RwSignal, Track, Update, request_animation_frame, window};
 use panel_logic::{FrameMeter, RoomChoice};
 use rvac_api::{
-    Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, RobotDescription, SimulatedPlan,
+    Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, RobotDescription, SimulatedPlan,
 };
 use wasm_bindgen::JsCast;
 use web_sys::{HtmlCanvasElement, HtmlElement, WebGl2RenderingContext, WebGlContextAttributes};
@@ -32,7 +32,7 @@ struct Shared {
     canvas: RefCell<Option<HtmlCanvasElement>>,
     labels: RefCell<Labels>,
     meter: RefCell<FrameMeter>,
-    /// Changes when all was drawn anew, as it is when the camera has moved.
+    /// Changes when all was redrawn, as when the camera has moved.
     seen: RwSignal<u32>,
     scheduled: Cell<bool>,
 }
@@ -60,7 +60,7 @@ impl Painter {
         }
     }
 
-    /// How many blocks stand on the floor.
+    /// How many blocks are on the floor.
     fn blocks(&self) -> usize {
         match self {
             Self::Gl(renderer) => renderer.blocks(),
@@ -90,7 +90,7 @@ impl MapHandle {
         self.restart()
     }
 
-    /// Makes the renderer anew: at the start, and after the browser took the graphics memory away.
+    /// Makes the renderer: at the start, and after the browser took the graphics memory away.
     pub(crate) fn restart(&self) -> Result<(), GlError> {
         let canvas = self.shared.canvas.borrow();
         let canvas = canvas.as_ref().ok_or_else(|| GlError("no canvas".to_owned()))?;
@@ -136,13 +136,13 @@ impl MapHandle {
         self.change(|scene| scene.choose(choice));
     }
 
-    /// Marks where the robot stands and waits for help, if it does.
+    /// Marks where the robot waits for help, if it does.
     pub(crate) fn mark_stop(&self, place: Option<(f64, f64)>) {
         self.shared.labels.borrow_mut().mark_stop(place);
         self.change(|_| {});
     }
 
-    pub(crate) fn on_way(&self, way: &PlannedWay) {
+    pub(crate) fn on_way(&self, way: &PlannedPath) {
         self.change(|scene| scene.on_way(way));
     }
 
@@ -186,7 +186,7 @@ impl MapHandle {
         });
     }
 
-    /// Whoever asks looks again when the camera may have moved.
+    /// Callers are notified when the camera may have moved.
     pub(crate) fn follow_camera(&self) {
         self.shared.seen.track();
     }

@@ -73,7 +73,7 @@ impl Labels {
         self.write();
     }
 
-    /// Takes where the robot stands and waits for help.
+    /// Takes where the robot waits for help.
     pub(crate) fn mark_stop(&mut self, at: Option<(f64, f64)>) {
         self.stop = at.map(|at| Label {
             text: "!".to_owned(),
@@ -110,7 +110,7 @@ impl Labels {
         }
     }
 
-    /// Moves the labels to where the camera sees what they name.
+    /// Moves the labels to the screen positions of what they name.
     pub(crate) fn place(&self, scene: &Scene) {
         for (element, label) in self.elements.iter().zip(self.labels()) {
             let (x, y) = scene.camera.screen_from_map(label.at.0, label.at.1);

@@ -7,7 +7,7 @@ use super::scene::{Places, Scene};
 /// Numbers an instance of a mark has: place, heading, size, kind.
 pub(super) const MARK_NUMBERS: usize = 5;
 
-/// Kinds of marks as the shader knows them.
+/// Kinds of marks, numbered as in the shader.
 const BUMP: f32 = 0.0;
 const CLIFF: f32 = 1.0;
 const ROBOT: f32 = 2.0;
@@ -33,7 +33,7 @@ pub(super) fn bump_marks(scene: &Scene, ratio: f64) -> Vec<f32> {
     scene.bumps.iter().flat_map(mark).collect()
 }
 
-/// What lies on the floor: doors, the dock, where the robot may be; in relief its shadow, because there the dock stands.
+/// What lies on the floor: doors, the dock, where the robot may be; in relief its shadow, because the dock has a height there.
 pub(super) fn floor_marks(scene: &Scene, places: Places, in_relief: bool) -> Vec<f32> {
     let radius = scene.body_radius_m();
     let dock = scene
@@ -64,7 +64,7 @@ pub(super) fn floor_marks(scene: &Scene, places: Places, in_relief: bool) -> Vec
         .collect()
 }
 
-/// The robot where it believes to be, and the ring where a simulated one really is.
+/// The robot at its estimated pose, and the ring at the true one of a simulated robot.
 pub(super) fn robot_marks(scene: &Scene, places: Places) -> Vec<f32> {
     let radius = scene.body_radius_m();
     let robot = places.believed.map(|pose| mark(pose, radius, ROBOT));

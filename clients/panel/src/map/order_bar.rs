@@ -31,7 +31,7 @@ pub(crate) fn OrderBar(store: Store) -> impl IntoView {
     });
     let chosen = Memo::new(move |_| orders.choice.get());
     Effect::new(move |_| {
-        // Read, not only tracked: a memo that nobody reads is never made, and tells of nothing.
+        // Read, not only tracked: a memo without readers is never computed, and notifies nobody.
         chosen.with(|_| state.with(|_| store.ask_prospect()));
     });
     let hint = move || orders.sketch.with(|sketch| sketch.hint(words()));
@@ -48,7 +48,7 @@ pub(crate) fn OrderBar(store: Store) -> impl IntoView {
             <Show when=move || is_reshaped.get()>
                 <ReshapeBar store />
             </Show>
-            // On a phone both would leave nothing of the map.
+            // On a phone both would cover the whole map.
             <Show when=move || has_choice.get() && !is_reshaped.get()>
                 <ChosenRooms store />
             </Show>
@@ -117,7 +117,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
     }
 }
 
-/// How often and how the parts are cleaned: told in a line, and folded up, for it is seldom changed and the map is small on a phone.
+/// How often and how the parts are cleaned: summarized in a line, and folded up, for it is seldom changed and the map is small on a phone.
 #[component]
 fn HowItIsCleaned(store: Store) -> impl IntoView {
     let choice = store.orders.choice;

@@ -1,4 +1,4 @@
-//! What a person wants of the home: rooms, zones and spots to be cleaned, floor that is forbidden.
+//! What a person orders: rooms, zones and spots to be cleaned, floor that is forbidden.
 
 use leptos::prelude::*;
 use panel_logic::{
@@ -22,7 +22,7 @@ const FIRST_ESTIMATE: u32 = 1_000;
 pub(crate) struct Orders {
     /// Rooms, zones and spots that are chosen.
     pub(crate) choice: RwSignal<RoomChoice>,
-    /// What cleaning them takes, or why nobody knows; nothing while the robot reckons.
+    /// The estimated time and energy for them, or why there is none; nothing while the robot computes.
     pub(crate) prospect: RwSignal<Option<String>>,
     /// What is being drawn.
     pub(crate) sketch: RwSignal<Sketch>,
@@ -79,7 +79,7 @@ impl Orders {
         }
     }
 
-    /// Whether the refusal is that of an estimate, which stands beside the choice.
+    /// Whether the refusal concerns an estimate, which is displayed beside the choice.
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_newest = failure.id == Some(self.asked.get_value());
         if is_newest {
@@ -179,7 +179,7 @@ impl Store {
         is_one
     }
 
-    /// The chosen rooms, if they are two that can be made one. Read anew when the choice or a room changes.
+    /// The chosen rooms, if they are two that can be merged. Read again when the choice or a room changes.
     pub(crate) fn joinable_rooms(self) -> Option<[u16; 2]> {
         self.rooms.track();
         let chosen = self.orders.choice.with(RoomChoice::rooms);
@@ -211,7 +211,7 @@ impl Store {
         }
     }
 
-    /// Rooms and what is forbidden are seen in what the robot knows, not in the true home of a simulator.
+    /// Rooms and what is forbidden are visible on the robot's map, not on the floor plan of a simulator.
     pub(super) fn show_known_home(self) {
         self.map.with_value(|map| {
             if map.with(|scene| scene.ground()) != Ground::Known {

@@ -1,4 +1,4 @@
-//! What stands on the floor when the map is seen from an orbit: walls cut off so that one sees into the rooms, the dock, the body of the robot.
+//! Things above the floor in the orbit view: walls cut off to show the rooms, the dock, the body of the robot.
 
 use panel_logic::{BLOCK_NUMBERS, MapPalette, Rgb, WallBlocks};
 use rvac_api::{Pose, SimulatedPlan};
@@ -14,7 +14,7 @@ use super::scene::{Ground, Scene};
 pub(super) const WALL_M: f64 = 0.4;
 /// Height of the robot, metres: robots of this kind fit under a cupboard.
 pub(super) const ROBOT_M: f64 = 0.09;
-/// The dock in its own frame, which has its contacts at zero and looks along x: the plate on which the robot drives, and the tower.
+/// The dock in its own frame, which has its contacts at zero and faces along x: the plate on which the robot drives, and the tower.
 const DOCK_PARTS: [([f32; 4], f32); 2] = [
     ([0.0, -0.12, 0.15, 0.12], 0.015),
     ([-0.05, -0.12, 0.02, 0.12], 0.16),
@@ -82,7 +82,7 @@ impl Relief {
         self.walls.numbers().len() / BLOCK_NUMBERS
     }
 
-    /// Draws walls, furniture and dock. They hide what comes after them where they stand in front of it.
+    /// Draws walls, furniture and dock. They hide what is drawn after them and lies behind them.
     pub(super) fn draw_standing(&mut self, scene: &Scene, palette: &MapPalette, eye: &[f32; 16]) {
         if std::mem::take(&mut self.is_stale) {
             self.walls.renew(scene.plan());
@@ -157,7 +157,7 @@ impl Relief {
     }
 }
 
-/// Where the contacts of the dock are. A true plan tells it; of a known home a docked robot's pose is known, which faces them.
+/// Where the contacts of the dock are. A floor plan contains it; on the robot's map a docked robot's pose is known, which faces them.
 fn dock_pose(plan: &SimulatedPlan, scene: &Scene) -> Option<Pose> {
     let told = plan.dock?;
     if scene.ground() == Ground::True {

@@ -1,4 +1,4 @@
-//! The two programs that draw what stands on the floor, seen from an orbit: blocks, and the body of the robot.
+//! The two shader programs for things above the floor in the orbit view: blocks, and the body of the robot.
 
 /// One instance a block: walls and furniture in the frame of their plan, and the parts of the dock in its. Thirty corners: the top,
 /// then the sides.

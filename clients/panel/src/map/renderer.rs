@@ -1,4 +1,4 @@
-//! Draws the scene: one pass for the ground, from an orbit one for what stands on it, one each for walls, path and planned way, one
+//! Draws the scene: one pass for the ground, in the orbit view one for things on it, one each for walls, path and planned path, one
 //! for what lies on the floor, one for the robot, one for bumps.
 
 use panel_logic::{Bounds, Camera, MapPalette};
@@ -15,7 +15,7 @@ use super::shaders;
 /// Marks and lines reach this far beyond their place, in CSS pixels.
 const MARGIN_PX: f64 = 12.0;
 
-/// How much of the robot is seen through a wall that stands before it.
+/// How much of the robot is visible through a wall in front of it.
 const BEHIND_WALL: f32 = 0.35;
 
 /// Everything that lives in graphics memory.
@@ -36,7 +36,7 @@ pub(crate) struct Renderer {
     lying: Layer,
     robot: Layer,
     empty_layout: WebGlVertexArrayObject,
-    /// What stands on the floor; made when it is first seen.
+    /// Things above the floor; made when first visible.
     pub(super) relief: Option<Relief>,
 }
 
@@ -68,7 +68,7 @@ impl Layer {
     }
 }
 
-/// The camera as the shaders want it.
+/// The camera in the form for the shaders.
 #[derive(Clone, Copy, Debug)]
 struct Eye {
     clip: [f32; 16],
@@ -147,7 +147,7 @@ impl Renderer {
         Ok(renderer)
     }
 
-    /// A segment of the path reads two points that overlap with those of its neighbours, one of walls or the planned way two
+    /// A segment of the path reads two points that overlap with those of its neighbours, one of walls or the planned path two
     /// of its own; a mark reads its five numbers.
     fn describe_layouts(&self) {
         let gl = &self.gl;
@@ -209,7 +209,7 @@ impl Renderer {
         self.gl.bind_vertex_array(None);
     }
 
-    /// How many blocks stand on the floor.
+    /// How many blocks are on the floor.
     pub(crate) fn blocks(&self) -> usize {
         self.relief.as_ref().map_or(0, Relief::blocks)
     }
@@ -299,7 +299,7 @@ impl Renderer {
         self.line.select();
         self.line.set_matrix("eye", &eye.clip);
         self.line.set("pixel", &eye.pixel);
-        // Walls that stand need no stroke.
+        // Walls drawn as blocks need no stroke.
         let has_strokes = scene.ground() == Ground::Known && !eye.in_relief;
         let walls = if has_strokes { scene.walls.len() / 4 } else { 0 };
         let forbidden = (scene.forbidden.len() + scene.avoided.len()) / 4;
@@ -329,7 +329,7 @@ impl Renderer {
             layer.replace(numbers);
         }
         let instances = |numbers: &[f32]| numbers.len() / MARK_NUMBERS;
-        // A robot that is drawn larger than it is, to be seen at all, is as much higher.
+        // A robot that is enlarged to be visible is as much higher.
         let height_m = ROBOT_M * scene.body_radius_m() / scene.radius_m;
         let lift_m = if eye.in_relief { height_m } else { 0.0 };
         self.begin_marks((palette, eye), lift_m);

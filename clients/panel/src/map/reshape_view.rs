@@ -10,7 +10,7 @@ use crate::focus::focus_soon_on;
 use crate::language::words;
 use crate::store::Store;
 
-/// The direction of an arrow key is looked for on the screen, so far from the handle, CSS pixels.
+/// The direction of an arrow key is taken on the screen, so far from the handle, CSS pixels.
 const AHEAD_PX: f64 = 20.0;
 
 impl Store {

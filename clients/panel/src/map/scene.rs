@@ -2,10 +2,10 @@
 
 use panel_logic::{
     Bounds, Camera, ITEMS_MAX, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan, no_go_strokes,
-    outlined, plan_bounds, room_at, wall_strokes, way_dashes, zone_strokes,
+    outlined, path_dashes, plan_bounds, room_at, wall_strokes, zone_strokes,
 };
 use rvac_api::{
-    BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedWay, Pose, SimulatedPlan,
+    BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, SimulatedPlan,
 };
 
 use crate::theme::Theme;
@@ -13,7 +13,7 @@ use crate::theme::Theme;
 /// The robot is never drawn smaller than this, in CSS pixels.
 const ROBOT_RADIUS_MIN_PX: f64 = 8.0;
 
-/// Length of a dash of the planned way, metres.
+/// Length of a dash of the planned path, metres.
 const DASH_M: f64 = 0.06;
 /// Widest uncertainty that is drawn, metres: beyond it only the words help.
 const UNCERTAINTY_MAX_M: f64 = 20.0;
@@ -21,7 +21,7 @@ const UNCERTAINTY_MAX_M: f64 = 20.0;
 /// What lies under path and robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ground {
-    /// What the robot knows of the home.
+    /// The robot's map of the home.
     Known,
     /// The floor plan of a simulated home.
     True,
@@ -38,7 +38,7 @@ pub(crate) enum CameraMode {
     Free,
 }
 
-/// What the next frame must draw anew.
+/// What the next frame must redraw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Redraw {
     /// Nothing.
@@ -61,7 +61,7 @@ impl Redraw {
     }
 }
 
-/// The scene. Whoever changes it says in `redraw` what must be drawn anew; robot and true place see to themselves.
+/// The scene. Each change notes in `redraw` what must be redrawn; robot and true pose do so by themselves.
 #[derive(Debug)]
 pub(crate) struct Scene {
     pub(crate) camera: Camera,
@@ -77,7 +77,7 @@ pub(crate) struct Scene {
     home: Option<HomeView>,
     chosen: Vec<u16>,
     doors: Vec<DoorView>,
-    /// Walls as strokes, and the planned way as dashes.
+    /// Walls as strokes, and the planned path as dashes.
     pub(crate) walls: Vec<f32>,
     pub(crate) way: Vec<f32>,
     /// Borders of zones and spots that are to be cleaned, of what is forbidden for the next job, and of what is for good.
@@ -153,7 +153,7 @@ impl Scene {
         self.show(Ground::True);
     }
 
-    /// Takes what the robot knows of the home.
+    /// Takes the robot's map of the home.
     pub(crate) fn on_home(&mut self, home: &HomeView) {
         self.home = (home.width > 0).then(|| home.clone());
         self.draw_home();
@@ -183,7 +183,7 @@ impl Scene {
         self.strokes_changed = true;
     }
 
-    /// The home as the robot told it last.
+    /// The home as last received from the robot.
     pub(crate) fn home(&self) -> Option<&HomeView> {
         self.home.as_ref()
     }
@@ -198,12 +198,12 @@ impl Scene {
     }
 
     /// Takes where the robot means to drive.
-    pub(crate) fn on_way(&mut self, way: &PlannedWay) {
-        self.way = way_dashes(way, DASH_M);
+    pub(crate) fn on_way(&mut self, way: &PlannedPath) {
+        self.way = path_dashes(way, DASH_M);
         self.strokes_changed = true;
     }
 
-    /// Takes how sure the robot is; false when that looks the same.
+    /// Takes the robot's estimate; false when the picture stays the same.
     pub(crate) fn on_estimate(&mut self, estimate: &Estimate) -> bool {
         // Twice the standard deviation: 19 times of 20 it is inside.
         let drawn = !estimate.lost && estimate.sigma_m.is_finite();
@@ -320,7 +320,7 @@ impl Scene {
         self.redraw = self.redraw.with(Redraw::Area(Bounds::around(x, y, radius)));
     }
 
-    /// Takes where the robot believes to be; false when it stands where it stood.
+    /// Takes the estimated pose; false when it is unchanged.
     pub(crate) fn on_pose(&mut self, pose: Pose, now_s: f64) -> bool {
         let moved = differs(self.newest[0].replace(pose), pose);
         if moved {
@@ -329,7 +329,7 @@ impl Scene {
         moved
     }
 
-    /// Takes where a simulated robot really is; false when it stands where it stood.
+    /// Takes the true pose of a simulated robot; false when it is unchanged.
     pub(crate) fn on_truth(&mut self, pose: Pose, now_s: f64) -> bool {
         let moved = differs(self.newest[1].replace(pose), pose);
         if moved {
@@ -345,7 +345,7 @@ impl Scene {
         self.refit();
     }
 
-    /// What stands on the floor cannot be drawn here.
+    /// Things above the floor cannot be drawn here.
     pub(crate) fn refuse_relief(&mut self, why: String) {
         self.relief_failure = Some(why);
         self.look_from(None);
@@ -389,7 +389,7 @@ impl Scene {
         })
     }
 
-    /// Moves on to `now_s` and says where the robot is drawn and what the frame must draw anew.
+    /// Moves on to `now_s` and returns where the robot is drawn and what the frame must redraw.
     pub(crate) fn advance(&mut self, now_s: f64) -> (Places, Redraw) {
         let elapsed_s = (now_s - self.drawn_s).clamp(0.0, 0.1);
         self.drawn_s = now_s;

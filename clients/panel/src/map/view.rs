@@ -168,11 +168,11 @@ struct Footer {
     scale_name: String,
     scale_px: f64,
     frames: String,
-    /// A planned way, or doors, are to be seen.
+    /// A planned path, or doors, are visible.
     plans: bool,
-    /// What the robot knows is shown, and with it where that ends.
+    /// The robot's map is shown, and with it its border.
     unsure: bool,
-    /// Carpet that the robot has felt is shown.
+    /// Detected carpet is shown.
     carpet: bool,
     has_doors: bool,
     /// Why there is no view in 3D.

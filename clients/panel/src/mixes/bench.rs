@@ -8,7 +8,7 @@ use crate::changes::set_if_changed;
 use crate::drive::Seat;
 use crate::language::words;
 
-/// Bars are drawn anew at every third look at the inputs.
+/// Bars are redrawn at every third reading of the inputs.
 const LOOKS_PER_DRAWING: u32 = 3;
 
 /// All of it, as handles.
@@ -27,7 +27,7 @@ pub(crate) struct Bench {
     pub(super) learning: RwSignal<Option<Learning>>,
     /// The axis that is moved to its ends.
     pub(super) run: RwSignal<Option<CalibrationRun>>,
-    /// Something to be told.
+    /// A message.
     pub(super) remark: RwSignal<Option<String>>,
     mixer: StoredValue<Option<Mixer>>,
     looks: StoredValue<u32>,

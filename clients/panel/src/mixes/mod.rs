@@ -73,7 +73,7 @@ fn listen_to_keys(bench: Bench) {
     });
 }
 
-/// A page that is left, or loaded anew in another language, has the browser ask first while a mix is not saved.
+/// A page that is left, or reloaded in another language, has the browser ask first while a mix is not saved.
 pub(crate) fn ask_before_leaving(bench: Bench) {
     let leaving = window_event_listener(ev::beforeunload, move |event| {
         if bench

@@ -6,7 +6,7 @@ mod zone;
 
 use leptos::prelude::*;
 use panel_logic::{
-    ScheduleForm, ScheduleRow, Told, next_rows, past_rows, refusal_text, schedule_rows, zone_text,
+    ScheduleForm, ScheduleRow, Template, next_rows, past_rows, refusal_text, schedule_rows, zone_text,
 };
 use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 
@@ -48,7 +48,7 @@ impl ScheduleDesk {
         }
     }
 
-    /// Whether the refusal is that of the form, beside which it stands.
+    /// Whether the refusal concerns the form, beside which it is displayed.
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_ours = failure.id == Some(SCHEDULE_ID);
         if is_ours {
@@ -63,9 +63,9 @@ impl ScheduleDesk {
         self.form.set(Some(form));
     }
 
-    fn with<Told: Default>(self, tell: impl FnOnce(&Schedules) -> Told) -> Told {
+    fn with<T: Default>(self, read: impl FnOnce(&Schedules) -> T) -> T {
         self.known
-            .with(|known| known.as_ref().map(tell).unwrap_or_default())
+            .with(|known| known.as_ref().map(read).unwrap_or_default())
     }
 
     fn view_of(self, number: u32) -> Option<ScheduleView> {
@@ -173,7 +173,7 @@ fn Entry(store: Store, number: u32, rows: Memo<Vec<ScheduleRow>>) -> impl IntoVi
 fn EntryTools(store: Store, number: u32, row: Memo<Option<ScheduleRow>>) -> impl IntoView {
     let skips = move || row.with(|row| row.as_ref().is_some_and(|row| row.skips));
     let name = move || row.with(|row| row.as_ref().map(|row| row.name.clone()).unwrap_or_default());
-    let labelled = move |what: Told<1>| move || what.fill([&name()]);
+    let labelled = move |what: Template<1>| move || what.fill([&name()]);
     let skip = move |_| {
         let skip = !untrack(skips);
         store.ask(RequestBody::SkipNext { number, skip });

@@ -1,4 +1,4 @@
-//! The time zone in which schedules are told and kept.
+//! The time zone in which schedules are shown and stored.
 
 use js_sys::{Array, Function, Intl, Object, Reflect};
 use leptos::ev::SubmitEvent;
@@ -77,7 +77,7 @@ fn zone_of_device() -> Option<String> {
     Reflect::get(&options, &"timeZone".into()).ok()?.as_string()
 }
 
-/// All zones that the browser knows, as suggestions; none in one that does not tell.
+/// All zones that the browser lists, as suggestions; none in one that does not list them.
 fn all_zones() -> Vec<String> {
     let told = || {
         let intl = Reflect::get(&js_sys::global(), &"Intl".into()).ok()?;

@@ -46,7 +46,7 @@ pub fn explain(code: &str) -> Option<Explanation> {
         .map(|(_, told)| told)
 }
 
-/// What to do about a reason; empty when there is nothing to do, or nobody knows.
+/// What to do about a reason; empty when there is nothing to do, or nothing is known to help.
 #[must_use]
 pub fn remedy(code: &str) -> &'static str {
     explain(code).map_or("", |told| told.remedy)

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-/// Ways in mm by which the way of a count can be told: on a shorter one the start and the end, which a person reads to some
-/// millimetres, are more than a hundredth of it; nobody pushes a robot a longer one in a straight line.
+/// Distances in mm that suit the calibration of a count: on a shorter one the start and the end, which a person reads to some
+/// millimetres, are more than a hundredth of it; a robot is hard to push farther in a straight line.
 const PUSHED_MM: RangeInclusive<i64> = 500..=20_000;
 
 /// Why readings give no value.
@@ -13,7 +13,7 @@ pub(crate) enum NoValue {
     /// Nothing moved.
     #[error("the readings did not change: {0}")]
     Still(&'static str),
-    /// The two wheels tell different stories.
+    /// The counts of the two wheels contradict each other.
     #[error("the wheels went {left} and {right} counts, which differ too much: {advice}")]
     Unequal {
         /// Counts of the left wheel.
@@ -23,12 +23,12 @@ pub(crate) enum NoValue {
         /// What to do.
         advice: &'static str,
     },
-    /// A way that is not one of a push along a measure.
+    /// A distance outside the range for a push along a measure.
     #[error(
         "{0} mm is no way to measure by: push it {least} to {most} mm, and type those",
         least = PUSHED_MM.start(), most = PUSHED_MM.end()
     )]
-    Way(i64),
+    Distance(i64),
     /// Some sensors answered and some did not.
     #[error(
         "the levels rose by {least} to {greatest}, which is neither yes nor no: keep it still over a light floor"
@@ -49,7 +49,7 @@ pub(crate) enum NoValue {
         /// Greatest reading.
         greatest: i64,
     },
-    /// A floor that looks like a drop.
+    /// A floor that reads like a drop.
     #[error(
         "the levels rose by {0} counts only, so this floor can hardly be told from a drop: clean the sensors, or hold \
          the robot higher"
@@ -68,10 +68,10 @@ pub(crate) fn travelled(before: (i32, i32), after: (i32, i32)) -> (i64, i64) {
     )
 }
 
-/// Way of one count in nm after a push of `distance_mm`. Signs of the wheels do not matter yet.
+/// Distance of one count in nm after a push of `distance_mm`. Signs of the wheels do not matter yet.
 pub(crate) fn distance_per_count_nm((left, right): (i64, i64), distance_mm: i64) -> Result<i64, NoValue> {
     if !PUSHED_MM.contains(&distance_mm) {
-        return Err(NoValue::Way(distance_mm));
+        return Err(NoValue::Distance(distance_mm));
     }
     let (left, right) = (left.abs(), right.abs());
     let sum = left + right;
@@ -90,7 +90,7 @@ pub(crate) fn distance_per_count_nm((left, right): (i64, i64), distance_mm: i64)
     Ok((distance_mm * 2_000_000 + sum / 2) / sum)
 }
 
-/// Track in µm after `turns` on the spot: the rims go opposite ways round a circle of the track's diameter.
+/// Track in µm after `turns` on the spot: the rims go in opposite directions on a circle of the track's diameter.
 pub(crate) fn track_um(
     (left, right): (i64, i64),
     turns: i64,
@@ -113,7 +113,7 @@ pub(crate) fn track_um(
     Ok((rim_nm / (TAU * turns as f64) / 1e3).round() as i64)
 }
 
-/// 0 when the total grew by a turn forward, 1 when the lines must be taken the other way round.
+/// 0 when the total grew by a turn forward, 1 when the lines must be swapped.
 pub(crate) fn line_order(count: i64) -> Result<i64, NoValue> {
     match count {
         -9..=9 => Err(NoValue::Still("turn this wheel forward, at least a quarter")),
@@ -149,7 +149,7 @@ pub(crate) fn steady_mean(readings: &[i64]) -> Result<i64, NoValue> {
     mean(readings)
 }
 
-/// The level that tells floor from drop when a floor lifts the least of the sensors by `rise`: as far from the one as from
+/// The level that separates floor from drop when a floor lifts the least of the sensors by `rise`: as far from the one as from
 /// the other.
 pub(crate) fn between(rise: i64) -> Result<i64, NoValue> {
     /// A tenth of the converter's range on either side would be good; this is ten times its noise.
@@ -160,7 +160,7 @@ pub(crate) fn between(rise: i64) -> Result<i64, NoValue> {
     Ok(rise / 2)
 }
 
-/// How far the brightest sensor stands above the dark, in readings of a line that a multiplexer switches through all
+/// How far the brightest sensor is above the dark, in readings of a line that a multiplexer switches through all
 /// sensors, dark and lit: half of the readings are dark, and the brightest lie in the upper half of what is above them.
 pub(crate) fn brightest(readings: &[i64]) -> Result<i64, NoValue> {
     let mut sorted = readings.to_vec();
@@ -226,12 +226,12 @@ pub(crate) fn scale_uv(pack_mv: i64, mean_milli: i64) -> Result<i64, NoValue> {
     Ok((pack_mv * 1_000_000 + mean_milli / 2) / mean_milli)
 }
 
-/// mm/s of a way in nm; nm per ms are µm/s.
-pub(crate) fn speed_mm_per_s(way_nm: i64, elapsed_ms: i64) -> Result<i64, NoValue> {
-    if elapsed_ms < 100 || way_nm == 0 {
+/// mm/s of a distance in nm; nm per ms are µm/s.
+pub(crate) fn speed_mm_per_s(distance_nm: i64, elapsed_ms: i64) -> Result<i64, NoValue> {
+    if elapsed_ms < 100 || distance_nm == 0 {
         return Err(NoValue::Still("the wheels did not run"));
     }
-    Ok((way_nm / elapsed_ms + 500) / 1000)
+    Ok((distance_nm / elapsed_ms + 500) / 1000)
 }
 
 #[cfg(test)]
@@ -250,7 +250,7 @@ mod tests {
         for distance_mm in [-1000, 0, 3, 499, 20_001, 999_999_999] {
             assert_eq!(
                 distance_per_count_nm((2000, 2000), distance_mm),
-                Err(NoValue::Way(distance_mm))
+                Err(NoValue::Distance(distance_mm))
             );
         }
         assert!(matches!(

@@ -6,7 +6,7 @@ use anyhow::bail;
 
 use crate::robot::Robot;
 
-/// What a person wants.
+/// What a person chose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wish {
     /// Go on, or keep what was measured.
@@ -80,7 +80,7 @@ fn parse_number(line: &str) -> Option<i64> {
         .filter(|number| (1 - BELOW..BELOW).contains(number))
 }
 
-/// The person wants to end; no fault.
+/// The person ends it; no fault.
 #[derive(Debug, thiserror::Error)]
 #[error("ended; what was kept is in the file")]
 pub(crate) struct Quit;

@@ -1,4 +1,4 @@
-//! Values for which motors run: open loop, under leases, and stopped at the end whatever happens.
+//! Values for which motors run: open loop, under leases, and always stopped at the end.
 
 use std::time::Duration;
 
@@ -11,12 +11,12 @@ use super::dialog::Dialog;
 use super::procedure::{Bench, READINGS, level};
 use crate::robot::Watch;
 
-/// Step of a duty that is raised until something turns at all, and then step of a second look from two steps below.
+/// Step of a duty that is raised until the motor turns, and then step of a second pass from two steps below.
 const COARSE_PERMILLE: i32 = 50;
 const FINE_PERMILLE: i32 = 10;
 /// Highest duty that is tried.
 const MOST_PERMILLE: i32 = 900;
-/// How long each duty is tried, and how long at the second look, because what hardly turns gives few counts.
+/// How long each duty is tried, and how long in the second pass, because a slow motor gives few counts.
 const TRY: Duration = Duration::from_millis(600);
 const TRY_FINE: Duration = Duration::from_millis(1_200);
 /// Counts in half of that which mean "turns steadily".
@@ -116,7 +116,7 @@ impl Bench<'_> {
                 bail!("nothing turns at {MOST_PERMILLE} permille: are motors and encoders plugged in?");
             }
         }
-        // The longer look may see what the shorter one at the step before did not.
+        // The longer pass may detect a turn that the shorter one at the previous step missed.
         let mut permille = (coarse - 2 * COARSE_PERMILLE).max(0) + FINE_PERMILLE;
         while permille < coarse && !turns(&self.count(motors, permille, TRY_FINE)?) {
             permille += FINE_PERMILLE;

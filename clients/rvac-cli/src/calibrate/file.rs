@@ -1,4 +1,4 @@
-//! What was measured: a file of the owner's, one line a value. Nothing that stands in it is lost.
+//! What was measured: a file of the owner's, one line a value. No line of it is lost.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -65,7 +65,7 @@ impl Measurements {
         self.values.get(name).copied()
     }
 
-    /// Keeps a value: the file is written anew beside the old one and then takes its place.
+    /// Keeps a value: the file is written beside the old one and then takes its place.
     pub(crate) fn keep(&mut self, catalog: &Catalog, name: &str, value: i64) -> anyhow::Result<()> {
         self.values.insert(name.to_owned(), value);
         let beside = self.path.with_extension("toml.new");

@@ -8,7 +8,7 @@ use super::arithmetic::{between, brightest, follows, rises};
 use super::dialog::Dialog;
 use super::procedure::Bench;
 
-/// The light supply of unknown purpose, which the firmware offers as a light after the eight known ones while nobody knows
+/// The light supply of unknown purpose, which the firmware offers as a light after the eight known ones while it is unknown
 /// what lights the cliff sensors.
 const UNKNOWN_SUPPLY: u8 = 8;
 /// Time in which receivers follow the light, and a person's hand gets away.

@@ -1,4 +1,4 @@
-//! `rvac calibrate`: walks an owner through what nobody could know about one robot.
+//! `rvac calibrate`: guides an owner through measuring what differs from robot to robot.
 
 mod arithmetic;
 mod catalog;

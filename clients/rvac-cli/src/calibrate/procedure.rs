@@ -15,7 +15,7 @@ use crate::robot::Robot;
 
 /// Readings whose mean is a value.
 pub(super) const READINGS: usize = 100;
-/// Readings whose mean is a value that is wanted to a hundredth of a count.
+/// Readings whose mean is needed to a hundredth of a count.
 const READINGS_EXACT: usize = 1_000;
 /// Readings follow each other after 1 to so many ms, so that they do not fall into step with the sensors' own round.
 const PAUSE_MAX_MS: usize = 13;
@@ -27,10 +27,10 @@ pub(crate) enum Side {
     Right,
 }
 
-/// The closed set of ways to measure.
+/// The closed set of methods to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Procedure {
-    /// Pushed a way by hand that the person reads off a measure.
+    /// Pushed by hand over a distance that the person reads off a measure.
     Push,
     /// Turned ten times by hand.
     Spin,

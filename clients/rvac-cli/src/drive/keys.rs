@@ -1,4 +1,4 @@
-//! The keyboard of a terminal. A terminal tells of presses and repeats, never of a release: a key counts as held until its
+//! The keyboard of a terminal. A terminal reports presses and repeats, never a release: a key counts as held until its
 //! next repeat is overdue.
 
 use std::collections::BTreeMap;

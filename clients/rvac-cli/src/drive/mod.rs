@@ -1,4 +1,4 @@
-//! `rvac drive`: a person drives with a gamepad, the keyboard of the terminal, or a program that tells what inputs read.
+//! `rvac drive`: a person drives with a gamepad, the keyboard of the terminal, or a program that sends inputs.
 //!
 //! However this program ends, its connection ends with it, and the daemon stops the wheels; while it runs, a pad that goes
 //! away stops them at once.

@@ -13,12 +13,12 @@ use mixer::{Device, Source};
 use super::DriveEvent;
 use super::shaker::Shaker;
 
-/// New pads are looked for so often.
+/// Period of the search for new pads.
 const LOOK: Duration = Duration::from_secs(1);
 /// As many pads as a profile can name.
 const PADS: u8 = 4;
 /// Makers whose drivers name the upper and the left button by their places. All others give them the letters of an Xbox pad,
-/// where the same two codes are the other way round.
+/// where the same two codes are swapped.
 const BY_PLACE: [u16; 2] = [0x054C, 0x057E];
 
 /// Numbers of the pads that are open.

@@ -44,7 +44,7 @@ pub(crate) fn kept(connection: &mut Connection) -> anyhow::Result<Vec<Profile>> 
     mixes.iter().map(|text| Ok(Profile::parse(text)?)).collect()
 }
 
-/// What the daemon says of the robot; asked anew, because nobody has read the greeting before.
+/// The robot's description from the daemon; requested, because the greeting was not read.
 pub(super) fn robot(connection: &mut Connection) -> anyhow::Result<RobotDescription> {
     let hello = RequestBody::Hello {
         name: "rvac drive".to_owned(),

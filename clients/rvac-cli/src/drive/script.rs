@@ -54,7 +54,7 @@ fn parse(line: &str) -> Result<Option<DriveEvent>, LineError> {
         return Ok(Some(DriveEvent::Gone(device(first)?)));
     }
     let source: Source = first.parse()?;
-    // What other clients tell comes from the robot, with its lease.
+    // Inputs of other clients come from the robot, with their leases.
     if source.device().is_none() || matches!(source, Source::Client(_)) {
         return Err(LineError::Unmovable(source));
     }

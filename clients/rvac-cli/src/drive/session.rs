@@ -17,7 +17,7 @@ use super::DriveEvent;
 use super::shaker::Shaker;
 use crate::socket::Connection;
 
-/// The mixer looks at the inputs so often.
+/// Period at which the mixer reads the inputs.
 const TICK: Duration = Duration::from_micros(STEP_EVERY_US);
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
@@ -30,13 +30,13 @@ pub(super) struct Session {
     top: TopSpeeds,
     pilot: Pilot,
     readings: Readings,
-    /// What other clients tell.
-    told_inputs: ClientInputs,
+    /// Inputs of other clients.
+    client_inputs: ClientInputs,
     /// Pads that can shake, by their numbers.
     shakers: BTreeMap<u8, Shaker>,
     bumps: BumpWatch,
     start: Instant,
-    /// What was told to the person last.
+    /// The last message to the person.
     told: Option<MixState>,
 }
 
@@ -75,7 +75,7 @@ impl Session {
             top: top(robot),
             pilot: Pilot::new(Mixer::new(profile)?),
             readings: Readings::default(),
-            told_inputs: ClientInputs::default(),
+            client_inputs: ClientInputs::default(),
             shakers: BTreeMap::new(),
             bumps: BumpWatch::default(),
             start: Instant::now(),
@@ -146,7 +146,7 @@ impl Session {
                 robot: Some(robot), ..
             } => self.top = top(&robot),
             Update::Status(status) => self.feel(&status),
-            Update::Inputs { inputs } => self.told_inputs.hear(self.now_us(), &inputs),
+            Update::Inputs { inputs } => self.client_inputs.replace(self.now_us(), &inputs),
             _ => {}
         }
         Ok(())
@@ -154,7 +154,7 @@ impl Session {
 
     fn step(&mut self) -> anyhow::Result<()> {
         let now_us = self.now_us();
-        self.look_at_clients(now_us)?;
+        self.take_client_inputs(now_us)?;
         let steered = self.pilot.step(now_us, &self.readings, self.top);
         self.tell(&steered.mixed)?;
         for body in steered.presses {
@@ -163,13 +163,13 @@ impl Session {
         steered.seat.map_or(Ok(()), |body| self.send(DRIVE_ID, body))
     }
 
-    /// Every hand that holds a pad feels a bump.
+    /// All pads rumble at a bump.
     fn feel(&mut self, status: &Status) {
         if !self.bumps.look(status) {
             return;
         }
         for shaker in self.shakers.values_mut() {
-            shaker.shake().ok(); // A pad that is gone is told of by its reader.
+            shaker.shake().ok(); // The reader of a pad reports that it is gone.
         }
     }
 
@@ -177,9 +177,9 @@ impl Session {
         u64::try_from(self.start.elapsed().as_micros()).unwrap_or(u64::MAX)
     }
 
-    /// Takes what other clients tell at this moment.
-    fn look_at_clients(&mut self, now_us: u64) -> anyhow::Result<()> {
-        let now = self.told_inputs.at(now_us);
+    /// Takes the inputs of other clients at this moment.
+    fn take_client_inputs(&mut self, now_us: u64) -> anyhow::Result<()> {
+        let now = self.client_inputs.at(now_us);
         let before = std::mem::replace(&mut self.readings.clients, now);
         let gone = before
             .into_keys()

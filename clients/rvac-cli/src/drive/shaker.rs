@@ -1,10 +1,10 @@
-//! Lets a gamepad shake, if it can: the hand that holds it feels the bumper.
+//! Lets a gamepad rumble, if it can, when the bumper is pressed.
 
 use std::io;
 
 use evdev::{FFEffect, FFEffectCode, FFEffectData, FFEffectKind, FFReplay, FFTrigger};
 
-/// How a bump feels, in the motors of a pad: as long and as strong as the panel has it.
+/// Rumble of a pad at a bump: as long and as strong as in the panel.
 const BUMP: FFEffectData = FFEffectData {
     direction: 0,
     trigger: FFTrigger {

@@ -1,4 +1,4 @@
-//! `rvac floor export` and `import`: floors as one file, on the way piece by piece.
+//! `rvac floor export` and `import`: floors as one file, sent piece by piece.
 
 use std::fs::{self, File};
 use std::io::{Write as _, stdout};
@@ -58,7 +58,7 @@ fn fetch(connection: &mut Connection, floor: Option<u16>) -> anyhow::Result<Vec<
     }
 }
 
-/// Hands the file over and tells under which numbers and names its floors are kept.
+/// Hands the file over and prints under which numbers and names its floors are stored.
 pub(super) fn import(
     connection: &mut Connection,
     before: &FloorsView,
@@ -84,7 +84,7 @@ pub(super) fn import(
         control::ask(connection, body)?;
         from += piece.len() as u64;
     }
-    // Whoever follows the floors already is not told them anew.
+    // A client that follows the floors already does not get them again.
     connection.watch(Vec::new())?;
     let (after, _) = ask(connection)?;
     for floor in &after.floors {

@@ -1,4 +1,4 @@
-//! What the robot knows of the home, asked once.
+//! The robot's map of the home, requested once.
 
 use std::time::Instant;
 

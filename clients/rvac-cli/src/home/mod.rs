@@ -1,4 +1,4 @@
-//! `rvac map`: what the robot knows of the home, which versions of it are kept, and the way back to one of them.
+//! `rvac map`: the robot's map of the home, its stored versions, and the return to one of them.
 
 pub(crate) mod known;
 mod picture;
@@ -17,7 +17,7 @@ use crate::socket::Connection;
 use known::KnownHome;
 use picture::picture;
 
-/// A place that is nearer than this is none to look at, metres.
+/// Least distance of the place that the robot faces, metres.
 const LOOK_MIN_M: f64 = 0.01;
 
 pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
@@ -39,7 +39,7 @@ pub(crate) fn run(job: &MapJob) -> anyhow::Result<ExitCode> {
     }
 }
 
-/// The dock on which a robot stands at a place and looks towards another one.
+/// The dock of a robot that is at a place and faces another one.
 fn dock_moved(at: Place, towards: Place) -> anyhow::Result<RequestBody> {
     let (x_m, y_m) = (towards.x_m - at.x_m, towards.y_m - at.y_m);
     if x_m.hypot(y_m) < LOOK_MIN_M {
@@ -100,7 +100,7 @@ fn in_words(home: &HomeView, estimate: Option<Estimate>, pose: Option<Pose>) -> 
     };
     text += &match &home.dock {
         Some(dock) => {
-            let told = if home.dock_told {
+            let told = if home.dock_reported {
                 ", as somebody has said: the robot has not docked there yet"
             } else {
                 ""

@@ -17,7 +17,7 @@ struct Scale {
 }
 
 /// The home with the robot in it: `#` obstacle, `.` floor, `!` end of the floor, `x` not to be entered, digits for the rooms,
-/// `D` dock, and the robot as an arrow. Nothing for a home that is not known or is told wrongly.
+/// `D` dock, and the robot as an arrow. Nothing for a home that is unknown or malformed.
 pub(super) fn picture(home: &HomeView, pose: Option<Pose>) -> String {
     let (width, height) = (u64::from(home.width), u64::from(home.height));
     if width == 0 || height == 0 || width * height > CELLS_MAX || home.cell_m.is_nan() || home.cell_m <= 0.0 {

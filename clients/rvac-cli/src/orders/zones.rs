@@ -93,7 +93,7 @@ fn pair(place: &Place) -> [f64; 2] {
     [place.x_m, place.y_m]
 }
 
-/// Two corners are those of a rectangle along the axes of the map.
+/// Two corners give a rectangle along the axes of the map.
 pub(super) fn outline(corners: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     match corners.as_slice() {
         &[[x, y], [far_x, far_y]] => vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]],

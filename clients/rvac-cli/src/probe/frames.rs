@@ -1,8 +1,8 @@
-//! Finds the frames of an unknown module in what it said at rest and while it was turned both ways.
+//! Finds the frames of an unknown module in its output at rest and during turns in both directions.
 
 use std::fmt;
 
-/// Longest frame that is looked for.
+/// Longest frame that is searched for.
 const LENGTH_MAX: usize = 64;
 /// Frames that must be there before anything is believed.
 const FRAMES_MIN: usize = 20;
@@ -11,10 +11,10 @@ const CONSTANT: f64 = 0.98;
 /// How many times its own noise a field must answer to a turn.
 const ANSWERS: f64 = 8.0;
 
-/// What was heard, in the three parts of a recording.
+/// The bytes received in the three parts of a recording.
 #[derive(Debug, Default)]
 pub(super) struct Recording {
-    /// While the robot stood.
+    /// While the robot was at rest.
     pub(super) rest: Vec<u8>,
     /// While it was turned counter-clockwise.
     pub(super) left: Vec<u8>,
@@ -27,7 +27,7 @@ pub(super) struct Recording {
 /// By so much the robot is turned in each part, degrees.
 const TURNED_DEGREES: f64 = 360.0;
 
-/// How frames look.
+/// The form of frames.
 #[derive(Debug, PartialEq)]
 pub(super) struct Frames {
     /// Bytes that begin each frame.
@@ -62,7 +62,7 @@ pub(super) struct Field {
     pub(super) offset: usize,
     /// How it is stored.
     pub(super) form: Form,
-    /// What it tells.
+    /// Its meaning.
     pub(super) meaning: Meaning,
     /// Whether it grows counter-clockwise.
     pub(super) rises_left: bool,
@@ -81,7 +81,7 @@ pub(super) enum Form {
     I32Big,
 }
 
-/// What a number tells.
+/// The meaning of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Meaning {
     /// Higher while it turns.
@@ -111,7 +111,7 @@ impl Frames {
     }
 }
 
-/// The head of frames of this length, if there are such frames: two or three bytes that stand in nearly all of them, in all
+/// The head of frames of this length, if there are such frames: two or three bytes that are in nearly all of them, in all
 /// parts. What only seems constant because nothing moved is gone once the robot was turned; of what remains, bytes other
 /// than 00 and FF are the likelier head, since those are also the upper halves of small numbers.
 fn head_of(parts: &[&Vec<u8>; 3], length: usize) -> Option<(usize, Vec<u8>)> {
@@ -142,7 +142,7 @@ fn head_of(parts: &[&Vec<u8>; 3], length: usize) -> Option<(usize, Vec<u8>)> {
         .map(|head| (length, head))
 }
 
-/// The byte that stands at `place` of nearly all pieces of `length`.
+/// The byte at `place` of nearly all pieces of `length`.
 fn constant(bytes: &[u8], place: usize, length: usize) -> Option<u8> {
     let mut counts = [0_usize; 256];
     let column = bytes.iter().skip(place).step_by(length);
@@ -293,12 +293,12 @@ fn series(frames: &[&[u8]], offset: usize, form: Form) -> Vec<f64> {
     frames.iter().filter_map(read).collect()
 }
 
-/// Whether a series answers to turns, opposite ways to opposite turns.
+/// Whether a series responds to turns, oppositely to opposite turns.
 fn answer([rest, left, right]: &[Vec<f64>; 3], part_s: f64) -> Option<Field> {
     if left.len() < FRAMES_MIN || right.len() < FRAMES_MIN {
         return None;
     }
-    // The smallest step that was ever seen is the least noise there can be: a number that stands still has noise, too.
+    // The smallest step in the series is a lower bound of the noise: a constant number has noise, too.
     let least = [rest, left, right].into_iter().flat_map(|part| steps(part));
     let quantum = least.map(f64::abs).filter(|step| *step > 0.0).reduce(f64::min)?;
     let noise = deviation(&steps(rest)).max(quantum);
@@ -316,8 +316,8 @@ fn answer([rest, left, right]: &[Vec<f64>; 3], part_s: f64) -> Option<Field> {
     let drift = left_drift.abs().min(right_drift.abs()) * (left.len().min(right.len()) as f64) / noise;
     if left_drift * right_drift < 0.0
         && drift > ANSWERS
-        && goes_one_way(left, noise)
-        && goes_one_way(right, noise)
+        && is_monotonic(left, noise)
+        && is_monotonic(right, noise)
     {
         return Some(field(Meaning::Heading, total(left), total(right), drift));
     }
@@ -327,8 +327,8 @@ fn answer([rest, left, right]: &[Vec<f64>; 3], part_s: f64) -> Option<Field> {
     (up * down < 0.0 && jump > ANSWERS && steady).then(|| field(Meaning::Rate, left_sum, right_sum, jump))
 }
 
-/// Whether nearly all steps go the same way, however unevenly a person turns.
-fn goes_one_way(series: &[f64], noise: f64) -> bool {
+/// Whether nearly all steps have the same sign, however unevenly a person turns.
+fn is_monotonic(series: &[f64], noise: f64) -> bool {
     let way: f64 = steps(series).into_iter().map(f64::abs).sum();
     way <= 1.25 * total(series).abs() + 2.0 * noise * (series.len() as f64).sqrt()
 }

@@ -18,7 +18,7 @@ const RATES: [u32; 8] = [9_600, 19_200, 38_400, 57_600, 115_200, 230_400, 4_800,
 const TRY: Duration = Duration::from_millis(600);
 /// Length of each part of the recording.
 const PART: Duration = Duration::from_secs(8);
-/// Bytes in a try below which nobody speaks.
+/// Bytes in a try below which no module sends.
 const BYTES_MIN: usize = 10;
 
 /// What a port gave in a while.
@@ -83,7 +83,7 @@ pub(super) fn run(robot: &mut Robot, file: &Path) -> anyhow::Result<()> {
     ))
 }
 
-/// The port and rate at which most bytes come without errors: a wrong rate may give a few that only look right.
+/// The port and rate at which most bytes come without errors: a wrong rate may give a few that only seem right.
 fn find(robot: &mut Robot) -> anyhow::Result<(u8, u32)> {
     let mut any = 0;
     for port in PORTS {

@@ -29,7 +29,7 @@ impl Address {
         self.port
     }
 
-    /// As it stands in `Host`.
+    /// As in the header `Host`.
     pub(crate) fn authority(&self) -> String {
         match self.port {
             PORT => self.host.clone(),
@@ -37,7 +37,7 @@ impl Address {
         }
     }
 
-    /// As it stands in `Origin`.
+    /// As in the header `Origin`.
     pub(crate) fn origin(&self) -> String {
         format!("https://{}", self.authority())
     }

@@ -65,7 +65,7 @@ struct Ended;
 impl Bridge {
     fn carry(mut self) {
         while self.turn().is_ok() {}
-        // Nobody is left to tell when this fails.
+        // There is no one to report a failure to.
         self.socket.close(None).ok();
         self.socket.flush().ok();
     }

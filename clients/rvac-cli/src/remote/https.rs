@@ -54,7 +54,7 @@ impl Answer {
 }
 
 impl Line {
-    /// To the robot whose authority this is, and to nobody else.
+    /// To the robot with this authority, and to no other one.
     pub(super) fn trusting(address: &Address, authority: &CertificateDer<'static>) -> anyhow::Result<Self> {
         let mut roots = RootCertStore::empty();
         roots

@@ -1,7 +1,7 @@
 //! Pairing this computer with a robot, by a code.
 //!
-//! Who the robot is nobody knows yet, so its certificate is asked of whoever answers. From then on only the holder of that certificate is spoken
-//! to, and the proof of the code holds only for the robot that has it: somebody in between has another one, and learns nothing of the code.
+//! The robot's identity is not known yet, so the certificate comes from whichever host answers. From then on only the holder of that certificate is accepted,
+//! and the proof of the code holds only for the robot that has it: an attacker in between has another one, and learns nothing about the code.
 
 use std::path::PathBuf;
 

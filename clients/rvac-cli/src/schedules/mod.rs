@@ -141,7 +141,7 @@ fn changed(
     entry.floor = match chosen {
         Some(ChosenFloor::Here(number) | ChosenFloor::Other(number)) => Some(number),
         None if options.any_floor => None,
-        // Other places lie on the floor where the robot is, which the daemon knows.
+        // Other places are on the robot's floor, which the daemon knows.
         None => entry.floor.filter(|_| known.places() == entry.job.places()),
     };
     if options.any_floor && entry.job.names_places() {

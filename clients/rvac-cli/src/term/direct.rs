@@ -24,7 +24,7 @@ use crate::show::Viewer;
 
 /// The robot must answer the handshake within this time.
 const HANDSHAKE: Duration = Duration::from_secs(5);
-/// Longest pause between two looks at the session.
+/// Longest pause between two polls of the session.
 const LOOK: Duration = Duration::from_millis(20);
 
 enum DirectEvent {
@@ -128,7 +128,7 @@ impl<'a> Terminal<'a> {
         Ok(!unheard && self.ends_at.is_some_and(|end| end.elapsed() > linger))
     }
 
-    /// Lets time pass in the session and sends what it wants sent.
+    /// Lets time pass in the session and sends its packets.
     fn keep_session(&mut self) -> anyhow::Result<()> {
         let now = self.now();
         while let Some(event) = self.session.as_mut().and_then(|session| session.poll(now)) {
@@ -201,7 +201,7 @@ impl<'a> Terminal<'a> {
         self.send_line(&line)
     }
 
-    /// Sends a typed packet: numbered and with its CRC from the session where that is possible, else with a CRC as it stands.
+    /// Sends a typed packet: numbered and with its CRC from the session where that is possible, else only with a CRC.
     fn send_line(&mut self, line: &str) -> anyhow::Result<()> {
         let now = self.now();
         let Some(session) = &mut self.session else {
@@ -242,7 +242,7 @@ impl<'a> Terminal<'a> {
 }
 
 /// The typed packet as a command whose number and tick the session fills in. `None` if the person wrote either, or if it is
-/// not a command that this program understands: then it is sent as it stands.
+/// not a command that this program understands: then it is sent unchanged.
 fn to_command(line: &str, robot_tick: Option<(Tick, Tick)>) -> Option<Command> {
     if is_stop(line.as_bytes()) {
         return Some(Command::Stop);

@@ -1,17 +1,17 @@
-//! What the robot felt and tried, as a table.
+//! Sensor readings and attempts of the robot, as a table.
 
 use std::fmt::Write as _;
 use std::io::{Write as _, stdout};
 
 use anyhow::bail;
-use rvac_api::{Evidence, Felt, RequestBody, Standstill, Topic, Update};
+use rvac_api::{Evidence, EvidenceSample, RequestBody, Standstill, Topic, Update};
 
-use super::{PATIENCE, ago, told_before};
+use super::{PATIENCE, ago, past_updates};
 use crate::control;
 use crate::socket::Connection;
 
-/// Prints what the robot felt and tried up to now.
-pub(super) fn print_felt(mut connection: Connection, json: bool) -> anyhow::Result<()> {
+/// Prints the recent sensor readings and attempts.
+pub(super) fn print_evidence(mut connection: Connection, json: bool) -> anyhow::Result<()> {
     let request = (RequestBody::Evidence, PATIENCE);
     let (evidence, text) = control::answer(&mut connection, request, |update, text| match update {
         Update::Evidence { evidence, .. } => Some((evidence, text)),
@@ -27,10 +27,10 @@ pub(super) fn print_felt(mut connection: Connection, json: bool) -> anyhow::Resu
     Ok(())
 }
 
-/// Prints why the robot stood still by itself the last time.
+/// Prints why the robot last stopped by itself.
 pub(super) fn print_stop(mut connection: Connection, json: bool) -> anyhow::Result<()> {
     let mut newest = None;
-    let now_s = told_before(&mut connection, Topic::Standstills, |update, text| {
+    let now_s = past_updates(&mut connection, Topic::Standstills, |update, text| {
         if let Update::Standstill(told) = update {
             newest = Some((told, text));
         }
@@ -63,7 +63,7 @@ fn in_words(told: &Standstill, now_s: f64) -> String {
     )
 }
 
-/// Tried and felt; decisions are told in seconds before `moment_s`, or without a time when that is 0.
+/// Decisions and readings. Decisions have their time in seconds before `moment_s`, or none when that is 0.
 fn table(evidence: &Evidence, moment_s: f64) -> String {
     let mut text = String::new();
     for decision in &evidence.tried {
@@ -74,31 +74,31 @@ fn table(evidence: &Evidence, moment_s: f64) -> String {
         };
         let _ = writeln!(text, "{when}{}", decision.text);
     }
-    if !evidence.felt.is_empty() {
+    if !evidence.samples.is_empty() {
         let _ = writeln!(
             text,
             "{:>9}  {:>6}  {:>6}  {:>5}  felt",
             "", "m/s", "rad/s", "echo"
         );
     }
-    for felt in &evidence.felt {
-        let _ = writeln!(text, "{}", row(felt));
+    for sample in &evidence.samples {
+        let _ = writeln!(text, "{}", row(sample));
     }
     text
 }
 
-fn row(felt: &Felt) -> String {
-    let echo = felt.echo.map_or_else(String::new, |echo| format!("{echo:.2}"));
-    let mut signs = felt.signs.join(", ");
-    if let Some([left, right, brush]) = felt.currents_a {
+fn row(sample: &EvidenceSample) -> String {
+    let echo = sample.echo.map_or_else(String::new, |echo| format!("{echo:.2}"));
+    let mut signs = sample.signs.join(", ");
+    if let Some([left, right, brush]) = sample.currents_a {
         let between = if signs.is_empty() { "" } else { "; " };
         let _ = write!(signs, "{between}{left:.2} A, {right:.2} A, brush {brush:.2} A");
     }
     let row = format!(
         "{:>7.1} s  {:>6.2}  {:>6.2}  {echo:>5}  {signs}",
-        plain(felt.at_s, 10.0),
-        plain(felt.v, 100.0),
-        plain(felt.w, 100.0)
+        plain(sample.at_s, 10.0),
+        plain(sample.v, 100.0),
+        plain(sample.w, 100.0)
     );
     row.trim_end().to_owned()
 }
@@ -110,7 +110,7 @@ fn plain(value: f64, steps: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use rvac_api::{Decision, Evidence, Felt, Pose, Standstill};
+    use rvac_api::{Decision, Evidence, EvidenceSample, Pose, Standstill};
 
     use super::{in_words, table};
 
@@ -139,18 +139,18 @@ mod tests {
     #[test]
     fn what_was_felt_stands_below_what_was_tried() {
         let evidence = Evidence {
-            felt: vec![
-                Felt {
+            samples: vec![
+                EvidenceSample {
                     at_s: -0.2,
                     v: 0.25,
                     w: -0.001,
                     echo: Some(0.8),
-                    ..Felt::default()
+                    ..EvidenceSample::default()
                 },
-                Felt {
+                EvidenceSample {
                     signs: vec!["bumper-left".to_owned()],
                     currents_a: Some([0.5, 0.25, 0.0]),
-                    ..Felt::default()
+                    ..EvidenceSample::default()
                 },
             ],
             tried: vec![Decision {

@@ -18,7 +18,7 @@ use rvac_api::{
     ScheduleTime, ScheduleView, ScheduledJob, Schedules, Status, Topic, Update, Weekday,
 };
 
-/// A daemon that answers one client by a function until that client leaves, and tells what it was asked.
+/// A daemon that answers one client by a function until that client leaves, and returns what it was asked.
 struct Daemon {
     socket: PathBuf,
     thread: JoinHandle<Vec<Request>>,
@@ -61,7 +61,7 @@ fn serve(mut stream: UnixStream, answer: fn(&Request) -> Vec<Update>) -> Vec<Req
             for update in answer(&request) {
                 let mut bytes = serde_json::to_vec(&update).expect("JSON");
                 bytes.push(SEPARATOR);
-                // A client that has heard enough is gone.
+                // A client that has received enough is gone.
                 stream.write_all(&bytes).ok();
             }
             asked.push(request);
@@ -383,7 +383,7 @@ fn kept_places_go_out_under_their_numbers() {
     go_out("places", cases);
 }
 
-/// Each command ends well, and its request is the last that the daemon hears.
+/// Each command ends well, and its request is the last that the daemon receives.
 fn go_out<'a>(name: &str, cases: impl IntoIterator<Item = (&'a [&'a str], RequestBody)>) {
     for (place, (arguments, body)) in cases.into_iter().enumerate() {
         let (output, asked) = Daemon::start(&format!("{name}-{place}"), at_home).rvac(arguments, "");

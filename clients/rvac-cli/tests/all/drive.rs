@@ -19,7 +19,7 @@ use teller::Teller;
 
 /// Whatever is awaited comes within this time or the test fails; the machine may be busy.
 const PATIENCE: Duration = Duration::from_secs(40);
-/// The lease, the wheels' own way to a stand, and a busy machine.
+/// The lease, the braking of the wheels, and a busy machine.
 const STAND: Duration = Duration::from_millis(1000);
 
 /// A process that is gone when this is dropped.
@@ -265,7 +265,7 @@ fn a_pad_drives_and_whatever_is_lost_stops_the_wheels() {
     assert!(text(&absent.stderr).contains("the robot keeps no mix `Touch only`"));
 }
 
-/// A mix in which nothing drives but what another client tells.
+/// A mix that drives by another client's input only.
 fn steered_from_afar() -> Profile {
     let mut profile = standard_profile();
     profile.name = Name::new("From afar").unwrap();

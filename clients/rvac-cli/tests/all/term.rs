@@ -45,7 +45,7 @@ fn identity() -> RobotIdentity {
     }
 }
 
-/// A robot on a pseudo-terminal. It answers everything and tells which commands it was given.
+/// A robot on a pseudo-terminal. It answers everything and reports which commands it was given.
 struct Robot {
     path: PathBuf,
     commands: Receiver<Command>,

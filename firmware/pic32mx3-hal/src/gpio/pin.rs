@@ -219,7 +219,7 @@ impl<const PORT: char, const NUMBER: u8, Mode> ErrorType for Pin<PORT, NUMBER, M
     type Error = Infallible;
 }
 
-// An open-drain output may be held low by somebody else, which is worth reading.
+// An open-drain output may be held low by another device, so reading it is useful.
 readable!(Input, OpenDrain);
 writable!(Output, OpenDrain);
 

@@ -4,7 +4,7 @@ use super::Level;
 use crate::register::map::{AD1PCFG, port_direction, port_input, port_latch, port_open_drain};
 
 /// A port. Its functions need no ownership of pins: they take or change many bits in one access, and serve code that runs
-/// when the program is broken. Nothing keeps them from disturbing a pin that somebody owns; memory is safe all the same.
+/// when the program is broken. Nothing keeps them from disturbing a pin that has an owner; memory remains safe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Port {
@@ -47,7 +47,7 @@ impl Port {
         self as u32
     }
 
-    /// The levels of its pins, whatever their direction; analog pins read as low. It also tells the change notice that
+    /// The levels of its pins, whatever their direction; analog pins read as low. It also informs the change notice that
     /// these levels are known now.
     #[inline(always)]
     #[must_use]

@@ -2,7 +2,7 @@
 //!
 //! # Levels
 //! A source has a level of 1 to 6; a handler is interrupted by higher levels only. Level 7 is not offered: the chip runs it
-//! on its second register set, whose stack pointer nobody has set. A handler of level 6 runs with all interrupts held off,
+//! on its second register set, whose stack pointer is not set. A handler of level 6 runs with all interrupts held off,
 //! which spares it the saving of the return state: it is the one for times of a few microseconds.
 //!
 //! | | cycles before the handler's first instruction | after its last |

@@ -116,7 +116,7 @@ impl Source {
     }
 
     /// Takes the request back. The cause must be gone first where the source keeps it up: bytes of a UART, a change that
-    /// was not read. Flags of other sources are left alone whatever happens meanwhile.
+    /// was not read. Flags of other sources are left alone even if they change meanwhile.
     #[inline(always)]
     pub fn clear(self) {
         interrupt_flags(self.index()).clear(self.bit());

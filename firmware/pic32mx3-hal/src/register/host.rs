@@ -1,5 +1,5 @@
 //! Registers as plain memory, for machines that are no MIPS: nothing happens but that bits are kept, cleared, set and
-//! inverted. Registers beside each other in a block are 16 bytes apart, so the low address bits tell the access.
+//! inverted. Registers beside each other in a block are 16 bytes apart, so the low address bits select the access.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 

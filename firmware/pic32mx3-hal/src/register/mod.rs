@@ -1,7 +1,7 @@
 //! Access to special function registers.
 //!
 //! A [`Register`] can only be made here and in [`map`], from the addresses of the chip's tables, so reading and writing one
-//! is safe for memory whatever the value. On a machine that is no MIPS the registers are plain memory (`host`): programs for
+//! is safe for memory with any value. On a machine that is no MIPS the registers are plain memory (`host`): programs for
 //! the chip can be compiled and checked there, and tests see what was written.
 
 pub(crate) mod map;
@@ -65,7 +65,7 @@ impl Register {
 #[cfg(target_arch = "mips")]
 #[inline(always)]
 fn load(address: u32) -> u32 {
-    // SAFETY: the address is one of the register map, aligned, always mapped, and no memory that Rust knows.
+    // SAFETY: the address is one of the register map, aligned, always mapped, and no memory of Rust objects.
     unsafe { core::ptr::with_exposed_provenance::<u32>(address as usize).read_volatile() }
 }
 

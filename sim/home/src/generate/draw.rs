@@ -13,7 +13,7 @@ impl Draw {
         Self(Pcg::new(seed, stream))
     }
 
-    /// A length within these borders, metres; the lower one when they are the wrong way round.
+    /// A length within these borders, metres; the lower one when they are in the wrong order.
     pub(super) fn length(&mut self, low_m: f64, high_m: f64) -> f64 {
         let drawn = low_m + self.0.unit() * (high_m - low_m).max(0.0);
         libm::round(drawn / STEP_M) * STEP_M

@@ -10,7 +10,7 @@ use crate::point::Point;
 const TRIES: usize = 40;
 /// Usual least distance of two pieces: a person passes, and so does a robot.
 const PASSAGE_M: f64 = 0.46;
-/// Least distance of pieces that stand closer to each other.
+/// Least distance of pieces that may be close to each other.
 const CLOSE_M: f64 = 0.06;
 const CLOSE_SHARE: f64 = 0.2;
 
@@ -38,7 +38,7 @@ pub(super) struct Furnisher<'a> {
 }
 
 impl<'a> Furnisher<'a> {
-    /// A room with places that must stay clear, and things that already stand.
+    /// A room with places that must stay clear, and the things already placed in it.
     pub(super) fn new(
         room: Rect,
         (draw, moved): (&'a mut Draw, &'a mut Draw),

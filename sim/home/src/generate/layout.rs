@@ -1,6 +1,6 @@
 //! Rooms, walls and doors.
 //!
-//! Three ways in which people divide a floor: a *studio* with a bathroom in its corner; a *spine*, which is a corridor with a
+//! Three layouts of a floor: a *studio* with a bathroom in its corner; a *spine*, which is a corridor with a
 //! row of rooms on each side and a living room at its end over the whole depth; and a *hall*, the same with the living room
 //! and the kitchen in the rows.
 

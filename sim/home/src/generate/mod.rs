@@ -1,7 +1,7 @@
 //! Homes that are drawn from a number: rooms, doors and furniture of real sizes.
 //!
 //! A home has a *number*, which fixes its walls and large furniture, an *arrangement*, which fixes where people left chairs,
-//! boxes and toys today, and perhaps *people* who stand in the way and leave. The published set are the numbers 1 to 50 in
+//! boxes and toys today, and perhaps *people* who stand in the robot's path and leave. The published set are the numbers 1 to 50 in
 //! arrangement 0: those with odd numbers are for tuning, those with even numbers for reports.
 
 mod draw;
@@ -33,7 +33,7 @@ pub struct GeneratedHome {
     pub number: u32,
     /// How the things that people move are arranged; 0 is the first day.
     pub arrangement: u32,
-    /// Whether people and pets stand in the way for a while.
+    /// Whether people and pets block the robot's path for a while.
     pub people: People,
 }
 
@@ -43,7 +43,7 @@ pub enum People {
     /// The home is empty.
     #[default]
     Out,
-    /// Some stand in the way for a minute or a few, some walk about.
+    /// Some stand in the robot's path for a minute or a few, some walk about.
     In,
 }
 
@@ -91,7 +91,7 @@ impl GeneratedHome {
     /// # Errors
     /// [`HomeError`] of the last draw, when none of them was good.
     pub fn floorplan(self, model: &RobotModel) -> Result<String, HomeError> {
-        // The walls are those of the first day, whatever people do later.
+        // The walls are those of the first day and do not change with the loose things.
         let first_day = Self::number(self.number);
         let (walls, text) = first_day.first_good(model, |attempt| first_day.draw(attempt, attempt))?;
         if self == first_day {
@@ -132,7 +132,7 @@ impl GeneratedHome {
         Home::from_floorplan(&self.to_string(), &text, model)
     }
 
-    /// The home whose walls and large furniture are those of one attempt, and whose loose things are those of another.
+    /// The home with the walls and large furniture of one attempt and the loose things of another.
     fn draw(self, fixed: u64, loose: u64) -> String {
         let seed = u64::from(self.number);
         let mut draw = Draw::new(seed, 100 + fixed);
@@ -235,7 +235,7 @@ fn slant(draw: &mut Draw, things: &mut Things) {
 
 const SLANTED: &str = "Slanted outer wall";
 
-/// Some doors stand open at a right angle to their wall.
+/// Some doors are open at a right angle to their wall.
 fn door_leaves(draw: &mut Draw, things: &mut Things) {
     let south_of = |door: &things::PlacedDoor| door.ends[0][1] == door.ends[1][1];
     let doors: Vec<things::PlacedDoor> = things

@@ -9,7 +9,7 @@ use super::sizes::{
 };
 use super::things::{PlacedLine, RoomKind};
 
-/// Way in front of furniture with doors or drawers.
+/// Clear floor in front of furniture with doors or drawers.
 const DRAWERS_M: f64 = 0.5;
 
 /// Furnishes one room.

@@ -1,4 +1,4 @@
-//! Rectangles along the axes, and the frames of things that stand at walls.
+//! Rectangles along the axes, and the frames of things at walls.
 
 use crate::point::Point;
 

@@ -1,4 +1,4 @@
-//! Sizes of what stands on the floors of homes: width along the wall and depth into the room, metres.
+//! Sizes of things on the floors of homes: width along the wall and depth into the room, metres.
 //!
 //! Facts taken from the asset database of ProcTHOR (allenai/procthor, Apache-2.0), which holds bounding boxes of 1,653
 //! household objects: of each kind up to six sizes, one from each sixth of the kind ordered by area, rounded to centimetres;

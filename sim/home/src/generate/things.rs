@@ -74,7 +74,7 @@ pub(super) struct Rug {
     pub(super) drag_n: f64,
     pub(super) slip: f64,
     pub(super) bias_deg_per_m: f64,
-    /// A cliff sensor sees no floor on it.
+    /// A cliff sensor detects no floor on it.
     pub(super) black: bool,
 }
 
@@ -85,7 +85,7 @@ pub(super) struct PlacedLine {
     pub(super) thickness_m: f64,
 }
 
-/// A person who blocks the way for a while.
+/// A person who blocks the robot's path for a while.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visitor {
     pub(super) place: Point,

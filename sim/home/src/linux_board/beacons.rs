@@ -1,4 +1,4 @@
-//! Radio beacons that stand in a home, and a radio on the robot that measures how far they are, or how strongly it
+//! Radio beacons in a home, and a radio on the robot that measures their distance, or how strongly it
 //! receives them.
 //!
 //! The figures of ranges are those of ultra-wideband modules of the Decawave class (Sensors 22 (2022) 2927: 0.21 m in
@@ -89,7 +89,7 @@ impl Beacons {
         }
     }
 
-    /// The same beacons with a radio that tells only how strongly it receives them.
+    /// The same beacons with a radio that reports signal strength only.
     #[must_use]
     pub fn by_strength(self) -> Self {
         Self {

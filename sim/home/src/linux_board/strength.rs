@@ -28,7 +28,7 @@ const FADING_DB: f64 = 3.5;
 /// Sampling step along the line of sight, metres, and consecutive solid samples that count as an obstacle.
 const LOOK_M: f64 = 0.04;
 const SOLID_STEPS: u32 = 2;
-/// Weaker ones are not heard, dBm.
+/// Weaker ones are not received, dBm.
 const WEAKEST_DBM: f64 = -95.0;
 
 /// The air of a home. The same seed gives the same air.
@@ -42,7 +42,7 @@ impl Air {
         Self { seed }
     }
 
-    /// Received power of a packet in whole dBm, as radios tell it, if it is heard.
+    /// Received power of a packet in whole dBm, as radios report it, if it is received.
     pub(super) fn receive(
         self,
         (home, pose): (&Home, Pose),

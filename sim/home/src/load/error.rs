@@ -44,7 +44,7 @@ pub enum HomeError {
     UnknownFormat {
         /// The file.
         path: PathBuf,
-        /// What it looks like.
+        /// How it appears.
         found: String,
     },
     /// The file ends too early.
@@ -62,7 +62,7 @@ pub enum HomeError {
         path: PathBuf,
         /// Line, key or byte.
         place: String,
-        /// What is wrong and what is wanted.
+        /// What is wrong and what is required.
         problem: String,
     },
     /// The image that a ROS map names does not exist.
@@ -75,7 +75,7 @@ pub enum HomeError {
         /// Why.
         cause: std::io::Error,
     },
-    /// No floor at all.
+    /// The plan has no floor.
     #[error("the plan in {} has no floor at all; check the thresholds of the map or draw a room", path.display())]
     NoFloor {
         /// The file.

@@ -16,7 +16,7 @@ pub(crate) use floorplan::read as read_floorplan;
 use crate::plan::{Cell, Door, Grid, SurfaceMap, WalkerKind};
 use crate::pose::Pose;
 
-/// A plan as a file tells it, before anything is derived.
+/// A plan as read from a file, before anything is derived.
 pub(crate) struct Draft {
     pub(crate) name: String,
     pub(crate) grid: Grid,
@@ -32,7 +32,7 @@ pub(crate) struct Draft {
     pub(crate) start: Option<Pose>,
 }
 
-/// Somebody who walks from goal to goal, as the file tells it, in the plan frame.
+/// A walker from goal to goal, as read from the file, in the plan frame.
 #[derive(Clone, Debug)]
 pub(crate) struct WalkerWish {
     pub(crate) kind: WalkerKind,
@@ -42,7 +42,7 @@ pub(crate) struct WalkerWish {
     pub(crate) until_ms: u64,
 }
 
-/// What a file tells about the dock, in the plan frame.
+/// The dock as read from a file, in the plan frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum DockWish {
     /// Nothing.

@@ -55,7 +55,7 @@ struct PixelRun {
 /// Coordinates beyond this are a mistake: real maps have at most 6,554 pixels a side.
 const PIXEL_MAX: u32 = 100_000;
 
-/// A rug as the surface that lidar robots report without telling how deep it is.
+/// A rug as the surface that lidar robots report without its pile height.
 const CARPET: Surface = Surface {
     black: false,
     drag_n: 1.0,
@@ -127,7 +127,7 @@ fn check_head(path: &Path, map: &RawMap) -> Result<(), HomeError> {
     Ok(())
 }
 
-/// A parser that met the end of the text tells of a file that was cut off; everything else is a wrong file.
+/// A parser that reaches the end of the text means a truncated file; everything else is a wrong file.
 fn json_error(path: &Path, error: &serde_json::Error) -> HomeError {
     let place = format!("line {}, column {}", error.line(), error.column());
     if error.is_eof() {
@@ -220,7 +220,7 @@ impl PixelExtent {
     }
 }
 
-/// Floor first and walls over it, whatever the order in the file.
+/// Floor first and walls over it, in any order of the file.
 fn paint(map: &RawMap, extent: &PixelExtent) -> Grid {
     let (width, height) = (extent.width(), extent.height());
     let mut cells = vec![Cell::Outside; width * height];
@@ -269,5 +269,5 @@ fn carpets(map: &RawMap, grid: &mut Grid, to_plan: &impl Fn(f64, f64) -> (f64, f
     if laid { surfaces } else { SurfaceMap::hard() }
 }
 
-/// Most carpets that are looked at.
+/// Most carpets that are read.
 const CARPETS_MAX: usize = 64;

@@ -62,9 +62,9 @@ pub struct BodyModel {
 pub struct DriveModel {
     /// Distance between the wheels' contact points, metres.
     pub track_m: f64,
-    /// Way of the rim per encoder count, metres.
+    /// Distance of the rim per encoder count, metres.
     pub count_m: f64,
-    /// Encoder lines per wheel: 2 tell the direction, with 1 every count adds.
+    /// Encoder lines per wheel: 2 give the direction, with 1 every count adds.
     pub encoder_lines: u8,
     /// Usual cleaning speed, m/s.
     pub cruise_m_per_s: f64,
@@ -85,7 +85,7 @@ pub struct WheelMotor {
     pub stall_current_a: f64,
     /// Current without load, ampere.
     pub idle_current_a: f64,
-    /// Share of full drive below which the wheel stands, bridge braking in the off-time (slow decay).
+    /// Share of full drive below which the wheel does not turn, bridge braking in the off-time (slow decay).
     pub dead_band_brake: f64,
     /// The same with the bridge coasting in the off-time (fast decay).
     pub dead_band_coast: f64,
@@ -115,7 +115,7 @@ pub struct BumperModel {
     pub overlap_rad: f64,
     /// Travel until it is fully pressed, metres.
     pub travel_m: f64,
-    /// Way after which a switch closes, metres.
+    /// Travel after which a switch closes, metres.
     pub switch_m: f64,
     /// Force of the springs at full travel, newton.
     pub force_n: f64,
@@ -130,7 +130,7 @@ pub struct CliffMount {
     pub y_m: f64,
 }
 
-/// Infrared proximity sensors at the rim, each looking straight outward.
+/// Infrared proximity sensors at the rim, each facing straight outward.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProximityModel {
     /// Direction of each sensor from straight ahead, radians, from the right side counter-clockwise.
@@ -143,7 +143,7 @@ pub struct ProximityModel {
     pub half_angle_rad: f64,
     /// Distance at which a white wall gives half of the full level, metres.
     pub half_level_m: f64,
-    /// Distance at which a white wall makes a sensor with one line switch, metres; `None` = it tells levels.
+    /// Distance at which a white wall makes a sensor with one line switch, metres; `None` = it reports levels.
     pub near_m: Option<f64>,
 }
 

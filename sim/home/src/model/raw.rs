@@ -1,4 +1,4 @@
-//! A robot description as it stands in the file; `robots/README.md` is its reference.
+//! A robot description as it is in the file; `robots/README.md` is its reference.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;

@@ -5,11 +5,11 @@ use super::grid::Grid;
 use super::reach::Regions;
 use crate::Pose;
 
-/// Gap between the body and the back of the dock when the robot stands on its contacts, metres.
+/// Gap between the body and the back of the dock when the robot is on its contacts, metres.
 pub(crate) const DOCK_GAP_M: f64 = 0.01;
 /// Length of the path in front of a dock that must be free for the body, metres.
 const APPROACH_M: f64 = 0.6;
-/// Most candidates that are looked at, so that a huge hall does not take long.
+/// Most candidates that are checked, to bound the time in a huge hall.
 const CANDIDATES_MAX: usize = 4_000;
 
 /// Pose of the robot on its dock, facing it.

@@ -24,7 +24,7 @@ impl Cell {
         matches!(self, Self::Outside | Self::Obstacle)
     }
 
-    /// A wheel can stand there.
+    /// A wheel can roll there.
     #[must_use]
     pub const fn is_floor(self) -> bool {
         matches!(self, Self::Floor | Self::Rug)

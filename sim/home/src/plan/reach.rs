@@ -100,7 +100,7 @@ pub(crate) fn blocked_field(grid: &Grid) -> DistanceField {
     })
 }
 
-/// Distance to the nearest solid cell: what bumpers and beams meet.
+/// Distance to the nearest solid cell, which stops bumpers and beams.
 pub(crate) fn solid_field(grid: &Grid) -> DistanceField {
     DistanceField::new(grid.cell_m, (grid.width, grid.height), |index| {
         grid.cells[index].is_solid()

@@ -17,7 +17,7 @@ impl Foot {
     }
 }
 
-/// Everything that bumpers and beams meet.
+/// Everything that stops bumpers and beams.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Solid<'a> {
     pub(crate) plan: &'a DistanceField,

@@ -9,7 +9,7 @@ pub(crate) struct Surface {
     pub(crate) slip: f64,
     /// Heading that the nap adds, radians per metre.
     pub(crate) bias_rad_per_m: f64,
-    /// So dark that a cliff sensor sees no floor.
+    /// So dark that a cliff sensor detects no floor.
     pub(crate) black: bool,
     /// How much more the main brush draws on it than on hard floor, relative.
     pub(crate) brush_load: f64,
@@ -18,7 +18,7 @@ pub(crate) struct Surface {
 /// What any pile takes from a brush, and what each newton takes that the pile takes from a wheel, relative to hard
 /// floor. Assumed, not measured on this robot: the bristles then turn in a pile instead of over a plane. So a flat
 /// woven mat of 0.4 N loads the brush by a third more, and a deep pile of 1.8 N twice as much as hard floor does. That
-/// the roller's current steps up from hard floor to carpet and again with the pile is what makers of cleaners tell
+/// the roller's current steps up from hard floor to carpet and again with the pile is what makers of cleaners report
 /// floors by (US 11882986).
 const BRUSH_LOAD_OF_PILE: f64 = 0.15;
 const BRUSH_LOAD_PER_N: f64 = 0.5;

@@ -4,9 +4,9 @@ use std::collections::VecDeque;
 
 use super::{DistanceField, Grid};
 
-/// Side of the squares over which ways lead, metres.
+/// Side of the squares in which paths are searched, metres.
 const STEP_M: f64 = 0.1;
-/// A goal is moved to where somebody can stand, if that is not farther away, metres.
+/// A goal is moved to free floor that is at most this far away, metres.
 const NEAR_M: f64 = 1.0;
 
 /// Who walks.
@@ -40,7 +40,7 @@ pub(crate) struct WalkerPlan {
     pub(crate) until_ms: u64,
 }
 
-/// Finds ways over the floor.
+/// Finds paths over the floor.
 pub(crate) struct Ways<'a> {
     grid: &'a Grid,
     blocked: &'a DistanceField,
@@ -58,7 +58,7 @@ impl<'a> Ways<'a> {
         }
     }
 
-    /// The ways round all goals; goals that cannot be reached from the one before are left out.
+    /// The paths between consecutive goals in a loop; goals that cannot be reached from the previous one are left out.
     pub(crate) fn round(&self, goals: &[(f64, f64)], kind: WalkerKind) -> Vec<Vec<(f64, f64)>> {
         let places: Vec<usize> = goals
             .iter()
@@ -88,7 +88,7 @@ impl<'a> Ways<'a> {
         self.grid.index(x_m, y_m).is_some() && self.blocked.at(x_m, y_m) >= kind.clearance_m()
     }
 
-    /// The square nearest to a goal where somebody can stand.
+    /// The free square nearest to a goal.
     fn standing(&self, goal: (f64, f64), kind: WalkerKind) -> Option<usize> {
         let mut nearest = None;
         for square in (0..self.columns * self.rows).filter(|square| self.fits(*square, kind)) {

@@ -52,7 +52,7 @@ kinds! {
     Chairs => "chairs",
     /// A closet whose door has fallen shut. No exit.
     Closet => "closet",
-    /// A closet whose door somebody opens after some minutes.
+    /// A closet whose door opens after some minutes.
     Door => "door",
     /// Behind the leaf of an open door.
     DoorLeaf => "door-leaf",

@@ -68,7 +68,7 @@ fn airer(sketch: &mut Sketch) {
     sketch.block([west, south - 0.03], [west + length, south]);
     sketch.block([west, south + width], [west + length, south + width + 0.03]);
     sketch.block([west - 0.03, south - 0.03], [west, south + width + 0.03]);
-    // A foot stands across the open end.
+    // A foot blocks the open end.
     let gap = gap(sketch).min(width);
     sketch.block(
         [west + length - 0.03, south + gap],
@@ -199,7 +199,7 @@ fn closet(sketch: &mut Sketch, exit: ExitKind) {
 }
 
 fn door_leaf(sketch: &mut Sketch) {
-    // The leaf hangs at the south wall and stands open toward the west wall.
+    // The leaf hangs at the south wall and is open toward the west wall.
     let hinge = sketch.number(0.95, 1.15);
     let gap = gap(sketch);
     let tip_x = gap + 0.03;

@@ -8,7 +8,7 @@ const TAKE_256: u16 = 28;
 /// Side of the patches that share an amount of dirt, cells.
 const PATCH_CELLS: usize = 16;
 
-/// The floor as a cleaner sees it.
+/// The floor for a cleaner.
 #[derive(Clone, Debug)]
 pub(crate) struct Dirt {
     radius_m: f64,
@@ -17,7 +17,7 @@ pub(crate) struct Dirt {
     /// Cells of the reachable floor that the disc has passed.
     pub(crate) swept: Vec<bool>,
     pub(crate) swept_cells: u32,
-    /// Stretch of the job in which a cell was cleaned last, 0 = in none; empty while nobody counts.
+    /// Part of the job in which a cell was cleaned last, 0 = in none; empty while it is not counted.
     stretches: Vec<u8>,
     stretch: u8,
     again_cells: u32,
@@ -62,13 +62,13 @@ impl Dirt {
         }
     }
 
-    /// A stretch of a job begins. From the first one on it is counted how many cells are cleaned again in a later one.
+    /// Begins a part of a job. From the first part on it counts the cells that are cleaned again in a later one.
     pub(crate) fn begin_stretch(&mut self) {
         self.stretches.resize(self.swept.len(), 0);
         self.stretch = self.stretch.saturating_add(1);
     }
 
-    /// Cells of the reachable floor that were cleaned again in a later stretch.
+    /// Cells of the reachable floor that were cleaned again in a later part.
     pub(crate) fn again_cells(&self) -> u32 {
         self.again_cells
     }

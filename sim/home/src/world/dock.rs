@@ -45,7 +45,7 @@ impl BeamStrengths {
     };
 }
 
-/// The dock as the robot meets it.
+/// The dock as an obstacle and a sender of beams.
 #[derive(Clone, Debug)]
 pub(crate) struct Dock {
     pose: Pose,
@@ -77,14 +77,14 @@ impl Dock {
         Some(dock)
     }
 
-    /// Stands there from now on, looking into the room.
+    /// Moves the dock there, facing the room.
     pub(crate) fn stand_at(&mut self, pose: Pose, model: &RobotModel) {
         self.pose = pose;
         (self.plan_sin, self.plan_cos) = libm::sincos(pose.heading_rad);
         self.docked = docked_pose(pose, model.body.radius_m);
     }
 
-    /// Somebody pushed it along its wall, left positive as it looks into the room, and turned it.
+    /// Shifts it along its wall, left positive as seen from the dock, and turns it.
     pub(crate) fn push(&mut self, aside_m: f64, turn_rad: f64, model: &RobotModel) {
         let (x_m, y_m) = self.pose.point(0.0, aside_m);
         self.stand_at(Pose::new(x_m, y_m, self.pose.heading_rad + turn_rad), model);
@@ -141,7 +141,7 @@ impl Dock {
         }
     }
 
-    /// The place at which beams with ragged edges are met.
+    /// The place at which beams with ragged edges are received.
     fn ragged(&mut self, along: f64, aside: f64) -> (f64, f64) {
         if self.beams.ragged_rad <= 0.0 {
             return (along, aside);

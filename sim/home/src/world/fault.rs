@@ -121,7 +121,7 @@ impl Faults {
         self.apply(truth);
     }
 
-    /// What the firmware sees instead of `truth`, or `None` when nothing has ever lied.
+    /// The reading that the firmware gets instead of `truth`, or `None` when no sensor was ever faulty.
     pub(crate) fn shown(&self) -> Option<&Sensors> {
         self.engaged.then_some(&self.shown)
     }
@@ -168,7 +168,7 @@ fn distort(shown: &mut Sensors, sensor: SensorId, fault: SensorFault, random: &m
         SensorId::DockContacts => switch(&mut shown.dock_contacts, fault, random),
         SensorId::Cliff(number) => {
             level(levels_of_cliffs.get_mut(usize::from(number)), fault, random);
-            // Noise is drawn once for both, so that it does not depend on who looks at the dark.
+            // Noise is drawn once for both, so that it does not depend on which reading is used.
             if !matches!(fault, SensorFault::Noisy(_)) {
                 level(shown.cliff_dark.get_mut(usize::from(number)), fault, random);
             }

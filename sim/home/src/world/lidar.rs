@@ -62,7 +62,7 @@ impl Lidar {
         }
     }
 
-    /// Distance to what the beam meets; 0 when nothing is within range.
+    /// Distance to what the beam hits; 0 when nothing is within range.
     fn march(&self, solid: Solid<'_>, (x_m, y_m): (f64, f64), (dx, dy): (f64, f64)) -> f64 {
         let mut distance_m = 0.0;
         for _ in 0..MARCH_MAX {

@@ -173,7 +173,7 @@ impl World {
         &self.truth
     }
 
-    /// Where the left and right wheel stand, in encoder counts and fractions of them: what the encoders would show if
+    /// Positions of the left and right wheel in encoder counts and fractions of them: what the encoders would show if
     /// they were perfect.
     #[must_use]
     pub fn encoder_positions(&self) -> [f64; 2] {
@@ -198,14 +198,14 @@ impl World {
         self.dock.as_ref().map(Dock::docked)
     }
 
-    /// Somebody pushes the dock along its wall (left positive, as it looks into the room) and turns it.
+    /// Shifts the dock along its wall (left positive, as seen from the dock) and turns it.
     pub fn push_dock(&mut self, aside_m: f64, turn_rad: f64) {
         if let Some(dock) = &mut self.dock {
             dock.push(aside_m, turn_rad, &self.model);
         }
     }
 
-    /// Somebody carries the dock elsewhere: `pose` is the middle of its back, looking into the room (plan frame). A
+    /// Moves the dock elsewhere: `pose` is the middle of its back, facing the room (plan frame). A
     /// home without one stays without.
     pub fn put_dock(&mut self, pose: Pose) {
         if let Some(dock) = &mut self.dock {
@@ -232,12 +232,12 @@ impl World {
         &self.dirt.swept
     }
 
-    /// A stretch of a job begins: after a charge, for instance. See [`Self::cleaned_again_share`].
+    /// Begins a part of a job: after a charge, for instance. See [`Self::cleaned_again_share`].
     pub fn begin_stretch(&mut self) {
         self.dirt.begin_stretch();
     }
 
-    /// Share of the reachable floor that was cleaned (brush and suction running) in one stretch and again in a later
+    /// Share of the reachable floor that was cleaned (brush and suction running) in one part and again in a later
     /// one.
     #[must_use]
     pub fn cleaned_again_share(&self) -> f64 {
@@ -283,7 +283,7 @@ impl World {
         self.sensors.buttons &= !1u8.checked_shl(button.into()).unwrap_or(0);
     }
 
-    /// Somebody turns the left and right wheel by hand at these speeds of their rims, m/s, whatever the motors do:
+    /// Turns the left and right wheel by hand at these speeds of their rims, m/s, regardless of the motors:
     /// pushes or turns the robot on the floor, or turns the wheels of a lifted one. 0 holds a wheel fast; `None` lets
     /// go of both.
     pub const fn turn_wheels(&mut self, rims_m_per_s: Option<[f64; 2]>) {
@@ -314,7 +314,7 @@ impl World {
         ));
     }
 
-    /// Lets the pack fill so many times as fast as its current would, up to 95 %: what the charger sees of temperature
+    /// Lets the pack fill so many times as fast as its current would, up to 95 %: what the charger measures of temperature
     /// and time stays as it is. For simulations that cannot wait for a charge.
     pub fn set_charging_speed(&mut self, times: f64) {
         self.charging_speed = times.max(1.0);
@@ -331,7 +331,7 @@ impl World {
         self.battery = pack;
     }
 
-    /// Makes a sensor lie, or (`None`) tell the truth again. A sensor that the robot has not is ignored.
+    /// Makes a sensor faulty, or (`None`) repairs it. A sensor that the robot lacks is ignored.
     pub fn set_fault(&mut self, sensor: SensorId, fault: Option<SensorFault>) {
         self.faults.set(sensor, fault, &self.sensors);
     }

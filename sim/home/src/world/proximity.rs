@@ -123,7 +123,7 @@ impl Proximity {
         }
     }
 
-    /// Distance from the sensor to what its cone meets.
+    /// Distance from the sensor to what its cone hits.
     fn march(&self, solid: Solid<'_>, beam: &Beam) -> Option<f64> {
         let mut distance_m = 0.0;
         for _ in 0..MARCH_MAX {
@@ -157,7 +157,7 @@ fn light(beyond_m: f64, half_level_m: f64) -> f64 {
     1.0 / (1.0 + beyond * beyond)
 }
 
-/// Whether a mirror throws the light elsewhere: only what meets it at a right angle comes back.
+/// Whether a mirror throws the light elsewhere: only light at a right angle to it comes back.
 fn deflected(home: &Home, beam: &Beam, distance_m: f64) -> bool {
     if home.mirrors.is_empty() {
         return false;

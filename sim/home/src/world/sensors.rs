@@ -19,7 +19,7 @@ pub struct Sensors {
     /// Light that each cliff sensor gets, 0..=255, in the order of the model. About 180 on a floor with the emitter on,
     /// about 10 over a drop, about 10 (the room's light) with the emitter off.
     pub cliff_levels: [u8; 4],
-    /// The same with the emitters off, whatever they do now: for circuits that look at moments within a millisecond.
+    /// The same with the emitters off, even if they are on now: for circuits that sample within a millisecond.
     pub cliff_dark: [u8; 4],
     /// Left wheel hangs.
     pub wheel_drop_left: bool,
@@ -49,7 +49,7 @@ pub struct Sensors {
     pub buttons: u8,
 }
 
-/// What the gyro module tells.
+/// What the gyro module reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct GyroReading {
     /// Integrated heading since switch-on, in whole steps of the module's resolution; wraps through the whole range.
@@ -67,7 +67,7 @@ pub struct LidarScan {
     pub ranges_m: Vec<f32>,
 }
 
-/// Symbol of the beam that fills the left half as a robot sees it that comes to the dock.
+/// Symbol of the beam that fills the left half as seen by a robot that approaches the dock.
 pub const DOCK_LEFT: u8 = 1;
 /// Symbol of the beam that fills the right half.
 pub const DOCK_RIGHT: u8 = 2;

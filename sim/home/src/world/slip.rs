@@ -14,7 +14,7 @@ pub(crate) struct BothWheels {
 /// Steps over which one draw is spread: a wheel slips for a while, it does not tremble.
 pub(crate) const DRAW_STEPS: u64 = 128;
 
-/// Random slip: a random walk over the way. Every [`DRAW_STEPS`] milliseconds an error is drawn for the way made in
+/// Random slip: a random walk over the distance. Every [`DRAW_STEPS`] milliseconds an error is drawn for the distance driven in
 /// them and spread over the next ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Slip {
@@ -22,7 +22,7 @@ pub(crate) struct Slip {
     slip_m_per_sqrt_m: f64,
     slip_rad_per_sqrt_m: f64,
     rug_drift: f64,
-    /// Way since the last draw, metres.
+    /// Distance since the last draw, metres.
     distance_m: f64,
     /// Present errors of each step.
     stretch_m: f64,
@@ -54,7 +54,7 @@ impl Slip {
         (slip, both)
     }
 
-    /// Way in metres and turn in radians of the body from the ways of both rims.
+    /// Distance in metres and turn in radians of the body from the distances of both rims.
     pub(crate) fn motion(&mut self, left_m: f64, right_m: f64, surface: &Surface) -> (f64, f64) {
         let rolled_m = 0.5 * (left_m.abs() + right_m.abs());
         self.distance_m += rolled_m;

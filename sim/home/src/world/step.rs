@@ -25,9 +25,9 @@ const DOCK_MS: u64 = 40;
 /// Less than this into the pack is a trickle, which is not hastened, ampere.
 const HASTE_FROM_A: f64 = 0.1;
 /// Noise of the thermistor's reading, degrees: about half a count of a ten-bit converter at room temperature, as any
-/// converter has. A reading without any is that of a dead sensor to a firmware that watches for one. Not measured.
+/// converter has. A reading without any looks like a dead sensor to a firmware that checks for one. Not measured.
 const THERMISTOR_C: f64 = 0.1;
-/// Milliseconds between two looks at the doors.
+/// Milliseconds between two checks of the doors.
 const DOOR_MS: u64 = 256;
 /// Milliseconds between two computations of the direction of a lasting contact.
 const CONTACT_MS: u64 = 10;
@@ -116,7 +116,7 @@ impl World {
         self.roll(left_m, right_m)
     }
 
-    /// Force against a wheel: rugs and thresholds, and whatever the body pushes against.
+    /// Force against a wheel: rugs and thresholds, and everything that the body pushes against.
     fn load_n(&self, pwm: f64) -> f64 {
         if self.is_in_air() {
             return 0.0;

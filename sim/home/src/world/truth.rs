@@ -1,4 +1,4 @@
-//! Ground truth, for checks and drawings; the firmware never sees it.
+//! Ground truth, for checks and drawings; the firmware never gets it.
 
 use crate::Pose;
 
@@ -17,7 +17,7 @@ pub struct Truth {
     pub rim_left_m_per_s: f64,
     /// Speed of the right wheel's rim against the body, m/s.
     pub rim_right_m_per_s: f64,
-    /// Way of the centre so far, metres.
+    /// Distance driven by the centre so far, metres.
     pub path_m: f64,
     /// Share of the reachable floor that the swath has passed, 0..1.
     pub swept_share: f64,
@@ -30,7 +30,7 @@ pub struct Truth {
     pub contact_rad: Option<f64>,
     /// Times the body came into contact with something.
     pub contacts: u32,
-    /// Times the body came into contact with the foot of somebody who walks, or with a pet.
+    /// Number of contacts of the body with the foot of a walker or with a pet.
     pub foot_contacts: u32,
     /// Longest time for which the wheels kept driving against a person with rigid contact, milliseconds.
     pub foot_pushed_max_ms: u32,

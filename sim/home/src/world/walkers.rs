@@ -3,7 +3,7 @@
 
 use crate::plan::{DistanceField, Foot, WalkerKind, WalkerPlan};
 
-/// Milliseconds between two looks at who walks.
+/// Milliseconds between two steps of the walkers.
 pub(crate) const WALK_MS: u64 = 20;
 /// Largest distance of two points of a path, metres; a step spans a few of them.
 const PERSON_STRIDE: usize = 5;

@@ -37,7 +37,7 @@ pub(crate) struct Wheel {
     pub(crate) count: i32,
     /// Current of the motor, ampere.
     pub(crate) current_a: f64,
-    /// Speed at which somebody holds the rim, m/s, whatever the motor does.
+    /// Speed at which a hand holds the rim, m/s, regardless of the motor.
     held_m_per_s: Option<f64>,
 }
 
@@ -109,7 +109,7 @@ impl Wheel {
         self.roll()
     }
 
-    /// Friction of motor and gear, as the speed it costs: what the dead band of a braking bridge stands for.
+    /// Friction of motor and gear, as the speed it costs: the cause of the dead band of a braking bridge.
     fn friction_m_per_s(&self) -> f64 {
         let dead = self.motor.dead_band_brake;
         dead / (1.0 - dead) * self.motor.free_speed_m_per_s

@@ -34,7 +34,7 @@ fn every_published_home_has_a_dock_and_hangs_together() {
     assert_eq!(format!("{:016x}", digest.value()), "fa83fb485a1b3a41");
 }
 
-/// What makes homes difficult, by what stands for it in a plan.
+/// What makes homes difficult, by its keyword in a plan.
 const TRAPS: [&str; 6] = [
     "[[cliff]]",
     "[[mirror]]",

@@ -91,7 +91,7 @@ fn ros_maps_load_from_every_image_format() {
         .unwrap();
         check_area(home.free_area_m2(), FLOOR_M2);
         assert!(home.grid().cell_m <= 0.025);
-        // The block stands at the lower left: rows of an image run downward.
+        // The block is at the lower left: rows of an image run downward.
         let plan = home.file_from_plan().inverse();
         let at = |x_m: f64, y_m: f64| {
             let (x_m, y_m) = plan.point(x_m, y_m);
@@ -150,7 +150,7 @@ fn valetudo() -> String {
 fn valetudo_maps_load_with_y_upward_and_the_dock_at_the_charger() {
     let home = load("valetudo.json", valetudo().as_bytes()).unwrap();
     check_area(home.free_area_m2(), (40.0 * 40.0 - 2.0) * 0.0025);
-    // The charger stands in the middle below the lowest row, y down: in the plan that is the lower wall.
+    // The charger is in the middle below the lowest row, y down: in the plan that is the lower wall.
     let dock = home.dock().unwrap();
     let (x_m, y_m) = home.file_from_plan().point(dock.x_m, dock.y_m);
     assert!((x_m - 6.0).abs() < 0.1 && (y_m + 12.0).abs() < 0.1, "{x_m} {y_m}");

@@ -1,4 +1,4 @@
-//! Mirrors, black carpets, people who stand in the way, and a start of one's own.
+//! Mirrors, black carpets, people in the robot's path, and a start pose of the file.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ fn home(things: &str) -> Home {
     Home::from_floorplan("odd", &format!("{HEAD}{things}"), &model).unwrap()
 }
 
-/// A robot that stands here for so long.
+/// A robot that rests here for so long.
 fn standing(home: Home, pose: Option<Pose>, ms: u64) -> World {
     let model = RobotModel::by_name("sr8730").unwrap();
     let mut world = World::new(Arc::new(home), &model, &Noise::ideal(), 1, pose);
@@ -33,7 +33,7 @@ fn strongest(sensors: &Sensors) -> u8 {
 #[test]
 fn a_mirror_answers_only_at_a_right_angle() {
     let mirror = "[[mirror]]\nfrom = [4, 0]\nto = [4, 3]\n";
-    // The front sensor looks straight at the wall, or all sensors look past its normal by 15 degrees.
+    // The front sensor faces the wall, or all sensors are turned away from its normal by 15 degrees.
     let at_wall = |things: &str, degrees: f64| {
         let pose = Pose::new(3.83, 1.5, degrees.to_radians());
         strongest(standing(home(things), Some(pose), 100).sensors())
@@ -82,7 +82,7 @@ fn a_visitor_comes_waits_for_the_robot_and_leaves() {
 const WALKER: &str =
     "[[walker]]\nkind = \"person\"\ngoals = [[0.5, 2.0], [3.5, 2.0]]\nrest-s = 1\nfrom-s = 1\nuntil-s = 60\n";
 
-/// A robot whose wheels are given this duty, among somebody who walks.
+/// A robot with this duty of its wheels, and a walker.
 fn among_walkers(walker: &str, pose: Pose, (duty, ms): (f64, u64)) -> World {
     let mut world = standing(home(walker), Some(pose), 0);
     let wheel = home::Bridge {
@@ -111,7 +111,7 @@ fn nobody_steps_onto_a_robot_that_stands_in_the_way() {
 
 #[test]
 fn a_robot_without_reflexes_runs_into_feet() {
-    // Along the way, so that sooner or later a foot is ahead.
+    // Along the path, so that sooner or later a foot is ahead.
     let world = among_walkers(WALKER, Pose::new(0.6, 2.06, 0.0), (0.25, 30_000));
     assert!(world.truth().foot_contacts > 0 && world.truth().foot_pushed_max_ms > 0);
 }
@@ -120,7 +120,7 @@ fn a_robot_without_reflexes_runs_into_feet() {
 fn infrared_sees_feet_only_while_they_are_there() {
     let mut seen = [false; 70];
     for x_m in [1.6, 1.7, 1.8, 1.9, 2.0, 2.1, 2.2, 2.3] {
-        // Beside the way, so that nobody waits for the robot.
+        // Beside the path, so that no walker waits for the robot.
         let pose = Pose::new(x_m, 1.62, core::f64::consts::FRAC_PI_2);
         let mut world = standing(home(WALKER), Some(pose), 0);
         for second in &mut seen {

@@ -114,7 +114,7 @@ fn the_bumper_stays_pressed_while_the_robot_rests_and_opens_when_it_backs_off() 
     assert_eq!(world.truth().contact_rad, None);
 }
 
-/// Drives against a thin leg that stands aside of the robot's way.
+/// Drives against a thin leg beside the middle of the robot's path.
 fn halves_pressed_by_leg(aside_m: f64) -> (bool, bool) {
     let plan = format!(
         "{}[[furniture]]\nlegs = [[2.0, {}]]\nleg-diameter-m = 0.06\n",

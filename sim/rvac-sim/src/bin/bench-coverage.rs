@@ -1,8 +1,8 @@
 //! `bench-coverage`: the robot with the firmware that is built in and the one with its real image in the emulated chip clean
 //! the same home with the same seeds and strategy. `cargo xtask bench coverage` builds and runs it.
 //!
-//! A robot that bounces is chaotic: a millisecond more at the first wall is another way through the whole home. One run says
-//! nothing, so each seed is run with both, and what is told is the mean of the differences and how sure it is.
+//! A robot that bounces is chaotic: a millisecond more at the first wall gives another path through the whole home. One run says
+//! nothing, so each seed is run with both, and the output is the mean of the differences and its uncertainty.
 #![forbid(unsafe_code)]
 
 #[path = "../progress.rs"]
@@ -208,7 +208,7 @@ fn verdict(covered: &PairFigure, tolerance: f64) -> ToleranceVerdict {
     }
 }
 
-/// A run takes minutes: somebody who waits wants to see that it goes on.
+/// A run takes minutes, so show progress.
 fn tell(pair: &Pair) {
     let one = |report: &RunReport| {
         format!(

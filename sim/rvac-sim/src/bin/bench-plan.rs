@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::Instant;
 
-use brain::coverage::plan::{CoveragePlan, PlanSettings, plan_pattern};
+use brain::coverage::plan::{CoveragePlan, Departure, PlanSettings, plan_pattern};
 use brain::{CELL_M, Cell, Pattern, Pose2, Raster};
 use clap::{Parser, ValueEnum};
 use home::{Home, RobotModel};
@@ -19,7 +19,7 @@ use serde::Serialize;
 
 /// How often a plan is made; the fastest counts.
 const TRIES: u32 = 5;
-/// Way between two places at which the ideal robot sweeps, metres.
+/// Distance between two places at which the ideal robot sweeps, metres.
 const STEP_M: f64 = 0.01;
 
 /// Measures plans.
@@ -34,7 +34,7 @@ struct Arguments {
     /// Standard deviation of the pose for which lanes overlap, metres.
     #[arg(long, default_value_t = 0.01)]
     sigma_m: f64,
-    /// In which way the floor is swept.
+    /// The pattern by which the floor is swept.
     #[arg(long, value_enum, default_value_t)]
     pattern: PatternArgument,
     /// Print JSON, one object a home.
@@ -112,7 +112,12 @@ fn measured(
         y_m: pose.y_m,
         heading_rad: pose.heading_rad,
     };
-    let (plan, planning_s) = timed_plan(&ground, start, (arguments.pattern.into(), &settings), progress);
+    let (plan, planning_s) = timed_plan(
+        &ground,
+        Departure { start, settings },
+        arguments.pattern.into(),
+        progress,
+    );
     let curve = curve(home, &plan, &settings);
     let t0_s = home.t0_s();
     let reached = |share: f64| {
@@ -145,14 +150,14 @@ fn measured(
 /// The plan, and the least time that it took in a few tries.
 fn timed_plan(
     ground: &Raster<bool>,
-    start: Pose2,
-    (pattern, settings): (Pattern, &PlanSettings),
+    departure: Departure,
+    pattern: Pattern,
     mut progress: impl FnMut(f64),
 ) -> (CoveragePlan, f64) {
     let mut best = (CoveragePlan::default(), f64::INFINITY);
     for number in 1..=TRIES {
         let (began, began_s) = (Instant::now(), processor_s());
-        let plan = plan_pattern(ground, (pattern, |_| false), start, settings);
+        let plan = plan_pattern(ground, pattern, |_| false, departure);
         let planning_s = match (began_s, processor_s()) {
             (Some(began_s), Some(ended_s)) => ended_s - began_s,
             _ => began.elapsed().as_secs_f64(),
@@ -165,7 +170,7 @@ fn timed_plan(
     best
 }
 
-/// Seconds that this thread has had a processor, where the system tells: others may use the machine, too.
+/// Processor seconds of this thread, where the system reports them: others may use the machine, too.
 fn processor_s() -> Option<f64> {
     let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let nanoseconds: u64 = text.split_whitespace().next()?.parse().ok()?;

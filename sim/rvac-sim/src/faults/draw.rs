@@ -156,7 +156,7 @@ impl FaultDraw {
         }
     }
 
-    /// Pause before the next fault: none or short now and then, so that faults meet.
+    /// Pause before the next fault: none or short now and then, so that faults overlap.
     pub(crate) fn pause_ms(&mut self) -> u64 {
         let share = self.random.unit();
         (2.0 * PAUSE_MS * share * share * 1.5) as u64 + 1
@@ -248,7 +248,7 @@ impl FaultDraw {
     }
 
     fn span_ms(&mut self, least: u32, most: u32) -> u64 {
-        // Short spans as often as long ones: reaction times are met at their edges.
+        // Short spans as often as long ones, to hit the limits of reaction times.
         let share = self.random.unit();
         u64::from(least) + (f64::from(most - least) * share * share * share) as u64
     }

@@ -50,7 +50,7 @@ impl FaultCampaign {
     }
 }
 
-/// Runs the trials of all `seeds` for `duration_ms` each. `progress` is told how many are done. Outcomes come in the
+/// Runs the trials of all `seeds` for `duration_ms` each. `progress` is called with the number that is done. Outcomes come in the
 /// order of their seeds.
 pub fn trials(
     campaign: &FaultCampaign,

@@ -20,7 +20,7 @@ const DEPTH_SPREAD_M: f64 = 1.5;
 const WIDTH_MIN_M: f64 = 2.0;
 const WIDTH_SPREAD_M: f64 = 2.0;
 const DOOR_M: f64 = 0.85;
-/// Free floor around the dock, which stands in the first room at the left wall.
+/// Free floor around the dock, which is in the first room at the left wall.
 const DOCK_CLEAR_M: f64 = 1.0;
 
 struct RoomDraw {

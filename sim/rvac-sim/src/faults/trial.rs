@@ -22,7 +22,7 @@ pub struct FaultOutcome {
     pub home: String,
     /// Faults by kind, in the order of [`FaultKind::ALL`].
     pub faults: [u32; FaultKind::ALL.len()],
-    /// Times each inhibit came to stand, in the order of [`Inhibit::ALL`].
+    /// Number of times that each inhibit was set, in the order of [`Inhibit::ALL`].
     pub stops: [u32; Inhibit::ALL.len()],
     /// Violations in words.
     pub violations: Vec<String>,
@@ -41,7 +41,7 @@ pub struct TrialSettings {
     pub seed: u64,
     /// Simulated milliseconds.
     pub duration_ms: u64,
-    /// What the bridges are like; broken ones show that the monitor sees it.
+    /// Kind of the bridges; broken ones show that the monitor notices.
     pub bridges: Bridges,
 }
 
@@ -57,7 +57,7 @@ enum EffectEnd {
 
 /// Milliseconds between two readings of the inhibits: the host receives them 50 times a second.
 const STOPS_MS: u64 = 20;
-/// Milliseconds between two checks by the person who wants the robot to clean.
+/// Milliseconds between two checks by the simulated owner.
 const LOOK_MS: u64 = 1_000;
 const STREAM: u64 = 0x7E57;
 
@@ -140,7 +140,7 @@ impl FaultTrial {
         }
     }
 
-    /// What the firmware says keeps it from moving, as its host has heard it.
+    /// The inhibits that the host last received from the firmware.
     fn count_stops(&mut self) {
         let Some(status) = self.household.host().map(Host::status) else {
             return;
@@ -228,7 +228,7 @@ impl FaultTrial {
         }
     }
 
-    /// A person who wants the robot to clean follows the panel.
+    /// A simulated owner follows the panel.
     fn look(&mut self) {
         let Some(status) = self.household.host().map(Host::status) else {
             return;

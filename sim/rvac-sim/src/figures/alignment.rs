@@ -35,7 +35,7 @@ struct AlignmentSample {
 pub(super) struct LeftOver {
     /// The largest distance, metres.
     pub(super) max_m: f64,
-    /// Seconds with a wrong place of which the robot said that it knows it.
+    /// Seconds with a wrong pose that the robot reported as known.
     pub(super) unnoticed_s: f64,
 }
 

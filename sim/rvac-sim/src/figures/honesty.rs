@@ -22,7 +22,7 @@ impl HonestyWatch {
         }
     }
 
-    /// Seconds with a wrong place of which the robot said that it knows it.
+    /// Seconds with a wrong pose that the robot reported as known.
     pub(super) fn unnoticed_s(&self) -> f64 {
         self.unnoticed_ms as f64 / 1000.0
     }

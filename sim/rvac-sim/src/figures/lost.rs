@@ -7,7 +7,7 @@ const LOST_M: f64 = 0.5;
 /// For longer than this, milliseconds.
 const LOST_MS: u64 = 60_000;
 
-/// A stretch of being lost.
+/// A period of being lost.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct LostStretch {
     /// Simulated second at which it began, without those on the charger in the middle of the job.
@@ -18,7 +18,7 @@ pub struct LostStretch {
     pub found_again: bool,
 }
 
-/// Measures stretches of being lost.
+/// Measures periods of being lost.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LostWatch {
     since_ms: Option<u64>,
@@ -41,7 +41,7 @@ impl LostWatch {
         }
     }
 
-    /// The stretch that still lasts, if it is long enough.
+    /// The period that still lasts, if it is long enough.
     fn present(&self) -> Option<LostStretch> {
         let since_ms = self.since_ms?;
         let lasts_ms = self.now_ms - since_ms;

@@ -30,7 +30,7 @@ const MULTIPLES: [f64; 2] = [1.0, 1.8];
 /// A robot that came so far left the place where it began.
 const AWAY_M: f64 = 1.0;
 
-/// The figures, as they stand in the report.
+/// The figures, as the report has them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Figures {
     /// Time until 80 % were swept over the lower bound; `null` = not reached.
@@ -82,11 +82,11 @@ pub struct Figures {
     pub pose_error_max_aligned_m: f64,
     /// Root mean square of the error of the heading, degrees.
     pub heading_rmse_deg: Option<f64>,
-    /// Seconds in stretches of more than a minute with the place wrong by more than half a metre.
+    /// Seconds in periods of more than a minute with a pose error of more than half a metre.
     pub lost_seconds: f64,
     /// How often that happened.
     pub lost_times: u32,
-    /// Each of these stretches.
+    /// Each of these periods.
     pub lost_stretches: Vec<LostStretch>,
     /// Seconds with the place wrong by more than half a metre of which the robot did not say that it is lost.
     pub lost_unnoticed_s: f64,
@@ -108,9 +108,9 @@ pub struct Figures {
     pub carpet_recall: Option<f64>,
     /// Share of the carpet in its map that lies on a rug; `null` = it has none.
     pub carpet_precision: Option<f64>,
-    /// Area that the robot believes to have swept less the true one, over the reachable area.
+    /// Swept area by the robot's estimate minus the true one, over the reachable area.
     pub estimate_error: Option<f64>,
-    /// The robot stood on its dock at the end.
+    /// The robot was on its dock at the end.
     pub docked: bool,
     /// Last state that the host reported.
     pub state: String,
@@ -261,7 +261,7 @@ impl Collector {
         }
     }
 
-    /// Hours on the dock would say that a robot knows its place well, and are left out.
+    /// Hours on the dock would make the position error look small, and are left out.
     fn sample_place(&mut self, (job_s, work_ms): (f64, u64), truth_in_map: Pose, belief: &Belief) {
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);

@@ -171,7 +171,7 @@ fn path(samples: &[Sample]) -> String {
     let length = samples.len().div_ceil(WAY.len()).max(1);
     for (number, colour) in WAY.iter().enumerate() {
         let first = number * length;
-        // One sample more, so that the pieces meet.
+        // One sample more, so that the pieces join.
         let end = (first + length + 1).min(samples.len());
         let Some(piece) = samples.get(first..end) else {
             break;

@@ -44,7 +44,7 @@ pub fn pictures(runs: &[KeptRun]) -> Vec<Picture> {
     all
 }
 
-/// Makes a document of what stands in a page.
+/// Makes a document from the content of a page.
 fn document(inline: &str, paper: &str) -> String {
     let (head, content) = inline.split_once('>').unwrap_or(("<svg", inline));
     let head = head.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1);

@@ -84,7 +84,7 @@ const TRUTHS_PER_S: u32 = 10;
 const TURN_MAX: Duration = Duration::from_millis(20);
 /// How long a press of a button lasts, simulated.
 const PRESS_MS: u64 = 200;
-/// Simulated milliseconds between two looks at whether the robot is stuck.
+/// Simulated milliseconds between two checks whether the robot is stuck.
 const STUCK_SAMPLE_MS: u64 = 100;
 
 /// Opens everything, says `ready` on standard output, and serves until SIGTERM or SIGINT.
@@ -172,7 +172,7 @@ impl Server {
         Ok(())
     }
 
-    /// Until the next tick is due or somebody connects or asks. The terminal is looked at with each tick: its bytes are
+    /// Until the next tick is due or somebody connects or asks. The terminal is polled with each tick: its bytes are
     /// paced anyway.
     fn sleep(&self) -> Result<(), ServeError> {
         let pause = self.pace.until_next(Instant::now());
@@ -232,7 +232,7 @@ impl Server {
             done += 1;
         }
         if let Some(notice) = self.speedometer.pass(Instant::now(), done) {
-            // If standard error is closed, nobody can be informed.
+            // If standard error is closed, the message is lost.
             writeln!(io::stderr(), "rvac-sim: {notice}").ok();
         }
     }

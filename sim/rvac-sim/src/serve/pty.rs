@@ -22,7 +22,7 @@ pub(crate) struct Pty {
 }
 
 impl Pty {
-    /// Opens a pseudoterminal and makes `link` a symbolic link to its slave side. A symbolic link that stands there
+    /// Opens a pseudoterminal and makes `link` a symbolic link to its slave side. A symbolic link that exists there
     /// already is replaced: it is what a killed simulator leaves behind. Anything else there is left alone.
     ///
     /// # Errors
@@ -37,7 +37,7 @@ impl Pty {
         })
     }
 
-    /// Reads what the other side has written, at most `buffer.len()` bytes; 0 when there is nothing or nobody.
+    /// Reads what the other side has written, at most `buffer.len()` bytes; 0 when there is nothing or no peer.
     ///
     /// # Errors
     /// What the system reports besides "nothing there".
@@ -83,7 +83,7 @@ impl Drop for Pty {
     }
 }
 
-/// Whether somebody has the slave side open.
+/// Whether a process has the slave side open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Peer {
     /// Somebody has, and this many bytes were read.

@@ -102,7 +102,7 @@ pub(crate) enum RequestReply {
     Failed(Failure),
 }
 
-/// The answer to a hand that met a wall, or to a second hand.
+/// The answer to a hand that would push through a wall, or to a second hand.
 pub(crate) fn blocked(text: &str) -> RequestReply {
     RequestReply::Failed(Failure {
         id: None,

@@ -1,4 +1,4 @@
-//! Notices a machine that is too slow for the wanted speed.
+//! Notices a machine that is too slow for the requested speed.
 
 use std::time::{Duration, Instant};
 
@@ -16,7 +16,7 @@ pub(crate) struct Speedometer {
 pub(crate) enum Notice {
     /// Simulated time passes at this many times the wall clock only.
     Slow(f64),
-    /// It passes as wanted again.
+    /// The speed is as requested again.
     AsWanted,
 }
 
@@ -34,7 +34,7 @@ impl std::fmt::Display for Notice {
 
 /// Speed is measured over spans of this length: shorter ones see single pauses of the system.
 const SPAN: Duration = Duration::from_secs(5);
-/// Below this share of the wanted speed the machine is too slow.
+/// Below this share of the requested speed the machine is too slow.
 const SLOW: f64 = 0.95;
 
 impl Speedometer {
@@ -81,7 +81,7 @@ mod tests {
         let started = Instant::now();
         let mut speedometer = Speedometer::starting(started, 2);
         let mut notices = Vec::new();
-        // 6 s as wanted, 12 s at half the speed, 12 s as wanted.
+        // 6 s at the requested speed, 12 s at half of it, 12 s at the requested one.
         for second in 1..=30_u64 {
             let ticks = if (7..=18).contains(&second) { 1_000 } else { 2_000 };
             let now = started + Duration::from_secs(second);

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// That the copies of world and brain go the same way as the originals is looked at by the bench itself, which fails otherwise.
+/// The bench itself checks that the copies of world and brain behave as the originals, and fails otherwise.
 #[test]
 #[ignore = "campaign: whole runs; cargo xtask test --all"]
 fn the_time_of_each_case_is_told_by_parts() {

@@ -1,4 +1,4 @@
-//! The way home of a robot in a simulated home.
+//! Return to the dock in a simulated home.
 
 use crate::flat;
 use crate::flat::scene;
@@ -7,7 +7,7 @@ use home::{BeamStrengths, Pose};
 use rvac_api::RequestBody;
 use rvac_sim::{Host, Household, Scene};
 
-/// Asks for the dock; the seconds until the robot says that it stands on it.
+/// Asks for the dock; the seconds until the robot reports that it is on it.
 fn seconds_home(household: &mut Household, longest_s: u64) -> Option<u64> {
     household.ask(RequestBody::Dock);
     household.pass_until(longest_s, |household| {

@@ -1,4 +1,4 @@
-//! A robot that somebody lifts in the middle of its job and puts down in another room.
+//! A robot that is lifted in the middle of its job and put down in another room.
 
 use crate::flat;
 use brain::command::StrategyName;
@@ -10,7 +10,7 @@ use rvac_sim::run::start_cleaning;
 /// How near it has to know its place again, metres.
 const NEAR_M: f64 = 0.2;
 
-/// Where the robot would be in the plan by what it believes.
+/// The robot's estimated pose in the plan.
 fn believed(household: &Household, map_from_plan: Pose) -> Pose {
     let pose = household.host().unwrap().pose();
     map_from_plan

@@ -1,4 +1,4 @@
-//! A person moves the dock and shows on the map where it stands: by eye, so some decimetres and degrees off.
+//! A person moves the dock and marks its position on the map by eye, so with an error of some decimetres and degrees.
 
 use crate::flat;
 use crate::flat::scene;
@@ -21,7 +21,7 @@ const WALLS: [(f64, f64, f64); 4] = [
 /// How far a person points beside it at most, metres and radians.
 const POINTED_M: f64 = 0.3;
 const POINTED_RAD: f64 = 0.35;
-/// A robot that believes the dock to be farther from where it stands has learnt a wrong place, metres and radians.
+/// Errors of the learned dock above these count as a wrong position, metres and radians.
 const WRONG_M: f64 = 0.2;
 const WRONG_RAD: f64 = 0.25;
 const STREAM: u64 = 91;
@@ -63,7 +63,7 @@ impl Move {
         ));
     }
 
-    /// Where a robot on the dock really stands, in the robot's map.
+    /// The true pose of a robot on the dock, in the robot's map.
     fn docked(&self) -> Pose {
         let docked = self.household.robot().world().docked_pose().unwrap();
         self.map_from_plan.then(docked)
@@ -87,7 +87,7 @@ impl Move {
         );
     }
 
-    /// Asks for the dock and waits until the robot stands on it.
+    /// Asks for the dock and waits until the robot is on it.
     fn dock(&mut self) -> bool {
         self.household.ask(RequestBody::Dock);
         let docks = self.household.pass_until(1_200, |household| {
@@ -107,8 +107,8 @@ impl Move {
         told.join("\n")
     }
 
-    /// How far from the true place the robot believes the dock to be, metres and radians; `None` while it only knows what it
-    /// was told.
+    /// Error of the dock's measured pose, metres and radians; `None` while the robot has only the reported
+    /// one.
     fn felt_off(&self) -> Option<(f64, f64)> {
         let place = self.brain().map().dock_location();
         let Pose2 {

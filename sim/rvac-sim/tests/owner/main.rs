@@ -151,7 +151,7 @@ fn calibrate(name: &str, wanted: &[(&'static str, i32)]) {
         let row = record.lines().find_map(|line| line.strip_prefix(name));
         let found: i32 = row.unwrap()[3..].split(' ').next().unwrap().parse().unwrap();
         let true_value = match *name {
-            // Half of what stands between the simulator's floors and its drops; the table's own value is merely one
+            // Half of the gap between the simulator's floors and its drops; the table's own value is merely one
             // below.
             "cliff-floor-level" => 320,
             name => built_with.value(name).unwrap(),

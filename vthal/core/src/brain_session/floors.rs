@@ -10,7 +10,7 @@ use crate::floors::Floors;
 use crate::storey_resolver::{Question, StoreyResolver};
 use crate::{RunCause, RunEnd};
 
-/// A wheel that hangs for this long means that somebody holds the robot.
+/// A wheel drop of this length means that somebody holds the robot.
 const LIFTED_US: u64 = 1_000_000;
 
 /// Whether hands had the robot since its floor was known.
@@ -22,7 +22,7 @@ pub(super) struct Hands {
 }
 
 impl Hands {
-    /// The robot stands on a dock at rest.
+    /// The robot is at rest on a dock.
     fn rest(&mut self, hangs_since_us: Option<u64>) {
         if hangs_since_us.is_none() {
             self.watched_us = None;
@@ -40,7 +40,7 @@ impl Hands {
 /// What has become known of the floor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FloorNews {
-    /// The robot stands on the dock of this floor, whose map is loaded.
+    /// The robot is on the dock of this floor, whose map is loaded.
     Docked(u16),
     /// The robot has found itself on this floor, whose map is loaded.
     Found(u16),
@@ -54,7 +54,7 @@ impl BrainSession {
         self.floor
     }
 
-    /// Why a person is asked for the floor; `None` if nobody is.
+    /// Why a person is asked for the floor; `None` if no question is open.
     pub(crate) fn asked(&self) -> Option<Question> {
         self.storey_resolver
             .as_ref()
@@ -66,7 +66,7 @@ impl BrainSession {
         self.floor.is_none() || self.storey_resolver.is_some()
     }
 
-    /// Finds out on which floor the robot is: from the dock, where it stands at rest, or from where it has driven. What it has drawn
+    /// Finds out on which floor the robot is: from the dock on which it is at rest, or from where it has driven. What it has drawn
     /// since, not knowing, is forgotten. To be called before each step.
     pub(crate) fn look_for_floor(
         &mut self,
@@ -110,7 +110,7 @@ impl BrainSession {
             .map(FloorNews::Asked)
     }
 
-    /// The robot stands on a dock at rest.
+    /// The robot is at rest on a dock.
     fn know_dock(&mut self, floors: &Floors, loading_floor: Option<LoadingFloor>) -> Option<FloorNews> {
         let docks = floors.homes().filter(|(_, home)| home.dock().is_some()).count();
         if self.floor.is_some() && self.hands.had_it && docks > 1 {
@@ -122,7 +122,7 @@ impl BrainSession {
         let number = self.storey_resolver.get_or_insert_default().by_dock(floors)?;
         let home = self.home_of(loading_floor, (number, floors.home(number)?))?;
         self.begin_with(Brain::with_home(self.config, self.seed, home));
-        self.floor = Some(number);
+        self.change_floor(Some(number));
         self.storey_resolver = None;
         self.hands = Hands::default();
         Some(FloorNews::Docked(number))
@@ -156,7 +156,7 @@ impl BrainSession {
             ..self.without_place()
         };
         self.go_on_with(now_us, (checkpoint, Some(ready)), recorder);
-        self.floor = Some(place.floor);
+        self.change_floor(Some(place.floor));
         self.storey_resolver = None;
         self.hands = Hands::default();
     }
@@ -194,7 +194,7 @@ impl BrainSession {
     fn forget_floor(&mut self, chosen: Option<u16>) {
         self.map_base = self.map_number();
         self.begin_with(Brain::new(self.config, self.seed));
-        self.floor = None;
+        self.change_floor(None);
         self.storey_resolver = Some(chosen.map_or_else(StoreyResolver::default, StoreyResolver::for_floor));
     }
 
@@ -215,12 +215,12 @@ impl BrainSession {
         if self.floor.is_some() {
             self.go_on_with(now_us, (self.without_place(), None), recorder);
         }
-        self.floor = Some(number);
+        self.change_floor(Some(number));
         self.storey_resolver = None;
         self.hands = Hands::default();
     }
 
-    /// The map of a floor is another one now. If the robot is there, it is loaded when the robot stands on its dock; a run that has nothing
+    /// The map of a floor was replaced. If the robot is there, it is loaded when the robot is on its dock; a run that has nothing
     /// left to do ends before.
     pub(crate) fn offer(&mut self, now_us: u64, number: u16, recorder: &mut Recorder<'_>) {
         if self.floor.is_none_or(|floor| floor == number) {

@@ -33,7 +33,7 @@ pub(super) struct NextHome {
 }
 
 impl NextRun {
-    /// A run with what `brain` knows of the home.
+    /// A run with the map of `brain`.
     pub(super) fn after(brain: &Brain, cause: RunCause) -> Self {
         Self {
             cause,

@@ -14,7 +14,7 @@ pub(super) struct RecordedRun {
     resting_since_us: Option<u64>,
 }
 
-/// What a step gives: actions, and records if they are wanted.
+/// What a step gives: actions, and records if enabled.
 pub(crate) struct Recorder<'a> {
     /// `None` = no recording.
     records: Option<&'a mut Vec<Record>>,

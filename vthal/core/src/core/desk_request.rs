@@ -1,28 +1,34 @@
-//! What clients ask, sorted by the desks that do it. Each desk has one closed set of requests.
+//! What clients ask, sorted by the desks that do it. Each desk has one closed set of requests; what it can take as it is stands here as
+//! the desk's own change.
 
-use brain::Pose2;
-use rvac_api::{CleaningPower, JobOrder, RequestBody as Body, Topic};
+use brain::{MapEdit, NoGo, NoGoEdit, PlaceEdit, Pose2, RoomEdit, RoomName};
+use rvac_api::{CleaningPower, JobOrder, NoGoShape, RequestBody as Body, RoomNaming, RoomSplitting, Topic};
 
+use crate::api_forms;
 use crate::desk::driver::{HandDrive, NO_POWER};
 use crate::desk::floors::FloorRequest;
 use crate::desk::health::HealthRequest;
 use crate::desk::history;
-use crate::desk::home::{HomeRequest, NoGoRequest, PlaceRequest, RoomRequest};
-use crate::desk::input_desk::ToldInputs;
+use crate::desk::home::{HomeEdit, to_line, to_no_go, to_place, to_shape};
+use crate::desk::input_desk::LeasedInputs;
 use crate::desk::learnt::{Forgetting, LearntRequest};
+use crate::desk::room_power::{to_api, to_brain};
 use crate::desk::schedules::ScheduleRequest;
+use crate::desk::words::to_name;
+use crate::refusal::Refusal;
+use crate::schedule::ScheduleEdit;
 use crate::{ArchiveTask, MixTask, RunTask};
 
 /// A request, by its desk.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum DeskRequest {
+pub(crate) enum DeskRequest {
     Session(SessionRequest),
     Job(JobRequest),
     Hand(HandRequest),
     Robot(RobotRequest),
     /// What the robot has felt and tried up to now.
     Evidence,
-    Home(HomeRequest),
+    Home(HomeEdit),
     Floors(FloorRequest),
     Schedules(ScheduleRequest),
     Health(HealthRequest),
@@ -33,7 +39,7 @@ pub(super) enum DeskRequest {
 
 /// What a client declares about itself.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum SessionRequest {
+pub(crate) enum SessionRequest {
     /// Its name.
     Hello(String),
     /// What it follows.
@@ -42,7 +48,7 @@ pub(super) enum SessionRequest {
 
 /// Jobs of the robot.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum JobRequest {
+pub(crate) enum JobRequest {
     /// The whole floor, with a named strategy.
     Start(Option<String>),
     /// Parts of the home.
@@ -59,20 +65,20 @@ pub(super) enum JobRequest {
 
 /// What a person does by hand, and what stops the robot.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum HandRequest {
+pub(crate) enum HandRequest {
     Stop,
     Drive(HandDrive),
     /// The driver's seat is left.
     Release,
     /// What inputs of control mixes read.
-    Inputs(ToldInputs),
+    Inputs(LeasedInputs),
     /// Presses of buttons are for the client, for so many ms.
     ClaimButtons(u32),
 }
 
 /// What is asked of the device itself.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum RobotRequest {
+pub(crate) enum RobotRequest {
     Locate,
     /// An error or a latched inhibit of this name is seen to.
     Clear(String),
@@ -80,11 +86,14 @@ pub(super) enum RobotRequest {
     Raw(String),
 }
 
-impl From<Body> for DeskRequest {
-    // A table: one line a request.
+impl DeskRequest {
+    /// A table: one line a request, and with each edit of the map what the client does, for the log.
+    ///
+    /// # Errors
+    /// The request names something that cannot be.
     #[rustfmt::skip]
-    fn from(body: Body) -> Self {
-        match body {
+    pub(crate) fn of(body: Body) -> Result<Self, Refusal> {
+        Ok(match body {
             Body::Hello { name } => Self::Session(SessionRequest::Hello(name)),
             Body::Watch { topics } => Self::Session(SessionRequest::Watch(topics)),
             Body::Start { strategy } => Self::Job(JobRequest::Start(strategy)),
@@ -107,22 +116,22 @@ impl From<Body> for DeskRequest {
                 lease_ms: ttl,
                 power: power.unwrap_or(if clean { CleaningPower::FULL } else { NO_POWER }),
             })),
-            Body::SetInputs { values, ttl } => Self::Hand(HandRequest::Inputs(ToldInputs { values, lease_ms: ttl })),
+            Body::SetInputs { values, ttl } => Self::Hand(HandRequest::Inputs(LeasedInputs { values, lease_ms: ttl })),
             Body::Evidence => Self::Evidence,
-            Body::AddNoGo { shape, name } => no_go(NoGoRequest::Add { shape, name }),
-            Body::NameNoGo { number, name } => no_go(NoGoRequest::Name { number, name }),
-            Body::ReshapeNoGo { number, shape } => no_go(NoGoRequest::Reshape { number, shape }),
-            Body::RemoveNoGo { number } => no_go(NoGoRequest::Remove { number }),
-            Body::KeepPlace { name, shape, number } => place(PlaceRequest::Keep { name, shape, number }),
-            Body::NamePlace { number, name } => place(PlaceRequest::Name { number, name }),
-            Body::ReshapePlace { number, shape } => place(PlaceRequest::Reshape { number, shape }),
-            Body::ForgetPlace { number } => place(PlaceRequest::Forget { number }),
-            Body::NameRoom(naming) => room(RoomRequest::Name(naming)),
-            Body::SetRoom { room: id, settings } => room(RoomRequest::Set { room: id, settings }),
-            Body::SplitRoom(splitting) => room(RoomRequest::Split(splitting)),
-            Body::JoinRooms { rooms } => room(RoomRequest::Join { rooms }),
-            Body::UndoRoomChange { number } => room(RoomRequest::Undo { number }),
-            Body::MoveDock { x, y, heading } => Self::Home(HomeRequest::MoveDock(Pose2 { x_m: x, y_m: y, heading_rad: heading })),
+            Body::AddNoGo { shape, name } => no_go(NoGoEdit::Add(named_no_go(&shape, name)?), "forbids floor of the map"),
+            Body::NameNoGo { number, name } => no_go(NoGoEdit::Name { number, name: name_if_any(name)? }, "names forbidden floor"),
+            Body::ReshapeNoGo { number, shape } => no_go(NoGoEdit::Reshape { number, no_go: to_no_go(&shape)? }, "reshapes forbidden floor"),
+            Body::RemoveNoGo { number } => no_go(NoGoEdit::Remove { number }, "allows floor of the map again"),
+            Body::KeepPlace { name, shape, number } => place(PlaceEdit::Keep { place: to_place(&name, &shape)?, number }, "keeps a place"),
+            Body::NamePlace { number, name } => place(PlaceEdit::Name { number, name: to_name(&name)? }, "names a place"),
+            Body::ReshapePlace { number, shape } => place(PlaceEdit::Reshape { number, shape: to_shape(&shape)? }, "moves a place"),
+            Body::ForgetPlace { number } => place(PlaceEdit::Forget { number }, "keeps a place no longer"),
+            Body::NameRoom(RoomNaming { room: id, name }) => room(RoomEdit::Name { room: id, name: name_if_any(name)? }, "names a room"),
+            Body::SetRoom { room: id, settings } => room(RoomEdit::Set { room: id, settings: settings.map(to_brain).transpose()? }, "says how a room is cleaned"),
+            Body::SplitRoom(RoomSplitting { room: id, line }) => room(RoomEdit::Split { room: id, line: to_line(line)? }, "splits a room"),
+            Body::JoinRooms { rooms } => room(RoomEdit::Join { rooms }, "joins two rooms"),
+            Body::UndoRoomChange { number } => room(RoomEdit::Undo { number }, "takes a change of the rooms back"),
+            Body::MoveDock { x, y, heading } => edit(MapEdit::Dock(Pose2 { x_m: x, y_m: y, heading_rad: heading }), "says where the dock stands"),
             Body::Health => Self::Health(HealthRequest::Show),
             Body::ResetHealth { component } => Self::Health(HealthRequest::Reset(component)),
             Body::Learnt => Self::Learnt(LearntRequest::Show),
@@ -138,11 +147,11 @@ impl From<Body> for DeskRequest {
             Body::ImportFloors { from, size, data } => archive(ArchiveTask::Import { from, size, data }),
             Body::AddSchedule(entry) => Self::Schedules(ScheduleRequest::Add(entry)),
             Body::ChangeSchedule { number, entry } => Self::Schedules(ScheduleRequest::Change { number, entry }),
-            Body::RemoveSchedule { number } => Self::Schedules(ScheduleRequest::Remove { number }),
-            Body::EnableSchedule { number, enabled } => Self::Schedules(ScheduleRequest::Enable { number, enabled }),
-            Body::SkipNext { number, skip } => Self::Schedules(ScheduleRequest::SkipNext { number, skip }),
-            Body::SetQuiet { quiet } => Self::Schedules(ScheduleRequest::SetQuiet(quiet)),
-            Body::SetZone { zone } => Self::Schedules(ScheduleRequest::SetZone(zone)),
+            Body::RemoveSchedule { number } => schedule(ScheduleEdit::Remove(number)),
+            Body::EnableSchedule { number, enabled } => schedule(ScheduleEdit::Enable(number, enabled)),
+            Body::SkipNext { number, skip } => schedule(ScheduleEdit::SkipNext(number, skip)),
+            Body::SetQuiet { quiet } => schedule(ScheduleEdit::quiet_from_api(quiet.as_ref())?),
+            Body::SetZone { zone } => schedule(ScheduleEdit::zone_from_api(zone.as_deref())?),
             Body::Mixes => Self::Mixes(MixTask::List),
             Body::SaveMix { profile } => Self::Mixes(MixTask::Save(profile)),
             Body::RemoveMix { name } => Self::Mixes(MixTask::Remove(name)),
@@ -150,20 +159,111 @@ impl From<Body> for DeskRequest {
             Body::Run { number } => Self::Runs(RunTask::Show(number)),
             Body::RunTrack { number, recording } => Self::Runs(RunTask::Track { number, recording }),
             Body::RunFile { number, recording, from } => Self::Runs(RunTask::File { number, recording, from }),
-        }
+        })
     }
 }
 
-fn no_go(request: NoGoRequest) -> DeskRequest {
-    DeskRequest::Home(HomeRequest::NoGo(request))
+/// What a client would ask for this edit: the form in which recordings keep it.
+pub(crate) fn body_of(edit: &MapEdit) -> Body {
+    match edit {
+        MapEdit::NoGo(edit) => body_of_no_go(edit),
+        MapEdit::Place(edit) => body_of_place(edit),
+        MapEdit::Room(edit) => body_of_room(edit),
+        MapEdit::Dock(pose) => Body::MoveDock {
+            x: pose.x_m,
+            y: pose.y_m,
+            heading: pose.heading_rad,
+        },
+    }
 }
 
-fn place(request: PlaceRequest) -> DeskRequest {
-    DeskRequest::Home(HomeRequest::Place(request))
+fn body_of_no_go(edit: &NoGoEdit) -> Body {
+    match edit {
+        NoGoEdit::Add(no_go) => Body::AddNoGo {
+            shape: api_forms::no_go(no_go),
+            name: text_of(no_go.name()),
+        },
+        NoGoEdit::Name { number, name } => Body::NameNoGo {
+            number: *number,
+            name: text_of(name.as_ref()),
+        },
+        NoGoEdit::Reshape { number, no_go } => Body::ReshapeNoGo {
+            number: *number,
+            shape: api_forms::no_go(no_go),
+        },
+        NoGoEdit::Remove { number } => Body::RemoveNoGo { number: *number },
+    }
 }
 
-fn room(request: RoomRequest) -> DeskRequest {
-    DeskRequest::Home(HomeRequest::Room(request))
+fn body_of_place(edit: &PlaceEdit) -> Body {
+    match edit {
+        PlaceEdit::Keep { place, number } => Body::KeepPlace {
+            name: place.name().as_str().to_owned(),
+            shape: api_forms::place(place.shape()),
+            number: *number,
+        },
+        PlaceEdit::Name { number, name } => Body::NamePlace {
+            number: *number,
+            name: name.as_str().to_owned(),
+        },
+        PlaceEdit::Reshape { number, shape } => Body::ReshapePlace {
+            number: *number,
+            shape: api_forms::place(shape),
+        },
+        PlaceEdit::Forget { number } => Body::ForgetPlace { number: *number },
+    }
+}
+
+fn body_of_room(edit: &RoomEdit) -> Body {
+    match edit {
+        RoomEdit::Name { room, name } => Body::NameRoom(RoomNaming {
+            room: *room,
+            name: text_of(name.as_ref()),
+        }),
+        RoomEdit::Set { room, settings } => Body::SetRoom {
+            room: *room,
+            settings: settings.as_ref().map(to_api),
+        },
+        RoomEdit::Split { room, line } => Body::SplitRoom(RoomSplitting {
+            room: *room,
+            line: line.ends().map(|end| [end.x_m, end.y_m]),
+        }),
+        RoomEdit::Join { rooms } => Body::JoinRooms { rooms: *rooms },
+        RoomEdit::Undo { number } => Body::UndoRoomChange { number: *number },
+    }
+}
+
+fn text_of(name: Option<&RoomName>) -> Option<String> {
+    name.map(|name| name.as_str().to_owned())
+}
+
+fn name_if_any(name: Option<String>) -> Result<Option<RoomName>, Refusal> {
+    name.as_deref().map(to_name).transpose()
+}
+
+fn named_no_go(shape: &NoGoShape, name: Option<String>) -> Result<NoGo, Refusal> {
+    let name = name_if_any(name)?;
+    Ok(to_no_go(shape)?.with_name(name))
+}
+
+const fn edit(edit: MapEdit, deed: &'static str) -> DeskRequest {
+    DeskRequest::Home(HomeEdit { edit, deed })
+}
+
+const fn no_go(change: NoGoEdit, deed: &'static str) -> DeskRequest {
+    edit(MapEdit::NoGo(change), deed)
+}
+
+const fn place(change: PlaceEdit, deed: &'static str) -> DeskRequest {
+    edit(MapEdit::Place(change), deed)
+}
+
+const fn room(change: RoomEdit, deed: &'static str) -> DeskRequest {
+    edit(MapEdit::Room(change), deed)
+}
+
+const fn schedule(change: ScheduleEdit) -> DeskRequest {
+    DeskRequest::Schedules(ScheduleRequest::Edit(change))
 }
 
 fn archive(task: ArchiveTask) -> DeskRequest {

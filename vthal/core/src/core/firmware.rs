@@ -126,6 +126,8 @@ impl Core {
             self.history.keep(over, None, outputs);
         }
         let mut teller = self.audience.teller(self.now(now_us), outputs);
+        // The edits that waited for the other brain are gone with it.
+        self.home.refuse_all(&mut teller);
         self.learnt.introduce(device, &mut teller);
         let learnt = self.learnt.of(device);
         let mut brain_session = BrainSession::new(description, learnt, &self.config, self.floors.floors());

@@ -9,7 +9,7 @@ use crate::brain_session::{BrainSession, Recorder};
 use crate::desk::arbiter::Source;
 use crate::desk::audience::{Asker, Asking};
 use crate::desk::history;
-use crate::desk::home::HomeRequest;
+use crate::desk::home::HomeEdit;
 use crate::desk::jobs::{clean_command, estimate};
 use crate::desk::journal::LogSource;
 use crate::desk::learnt::{Forgetting, LearntRequest};
@@ -31,8 +31,8 @@ impl Core {
     ) {
         let id = request.id;
         let asker = Asker { client, id };
-        let request = DeskRequest::from(request.body);
-        let answer = self.serve(now_us, Asking { asker, request }, outputs);
+        let answer = DeskRequest::of(request.body)
+            .and_then(|request| self.serve(now_us, Asking { asker, request }, outputs));
         self.teller(now_us, outputs).answer(asker, answer);
     }
 
@@ -204,14 +204,14 @@ impl Core {
     fn edit_home(
         &mut self,
         now_us: u64,
-        asking: Asking<HomeRequest>,
+        asking: Asking<HomeEdit>,
         outputs: &mut Outputs,
     ) -> Result<Reply, Refusal> {
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         let (edit, reply) = self
             .home
-            .serve(&asking, self.brain_session.as_ref(), &mut teller)?;
-        self.command_brain(now_us, edit.edit.into(), outputs);
+            .serve(asking, self.brain_session.as_ref(), &mut teller)?;
+        self.command_brain(now_us, edit.into(), outputs);
         Ok(reply)
     }
 

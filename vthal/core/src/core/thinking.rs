@@ -1,7 +1,6 @@
 //! One step of the brain, and what it asks for.
 
-use brain::Decision;
-use brain::{Actions, BehaviorState, Command, Motion};
+use brain::{Actions, BehaviorState, Command, Decision, EditError, Motion};
 use rvac_api::{Evidence, LogLevel};
 
 use super::Core;
@@ -49,7 +48,7 @@ impl Core {
         if let Some(kept) = &outputs.home {
             self.floors.note_kept(kept);
         }
-        self.keep_edits(outputs);
+        self.keep_edits(now_us, &actions.edits, outputs);
         self.follow_state(now_us, before);
         if let Some(news) = news {
             self.announce(now_us, news, outputs);
@@ -104,17 +103,25 @@ impl Core {
         self.history.follow(&moment, brain_session.floor(), &mut teller);
     }
 
-    /// After the step in which the brain applied the edits of clients: its map goes to the disk.
-    fn keep_edits(&mut self, outputs: &mut Outputs) {
-        if !self.home.is_waited_for() || self.pace.commands_wait {
+    /// After a step: if the brain has made edits of clients, its map goes to the disk. The others are refused.
+    fn keep_edits(&mut self, now_us: u64, made: &[Result<(), EditError>], outputs: &mut Outputs) {
+        let now = self.now(now_us);
+        let Some(brain_session) = &mut self.brain_session else {
             return;
+        };
+        let dropped = brain_session.take_dropped_edits();
+        let is_changed = made.iter().any(Result::is_ok);
+        let home = is_changed.then(|| brain_session.home_to_keep()).flatten();
+        if is_changed {
+            self.feed.tell_home_now();
         }
-        self.feed.tell_home_now();
-        let home = self.brain_session.as_ref().and_then(BrainSession::home_to_keep);
         if let Some(kept) = &home {
             self.floors.note_kept(kept);
         }
-        self.home.keep(home.as_ref(), outputs);
+        let mut teller = self.audience.teller(now, outputs);
+        self.home.refuse_oldest(dropped, &mut teller);
+        self.home
+            .keep((made, brain_session.brain()), home.as_ref(), &mut teller);
     }
 
     fn follow_state(&mut self, now_us: u64, before: BehaviorState) {

@@ -1,7 +1,7 @@
 //! Who may command (S27) and for how long (S23).
 //!
 //! Priority: safety, then the buttons on the robot, then the person who drives, then schedules. *Seat*: the one place from
-//! which somebody drives by hand; whoever sits there keeps it as long as the lease is renewed. *Centring*: a stick that
+//! which somebody drives by hand; its holder keeps it as long as the lease is renewed. *Centring*: a stick that
 //! was held while its lease ended or while somebody else stopped the robot must return to the centre first, so that the
 //! robot never starts from a touch of long ago.
 
@@ -29,7 +29,7 @@ impl Stick {
     }
 }
 
-/// Why somebody may not command now.
+/// Why a client may not command now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Denied {
     /// Somebody else sits in the driver's seat.

@@ -160,7 +160,7 @@ impl Teller<'_> {
     pub(crate) fn answer(&mut self, asker: Asker, answer: Result<Reply, Refusal>) {
         let update = match (answer, asker.id) {
             (Ok(Reply::Done), Some(id)) => Update::Done { id },
-            (Ok(Reply::Told(update)), _) => *update,
+            (Ok(Reply::Update(update)), _) => *update,
             (Ok(Reply::Done), None) | (Ok(Reply::ByShell | Reply::WhenKept | Reply::AfterStep), _) => return,
             (Err(refusal), id) => Update::Failed(Failure {
                 id,

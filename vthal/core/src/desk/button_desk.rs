@@ -38,7 +38,7 @@ pub(crate) struct ButtonDesk {
 }
 
 impl ButtonDesk {
-    /// Events may have been lost: whatever is down must be let go first.
+    /// Events may have been lost: buttons that are down must be released first.
     pub(crate) fn forget(&mut self) {
         self.buttons.forget();
     }
@@ -83,7 +83,7 @@ impl ButtonDesk {
         }
     }
 
-    /// Stops what runs. What waits or stands can wait until the button comes up: the person may mean to hold it.
+    /// Stops what runs. A robot that waits or stands is handled at the release, because the person may mean to hold the button.
     fn start_went_down(&mut self, doing: Option<&Doing>) -> Option<JobCommand> {
         self.start_means_more = doing.is_none_or(|doing| !doing.is_new);
         let doing = doing.filter(|_| self.start_means_more)?;
@@ -124,7 +124,7 @@ impl ButtonDesk {
     }
 }
 
-/// Somebody holds what only somebody beside the robot can hold.
+/// A button is held, which only a person beside the robot can do.
 fn held(gesture: Gesture, uptime_ms: Option<u32>, teller: &mut Teller<'_>) {
     let text = match gesture {
         Gesture::RecoveryHold if uptime_ms.is_none_or(|ms| ms > RECOVERY_MS) => {

@@ -1,4 +1,4 @@
-//! What a person means with the buttons on the robot: a short press, or a hold that only somebody beside the robot can do.
+//! What a person means with the buttons on the robot: a short press, or a hold that only a person beside the robot can do.
 //!
 //! Events say that a button went down or up and are never lost; reports say ever again which are down. A hold counts only as long as
 //! both agree without a gap, so that neither a broken line nor a button that was down already at the start can hold anything. Each hold is
@@ -37,7 +37,7 @@ struct HeldButtons {
     since_us: u64,
     /// The newest event or report.
     seen_us: u64,
-    told: bool,
+    is_reported: bool,
 }
 
 /// The buttons of one robot.
@@ -75,11 +75,11 @@ impl Buttons {
             began_us: now_us,
             since_us: now_us,
             seen_us: now_us,
-            told: false,
+            is_reported: false,
         });
         grip.down |= bit;
         grip.ever |= bit;
-        (grip.since_us, grip.seen_us, grip.told) = (now_us, now_us, false);
+        (grip.since_us, grip.seen_us, grip.is_reported) = (now_us, now_us, false);
     }
 
     /// A report says which are down.
@@ -90,12 +90,12 @@ impl Buttons {
         }
         grip.seen_us = now_us;
         let gesture = held(grip.ever, now_us - grip.since_us).filter(|_| grip.down == grip.ever)?;
-        let is_new = !grip.told;
-        grip.told = true;
+        let is_new = !grip.is_reported;
+        grip.is_reported = true;
         is_new.then_some(gesture)
     }
 
-    /// Events may have been lost: whatever is down must be let go first.
+    /// Events may have been lost: buttons that are down must be released first.
     pub(crate) fn forget(&mut self) {
         self.grip = None;
     }
@@ -112,7 +112,7 @@ impl Buttons {
         self.claims.remove(&client);
     }
 
-    /// Whether presses are for somebody else than the robot.
+    /// Whether presses are meant for pairing rather than for the robot.
     pub(crate) fn are_claimed(&self, now_us: u64) -> bool {
         self.claims.values().any(|until_us| now_us < *until_us)
     }
@@ -145,14 +145,15 @@ mod tests {
         buttons: Buttons,
         down: u8,
         now_us: u64,
-        told: Vec<(u64, Gesture)>,
+        gestures: Vec<(u64, Gesture)>,
     }
 
     impl Robot {
         fn turn(&mut self, button: u8, pressed: bool) {
             self.down ^= 1 << button;
             let gesture = self.buttons.take_edge(self.now_us, button, pressed);
-            self.told.extend(gesture.map(|gesture| (self.now_us, gesture)));
+            self.gestures
+                .extend(gesture.map(|gesture| (self.now_us, gesture)));
         }
 
         fn run(&mut self, for_us: u64) {
@@ -160,7 +161,8 @@ mod tests {
             while self.now_us < end_us {
                 self.now_us += 20 * MS;
                 let gesture = self.buttons.take_report(self.now_us, self.down);
-                self.told.extend(gesture.map(|gesture| (self.now_us, gesture)));
+                self.gestures
+                    .extend(gesture.map(|gesture| (self.now_us, gesture)));
             }
         }
 
@@ -171,7 +173,7 @@ mod tests {
         }
 
         fn gestures(&self) -> Vec<Gesture> {
-            self.told.iter().map(|(_, gesture)| *gesture).collect()
+            self.gestures.iter().map(|(_, gesture)| *gesture).collect()
         }
     }
 
@@ -181,14 +183,14 @@ mod tests {
         robot.hold(START, 200 * MS);
         robot.run(SECOND);
         robot.hold(START, 3 * SECOND);
-        assert_eq!(robot.told, [(200 * MS, Gesture::Press)]);
+        assert_eq!(robot.gestures, [(200 * MS, Gesture::Press)]);
     }
 
     #[test]
     fn start_held_for_five_seconds_is_told_once_however_long_it_is_stuck() {
         let mut robot = Robot::default();
         robot.hold(START, 3600 * SECOND);
-        assert_eq!(robot.told, [(5 * SECOND, Gesture::PairingHold)]);
+        assert_eq!(robot.gestures, [(5 * SECOND, Gesture::PairingHold)]);
     }
 
     #[test]

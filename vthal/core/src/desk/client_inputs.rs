@@ -1,7 +1,7 @@
-//! Inputs of control mixes that clients tell, each under a lease: who drives by them looks at them as at a stick.
+//! Inputs of control mixes that clients send, each under a lease. The driver's mix reads them like a stick.
 //!
-//! The daemon passes them on and drives nothing by them. It holds to four things: a name has one teller at a time, a value is a
-//! share, what is told ends by itself, and there is a known amount of it.
+//! The daemon passes them on and drives nothing by them. It holds to four things: one client at a time sends a name, a value is a
+//! share, every input expires by itself, and their number is bounded.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use rvac_api::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MA
 
 use crate::ClientId;
 
-/// Why a client may not tell this.
+/// Why a client may not send this.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum InputDenied {
     /// The lease is 0 or longer than [`INPUT_LEASE_MS_MAX`].
@@ -20,21 +20,21 @@ pub(crate) enum InputDenied {
     Value,
     /// Too many inputs, of this client or of all.
     TooMany,
-    /// Another client tells an input of this name.
+    /// Another client sends an input of this name.
     Taken,
 }
 
-/// All that one client tells.
+/// All inputs of one client.
 #[derive(Clone, Debug)]
-struct Told {
+struct InputLease {
     values: BTreeMap<String, f64>,
     until_us: u64,
 }
 
-/// What all clients tell.
+/// The inputs of all clients.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClientInputs {
-    told: BTreeMap<ClientId, Told>,
+    leases: BTreeMap<ClientId, InputLease>,
     /// Followers have not received it yet.
     is_new: bool,
 }
@@ -44,7 +44,7 @@ impl ClientInputs {
     ///
     /// # Errors
     /// Why it may not; then its earlier report holds until its lease ends.
-    pub(crate) fn tell(
+    pub(crate) fn set(
         &mut self,
         now_us: u64,
         client: ClientId,
@@ -57,16 +57,19 @@ impl ClientInputs {
         self.check(client, &values)?;
         self.is_new = true;
         if values.is_empty() {
-            self.told.remove(&client);
+            self.leases.remove(&client);
             return Ok(false);
         }
         let until_us = now_us + u64::from(lease_ms) * 1000;
-        Ok(self.told.insert(client, Told { values, until_us }).is_none())
+        Ok(self
+            .leases
+            .insert(client, InputLease { values, until_us })
+            .is_none())
     }
 
     fn check(&self, client: ClientId, values: &BTreeMap<String, f64>) -> Result<(), InputDenied> {
-        let others = || self.told.iter().filter(|(other, _)| **other != client);
-        let of_others: usize = others().map(|(_, told)| told.values.len()).sum();
+        let others = || self.leases.iter().filter(|(other, _)| **other != client);
+        let of_others: usize = others().map(|(_, lease)| lease.values.len()).sum();
         if values.len() > INPUTS_PER_CLIENT_MAX || values.len() + of_others > INPUTS_MAX {
             return Err(InputDenied::TooMany);
         }
@@ -78,7 +81,7 @@ impl ClientInputs {
             if !(-1.0..=1.0).contains(value) {
                 return Err(InputDenied::Value);
             }
-            if others().any(|(_, told)| told.values.contains_key(name)) {
+            if others().any(|(_, lease)| lease.values.contains_key(name)) {
                 return Err(InputDenied::Taken);
             }
         }
@@ -87,7 +90,7 @@ impl ClientInputs {
 
     /// Forgets those whose lease is over; gives them.
     pub(crate) fn expire(&mut self, now_us: u64) -> Vec<ClientId> {
-        let over = self.told.iter().filter(|(_, told)| now_us >= told.until_us);
+        let over = self.leases.iter().filter(|(_, lease)| now_us >= lease.until_us);
         let over: Vec<ClientId> = over.map(|(client, _)| *client).collect();
         for client in &over {
             self.forget(*client);
@@ -97,14 +100,14 @@ impl ClientInputs {
 
     /// A client reports no inputs any more. `true` if it had reported some.
     pub(crate) fn forget(&mut self, client: ClientId) -> bool {
-        let told = self.told.remove(&client).is_some();
-        self.is_new |= told;
-        told
+        let existed = self.leases.remove(&client).is_some();
+        self.is_new |= existed;
+        existed
     }
 
     /// When the next lease ends.
     pub(crate) fn lease_end_us(&self) -> Option<u64> {
-        self.told.values().map(|told| told.until_us).min()
+        self.leases.values().map(|lease| lease.until_us).min()
     }
 
     /// Whether there is news since the last question.
@@ -115,10 +118,10 @@ impl ClientInputs {
     /// The inputs that are reported now, by their names.
     pub(crate) fn view(&self, now_us: u64) -> Vec<ClientInput> {
         let mut all: Vec<ClientInput> = Vec::new();
-        for told in self.told.values() {
-            let left_ms = told.until_us.saturating_sub(now_us) / 1000;
+        for lease in self.leases.values() {
+            let left_ms = lease.until_us.saturating_sub(now_us) / 1000;
             let left_ms = u16::try_from(left_ms).unwrap_or(INPUT_LEASE_MS_MAX);
-            all.extend(told.values.iter().map(|(name, value)| ClientInput {
+            all.extend(lease.values.iter().map(|(name, value)| ClientInput {
                 name: name.clone(),
                 value: *value,
                 left_ms,
@@ -161,13 +164,10 @@ mod tests {
     fn what_is_told_replaces_what_was_and_ends_with_its_lease() {
         let mut inputs = ClientInputs::default();
         let both = values([("steer", 0.5), ("go", -1.0)]);
-        assert_eq!(inputs.tell(0, ANNA, (both, 300)), Ok(true));
-        let told = [("go".to_owned(), -1.0, 200), ("steer".to_owned(), 0.5, 200)];
-        assert_eq!(seen(&inputs, 100_000), told);
-        assert_eq!(
-            inputs.tell(100_000, ANNA, (values([("go", 0.0)]), 400)),
-            Ok(false)
-        );
+        assert_eq!(inputs.set(0, ANNA, (both, 300)), Ok(true));
+        let expected = [("go".to_owned(), -1.0, 200), ("steer".to_owned(), 0.5, 200)];
+        assert_eq!(seen(&inputs, 100_000), expected);
+        assert_eq!(inputs.set(100_000, ANNA, (values([("go", 0.0)]), 400)), Ok(false));
         assert_eq!(seen(&inputs, 100_000), [("go".to_owned(), 0.0, 400)]);
         assert!(inputs.take_news() && !inputs.take_news());
         assert_eq!(inputs.lease_end_us(), Some(500_000));
@@ -182,25 +182,23 @@ mod tests {
     fn a_name_has_one_teller_until_that_one_is_gone() {
         let mut inputs = ClientInputs::default();
         let go = || values([("go", 1.0)]);
-        inputs.tell(0, ANNA, (go(), 400)).expect("free");
-        let refused = inputs.tell(399_999, BERT, (go(), 400));
+        inputs.set(0, ANNA, (go(), 400)).expect("free");
+        let refused = inputs.set(399_999, BERT, (go(), 400));
         assert_eq!(refused, Err(InputDenied::Taken));
-        inputs
-            .tell(400_000, BERT, (go(), 400))
-            .expect("the lease is over");
-        assert_eq!(inputs.tell(400_001, ANNA, (go(), 400)), Err(InputDenied::Taken));
+        inputs.set(400_000, BERT, (go(), 400)).expect("the lease is over");
+        assert_eq!(inputs.set(400_001, ANNA, (go(), 400)), Err(InputDenied::Taken));
         assert!(inputs.forget(BERT) && !inputs.forget(BERT));
-        inputs.tell(400_002, ANNA, (go(), 400)).expect("free again");
-        assert_eq!(inputs.tell(400_003, ANNA, (values([]), 400)), Ok(false));
-        inputs.tell(400_004, BERT, (go(), 400)).expect("given up");
+        inputs.set(400_002, ANNA, (go(), 400)).expect("free again");
+        assert_eq!(inputs.set(400_003, ANNA, (values([]), 400)), Ok(false));
+        inputs.set(400_004, BERT, (go(), 400)).expect("given up");
     }
 
     #[test]
     fn what_is_wrong_is_refused_and_changes_nothing() {
         let mut inputs = ClientInputs::default();
-        inputs.tell(0, ANNA, (values([("go", 0.5)]), 400)).expect("free");
+        inputs.set(0, ANNA, (values([("go", 0.5)]), 400)).expect("free");
         inputs.take_news();
-        for (told, lease_ms, denied) in [
+        for (values, lease_ms, denied) in [
             (values([("go", 1.0)]), 0, InputDenied::LeaseRange),
             (values([("go", 1.0)]), 401, InputDenied::LeaseRange),
             (values([("go", 1.001)]), 400, InputDenied::Value),
@@ -211,8 +209,8 @@ mod tests {
             (values([(&"x".repeat(33), 1.0)]), 400, InputDenied::Name),
             (many(INPUTS_PER_CLIENT_MAX + 1, "x"), 400, InputDenied::TooMany),
         ] {
-            let text = format!("{told:?}");
-            assert_eq!(inputs.tell(1000, ANNA, (told, lease_ms)), Err(denied), "{text}");
+            let text = format!("{values:?}");
+            assert_eq!(inputs.set(1000, ANNA, (values, lease_ms)), Err(denied), "{text}");
         }
         assert_eq!(seen(&inputs, 1000), [("go".to_owned(), 0.5, 399)]);
         assert!(!inputs.take_news());
@@ -224,12 +222,12 @@ mod tests {
         let clients = INPUTS_MAX / INPUTS_PER_CLIENT_MAX;
         for number in 0..clients {
             let all = many(INPUTS_PER_CLIENT_MAX, &format!("of {number} - "));
-            inputs.tell(0, ClientId(number as u64), (all, 400)).expect("fits");
+            inputs.set(0, ClientId(number as u64), (all, 400)).expect("fits");
         }
         let one = (many(1, "more"), 400);
         let late = ClientId(99);
-        assert_eq!(inputs.tell(1, late, one.clone()), Err(InputDenied::TooMany));
+        assert_eq!(inputs.set(1, late, one.clone()), Err(InputDenied::TooMany));
         assert_eq!(inputs.view(1).len(), INPUTS_MAX);
-        inputs.tell(400_000, late, one).expect("the others are over");
+        inputs.set(400_000, late, one).expect("the others are over");
     }
 }

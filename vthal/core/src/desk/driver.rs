@@ -58,7 +58,7 @@ pub(crate) struct Pull {
     pub(crate) brakes: Brakes,
 }
 
-/// Whoever drives, and what they want of brushes and suction.
+/// The driver, and the power that the driver sets for brushes and suction.
 #[derive(Debug)]
 pub(crate) struct DriverDesk {
     pub(crate) arbiter: Arbiter,
@@ -120,7 +120,7 @@ impl DriverDesk {
         Ok(valid_until_us)
     }
 
-    /// The driver wants this of brushes and suction.
+    /// The driver sets brushes and suction.
     pub(crate) fn set_power(&mut self, power: CleanerPower) {
         self.power = power;
     }

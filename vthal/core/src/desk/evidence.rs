@@ -1,9 +1,9 @@
-//! What the robot has felt lately, for whoever asks why it stands.
+//! Recent sensor readings, for clients that ask why the robot stands still.
 
 use std::collections::VecDeque;
 
 use brain::Observation;
-use rvac_api::Felt;
+use rvac_api::EvidenceSample;
 
 use crate::edges::{Edges, Sign};
 
@@ -21,7 +21,7 @@ pub(crate) struct Perceived<'a> {
 }
 
 impl Perceived<'_> {
-    /// The names of what is felt now.
+    /// The names of the contacts and alarms at this moment.
     fn signs(&self) -> impl Iterator<Item = &'static str> {
         let inhibits = self.observation.inhibits.names();
         self.edges.present().map(Sign::name).chain(inhibits)
@@ -40,7 +40,7 @@ pub(crate) struct Sensations {
 struct Sample {
     since: MotionReference,
     end_us: u64,
-    felt: Felt,
+    felt: EvidenceSample,
 }
 
 /// The sample that goes on.
@@ -72,7 +72,7 @@ impl MotionReference {
         }
     }
 
-    /// Speed and turn rate until `now`; wheels tell the heading of a robot without gyro.
+    /// Speed and turn rate until `now`; the wheels give the heading of a robot without gyro.
     fn rates(self, now: Self, track_m: f64) -> (f64, f64) {
         let time_s = now.time_us.saturating_sub(self.time_us) as f64 * 1e-6;
         if time_s <= 0.0 {
@@ -95,7 +95,7 @@ impl Sensations {
         let open = self.open.get_or_insert_with(|| Open::from(now));
         open.take(perceived);
         if now.time_us >= open.since.time_us + SAMPLE_US {
-            let (since, felt) = (open.since, open.told(open.since, track_m));
+            let (since, felt) = (open.since, open.sample(open.since, track_m));
             self.open = Some(Open::from(now));
             if self.samples.len() == SAMPLES {
                 self.samples.pop_front();
@@ -108,8 +108,8 @@ impl Sensations {
         }
     }
 
-    /// The last ten seconds before `now_us`, oldest first, with what has been felt since the last sample.
-    pub(crate) fn before(&self, now_us: u64, track_m: f64) -> Vec<Felt> {
+    /// The last ten seconds before `now_us`, oldest first, with the readings since the last sample.
+    pub(crate) fn before(&self, now_us: u64, track_m: f64) -> Vec<EvidenceSample> {
         let earliest_us = now_us.saturating_sub(SAMPLES as u64 * SAMPLE_US);
         let at_s = |end_us: u64| -(now_us.saturating_sub(end_us) as f64) * 1e-6;
         let complete = self.samples.iter().filter(|sample| sample.end_us > earliest_us);
@@ -117,11 +117,11 @@ impl Sensations {
         // Few counts of a wheel come in the time of a sample that has just begun, so its rates are those since the one before it began.
         let rates_since = |open: &Open| self.samples.back().map_or(open.since, |sample| sample.since);
         complete
-            .map(|sample| Felt {
+            .map(|sample| EvidenceSample {
                 at_s: rounded(at_s(sample.end_us)),
                 ..sample.felt.clone()
             })
-            .chain(newest.map(|open| open.told(rates_since(open), track_m)))
+            .chain(newest.map(|open| open.sample(rates_since(open), track_m)))
             .collect()
     }
 }
@@ -157,10 +157,10 @@ impl Open {
         };
     }
 
-    /// What it tells when it ends now, with the rates since a moment.
-    fn told(&self, rates_since: MotionReference, track_m: f64) -> Felt {
+    /// The sample if it ends now, with the rates since a moment.
+    fn sample(&self, rates_since: MotionReference, track_m: f64) -> EvidenceSample {
         let (v, w) = rates_since.rates(self.newest, track_m);
-        Felt {
+        EvidenceSample {
             at_s: 0.0,
             v: rounded(v),
             w: rounded(w),
@@ -176,7 +176,7 @@ fn larger(one: f32, other: f32) -> f32 {
     if other.abs() > one.abs() { other } else { one }
 }
 
-/// To a thousandth: nobody sees more, and it is sent and stored.
+/// To a thousandth: more is not visible, and it is sent and stored.
 fn rounded(value: f64) -> f64 {
     if value.is_finite() {
         (1e3 * value).round() / 1e3

@@ -1,7 +1,7 @@
 //! What clients receive, and how often.
 
 use brain::{MapCursor, SweptShare};
-use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedWay, Pose, Status, Topic, Update};
+use rvac_api::{Estimate, FloorsView, MapSnapshot, PlannedPath, Pose, Status, Topic, Update};
 
 use super::audience::Teller;
 use super::clients::Clients;
@@ -26,9 +26,9 @@ const HOME_US: u64 = 5_000_000;
 const ESTIMATE_US: u64 = 500_000;
 /// Pause between two measurements of coverage: each counts cells.
 const SHARE_US: u64 = 5_000_000;
-/// Changes of an estimate that nobody would see: metres or radians, and shares.
+/// Changes of an estimate that are too small to see: metres or radians, and shares.
 const UNSEEN: f64 = 0.002;
-/// Planned ways go out at most this often.
+/// Planned paths are sent at most this often.
 const WAY_US: u64 = 2_000_000;
 
 /// When each kind of update last went out.
@@ -55,7 +55,7 @@ pub(crate) struct Feed {
     share: Option<SweptShare>,
     floors: Option<FloorsView>,
     way_us: u64,
-    way: PlannedWay,
+    way: PlannedPath,
     state_changed_us: Option<u64>,
 }
 
@@ -237,7 +237,7 @@ impl Feed {
             self.swept_sigma.add(part.swept.len(), present_m);
             return;
         }
-        // Drawn anew or read from the disk: the home remembers how surely it was seen.
+        // Redrawn or read from the disk: the map stores the confidence.
         self.swept_sigma = SweptSigma::default();
         for cell in map.snapshot().swept {
             let sigma_m = map.sigma_m(*cell).unwrap_or(present_m);

@@ -77,15 +77,15 @@ impl FloorDesk {
     }
 
     /// Whether [`Self::view`] differs from what clients have received.
-    pub(crate) fn is_news(&self, told: Option<&FloorsView>, brain_session: Option<&BrainSession>) -> bool {
-        told.is_none_or(|told| {
-            told.here != brain_session.and_then(BrainSession::floor)
-                || told.sought != brain_session.is_some_and(BrainSession::seeks_floor)
-                || told.question.as_ref().map(|question| question.reason.as_str())
+    pub(crate) fn is_news(&self, sent: Option<&FloorsView>, brain_session: Option<&BrainSession>) -> bool {
+        sent.is_none_or(|sent| {
+            sent.here != brain_session.and_then(BrainSession::floor)
+                || sent.sought != brain_session.is_some_and(BrainSession::seeks_floor)
+                || sent.question.as_ref().map(|question| question.reason.as_str())
                     != brain_session
                         .and_then(BrainSession::asked)
                         .map(|asked| asked.name())
-                || told.floors != self.floors.views()
+                || sent.floors != self.floors.views()
         })
     }
 
@@ -234,7 +234,7 @@ impl FloorDesk {
         Ok(Reply::Done)
     }
 
-    /// The shell has carried out what a client wanted of the floors.
+    /// The shell has carried out a client's order about floors.
     pub(crate) fn kept(
         &mut self,
         KeptFloors { task, floors, made }: KeptFloors<'_>,

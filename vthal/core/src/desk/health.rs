@@ -1,4 +1,4 @@
-//! What the loads of motors say of their parts: taken in while the robot cleans, reported on demand, started again when somebody has
+//! What the loads of motors say of their parts: accumulated while the robot cleans, reported on demand, started again when a person has
 //! cleaned a part.
 
 use rvac_api::{ComponentHealth, LogLevel, Update};

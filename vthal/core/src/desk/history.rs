@@ -65,7 +65,7 @@ impl HistoryDesk {
         self.follower.commanded_by(by);
     }
 
-    /// A command that somebody gives to the brain: an order begins a run with the next step.
+    /// A command to the brain: an order begins a run with the next step.
     pub(crate) fn order(&mut self, by: RunAsker, command: &JobCommand, brain: Option<&Brain>) {
         self.follower.commanded_by(by.clone());
         if let Some(job) = brain.and_then(|brain| ordered_job(command, brain)) {
@@ -77,7 +77,7 @@ impl HistoryDesk {
     pub(crate) fn follow(&mut self, moment: &Moment<'_>, floor: Option<u16>, teller: &mut Teller<'_>) {
         let step = self.follower.step(moment);
         if let Some(run) = step.done {
-            teller.record(|| Record::Told {
+            teller.record(|| Record::RunSummary {
                 time_us: moment.now_us,
                 run: Box::new(run),
             });

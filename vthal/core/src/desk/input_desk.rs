@@ -13,13 +13,13 @@ use crate::refusal::Refusal;
 
 /// The inputs that a client reports, in place of all that it reported before.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct ToldInputs {
+pub(crate) struct LeasedInputs {
     pub(crate) values: BTreeMap<String, f64>,
     /// How long it counts, in ms.
     pub(crate) lease_ms: u16,
 }
 
-/// What all clients tell.
+/// The inputs of all clients.
 #[derive(Debug, Default)]
 pub(crate) struct InputDesk {
     inputs: ClientInputs,
@@ -32,17 +32,17 @@ impl InputDesk {
     }
 
     /// # Errors
-    /// Why the client may not tell this.
+    /// Why the client may not send this.
     pub(crate) fn take(
         &mut self,
         client: ClientId,
-        told: ToldInputs,
+        inputs: LeasedInputs,
         teller: &mut Teller<'_>,
     ) -> Result<Reply, Refusal> {
-        let ToldInputs { values, lease_ms } = told;
+        let LeasedInputs { values, lease_ms } = inputs;
         let names: Vec<String> = values.keys().cloned().collect();
-        let told = self.inputs.tell(teller.now_us, client, (values, lease_ms));
-        if told.map_err(denied)? {
+        let result = self.inputs.set(teller.now_us, client, (values, lease_ms));
+        if result.map_err(denied)? {
             let text = format!("{} tells the inputs {}", teller.name(client), names.join(", "));
             teller.log(LogLevel::Info, LogSource::Client, text);
         }

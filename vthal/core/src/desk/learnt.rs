@@ -1,5 +1,5 @@
-//! What the robot has learnt of itself: it goes to the disk after each run, a robot that was seen before begins with it, and
-//! people may look at it and have it forgotten.
+//! Calibration that the robot has learned: it goes to the disk after each run, a robot that was seen before begins with it, and
+//! people may read it and delete it.
 
 use brain::{Learnt, LearntPart};
 use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
@@ -8,7 +8,7 @@ use super::audience::{Asker, Asking, Teller};
 use super::awaited::Awaited;
 use super::journal::LogSource;
 use crate::Outputs;
-use crate::learnt::{Learnings, RobotRecord, StoredLearnings, told};
+use crate::learnt::{Learnings, RobotRecord, StoredLearnings, summary};
 use crate::outputs::LearntOrder;
 use crate::refusal::Refusal;
 
@@ -65,7 +65,7 @@ impl LearntDesk {
 
     /// Tells what a robot of this name begins with.
     pub(crate) fn introduce(&self, device: &str, teller: &mut Teller<'_>) {
-        if let Some(text) = told(&self.of(device)) {
+        if let Some(text) = summary(&self.of(device)) {
             teller.log(LogLevel::Info, LogSource::Vthal, text);
         }
     }
@@ -115,7 +115,7 @@ impl LearntDesk {
     }
 
     /// The disk has what it was given under this number, or says why it has not. The attached robot learns again all the same,
-    /// and with its next run the disk hears of that.
+    /// and its next run writes that to the disk.
     pub(crate) fn kept(&mut self, number: u64, result: Result<(), String>, teller: &mut Teller<'_>) {
         let result = result.map_err(|text| Refusal {
             reason: "learnt-unwritable",

@@ -156,7 +156,7 @@ impl LinkDesk {
         self.device.as_ref().is_some_and(Supervisor::is_attached)
     }
 
-    /// Whether nothing moves as far as the newest reports tell, or nothing is known because no robot is there.
+    /// Whether nothing moves according to the newest reports, or nothing is known because no robot is connected.
     pub(crate) fn stands_still(&self) -> bool {
         let device = self.device.as_ref().filter(|device| device.is_attached());
         device.is_none_or(|device| device.still_reports() > 0)
@@ -206,7 +206,7 @@ impl LinkDesk {
         }
     }
 
-    /// How the brain sees the link.
+    /// The state of the link for the brain.
     pub(crate) fn view(&self, now_us: u64) -> LinkView {
         let attached = self.device.as_ref().filter(|device| device.is_attached());
         let up = attached

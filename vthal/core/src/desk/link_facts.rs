@@ -52,7 +52,7 @@ impl LinkFacts {
         self.resets
     }
 
-    /// Why the robot last started, if it tells.
+    /// Why the robot last started, if it reports that.
     pub(crate) fn reset_cause(&self) -> Option<&'static str> {
         self.reset_cause
     }

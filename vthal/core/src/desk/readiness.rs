@@ -66,7 +66,7 @@ impl<'a> Readiness<'a> {
         brain_session.admit(command).map_err(JobRefusal::name)
     }
 
-    /// The command that starts the job of a schedule, because a person wants it now.
+    /// The command that starts the job of a schedule, because a person asks for it now.
     ///
     /// # Errors
     /// Why it may not start.
@@ -97,7 +97,7 @@ impl<'a> Readiness<'a> {
         }
     }
 
-    /// What the brain is told to start a job; refused as the brain would refuse it.
+    /// The command that starts a job; refused as the brain would refuse it.
     fn command_of(&self, job: &ScheduledJob) -> Result<JobCommand, Refusal> {
         match job {
             ScheduledJob::Start { strategy } => {

@@ -8,18 +8,18 @@ pub(crate) enum Reply {
     /// It is done: the client is answered at once, if it gave a number.
     Done,
     /// This is the answer, at once.
-    Told(Box<Update>),
+    Update(Box<Update>),
     /// The shell answers when it has carried out the order.
     ByShell,
     /// The desk answers when the shell says that the disk has the change or has not.
     WhenKept,
-    /// The shell answers when it has kept the map that the brain's next step changes; if that step leaves none to keep, the desk
-    /// does.
+    /// The shell answers when it has kept the map that the brain's next step changes. The desk answers if that step does not make the
+    /// change, or leaves no map to keep.
     AfterStep,
 }
 
 impl From<Update> for Reply {
     fn from(update: Update) -> Self {
-        Self::Told(Box::new(update))
+        Self::Update(Box::new(update))
     }
 }

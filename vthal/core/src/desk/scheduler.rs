@@ -1,7 +1,7 @@
 //! The schedules and the disk: nothing counts, and nothing starts, before it is kept.
 //!
 //! One change is written to the disk at a time. It is made on a copy of the book, and the copy takes the book's place when
-//! the disk has it. What people want meanwhile waits in order; what the clock wants waits behind that.
+//! the disk has it. Requests of people wait meanwhile in order; runs that are due wait behind them.
 
 use std::collections::VecDeque;
 
@@ -104,7 +104,7 @@ impl Scheduler {
         }
     }
 
-    /// Takes a change that a person wants; `false` when too many wait.
+    /// Takes a person's change; `false` when too many wait.
     #[must_use]
     pub(super) fn take(&mut self, asker: Asker, edit: ScheduleEdit) -> bool {
         let has_room = self.waiting.len() < WAITING_MAX;

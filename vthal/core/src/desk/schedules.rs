@@ -1,6 +1,6 @@
-//! Schedules: what people want of them, what the clock wants, and what the robot says to that.
+//! Schedules: changes by people, runs that are due, and the robot's answers.
 
-use rvac_api::{LogLevel, QuietHours, ScheduleEntry, ScheduledJob, Schedules, Topic, Update};
+use rvac_api::{LogLevel, ScheduleEntry, ScheduledJob, Schedules, Topic, Update};
 
 use super::audience::{Asking, Teller};
 use super::home::with_any_places;
@@ -13,25 +13,17 @@ use crate::refusal::Refusal;
 use crate::schedule::{Book, Entry, Outcome, Plan, ScheduleEdit, ScheduleError, Verdict, Zone};
 
 /// Readiness changes without an event; followers receive it within this time.
-const TOLD_US: u64 = 5_000_000;
+const SEND_PERIOD_US: u64 = 5_000_000;
 
-/// What clients want changed of the schedules.
+/// Changes of the schedules by clients.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ScheduleRequest {
     /// A new one.
     Add(ScheduleEntry),
     /// Another one in its place.
     Change { number: u32, entry: ScheduleEntry },
-    /// It is removed.
-    Remove { number: u32 },
-    /// It starts by itself, or no longer.
-    Enable { number: u32, enabled: bool },
-    /// Its next run is left out, or no longer.
-    SkipNext { number: u32, skip: bool },
-    /// When nothing starts.
-    SetQuiet(Option<QuietHours>),
-    /// The time zone by its name; `None` = the system's.
-    SetZone(Option<String>),
+    /// What needs no look at the home.
+    Edit(ScheduleEdit),
 }
 
 impl From<ScheduleError> for Refusal {
@@ -54,8 +46,8 @@ pub(crate) struct Decided<'a> {
 #[derive(Debug)]
 pub(crate) struct ScheduleDesk {
     scheduler: Scheduler,
-    told: Option<Schedules>,
-    told_us: u64,
+    sent: Option<Schedules>,
+    sent_us: u64,
     /// The daemon ends: nothing starts any more.
     ended: bool,
 }
@@ -65,8 +57,8 @@ impl ScheduleDesk {
     pub(crate) fn new(book: Book, system_zone: Zone, distrusts_marks: bool) -> Self {
         Self {
             scheduler: Scheduler::new(book, system_zone, distrusts_marks),
-            told: None,
-            told_us: 0,
+            sent: None,
+            sent_us: 0,
             ended: false,
         }
     }
@@ -90,12 +82,12 @@ impl ScheduleDesk {
     pub(crate) fn set_clock(&mut self, utc_s: i64, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
         self.scheduler.set_clock(utc_s);
         self.run(readiness, teller);
-        if teller.has_followers(Topic::Schedules) && teller.now_us >= self.told_us + TOLD_US {
+        if teller.has_followers(Topic::Schedules) && teller.now_us >= self.sent_us + SEND_PERIOD_US {
             self.tell(readiness, teller);
         }
     }
 
-    /// A client wants schedules changed. It is answered when the disk has the change.
+    /// Takes a client's change of schedules. The client is answered when the disk has the change.
     ///
     /// # Errors
     /// Why the request is refused.
@@ -110,11 +102,7 @@ impl ScheduleDesk {
             ScheduleRequest::Change { number, entry } => {
                 ScheduleEdit::Change(number, plan(Plan::from_api(entry)?, readiness)?)
             }
-            ScheduleRequest::Remove { number } => ScheduleEdit::Remove(number),
-            ScheduleRequest::Enable { number, enabled } => ScheduleEdit::Enable(number, enabled),
-            ScheduleRequest::SkipNext { number, skip } => ScheduleEdit::SkipNext(number, skip),
-            ScheduleRequest::SetQuiet(quiet) => ScheduleEdit::quiet_from_api(quiet.as_ref())?,
-            ScheduleRequest::SetZone(zone) => ScheduleEdit::zone_from_api(zone.as_deref())?,
+            ScheduleRequest::Edit(edit) => edit,
         };
         if !self.scheduler.take(asker, edit) {
             return Err("disk-busy".into());
@@ -132,7 +120,7 @@ impl ScheduleDesk {
     }
 
     /// The disk has the schedules that it was given under this number, or says why it has not. Gives a decision about a run, of
-    /// which the robot may hear now.
+    /// which the robot may receive now.
     pub(crate) fn kept(
         &mut self,
         number: u64,
@@ -198,19 +186,19 @@ impl ScheduleDesk {
     }
 
     fn tell(&mut self, readiness: &Readiness<'_>, teller: &mut Teller<'_>) {
-        self.told_us = teller.now_us;
+        self.sent_us = teller.now_us;
         if !teller.has_followers(Topic::Schedules) {
             return;
         }
         let schedules = self.view(readiness);
-        if self.told.as_ref() != Some(&schedules) {
-            self.told = Some(schedules.clone());
+        if self.sent.as_ref() != Some(&schedules) {
+            self.sent = Some(schedules.clone());
             teller.tell(Topic::Schedules, Update::Schedules(schedules));
         }
     }
 }
 
-/// Hands a task to the disk, or tells whoever waits for it what came of it.
+/// Hands a task to the disk, or sends the result to the client that waits for it.
 fn do_task(task: Task, teller: &mut Teller<'_>) {
     let (asker, answer) = match task {
         Task::Keep(order) => {

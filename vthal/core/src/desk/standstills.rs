@@ -21,10 +21,10 @@ const TRIED_MAX: usize = 12;
 pub(crate) struct StandstillDesk {
     standstills: Newest<Standstill, KEPT>,
     diary: Diary,
-    felt: Sensations,
+    sensations: Sensations,
 }
 
-/// Where a robot stands.
+/// Where a robot stopped.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stand {
     pub(crate) estimate: PoseEstimate,
@@ -32,7 +32,7 @@ pub(crate) struct Stand {
     pub(crate) track_m: Option<f64>,
 }
 
-/// Whether the robot stops with this decision although nobody ordered it.
+/// Whether the robot stops with this decision without an order.
 pub(crate) fn is_standstill(decision: &Decision) -> bool {
     let waits = matches!(
         decision.kind,
@@ -44,7 +44,7 @@ pub(crate) fn is_standstill(decision: &Decision) -> bool {
     let DecisionCause::Reason(reason) = decision.cause else {
         return false;
     };
-    let is_told = matches!(
+    let is_ordered = matches!(
         reason,
         Reason::Command | Reason::StartUp | Reason::Restored | Reason::Stopped
     );
@@ -54,7 +54,7 @@ pub(crate) fn is_standstill(decision: &Decision) -> bool {
             reason,
             Reason::Finished | Reason::Released | Reason::LinkRestored | Reason::Docked
         );
-    !is_told && (waits || gave_up)
+    !is_ordered && (waits || gave_up)
 }
 
 impl StandstillDesk {
@@ -70,10 +70,10 @@ impl StandstillDesk {
 
     /// What the robot perceives in this step.
     pub(crate) fn feel(&mut self, perceived: &Perceived<'_>, track_m: f64) {
-        self.felt.take(perceived, track_m);
+        self.sensations.take(perceived, track_m);
     }
 
-    /// What a robot of this track felt and tried up to now; nothing while its track is not known.
+    /// What the sensors of a robot with this track reported and what it tried up to now; empty while its track is not known.
     pub(crate) fn evidence(&self, now_us: u64, track_m: Option<f64>) -> Evidence {
         let Some(track_m) = track_m else {
             return Evidence::default();
@@ -86,12 +86,12 @@ impl StandstillDesk {
             .collect();
         tried.drain(..tried.len().saturating_sub(TRIED_MAX));
         Evidence {
-            felt: self.felt.before(now_us, track_m),
+            samples: self.sensations.before(now_us, track_m),
             tried,
         }
     }
 
-    /// Takes in a decision of the brain and tells it.
+    /// Takes in a decision of the brain and reports it.
     pub(crate) fn decided(&mut self, decision: &Decision, teller: &mut Teller<'_>) {
         let is_refusal = decision.kind == DecisionKind::Refuse;
         let level = if is_refusal || decision.kind.state_name().is_some() {
@@ -104,13 +104,13 @@ impl StandstillDesk {
         } else {
             format!(" {:.2}", decision.value)
         };
-        let told = if is_refusal || is_standstill(decision) {
+        let explanation = if is_refusal || is_standstill(decision) {
             format!(": {}", refusal::text(decision.cause.name()))
         } else {
             String::new()
         };
         let text = format!(
-            "{} ({}){value}{told}",
+            "{} ({}){value}{explanation}",
             decision.kind.name(),
             decision.cause.name()
         );
@@ -121,7 +121,7 @@ impl StandstillDesk {
         }
     }
 
-    /// Tells of a stop that nobody wanted.
+    /// Reports a stop that nobody ordered.
     pub(crate) fn stands(
         &mut self,
         decision: &Decision,
@@ -130,7 +130,7 @@ impl StandstillDesk {
     ) {
         let now_us = teller.now_us;
         let evidence = self.evidence(now_us, track_m);
-        let told = self.standstills.keep(|number| Standstill {
+        let standstill = self.standstills.keep(|number| Standstill {
             number,
             t: to_api::seconds(now_us),
             state: decision
@@ -146,7 +146,7 @@ impl StandstillDesk {
             evidence,
         });
         if teller.has_followers(Topic::Standstills) {
-            teller.tell(Topic::Standstills, Update::Standstill(Box::new(told)));
+            teller.tell(Topic::Standstills, Update::Standstill(Box::new(standstill)));
         }
     }
 }

@@ -11,6 +11,7 @@ pub mod cordlib;
 mod dead_man;
 mod description;
 mod event;
+mod latches;
 mod make;
 mod reflex;
 mod report;

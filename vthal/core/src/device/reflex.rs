@@ -1,10 +1,12 @@
 //! Reflexes of the host, for robots that have the sensors and do not react to them: a bumper, a cliff and a hanging wheel
-//! hold the wheels as in our own firmware (S6, S8 and S10 of the safety concept), as soon as they are reported.
+//! hold the wheels as in our own firmware (S6, S8 and S10 of the safety concept), as soon as they are reported. What latches stands in
+//! [`super::latches`].
 
 use brain::Inhibit;
 use brain::observation::Contacts;
 
 use super::{Description, Drive, ReflexSite, Reflexes, Report};
+use crate::edges::LevelTimes;
 
 /// Way that a robot may make between what happens and the wheels' answer, metres: less than the travel of a bumper, and
 /// than what lies between a cliff sensor and the wheel behind it.
@@ -27,8 +29,7 @@ pub(super) struct HostReflexes {
     reported_us: Option<u64>,
     contacts: Contacts,
     at_cliff: bool,
-    /// Until when the robot counts as lifted.
-    lifted_until_us: u64,
+    wheel_drop: LevelTimes,
 }
 
 impl HostReflexes {
@@ -40,7 +41,7 @@ impl HostReflexes {
             reported_us: None,
             contacts: Contacts::default(),
             at_cliff: false,
-            lifted_until_us: 0,
+            wheel_drop: LevelTimes::default(),
         })
     }
 
@@ -60,8 +61,8 @@ impl HostReflexes {
                 report.inhibits.insert(Inhibit::Cliff);
             }
         }
-        if is_host(self.sites.lift) && report.wheel_drops.any() {
-            self.lifted_until_us = now_us + PUT_DOWN_US;
+        if is_host(self.sites.lift) {
+            self.wheel_drop.take(now_us, report.wheel_drops.any());
         }
         if self.is_lifted(now_us) {
             report.inhibits.insert(Inhibit::WheelDrop);
@@ -71,7 +72,7 @@ impl HostReflexes {
 
     /// Whether a wheel hangs, or has hung until just now.
     pub(super) const fn is_lifted(&self, now_us: u64) -> bool {
-        now_us < self.lifted_until_us
+        self.wheel_drop.was_there_within(now_us, PUT_DOWN_US)
     }
 
     /// What of a command the wheels may do.
@@ -127,7 +128,8 @@ fn latency_s(reflexes: Reflexes) -> Option<f64> {
         .reduce(f64::max)
 }
 
-const fn is_host(site: ReflexSite) -> bool {
+/// Whether the host supplies a reflex.
+pub(super) const fn is_host(site: ReflexSite) -> bool {
     matches!(site, ReflexSite::Host { .. })
 }
 
@@ -147,7 +149,7 @@ mod tests {
     use brain::observation::{Cliffs, Contacts};
 
     use super::super::{Drive, ReflexSite, Reflexes, Report, WheelDrops};
-    use super::{HostReflexes, speed_limit_m_per_s};
+    use super::{HostReflexes, LevelTimes, speed_limit_m_per_s};
 
     const HOST: ReflexSite = ReflexSite::Host { latency_s: 0.2 };
     const ALL: Reflexes = Reflexes {
@@ -163,7 +165,7 @@ mod tests {
             reported_us: None,
             contacts: Contacts::default(),
             at_cliff: false,
-            lifted_until_us: 0,
+            wheel_drop: LevelTimes::default(),
         };
         let mut told = report;
         reflexes.take(0, &mut told);

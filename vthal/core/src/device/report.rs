@@ -18,11 +18,11 @@ pub struct Report {
     pub heading_urad: Option<i32>,
     /// Whether a command or a reflex drives the wheels.
     pub is_driven: bool,
-    /// Bumper zones that are pressed; a robot with one zone reports it on the left.
+    /// Bumper zones that are pressed, or were since the last report; a robot with one zone reports it on the left.
     pub contacts: Contacts,
-    /// Cliff sensors that see no floor.
+    /// Cliff sensors that see no floor, or saw none since the last report.
     pub cliffs: Cliffs,
-    /// Wheels that hang.
+    /// Wheels that hang, or hung since the last report.
     pub wheel_drops: WheelDrops,
     /// Proximity from the right side counter-clockwise, 0..1 (1 = touching); as many count as the description says.
     pub proximity: [f32; PROXIMITY_MAX],

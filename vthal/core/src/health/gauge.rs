@@ -1,4 +1,4 @@
-//! The load of one motor since somebody said that its part is clean, and whether it has changed.
+//! The load of one motor since a person reported that its part is clean, and whether it has changed.
 
 use std::collections::VecDeque;
 

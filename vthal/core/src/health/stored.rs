@@ -56,7 +56,7 @@ impl From<&Health> for StoredHealth {
 impl TryFrom<StoredHealth> for Health {
     type Error = HealthError;
 
-    /// A component that is not in it, or of which this daemon knows nothing, starts from nothing.
+    /// A component that is not in it, or that this daemon does not know, starts empty.
     fn try_from(stored: StoredHealth) -> Result<Self, HealthError> {
         OtherVersion::expect(stored.version, VERSION)?;
         let mut health = Self::default();

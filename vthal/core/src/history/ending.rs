@@ -21,14 +21,14 @@ pub(super) struct LastWords<'a> {
     pub(super) reason: &'a str,
     /// Why a cleaning job had turned home, if it had.
     pub(super) turned_home: Option<&'a str>,
-    /// Why the robot stood and could not go on by itself, if it did.
+    /// Why the robot stopped and could not continue by itself, if it did.
     pub(super) trouble: Option<&'a str>,
-    /// Who wanted the end, if somebody did.
+    /// Who ordered the end, if somebody did.
     pub(super) by: Option<&'a RunAsker>,
 }
 
 impl Ending {
-    /// While a run goes on nobody knows more than this.
+    /// The most that is known while a run is in progress.
     pub(super) fn cut_short() -> Self {
         Self {
             result: RunResult::CutShort,

@@ -23,7 +23,7 @@ pub(crate) struct Moment<'a> {
     pub(crate) brain: &'a Brain,
     pub(crate) charge: Option<f32>,
     pub(crate) decisions: &'a [Decision],
-    /// What it felt and tried, if it stopped by itself.
+    /// What its sensors reported and what it tried, if it stopped by itself.
     pub(crate) evidence: &'a Evidence,
     /// Number of the recording that goes on.
     pub(crate) recorded: Option<u32>,
@@ -44,7 +44,7 @@ pub(crate) struct Step {
 #[derive(Debug)]
 pub(crate) struct RunFollower {
     next_number: u64,
-    /// A look at the clock on the wall when it was set: host time and seconds since 1970.
+    /// A reading of the wall clock when it was set: host time and seconds since 1970.
     wall: Option<(u64, i64)>,
     asked: Option<Asked>,
     /// Whoever has commanded since the last step.

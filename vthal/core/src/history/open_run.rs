@@ -11,7 +11,7 @@ use crate::to_api;
 
 /// Stops that are kept of a run; further ones are only counted.
 const STOPS_MAX: usize = 100;
-/// Stops of which it is kept what the robot felt, some four kilobytes each.
+/// Stops that are stored with their sensor readings, some four kilobytes each.
 const EVIDENCE_MAX: usize = 20;
 
 /// A run that goes on, or whose end is so young that the robot might still take it back.
@@ -24,7 +24,7 @@ pub(super) struct OpenRun {
     path_from: usize,
     /// Why the job became a return to the dock.
     turned_home: Option<&'static str>,
-    /// It stands: state and reason, and whether the newest stop of the record tells of it.
+    /// The present stop: state and reason, and whether it is the newest stop of the record.
     standing: Option<OngoingStop>,
     figures: JobFigures,
     /// Share of the floor that the brain says it has swept.
@@ -39,10 +39,10 @@ pub(super) struct OpenRun {
 struct OngoingStop {
     state: &'static str,
     reason: &'static str,
-    is_told: bool,
+    is_recorded: bool,
 }
 
-/// Why a run stops, as its record tells it.
+/// Why a run stops, as its record has it.
 struct StopCause<'a> {
     state: &'static str,
     reason: &'static str,
@@ -163,7 +163,7 @@ impl OpenRun {
     /// Takes in a step of the brain in which the run went on.
     pub(super) fn follow(&mut self, moment: &Moment<'_>, hand: Option<&RunAsker>) {
         self.picture = None;
-        self.look_at_battery(moment.charge);
+        self.note_charge(moment.charge);
         let kind = moment.brain.job_kind();
         for decision in moment.decisions {
             self.take(moment, (decision, kind), hand);
@@ -186,7 +186,7 @@ impl OpenRun {
         }
     }
 
-    fn look_at_battery(&mut self, charge: Option<f32>) {
+    fn note_charge(&mut self, charge: Option<f32>) {
         if let Some(charge) = charge.map(f64::from) {
             let run = &mut self.record.run;
             run.charge_start.get_or_insert(charge);
@@ -241,15 +241,15 @@ impl OpenRun {
             evidence,
         } = cause;
         self.record.run.stop_count += 1;
-        let is_told = self.record.stops.len() < STOPS_MAX;
+        let is_recorded = self.record.stops.len() < STOPS_MAX;
         self.standing = Some(OngoingStop {
             state,
             reason,
-            is_told,
+            is_recorded,
         });
         let stops = self.record.stops.iter();
         let is_felt = stops.filter(|stop| !stop.evidence.is_empty()).count() < EVIDENCE_MAX;
-        if is_told {
+        if is_recorded {
             let asker = hand.filter(|_| reason == Reason::Command.name());
             let stop = RunStop {
                 at_s: self.at_s(now_us),
@@ -271,11 +271,11 @@ impl OpenRun {
         }
     }
 
-    /// It stands no longer.
+    /// The stop is over.
     fn go_on(&mut self, now_us: u64) {
         let at_s = self.at_s(now_us);
         if let Some(standing) = self.standing.take()
-            && standing.is_told
+            && standing.is_recorded
             && let Some(stop) = self.record.stops.last_mut()
         {
             stop.lasted_s = Some((at_s - stop.at_s).max(0.0));

@@ -1,9 +1,9 @@
-//! What a run drew, in the words of the interface to clients: bounded, whatever the map holds.
+//! The map of a run in the types of the interface to clients, of bounded size.
 
 use brain::{Brain, CELL_M, CellKnowledge, Hazard, Map, PathPoint, SweptRun};
 use rvac_api::{RunJob, RunPicture};
 
-use crate::home_view::{FeltFloors, home_view};
+use crate::home_view::{SurfaceSensing, home_view};
 use crate::to_api;
 
 /// Points of the path that lie nearer than this to the line between their neighbours are left out, millimetres.
@@ -32,7 +32,7 @@ pub(super) fn of_run(brain: &Brain, (job, path_from): (&RunJob, usize)) -> RunPi
         RunJob::Clean { .. } | RunJob::Spot => part.hazards,
     };
     RunPicture {
-        home: Some(home_view(map, FeltFloors::in_map(map))).filter(|home| !home.cells.is_empty()),
+        home: Some(home_view(map, SurfaceSensing::in_map(map))).filter(|home| !home.cells.is_empty()),
         ..drawn(&swept, path, hazards)
     }
 }
@@ -48,7 +48,7 @@ pub(super) fn of_checkpoint(checkpoint: &brain::Checkpoint) -> RunPicture {
         };
         let mut map = Map::new(body, brain::SensorLayout::default());
         map.load(stored);
-        home_view(&map, FeltFloors::in_map(&map))
+        home_view(&map, SurfaceSensing::in_map(&map))
     });
     RunPicture {
         home,
@@ -168,7 +168,7 @@ fn farthest(path: &[PathPoint], (from, to): (usize, usize)) -> Option<(usize, f6
         .max_by(|one, other| one.1.total_cmp(&other.1))
 }
 
-/// Floor that a job was to sweep, as far as the map tells it.
+/// Floor that a job was to sweep, as far as it is mapped.
 pub(super) fn floor_m2(map: &Map, job: &RunJob) -> Option<f64> {
     let RunJob::Clean {
         rooms,

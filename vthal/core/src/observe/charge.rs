@@ -5,7 +5,7 @@ use brain::observation::ChargeFlow;
 use crate::device::{Battery, ChargeState};
 
 /// A pack with more than this may be full enough that the charger lets it rest, 0..1. Its voltage decides there, and a voltage
-/// tells little about the charge.
+/// says little about the charge.
 const NEEDS_CHARGE: f64 = 0.8;
 /// Within this every charger may begin, degrees Celsius: by `design/safety.md` charging is allowed from 0 to
 /// 40 °C; sensors err by some degrees.

@@ -119,7 +119,7 @@ impl Observer {
         }
     }
 
-    /// Stamps the observation with the time and the state of the link. Times rise strictly whatever the caller gives.
+    /// Stamps the observation with the time and the state of the link. Times always rise strictly.
     pub fn stamp(&mut self, now_us: u64, link: LinkView) {
         self.observation.time_us = now_us.max(self.observation.time_us + 1);
         self.observation.link_up = link.up;
@@ -153,7 +153,7 @@ pub(crate) fn currents_a(report: &Report) -> Option<[f32; 3]> {
     })
 }
 
-/// A robot with one zone reports it on the left; the brain sees both.
+/// A robot with one zone reports it on the left; the brain is given both.
 fn contacts(zones: Contacts, count: u8) -> Contacts {
     let any = zones.any();
     if count == 1 {

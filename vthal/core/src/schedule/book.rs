@@ -36,7 +36,7 @@ pub struct Decision {
     pub at: String,
 }
 
-/// A change that a person wants.
+/// A change by a person.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ScheduleEdit {
     /// One more entry.
@@ -141,7 +141,7 @@ impl Book {
         self.decisions.iter().rev()
     }
 
-    /// Changes what a person wants changed, at `now_s` in a zone that holds if the book names none.
+    /// Applies a person's change at `now_s`, with a zone for books that name none.
     ///
     /// # Errors
     /// See [`EditError`]; then nothing is changed.
@@ -218,7 +218,7 @@ impl Book {
         Ok(())
     }
 
-    /// Runs that were due before `now_s` were never wanted.
+    /// Runs that were due before `now_s` do not count.
     pub fn forget_before(&mut self, now_s: i64) {
         for entry in &mut self.entries {
             entry.since_s = now_s;
@@ -280,7 +280,7 @@ impl Book {
     }
 }
 
-/// A single run must be to come, as far as a clock that is set can tell.
+/// A single run must lie in the future, if the clock is set.
 fn check_date(plan: &Plan, (zone, now_s): (&Zone, i64)) -> Result<(), EditError> {
     let When::Once { date, at } = plan.when else {
         return Ok(());

@@ -33,7 +33,7 @@ pub struct Entry {
     pub(super) plan: Plan,
     /// Its next run is left out.
     pub(super) skip_next: bool,
-    /// Runs that were due before this instant were never wanted: the plan was made or changed then.
+    /// Runs that were due before this instant do not count: the plan was made or changed then.
     pub(super) since_s: i64,
     /// The decided runs.
     pub(super) marks: Marks,

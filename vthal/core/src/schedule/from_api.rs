@@ -55,7 +55,7 @@ impl ScheduleError {
 }
 
 impl Plan {
-    /// A plan as a client says it. Its job is looked at when it starts, for homes change.
+    /// A plan as a client sends it. Its job is checked when it starts, because homes change.
     ///
     /// # Errors
     /// See [`ScheduleError`].

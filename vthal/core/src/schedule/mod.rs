@@ -5,7 +5,7 @@
 //! before the robot receives the command, so no run happens twice, whatever the clock does. *Verdict*: what was decided of a run,
 //! by name. *Late*: started after its time, because the daemon did not run or had no robot.
 //!
-//! Nothing here knows a clock: the present is an argument, in seconds since 1970 (UTC). [`Book`] holds the entries,
+//! Nothing here reads a clock: the present is an argument, in seconds since 1970 (UTC). [`Book`] holds the entries,
 //! [`verdict`] decides, [`planned`] foretells. Storing and starting is the business of whoever calls.
 
 mod book;

@@ -9,7 +9,7 @@ use super::{Book, Entry, Zone};
 
 /// Runs foretold of each entry.
 const RUNS_MAX: usize = 10;
-/// Days looked ahead, besides the dates that were decided before their time: ten weeks for what runs once a week, and more.
+/// Days planned ahead, besides the dates that were decided before their time: ten weeks for what runs once a week, and more.
 const DAYS_MAX: usize = 100;
 
 /// A run that is to come.
@@ -30,7 +30,7 @@ pub struct Planned {
 /// What keeps a run from starting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Blocker {
-    /// A person wants it left out.
+    /// A person skipped it.
     Skipped,
     /// It falls into the quiet hours.
     QuietHours,
@@ -43,7 +43,7 @@ pub enum Blocker {
 pub enum Held {
     /// It waits for the end of the quiet hours.
     QuietHours,
-    /// It waits for the robot, or for the next look at the clock.
+    /// It waits for the robot, or for the next reading of the clock.
     NoRobot,
 }
 

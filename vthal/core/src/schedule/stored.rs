@@ -52,7 +52,7 @@ pub enum StoredError {
     /// A part of it is wrong.
     #[error(transparent)]
     Wrong(#[from] ScheduleError),
-    /// An outcome that nobody knows.
+    /// An unknown outcome.
     #[error("`{0}` is no outcome of a run")]
     Outcome(String),
 }

@@ -34,7 +34,7 @@ impl Plan {
 pub(crate) trait Keeping {
     /// Why the robot could not start its job.
     fn ready(&self, entry: &Entry) -> Result<(), &'static str>;
-    /// Why the robot is not on its floor, as far as anybody knows.
+    /// Why the robot is not on its floor, as far as known.
     fn on_floor(&self, entry: &Entry) -> Result<(), &'static str>;
 }
 

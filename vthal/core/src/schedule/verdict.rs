@@ -6,7 +6,7 @@ use rvac_api::InQuiet;
 use super::marks::Mark;
 use super::{Book, Entry, Zone};
 
-/// So many seconds after its time a run is still on time: the daemon looks at its clock every second, and systems stall.
+/// So many seconds after its time a run is still on time: the daemon reads its clock every second, and systems stall.
 pub const GRACE_S: i64 = 120;
 /// A robot that is not there is waited for, for as long as the entry may be late; so long before the end of that time it is
 /// refused, so that the reason has its name.
@@ -25,7 +25,7 @@ pub enum Outcome {
     Fired,
     /// The daemon ended after the note and before it commanded the robot, or that is unknown.
     Interrupted,
-    /// A person wanted it left out.
+    /// A person skipped it.
     Skipped,
     /// Nobody was there in time to start it.
     Missed,

@@ -35,7 +35,7 @@ impl Zone {
         &self.name
     }
 
-    /// What clocks show at an instant; `None` beyond the years that a calendar knows.
+    /// What clocks show at an instant; `None` beyond the years of the calendar.
     #[must_use]
     pub fn local(&self, utc_s: i64) -> Option<DateTime> {
         let instant = Timestamp::from_second(utc_s).ok()?;

@@ -12,8 +12,8 @@ use super::annotations::{
 
 #[derive(Serialize, Deserialize)]
 pub(super) struct Body {
-    pub(super) felt_dock: Option<FeltDock>,
-    pub(super) told_dock: Option<Pose>,
+    pub(super) measured_dock: Option<StoredDock>,
+    pub(super) reported_dock: Option<Pose>,
     pub(super) layers: Layers,
     pub(super) no_go: Numbered<NoGo>,
     pub(super) names: Vec<(u16, String)>,
@@ -23,7 +23,7 @@ pub(super) struct Body {
 }
 
 #[derive(Serialize, Deserialize)]
-pub(super) struct FeltDock {
+pub(super) struct StoredDock {
     pub(super) times: u8,
     pub(super) pose: Pose,
 }
@@ -50,11 +50,11 @@ impl Body {
     pub(super) fn of(map: &StoredMap) -> Self {
         let parts = map.parts();
         Self {
-            felt_dock: parts.measured_dock.map(|felt| FeltDock {
-                times: felt.times,
-                pose: pose(felt.pose),
+            measured_dock: parts.measured_dock.map(|dock| StoredDock {
+                times: dock.times,
+                pose: pose(dock.pose),
             }),
-            told_dock: parts.reported_dock.map(pose),
+            reported_dock: parts.reported_dock.map(pose),
             layers: Layers {
                 origin_x: parts.origin.x,
                 origin_y: parts.origin.y,
@@ -87,11 +87,11 @@ impl Body {
         let layers = self.layers;
         let taken_back = self.room_changes.taken_back.into_iter().map(RoomSplit::try_from);
         StoredMap::from_parts(StoredMapParts {
-            measured_dock: self.felt_dock.map(|felt| MeasuredDock {
-                times: felt.times,
-                pose: to_pose(felt.pose),
+            measured_dock: self.measured_dock.map(|dock| MeasuredDock {
+                times: dock.times,
+                pose: to_pose(dock.pose),
             }),
-            reported_dock: self.told_dock.map(to_pose),
+            reported_dock: self.reported_dock.map(to_pose),
             origin: Cell {
                 x: layers.origin_x,
                 y: layers.origin_y,

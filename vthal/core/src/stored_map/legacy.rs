@@ -2,27 +2,27 @@
 //!
 //! Version 1 ends after the layers; version 2 adds what people have said of the home; version 3 adds to that how they changed
 //! its rooms, version 4 how rooms are cleaned, version 5 by which pattern. Version 6 begins with two poses of the dock: where
-//! it was felt, after how often, and where a person says that it is. Of earlier ones it was felt often enough; 0 = no pose follows.
+//! it was measured, how often, and where a person says that it is. In earlier ones it was measured often enough; 0 = no pose follows.
 //! Version 7 adds the names of no-go zones and virtual walls, version 8 the zones and spots that are kept. Version 9 keeps the kind
 //! of floor in two bits of each cell; in the oldest maps they may hold how much wheels slipped there, which nothing used.
 
 use brain::StoredMapError;
 
 use super::annotations::{NoGo, NoGoShape, Numbered, Pattern, RoomChanges, RoomSettings};
-use super::body::{Body, FeltDock, Layers, Pose};
+use super::body::{Body, Layers, Pose, StoredDock};
 use super::{DecodeError, Reader};
 
 /// Bits of a cell that held something else before version 9.
 const FLOOR_BITS: u16 = 0b11 << 8;
-/// How often a dock of a version before 6 counts as felt: its place does not change any more.
+/// Number of measurements assumed for a dock of a version before 6: its position does not change any more.
 const FELT_OFTEN_ENOUGH: u8 = 6;
 
 /// The body of a version before 10.
 pub(super) fn body(reader: &mut Reader<'_>, version: u8) -> Result<Body, DecodeError> {
-    let (felt_dock, told_dock) = (felt_dock(reader, version)?, told_dock(reader, version)?);
+    let (measured_dock, reported_dock) = (measured_dock(reader, version)?, reported_dock(reader, version)?);
     Ok(Body {
-        felt_dock,
-        told_dock,
+        measured_dock,
+        reported_dock,
         layers: layers(reader, version)?,
         no_go: no_go(reader, version)?,
         names: match version {
@@ -41,7 +41,7 @@ pub(super) fn body(reader: &mut Reader<'_>, version: u8) -> Result<Body, DecodeE
     })
 }
 
-fn felt_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<FeltDock>, DecodeError> {
+fn measured_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<StoredDock>, DecodeError> {
     let times: u16 = reader.take(DecodeError::Number)?;
     if times == 0 {
         return Ok(None);
@@ -51,10 +51,10 @@ fn felt_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<FeltDock>, D
         ..6 => FELT_OFTEN_ENOUGH,
         _ => times.try_into().map_err(|_| DecodeError::Number)?,
     };
-    Ok(Some(FeltDock { pose, times }))
+    Ok(Some(StoredDock { pose, times }))
 }
 
-fn told_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<Pose>, DecodeError> {
+fn reported_dock(reader: &mut Reader<'_>, version: u8) -> Result<Option<Pose>, DecodeError> {
     if version < 6 {
         return Ok(None);
     }

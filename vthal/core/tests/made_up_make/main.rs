@@ -157,6 +157,35 @@ fn the_host_stops_it_at_a_wall_and_at_a_hole_while_the_stick_is_held() {
 }
 
 #[test]
+fn a_bumper_that_stays_pressed_is_latched_until_a_person_has_freed_and_cleared_it() {
+    let clear = || RequestBody::Clear {
+        reason: "bumper-stuck".to_owned(),
+    };
+    // The lease of the driver ends meanwhile, so the robot is stopped, too.
+    let holds = |pair: &Pair, name: &str| pair.core.status().inhibits.iter().any(|held| held == name);
+    let mut pair = Pair::new(Robot::new());
+    pair.drive_until(0.2, |pair| pair.robot.bumps());
+    pair.run_ms(9_800);
+    assert!(holds(&pair, "bumper") && !holds(&pair, "bumper-stuck"));
+    pair.run_ms(400);
+    assert!(holds(&pair, "bumper-stuck"));
+    pair.ask(clear());
+    pair.run_ms(200);
+    assert!(holds(&pair, "bumper-stuck"), "its cause is there");
+    pair.robot.free_bumper();
+    pair.run_ms(200);
+    assert!(!holds(&pair, "bumper") && holds(&pair, "bumper-stuck"));
+    assert!(pair.drive(-0.2).is_some());
+    assert!(pair.robot.stands());
+    assert_eq!(pair.ask(clear()), None);
+    pair.run_ms(200);
+    assert!(!holds(&pair, "bumper-stuck"));
+    assert_eq!(pair.drive(0.0), None);
+    pair.run_ms(200);
+    pair.drive_until(-0.2, |pair| pair.robot.x_m < 2.7);
+}
+
+#[test]
 fn a_lifted_one_stands_and_one_that_was_put_down_waits_a_second() {
     let mut pair = Pair::new(Robot::new());
     pair.drive_until(0.1, |pair| pair.robot.x_m > 1.1);

@@ -68,6 +68,11 @@ impl Robot {
         self.x_m + CLIFF_LEAD_M * self.heading_rad.cos() > self.hole_m
     }
 
+    /// A person frees the bumper.
+    pub(crate) const fn free_bumper(&mut self) {
+        self.bumper = 0;
+    }
+
     /// Lets a millisecond pass.
     pub(crate) fn pass_ms(&mut self) {
         let [left, right] = self.wheels_mm_per_s.map(|mm_per_s| mm_per_s * 1e-3);

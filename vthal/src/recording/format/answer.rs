@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::recording::schemas::list;
 
-/// [`Actions`], one way only: a replay compares what is written.
+/// [`Actions`], written and never read back: a replay compares what is written.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct Answered<'a> {
     #[schemars(with = "Value")]

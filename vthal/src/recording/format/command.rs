@@ -1,11 +1,13 @@
 //! Commands of people and schedules to the brain, as recordings have them.
 //!
-//! All forms are written without the level of nesting that [`Command`] has: `"spot"`, `{"add-no-go":...}`.
+//! All forms are written without the level of nesting that [`Command`] has: `"spot"`, `{"c":"remove-no-go","number":2}`.
 
-use brain::{Command, JobCommand, MapEdit, StrategyName};
+use brain::{Command, JobCommand, StrategyName};
+use rvac_api::RequestBody;
 use serde::{Deserialize, Serialize};
+use vthal_core::api_forms;
 
-use super::map_edit::{GivenDockEdit, GivenNoGoEdit, GivenPlaceEdit, GivenRoomEdit};
+use super::earlier_map_edit::EarlierMapEdit;
 use super::order::GivenOrder;
 
 /// [`Command`]
@@ -14,38 +16,29 @@ use super::order::GivenOrder;
 pub enum GivenCommand {
     /// [`Command::Job`]
     Job(GivenJobCommand),
-    /// [`MapEdit::NoGo`]
-    NoGo(GivenNoGoEdit),
-    /// [`MapEdit::Place`]
-    Place(GivenPlaceEdit),
-    /// [`MapEdit::Room`]
-    Room(GivenRoomEdit),
-    /// [`MapEdit::Dock`]
-    Dock(GivenDockEdit),
+    /// [`Command::Edit`], as a client asks for it on the socket.
+    Edit(RequestBody),
+    /// [`Command::Edit`] in recordings of earlier versions.
+    EarlierEdit(EarlierMapEdit),
 }
 
 impl From<&Command> for GivenCommand {
     fn from(command: &Command) -> Self {
         match command {
             Command::Job(command) => Self::Job(command.into()),
-            Command::Edit(MapEdit::NoGo(edit)) => Self::NoGo(edit.into()),
-            Command::Edit(MapEdit::Place(edit)) => Self::Place(edit.into()),
-            Command::Edit(MapEdit::Room(edit)) => Self::Room(edit.into()),
-            Command::Edit(MapEdit::Dock(pose)) => Self::Dock(pose.into()),
+            Command::Edit(edit) => Self::Edit(api_forms::map_edit(edit)),
         }
     }
 }
 
 impl GivenCommand {
-    /// Back to the brain's own type; `None` for a strategy that this version does not have.
+    /// Back to the brain's own type; `None` for what this version does not have.
     #[must_use]
     pub fn to_brain(&self) -> Option<Command> {
         Some(match self {
             Self::Job(command) => Command::Job(command.to_brain()?),
-            Self::NoGo(edit) => Command::Edit(MapEdit::NoGo(edit.to_brain()?)),
-            Self::Place(edit) => Command::Edit(MapEdit::Place(edit.to_brain()?)),
-            Self::Room(edit) => Command::Edit(MapEdit::Room(edit.to_brain()?)),
-            Self::Dock(edit) => Command::Edit(MapEdit::Dock(edit.to_brain())),
+            Self::Edit(asked) => Command::Edit(api_forms::to_map_edit(asked.clone())?),
+            Self::EarlierEdit(edit) => Command::Edit(edit.to_brain()?),
         })
     }
 }

@@ -1,11 +1,11 @@
-//! The recorded forms of the brain's types, and the conversions both ways.
+//! The recorded forms of the brain's types, and the conversions in both directions.
 //!
 //! Numbers are written so that reading them gives the same bits again; a replay rests on it.
 
 mod answer;
 mod command;
+mod earlier_map_edit;
 mod flow;
-mod map_edit;
 mod order;
 mod packet;
 mod sensors;
@@ -13,7 +13,7 @@ mod state;
 
 pub use answer::{Answered, AnsweredNames, DecisionNames};
 pub use command::{GivenCommand, GivenJobCommand};
-pub use map_edit::{GivenDockEdit, GivenNoGoEdit, GivenPlaceEdit, GivenRoomEdit};
+pub use earlier_map_edit::EarlierMapEdit;
 pub use order::GivenOrder;
 pub use packet::SentPacket;
 pub use state::BrainState;
@@ -245,7 +245,7 @@ impl Seen {
         }
     }
 
-    /// First the ranges: what a step is told of beacons has no order.
+    /// First the ranges: the beacon readings of a step have no order.
     fn signals(&self) -> Vec<BeaconSignal> {
         let ranges = self.beacons.iter().map(|&(beacon, range_m, sigma_m)| {
             BeaconSignal::Range(BeaconRange {

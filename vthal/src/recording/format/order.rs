@@ -1,4 +1,4 @@
-//! Jobs for parts of the home as they stand in recordings and checkpoints.
+//! Jobs for parts of the home as recordings and checkpoints store them.
 
 use brain::{CleaningOrder, RoomPower};
 use rvac_api::JobOrder;
@@ -8,7 +8,7 @@ use vthal_core::api_forms;
 /// [`CleaningOrder`]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GivenOrder {
-    /// Suction, main brush and side brushes in percent, in place of the shares that clients tell.
+    /// Suction, main brush and side brushes in percent, in place of the shares that clients send.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     power: Option<[u8; 3]>,
     #[serde(flatten)]
@@ -51,24 +51,14 @@ impl GivenOrder {
 mod tests {
     use super::super::GivenCommand;
 
-    /// As recordings have kept them since there are orders and edits.
-    const RECORDED: [&str; 12] = [
+    /// As recordings have kept them since there are orders.
+    const RECORDED: [&str; 2] = [
         r#"{"clean-parts":{"parts":[{"room":3},{"zone":[[0.0,0.1],[0.3333333333333333,0.0],[-1.0,2.0]]},{"spot":[0.5,1.5]}],"passes":2}}"#,
         r#"{"clean-parts":{"parts":[],"passes":1,"avoid":[{"wall":[[0.0,0.0],[1.0,0.5]]}],"power":[30,100,0],"pattern":"contour"}}"#,
-        r#"{"add-no-go":{"zone":[[0.0,0.25],[0.5,0.0],[-1.0,2.0]]}}"#,
-        r#"{"add-named-no-go":[{"wall":[[0.0,0.0],[1.0,0.5]]},"Cats"]}"#,
-        r#"{"reshape-no-go":{"number":7,"no_go":{"wall":[[0.0,0.0],[1.0,0.5]]}}}"#,
-        r#"{"keep-place":{"name":"Table","place":{"zone":[[0.0,0.25],[0.5,0.0],[-1.0,2.0]]}}}"#,
-        r#"{"keep-place":{"name":"Bowl","place":{"spot":[0.5,1.5]},"number":3}}"#,
-        r#"{"reshape-place":{"number":3,"place":{"spot":[0.5,1.5]}}}"#,
-        r#"{"set-room":{"room":3,"settings":[2,30,100,0]}}"#,
-        r#"{"set-room":{"room":3,"settings":[2,30,100,0],"pattern":"contour"}}"#,
-        r#"{"set-room":{"room":3,"settings":null}}"#,
-        r#"{"split-room":{"room":3,"line":[[0.0,0.0],[1.0,0.5]]}}"#,
     ];
 
     #[test]
-    fn recorded_orders_and_edits_are_read_and_written_as_ever() {
+    fn recorded_orders_are_read_and_written_as_ever() {
         for text in RECORDED {
             let given: GivenCommand = serde_json::from_str(text).expect("is read");
             let command = given.to_brain().expect("a good one");

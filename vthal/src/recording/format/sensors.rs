@@ -12,7 +12,7 @@ pub(super) struct SensorSettings {
     half_angle_rad: f64,
     half_level_m: f64,
     skin_m: f64,
-    /// Absent for sensors that tell levels.
+    /// Absent for sensors that report levels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     near_m: Option<f64>,
     bumper_half_arc_rad: f64,
@@ -22,7 +22,7 @@ pub(super) struct SensorSettings {
 }
 
 impl Default for SensorSettings {
-    /// What recordings of versions before sensors had places stand for.
+    /// The meaning of recordings made before sensors had positions.
     fn default() -> Self {
         Self::from(&SensorLayout::default())
     }

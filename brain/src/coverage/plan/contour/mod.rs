@@ -16,6 +16,7 @@ mod shape;
 mod tests;
 
 use super::sweep_pattern::SweepPattern;
+use crate::coverage::plan::parameters::RINGS;
 use crate::mapping::Cell;
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::ConfigurationSpace;
@@ -24,9 +25,6 @@ pub(super) use order::RingStart;
 use order::{RingPath, RingTour};
 use ring_sections::{RingSection, Sweeper};
 
-/// A job that has swept less than this share of the ringed floor begins at the wall or in the middle; a later plan
-/// continues where the robot is.
-const BEGUN_SHARE: f64 = 0.05;
 /// Work to find the pattern of a cell.
 const ASK_WORK: usize = 1;
 
@@ -72,7 +70,7 @@ impl RingFloor {
             .iter()
             .zip(open)
             .filter(|(ringed, open)| **ringed && **open);
-        left.count() as f64 >= (1.0 - BEGUN_SHARE) * self.floor as f64
+        left.count() as f64 >= (1.0 - RINGS.begun_share) * self.floor as f64
     }
 }
 

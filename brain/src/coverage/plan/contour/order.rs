@@ -5,18 +5,14 @@ use std::collections::BTreeSet;
 use super::ring_sections::{RingSection, Sweeper};
 use super::shape::corners;
 use crate::coverage::plan::Departure;
+use crate::coverage::plan::parameters::RINGS;
 use crate::coverage::plan::timing::{EndHeadings, path_s};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 use crate::navigation::heading::heading_rad;
-use crate::navigation::router::{CostField, Router};
+use crate::navigation::router::{CostField, PATH_WORK, Router};
 
-/// Number of nearest entries that are compared.
-const NEAR_ENTRIES: usize = 16;
-/// Cells along a section over which its direction is measured.
-const AHEAD: usize = 8;
-/// Work to search a path beyond that for its goal, and to read a cell of a section.
-const PATH_WORK: usize = 3_000;
+/// Work to read a cell of a section.
 const READ_WORK: usize = 2;
 
 /// A path along rings.
@@ -134,7 +130,7 @@ impl<'plan> RingTour<'plan> {
     /// The entry that costs least to reach, of the nearest ones; `cost_field` then holds the path.
     async fn nearest(
         &self,
-        cost_field: &mut CostField,
+        cost_field: &mut CostField<'_>,
         is_eligible: impl Fn(&RingSection) -> bool,
         budget: &mut StepBudget,
     ) -> Option<SectionEntry> {
@@ -148,17 +144,15 @@ impl<'plan> RingTour<'plan> {
                     .filter(|(_, section, _)| is_eligible(&self.sections[*section]))
                     .map(|(_, section, place)| (*section, *place)),
             );
-            found.len() >= NEAR_ENTRIES
+            found.len() >= RINGS.near_entries
         };
         if self.entries.is_empty() {
             return None;
         }
-        self.router.explore(self.at, (cost_field, budget), enough).await;
+        cost_field.explore(self.at, enough, budget).await;
         let mut best: Option<(f32, SectionEntry)> = None;
         for (section, place) in found {
-            let path = self
-                .router
-                .path(cost_field, self.at, self.sections[section].cells[place]);
+            let path = cost_field.path(self.sections[section].cells[place]);
             for entry in self.directions(section, place) {
                 let cost = self.cost_s(&path, entry);
                 if best.is_none_or(|(least, _)| cost < least) {
@@ -188,7 +182,7 @@ impl<'plan> RingTour<'plan> {
     fn cost_s(&self, path: &[usize], entry: SectionEntry) -> f32 {
         let cells = &self.sections[entry.section].cells;
         let count = cells.len();
-        let ahead = AHEAD.min(count - 1);
+        let ahead = RINGS.direction_cells.min(count - 1);
         let next = if entry.is_backwards {
             (entry.place + count - ahead) % count
         } else {
@@ -210,7 +204,7 @@ impl<'plan> RingTour<'plan> {
 
     /// Drives along a section from an entry, as far as that is worth it. If less of it is worth driving now than when it
     /// was found, its remaining parts replace it.
-    async fn enter(&mut self, entry: SectionEntry, cost_field: &CostField, budget: &mut StepBudget) {
+    async fn enter(&mut self, entry: SectionEntry, cost_field: &CostField<'_>, budget: &mut StepBudget) {
         let section = self.remove(entry.section);
         budget
             .spend(READ_WORK * (section.cells.len() + self.entries.len()))
@@ -253,10 +247,10 @@ impl<'plan> RingTour<'plan> {
     }
 
     /// Drives to the first cell of a chain, and along it.
-    fn follow(&mut self, cells: &[usize], cost_field: &CostField) {
+    fn follow(&mut self, cells: &[usize], cost_field: &CostField<'_>) {
         let Some(first) = cells.first() else { return };
         let space = self.router.space();
-        let link = self.router.path(cost_field, self.at, *first);
+        let link = cost_field.path(*first);
         for cell in link.into_iter().chain(corners(space, cells)) {
             let (point, before) = (space.point(cell), self.corners.last().copied());
             if before != Some(point) {

@@ -1,12 +1,10 @@
 //! Which parts of a ring are worth driving.
 
 use super::rings::Ring;
+use crate::coverage::plan::parameters::RINGS;
 use crate::model::gradual::StepBudget;
 use crate::navigation::configuration_space::ConfigurationSpace;
 
-/// Smallest share of what a ring sweeps over fully open floor that makes it worth driving: as for a lane of the first
-/// round.
-const WORTH_PERCENT: usize = 35;
 /// Work to count the open floor around a cell.
 const COUNT_WORK: usize = 40;
 
@@ -38,7 +36,7 @@ impl Sweeper {
             open: space.open.clone(),
             width: space.width,
             swath: 2 * space.reach + 1,
-            begin: WORTH_PERCENT * cells / 100,
+            begin: RINGS.worth_percent * cells / 100,
             disc,
         }
     }
@@ -123,7 +121,7 @@ impl Sweeper {
     pub(super) async fn sweep(&mut self, section: &RingSection, budget: &mut StepBudget) -> usize {
         let (mut driven, mut unproductive) = (0, 0_usize);
         for (place, cell) in section.cells.iter().enumerate() {
-            let worth = WORTH_PERCENT * self.swath * (unproductive + 1).min(self.swath) / 100;
+            let worth = RINGS.worth_percent * self.swath * (unproductive + 1).min(self.swath) / 100;
             if self.open_around(*cell) >= worth.max(1) {
                 for cell in &section.cells[driven..=place] {
                     self.close_around(*cell);

@@ -1,11 +1,8 @@
 //! Simplifies chains of cells to corners (Ramer-Douglas-Peucker).
 
-use crate::mapping::CELL_M;
+use crate::coverage::plan::parameters::RINGS;
 use crate::model::geometry::Point2;
 use crate::navigation::configuration_space::ConfigurationSpace;
-
-/// A corner may be left out where the straight line deviates by no more than this: walls are drawn in steps of a cell.
-const OFF_MAX_M: f64 = 1.3 * CELL_M;
 
 /// The corner cells of a chain, both ends included. The straight lines between them pass over free cells only.
 pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize> {
@@ -16,7 +13,7 @@ pub(super) fn corners(space: &ConfigurationSpace, cells: &[usize]) -> Vec<usize>
     let mut parts = vec![(0, last)];
     while let Some((from, to)) = parts.pop() {
         let (off_m, place) = farthest(space, cells, from, to);
-        let is_straight = off_m <= OFF_MAX_M && space.has_line_of_sight(cells[from], cells[to]);
+        let is_straight = off_m <= RINGS.off_max_m && space.has_line_of_sight(cells[from], cells[to]);
         if is_straight || to <= from + 1 {
             kept.push(cells[to]);
         } else {

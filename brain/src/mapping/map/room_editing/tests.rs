@@ -18,8 +18,8 @@ fn point(x_m: f64, y_m: f64) -> Point2 {
     Point2 { x_m, y_m }
 }
 
-fn line(from: (f64, f64), to: (f64, f64)) -> CutLine {
-    CutLine::new(point(from.0, from.1), point(to.0, to.1)).expect("two places")
+fn line(from: Point2, to: Point2) -> CutLine {
+    CutLine::new(from, to).expect("two places")
 }
 
 /// Two rooms side by side along x, 4 and 3 m long and 3 m deep, with a door of 0.8 m between them; all of it shifted by `shift_m`
@@ -75,7 +75,8 @@ fn a_split_gives_the_larger_part_the_name_and_the_smaller_one_a_new_identity() {
     let mut map = map_of(&two_rooms(0.0, true));
     assert_eq!(ids(&map), [1, 2]);
     map.name_room(1, RoomName::new("Hall").ok()).unwrap();
-    map.split_room(None, line((1.0, 0.2), (1.0, 2.8))).unwrap();
+    map.split_room(None, line(point(1.0, 0.2), point(1.0, 2.8)))
+        .unwrap();
     assert_eq!(ids(&map), [1, 2, 3]);
     assert!((area_m2(&map, 1) - 9.0).abs() < 0.3 && (area_m2(&map, 3) - 3.0).abs() < 0.2);
     assert_eq!(map.rooms().room_at(point(0.5, 1.5)), Some(3));
@@ -114,12 +115,13 @@ fn a_name_that_a_join_hides_is_free_again() {
 #[test]
 fn a_split_that_is_undone_and_repeated_gives_the_same_identity() {
     let mut map = map_of(&two_rooms(0.0, true));
-    let cut = line((1.0, 0.0), (1.0, 3.0));
+    let cut = line(point(1.0, 0.0), point(1.0, 3.0));
     map.split_room(Some(1), cut).unwrap();
     map.name_room(3, RoomName::new("Niche").ok()).unwrap();
     map.undo_room_change(1).unwrap();
     assert_eq!(ids(&map), [1, 2]);
-    map.split_room(Some(1), line((2.0, 0.0), (2.0, 3.0))).unwrap();
+    map.split_room(Some(1), line(point(2.0, 0.0), point(2.0, 3.0)))
+        .unwrap();
     assert_eq!(ids(&map), [1, 2, 4], "another split gives another one");
     map.undo_room_change(2).unwrap();
     let mut map = map_of(&map.stored());
@@ -131,19 +133,21 @@ fn a_split_that_is_undone_and_repeated_gives_the_same_identity() {
 #[test]
 fn invalid_changes_are_refused_by_name_and_change_nothing() {
     let mut map = map_of(&two_rooms(0.0, true));
-    map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))).unwrap();
-    map.split_room(Some(1), line((2.5, 0.0), (2.5, 3.0))).unwrap();
+    map.split_room(Some(1), line(point(1.0, 0.0), point(1.0, 3.0)))
+        .unwrap();
+    map.split_room(Some(1), line(point(2.5, 0.0), point(2.5, 3.0)))
+        .unwrap();
     let (before, words) = (map.rooms().clone(), map.annotations().clone());
-    let outside = line((9.0, 0.0), (9.0, 3.0));
+    let outside = line(point(9.0, 0.0), point(9.0, 3.0));
     for (done, reason) in [
         (map.split_room(None, outside), EditError::LineMissesRoom),
         (map.split_room(Some(9), outside), EditError::NoSuchRoom),
         (
-            map.split_room(Some(2), line((5.0, 1.0), (5.0, 1.5))),
+            map.split_room(Some(2), line(point(5.0, 1.0), point(5.0, 1.5))),
             EditError::LineEndsInRoom,
         ),
         (
-            map.split_room(Some(2), line((4.2, 0.0), (4.2, 3.0))),
+            map.split_room(Some(2), line(point(4.2, 0.0), point(4.2, 3.0))),
             EditError::PartTooSmall,
         ),
         (map.join_rooms([2, 3]), EditError::RoomsApart),
@@ -162,7 +166,8 @@ fn invalid_changes_are_refused_by_name_and_change_nothing() {
 #[test]
 fn changes_survive_a_map_that_is_drawn_again_with_an_offset() {
     let mut map = map_of(&two_rooms(0.0, false));
-    map.split_room(None, line((1.5, 0.1), (1.5, 2.9))).unwrap();
+    map.split_room(None, line(point(1.5, 0.1), point(1.5, 2.9)))
+        .unwrap();
     map.name_room(2, RoomName::new("Niche").ok()).unwrap();
     assert_eq!(ids(&map), [1, 2]);
     let mut again = mapped_again(&map, 0.1);
@@ -181,12 +186,13 @@ fn changes_survive_a_map_that_is_drawn_again_with_an_offset() {
 fn the_number_of_changes_is_limited_and_an_undo_makes_room() {
     let mut map = map_of(&two_rooms(0.0, true));
     for _ in 0..32 {
-        map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))).unwrap();
+        map.split_room(Some(1), line(point(1.0, 0.0), point(1.0, 3.0)))
+            .unwrap();
         let part = *ids(&map).last().unwrap();
         map.join_rooms([1, part]).unwrap();
     }
     assert_eq!(
-        map.split_room(Some(1), line((1.0, 0.0), (1.0, 3.0))),
+        map.split_room(Some(1), line(point(1.0, 0.0), point(1.0, 3.0))),
         Err(EditError::TooManyRoomChanges)
     );
     let (last, _) = map.annotations().room_changes().made().last().unwrap();

@@ -2,7 +2,7 @@
 
 use super::{Explanation, entry};
 
-/// A cause for the end of a sentence: what stands there already needs no name.
+/// A cause for the end of a sentence: the sentence names it already.
 pub(super) fn clause(told: Explanation) -> String {
     let cause = told.cause.trim_end_matches('.');
     for (named, unnamed) in [("Robot ", "ta "), ("Robotil ", "tal "), ("Roboti ", "tema ")] {

@@ -1,4 +1,4 @@
-//! Codes come over the wire; people read sentences. A code without words in the language of the page is told in the robot's own
+//! Codes come over the wire; people read sentences. A code without words in the language of the page is shown in the robot's own
 //! English sentence, or shown as it is.
 
 mod diary;
@@ -53,7 +53,7 @@ pub fn strategy_title<'a>(words: &Words, strategy: &'a str) -> &'a str {
     }
 }
 
-/// The explanation of a code; a code that nobody has explained yet gives none and is shown as it is.
+/// The explanation of a code; a code without explanation gives none and is shown as it is.
 #[must_use]
 pub fn explain(words: &Words, code: &str) -> Option<Explanation> {
     match words.language {
@@ -139,7 +139,7 @@ fn with_value(deed: &str, decision: &Decision) -> String {
     deed.replace("{}", &format!("{value:.0}"))
 }
 
-/// A line of the log, and whether it is in the language of the page. What the brain decided stands there as codes, `turn (bump-left)`; what
+/// A line of the log, and whether it is in the language of the page. The brain's decisions are there as codes, `turn (bump-left)`; what
 /// the daemon says besides are sentences in English.
 #[must_use]
 pub fn log_text(words: &Words, entry: &LogEntry) -> (String, bool) {
@@ -156,7 +156,7 @@ pub fn log_text(words: &Words, entry: &LogEntry) -> (String, bool) {
     (told.unwrap_or_else(|| entry.text.clone()), is_told)
 }
 
-/// The decision that a line of the log tells, if it tells one.
+/// The decision in a line of the log, if there is one.
 fn decided(entry: &LogEntry) -> Option<Decision> {
     let (what, rest) = entry.text.split_once(" (").filter(|_| entry.part == "brain")?;
     let (reason, value) = rest.split_once(')')?;
@@ -177,7 +177,7 @@ pub fn run_text(words: &Words, run: &Run) -> String {
         return run.text.clone();
     }
     let told = &words.history;
-    let with_cause = |text: crate::words::Told<1>| {
+    let with_cause = |text: crate::words::Template<1>| {
         cause(words, &run.reason).map_or_else(|| run.text.clone(), |cause| text.fill([&cause]))
     };
     match (run.result, run.reason.as_str()) {
@@ -191,7 +191,7 @@ pub fn run_text(words: &Words, run: &Run) -> String {
     }
 }
 
-/// Why the robot stood on the way, and what can be done about it.
+/// Why the robot stopped during the run, and what can be done about it.
 #[must_use]
 pub fn stop_cause_text(words: &Words, stop: &RunStop) -> String {
     let told = cause(words, &stop.reason).map_or_else(
@@ -275,7 +275,7 @@ mod tests {
         assert!(seen > 30, "only {seen} were found: has the page another form?");
     }
 
-    /// What stands behind each `begin`, up to `end`.
+    /// The text behind each `begin`, up to `end`.
     fn quoted<'a>(text: &'a str, begin: &'a str, end: char) -> impl Iterator<Item = &'a str> {
         text.split(begin)
             .skip(1)

@@ -18,11 +18,11 @@ pub struct RunDrawing {
     pub view_box: [i32; 4],
     /// Floor that the robot knew.
     pub floor: String,
-    /// What stood there.
+    /// The obstacle cells.
     pub walls: String,
     /// Swept floor.
     pub swept: String,
-    /// The way.
+    /// The path.
     pub way: String,
 }
 

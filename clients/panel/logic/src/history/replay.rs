@@ -6,20 +6,20 @@ use rvac_api::{RunTrack, TrackPose};
 
 use super::picture::cm;
 
-/// Poses farther apart in time than this have nothing between them: the robot stood, or nobody recorded it.
+/// Poses farther apart in time than this have nothing between them: the robot stood, or it was not recorded.
 const GAP_S: f32 = 30.0;
 
 /// A run that is seen again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Replay {
     poses: Vec<TrackPose>,
-    /// When its recordings begin. Nothing is drawn from one to the next: the robot may have been carried, or the next one tells of
+    /// When its recordings begin. Nothing is drawn from one to the next: the robot may have been carried, or the next one has
     /// another map.
     begins: Vec<f32>,
 }
 
 impl Replay {
-    /// The one that the recordings tell.
+    /// The one in the recordings.
     #[must_use]
     pub fn new(track: &RunTrack) -> Self {
         let mut poses = track.poses.clone();
@@ -62,9 +62,9 @@ impl Replay {
         Some((100.0 * x, -100.0 * y, -heading.to_degrees()))
     }
 
-    /// The way up to that time, as a path of vector graphics.
+    /// The path up to that time, in the path syntax of SVG.
     #[must_use]
-    pub fn way_until(&self, t_s: f64) -> String {
+    pub fn path_until(&self, t_s: f64) -> String {
         let t = t_s as f32;
         let driven = self.poses.partition_point(|pose| pose.0 <= t);
         let mut path = String::new();
@@ -113,8 +113,8 @@ mod tests {
             "nothing between far moments"
         );
         assert_eq!(replay.robot_at(500.0).map(|at| at.0), Some(300.0));
-        assert_eq!(replay.way_until(2.0), "M0 0L100 -50");
-        assert_eq!(replay.way_until(0.5), "");
+        assert_eq!(replay.path_until(2.0), "M0 0L100 -50");
+        assert_eq!(replay.path_until(0.5), "");
     }
 
     #[test]
@@ -131,7 +131,7 @@ mod tests {
         });
         assert_eq!(replay.robot_at(1.9), Some((50.0, 0.0, 0.0)));
         assert_eq!(replay.robot_at(2.5), Some((250.0, -100.0, 0.0)));
-        assert_eq!(replay.way_until(9.0), "M0 0L50 0M200 -100L300 -100");
+        assert_eq!(replay.path_until(9.0), "M0 0L50 0M200 -100L300 -100");
     }
 
     #[test]

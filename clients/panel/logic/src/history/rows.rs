@@ -17,7 +17,7 @@ pub struct RunRow {
     pub words: String,
     /// Its figures.
     pub figures: String,
-    /// The robot could not go on, or nobody knows.
+    /// The robot could not go on, or the reason is unknown.
     pub is_bad: bool,
 }
 
@@ -88,7 +88,7 @@ pub fn room_here_text(words: &Words, room: &RoomHere) -> String {
         .unwrap_or_else(|| words.schedule.room.fill([&room.id]))
 }
 
-/// Who wanted something.
+/// Who asked for something.
 fn asker_text(words: &Words, asker: &RunAsker) -> String {
     let told = &words.history;
     match asker {
@@ -143,7 +143,7 @@ pub struct StopRow {
     pub at_s: f64,
     /// When, why and for how long.
     pub words: String,
-    /// What it felt and tried before, if it stopped by itself.
+    /// Sensor readings and attempts before, if it stopped by itself.
     pub evidence: Evidence,
 }
 

@@ -18,7 +18,7 @@ pub struct LineCurve {
 }
 
 impl LineCurve {
-    /// The curve of a line; none for a line whose input knows nothing between off and on, and for one with which something is
+    /// The curve of a line; none for a line whose input has nothing between off and on, and for one with which something is
     /// wrong.
     #[must_use]
     pub fn of(profile: &Profile, (output, line): (usize, usize)) -> Option<Self> {
@@ -148,7 +148,7 @@ mod tests {
         })
         .unwrap();
         let dots = [-1.0, -0.1, 0.1, 0.6, 1.0].map(|reading| made.dot(reading).unwrap());
-        // Upside down: 0.75 at the lower end, 0.25 in the dead band, half of the way to the upper end 0, and -0.25 there.
+        // Upside down: 0.75 at the lower end, 0.25 in the dead band, 0 halfway to the upper end, and -0.25 there.
         let wanted = [
             [-1.0, -0.75],
             [-0.1, -0.25],

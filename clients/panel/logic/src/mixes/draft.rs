@@ -221,7 +221,7 @@ impl MixDraft {
 
     /// Removes an output, a line, a switch or a calibration.
     pub fn remove(&mut self, group: Group) {
-        // What was wrong has other numbers now, or is gone; texts are read anew from the profile.
+        // What was wrong has other numbers now, or is gone; texts are read again from the profile.
         self.wrong.clear();
         match group {
             Group::Output(output) => remove(&mut self.profile.outputs, output),
@@ -235,7 +235,7 @@ impl MixDraft {
         }
     }
 
-    /// Moves a line or a switch before the one before it: both see what stands before them.
+    /// Moves a line or a switch before the one before it: both may refer to what comes before them.
     pub fn move_up(&mut self, group: Group) {
         self.wrong.clear();
         match group {

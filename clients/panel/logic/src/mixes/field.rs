@@ -1,4 +1,4 @@
-//! One field of the form: what it is called, how it is entered, where it stands in the profile.
+//! One field of the form: its name, its input control, its place in the profile.
 
 use mixer::Profile;
 
@@ -130,7 +130,7 @@ impl Field {
         }
     }
 
-    /// Where it stands in the words of the mixer's messages; empty when none names it alone.
+    /// Its place in the terms of the mixer's messages; empty when none names it alone.
     #[must_use]
     pub fn place(self, profile: &Profile) -> String {
         let (group, word) = match self {
@@ -164,7 +164,7 @@ impl Field {
     /// Puts a text into it.
     ///
     /// # Errors
-    /// What is wrong with the text; then nothing is changed. A number out of its range is taken, and the mixer's check tells.
+    /// What is wrong with the text; then nothing is changed. A number out of its range is taken, and the mixer's check reports it.
     pub fn set(self, profile: &mut Profile, text: &str) -> Result<(), FieldError> {
         match self {
             Self::MixName => profile.name = name(text)?,
@@ -190,7 +190,7 @@ impl Field {
     }
 }
 
-/// A switch whose kind becomes one that looks at another looks at the one before it.
+/// A switch that becomes one that refers to another refers to the one before it.
 fn set_switch(
     profile: &mut Profile,
     place: usize,
@@ -215,7 +215,7 @@ fn set_switch(
 }
 
 impl Group {
-    /// Where it stands in the words of the mixer's messages.
+    /// Its place in the terms of the mixer's messages.
     #[must_use]
     pub fn place(self, profile: &Profile) -> String {
         match self {

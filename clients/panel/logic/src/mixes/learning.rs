@@ -28,8 +28,8 @@ impl Learning {
         }
     }
 
-    /// The input that was moved since. A pad that appears meanwhile is looked at from then on, and so is what a client begins
-    /// to tell.
+    /// The input that was moved since. A pad that appears meanwhile is watched from then on, and so are inputs that a client begins
+    /// to send.
     pub fn look(&mut self, now: &Readings) -> Option<Source> {
         if !has_the_same(&self.before, now) {
             self.before = now.clone();
@@ -102,7 +102,7 @@ impl CalibrationRun {
     }
 }
 
-/// To a thousandth: nobody reads more, and no stick repeats better.
+/// To a thousandth: no stick repeats better.
 fn rounded(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }

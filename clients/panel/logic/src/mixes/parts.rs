@@ -64,7 +64,7 @@ pub enum InputPart {
 }
 
 impl LinePart {
-    /// All, as they stand in the form.
+    /// All, in the order of the form.
     pub const ALL: [Self; 12] = [
         Self::Name,
         Self::Input,
@@ -119,7 +119,7 @@ impl LinePart {
 }
 
 impl OutputPart {
-    /// All, as they stand in the form.
+    /// All, in the order of the form.
     pub const ALL: [Self; 5] = [Self::Low, Self::Centre, Self::High, Self::Failsafe, Self::Reverse];
 
     pub(super) fn text(self, output: &Output) -> String {
@@ -144,7 +144,7 @@ impl OutputPart {
 }
 
 impl InputPart {
-    /// All, as they stand in the form.
+    /// All, in the order of the form.
     pub const ALL: [Self; 5] = [Self::Input, Self::Low, Self::Centre, Self::High, Self::DeadBand];
 
     pub(super) fn text(self, calibration: &Calibration) -> String {

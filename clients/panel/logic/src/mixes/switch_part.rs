@@ -17,7 +17,7 @@ pub enum SwitchPart {
     Input,
     /// Its level.
     Level,
-    /// The switches that it looks at.
+    /// The switches that it refers to.
     Others,
     /// How long it stays on.
     HoldMs,

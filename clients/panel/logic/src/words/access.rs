@@ -6,7 +6,7 @@ screen! {
     /// What strangers see, and what administrators decide.
     AccessWords {
         title: "Pair this device with the robot", "Seo see seade robotiga";
-        // The two commands stand between the parts.
+        // The two commands are between the parts.
         how_before: "Hold START on the robot for five seconds until it beeps. Or run ", "Hoia robotil nuppu START viis sekundit, kuni kostab helisignaal. Või käivita robotis ";
         how_after: " on the robot, or choose “Add a device” on a device that is its administrator. The robot beeps and a code of eight digits is shown, which holds for two minutes.",
             " või vali haldusõigusega seadmes „Lisa seade“. Robot annab helisignaali ja näidatakse kaheksakohalist koodi, mis kehtib kaks minutit.";

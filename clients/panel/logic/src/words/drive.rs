@@ -3,7 +3,7 @@
 use super::screen;
 
 screen! {
-    /// The pad and what stands around it.
+    /// The pad and its surroundings.
     DriveWords {
         while_edited: "While mixes are edited nothing drives: move what you like.",
             "Juhtskeemide muutmise ajal robot ei liigu: katseta julgelt.";
@@ -29,7 +29,7 @@ screen! {
         lend_how: "Whoever drives at another device can use the stick, the tilt and the gamepad of this one as inputs of a control mix. This device then drives nothing itself.",
             "Kes juhib teises seadmes, saab selle seadme juhtpatja, kallutust ja mängupulti kasutada juhtskeemi sisenditena. See seade ise siis ei juhi.";
         lend_name: "Its name in the mix", "Nimi juhtskeemis";
-        // As long as nobody has given another one.
+        // As long as no other name is given.
         lend_usual: "phone", "telefon";
         // Characters.
         lend_name_wrong[1]: "A name has 1 to {0} letters, digits, blanks, - or _.", "Nimes on 1 kuni {0} tähte, numbrit, tühikut, - või _.";

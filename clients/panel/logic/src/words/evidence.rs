@@ -1,9 +1,9 @@
-//! What the robot felt before it stood still.
+//! Sensor readings before the robot stopped.
 
 use super::screen;
 
 screen! {
-    /// What it felt, and what it tried.
+    /// Sensor readings and attempts.
     EvidenceWords {
         title: "What it felt and tried", "Mida robot tundis ja proovis";
         felt: "Felt in the ten seconds before", "Tundis kümne eelneva sekundi jooksul";

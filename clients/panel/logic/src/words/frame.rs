@@ -1,4 +1,4 @@
-//! What stands around all screens: bar, buttons, tabs, log, names of states, units.
+//! The frame around all screens: bar, buttons, tabs, log, names of states, units.
 
 use super::screen;
 

@@ -1,4 +1,4 @@
-//! What the robot knows of the home: floors, rooms, what is forbidden, kept maps.
+//! The robot's map of the home: floors, rooms, what is forbidden, stored maps.
 
 use super::screen;
 
@@ -98,7 +98,7 @@ screen! {
         nothing_forbidden: "No restricted areas.", "Keelatud alasid ei ole.";
         dock: "Dock", "Dokk";
         dock_felt: "The dock is where the robot has docked.", "Dokk on seal, kus robot on dokkinud.";
-        dock_told: "The dock is where somebody marked it. The robot measures its exact position when it docks.",
+        dock_reported: "The dock is where somebody marked it. The robot measures its exact position when it docks.",
             "Dokk on seal, kuhu see märgiti. Täpse koha mõõdab robot, kui ta dokib.";
         draw_dock: "The dock was moved", "Dokki on nihutatud";
         draw_wall: "Draw a virtual wall", "Joonista virtuaalsein";

@@ -34,7 +34,7 @@ screen! {
         edit_dock: "place of the dock", "doki koht";
         changed_meanwhile: "That edit cannot be undone or redone: the map was changed there meanwhile. Earlier edits can be undone.",
             "Seda muudatust ei saa tagasi võtta ega uuesti teha: kaarti on seal vahepeal muudetud. Varasemaid saab.";
-        not_told_yet: "The robot has not confirmed that edit yet. Try again in a few seconds.",
+        not_reported_yet: "The robot has not confirmed that edit yet. Try again in a few seconds.",
             "Robot ei ole seda muudatust veel kinnitanud. Proovi mõne sekundi pärast uuesti.";
         unsure: "Not known", "Teadmata";
         carpet: "Carpet", "Vaip";

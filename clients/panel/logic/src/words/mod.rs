@@ -1,7 +1,7 @@
 //! Everything that a person reads on the page, in every language that the page speaks.
 //!
 //! A *screen* is a plain structure of texts; the macro [`screen`] makes it from lines of a name, the English and the Estonian text, so
-//! a text without its translation does not compile. A text that takes values is a [`Told`] with the number of its values in
+//! a text without its translation does not compile. A text that takes values is a [`Template`] with the number of its values in
 //! its type; `{0}` is the place of the first one.
 
 mod access;
@@ -86,9 +86,9 @@ impl Language {
 
 /// A text with places for `N` values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Told<const N: usize>(&'static str);
+pub struct Template<const N: usize>(&'static str);
 
-impl<const N: usize> Told<N> {
+impl<const N: usize> Template<N> {
     /// The text with these values in it.
     #[must_use]
     pub fn fill(self, values: [&dyn Display; N]) -> String {
@@ -126,9 +126,9 @@ macro_rules! screen {
         }
     };
     (@kind) => { &'static str };
-    (@kind [$count:literal]) => { $crate::words::Told<$count> };
+    (@kind [$count:literal]) => { $crate::words::Template<$count> };
     (@text $text:literal) => { $text };
-    (@text [$count:literal] $text:literal) => { $crate::words::Told::<$count>($text) };
+    (@text [$count:literal] $text:literal) => { $crate::words::Template::<$count>($text) };
 }
 pub(crate) use screen;
 

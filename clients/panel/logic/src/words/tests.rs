@@ -3,7 +3,7 @@
 use super::{
     AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords, HistoryWords,
     HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords, StateWords,
-    StatusWords, Told, UnitWords,
+    StatusWords, Template, UnitWords,
 };
 
 type Texts = [(&'static str, usize, [&'static str; 2])];
@@ -116,8 +116,8 @@ fn lists_of_days_and_months_are_whole() {
 
 #[test]
 fn values_stand_where_the_text_wants_them() {
-    assert_eq!(Told::<2>("{1} of {0}").fill([&7, &"a"]), "a of 7");
-    assert_eq!(Told::<1>("{0}{9} {").fill([&1.5]), "1.5 {");
+    assert_eq!(Template::<2>("{1} of {0}").fill([&7, &"a"]), "a of 7");
+    assert_eq!(Template::<1>("{0}{9} {").fill([&1.5]), "1.5 {");
     let estonian = Language::Estonian.words();
     assert_eq!(estonian.number(12.345, 1), "12,3");
     assert_eq!(Language::English.words().number(12.345, 1), "12.3");

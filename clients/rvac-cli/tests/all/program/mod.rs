@@ -1,4 +1,4 @@
-//! `rvac` as a process, the way a person calls it.
+//! `rvac` as a process, as a person calls it.
 
 use std::ffi::OsStr;
 use std::io::Write as _;
@@ -16,7 +16,7 @@ pub(crate) fn rvac<Argument: AsRef<OsStr>>(
         .stderr(Stdio::piped())
         .spawn()
         .expect("rvac starts");
-    // A program that does not want the input closes it.
+    // A program that does not read the input closes it.
     child.stdin.take().expect("a pipe").write_all(typed).ok();
     child.wait_with_output().expect("rvac ends")
 }

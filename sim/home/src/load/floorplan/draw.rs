@@ -118,7 +118,7 @@ impl FloorplanPainter<'_> {
         marked
     }
 
-    /// A person who blocks the way is like a door that closes for a while, and waits until the robot has left the
+    /// A person who blocks the path is like a door that closes for a while, and waits until the robot has left the
     /// place.
     pub(super) fn visitors(&mut self, visitors: &[RawVisitor]) -> Vec<Door> {
         visitors.iter().map(|visitor| self.visitor(visitor)).collect()

@@ -1,4 +1,4 @@
-//! A home TOML as it stands in the file.
+//! A home TOML as it is in the file.
 
 use serde::Deserialize;
 

@@ -10,7 +10,7 @@ pub struct Supply {
     pub series_ohm: f64,
     /// No more than this, ampere.
     pub limit_a: f64,
-    /// While the dock has not heard the robot, ampere.
+    /// While the dock has not detected the robot, ampere.
     pub unasked_a: f64,
 }
 

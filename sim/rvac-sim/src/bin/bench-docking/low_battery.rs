@@ -25,9 +25,9 @@ pub(crate) struct JobOutcome {
     /// Share of the reachable floor at the end, and when the battery was low first.
     pub(crate) swept: f64,
     pub(crate) swept_before: f64,
-    /// Share of it that was cleaned in one stretch and again in a later one.
+    /// Share of it that was cleaned in one part of the job and again in a later one.
     pub(crate) again: f64,
-    /// The same of a job with a full pack, told in two stretches from the same share on: lanes overlap in any job.
+    /// The same of a job with a full pack, split into two parts at the same share: lanes overlap in any job.
     pub(crate) again_without_break: f64,
     pub(crate) job_s: f64,
     pub(crate) state: String,
@@ -46,7 +46,7 @@ const LONGEST_MS: u64 = 4 * 3_600_000;
 
 impl JobOutcome {
     /// A job whose battery is low when about half of it is done. The pack fills `speed` times as fast as it would.
-    /// `progress` is told about how much of all of it is done.
+    /// `progress` is called with the approximate share that is done.
     pub(crate) fn of(scene: &Scene, seed: u64, speed: f64, mut progress: impl FnMut(f64)) -> Self {
         let settings = RobotSettings {
             seed,

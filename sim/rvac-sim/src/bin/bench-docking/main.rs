@@ -35,7 +35,7 @@ struct Arguments {
     /// Number of the first seed.
     #[arg(long, default_value_t = 1)]
     first: u64,
-    /// What is tried, separated by commas: `map` (the robot knows the home and its place in it), `lifted` (it is lifted from its
+    /// What is tried, separated by commas: `map` (the robot knows the home and its pose in it), `lifted` (it is lifted from its
     /// work and put elsewhere), `anywhere` (it knows nothing and has never been on the dock).
     #[arg(long, default_value = "map,lifted,anywhere")]
     situations: String,

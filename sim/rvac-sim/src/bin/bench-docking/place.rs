@@ -2,12 +2,12 @@
 
 use home::{Cell, Home, Pcg, Pose};
 
-/// Free floor around a body that somebody puts down, metres.
+/// Free floor around the place where a body is put down, metres.
 const ROOM_M: f64 = 0.03;
 /// Draws until any place will do.
 const DRAWS_MAX: u32 = 100_000;
 
-/// A place of the home where a body of `radius_m` can stand, and a direction.
+/// A place of the home where a body of `radius_m` fits, and a direction.
 pub(crate) fn draw(home: &Home, radius_m: f64, random: &mut Pcg) -> Pose {
     let reachable: Vec<usize> = (0..home.reachable().len())
         .filter(|index| home.reachable().get(*index).copied().unwrap_or(false))

@@ -51,7 +51,7 @@ pub(crate) struct DockingRun {
     log: Vec<LogEntry>,
 }
 
-/// Time after which the run is ended whatever the robot does: its own limit is 60 minutes.
+/// Time after which the run is ended in any case: the robot's own limit is 60 minutes.
 const LONGEST_MS: u64 = 3_750_000;
 /// How long a robot works before it is lifted, and how long it is in the air.
 const WORK_MS: u64 = 90_000;
@@ -142,7 +142,7 @@ impl DockingRun {
                 docked_ms = Some(now_ms);
                 break;
             }
-            // One that slips off its contacts at once believes for a moment that it is there.
+            // A robot that slips off its contacts at once counts as docked for a moment.
             let waits = !matches!(
                 state,
                 Some(

@@ -186,7 +186,7 @@ impl Desk {
         }
     }
 
-    /// Fills both ways of the line for so long: commands as fast as the line takes them, and state reports asked for
+    /// Fills both directions of the line for so long: commands as fast as the line takes them, and state reports asked for
     /// without pause. The session's own packets share the line.
     pub(crate) fn flood_ms(&mut self, ms: u64) {
         for _ in 0..ms {
@@ -238,7 +238,7 @@ impl Desk {
         self.session.counters()
     }
 
-    /// Bytes heard and sent.
+    /// Bytes received and sent.
     pub(crate) fn bytes(&self) -> (u64, u64) {
         (self.heard_bytes, self.sent_bytes)
     }

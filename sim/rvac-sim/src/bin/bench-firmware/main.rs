@@ -26,10 +26,10 @@ struct Arguments {
     /// Floor plan.
     #[arg(long)]
     home: PathBuf,
-    /// Simulated seconds at full load of the serial line, both ways, at 230,400 baud.
+    /// Simulated seconds at full load of the serial line, in both directions, at 230,400 baud.
     #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     flood_seconds: u64,
-    /// Only tell in which functions the chip's time goes: standing, driving, and at full load of the serial line.
+    /// Only report in which functions the chip spends its time: standing, driving, and at full load of the serial line.
     #[arg(long, conflicts_with = "json")]
     profile: bool,
     /// Print one JSON object.
@@ -59,7 +59,7 @@ fn main() -> ExitCode {
 }
 
 fn complain(what: &str) -> ExitCode {
-    // If standard error is closed, nobody can be informed.
+    // If standard error is closed, the message is lost.
     writeln!(io::stderr(), "bench-firmware: {what}").ok();
     ExitCode::FAILURE
 }

@@ -139,7 +139,7 @@ fn driving(shop: &Shop, report: &mut FirmwareReport) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// One rate of the line, both ways at full load.
+/// One rate of the line at full load in both directions.
 fn line(shop: &Shop, baud: u32) -> anyhow::Result<MeasuredLineRate> {
     let mut desk = shop.desk(baud);
     desk.connect()?;
@@ -166,7 +166,7 @@ fn line(shop: &Shop, baud: u32) -> anyhow::Result<MeasuredLineRate> {
     })
 }
 
-/// Full load both ways for long: nothing may be lost.
+/// Full load in both directions for long: nothing may be lost.
 fn flood(shop: &Shop, ms: u64, report: &mut FirmwareReport) -> anyhow::Result<()> {
     let mut desk = shop.desk(BAUD);
     desk.connect()?;

@@ -9,7 +9,7 @@ use pic32::machine::{Grounded, Machine};
 /// Functions that are shown.
 const SHOWN: usize = 40;
 
-/// Name of the function that an instruction belongs to. Hand-written code does not tell its length: it goes up to the next
+/// Name of the function that an instruction belongs to. Hand-written code has no length in the table: it goes up to the next
 /// name.
 fn home_of(address: u32, image: &Image) -> &str {
     let before = |symbol: &&Symbol| symbol.kind != SymbolKind::Object && symbol.address <= address;
@@ -18,7 +18,7 @@ fn home_of(address: u32, image: &Image) -> &str {
     nearest.map_or("?", |symbol| symbol.name.as_str())
 }
 
-/// How often each function was met.
+/// Number of samples in each function.
 #[derive(Debug, Default)]
 pub(crate) struct Profile {
     samples: u32,
@@ -28,7 +28,7 @@ pub(crate) struct Profile {
 }
 
 impl Profile {
-    /// Looks where a copy of the chip is at a random moment of the next millisecond. The copy's surroundings stand still for
+    /// Samples where a copy of the chip is at a random moment of the next millisecond. The copy's surroundings are frozen for
     /// that long: no edge and no voltage changes, so what they would cause within the millisecond is not seen.
     pub(crate) fn sample(&mut self, machine: &Machine, image: &Image) {
         // A linear congruential generator, Knuth's constants: the moment must only not keep step with the program.

@@ -11,7 +11,7 @@ pub(crate) struct FirmwareReport {
     pub(crate) main_loop_idle_hz: u32,
     /// The same while driving, with 50 reports a second at 230,400 baud.
     pub(crate) main_loop_driving_hz: u32,
-    /// Bytes lost or damaged at full load both ways at 230,400 baud.
+    /// Bytes lost or damaged at full load in both directions at 230,400 baud.
     pub(crate) uart_bytes_lost: u64,
     /// Bytes that went over the line meanwhile.
     pub(crate) uart_bytes_checked: u64,

@@ -43,9 +43,9 @@ pub(crate) enum HostMemory {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum FloorsOutcome {
-    /// The robot knows floor and place.
+    /// The robot knows floor and pose.
     Right,
-    /// It knows the floor, and takes its place for another one.
+    /// It knows the floor, and its estimated pose is wrong.
     Misplaced,
     /// It takes the floor for another one.
     Wrong,

@@ -1,4 +1,4 @@
-//! `bench-lifted`: how soon and how surely a robot knows its place again that somebody has lifted from its work and put down
+//! `bench-lifted`: how soon and how reliably a robot relocalizes that was lifted from its work and put down
 //! elsewhere in the home. `cargo xtask bench lifted` builds and runs it.
 #![forbid(unsafe_code)]
 
@@ -35,7 +35,7 @@ struct Arguments {
     /// Trials in each home.
     #[arg(long, default_value_t = 4)]
     seeds: u64,
-    /// How long the robot has cleaned a home that it knows when it is lifted, minutes.
+    /// Time that the robot has cleaned a known home before it is lifted, minutes.
     #[arg(long, default_value_t = 15)]
     minutes: u64,
     /// `good`, `nominal` or `bad`.

@@ -13,10 +13,10 @@ use crate::place;
 
 /// Time after which a robot that still does not know its place is given up, seconds.
 const LONGEST_S: u64 = 900;
-/// How long it is in the air, and how long it stands before somebody presses the button, milliseconds.
+/// How long it is in the air, and how long it stands before the button is pressed, milliseconds.
 const AIR_MS: u64 = 3_000;
 const STANDS_MS: u64 = 3_000;
-/// It knows its place when that is off by less than this, metres; a find that is off by more than the other is wrong.
+/// A pose counts as known when its error is below the first value, metres; a found pose with an error above the second is wrong.
 const RIGHT_M: f64 = 0.3;
 const WRONG_M: f64 = 0.5;
 /// Radius of the body, metres.
@@ -28,7 +28,7 @@ const STREAM: u64 = 79;
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum RadioFitted {
     Absent,
-    /// It receives so many beacons, and knows how strongly.
+    /// It receives so many beacons, and measures their signal strength.
     Strengths(u8),
 }
 

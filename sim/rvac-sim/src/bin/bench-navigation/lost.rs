@@ -13,7 +13,7 @@ pub(crate) struct LostShares {
     pub(crate) runs_lost: Option<f64>,
     /// How often that happened in all runs.
     pub(crate) stretches: usize,
-    /// Share of these stretches that were over after three minutes; those that the run's end cut were not. `null` = none.
+    /// Share of these periods that were over after three minutes; those that the run's end cut were not. `null` = none.
     pub(crate) found_in_180_s: Option<f64>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-/// The most that it has held so far, MiB, where the system tells.
+/// Its peak memory so far, MiB, where the system reports it.
 pub(crate) fn peak_mib() -> Option<f64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;

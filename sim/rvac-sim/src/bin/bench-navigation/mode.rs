@@ -53,7 +53,7 @@ impl CleaningMode {
         }
     }
 
-    /// Bounce knows no end, so it has had its chance when 95 % are swept.
+    /// Bounce never ends by itself, so a run is over when 95 % are swept.
     pub(crate) const fn end(self) -> RunEnd {
         match self {
             Self::Bounce => RunEnd::Covered,

@@ -37,7 +37,7 @@ pub(crate) struct NavigationRun {
 /// How long a run lasts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Length {
-    /// One job and the way home, given up after so many T0.
+    /// One job and the drive home, aborted after so many T0.
     OneJob { longest_over_t0: f64 },
     /// One job after the other for so long: as soon as one is over, the next begins where the robot is.
     Work { minutes: f64 },
@@ -45,7 +45,7 @@ pub(crate) enum Length {
 
 /// The battery is filled up so often, milliseconds: what energy allows is another measurement.
 const REFILL_MS: u64 = 300_000;
-/// So much more than its length a run may take: for the way home, or until work begins.
+/// A run may take so much more than its length: for the drive home, or until work begins.
 const SPARE_MS: u64 = 1_200_000;
 
 /// All runs of a mode in a home with a seed, one after the other.
@@ -151,7 +151,7 @@ fn work(
     (first, jobs)
 }
 
-/// Ends with a full second, at which the figures take a sample: so they tell the state in which the run is found.
+/// Ends with a full second, at which the figures take a sample: so they describe the state at that moment.
 fn second(household: &mut Household) {
     household.pass_ms(1_000 - household.robot().now_ms() % 1_000);
     if household.robot().now_ms() % REFILL_MS < 1_000 {
@@ -159,7 +159,7 @@ fn second(household: &mut Household) {
     }
 }
 
-/// How well a job was done is told of the first one; how well the robot knew its place, and its map, of the whole run.
+/// Quality of the job is that of the first one; quality of the pose and of the map is that of the whole run.
 fn figures(first: &RunReport, last: &RunReport) -> Figures {
     let of = |report: &RunReport| report.figures.as_deref().cloned().unwrap_or_default();
     let (job, run) = (of(first), of(last));

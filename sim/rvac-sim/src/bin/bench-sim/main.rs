@@ -49,7 +49,7 @@ struct Arguments {
     json: bool,
 }
 
-/// What the robot does and knows.
+/// The robot's task and what it is given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Case {
     Bounce,

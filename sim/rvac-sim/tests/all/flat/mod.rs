@@ -1,4 +1,4 @@
-//! The two-room flat, and a robot in it that knows it.
+//! The two-room flat, and a robot in it with its map.
 
 use brain::command::StrategyName;
 use home::Pose;

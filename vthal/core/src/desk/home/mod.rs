@@ -1,103 +1,102 @@
-//! Edits of the stored home by clients. Each edit is admitted, applied in the next step of the brain, and answered when the map with
-//! it is on the disk.
+//! Edits of the stored home by clients. Each edit is admitted, made in the next step of the brain, and answered when the map with it
+//! is on the disk; one that cannot be made any more by then is refused by its name.
 
 mod no_go;
 mod places;
 mod rooms;
 
-use brain::{Brain, EditError, MapEdit, Pose2, Reason};
-use rvac_api::{Failure, LogLevel, Update};
+use brain::{Brain, EditError, MapEdit, Reason};
+use rvac_api::LogLevel;
 
 use super::audience::{Asker, Asking, Teller};
 use super::journal::LogSource;
 use super::reply::Reply;
 use crate::brain_session::BrainSession;
-use crate::outputs::{Delivery, Recipients};
 use crate::refusal::Refusal;
-use crate::{EditedMap, FloorHome, Outputs};
+use crate::{EditedMap, FloorHome};
 
-pub(crate) use no_go::{NoGoRequest, to_no_go};
-pub(crate) use places::{PlaceRequest, to_shape, with_any_places, with_places};
-pub(crate) use rooms::RoomRequest;
+pub(crate) use no_go::to_no_go;
+pub(crate) use places::{to_place, to_shape, with_any_places, with_places};
+pub(crate) use rooms::to_line;
 
-/// Requests of clients about the home.
+/// An edit that a client asks for.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum HomeRequest {
-    /// No-go zones and virtual walls.
-    NoGo(NoGoRequest),
-    /// Kept places.
-    Place(PlaceRequest),
-    /// Rooms: their division, names and settings.
-    Room(RoomRequest),
-    /// The pose of a robot on its dock.
-    MoveDock(Pose2),
-}
-
-/// An edit that the map admits.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct AdmittedEdit {
+pub(crate) struct HomeEdit {
     pub(crate) edit: MapEdit,
     /// What the client does, for the log.
-    deed: &'static str,
-}
-
-impl AdmittedEdit {
-    /// The edit, if the map admits it now.
-    fn new(brain: &Brain, edit: MapEdit, deed: &'static str) -> Result<Self, EditError> {
-        brain.map().admit(&edit)?;
-        Ok(Self { edit, deed })
-    }
+    pub(crate) deed: &'static str,
 }
 
 /// Clients whose edits wait for the next step of the brain.
 #[derive(Debug, Default)]
 pub(crate) struct HomeDesk {
-    waiting: Vec<Asker>,
+    /// In the order in which the brain gets them.
+    waiting: Vec<Waiting>,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    asker: Asker,
+    edit: MapEdit,
 }
 
 impl HomeDesk {
-    /// Whether a client waits for an edit.
-    pub(crate) fn is_waited_for(&self) -> bool {
-        !self.waiting.is_empty()
-    }
-
-    /// Admits an edit for the next step of the brain. The client is answered when the map is on the disk.
+    /// Admits an edit for the next step of the brain. The client is answered by [`Self::keep`] or when the map is on the disk.
     ///
     /// # Errors
     /// Why the request is refused.
     pub(crate) fn serve(
         &mut self,
-        Asking { asker, request }: &Asking<HomeRequest>,
+        Asking { asker, request }: Asking<HomeEdit>,
         brain_session: Option<&BrainSession>,
         teller: &mut Teller<'_>,
-    ) -> Result<(AdmittedEdit, Reply), Refusal> {
-        let edit = match request {
-            HomeRequest::NoGo(request) => request.edit(brain_session),
-            HomeRequest::Place(request) => request.edit(brain_session),
-            HomeRequest::Room(request) => request.edit(brain_session),
-            HomeRequest::MoveDock(pose) => rooms::move_dock(*pose, brain_session),
-        }?;
-        let text = format!("{} {}", teller.name(asker.client), edit.deed);
+    ) -> Result<(MapEdit, Reply), Refusal> {
+        let HomeEdit { edit, deed } = request;
+        let brain = home_for(&edit, brain_session)?.brain();
+        let admitted = brain.map().admit(&edit);
+        admitted.map_err(|error| refusal(error, &edit, brain))?;
+        let text = format!("{} {deed}", teller.name(asker.client));
         teller.log(LogLevel::Info, LogSource::Client, text);
-        self.waiting.push(*asker);
+        self.waiting.push(Waiting {
+            asker,
+            edit: edit.clone(),
+        });
         Ok((edit, Reply::AfterStep))
     }
 
-    /// After the step that applied the edits: the map goes to the disk with all of them.
-    pub(crate) fn keep(&mut self, home: Option<&FloorHome>, outputs: &mut Outputs) {
-        for Asker { client, id } in self.waiting.drain(..) {
-            match home {
-                Some(home) => outputs.map_edits.push(EditedMap {
-                    client,
-                    id,
+    /// After a step of the brain: the map goes to the disk with the edits that were made, in the order of the requests. Those that the
+    /// edits before them have made impossible are refused.
+    pub(crate) fn keep(
+        &mut self,
+        (made, brain): (&[Result<(), EditError>], &Brain),
+        home: Option<&FloorHome>,
+        teller: &mut Teller<'_>,
+    ) {
+        let answered = self.waiting.len().min(made.len());
+        for (Waiting { asker, edit }, made) in self.waiting.drain(..answered).zip(made) {
+            match (made, home) {
+                (Ok(()), Some(home)) => teller.outputs.map_edits.push(EditedMap {
+                    client: asker.client,
+                    id: asker.id,
                     home: home.clone(),
                 }),
-                None => outputs.deliveries.push(Delivery {
-                    to: Recipients::One(client),
-                    update: not_kept(id),
-                }),
+                (Ok(()), None) => teller.answer(asker, Err(not_kept())),
+                (Err(error), _) => teller.answer(asker, Err(refusal(*error, &edit, brain))),
             }
         }
+    }
+
+    /// The oldest `count` edits are not made: the brain has another map now.
+    pub(crate) fn refuse_oldest(&mut self, count: usize, teller: &mut Teller<'_>) {
+        let count = count.min(self.waiting.len());
+        for Waiting { asker, .. } in self.waiting.drain(..count) {
+            teller.answer(asker, Err(Refusal::from("map-not-taken-up")));
+        }
+    }
+
+    /// As [`Self::refuse_oldest`], all of them.
+    pub(crate) fn refuse_all(&mut self, teller: &mut Teller<'_>) {
+        self.refuse_oldest(self.waiting.len(), teller);
     }
 }
 
@@ -108,13 +107,35 @@ pub(crate) fn known_home(brain_session: Option<&BrainSession>) -> Result<&BrainS
     Ok(brain_session)
 }
 
+/// The brain, if it knows the home that is stored and may make this edit now.
+fn home_for<'session>(
+    edit: &MapEdit,
+    brain_session: Option<&'session BrainSession>,
+) -> Result<&'session BrainSession, Refusal> {
+    let brain_session = known_home(brain_session)?;
+    let rests = brain_session.rests() && !brain_session.holds_commands();
+    if edit.needs_rest() && !rests {
+        return Err("job-runs".into());
+    }
+    Ok(brain_session)
+}
+
+/// What is wrong with an edit, in words.
+fn refusal(error: EditError, edit: &MapEdit, brain: &Brain) -> Refusal {
+    match edit {
+        MapEdit::NoGo(edit) => no_go::refusal(error, edit, brain),
+        MapEdit::Place(edit) => places::refusal(error, edit, brain),
+        MapEdit::Room(edit) => rooms::refusal(error, edit, brain),
+        MapEdit::Dock(pose) => rooms::dock_refusal(error, *pose, brain),
+    }
+}
+
 /// The robot got lost in the step.
-fn not_kept(id: Option<u32>) -> Update {
-    Update::Failed(Failure {
-        id,
-        reason: Reason::PlaceUnknown.name().to_owned(),
+fn not_kept() -> Refusal {
+    Refusal {
+        reason: Reason::PlaceUnknown.name(),
         text:
             "The robot has just lost its way, so its map is not kept: try again when it stands on its dock."
                 .to_owned(),
-    })
+    }
 }

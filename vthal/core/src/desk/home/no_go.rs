@@ -1,69 +1,21 @@
-//! No-go zones and virtual walls of clients.
+//! No-go zones and virtual walls of clients: their forms, and what is wrong with an edit of them.
 
 use brain::zone::COORDINATE_MAX_M;
-use brain::{Brain, EditError, MapEdit, NoGo, NoGoEdit, Point2};
+use brain::{Brain, EditError, NoGo, NoGoEdit, Point2};
 use rvac_api::NoGoShape;
 
-use super::{AdmittedEdit, known_home};
-use crate::brain_session::BrainSession;
-use crate::desk::words::{to_name, to_zone};
+use crate::desk::words::to_zone;
 use crate::refusal::Refusal;
 
-/// Requests about no-go zones and virtual walls.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum NoGoRequest {
-    /// Forbids floor.
-    Add { shape: NoGoShape, name: Option<String> },
-    /// Allows it again.
-    Remove { number: u16 },
-    /// Names it, or takes its name away.
-    Name { number: u16, name: Option<String> },
-    /// Forbids other floor under its number and name.
-    Reshape { number: u16, shape: NoGoShape },
-}
-
-impl NoGoRequest {
-    pub(super) fn edit(&self, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
-        match self {
-            Self::Add { shape, name } => {
-                let name = name.as_deref().map(to_name).transpose()?;
-                let no_go = to_no_go(shape)?.with_name(name);
-                let brain = known_home(brain_session)?.brain();
-                let edit = MapEdit::NoGo(NoGoEdit::Add(no_go));
-                AdmittedEdit::new(brain, edit, "forbids floor of the map")
-                    .map_err(|error| of_forbidden(error, brain))
-            }
-            Self::Remove { number } => {
-                let brain = known_home(brain_session)?.brain();
-                let edit = MapEdit::NoGo(NoGoEdit::Remove { number: *number });
-                AdmittedEdit::new(brain, edit, "allows floor of the map again")
-                    .map_err(|error| Refusal::because(error, no_such_no_go(*number, brain)))
-            }
-            Self::Name { number, name } => {
-                let name = name.as_deref().map(to_name).transpose()?;
-                let brain = known_home(brain_session)?.brain();
-                let edit = MapEdit::NoGo(NoGoEdit::Name {
-                    number: *number,
-                    name,
-                });
-                AdmittedEdit::new(brain, edit, "names forbidden floor").map_err(|error| match error {
-                    EditError::NameTaken => another_no_go(),
-                    _ => Refusal::because(error, no_such_no_go(*number, brain)),
-                })
-            }
-            Self::Reshape { number, shape } => {
-                let no_go = to_no_go(shape)?;
-                let brain = known_home(brain_session)?.brain();
-                let edit = MapEdit::NoGo(NoGoEdit::Reshape {
-                    number: *number,
-                    no_go,
-                });
-                AdmittedEdit::new(brain, edit, "reshapes forbidden floor").map_err(|error| match error {
-                    EditError::NoSuchNoGo => Refusal::because(error, no_such_no_go(*number, brain)),
-                    _ => of_forbidden(error, brain),
-                })
-            }
+/// What is wrong with an edit of them, in words.
+pub(super) fn refusal(error: EditError, edit: &NoGoEdit, brain: &Brain) -> Refusal {
+    match (error, edit) {
+        (EditError::NameTaken, NoGoEdit::Name { .. }) => another_no_go(),
+        (_, NoGoEdit::Name { number, .. } | NoGoEdit::Remove { number })
+        | (EditError::NoSuchNoGo, NoGoEdit::Reshape { number, .. }) => {
+            Refusal::because(error, no_such_no_go(*number, brain))
         }
+        (_, NoGoEdit::Add(_) | NoGoEdit::Reshape { .. }) => of_forbidden(error, brain),
     }
 }
 

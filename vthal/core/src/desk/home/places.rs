@@ -1,63 +1,14 @@
 //! Named zones and spots of clients, and orders that refer to them.
 
-use brain::{Brain, EditError, KeptPlace, MapEdit, PlaceEdit, PlaceShape, Point2};
+use brain::{Brain, EditError, KeptPlace, PlaceEdit, PlaceShape, Point2};
 use rvac_api::{JobOrder, JobPart};
 
-use super::{AdmittedEdit, known_home};
 use crate::api_forms;
-use crate::brain_session::BrainSession;
 use crate::desk::words::{to_name, to_zone};
 use crate::refusal::Refusal;
 
-/// Requests about kept places.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum PlaceRequest {
-    /// Keeps one, under a number that it had before if one is given.
-    Keep {
-        name: String,
-        shape: rvac_api::PlaceShape,
-        number: Option<u16>,
-    },
-    /// Names it otherwise.
-    Name { number: u16, name: String },
-    /// Moves or reshapes it.
-    Reshape {
-        number: u16,
-        shape: rvac_api::PlaceShape,
-    },
-    /// Keeps it no longer.
-    Forget { number: u16 },
-}
-
-impl PlaceRequest {
-    pub(super) fn edit(&self, brain_session: Option<&BrainSession>) -> Result<AdmittedEdit, Refusal> {
-        let (edit, deed) = match self {
-            Self::Keep { name, shape, number } => {
-                let place = KeptPlace::new(to_name(name)?, &to_shape(shape)?)?;
-                let number = *number;
-                (PlaceEdit::Keep { place, number }, "keeps a place")
-            }
-            Self::Name { number, name } => {
-                let (number, name) = (*number, to_name(name)?);
-                (PlaceEdit::Name { number, name }, "names a place")
-            }
-            Self::Reshape { number, shape } => {
-                let (number, shape) = (*number, to_shape(shape)?);
-                (PlaceEdit::Reshape { number, shape }, "moves a place")
-            }
-            Self::Forget { number } => {
-                let number = *number;
-                (PlaceEdit::Forget { number }, "keeps a place no longer")
-            }
-        };
-        let brain = known_home(brain_session)?.brain();
-        AdmittedEdit::new(brain, MapEdit::Place(edit.clone()), deed)
-            .map_err(|error| of_place(error, &edit, brain))
-    }
-}
-
-/// Why a place is not changed.
-fn of_place(error: EditError, edit: &PlaceEdit, brain: &Brain) -> Refusal {
+/// What is wrong with an edit of them, in words.
+pub(super) fn refusal(error: EditError, edit: &PlaceEdit, brain: &Brain) -> Refusal {
     match (error, edit) {
         (EditError::NoFloorThere, _) => Refusal::no_floor_there("in it", brain),
         (EditError::NameTaken, _) => {
@@ -96,6 +47,10 @@ fn no_such_place(number: u16, brain: &Brain) -> Refusal {
         )
     };
     Refusal::because(EditError::NoSuchPlace, text)
+}
+
+pub(crate) fn to_place(name: &str, shape: &rvac_api::PlaceShape) -> Result<KeptPlace, Refusal> {
+    Ok(KeptPlace::new(to_name(name)?, &to_shape(shape)?)?)
 }
 
 pub(crate) fn to_shape(shape: &rvac_api::PlaceShape) -> Result<PlaceShape, Refusal> {

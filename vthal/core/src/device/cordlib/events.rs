@@ -5,6 +5,7 @@ use rvac_protocol::session::HostEvent;
 use rvac_units::Tick;
 
 use super::super::{DeviceEvent, Greeting};
+use super::momentary::MomentaryLevels;
 use super::{Cordlib, to_model};
 
 /// The last start of which the robot has told, on whatever line.
@@ -41,7 +42,10 @@ impl Cordlib {
                 reason: refusal.name(),
             },
             HostEvent::Unanswered(sequence) => DeviceEvent::Unanswered(sequence.0.into()),
-            HostEvent::EventsLost { count } => DeviceEvent::EventsLost(count.into()),
+            HostEvent::EventsLost { count } => {
+                self.momentary = MomentaryLevels::default();
+                DeviceEvent::EventsLost(count.into())
+            }
             HostEvent::Closed(_) | HostEvent::Silent => DeviceEvent::Closed,
             HostEvent::Incompatible {
                 version_min,
@@ -64,6 +68,7 @@ impl Cordlib {
             tick: None,
         });
         self.encoders.greeted();
+        self.momentary = MomentaryLevels::default();
         if was_reset {
             self.encoders.rebase();
         }
@@ -79,9 +84,15 @@ impl Cordlib {
 
     fn report(&mut self, report: Report) -> Option<DeviceEvent> {
         match report {
-            Report::State(state) => Some(DeviceEvent::Report(self.state(&state))),
+            Report::State(mut state) => {
+                self.momentary.complete(&mut state);
+                Some(DeviceEvent::Report(self.state(&state)))
+            }
             Report::Info(info) => Some(DeviceEvent::Slow(to_model::slow_facts(&info))),
-            Report::Event(event) => of_event(&event),
+            Report::Event(event) => {
+                self.momentary.take(&event);
+                of_event(&event)
+            }
             Report::Log { level, text } => Some(DeviceEvent::Log {
                 level: to_model::log_level(level),
                 text: text.as_str().to_owned(),
@@ -105,7 +116,7 @@ impl Cordlib {
     }
 }
 
-/// Levels of the others come with each report.
+/// The others change levels of reports; [`MomentaryLevels`] adds to a report what it has missed of them.
 fn of_event(event: &NumberedEvent) -> Option<DeviceEvent> {
     match event.kind {
         Event::Button { button, pressed } => Some(DeviceEvent::Button { button, pressed }),

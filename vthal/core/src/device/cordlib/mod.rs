@@ -3,6 +3,7 @@
 
 mod encoders;
 mod events;
+mod momentary;
 mod tap;
 mod to_model;
 
@@ -18,6 +19,7 @@ use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Tick};
 
 use self::encoders::Encoders;
 use self::events::LastStart;
+use self::momentary::MomentaryLevels;
 use self::tap::Tap;
 use super::supervisor::CLEANER_REPEAT_US;
 use super::{
@@ -57,6 +59,7 @@ struct Cordlib {
     capabilities: Capabilities,
     last_start: Option<LastStart>,
     encoders: Encoders,
+    momentary: MomentaryLevels,
 }
 
 fn tick(now_us: u64) -> Tick {
@@ -75,6 +78,7 @@ impl Cordlib {
             capabilities: Capabilities::default(),
             last_start: None,
             encoders: Encoders::default(),
+            momentary: MomentaryLevels::default(),
         }
     }
 
@@ -112,6 +116,7 @@ impl Device for Cordlib {
         self.description = None;
         self.capabilities = Capabilities::default();
         self.encoders.forget_speeds();
+        self.momentary = MomentaryLevels::default();
     }
 
     fn description(&self) -> Option<&Description> {

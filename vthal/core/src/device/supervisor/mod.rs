@@ -4,6 +4,7 @@
 mod reports;
 
 use super::dead_man::{DeadMan, Setpoint, VALID_FOR_MAX_US, WheelOrder};
+use super::latches::HostLatches;
 use super::reflex::{HostReflexes, fresh_us};
 use super::wheel_watch::WheelWatch;
 use super::{
@@ -26,6 +27,7 @@ pub struct Supervisor {
     opening: Opening,
     duties: Duties,
     watch: WheelWatch,
+    latches: HostLatches,
 }
 
 /// What is under way since the line was opened.
@@ -84,6 +86,7 @@ impl Supervisor {
             opening: make.opening,
             duties: Duties::new(0),
             watch: WheelWatch::default(),
+            latches: HostLatches::default(),
         }
     }
 
@@ -95,6 +98,7 @@ impl Supervisor {
         let has_others = self.opening.rates_baud.len() > 1;
         self.duties.answer_until_us = has_others.then_some(io.now_us + patience_us);
         self.watch.rebase();
+        self.latches.rebase();
         self.device.open(io);
         self.device.release(io);
     }
@@ -215,6 +219,7 @@ impl Supervisor {
             DeviceCommand::Rest => self.rest(io),
             DeviceCommand::Cleaners(drive) => self.set_cleaners(drive, io),
             DeviceCommand::Arm { leave_dock } => self.arm(leave_dock, io),
+            DeviceCommand::Clear(inhibit) if self.latches.holds(inhibit) => self.latches.clear(inhibit),
             DeviceCommand::Clear(inhibit) => self.device.clear(inhibit, io),
             DeviceCommand::Tone(tone) => self.device.tone(tone, io),
             DeviceCommand::Light(light) => self.device.light(light, io),
@@ -319,6 +324,7 @@ impl Supervisor {
             WheelOrder::Stand => self.stand(io),
             WheelOrder::Send(setpoint) => {
                 let permitted = match &self.duties.reflexes {
+                    _ if self.latches.any() => Drive::STAND,
                     Some(reflexes) => reflexes.permit(io.now_us, setpoint.drive),
                     None => setpoint.drive,
                 };
@@ -347,7 +353,7 @@ impl Supervisor {
             if self.is_latched() {
                 return Err(CommandError::Latched);
             }
-            if self.is_lifted() {
+            if self.is_lifted() || self.latches.any() {
                 return Err(CommandError::Held);
             }
             self.take_control(io)?;

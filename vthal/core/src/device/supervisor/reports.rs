@@ -33,6 +33,7 @@ impl Supervisor {
                     self.duties.forget_commands();
                     self.duties.in_control = false;
                     self.watch.rebase();
+                    self.latches.rebase();
                 }
                 DeviceEvent::ControlLost(_) => self.duties.in_control = false,
                 _ => {}
@@ -59,6 +60,9 @@ impl Supervisor {
         if let Some(reflexes) = &mut self.duties.reflexes {
             heard.is_held |= reflexes.take(now_us, report);
         }
+        if let Some(description) = described {
+            heard.is_held |= self.latches.take(now_us, report, description.reflexes);
+        }
         heard.turns |= self.watch.turned();
         match stop {
             StopSite::Device => heard.knows_no_stop |= !report.inhibits.contains(Inhibit::Stopped),
@@ -77,7 +81,7 @@ impl Supervisor {
             self.duties.dead_man.repeat_now();
             // As in `renew`.
             self.renew_wheels(io).ok();
-            if self.is_lifted() {
+            if self.is_lifted() || self.latches.any() {
                 self.set_cleaners(CleanerDrive::Off, io).ok();
             }
         }

@@ -1,8 +1,10 @@
-//! What a client may do, in three steps.
+//! What a client may do that comes from the network, in three steps.
 
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use core::fmt;
+use core::str::FromStr;
 use serde::{Deserialize, Serialize};
-use std::fmt;
-use std::str::FromStr;
 
 /// A role; each may do what those before it may.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -17,9 +19,16 @@ pub enum Role {
 }
 
 /// No such role.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no role {0:?}: choose view, drive or admin")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownRole(String);
+
+impl fmt::Display for UnknownRole {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(to, "there is no role {:?}: choose view, drive or admin", self.0)
+    }
+}
+
+impl core::error::Error for UnknownRole {}
 
 impl Role {
     /// All of them.

@@ -1,0 +1,161 @@
+//! Parameters of localization by beacons. The figures come from experiments in simulated homes, unless a comment names another
+//! source.
+
+use super::filter::WHEELS;
+
+/// What is one hop, and the noise of odometry over it.
+pub(super) struct HopParameters {
+    /// A hop ends after this distance, metres.
+    pub(super) length_m: f64,
+    /// A hop ends after this turn, radians.
+    pub(super) turn_rad: f64,
+    /// Slip, metres per square root of a metre.
+    pub(super) slip_m_per_sqrt_m: f64,
+    /// What each hop adds to the slip, metres.
+    pub(super) jitter_m: f64,
+    /// Heading error of the wheels by slip, radians per square root of a metre.
+    pub(super) slip_rad_per_sqrt_m: f64,
+    /// Heading error of the wheels by turns, radians per square root of a radian. Coarse encoders lose a count at each reversal.
+    pub(super) turn_rad_per_sqrt_rad: f64,
+    /// Heading error of a gyro, radians per hop.
+    pub(super) gyro_rad: f64,
+    /// Heading error of a gyro, radians per radian turned.
+    pub(super) gyro_scale: f64,
+}
+
+pub(super) const HOP: HopParameters = HopParameters {
+    length_m: 0.15,
+    turn_rad: 0.5,
+    slip_m_per_sqrt_m: 0.012,
+    jitter_m: 0.004,
+    slip_rad_per_sqrt_m: 0.01,
+    turn_rad_per_sqrt_rad: 0.015,
+    gyro_rad: 0.002,
+    gyro_scale: 0.006,
+};
+
+/// Which ranges are used, and their errors.
+pub(super) struct RangeParameters {
+    /// Most beacons; more than enough for a home.
+    pub(super) beacons_max: usize,
+    /// Greatest accepted range, metres.
+    pub(super) range_max_m: f64,
+    /// Greatest accepted standard deviation of one range, metres.
+    pub(super) sigma_max_m: f64,
+    /// Least standard deviation of one range, metres.
+    pub(super) sigma_min_m: f64,
+    /// Range error that stays the same around a place, metres, because of walls in the path. The mean of many ranges of a hop is
+    /// no better than this. Several hops lie in one such place, so each counts less than it would alone.
+    pub(super) place_sigma_m: f64,
+}
+
+pub(super) const RANGE: RangeParameters = RangeParameters {
+    beacons_max: 8,
+    range_max_m: 100.0,
+    sigma_max_m: 10.0,
+    sigma_min_m: 0.02,
+    place_sigma_m: 0.45,
+};
+
+/// The initialization, which solves a whole path as one batch.
+pub(super) struct BatchParameters {
+    /// Distance before the first attempt, metres.
+    pub(super) first_m: f64,
+    /// Distance between two attempts, metres.
+    pub(super) again_m: f64,
+    /// After so many hops it starts again, because the wheels' errors bend a longer path too much for a first guess.
+    pub(super) hops_max: usize,
+    /// Greatest standard deviation of the start, metres. After long odometry the start is unknown, so a new frame begins there.
+    pub(super) start_sigma_max_m: f64,
+    /// Greatest standard deviation of the start's heading, radians, for the same reason.
+    pub(super) start_sigma_max_rad: f64,
+    /// Least standard deviation of the start, metres.
+    pub(super) start_sigma_min_m: f64,
+    /// Least standard deviation of the start's heading, radians.
+    pub(super) start_sigma_min_rad: f64,
+    /// Fewest ranges of a beacon.
+    pub(super) ranges_min: usize,
+    /// Fewest beacons: with odometry between two ranges, two beacons determine the pose.
+    pub(super) beacons_min: usize,
+    /// Most iterations of Gauss-Newton.
+    pub(super) iterations_max: u32,
+    /// The step that ends them, metres or radians.
+    pub(super) converged: f64,
+    /// Greatest standard deviation of a beacon's position, metres. Less certain beacons are located later.
+    pub(super) sure_m: f64,
+    /// Greatest weighted root mean square deviation of a correct solution.
+    pub(super) misfit_max: f64,
+}
+
+pub(super) const BATCH: BatchParameters = BatchParameters {
+    first_m: 8.0,
+    again_m: 2.0,
+    hops_max: 250,
+    start_sigma_max_m: 0.1,
+    start_sigma_max_rad: 0.05,
+    start_sigma_min_m: 0.01,
+    start_sigma_min_rad: 0.01,
+    ranges_min: 12,
+    beacons_min: 2,
+    iterations_max: 25,
+    converged: 1e-3,
+    sure_m: 0.5,
+    misfit_max: 1.3,
+};
+
+/// The first guess of a beacon's position, by trying positions around the closest point of the path.
+pub(super) struct MultilaterationParameters {
+    /// Directions that are tried.
+    pub(super) directions: u32,
+    /// Distances that are tried, relative to the shortest range, metres.
+    pub(super) off_m: [f64; 5],
+    /// Standard deviation of a range from an approximate path, metres.
+    pub(super) sigma_m: f64,
+    /// A position this far from the best one is an alternative, metres.
+    pub(super) other_m: f64,
+    /// It must also be this far away, as a share of the shortest range, because a short path far away gives a good distance and a
+    /// bad direction.
+    pub(super) other_share: f64,
+    /// An alternative must fit worse by this factor.
+    pub(super) worse_min: f64,
+}
+
+pub(super) const MULTILATERATION: MultilaterationParameters = MultilaterationParameters {
+    directions: 72,
+    off_m: [-0.6, -0.3, 0.0, 0.3, 0.6],
+    sigma_m: 0.5,
+    other_m: 1.5,
+    other_share: 0.8,
+    worse_min: 1.4,
+};
+
+/// The filter of pose, wheels' errors and beacons. The prior deviations of the wheels are twice what robots of this class have.
+pub(super) struct FilterParameters {
+    /// Prior standard deviation of the curvature of a straight path, radians per metre: 0.6 degrees.
+    pub(super) bend_sigma_rad_per_m: f64,
+    /// Prior standard deviation of the scale error of turns, relative.
+    pub(super) turn_scale_sigma: f64,
+    /// Prior standard deviation of the scale error of distances, relative.
+    pub(super) distance_scale_sigma: f64,
+    /// Random walk of these three, per square root of a metre: rugs, dirt on wheels.
+    pub(super) wheels_walk: [f64; WHEELS],
+    /// A beacon that is heard first later is located from so many ranges.
+    pub(super) late_ranges: usize,
+    /// Standard deviation of such a position, metres.
+    pub(super) late_sigma_m: f64,
+    /// Standard deviation of a position that another estimator gave, metres.
+    pub(super) placed_sigma_m: f64,
+    /// Standard deviation of a heading that another estimator gave, radians.
+    pub(super) placed_sigma_rad: f64,
+}
+
+pub(super) const FILTER: FilterParameters = FilterParameters {
+    bend_sigma_rad_per_m: 0.0105,
+    turn_scale_sigma: 0.03,
+    distance_scale_sigma: 0.02,
+    wheels_walk: [2.0e-4, 5.0e-4, 5.0e-4],
+    late_ranges: 60,
+    late_sigma_m: 0.6,
+    placed_sigma_m: 0.03,
+    placed_sigma_rad: 0.03,
+};
