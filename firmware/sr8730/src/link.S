@@ -8,7 +8,7 @@
     .equ INTERRUPTS,    0xBF88
     .equ IFS0CLR,       0x1034
     .equ IFS1CLR,       0x1044
-    .equ IEC1CLR,       0x1064
+    .equ IEC1CLR,       0x1074
     .equ PORTC,         0x6090
     .equ LATB,          0x6060
     .equ TIMERS,        0xBF80
