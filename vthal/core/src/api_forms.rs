@@ -6,8 +6,7 @@ use brain::{CleaningOrder, HomePart, MapEdit, NoGo, Pattern, PlaceShape, Zone};
 use rvac_api::{CleaningPattern, JobOrder, JobPart, NoGoShape, RequestBody};
 
 use crate::core::desk_request::{DeskRequest, body_of};
-use crate::desk::home::{to_no_go as no_go_or_refusal, to_shape};
-use crate::desk::{room_power, words};
+use crate::desk::words;
 
 /// What a client asks for this edit.
 #[must_use]
@@ -56,46 +55,25 @@ fn corners(zone: &Zone) -> Vec<[f64; 2]> {
 }
 
 /// What is forbidden.
-#[must_use]
-pub fn no_go(no_go: &NoGo) -> NoGoShape {
+pub(crate) fn no_go(no_go: &NoGo) -> NoGoShape {
     match no_go.shape() {
         brain::NoGoShape::Zone => NoGoShape::Zone(corners(no_go.area())),
         brain::NoGoShape::Wall { from, to } => NoGoShape::Wall([[from.x_m, from.y_m], [to.x_m, to.y_m]]),
     }
 }
 
-/// What this form forbids.
-#[must_use]
-pub fn to_no_go(shape: &NoGoShape) -> Option<NoGo> {
-    no_go_or_refusal(shape).ok()
-}
-
 /// Where a place is.
-#[must_use]
-pub fn place(shape: &PlaceShape) -> rvac_api::PlaceShape {
+pub(crate) fn place(shape: &PlaceShape) -> rvac_api::PlaceShape {
     match shape {
         PlaceShape::Zone(zone) => rvac_api::PlaceShape::Zone(corners(zone)),
         PlaceShape::Spot(middle) => rvac_api::PlaceShape::Spot([middle.x_m, middle.y_m]),
     }
 }
 
-/// The place of this form.
-#[must_use]
-pub fn to_place(shape: &rvac_api::PlaceShape) -> Option<PlaceShape> {
-    to_shape(shape).ok()
-}
-
 /// The pattern in which floor is swept.
-#[must_use]
-pub const fn pattern(pattern: Pattern) -> CleaningPattern {
+pub(crate) const fn pattern(pattern: Pattern) -> CleaningPattern {
     match pattern {
         Pattern::Lines => CleaningPattern::Lines,
         Pattern::Contour => CleaningPattern::Contour,
     }
-}
-
-/// The pattern of this form.
-#[must_use]
-pub const fn to_pattern(pattern: CleaningPattern) -> Pattern {
-    room_power::to_pattern(pattern)
 }

@@ -193,7 +193,7 @@ pub(super) const OPTIMIZATION: OptimizationParameters = OptimizationParameters {
 };
 
 /// How a docking constrains the graph.
-pub(super) struct DockingParameters {
+pub(super) struct DockingConstraintParameters {
     /// How well two dockings agree: x and y in metres, heading in radians. The contacts are some centimetres wide and close on a
     /// robot that is a few degrees askew: 2 cm and 2 degrees for each of the two.
     pub(super) sigmas: [f64; 3],
@@ -208,7 +208,7 @@ pub(super) struct DockingParameters {
     pub(super) away_min_m: f64,
 }
 
-pub(super) const DOCKING: DockingParameters = DockingParameters {
+pub(super) const DOCKING: DockingConstraintParameters = DockingConstraintParameters {
     sigmas: [0.028, 0.028, 0.05],
     kernel: 625.0,
     gate_sigmas: 4.0,

@@ -7,8 +7,8 @@ mod pair_view;
 mod pairing_steps;
 
 use leptos::prelude::*;
-use pairing::wire::Session;
 use pairing::Role;
+use pairing::wire::Session;
 use rvac_api::role_for;
 
 pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, Needs, OnlyLooks};

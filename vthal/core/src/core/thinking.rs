@@ -7,6 +7,7 @@ use super::Core;
 use crate::brain_session::{BrainSession, FloorNews, Recorder};
 use crate::desk::evidence::Perceived;
 use crate::desk::health::MotorSample;
+use crate::desk::home::EditedStep;
 use crate::desk::journal::LogSource;
 use crate::desk::room_power::cleaner_power;
 use crate::desk::standstills::{Stand, is_standstill};
@@ -120,8 +121,12 @@ impl Core {
         }
         let mut teller = self.audience.teller(now, outputs);
         self.home.refuse_oldest(dropped, &mut teller);
-        self.home
-            .keep((made, brain_session.brain()), home.as_ref(), &mut teller);
+        let step = EditedStep {
+            results: made,
+            brain: brain_session.brain(),
+            home: home.as_ref(),
+        };
+        self.home.keep(step, &mut teller);
     }
 
     fn follow_state(&mut self, now_us: u64, before: BehaviorState) {

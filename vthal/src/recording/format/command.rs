@@ -38,7 +38,7 @@ impl GivenCommand {
         Some(match self {
             Self::Job(command) => Command::Job(command.to_brain()?),
             Self::Edit(asked) => Command::Edit(api_forms::to_map_edit(asked.clone())?),
-            Self::EarlierEdit(edit) => Command::Edit(edit.to_brain()?),
+            Self::EarlierEdit(edit) => Command::Edit(api_forms::to_map_edit(edit.to_request())?),
         })
     }
 }

@@ -1,39 +1,36 @@
 //! Edits of the map in recordings of earlier versions. New recordings keep them as clients ask for them, so nothing is added here.
 
-use brain::{
-    CutLine, KeptPlace, MapEdit, NoGoEdit, PlaceEdit, Point2, Pose2, RoomEdit, RoomName, RoomSettings,
+use rvac_api::{
+    CleaningPattern, CleaningPower, NoGoShape, PlaceShape, RequestBody, RoomNaming, RoomSettings,
+    RoomSplitting,
 };
-use rvac_api::{CleaningPattern, NoGoShape, PlaceShape};
 use serde::{Deserialize, Serialize};
-use vthal_core::api_forms;
 
-use super::order::to_power;
-
-/// [`MapEdit`]
+/// [`brain::MapEdit`]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum EarlierMapEdit {
-    /// [`NoGoEdit::Add`]
+    /// [`brain::NoGoEdit::Add`]
     AddNoGo(NoGoShape),
-    /// [`NoGoEdit::Add`] of one that has a name.
+    /// [`brain::NoGoEdit::Add`] of one that has a name.
     AddNamedNoGo(NoGoShape, String),
-    /// [`NoGoEdit::Remove`] by its number.
+    /// [`brain::NoGoEdit::Remove`] by its number.
     RemoveNoGo(u16),
-    /// [`NoGoEdit::Name`]
+    /// [`brain::NoGoEdit::Name`]
     NameNoGo {
         /// Its number.
         number: u16,
         /// Its name; absent = none any more.
         name: Option<String>,
     },
-    /// [`NoGoEdit::Reshape`]
+    /// [`brain::NoGoEdit::Reshape`]
     ReshapeNoGo {
         /// Its number.
         number: u16,
         /// Where it is from now on.
         no_go: NoGoShape,
     },
-    /// [`PlaceEdit::Keep`]
+    /// [`brain::PlaceEdit::Keep`]
     KeepPlace {
         /// Its name.
         name: String,
@@ -43,30 +40,30 @@ pub enum EarlierMapEdit {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         number: Option<u16>,
     },
-    /// [`PlaceEdit::Name`]
+    /// [`brain::PlaceEdit::Name`]
     NamePlace {
         /// Its number.
         number: u16,
         /// Its name.
         name: String,
     },
-    /// [`PlaceEdit::Reshape`]
+    /// [`brain::PlaceEdit::Reshape`]
     ReshapePlace {
         /// Its number.
         number: u16,
         /// Where it is from now on.
         place: PlaceShape,
     },
-    /// [`PlaceEdit::Forget`] by its number.
+    /// [`brain::PlaceEdit::Forget`] by its number.
     ForgetPlace(u16),
-    /// [`RoomEdit::Name`]
+    /// [`brain::RoomEdit::Name`]
     NameRoom {
         /// Identity of the room.
         room: u16,
         /// Its name; absent = none any more.
         name: Option<String>,
     },
-    /// [`RoomEdit::Set`]
+    /// [`brain::RoomEdit::Set`]
     SetRoom {
         /// Identity of the room.
         room: u16,
@@ -76,92 +73,70 @@ pub enum EarlierMapEdit {
         #[serde(default, skip_serializing_if = "CleaningPattern::is_usual")]
         pattern: CleaningPattern,
     },
-    /// [`RoomEdit::Split`]
+    /// [`brain::RoomEdit::Split`]
     SplitRoom {
         /// Identity of the room.
         room: Option<u16>,
         /// The ends of the line.
         line: [[f64; 2]; 2],
     },
-    /// [`RoomEdit::Join`] by their identities.
+    /// [`brain::RoomEdit::Join`] by their identities.
     JoinRooms([u16; 2]),
-    /// [`RoomEdit::Undo`] by its number.
+    /// [`brain::RoomEdit::Undo`] by its number.
     UndoRoomChange(u16),
-    /// [`MapEdit::Dock`]: position and heading of a robot on it.
+    /// [`brain::MapEdit::Dock`]: position and heading of a robot on it.
     MoveDock([f64; 3]),
 }
 
 impl EarlierMapEdit {
-    /// `None` for what the brain would refuse.
-    pub(super) fn to_brain(&self) -> Option<MapEdit> {
-        use MapEdit::{NoGo, Place, Room};
-        Some(match self {
-            Self::AddNoGo(no_go) => NoGo(NoGoEdit::Add(api_forms::to_no_go(no_go)?)),
-            Self::AddNamedNoGo(no_go, name) => {
-                let name = RoomName::new(name).ok()?;
-                NoGo(NoGoEdit::Add(api_forms::to_no_go(no_go)?.with_name(Some(name))))
-            }
-            Self::RemoveNoGo(number) => NoGo(NoGoEdit::Remove { number: *number }),
-            Self::NameNoGo { number, name } => NoGo(NoGoEdit::Name {
-                number: *number,
-                name: to_name(name.as_deref())?,
-            }),
-            Self::ReshapeNoGo { number, no_go } => NoGo(NoGoEdit::Reshape {
-                number: *number,
-                no_go: api_forms::to_no_go(no_go)?,
-            }),
-            Self::KeepPlace { name, place, number } => Place(PlaceEdit::Keep {
-                place: KeptPlace::new(RoomName::new(name).ok()?, &api_forms::to_place(place)?).ok()?,
-                number: *number,
-            }),
-            Self::NamePlace { number, name } => Place(PlaceEdit::Name {
-                number: *number,
-                name: RoomName::new(name).ok()?,
-            }),
-            Self::ReshapePlace { number, place } => Place(PlaceEdit::Reshape {
-                number: *number,
-                shape: api_forms::to_place(place)?,
-            }),
-            Self::ForgetPlace(number) => Place(PlaceEdit::Forget { number: *number }),
-            Self::NameRoom { room, name } => Room(RoomEdit::Name {
-                room: *room,
-                name: to_name(name.as_deref())?,
-            }),
+    /// The same edit as clients ask for it on the socket.
+    pub(super) fn to_request(&self) -> RequestBody {
+        match self.clone() {
+            Self::AddNoGo(shape) => RequestBody::AddNoGo { shape, name: None },
+            Self::AddNamedNoGo(shape, name) => RequestBody::AddNoGo {
+                shape,
+                name: Some(name),
+            },
+            Self::RemoveNoGo(number) => RequestBody::RemoveNoGo { number },
+            Self::NameNoGo { number, name } => RequestBody::NameNoGo { number, name },
+            Self::ReshapeNoGo { number, no_go } => RequestBody::ReshapeNoGo { number, shape: no_go },
+            Self::KeepPlace { name, place, number } => RequestBody::KeepPlace {
+                name,
+                shape: place,
+                number,
+            },
+            Self::NamePlace { number, name } => RequestBody::NamePlace { number, name },
+            Self::ReshapePlace { number, place } => RequestBody::ReshapePlace { number, shape: place },
+            Self::ForgetPlace(number) => RequestBody::ForgetPlace { number },
+            Self::NameRoom { room, name } => RequestBody::NameRoom(RoomNaming { room, name }),
             Self::SetRoom {
                 room,
                 settings,
                 pattern,
-            } => Room(RoomEdit::Set {
-                room: *room,
-                settings: match settings {
-                    None => None,
-                    Some([passes, power @ ..]) => {
-                        let settings = RoomSettings::new(*passes, to_power(*power)).ok()?;
-                        Some(settings.with_pattern(api_forms::to_pattern(*pattern)))
-                    }
-                },
-            }),
-            Self::SplitRoom { room, line } => {
-                let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
-                Room(RoomEdit::Split {
-                    room: *room,
-                    line: CutLine::new(from, to).ok()?,
-                })
-            }
-            Self::JoinRooms(rooms) => Room(RoomEdit::Join { rooms: *rooms }),
-            Self::UndoRoomChange(number) => Room(RoomEdit::Undo { number: *number }),
-            Self::MoveDock([x_m, y_m, heading_rad]) => MapEdit::Dock(Pose2 {
-                x_m: *x_m,
-                y_m: *y_m,
-                heading_rad: *heading_rad,
-            }),
-        })
+            } => RequestBody::SetRoom {
+                room,
+                settings: settings.map(|settings| with_shares(settings, pattern)),
+            },
+            Self::SplitRoom { room, line } => RequestBody::SplitRoom(RoomSplitting { room, line }),
+            Self::JoinRooms(rooms) => RequestBody::JoinRooms { rooms },
+            Self::UndoRoomChange(number) => RequestBody::UndoRoomChange { number },
+            Self::MoveDock([x, y, heading]) => RequestBody::MoveDock { x, y, heading },
+        }
     }
 }
 
-/// `None` for a name that the brain would refuse.
-fn to_name(name: Option<&str>) -> Option<Option<RoomName>> {
-    name.map(RoomName::new).transpose().ok()
+/// Clients send shares in place of percent.
+fn with_shares([passes, power @ ..]: [u8; 4], pattern: CleaningPattern) -> RoomSettings {
+    let [suction, main_brush, side_brushes] = power.map(|percent| f64::from(percent) / 100.0);
+    RoomSettings {
+        passes,
+        power: CleaningPower {
+            suction,
+            main_brush,
+            side_brushes,
+        },
+        pattern,
+    }
 }
 
 #[cfg(test)]

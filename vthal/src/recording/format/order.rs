@@ -15,11 +15,11 @@ pub struct GivenOrder {
     rest: JobOrder,
 }
 
-pub(super) fn from_power(power: RoomPower) -> [u8; 3] {
+fn from_power(power: RoomPower) -> [u8; 3] {
     [power.suction, power.main_brush, power.side_brushes]
 }
 
-pub(super) fn to_power([suction, main_brush, side_brushes]: [u8; 3]) -> RoomPower {
+fn to_power([suction, main_brush, side_brushes]: [u8; 3]) -> RoomPower {
     RoomPower {
         suction,
         main_brush,

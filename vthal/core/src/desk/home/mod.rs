@@ -27,6 +27,17 @@ pub(crate) struct HomeEdit {
     pub(crate) deed: &'static str,
 }
 
+/// What a step of the brain did with the oldest edits that waited for it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EditedStep<'step> {
+    /// In the order of the requests.
+    pub(crate) results: &'step [Result<(), EditError>],
+    /// After the step.
+    pub(crate) brain: &'step Brain,
+    /// The map with the edits, for the disk; `None` if the robot got lost.
+    pub(crate) home: Option<&'step FloorHome>,
+}
+
 /// Clients whose edits wait for the next step of the brain.
 #[derive(Debug, Default)]
 pub(crate) struct HomeDesk {
@@ -66,22 +77,17 @@ impl HomeDesk {
 
     /// After a step of the brain: the map goes to the disk with the edits that were made, in the order of the requests. Those that the
     /// edits before them have made impossible are refused.
-    pub(crate) fn keep(
-        &mut self,
-        (made, brain): (&[Result<(), EditError>], &Brain),
-        home: Option<&FloorHome>,
-        teller: &mut Teller<'_>,
-    ) {
-        let answered = self.waiting.len().min(made.len());
-        for (Waiting { asker, edit }, made) in self.waiting.drain(..answered).zip(made) {
-            match (made, home) {
+    pub(crate) fn keep(&mut self, step: EditedStep<'_>, teller: &mut Teller<'_>) {
+        let answered = self.waiting.len().min(step.results.len());
+        for (Waiting { asker, edit }, result) in self.waiting.drain(..answered).zip(step.results) {
+            match (result, step.home) {
                 (Ok(()), Some(home)) => teller.outputs.map_edits.push(EditedMap {
                     client: asker.client,
                     id: asker.id,
                     home: home.clone(),
                 }),
                 (Ok(()), None) => teller.answer(asker, Err(not_kept())),
-                (Err(error), _) => teller.answer(asker, Err(refusal(*error, &edit, brain))),
+                (Err(error), _) => teller.answer(asker, Err(refusal(*error, &edit, step.brain))),
             }
         }
     }

@@ -19,7 +19,7 @@ pub(super) fn refusal(error: EditError, edit: &RoomEdit, brain: &Brain) -> Refus
             Refusal::because(error, "Another room is called so: take another name.".to_owned())
         }
         (_, RoomEdit::Split { room, line }) => {
-            of_line((error, *room), line.ends().map(|end| [end.x_m, end.y_m]))
+            of_line(error, *room, line.ends().map(|end| [end.x_m, end.y_m]))
         }
         (EditError::NoSuchRoom, RoomEdit::Join { rooms }) => {
             let is_known = |id: &u16| brain.map().rooms().rooms().iter().any(|room| room.id == *id);
@@ -69,10 +69,10 @@ fn robot_at(pose: Pose2) -> String {
 
 pub(crate) fn to_line(line: [[f64; 2]; 2]) -> Result<CutLine, Refusal> {
     let [from, to] = line.map(|[x_m, y_m]| Point2 { x_m, y_m });
-    CutLine::new(from, to).map_err(|error| of_line((error, None), line))
+    CutLine::new(from, to).map_err(|error| of_line(error, None, line))
 }
 
-fn of_line((error, room): (EditError, Option<u16>), line: [[f64; 2]; 2]) -> Refusal {
+fn of_line(error: EditError, room: Option<u16>, line: [[f64; 2]; 2]) -> Refusal {
     let ends = ends(line);
     let text = match (error, room) {
         (EditError::BadLine, _) => {
