@@ -1,0 +1,172 @@
+//! What outlives a reset: latches, faults and clocks of the charger, the cause of the last stop (S4, S18).
+//!
+//! The record goes into the board's [`KeptMemory`] in the pass in which a latch changes, and every ten seconds for the sake
+//! of the clocks. A clock that ran counts the seconds that were not stored as well, so that resets make no charge longer.
+
+use rvac_protocol::message::{ChargeFault, Inhibit, Inhibits, LogLevel, ResetCause};
+use rvac_units::{Throttle, Tick};
+
+use crate::board::{KEPT_WORDS, KeptMemory, KeptWords, Parts};
+use crate::charge::ChargeMemory;
+use crate::cord::Cord;
+use crate::journal::Journal;
+use crate::timing::Periodic;
+
+/// Layout of the record, also the numbers of charger faults in it. Another layout counts as no record.
+const LAYOUT: u8 = 1;
+/// The clocks are stored at this period.
+pub(crate) const CLOCKS_MS: u32 = 10_000;
+/// Words of [`KeptRecord::events`]; the others are clocks.
+const EVENT_WORDS: usize = 3;
+const FLOWS: u8 = 1;
+const FORBIDDEN: u8 = 2;
+
+/// The record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct KeptRecord {
+    pub(crate) latched: Inhibits,
+    /// Levels of the battery that are active, as its rule packs them.
+    pub(crate) battery: u8,
+    /// What inhibited when motion ended last; none if a command ended it.
+    pub(crate) last_stop: Inhibits,
+    pub(crate) charge: ChargeMemory,
+}
+
+impl KeptRecord {
+    /// What changes with a latch or a stop, not with time.
+    fn events(&self) -> [u32; EVENT_WORDS] {
+        let fault = self.charge.fault.map_or(0, |fault| fault as u8 + 1);
+        let flows = if self.charge.flows { FLOWS } else { 0 };
+        let forbidden = if self.charge.forbidden { FORBIDDEN } else { 0 };
+        [
+            u32::from_le_bytes([LAYOUT, fault, self.battery, flows | forbidden]),
+            self.latched.bits(),
+            self.last_stop.bits(),
+        ]
+    }
+
+    fn words(&self) -> KeptWords {
+        let mut words = [0; KEPT_WORDS];
+        let all = self.events().into_iter().chain(self.charge.words());
+        for (place, word) in words.iter_mut().zip(all) {
+            *place = word;
+        }
+        words
+    }
+
+    /// The record of these words; `None` if they have another layout.
+    fn from_words(words: &KeptWords) -> Option<Self> {
+        let ([head, latched, last_stop], clocks) = words.split_first_chunk::<EVENT_WORDS>()?;
+        let [layout, fault, battery, flags] = head.to_le_bytes();
+        if layout != LAYOUT {
+            return None;
+        }
+        let fault = match fault {
+            0 => None,
+            number => Some(ChargeFault::ALL.get(usize::from(number) - 1).copied()?),
+        };
+        let mut charge = ChargeMemory::from_words(*clocks.first_chunk()?);
+        charge.fault = fault;
+        charge.flows = flags & FLOWS != 0;
+        charge.forbidden = flags & FORBIDDEN != 0;
+        Some(Self {
+            latched: latches_of(*latched),
+            battery,
+            last_stop: Inhibits::from_bits(*last_stop),
+            charge,
+        })
+    }
+
+    /// What the memory holds from before the reset.
+    pub(crate) fn load<M: KeptMemory>(memory: &mut M) -> Option<Self> {
+        memory.load().as_ref().and_then(Self::from_words)
+    }
+}
+
+/// The latched inhibits of the set, without the charger's, which follow from its fault.
+fn latches_of(bits: u32) -> Inhibits {
+    let mut latches = Inhibits::NONE;
+    for inhibit in Inhibits::from_bits(bits).iter().filter(|one| one.is_latched()) {
+        latches.insert(inhibit);
+    }
+    latches.without(Inhibits::from_bits(
+        1 << Inhibit::ChargerFault as u32 | 1 << Inhibit::ChargerShorted as u32,
+    ))
+}
+
+/// What is stored and when it is stored again.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Keeper {
+    stored: Option<[u32; EVENT_WORDS]>,
+    clocks: Periodic,
+    last_stop: Inhibits,
+    moved: bool,
+}
+
+impl Keeper {
+    /// Goes on from what was taken up.
+    pub(crate) fn starting_at(now: Tick, taken_up: Option<&KeptRecord>) -> Self {
+        Self {
+            stored: None,
+            clocks: Periodic::starting_at(now.after(CLOCKS_MS)),
+            last_stop: taken_up.map_or(Inhibits::NONE, |record| record.last_stop),
+            moved: false,
+        }
+    }
+}
+
+impl Journal {
+    /// A log that begins with what was taken up from before the reset, and with what was lost.
+    pub(crate) fn of_start(taken_up: Option<&KeptRecord>, cause: ResetCause) -> Self {
+        let mut journal = Self::default();
+        let Some(record) = taken_up else {
+            let (level, what) = match cause {
+                ResetCause::PowerOn => (LogLevel::Info, "power was off:"),
+                _ => (LogLevel::Warn, "lost in the reset:"),
+            };
+            journal.note(level, what, "latches, charger faults, charge clocks");
+            return journal;
+        };
+        for inhibit in record.last_stop.iter() {
+            journal.note(LogLevel::Info, "last stop before the reset:", inhibit.name());
+        }
+        if record.charge.has_charge() {
+            journal.note(LogLevel::Info, "kept over the reset:", "clocks of the charge");
+        }
+        if let Some(fault) = record.charge.fault {
+            journal.note(LogLevel::Error, "kept over the reset: charger", fault.name());
+        }
+        for inhibit in record.latched.iter() {
+            journal.note(LogLevel::Error, "kept over the reset:", inhibit.name());
+        }
+        journal
+    }
+}
+
+impl<P: Parts> Cord<P> {
+    /// Stores what a reset must not take away, if it has changed or is due. Called at the end of every pass.
+    pub(crate) fn keep(&mut self, now: Tick) {
+        self.note_stop();
+        let record = KeptRecord {
+            latched: self.reflexes.latched(),
+            battery: self.reflexes.battery().kept(),
+            last_stop: self.keeper.last_stop,
+            charge: self.charger.memory(),
+        };
+        let events = Some(record.events());
+        let due = self.keeper.clocks.is_due(now, CLOCKS_MS);
+        if due || events != self.keeper.stored {
+            self.keeper.stored = events;
+            self.board.kept.store(&record.words());
+        }
+    }
+
+    /// Motion that ends is noted with all that inhibits then.
+    fn note_stop(&mut self) {
+        let moves = self.wheel_outputs() != (Throttle::ZERO, Throttle::ZERO) || self.cleaning.is_running();
+        if self.keeper.moved && !moves {
+            self.keeper.last_stop = self.inhibits();
+        }
+        self.keeper.moved = moves;
+    }
+}
