@@ -49,10 +49,9 @@ impl RobotProgram {
                 HardwareFault::Memory
             }
             FatalCause::Clock => HardwareFault::Clock,
-            FatalCause::Panic
-            | FatalCause::Exception
-            | FatalCause::StrayInterrupt
-            | FatalCause::Register => HardwareFault::Internal,
+            FatalCause::Panic | FatalCause::Exception | FatalCause::StrayInterrupt | FatalCause::Register => {
+                HardwareFault::Internal
+            }
         };
         self.cord.log(LogLevel::Error, fatal_cause.words());
         self.cord.hardware_fault(fault);

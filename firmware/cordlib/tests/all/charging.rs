@@ -364,7 +364,7 @@ fn three_and_a_half_hours_end_it_also_across_the_wrap_of_the_clock() {
 #[test]
 fn no_number_of_resets_makes_a_charge_longer() {
     for every_s in [47, 301, 12_000] {
-        let mut dock = Dock::at(15_000, 0);
+        let mut dock = Dock::at(14_700, 0);
         dock.full_ma = 600;
         dock.run_s(40.0);
         let (mut flowed_s, mut resets) = (0, 0);
@@ -387,7 +387,7 @@ fn no_number_of_resets_makes_a_charge_longer() {
 
 #[test]
 fn a_reset_near_the_longest_time_ends_the_charge_where_it_would_have_ended() {
-    let mut dock = Dock::at(15_000, 0);
+    let mut dock = Dock::at(14_700, 0);
     dock.full_ma = 600;
     dock.run_s(40.0);
     dock.run_until(

@@ -74,10 +74,7 @@ impl SelfChecks {
         Source::ClockMonitor.enable();
         let program = memory::image::program();
         Self {
-            image: ImageCheck::new(
-                [program, memory::image::boot()],
-                memory::image::check_words(),
-            ),
+            image: ImageCheck::new([program, memory::image::boot()], memory::image::check_words()),
             // Taken before the whole image is checked, so that changes in between are found as well.
             sums: ImageSums::new(program.len() as u32 / 4, block_sum),
             ram_place: 0,
