@@ -1,16 +1,17 @@
-//! After everything was switched off, the charger's gate stays shut until the next reset, whatever it is told. A program of
+//! After everything was switched off, charger and motors stay off until the next reset, whatever they are told. A program of
 //! its own, because a program has one chip.
 
-use cordlib::board::{ChargeDrive, Charger};
+use cordlib::board::{ChargeDrive, Charger, CleaningMotor};
 use pic32mx3_hal::Peripherals;
 use pic32mx3_hal::interrupt::Source;
 use rvac_protocol::crc::crc32c;
-use rvac_units::Ratio;
-use sr8730::board::off;
+use rvac_units::{Ratio, Throttle};
+use sr8730::board::off::{self, mask};
 use sr8730::board::resets::Starts;
 use sr8730::board::{service, wiring};
 use sr8730::calibration::Calibration;
 use sr8730::generated::calibration::{COUNT, ENTRIES};
+use sr8730::generated::pins::{self, Signal};
 use sr8730::logic::calibration_record::{MAGIC, VERSION};
 
 /// A robot of which all is measured, so that it may charge.
@@ -27,8 +28,12 @@ fn measured() -> Calibration {
     Calibration::from_record(&record)
 }
 
+fn is_high(signal: Signal) -> bool {
+    off::port(signal).latch() & mask(signal) != 0
+}
+
 #[test]
-fn a_gate_that_was_switched_off_with_everything_does_not_open_again() {
+fn what_was_switched_off_with_everything_does_not_come_on_again() {
     let chip = Peripherals::take().expect("the first one");
     let mut board = wiring::assemble(chip, &measured(), Starts::take());
     assert!(board.charger.may_charge());
@@ -36,10 +41,16 @@ fn a_gate_that_was_switched_off_with_everything_does_not_open_again() {
     board.charger.drive(half);
     assert!(Source::Timer3.is_enabled(), "the gate's interrupt runs");
 
+    board.vacuum.set(Throttle::FULL);
+    assert!(is_high(pins::VACUUM));
+
     off::everything();
     for _ in 0..20 {
         board.charger.drive(half);
         assert!(!Source::Timer3.is_enabled());
+        board.vacuum.set(Throttle::FULL);
+        board.brush_sides.set(Throttle::FULL);
+        assert!(!is_high(pins::VACUUM) && !is_high(pins::BRUSH_SIDES));
         service(&mut board);
     }
 }

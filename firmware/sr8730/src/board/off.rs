@@ -26,8 +26,10 @@ static CLOCK_FAILED: AtomicBool = AtomicBool::new(false);
 /// Everything was switched off.
 static HELD: AtomicBool = AtomicBool::new(false);
 
-/// Switches off all motors, the charger, the sound and the infrared emitter, and holds the charger's gate shut until the
-/// next reset: its interrupt would open it again within 50 µs. Takes a microsecond.
+/// Switches off all motors, the charger, the sound and the infrared emitter until the next reset, in a microsecond. The
+/// charger's gate, whose interrupt would open it again within 50 µs, and the switches of side brushes and suction, which a
+/// pass of the main loop may be about to set, look at [`is_held`]; output compares of motors do not start again by
+/// themselves.
 pub fn everything() {
     HELD.store(true, Ordering::Relaxed);
     for compare in COMPARES {
