@@ -18,6 +18,8 @@ const LAYOUT: u8 = 1;
 pub(crate) const CLOCKS_MS: u32 = 10_000;
 /// Words of [`KeptRecord::events`]; the others are clocks.
 const EVENT_WORDS: usize = 3;
+/// Words of the log.
+const KEPT: &str = "kept over the reset:";
 const FLOWS: u8 = 1;
 const FORBIDDEN: u8 = 2;
 
@@ -70,7 +72,7 @@ impl KeptRecord {
         charge.flows = flags & FLOWS != 0;
         charge.forbidden = flags & FORBIDDEN != 0;
         Some(Self {
-            latched: latches_of(*latched),
+            latched: Inhibits::from_bits(latched & LATCHED.bits()),
             battery,
             last_stop: Inhibits::from_bits(*last_stop),
             charge,
@@ -83,16 +85,21 @@ impl KeptRecord {
     }
 }
 
-/// The latched inhibits of the set, without the charger's, which follow from its fault.
-fn latches_of(bits: u32) -> Inhibits {
-    let mut latches = Inhibits::NONE;
-    for inhibit in Inhibits::from_bits(bits).iter().filter(|one| one.is_latched()) {
-        latches.insert(inhibit);
+/// Every latched inhibit but the charger's, which follow from its fault.
+const LATCHED: Inhibits = {
+    let mut latched = Inhibits::NONE;
+    let mut place = 0;
+    while place < Inhibit::ALL.len() {
+        let inhibit = Inhibit::ALL[place];
+        if inhibit.is_latched() {
+            latched.insert(inhibit);
+        }
+        place += 1;
     }
-    latches.without(Inhibits::from_bits(
-        1 << Inhibit::ChargerFault as u32 | 1 << Inhibit::ChargerShorted as u32,
-    ))
-}
+    latched.remove(Inhibit::ChargerFault);
+    latched.remove(Inhibit::ChargerShorted);
+    latched
+};
 
 /// What is stored and when it is stored again.
 #[derive(Clone, Copy, Debug)]
@@ -127,24 +134,28 @@ impl Journal {
             journal.note(level, what, "latches, charger faults, charge clocks");
             return journal;
         };
-        for inhibit in record.last_stop.iter() {
-            journal.note(LogLevel::Info, "last stop before the reset:", inhibit.name());
-        }
+        journal.note_each("last stop before the reset:", record.last_stop);
         if record.charge.has_charge() {
-            journal.note(LogLevel::Info, "kept over the reset:", "clocks of the charge");
+            journal.note(LogLevel::Warn, KEPT, "clocks of the charge");
         }
         if let Some(fault) = record.charge.fault {
-            journal.note(LogLevel::Error, "kept over the reset: charger", fault.name());
+            journal.note(LogLevel::Warn, KEPT, fault.name());
         }
-        for inhibit in record.latched.iter() {
-            journal.note(LogLevel::Error, "kept over the reset:", inhibit.name());
-        }
+        journal.note_each(KEPT, record.latched);
         journal
+    }
+
+    fn note_each(&mut self, what: &'static str, inhibits: Inhibits) {
+        for inhibit in inhibits.iter() {
+            self.note(LogLevel::Warn, what, inhibit.name());
+        }
     }
 }
 
 impl<P: Parts> Cord<P> {
     /// Stores what a reset must not take away, if it has changed or is due. Called at the end of every pass.
+    // Called from two places, and flash is scarce.
+    #[inline(never)]
     pub(crate) fn keep(&mut self, now: Tick) {
         self.note_stop();
         let record = KeptRecord {

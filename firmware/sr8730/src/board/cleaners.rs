@@ -93,6 +93,7 @@ impl<P: OutputPin> Switched<P> {
         }
     }
 
+    #[inline(never)]
     fn write(&mut self, duty: Throttle) {
         let on = duty.millionths() > SWITCH_ON && !off::is_held();
         self.motor.note(on);

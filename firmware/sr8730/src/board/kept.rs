@@ -16,14 +16,25 @@ impl KeptMemory for KeptCopies {
     const PRESENT: bool = true;
 
     fn load(&mut self) -> Option<KeptWords> {
-        COPIES.iter().find_map(Persistent::load)
+        COPIES.iter().find_map(read)
     }
 
     fn store(&mut self, words: &KeptWords) {
         for copy in &COPIES {
-            copy.store(*words);
+            write(copy, words);
         }
     }
+}
+
+// One code for both copies: flash is scarce.
+#[inline(never)]
+fn read(copy: &Persistent<KEPT_WORDS>) -> Option<KeptWords> {
+    copy.load()
+}
+
+#[inline(never)]
+fn write(copy: &Persistent<KEPT_WORDS>, words: &KeptWords) {
+    copy.store(*words);
 }
 
 #[cfg(test)]
