@@ -181,3 +181,57 @@ impl<P: Parts> Cord<P> {
         self.keeper.moved = moves;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+
+    use super::{KeptRecord, LATCHED, LAYOUT};
+    use crate::board::KEPT_WORDS;
+    use rvac_protocol::message::{ChargeFault, Inhibit, Inhibits};
+    use std::vec::Vec;
+
+    fn words(fault: u8, flags: u8) -> [u32; KEPT_WORDS] {
+        let mut words = core::array::from_fn(|place| 1_000 + place as u32);
+        words[0] = u32::from_le_bytes([LAYOUT, fault, 0b1011, flags]);
+        words[1] = LATCHED.bits();
+        words[2] = 1 << Inhibit::Bumper as u32;
+        words
+    }
+
+    #[test]
+    fn a_record_comes_back_word_for_word() {
+        for fault in 0..=ChargeFault::ALL.len() as u8 {
+            for flags in 0..4 {
+                let record = KeptRecord::from_words(&words(fault, flags)).unwrap();
+                assert_eq!(record.words(), words(fault, flags));
+            }
+        }
+        assert!(KeptRecord::from_words(&words(ChargeFault::ALL.len() as u8 + 1, 0)).is_none());
+    }
+
+    #[test]
+    fn another_layout_and_foreign_bits_are_not_taken_up() {
+        let mut other = words(0, 0);
+        other[0] = other[0] & !0xFF | u32::from(LAYOUT + 1);
+        assert!(KeptRecord::from_words(&other).is_none());
+        let mut all = words(0, 0);
+        all[1] = u32::MAX;
+        let record = KeptRecord::from_words(&all).unwrap();
+        assert_eq!(record.latched, LATCHED);
+        assert!(
+            !record.latched.contains(Inhibit::Docked) && !record.latched.contains(Inhibit::ChargerShorted)
+        );
+        assert_ne!(record.latched, Inhibits::NONE);
+    }
+
+    /// The numbers of faults are part of the layout: when these names change, so must [`LAYOUT`].
+    #[test]
+    fn the_layout_numbers_the_faults_in_this_order() {
+        let names: Vec<&str> = ChargeFault::ALL.into_iter().map(ChargeFault::name).collect();
+        let known = "too-hot over-current shorted current-zero no-current stale thermistor-open thermistor-shorted \
+                     thermistor-range thermistor-jump thermistor-frozen voltage-jump adapter no-battery \
+                     deep-discharge precharge contact repeated";
+        assert_eq!(names.join(" "), known);
+    }
+}

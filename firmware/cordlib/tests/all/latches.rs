@@ -89,6 +89,28 @@ fn docked_well(rig: &mut Rig) {
     rig.run(500);
 }
 
+fn on_a_strong_supply() -> Rig {
+    let strong = ChargerReadings {
+        input_mv: 30_500,
+        ..PACK
+    };
+    docked(strong, 500)
+}
+
+fn on_a_shorted_switch() -> Rig {
+    let shorted = ChargerReadings {
+        current_ma: 1_400,
+        ..PACK
+    };
+    docked(shorted, 1_600)
+}
+
+fn reset_again_and_again() -> Rig {
+    let mut rig = Rig::switched_on_with(0, |board| board.reset.recent = 3);
+    rig.connect();
+    rig
+}
+
 fn stuck() -> Rig {
     let mut rig = Rig::connected(0);
     rig.cord.board_mut().bumpers.0.left = true;
@@ -161,14 +183,7 @@ fn without_thermistor() -> Rig {
 /// Every latch has its line: a new one does not compile without.
 fn latch_of(inhibit: Inhibit) -> Option<Latch> {
     match inhibit {
-        Inhibit::ResetLoop => latch(
-            || {
-                let mut rig = Rig::switched_on_with(0, |board| board.reset.recent = 3);
-                rig.connect();
-                rig
-            },
-            |rig| rig.run(61_000),
-        ),
+        Inhibit::ResetLoop => latch(reset_again_and_again, |rig| rig.run(61_000)),
         Inhibit::BumperStuck => latch(stuck, |rig| {
             rig.cord.board_mut().bumpers.0 = Bumpers::default();
             rig.run(50);
@@ -202,30 +217,8 @@ fn latch_of(inhibit: Inhibit) -> Option<Latch> {
             show(rig, PACK);
             rig.run(500);
         }),
-        Inhibit::ChargerFault => latch(
-            || {
-                docked(
-                    ChargerReadings {
-                        input_mv: 30_500,
-                        ..PACK
-                    },
-                    500,
-                )
-            },
-            docked_well,
-        ),
-        Inhibit::ChargerShorted => latch(
-            || {
-                docked(
-                    ChargerReadings {
-                        current_ma: 1_400,
-                        ..PACK
-                    },
-                    1_600,
-                )
-            },
-            docked_well,
-        ),
+        Inhibit::ChargerFault => latch(on_a_strong_supply, docked_well),
+        Inhibit::ChargerShorted => latch(on_a_shorted_switch, docked_well),
         Inhibit::NotArmed
         | Inhibit::LinkLost
         | Inhibit::Bumper
