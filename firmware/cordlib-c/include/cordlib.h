@@ -38,6 +38,17 @@ void set_callback_cliff_emitters(void (*callback)(int32_t on));
 /* Feeds the hardware watchdog. Called only when clock, loop and communication are alive. */
 void set_callback_feed_watchdog(void (*callback)(void));
 
+/* Words of memory that a reset must leave alone, for latched inhibits and clocks: two copies of a record, each with its
+ * check, written one after the other. */
+#define CORD_KEPT_WORDS 36
+
+/* Writes one word, 0 to CORD_KEPT_WORDS - 1, to memory that a reset leaves alone. Called for all words in order, at most
+ * once a millisecond. Without this callback and the next one the record lives as long as the process. */
+void set_callback_keep(void (*callback)(int32_t place, uint32_t word));
+
+/* Reads back one word of that memory; called by cord_init. It may hold anything after power-on. */
+void set_callback_kept(uint32_t (*callback)(int32_t place));
+
 /* Names the device and the firmware's version, each at most 24 bytes of UTF-8, ended by NUL. Returns 1, or 0 if a name
  * is NULL or no UTF-8. The names are copied. */
 int32_t cord_set_names(const char *device, const char *firmware);
@@ -58,7 +69,7 @@ int32_t cord_declare(const char *part, int32_t count);
 /* Sets how often the chip has started, and the number of consecutive recent resets. Three of them inhibit motion. */
 void cord_set_resets(uint32_t boot_count, uint8_t recent_resets);
 
-/* Calls the setup callback, switches all motors off and starts again, as after a reset. Returns 1, or 0 when called
+/* Calls the setup callback, switches all motors off and starts again, as after a reset: what is latched stays. Returns 1, or 0 when called
  * from inside a callback of the main loop. */
 int32_t cord_init(void);
 
@@ -73,7 +84,8 @@ void cord_event_init(void);
 /* Ends cord_event_init after the present pass, with all motors off. */
 void cord_event_exit(void);
 
-/* Switches everything off at once and latches "internal": for the fault handlers of the chip. Called from inside a
+/* Switches everything off at once and latches "internal": for the fault handlers of the chip. A fault whose cause stands
+ * is reported by cord_event_hardware_fault. Called from inside a
  * callback it switches the motors off without the latch. */
 void cord_hardware_fault(void);
 
@@ -130,6 +142,19 @@ void cord_event_currents(double wheel_left, double wheel_right, double brush_mai
 
 /* Battery: volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings. */
 void cord_event_battery(double voltage, double current, double temperature);
+
+/* The clock fails, or two clocks disagree. */
+#define CORD_FAULT_CLOCK 0
+
+/* Flash, memory or stack failed a check. */
+#define CORD_FAULT_MEMORY 1
+
+/* Any other self-check failed. */
+#define CORD_FAULT_INTERNAL 2
+
+/* The cause of a hardware fault (CORD_FAULT_...) is present (1) or gone (0). While it is present everything is off, its
+ * inhibit is latched, and cord_clear refuses it. Another number counts as CORD_FAULT_INTERNAL. */
+void cord_event_hardware_fault(int32_t fault, int32_t present);
 
 /* Left wheel. */
 #define CORD_MOTOR_WHEEL_LEFT 0

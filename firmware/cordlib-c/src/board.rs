@@ -3,8 +3,8 @@
 use cord::board::{
     Absent, Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
     CliffLevels, CliffSensors, Clock, CurrentSense, DockContacts, DockRequest, Emitters, Encoders,
-    HeadingSensor, Lights, Link, Parts, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive,
-    WheelDropSwitches, WheelMotors,
+    HardwareChecks, HardwareFault, HeadingSensor, Lights, Link, Parts, Received, ResetRecord, Watchdog,
+    WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use rvac_protocol::message::{Bumpers, Cliffs, Currents, Gyro, ResetCause, WheelDrops};
 use rvac_units::{Frequency, Ratio, Throttle, Tick};
@@ -35,6 +35,8 @@ impl Parts for Foreign {
     type Wheels = Foreign;
     type Reset = Foreign;
     type Watchdog = Foreign;
+    type Kept = Foreign;
+    type Checks = Foreign;
     type Encoders = Foreign;
     type Bumpers = Foreign;
     type Cliffs = CliffView;
@@ -107,6 +109,12 @@ impl ResetRecord for Foreign {
 
     fn forget_recent(&mut self) {
         machine().recent_resets = 0;
+    }
+}
+
+impl HardwareChecks for Foreign {
+    fn stands(&mut self, fault: HardwareFault) -> bool {
+        inputs().hardware_faults.contains(&fault)
     }
 }
 

@@ -14,6 +14,8 @@ pub(crate) struct Callbacks {
     pub(crate) led: Option<extern "C" fn(i32, f64)>,
     pub(crate) cliff_emitters: Option<extern "C" fn(i32)>,
     pub(crate) feed_watchdog: Option<extern "C" fn()>,
+    pub(crate) keep: Option<extern "C" fn(i32, u32)>,
+    pub(crate) kept: Option<extern "C" fn(i32) -> u32>,
 }
 
 static CALLBACKS: Mutex<Callbacks> = Mutex::new(Callbacks {
@@ -26,6 +28,8 @@ static CALLBACKS: Mutex<Callbacks> = Mutex::new(Callbacks {
     led: None,
     cliff_emitters: None,
     feed_watchdog: None,
+    keep: None,
+    kept: None,
 });
 
 fn lock() -> MutexGuard<'static, Callbacks> {
@@ -91,4 +95,21 @@ pub extern "C" fn set_callback_cliff_emitters(callback: Option<extern "C" fn(on:
 #[unsafe(no_mangle)]
 pub extern "C" fn set_callback_feed_watchdog(callback: Option<extern "C" fn()>) {
     lock().feed_watchdog = callback;
+}
+
+/// Words of memory that a reset must leave alone, for latched inhibits and clocks: two copies of a record, each with its
+/// check, written one after the other.
+pub const CORD_KEPT_WORDS: i32 = 36;
+
+/// Writes one word, 0 to CORD_KEPT_WORDS - 1, to memory that a reset leaves alone. Called for all words in order, at most
+/// once a millisecond. Without this callback and the next one the record lives as long as the process.
+#[unsafe(no_mangle)]
+pub extern "C" fn set_callback_keep(callback: Option<extern "C" fn(place: i32, word: u32)>) {
+    lock().keep = callback;
+}
+
+/// Reads back one word of that memory; called by cord_init. It may hold anything after power-on.
+#[unsafe(no_mangle)]
+pub extern "C" fn set_callback_kept(callback: Option<extern "C" fn(place: i32) -> u32>) {
+    lock().kept = callback;
 }

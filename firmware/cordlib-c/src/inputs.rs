@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use cord::board::{ChargerReadings, CliffLevels, Received, WheelCounts};
+use cord::board::{ChargerReadings, CliffLevels, HardwareFault, Received, WheelCounts};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, WheelDrops};
 use rvac_units::{Angle, AngularSpeed, Current, Temperature, Voltage};
 
@@ -24,6 +24,8 @@ pub(crate) struct Inputs {
     pub(crate) gyro: Option<Gyro>,
     pub(crate) currents: Option<Currents>,
     pub(crate) battery: Option<ChargerReadings>,
+    /// Faults whose causes stand.
+    pub(crate) hardware_faults: Vec<HardwareFault>,
 }
 
 static INPUTS: Mutex<Inputs> = Mutex::new(Inputs {
@@ -48,6 +50,7 @@ static INPUTS: Mutex<Inputs> = Mutex::new(Inputs {
     gyro: None,
     currents: None,
     battery: None,
+    hardware_faults: Vec::new(),
 });
 
 /// The inputs. Never hold this while a callback runs.
@@ -163,4 +166,27 @@ pub extern "C" fn cord_event_battery(voltage: f64, current: f64, temperature: f6
         age_ms: 0,
         adapter,
     });
+}
+
+/// The clock fails, or two clocks disagree.
+pub const CORD_FAULT_CLOCK: i32 = 0;
+/// Flash, memory or stack failed a check.
+pub const CORD_FAULT_MEMORY: i32 = 1;
+/// Any other self-check failed.
+pub const CORD_FAULT_INTERNAL: i32 = 2;
+
+/// The cause of a hardware fault (CORD_FAULT_...) is present (1) or gone (0). While it is present everything is off, its
+/// inhibit is latched, and cord_clear refuses it. Another number counts as CORD_FAULT_INTERNAL.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_event_hardware_fault(fault: i32, present: i32) {
+    let fault = match fault {
+        CORD_FAULT_CLOCK => HardwareFault::Clock,
+        CORD_FAULT_MEMORY => HardwareFault::Memory,
+        _ => HardwareFault::Internal,
+    };
+    let standing = &mut inputs().hardware_faults;
+    standing.retain(|other| *other != fault);
+    if present != 0 {
+        standing.push(fault);
+    }
 }

@@ -11,6 +11,7 @@ pub mod board;
 pub mod callbacks;
 pub mod connection;
 pub mod inputs;
+mod kept;
 pub mod machine;
 pub mod main_loop;
 pub mod requests;

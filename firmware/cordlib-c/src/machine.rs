@@ -4,6 +4,7 @@ use std::ffi::{CStr, c_char};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
 use cord::Parameters;
+use cord::board::KeptWords;
 use rvac_protocol::message::{Capabilities, Limits};
 use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
@@ -13,6 +14,8 @@ pub(crate) struct MachineDescription {
     pub(crate) boot_count: u32,
     pub(crate) recent_resets: u8,
     pub(crate) cliffs: u8,
+    /// What outlives cord_init, as a reset of the chip.
+    pub(crate) kept: Option<KeptWords>,
     parameters: Parameters,
     fitted: Capabilities,
 }
@@ -32,6 +35,7 @@ static MACHINE: LazyLock<Mutex<MachineDescription>> = LazyLock::new(|| {
         boot_count: 0,
         recent_resets: 0,
         cliffs: 0,
+        kept: None,
         parameters: Parameters::for_machine("unnamed", "0", SMALL_ROUND_ROBOT),
         fitted: Capabilities {
             encoders: true,

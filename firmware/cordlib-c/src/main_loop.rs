@@ -38,6 +38,8 @@ fn board() -> Board<Foreign> {
         wheels: Foreign,
         reset: Foreign,
         watchdog: Foreign,
+        kept: Foreign,
+        checks: Foreign,
         encoders: Foreign,
         bumpers: Foreign,
         cliffs: CliffView {
@@ -61,7 +63,7 @@ fn board() -> Board<Foreign> {
     }
 }
 
-/// Calls the setup callback, switches all motors off and starts again, as after a reset. Returns 1, or 0 when called
+/// Calls the setup callback, switches all motors off and starts again, as after a reset: what is latched stays. Returns 1, or 0 when called
 /// from inside a callback of the main loop.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_init() -> i32 {
@@ -113,7 +115,8 @@ pub extern "C" fn cord_event_exit() {
     LEAVING.store(true, Ordering::Relaxed);
 }
 
-/// Switches everything off at once and latches "internal": for the fault handlers of the chip. Called from inside a
+/// Switches everything off at once and latches "internal": for the fault handlers of the chip. A fault whose cause stands
+/// is reported by cord_event_hardware_fault. Called from inside a
 /// callback it switches the motors off without the latch.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_hardware_fault() {

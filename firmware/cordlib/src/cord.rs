@@ -1,20 +1,21 @@
 //! The main loop.
 
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Cliffs, Description, Inhibit, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
+    BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
 };
 use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
 
 use crate::board::{
-    Board, BumperSwitches, CleaningMotor, Clock, CurrentSense, Encoders, HardwareFault, Link, Parts,
-    Received, ResetRecord, Watchdog, WheelDrive, WheelDropSwitches, WheelMotors,
+    Board, BumperSwitches, CleaningMotor, Clock, CurrentSense, Encoders, HardwareChecks, HardwareFault, Link,
+    Parts, Received, ResetRecord, Watchdog, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
 use crate::dock_escape::DockEscape;
 use crate::floor::FloorWatch;
 use crate::journal::Journal;
+use crate::kept::{CLOCKS_MS, Keeper, KeptRecord};
 use crate::lights::LightPatterns;
 use crate::motion::{Motion, Period};
 use crate::parameters::Parameters;
@@ -58,6 +59,7 @@ pub struct Cord<P: Parts> {
     pub(crate) dock_escape: DockEscape,
     /// How long nothing has moved.
     pub(crate) rest: HoldTimer,
+    pub(crate) keeper: Keeper,
     accepted: u32,
     floor: FloorWatch,
     watch: Watch,
@@ -82,14 +84,21 @@ impl<P: Parts> Cord<P> {
         let session = RobotSession::new(identity(&mut board, &parameters, fitted), now);
         let floor_level_min = (fitted.cliffs > 0).then_some(parameters.guard.floor_level_min);
         let floor = FloorWatch::new(&mut board.cliffs, now, floor_level_min);
-        let reflexes = Reflexes::new(&mut board.reset, fitted.encoders, now);
+        let kept = KeptRecord::load(&mut board.kept);
+        let mut reflexes = Reflexes::new(&mut board.reset, fitted.encoders, now);
+        let mut charger = ChargeController::new(parameters.pack);
+        if let Some(record) = &kept {
+            reflexes = reflexes.taking_up(record.latched, record.battery);
+            charger = charger.taking_up(&record.charge, CLOCKS_MS);
+        }
+        reflexes.charger_fault = charger.status().fault;
         let counts = board.encoders.counts();
         Self {
             motion: Motion::new(counts, parameters.limits.count_nm, now),
             cleaning: Cleaning::default(),
             sound: Sound::default(),
             lights: LightPatterns::new(now),
-            journal: Journal::default(),
+            journal: Journal::of_start(kept.as_ref(), board.reset.cause()),
             reporter: Reporter::new(&reflexes, now),
             transmitter: PacketSender::default(),
             senses: Senses {
@@ -102,7 +111,7 @@ impl<P: Parts> Cord<P> {
             fitted,
             probing: Probing::starting_at(now),
             dock_escape: DockEscape::starting_at(now),
-            charger: ChargeController::new(parameters.pack),
+            charger,
             charge_output: ChargeOutput::default(),
             accepted: 0,
             watch: Watch::starting_at(now),
@@ -110,6 +119,7 @@ impl<P: Parts> Cord<P> {
             renew: false,
             stepped: false,
             rest: HoldTimer::default(),
+            keeper: Keeper::starting_at(now, kept.as_ref()),
             board,
             parameters,
             session,
@@ -136,6 +146,7 @@ impl<P: Parts> Cord<P> {
         let now = self.senses.now;
         self.clock.advance(now);
         self.reflexes.age(&mut self.board.reset, now);
+        self.check_hardware();
         self.run_reflexes(now);
         self.poll_link(now);
         self.control(now);
@@ -145,6 +156,7 @@ impl<P: Parts> Cord<P> {
         self.sound.play(&mut self.board.beeper, now);
         self.lights.blink(&mut self.board.lights, now);
         self.report(now);
+        self.keep(now);
         if self.watch.is_complete(now) {
             self.board.watchdog.feed();
         }
@@ -319,13 +331,20 @@ impl<P: Parts> Cord<P> {
 
     /// The board's own checks found a fault: everything off, and the fault is latched under its name.
     pub fn hardware_fault(&mut self, fault: HardwareFault) {
-        self.reflexes.latch(match fault {
-            HardwareFault::Clock => Inhibit::Clock,
-            HardwareFault::Memory => Inhibit::Memory,
-            HardwareFault::Internal => Inhibit::InternalFault,
-        });
+        self.reflexes.latch(fault.inhibit());
         self.cut_charger();
         self.stop_all(MoveEnd::Inhibited);
+        self.keep(self.senses.now);
+    }
+
+    /// Latches what stands; once latched it forbids motion and charging, and cannot be cleared meanwhile.
+    fn check_hardware(&mut self) {
+        for fault in HardwareFault::ALL {
+            let is_latched = self.reflexes.latched().contains(fault.inhibit());
+            if self.board.checks.stands(fault) && !is_latched {
+                self.hardware_fault(fault);
+            }
+        }
     }
 
     /// Puts a line into the log that goes to the host.

@@ -276,25 +276,6 @@ impl<P: Parts> Cord<P> {
         self.probing.begin(&mut self.board.probe, probe, now)
     }
 
-    fn clear(&mut self, inhibit: Inhibit) -> CommandResult {
-        if matches!(inhibit, Inhibit::ChargerFault | Inhibit::ChargerShorted) {
-            let cleared = !self.inhibits().contains(inhibit) || self.charger.clear();
-            self.reflexes.charger_fault = self.charger.status().fault;
-            return if cleared {
-                Ok(())
-            } else {
-                Err(Refusal::CauseRemains)
-            };
-        }
-        if !self.reflexes.clear(inhibit) {
-            return Err(Refusal::CauseRemains);
-        }
-        if inhibit == Inhibit::BrushStall {
-            self.cleaning.forgive();
-        }
-        Ok(())
-    }
-
     fn set(&mut self, parameter: Parameter, value: i32, now: Tick) -> CommandResult {
         let (least, most) = parameter.range();
         if value != 0 && !(least..=most).contains(&value) {

@@ -8,6 +8,7 @@
 #![deny(missing_docs)]
 
 pub mod board;
+mod causes;
 pub mod charge;
 mod cleaning;
 mod cord;
@@ -16,6 +17,7 @@ mod dock_escape;
 mod floor;
 mod guarded;
 mod journal;
+mod kept;
 mod lights;
 mod limit;
 mod motion;

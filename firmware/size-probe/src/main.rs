@@ -9,8 +9,9 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use cordlib::board::{
     Absent, Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
     CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
-    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord,
-    Watchdog, WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
+    Encoders, HardwareChecks, HardwareFault, HeadingSensor, KeptMemory, KeptWords, Lights, Link, Parts,
+    PinProbe, ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive, WheelDropSwitches,
+    WheelMotors,
 };
 use cordlib::{Cord, Parameters};
 use rvac_protocol::message::{
@@ -45,6 +46,8 @@ impl Parts for ProbeBoard {
     type Wheels = ProbeBoard;
     type Reset = ProbeBoard;
     type Watchdog = ProbeBoard;
+    type Kept = ProbeBoard;
+    type Checks = ProbeBoard;
     type Encoders = ProbeBoard;
     type Bumpers = ProbeBoard;
     type Cliffs = ProbeBoard;
@@ -104,6 +107,24 @@ impl ResetRecord for ProbeBoard {
 
     fn forget_recent(&mut self) {
         write(0);
+    }
+}
+
+impl KeptMemory for ProbeBoard {
+    const PRESENT: bool = true;
+
+    fn load(&mut self) -> Option<KeptWords> {
+        bit(10).then(|| core::array::from_fn(|_| read()))
+    }
+
+    fn store(&mut self, words: &KeptWords) {
+        words.iter().for_each(|word| write(*word));
+    }
+}
+
+impl HardwareChecks for ProbeBoard {
+    fn stands(&mut self, fault: HardwareFault) -> bool {
+        bit(11 + fault as u8)
     }
 }
 
@@ -334,6 +355,8 @@ fn board() -> Board<ProbeBoard> {
         wheels: ProbeBoard,
         reset: ProbeBoard,
         watchdog: ProbeBoard,
+        kept: ProbeBoard,
+        checks: ProbeBoard,
         encoders: ProbeBoard,
         bumpers: ProbeBoard,
         cliffs: ProbeBoard,

@@ -7,14 +7,13 @@ use pic32mx3_hal::{Peripherals, interrupt, reset};
 use rvac_protocol::message::{Capabilities, Limits, LogLevel};
 use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
-use crate::board::checks::{Finding, SelfChecks};
+use crate::board::checks::StartVerdict;
 use crate::board::resets::{self, Starts};
 use crate::board::{Service, Sr8730, service, tick, wiring};
 use crate::calibration::{Calibration, RECORD_BYTES};
 use crate::generated::calibration::Calibrated;
 use crate::generated::machine;
 use crate::logic::calibration_record::RecordFault;
-use crate::logic::image_check::ImageState;
 use crate::logic::reset_log::FatalCause;
 
 const FIRMWARE: &str = concat!("sr8730-", env!("CARGO_PKG_VERSION"));
@@ -23,7 +22,6 @@ const FIRMWARE: &str = concat!("sr8730-", env!("CARGO_PKG_VERSION"));
 #[derive(Debug)]
 pub struct RobotProgram {
     cord: Cord<Sr8730>,
-    checks: SelfChecks,
 }
 
 impl RobotProgram {
@@ -33,20 +31,33 @@ impl RobotProgram {
         let starts = Starts::take();
         let fatal_cause = starts.fatal_cause();
         let calibration = Calibration::from_record(&record(&chip.data_flash));
-        let (board, mut checks) = wiring::assemble(chip, &calibration, starts);
-        let verdict = checks.image_at_start();
+        let mut board = wiring::assemble(chip, &calibration, starts);
+        let verdict = board.checks.check_at_start();
         let mut robot = Self {
             cord: Cord::new(board, parameters(&calibration)),
-            checks,
         };
-        robot.report_start(fatal_cause, calibration.fault(), verdict);
+        robot.report_last_run(fatal_cause);
+        robot.report_start(calibration.fault(), verdict);
         robot
     }
 
-    fn report_start(&mut self, fatal_cause: FatalCause, record: Option<RecordFault>, verdict: ImageState) {
-        if fatal_cause != FatalCause::None {
-            self.cord.log(LogLevel::Error, fatal_cause.words());
-        }
+    /// What a check of the last run found is latched: the reset that followed must not take that away.
+    fn report_last_run(&mut self, fatal_cause: FatalCause) {
+        let fault = match fatal_cause {
+            FatalCause::None => return,
+            FatalCause::Memory | FatalCause::Flash | FatalCause::Stack | FatalCause::Variable => {
+                HardwareFault::Memory
+            }
+            FatalCause::Clock => HardwareFault::Clock,
+            FatalCause::Panic | FatalCause::Exception | FatalCause::StrayInterrupt | FatalCause::Register => {
+                HardwareFault::Internal
+            }
+        };
+        self.cord.log(LogLevel::Error, fatal_cause.words());
+        self.cord.hardware_fault(fault);
+    }
+
+    fn report_start(&mut self, record: Option<RecordFault>, verdict: StartVerdict) {
         let record = match record {
             None => None,
             Some(RecordFault::Absent) => Some("not calibrated: parts are absent"),
@@ -57,16 +68,13 @@ impl RobotProgram {
         if let Some(words) = record {
             self.cord.log(LogLevel::Warn, words);
         }
+        // cordlib latches these in its first pass, for as long as they stand.
         match verdict {
-            ImageState::Whole => {}
-            ImageState::Damaged => self.fail(HardwareFault::Memory, "image in flash is damaged"),
-            ImageState::Unchecked => self.fail(HardwareFault::Internal, "image carries no check value"),
+            StartVerdict::Sound => {}
+            StartVerdict::DamagedImage => self.cord.log(LogLevel::Error, "image in flash is damaged"),
+            StartVerdict::UncheckedImage => self.cord.log(LogLevel::Error, "image carries no check value"),
+            StartVerdict::FaultyMemory => self.cord.log(LogLevel::Error, "a cell of memory is faulty"),
         }
-    }
-
-    fn fail(&mut self, fault: HardwareFault, words: &'static str) {
-        self.cord.log(LogLevel::Error, words);
-        self.cord.hardware_fault(fault);
     }
 
     /// Enables interrupts and runs the main loop.
@@ -85,10 +93,8 @@ impl RobotProgram {
     }
 
     fn millisecond(&mut self) {
-        match self.checks.service() {
-            None => {}
-            Some(Finding::Clock) => self.cord.hardware_fault(HardwareFault::Clock),
-            Some(Finding::Broken(fatal_cause)) => fail_safe_reset(fatal_cause),
+        if let Some(fatal_cause) = self.cord.board_mut().checks.service() {
+            fail_safe_reset(fatal_cause);
         }
         self.cord.step();
         match service(self.cord.board_mut()) {

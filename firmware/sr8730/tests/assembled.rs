@@ -37,7 +37,7 @@ fn changed(port: Port) -> u16 {
 fn the_board_puts_on_the_pins_what_its_parts_are_told() {
     let chip = Peripherals::take().expect("the first one");
     let calibration = Calibration::from_record(&[0xFF; 4_096]);
-    let (mut board, _) = wiring::assemble(chip, &calibration, Starts::take());
+    let mut board = wiring::assemble(chip, &calibration, Starts::take());
 
     for start in pins::START {
         let port = off::port_of(start.port);

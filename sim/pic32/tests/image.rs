@@ -3,6 +3,8 @@
 //! It is built by `cargo xtask firmware sr8730`; `cargo xtask test --only emulator` names it in `RVAC_FIRMWARE`, and the one with
 //! `--features link-sampled` in `RVAC_FIRMWARE_SAMPLED`.
 
+mod latches;
+
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

@@ -8,7 +8,9 @@ use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
 
-use crate::board::{self, OneLine, Outfit, PersistentMemory, SimulatedParts, Sr8730Outfit, WATCHDOG_MS};
+use crate::board::{
+    self, KeptRam, OneLine, Outfit, PersistentMemory, SimulatedParts, Sr8730Outfit, WATCHDOG_MS,
+};
 use crate::line::SerialLine;
 use crate::parameters::parameters_for;
 use crate::power::{self, ChargeSwitch};
@@ -68,7 +70,7 @@ impl<O: Outfit> SimulatedRobot<O> {
     pub fn new(model: &RobotModel, world: World, settings: &RobotSettings) -> Self {
         Self {
             cord: Cord::new(
-                board::fresh(PersistentMemory::first()),
+                board::fresh(PersistentMemory::first(), KeptRam::default()),
                 parameters_for(O::NAME, model),
             ),
             one_line: OneLine::default(),
@@ -272,11 +274,12 @@ impl<O: Outfit> SimulatedRobot<O> {
         }
     }
 
-    /// Resets the microcontroller: all memory of the firmware and all bytes in its queues are lost, all outputs are
-    /// off.
+    /// Resets the microcontroller: all bytes in its queues and all memory of the firmware are lost, but for what is kept
+    /// over a reset; all outputs are off.
     pub fn reset(&mut self, cause: ResetCause) {
-        let persistent = self.cord.board().reset.restarted(cause);
-        self.cord = Cord::new(board::fresh(persistent), *self.cord.parameters());
+        let before = self.cord.board();
+        let (persistent, kept) = (before.reset.restarted(cause), before.kept.restarted(cause));
+        self.cord = Cord::new(board::fresh(persistent, kept), *self.cord.parameters());
         self.driven = [WheelDrive::Brake; 2];
         self.one_line = OneLine::default();
         self.reset_ms = self.now_ms;

@@ -17,6 +17,7 @@ static double throttles[5];
 static double way_m[2];
 static int steps, setups, feedings, failures;
 static double tone_hz;
+static uint32_t memory[CORD_KEPT_WORDS];
 static char packets[PACKETS][PACKET_BYTES];
 static int packet_count, packet_length;
 
@@ -26,6 +27,9 @@ static uint32_t get_time_ms(void) { return 1234567; }
 static void setup(void) { setups++; }
 static void feed(void) { feedings++; }
 static void beep(double pitch, double volume) { tone_hz = volume > 0 ? pitch : 0; }
+
+static void keep(int32_t place, uint32_t word) { memory[place] = word; }
+static uint32_t kept(int32_t place) { return memory[place]; }
 
 static void set_motor_throttle(int32_t motor, double throttle)
 {
@@ -147,6 +151,28 @@ static void check_machine(void)
     check(cord_declare("bumper", 2) == 0, "names match exactly");
 }
 
+/* A fault that stands cannot be cleared, and cord_init, which is a reset, does not take it away. */
+static void check_latches(void)
+{
+    const uint32_t memory_bit = 1u << 27;
+    set_callback_step(NULL);
+    set_callback_keep(keep);
+    set_callback_kept(kept);
+    check(cord_init() == 1, "starts with callbacks for its memory");
+    cord_event_hardware_fault(CORD_FAULT_MEMORY, 1);
+    run(2);
+    check(cord_inhibits() & memory_bit, "a fault that stands is latched");
+    check(cord_clear("memory") == CORD_CAUSE_REMAINS, "and cannot be cleared");
+    cord_event_hardware_fault(CORD_FAULT_MEMORY, 0);
+    run(2);
+    check(cord_init() == 1 && (cord_inhibits() & memory_bit), "a reset keeps it");
+    memory[0] ^= 4;
+    check(cord_init() == 1 && (cord_inhibits() & memory_bit), "one damaged copy costs nothing");
+    check(cord_clear("memory") == CORD_OK && !(cord_inhibits() & memory_bit), "it is cleared by a person");
+    run(2);
+    check(cord_init() == 1 && !(cord_inhibits() & memory_bit), "for good");
+}
+
 int main(void)
 {
     check_clock();
@@ -198,5 +224,6 @@ int main(void)
     set_callback_step(cord_event_exit);
     cord_event_init();
     check(setups == 2, "cord_event_init returns after cord_event_exit");
+    check_latches();
     return failures != 0;
 }

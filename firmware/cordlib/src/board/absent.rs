@@ -9,12 +9,29 @@ use rvac_units::{Frequency, Ratio, Throttle};
 use super::{
     Beeper, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor, CliffLevels,
     CliffSensors, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters, Encoders,
-    HeadingSensor, Lights, PinProbe, ProximitySensors, WheelCounts, WheelDropSwitches,
+    HardwareChecks, HardwareFault, HeadingSensor, KeptMemory, KeptWords, Lights, PinProbe, ProximitySensors,
+    WheelCounts, WheelDropSwitches,
 };
 
 /// Stands for a part the machine lacks. Commands to it are refused as `absent`, and the description says so.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Absent;
+
+impl KeptMemory for Absent {
+    const PRESENT: bool = false;
+
+    fn load(&mut self) -> Option<KeptWords> {
+        None
+    }
+
+    fn store(&mut self, _: &KeptWords) {}
+}
+
+impl HardwareChecks for Absent {
+    fn stands(&mut self, _: HardwareFault) -> bool {
+        false
+    }
+}
 
 impl Encoders for Absent {
     const PRESENT: bool = false;

@@ -18,6 +18,7 @@ mod clock;
 mod contact;
 mod dock;
 mod ground;
+mod kept;
 mod link;
 mod panel;
 mod power;
@@ -32,12 +33,13 @@ pub use clock::Clock;
 pub use contact::{BumperSwitches, DustBox, WheelDropSwitches};
 pub use dock::{DockBeams, DockContacts};
 pub use ground::{CliffLevels, CliffSensors, Emitters};
+pub use kept::{KEPT_WORDS, KeptMemory, KeptWords};
 pub use link::{Link, Received};
 pub use panel::{Beeper, Buttons, Lights};
 pub use power::{ChargeDrive, Charger, ChargerReadings, CurrentSense, DockRequest, ThermistorFault};
 pub use probe::PinProbe;
 pub use ranging::{HeadingSensor, ProximitySensors};
-pub use supervision::{HardwareFault, ResetRecord, Watchdog};
+pub use supervision::{HardwareChecks, HardwareFault, ResetRecord, Watchdog};
 pub use wheels::{Encoders, WheelCounts, WheelDrive, WheelMotors};
 
 use rvac_protocol::message::Capabilities;
@@ -56,6 +58,10 @@ pub trait Parts {
     type Reset: ResetRecord;
     /// Hardware watchdog.
     type Watchdog: Watchdog;
+    /// Memory that a reset leaves alone.
+    type Kept: KeptMemory;
+    /// Self-checks of the hardware.
+    type Checks: HardwareChecks;
     /// Wheel encoders.
     type Encoders: Encoders;
     /// Bumper switches.
@@ -105,6 +111,8 @@ pub struct Board<P: Parts> {
     pub wheels: P::Wheels,
     pub reset: P::Reset,
     pub watchdog: P::Watchdog,
+    pub kept: P::Kept,
+    pub checks: P::Checks,
     pub encoders: P::Encoders,
     pub bumpers: P::Bumpers,
     pub cliffs: P::Cliffs,
@@ -169,7 +177,7 @@ impl<P: Parts> Board<P> {
             vacuum: P::Vacuum::PRESENT,
             currents: P::Currents::PRESENT,
             battery: P::Charger::PRESENT,
-            charger: P::Charger::CHARGES,
+            charger: P::Charger::CHARGES && P::Kept::PRESENT,
             probe: P::Probe::PRESENT,
         }
     }

@@ -1,6 +1,6 @@
 //! Reset record, watchdog and hardware faults.
 
-use rvac_protocol::message::ResetCause;
+use rvac_protocol::message::{Inhibit, ResetCause};
 
 /// What the chip knows about its start.
 pub trait ResetRecord {
@@ -33,4 +33,27 @@ pub enum HardwareFault {
     Memory,
     /// A trap that returned, or any other impossible state.
     Internal,
+}
+
+impl HardwareFault {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Clock, Self::Memory, Self::Internal];
+
+    /// The name under which it is latched.
+    #[must_use]
+    pub const fn inhibit(self) -> Inhibit {
+        match self {
+            Self::Clock => Inhibit::Clock,
+            Self::Memory => Inhibit::Memory,
+            Self::Internal => Inhibit::InternalFault,
+        }
+    }
+}
+
+/// The board's own checks of clock, memory and registers (S20, S21).
+pub trait HardwareChecks {
+    /// Whether the cause of this fault is present now. Asked in every pass. A fault that stands is latched, switches
+    /// everything off, and cannot be cleared. A board that finds a fault which leaves no trace reports it once, by
+    /// [`Cord::hardware_fault`](crate::Cord::hardware_fault).
+    fn stands(&mut self, fault: HardwareFault) -> bool;
 }

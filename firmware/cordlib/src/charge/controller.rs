@@ -77,10 +77,11 @@ pub struct ChargeController<S = AllStops> {
     /// Newest averages of 100 ms, current offset subtracted.
     pub(super) tenth: Option<Averages>,
     pub(super) docked_ms: u32,
+    pub(super) undocked_ms: u32,
     pub(super) supplied_ms: u32,
     pub(super) off_ms: u32,
     asked_ms: u32,
-    guard: Guard,
+    pub(super) guard: Guard,
     output: ChargeOutput,
     last: Option<Tick>,
 }
@@ -118,6 +119,7 @@ impl<S: Stops> ChargeController<S> {
             gauge: Gauge::default(),
             tenth: None,
             docked_ms: 0,
+            undocked_ms: 0,
             supplied_ms: 0,
             off_ms: 0,
             asked_ms: 0,
@@ -156,6 +158,7 @@ impl<S: Stops> ChargeController<S> {
             }
         };
         self.docked_ms = add(context.docked, self.docked_ms);
+        self.undocked_ms = add(!context.docked, self.undocked_ms);
         self.supplied_ms = add(supplied, self.supplied_ms);
         self.off_ms = add(self.output.drive == ChargeDrive::Off, self.off_ms);
         self.asked_ms = add(self.output.request == DockRequest::Current, self.asked_ms);
@@ -206,7 +209,7 @@ impl<S: Stops> ChargeController<S> {
         if !ready {
             self.regulator.restart();
         } else {
-            self.charge.want(elapsed_ms);
+            self.charge.want(self.phase, elapsed_ms);
             if let Some(averages) = windows.of(AveragingWindow::Envelope) {
                 let current_ma = self.current_offset.correct(averages).current_ma;
                 self.regulator

@@ -275,9 +275,14 @@ impl<S: Stops> ChargeController<S> {
                 pack.is_none_or(|(pack_mv, _)| self.scale.unfit(pack_mv).is_some())
             }
             ChargeFault::Repeated => self.history.is_faulty_day(),
-            ChargeFault::OverCurrent
-            | ChargeFault::CurrentOffset
-            | ChargeFault::NoCurrent
+            ChargeFault::OverCurrent => {
+                pack.is_some_and(|(_, current_ma)| current_ma > self.scale.over_current_ma())
+            }
+            ChargeFault::CurrentOffset => {
+                supplied && pack.is_none_or(|(_, current_ma)| current_ma.saturating_abs() >= OFFSET_FAULT_MA)
+            }
+            // These show while current flows, and come again then.
+            ChargeFault::NoCurrent
             | ChargeFault::ThermistorFrozen
             | ChargeFault::VoltageJump
             | ChargeFault::Precharge

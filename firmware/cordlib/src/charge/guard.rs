@@ -30,13 +30,32 @@ pub(super) struct ChargeConditions {
 }
 
 /// The guard's own timers.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Guard {
     flow_ms: u32,
     off_ms: u32,
 }
 
 impl Guard {
+    /// Words in the kept record.
+    pub(super) const WORDS: usize = 2;
+
+    /// For the kept record.
+    pub(super) const fn words(&self) -> [u32; Self::WORDS] {
+        [self.flow_ms, self.off_ms]
+    }
+
+    /// From the kept record.
+    pub(super) const fn from_words([flow_ms, off_ms]: [u32; Self::WORDS]) -> Self {
+        Self { flow_ms, off_ms }
+    }
+
+    /// Current flowed for so long and was not counted.
+    pub(super) const fn note_flow(&mut self, ms: u32) {
+        self.flow_ms = self.flow_ms.saturating_add(ms);
+        self.off_ms = 0;
+    }
+
     /// The part of the request that may reach the switch. `elapsed_ms` is the time since the last call.
     pub(super) fn permit(
         &mut self,

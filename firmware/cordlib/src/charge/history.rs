@@ -8,14 +8,35 @@ const WEEK_MS: u32 = 7 * DAY_MS;
 const MAINTAIN_MAX_MS: u32 = 20 * 3_600_000;
 
 /// Ages and sums; they stop counting long before they could wrap.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct History {
     fault_ages_ms: [Option<u32>; FAULTS],
     maintained_ms: u32,
     week_ms: u32,
 }
 
+/// The age of a fault that there is not, in the kept record.
+const NO_FAULT: u32 = u32::MAX;
+
 impl History {
+    /// Words in the kept record.
+    pub(super) const WORDS: usize = FAULTS + 2;
+
+    /// For the kept record.
+    pub(super) fn words(&self) -> [u32; Self::WORDS] {
+        let [first, second, third] = self.fault_ages_ms.map(|age| age.unwrap_or(NO_FAULT));
+        [first, second, third, self.maintained_ms, self.week_ms]
+    }
+
+    /// From the kept record. The time of the reset is not counted, so that no fault is forgotten too early.
+    pub(super) fn from_words([first, second, third, maintained_ms, week_ms]: [u32; Self::WORDS]) -> Self {
+        Self {
+            fault_ages_ms: [first, second, third].map(|age| (age < DAY_MS).then_some(age)),
+            maintained_ms,
+            week_ms,
+        }
+    }
+
     pub(super) const fn new() -> Self {
         Self {
             fault_ages_ms: [None; FAULTS],

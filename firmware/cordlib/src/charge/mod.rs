@@ -16,6 +16,7 @@ mod frozen_sensor;
 mod gauge;
 mod guard;
 mod history;
+mod memory;
 mod meter;
 mod phases;
 mod regulate;
@@ -24,6 +25,7 @@ mod stops;
 mod thermometer;
 
 pub use controller::{ChargeContext, ChargeController, ChargeOutput, MotorActivity};
+pub use memory::ChargeMemory;
 pub use stops::{AllStops, Stops};
 
 pub(crate) use thermometer::Thermometer;

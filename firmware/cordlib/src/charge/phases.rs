@@ -11,6 +11,8 @@ use super::stops::{ChargeProgress, Detectors, Stops, TIME_MS};
 
 /// The contacts must be closed this long before a charge begins.
 const DOCKED_MS: u32 = 1_000;
+/// Contacts that are open for this long end the rest after a charge.
+const UNDOCKED_MS: u32 = 1_000;
 /// Window of temperatures in which a charge begins, in hundredths of a degree. Below the second only slow current flows.
 const COLDEST_CC: i32 = 0;
 const COOL_CC: i32 = 500;
@@ -39,7 +41,7 @@ const PULSE_MAX_MS: u32 = 20_000;
 const PULSE_REST_MS: u32 = 100_000;
 
 /// Counts of one charge.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct ChargeRecord {
     /// Time in which current was wanted and could flow.
     flowed_ms: u32,
@@ -47,18 +49,74 @@ pub(super) struct ChargeRecord {
     start_cc: Option<i32>,
     /// Time in this phase, interruptions not counted.
     phase_ms: u32,
+    /// Time of `precharge` in this charge. An interruption does not restart it.
+    precharge_ms: u32,
     /// Time without current.
     paused_ms: u32,
     slow: bool,
     flowing: bool,
 }
 
+/// The temperature of a charge that has not begun, in the kept record.
+const NOT_BEGUN: u32 = i32::MIN as u32;
+
 impl ChargeRecord {
+    /// Words in the kept record.
+    pub(super) const WORDS: usize = 5;
+
+    /// For the kept record.
+    pub(super) fn words(&self) -> [u32; Self::WORDS] {
+        [
+            self.flowed_ms,
+            self.charged_mas,
+            self.start_cc.map_or(NOT_BEGUN, i32::cast_unsigned),
+            self.paused_ms,
+            self.precharge_ms,
+        ]
+    }
+
+    /// From the kept record: a charge that is interrupted.
+    pub(super) fn from_words(
+        [flowed_ms, charged_mas, start_cc, paused_ms, precharge_ms]: [u32; Self::WORDS],
+    ) -> Self {
+        Self {
+            flowed_ms,
+            charged_mas,
+            start_cc: (start_cc != NOT_BEGUN).then_some(start_cc.cast_signed()),
+            paused_ms,
+            precharge_ms,
+            ..Self::default()
+        }
+    }
+
+    /// Full current flowed for so long and was not counted.
+    pub(super) const fn note_flow(&mut self, ms: u32, full_ma: u32) {
+        self.flowed_ms = self.flowed_ms.saturating_add(ms);
+        self.precharge_ms = self.precharge_ms.saturating_add(ms);
+        self.charged_mas = self
+            .charged_mas
+            .saturating_add((ms / 1_000).saturating_mul(full_ma));
+    }
+
     pub(super) const fn pass(&mut self, charging: bool, elapsed_ms: u32) {
         self.paused_ms = self.paused_ms.saturating_add(elapsed_ms);
         if !charging && self.paused_ms >= AWAY_MS {
             self.start_cc = None;
         }
+    }
+
+    /// The same charge after a reset.
+    pub(super) const fn interrupted(self) -> Self {
+        Self {
+            flowing: false,
+            phase_ms: 0,
+            ..self
+        }
+    }
+
+    /// Whether a charge is under way or interrupted for a short time.
+    pub(super) const fn has_begun(&self) -> bool {
+        self.start_cc.is_some()
     }
 
     /// No current may flow now.
@@ -67,9 +125,12 @@ impl ChargeRecord {
     }
 
     /// Current is wanted, and everything is ready for it.
-    pub(super) const fn want(&mut self, elapsed_ms: u32) {
+    pub(super) fn want(&mut self, phase: ChargePhase, elapsed_ms: u32) {
         self.flowed_ms = self.flowed_ms.saturating_add(elapsed_ms);
         self.phase_ms = self.phase_ms.saturating_add(elapsed_ms);
+        if phase == ChargePhase::Precharge {
+            self.precharge_ms = self.precharge_ms.saturating_add(elapsed_ms);
+        }
     }
 
     /// The switch is driven.
@@ -136,7 +197,7 @@ pub(super) struct MaintenancePulse {
 }
 
 /// When the next charge may begin.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Rest {
     left_ms: u32,
     recharge_ms: u32,
@@ -147,6 +208,34 @@ pub(super) struct Rest {
 }
 
 impl Rest {
+    /// Words in the kept record.
+    pub(super) const WORDS: usize = 2;
+
+    /// For the kept record.
+    pub(super) const fn words(&self) -> [u32; Self::WORDS] {
+        [self.left_ms, self.recharge_ms]
+    }
+
+    /// From the kept record.
+    pub(super) const fn from_words([left_ms, recharge_ms]: [u32; Self::WORDS]) -> Self {
+        Self {
+            left_ms,
+            recharge_ms,
+            wanted: false,
+            forbidden: false,
+        }
+    }
+
+    /// Whether the host wants no charge.
+    pub(super) const fn is_forbidden(&self) -> bool {
+        self.forbidden
+    }
+
+    /// The host wants no charge.
+    pub(super) const fn forbid(&mut self) {
+        self.forbidden = true;
+    }
+
     pub(super) const fn pass(&mut self, elapsed_ms: u32) {
         self.left_ms = self.left_ms.saturating_sub(elapsed_ms);
     }
@@ -226,6 +315,10 @@ impl<S: Stops> ChargeController<S> {
             self.phase = ChargePhase::Idle;
         }
         self.full = false;
+        // After a reset the contacts count as open until they are debounced: that does not end a rest that was kept.
+        if self.undocked_ms < UNDOCKED_MS {
+            return;
+        }
         self.rest = Rest {
             recharge_ms: self.rest.recharge_ms,
             ..Rest::default()
@@ -273,7 +366,7 @@ impl<S: Stops> ChargeController<S> {
             self.charge.phase_ms = 0;
             self.detectors.restart();
             self.phase = ChargePhase::Fast;
-        } else if self.charge.phase_ms >= PRECHARGE_MS {
+        } else if self.charge.precharge_ms >= PRECHARGE_MS {
             self.fail(ChargeFault::Precharge);
         }
     }

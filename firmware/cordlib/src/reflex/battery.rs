@@ -88,10 +88,11 @@ impl BatteryRule {
         {
             latched.insert(Inhibit::BatteryOverheated);
         }
-        self.unmeasured = view.thermometer.fault_for(UNMEASURED_MS).is_some();
-        if self.unmeasured {
+        let is_fault = view.thermometer.fault_for(UNMEASURED_MS).is_some();
+        if is_fault {
             latched.insert(Inhibit::Thermistor);
         }
+        self.unmeasured = is_fault || cc.is_none();
         latched
     }
 
@@ -117,6 +118,22 @@ impl BatteryRule {
     /// The temperature still cannot be measured.
     pub(crate) const fn is_unmeasured(&self) -> bool {
         self.unmeasured
+    }
+
+    /// The levels and the heat that last until the pack was charged or has cooled, for the kept record.
+    pub(crate) fn kept(&self) -> u8 {
+        let levels = self.levels.iter().rev();
+        levels.fold(u8::from(self.hot), |bits, level| {
+            bits << 1 | u8::from(level.active)
+        })
+    }
+
+    /// Goes on where the rule stood before a reset.
+    pub(crate) fn take_up(&mut self, kept: u8) {
+        for (place, level) in self.levels.iter_mut().enumerate() {
+            level.active = kept & 1 << place != 0;
+        }
+        self.hot = kept & 1 << LEVELS.len() != 0;
     }
 }
 

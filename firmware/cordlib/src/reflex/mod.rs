@@ -230,30 +230,50 @@ impl Reflexes {
         self.latched.insert(inhibit);
     }
 
-    /// Clears a latched inhibit if its cause is gone; false if the cause remains.
-    pub(crate) fn clear(&mut self, inhibit: Inhibit) -> bool {
-        let cause_remains = match inhibit {
-            Inhibit::ResetLoop => self.reset.is_young(),
-            Inhibit::BumperStuck => self.bumper.any(),
-            Inhibit::CliffTrapped => self.cliff.any(),
-            Inhibit::Runaway => self.wheel_turns,
-            Inhibit::BatteryOverheated => self.battery.is_hot(),
-            Inhibit::Thermistor => self.battery.is_unmeasured(),
-            Inhibit::WheelStall
-            | Inhibit::BrushStall
-            | Inhibit::EncoderFault
-            | Inhibit::InternalFault
-            | Inhibit::Clock
-            | Inhibit::Memory => false,
-            other => self.inhibits().contains(other),
-        };
-        if !cause_remains {
-            self.latched.remove(inhibit);
-            if inhibit == Inhibit::BumperStuck {
-                self.bumper.reset_backed_distance();
-            }
+    /// Clears a latched inhibit whose cause is gone.
+    pub(crate) const fn clear(&mut self, inhibit: Inhibit) {
+        self.latched.remove(inhibit);
+        if matches!(inhibit, Inhibit::BumperStuck) {
+            self.bumper.reset_backed_distance();
         }
-        !cause_remains
+    }
+
+    /// Whether the three resets of a loop are less than a minute old (S4).
+    pub(crate) const fn is_young(&self) -> bool {
+        self.reset.is_young()
+    }
+
+    /// Whether a bumper zone counts as pressed.
+    pub(crate) const fn touches(&self) -> bool {
+        self.bumper.any()
+    }
+
+    /// Whether a sensor counts as seeing no floor.
+    pub(crate) const fn sees_cliff(&self) -> bool {
+        self.cliff.any()
+    }
+
+    /// Whether a wheel turned in the last control period.
+    pub(crate) const fn wheel_turns(&self) -> bool {
+        self.wheel_turns
+    }
+
+    /// The rule of the battery.
+    pub(crate) const fn battery(&self) -> &BatteryRule {
+        &self.battery
+    }
+
+    /// What was latched, the charger's faults not included.
+    pub(crate) const fn latched(&self) -> Inhibits {
+        self.latched.members()
+    }
+
+    /// Goes on where the rules stood before a reset.
+    #[must_use]
+    pub(crate) fn taking_up(mut self, latched: Inhibits, battery: u8) -> Self {
+        self.latched.add(latched);
+        self.battery.take_up(battery);
+        self
     }
 
     /// Everything that inhibits now.

@@ -238,6 +238,74 @@ fn a_fault_stays_until_it_is_cleared_with_its_cause_gone() {
 }
 
 #[test]
+fn a_reset_between_the_faults_of_a_day_forgets_none() {
+    let fail = |dock: &mut Dock| {
+        dock.temperature = Err(ThermistorFault::Open);
+        dock.run_s(2.0);
+        assert!(dock.fault().is_some());
+        dock.temperature = Ok(250);
+        dock.run_s(60.0);
+    };
+    for before in 0..=3 {
+        let mut dock = Dock::charging(0);
+        for number in 0..3 {
+            if number == before {
+                dock.reset_well();
+                dock.run_s(60.0);
+            }
+            fail(&mut dock);
+            if number < 2 {
+                assert!(dock.charger.clear());
+                dock.run_s(60.0);
+            }
+        }
+        if before == 3 {
+            dock.reset_well();
+            dock.run_s(60.0);
+            assert!(dock.fault().is_some(), "the fault itself is kept");
+        }
+        assert!(!dock.charger.clear(), "reset before fault {before}");
+        assert_eq!(dock.fault(), Some(ChargeFault::Repeated));
+        dock.reset_well();
+        dock.run_s(60.0);
+        assert!(!dock.charger.clear());
+        dock.step_ms = 50;
+        dock.run_s(24.0 * 3_600.0);
+        assert!(dock.charger.clear(), "a day is a day");
+    }
+}
+
+#[test]
+fn resets_do_not_lengthen_the_hour_of_a_pack_that_does_not_recover() {
+    let mut dock = Dock::at(11_000, 0);
+    let mut flowed_s = 0;
+    dock.run_until(
+        20_000,
+        |dock, second| {
+            flowed_s += u32::from(!dock.is_off());
+            if second % 303 == 302 {
+                dock.reset();
+            }
+        },
+        |dock| dock.fault().is_some(),
+    );
+    assert_eq!(dock.fault(), Some(ChargeFault::Precharge));
+    assert!(flowed_s <= 3_600, "{flowed_s} s of current");
+}
+
+#[test]
+fn a_fault_whose_cause_shows_at_rest_is_not_cleared_while_it_does() {
+    let mut dock = Dock::at(15_000, 0);
+    dock.shown_ma = Some(130);
+    dock.run_s(30.0);
+    assert_eq!(dock.fault(), Some(ChargeFault::CurrentOffset));
+    assert!(!dock.charger.clear(), "it still shows");
+    dock.shown_ma = None;
+    dock.run_s(1.0);
+    assert!(dock.charger.clear());
+}
+
+#[test]
 fn the_third_fault_within_a_day_must_wait_until_the_first_is_a_day_old() {
     let mut dock = Dock::charging(0);
     let fail = |dock: &mut Dock| {

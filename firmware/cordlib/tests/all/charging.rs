@@ -360,6 +360,65 @@ fn three_and_a_half_hours_end_it_also_across_the_wrap_of_the_clock() {
     }
 }
 
+/// Resets at moments that suit none of the firmware's periods.
+#[test]
+fn no_number_of_resets_makes_a_charge_longer() {
+    for every_s in [47, 301, 12_000] {
+        let mut dock = Dock::at(14_700, 0);
+        dock.full_ma = 600;
+        dock.run_s(40.0);
+        let (mut flowed_s, mut resets) = (0, 0);
+        dock.run_until(
+            20 * HOUR_S,
+            |dock, second| {
+                dock.pack_mv = 14_700 + (second / 60) as i32;
+                if second % every_s == every_s - 1 {
+                    dock.reset();
+                    resets += 1;
+                }
+                flowed_s += u32::from(!dock.is_off());
+            },
+            |dock| matches!(dock.end(), Some(ChargeEnd::Time | ChargeEnd::Charge)),
+        );
+        assert!(resets > 0 && flowed_s <= 12_600, "{flowed_s} s, {resets} resets");
+        assert!(flowed_s > 12_500 || every_s < 1_000, "{flowed_s} s of current");
+    }
+}
+
+#[test]
+fn a_reset_near_the_longest_time_ends_the_charge_where_it_would_have_ended() {
+    let mut dock = Dock::at(14_700, 0);
+    dock.full_ma = 600;
+    dock.run_s(40.0);
+    dock.run_until(
+        12_500,
+        |dock, second| dock.pack_mv = 14_700 + (second / 60) as i32,
+        |dock| dock.seconds() >= 12_500,
+    );
+    assert_eq!(dock.end(), None);
+    dock.reset();
+    let mut flowed_s = 0;
+    dock.run_until(
+        1_000,
+        |dock, _| flowed_s += u32::from(!dock.is_off()),
+        |dock| dock.end() == Some(ChargeEnd::Time),
+    );
+    assert!(flowed_s <= 200, "{flowed_s} s more");
+}
+
+#[test]
+fn a_reset_does_not_end_the_rest_after_a_charge() {
+    let mut dock = Dock::charging(0);
+    dock.charger.want(false);
+    dock.run_s(5.0);
+    dock.reset_well();
+    dock.run_s(600.0);
+    assert!(dock.is_off() && !dock.asks(), "the host wanted none");
+    dock.charger.want(true);
+    dock.run_s(20.0);
+    assert!(!dock.is_off());
+}
+
 #[test]
 fn interruptions_do_not_set_back_what_was_counted() {
     let mut dock = Dock::at(15_000, 0);

@@ -6,6 +6,7 @@ mod charging;
 mod dock;
 mod gate;
 mod housekeeping;
+mod latches;
 mod minimal_board;
 mod motion;
 mod panic;

@@ -71,6 +71,8 @@ impl Parts for Minimal {
     type Wheels = Bridges;
     type Reset = FirstStart;
     type Watchdog = Feedings;
+    type Kept = Absent;
+    type Checks = Absent;
     type Encoders = Absent;
     type Bumpers = Absent;
     type Cliffs = Absent;
@@ -107,6 +109,8 @@ fn minimal() -> Board<Minimal> {
         wheels: Bridges::default(),
         reset: FirstStart,
         watchdog: Feedings::default(),
+        kept: Absent,
+        checks: Absent,
         encoders: Absent,
         bumpers: Absent,
         cliffs: Absent,

@@ -4,7 +4,7 @@ use crate::rig;
 use crate::rig::{Rig, clear, drive, motor, worst_reaction};
 use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, HardwareFault, ThermistorFault};
 use rvac_protocol::message::{
-    ChargeFault, ChargePhase, ChargeState, Command, Inhibit, Motor, Refusal, Report, Sequence,
+    ChargeFault, ChargePhase, ChargeState, Command, Inhibit, Motor, Refusal, Report, ResetCause, Sequence,
 };
 use rvac_units::Temperature;
 
@@ -376,13 +376,45 @@ fn s19_what_was_sent_while_it_charged_moves_nothing_later() {
 }
 
 #[test]
-fn a_hardware_fault_ends_charging_too() {
+fn a_hardware_fault_ends_charging_until_it_is_gone_and_cleared() {
+    for fault in HardwareFault::ALL {
+        let mut rig = charging(0);
+        rig.cord.board_mut().checks.0.push(fault);
+        feed(&mut rig, 2);
+        assert_eq!(rig.cord.board().charger.drive, ChargeDrive::Off);
+        for _ in 0..5 {
+            assert_eq!(rig.ask(clear(fault.inhibit())), Err(Refusal::CauseRemains));
+            for _ in 0..8_000 {
+                feed(&mut rig, 1);
+                assert_eq!(rig.cord.board().charger.drive, ChargeDrive::Off);
+            }
+            assert!(rig.has(fault.inhibit()));
+        }
+        rig.cord.board_mut().checks.0.clear();
+        feed(&mut rig, 8_000);
+        assert_eq!(rig.cord.board().charger.drive, ChargeDrive::Off, "still latched");
+        assert_eq!(rig.ask(clear(fault.inhibit())), Ok(()));
+        feed(&mut rig, 8_000);
+        assert_ne!(rig.cord.board().charger.drive, ChargeDrive::Off);
+    }
+}
+
+#[test]
+fn a_fault_that_is_reported_once_ends_charging_until_it_is_cleared() {
     let mut rig = charging(0);
     rig.cord.hardware_fault(HardwareFault::Memory);
     assert_eq!(rig.cord.board().charger.drive, ChargeDrive::Off);
     feed(&mut rig, 10_000);
     assert_eq!(rig.cord.board().charger.drive, ChargeDrive::Off);
     assert!(rig.has(Inhibit::Memory));
+    rig.reset(ResetCause::Watchdog);
+    rig.connect();
+    feed(&mut rig, 10_000);
+    assert_eq!(
+        rig.cord.board().charger.drive,
+        ChargeDrive::Off,
+        "a reset does not clear it"
+    );
     assert_eq!(rig.ask(clear(Inhibit::Memory)), Ok(()));
     feed(&mut rig, 8_000);
     assert_ne!(rig.cord.board().charger.drive, ChargeDrive::Off);

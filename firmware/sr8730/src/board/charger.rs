@@ -51,7 +51,7 @@ fn on_period(context: &mut Context<vector::TIMER_3>) {
     Source::Timer3.clear();
     PERIODS.store(PERIODS.load(Ordering::Relaxed).wrapping_add(1), Ordering::Relaxed);
     let pulses = match PULSES.get() {
-        Ok(pulses) if pulses != 0 && !interlock::any_motor_driven() && !off::clock_has_failed() => pulses,
+        Ok(pulses) if pulses != 0 && !interlock::any_motor_driven() && !off::is_held() => pulses,
         Ok(_) => return shut(),
         Err(_) => {
             DAMAGED.store(true, Ordering::Relaxed);
@@ -243,7 +243,7 @@ impl Charger for PackCharger {
     fn drive(&mut self, drive: ChargeDrive) {
         self.renewal.renew();
         let pulses = match drive {
-            ChargeDrive::Duty(share) if self.allowed => pulses_for(share),
+            ChargeDrive::Duty(share) if self.allowed && !off::is_held() => pulses_for(share),
             ChargeDrive::Duty(_) | ChargeDrive::Off => 0,
         };
         if pulses == 0 {

@@ -1,5 +1,6 @@
 //! Self-checks of the running firmware (S20, S21): clock, image, memory, stack, registers of the motors.
 
+use cordlib::board::{HardwareChecks, HardwareFault};
 use pic32mx3_hal::clock::{self, Running};
 use pic32mx3_hal::interrupt::{Context, Priority, Source, SubPriority, Vector, vector};
 use pic32mx3_hal::pwm::{PwmTimer, TimeBase};
@@ -36,20 +37,10 @@ fn on_clock_failure(_: &mut Context<vector::CLOCK_MONITOR>) {
 }
 interrupt!(CLOCK_MONITOR, on_clock_failure);
 
-/// Result of a check that failed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Finding {
-    /// Clocks disagree, or the crystal failed: nothing may move, but the fault can be reported to the host.
-    Clock,
-    /// Code or memory is damaged: everything off and a reset, which checks all of it.
-    Broken(FatalCause),
-}
-
-/// The checks.
+/// The checks, and the faults that stand.
 #[derive(Debug)]
 pub struct SelfChecks {
-    /// `None` if the image was damaged at the start: that is reported already.
-    image: Option<ImageCheck<'static>>,
+    image: ImageCheck<'static>,
     sums: ImageSums,
     ram_place: u32,
     ram_size: u32,
@@ -57,6 +48,22 @@ pub struct SelfChecks {
     pulses: TimeBase<3>,
     pace: ClockCheck,
     started: bool,
+    /// The whole image and memory at the start; any fault stands until the next start.
+    at_start: StartVerdict,
+    clock_fails: bool,
+}
+
+/// Result of the checks before anything moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartVerdict {
+    /// No fault.
+    Sound,
+    /// The image in flash differs from its checksum.
+    DamagedImage,
+    /// The image carries no checksum.
+    UncheckedImage,
+    /// A cell of memory is faulty.
+    FaultyMemory,
 }
 
 impl SelfChecks {
@@ -67,10 +74,7 @@ impl SelfChecks {
         Source::ClockMonitor.enable();
         let program = memory::image::program();
         Self {
-            image: Some(ImageCheck::new(
-                [program, memory::image::boot()],
-                memory::image::check_words(),
-            )),
+            image: ImageCheck::new([program, memory::image::boot()], memory::image::check_words()),
             // Taken before the whole image is checked, so that changes in between are found as well.
             sums: ImageSums::new(program.len() as u32 / 4, block_sum),
             ram_place: 0,
@@ -79,41 +83,50 @@ impl SelfChecks {
             pulses: TimeBase::of(pulses),
             pace: ClockCheck::new(ClockSample::default(), BusClock::HALVES_PER_COUNT),
             started: false,
+            at_start: StartVerdict::Sound,
+            clock_fails: false,
         }
     }
 
-    /// The whole image, before anything moves: some 20 ms.
-    pub fn image_at_start(&mut self) -> ImageState {
-        let verdict = self.image.map_or(ImageState::Damaged, |image| image.all());
-        if verdict != ImageState::Whole {
-            self.image = None;
+    /// The whole image and all of memory, before anything moves: some 25 ms. The march test of the start-up code leaves out
+    /// the memory that survives a reset.
+    pub fn check_at_start(&mut self) -> StartVerdict {
+        self.at_start = match self.image.all() {
+            ImageState::Damaged => StartVerdict::DamagedImage,
+            ImageState::Unchecked => StartVerdict::UncheckedImage,
+            ImageState::Whole if !self.all_ram_holds() => StartVerdict::FaultyMemory,
+            ImageState::Whole => StartVerdict::Sound,
+        };
+        if self.at_start != StartVerdict::Sound {
             // Damaged code has assembled the board and may have switched anything on.
             off::everything();
         }
-        verdict
+        self.at_start
     }
 
-    /// Called once a millisecond.
-    pub fn service(&mut self) -> Option<Finding> {
-        if self.image.is_none() {
+    /// Called once a millisecond. Gives damage of code, memory or registers, after which only a reset helps: the start
+    /// checks all of it. What was damaged at the start already is kept off here, and the checks, which may be damaged
+    /// themselves, rest.
+    pub fn service(&mut self) -> Option<FatalCause> {
+        if self.at_start != StartVerdict::Sound {
             off::everything();
+            return None;
         }
-        let verdict = self.image.as_mut().map(ImageCheck::slice);
-        if !self.sums.is_next_whole(block_sum) || verdict == Some(ImageState::Damaged) {
-            return Some(Finding::Broken(FatalCause::Flash));
+        if !self.sums.is_next_whole(block_sum) || self.image.slice() == ImageState::Damaged {
+            return Some(FatalCause::Flash);
         }
         if !self.ram_holds() {
-            return Some(Finding::Broken(FatalCause::Memory));
+            return Some(FatalCause::Memory);
         }
         if !stack::canary_is_alive() {
-            return Some(Finding::Broken(FatalCause::Stack));
+            return Some(FatalCause::Stack);
         }
         if !self.pulses_hold() {
-            return Some(Finding::Broken(FatalCause::Register));
+            return Some(FatalCause::Register);
         }
-        let clock_has_failed = off::clock_has_failed() || clock::has_failed();
-        let clock_is_other = clock::running() != Running::PrimaryPll || !self.clocks_agree();
-        (clock_has_failed || clock_is_other).then_some(Finding::Clock)
+        let has_failed = off::clock_has_failed() || clock::has_failed();
+        self.clock_fails = has_failed || clock::running() != Running::PrimaryPll || !self.clocks_agree();
+        None
     }
 
     /// Whether a width of 0 still switches motors and charger off.
@@ -141,8 +154,16 @@ impl SelfChecks {
     /// Tests the next words of memory, variables and stack alike. Interrupts are off for some microseconds, so that no
     /// code sees the words change.
     fn ram_holds(&mut self) -> bool {
+        self.words_hold(RAM_WORDS)
+    }
+
+    fn all_ram_holds(&mut self) -> bool {
+        self.words_hold(self.ram_size / 4)
+    }
+
+    fn words_hold(&mut self, words: u32) -> bool {
         let mut holds = true;
-        for _ in 0..RAM_WORDS {
+        for _ in 0..words {
             holds &= memory::test_ram_word(self.ram_place).unwrap_or(false);
             self.ram_place += 4;
             if self.ram_place >= self.ram_size {
@@ -150,6 +171,21 @@ impl SelfChecks {
             }
         }
         holds
+    }
+}
+
+impl HardwareChecks for SelfChecks {
+    fn stands(&mut self, fault: HardwareFault) -> bool {
+        match fault {
+            HardwareFault::Clock => self.clock_fails,
+            HardwareFault::Memory => {
+                matches!(
+                    self.at_start,
+                    StartVerdict::DamagedImage | StartVerdict::FaultyMemory
+                )
+            }
+            HardwareFault::Internal => self.at_start == StartVerdict::UncheckedImage,
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use rvac_units::Throttle;
 
 use super::interlock::InterlockedMotor;
 use super::link::by_edges::brush_pulses;
+use super::off;
 use super::wheels::MotorBridge;
 use crate::logic::renewal::Renewal;
 
@@ -92,15 +93,18 @@ impl<P: OutputPin> Switched<P> {
         }
     }
 
+    #[inline(never)]
     fn write(&mut self, duty: Throttle) {
-        let on = duty.millionths() > SWITCH_ON;
+        let on = duty.millionths() > SWITCH_ON && !off::is_held();
         self.motor.note(on);
         // Pins of this chip cannot fail.
         if on {
-            self.pin.set_high().ok()
-        } else {
-            self.pin.set_low().ok()
-        };
+            self.pin.set_high().ok();
+        }
+        // Everything may have been switched off by an interrupt just before the pin was set.
+        if !on || off::is_held() {
+            self.pin.set_low().ok();
+        }
     }
 }
 

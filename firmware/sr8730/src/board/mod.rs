@@ -23,6 +23,7 @@ pub mod contacts;
 pub mod converter;
 pub mod encoders;
 pub mod interlock;
+pub mod kept;
 pub mod link;
 pub mod off;
 pub mod panel;
@@ -50,6 +51,8 @@ impl Parts for Sr8730 {
     type Wheels = wheels::Wheels;
     type Reset = resets::Starts;
     type Watchdog = resets::Supervised;
+    type Kept = kept::KeptCopies;
+    type Checks = checks::SelfChecks;
     type Encoders = encoders::WheelEncoders;
     type Bumpers = contacts::BumperContacts;
     type Cliffs = sensing::CliffReceivers;

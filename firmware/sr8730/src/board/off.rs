@@ -21,11 +21,17 @@ const SWITCHES: [Signal; 4] = [
     pins::SOUND_ENABLE,
 ];
 
-/// The clock monitor has detected a failed crystal; nothing is switched on again before the next reset.
+/// The clock monitor has detected a failed crystal.
 static CLOCK_FAILED: AtomicBool = AtomicBool::new(false);
+/// Everything was switched off.
+static HELD: AtomicBool = AtomicBool::new(false);
 
-/// Switches off all motors, the charger, the sound and the infrared emitter. Takes a microsecond.
+/// Switches off all motors, the charger, the sound and the infrared emitter until the next reset, in a microsecond. The
+/// charger's gate, whose interrupt would open it again within 50 µs, and the switches of side brushes and suction, which a
+/// pass of the main loop may be about to set, look at [`is_held`]; output compares of motors do not start again by
+/// themselves.
 pub fn everything() {
+    HELD.store(true, Ordering::Relaxed);
     for compare in COMPARES {
         pwm::stop(compare);
     }
@@ -66,6 +72,13 @@ pub const fn mask(signal: Signal) -> u16 {
 /// Notes that the clock failed.
 pub(super) fn note_clock_failure() {
     CLOCK_FAILED.store(true, Ordering::Relaxed);
+}
+
+/// Whether everything was switched off since the reset: nothing may be switched on again.
+#[inline(always)]
+#[must_use]
+pub fn is_held() -> bool {
+    HELD.load(Ordering::Relaxed)
 }
 
 /// Whether the clock failed since the reset.

@@ -16,6 +16,7 @@ use super::cleaners::{BrushMain, Switched};
 use super::contacts::{Adapter, BumperContacts, ButtonLines, DropSwitches, DustBoxSwitch};
 use super::encoders::{EncoderLines, WheelEncoders};
 use super::interlock::InterlockedMotor;
+use super::kept::KeptCopies;
 use super::link::{InputParts, SerialLink};
 use super::panel::{LightPins, PanelLights, SoundPins, Speaker};
 use super::probe::RawReadings;
@@ -247,7 +248,7 @@ macro_rules! lines {
 /// Builds the board from the chip's peripherals. Everything is off; interrupts have their levels but are not enabled
 /// yet. The start-up code has set level and direction of every output already; here they only get their owners.
 #[must_use]
-pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) -> (Board<Sr8730>, SelfChecks) {
+pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) -> Board<Sr8730> {
     let p = chip.pins;
     let motor_time = PwmTimer::timer3(chip.timer3, Prescaler::By1, u32::from(PERIOD_COUNTS));
     let (wheels, brush_main, brush_sides, vacuum) = motors!(chip, p, motor_time, calibration);
@@ -264,12 +265,14 @@ pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) ->
     let (ports, link) = lines!(chip, p, calibration);
     let (scanner, channels) = converter!(chip, p);
     let gyro = GyroModule::take(ports.gyro());
-    let board = Board {
+    Board {
         clock: TickClock::take(chip.core_timer, scanner, channels),
         link,
         wheels,
         reset: starts,
         watchdog: Supervised::take(chip.watchdog),
+        kept: KeptCopies,
+        checks: SelfChecks::take(bus_clock!(chip), &motor_time),
         encoders,
         bumpers,
         cliffs: CliffReceivers::take(emitters, calibration),
@@ -290,8 +293,7 @@ pub fn assemble(chip: Peripherals, calibration: &Calibration, starts: Starts) ->
         lights,
         buttons: ButtonLines::take(pin!(p.re9 is BUTTON_ANY).into_input(), calibration.ladder()),
         probe: RawReadings::take(ports),
-    };
-    (board, SelfChecks::take(bus_clock!(chip), &motor_time))
+    }
 }
 
 #[cfg(test)]

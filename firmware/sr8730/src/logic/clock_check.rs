@@ -30,12 +30,13 @@ pub struct ClockSample {
 pub struct ClockCheck {
     last: ClockSample,
     halves_per_count: u32,
+    agreement: ClockAgreement,
 }
 
 /// Result of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClockAgreement {
-    /// They agree, or too little time has passed.
+    /// They agree, or there was no comparison yet.
     Even,
     /// They do not.
     Uneven,
@@ -48,27 +49,29 @@ impl ClockCheck {
         Self {
             last: now,
             halves_per_count,
+            agreement: ClockAgreement::Even,
         }
     }
 
-    /// Called once a millisecond. Later than 200 ms after the last call there is no result, because Timer5 has wrapped;
+    /// Called once a millisecond; gives the result of the newest comparison. Later than 200 ms after the last call there is no result, because Timer5 has wrapped;
     /// the watchdog covers that case.
     pub const fn update(&mut self, now: ClockSample) -> ClockAgreement {
         let ticks = now.tick.wrapping_sub(self.last.tick);
         let core = now.core.wrapping_sub(self.last.core);
         if ticks < WINDOW_MS && core < 2 * WINDOW_MS * CORE_PER_MS {
-            return ClockAgreement::Even;
+            return self.agreement;
         }
         let bus = now.bus.wrapping_sub(self.last.bus) as u32 * self.halves_per_count / 2;
         self.last = now;
         if ticks > 2 * WINDOW_MS {
-            return ClockAgreement::Even;
+            return self.agreement;
         }
-        if agree(core, ticks * CORE_PER_MS) && agree(core, bus) {
+        self.agreement = if agree(core, ticks * CORE_PER_MS) && agree(core, bus) {
             ClockAgreement::Even
         } else {
             ClockAgreement::Uneven
-        }
+        };
+        self.agreement
     }
 }
 
@@ -116,6 +119,26 @@ mod tests {
         assert_eq!(run(40_000, 5_000, 15), ClockAgreement::Uneven);
         assert_eq!(run(40_000, 0, 16), ClockAgreement::Uneven);
         assert_eq!(run(40_000, 5_000, 0), ClockAgreement::Uneven);
+    }
+
+    #[test]
+    fn a_verdict_stands_until_the_next_comparison() {
+        let mut check = ClockCheck::new(ClockSample::default(), HALVES_PER_COUNT);
+        let sample = |ms: u32, core: u32| ClockSample {
+            tick: ms,
+            core,
+            bus: (core / HALVES_PER_COUNT * 2) as u16,
+        };
+        let mut core = 0;
+        for ms in 1..=300 {
+            core += if ms <= 100 { 50_000 } else { 40_000 };
+            let expected = if (100..200).contains(&ms) {
+                ClockAgreement::Uneven
+            } else {
+                ClockAgreement::Even
+            };
+            assert_eq!(check.update(sample(ms, core)), expected, "{ms} ms");
+        }
     }
 
     #[test]

@@ -13,7 +13,7 @@ mod serial;
 
 pub use actuators::{Cleaner, SimulatedWatchdog, Sounder, WheelBridges};
 pub use outfit::{Outfit, Relax, Sr8730Outfit};
-pub use persistent::PersistentMemory;
+pub use persistent::{KeptRam, PersistentMemory};
 pub use sensors::{
     BumperPins, ButtonPins, CurrentReadings, DockInputs, DustBoxPin, EncoderCounters, GyroSensor, PackPins,
     ProximityReadings, SimulatedCliffs, WheelDropPins,
@@ -38,6 +38,8 @@ impl<O: Outfit> Parts for SimulatedParts<O> {
     type Wheels = WheelBridges;
     type Reset = PersistentMemory;
     type Watchdog = SimulatedWatchdog;
+    type Kept = KeptRam;
+    type Checks = cordlib::board::Absent;
     type Encoders = EncoderCounters;
     type Bumpers = BumperPins;
     type Cliffs = SimulatedCliffs;
@@ -71,13 +73,15 @@ impl Clock for TickCounter {
 }
 
 /// A board after a reset: every output is off.
-pub(crate) fn fresh<O: Outfit>(persistent: PersistentMemory) -> Board<SimulatedParts<O>> {
+pub(crate) fn fresh<O: Outfit>(persistent: PersistentMemory, kept: KeptRam) -> Board<SimulatedParts<O>> {
     Board {
         clock: TickCounter::default(),
         link: SerialPort::default(),
         wheels: WheelBridges::default(),
         reset: persistent,
         watchdog: SimulatedWatchdog::default(),
+        kept,
+        checks: cordlib::board::Absent,
         encoders: EncoderCounters::default(),
         bumpers: BumperPins::default(),
         cliffs: SimulatedCliffs::default(),

@@ -1,6 +1,6 @@
 //! Memory that a reset does not clear.
 
-use cordlib::board::ResetRecord;
+use cordlib::board::{KeptMemory, KeptWords, ResetRecord};
 use rvac_protocol::message::ResetCause;
 
 /// Memory that survives a reset, and the chip's reset cause.
@@ -55,10 +55,39 @@ impl ResetRecord for PersistentMemory {
     }
 }
 
+/// Memory that keeps latches and clocks over a reset, until the power goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct KeptRam {
+    words: Option<KeptWords>,
+}
+
+impl KeptRam {
+    /// After another start with this cause.
+    #[must_use]
+    pub const fn restarted(self, cause: ResetCause) -> Self {
+        match cause {
+            ResetCause::PowerOn => Self { words: None },
+            _ => self,
+        }
+    }
+}
+
+impl KeptMemory for KeptRam {
+    const PRESENT: bool = true;
+
+    fn load(&mut self) -> Option<KeptWords> {
+        self.words
+    }
+
+    fn store(&mut self, words: &KeptWords) {
+        self.words = Some(*words);
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::PersistentMemory;
-    use cordlib::board::ResetRecord;
+    use super::{KeptRam, PersistentMemory};
+    use cordlib::board::{KEPT_WORDS, KeptMemory, ResetRecord};
     use rvac_protocol::message::ResetCause;
 
     #[test]
@@ -73,5 +102,15 @@ mod tests {
         record.forget_recent();
         let mut record = record.restarted(ResetCause::PowerOn);
         assert_eq!((record.boot_count(), record.recent()), (4, 0));
+    }
+
+    #[test]
+    fn what_is_kept_goes_with_the_power_only() {
+        let mut kept = KeptRam::default();
+        assert_eq!(kept.load(), None);
+        kept.store(&[3; KEPT_WORDS]);
+        let mut kept = kept.restarted(ResetCause::Watchdog);
+        assert_eq!(kept.load(), Some([3; KEPT_WORDS]));
+        assert_eq!(kept.restarted(ResetCause::PowerOn).load(), None);
     }
 }

@@ -7,9 +7,12 @@
 
 use cordlib::PackParameters;
 use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, ThermistorFault};
-use cordlib::charge::{ChargeContext, ChargeController, ChargeOutput, MotorActivity};
+use cordlib::charge::{ChargeContext, ChargeController, ChargeMemory, ChargeOutput, MotorActivity};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use rvac_units::{Temperature, Tick};
+
+/// The clocks of a charge are stored at this period.
+const STORED_MS: u32 = 10_000;
 
 pub struct Dock {
     pub charger: ChargeController,
@@ -31,6 +34,9 @@ pub struct Dock {
     pub step_ms: u32,
     /// A count of noise, as converters have; without it nothing ever changes.
     pub dither: bool,
+    /// What the firmware stored last, as it does it: when current begins or ends, and every ten seconds.
+    stored: ChargeMemory,
+    stored_off: bool,
     now: Tick,
     steps: u32,
     milliseconds: u64,
@@ -39,8 +45,11 @@ pub struct Dock {
 impl Dock {
     /// Docked with a pack at this voltage, at 25 degrees, when the clock shows `start`.
     pub fn at(pack_mv: i32, start: u32) -> Self {
+        let charger = ChargeController::new(PackParameters::NIMH_12);
         Self {
-            charger: ChargeController::new(PackParameters::NIMH_12),
+            stored: charger.memory(),
+            stored_off: true,
+            charger,
             pack_mv,
             shown_ma: None,
             input_mv: None,
@@ -108,6 +117,22 @@ impl Dock {
         if self.age_ms > 0 {
             self.age_ms += self.step_ms;
         }
+        if self.stored_off != self.is_off() || self.milliseconds.is_multiple_of(u64::from(STORED_MS)) {
+            self.stored_off = self.is_off();
+            self.stored = self.charger.memory();
+        }
+    }
+
+    /// The firmware stores what has changed, and the chip starts again.
+    pub fn reset_well(&mut self) {
+        self.stored = self.charger.memory();
+        self.reset();
+    }
+
+    /// The chip starts again from what was stored.
+    pub fn reset(&mut self) {
+        self.charger = ChargeController::new(PackParameters::NIMH_12).taking_up(&self.stored, STORED_MS);
+        self.output = ChargeOutput::default();
     }
 
     pub fn run_s(&mut self, seconds: f64) {

@@ -14,7 +14,7 @@ use parts::{Memory, board};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
     BinaryKinds, Command, Description, Drive, Event, Gyro, Inhibit, Inhibits, Motor, MotorCommand, Move,
-    MoveEnd, Refusal, Report, Sequence, State,
+    MoveEnd, Refusal, Report, ResetCause, Sequence, State,
 };
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Throttle, Tick};
@@ -146,6 +146,41 @@ impl Rig {
             rig.names()
         );
         rig
+    }
+
+    /// Resets the chip: its memory is lost, but for what is kept over a reset, which only power takes away. Pins and
+    /// mechanics stay as they are; the host begins a new session.
+    pub fn reset(&mut self, cause: ResetCause) {
+        let before = self.cord.board();
+        let mut board = board(LINE_BYTES);
+        board.clock.0 = self.now().0;
+        board.reset.cause = cause;
+        if cause != ResetCause::PowerOn {
+            board.kept = before.kept;
+        }
+        board.checks.0.clone_from(&before.checks.0);
+        board.bumpers.0 = before.bumpers.0;
+        board.cliffs.missing = before.cliffs.missing;
+        board.wheel_drops.0 = before.wheel_drops.0;
+        board.currents.0 = before.currents.0;
+        board.encoders.0 = before.encoders.0;
+        board.dock_contacts.0 = before.dock_contacts.0;
+        board.charger.readings = before.charger.readings;
+        self.cord = Cord::new(board, *self.cord.parameters());
+        self.host = HostSession::new(BinaryKinds::default(), self.host_now());
+        self.repeated.clear();
+        self.reports.clear();
+    }
+
+    /// Log lines since the last reset.
+    pub fn log(&self) -> Vec<&str> {
+        self.reports
+            .iter()
+            .filter_map(|report| match report {
+                Report::Log { text, .. } => Some(text.as_str()),
+                _ => None,
+            })
+            .collect()
     }
 
     pub fn connect(&mut self) {

@@ -6,8 +6,9 @@ use std::collections::VecDeque;
 use cordlib::board::{
     Beeper, Board, BumperSwitches, Buttons, ChargeDrive, Charger, ChargerReadings, CleaningMotor,
     CliffLevels, CliffSensors, Clock, CurrentSense, DockBeams, DockContacts, DockRequest, DustBox, Emitters,
-    Encoders, HeadingSensor, Lights, Link, Parts, PinProbe, ProximitySensors, Received, ResetRecord,
-    Watchdog, WheelCounts, WheelDrive, WheelDropSwitches, WheelMotors,
+    Encoders, HardwareChecks, HardwareFault, HeadingSensor, KeptMemory, KeptWords, Lights, Link, Parts,
+    PinProbe, ProximitySensors, Received, ResetRecord, Watchdog, WheelCounts, WheelDrive, WheelDropSwitches,
+    WheelMotors,
 };
 use rvac_protocol::message::{
     Bumpers, ButtonProbe, Cliffs, Currents, DockReceivers, EncoderProbe, Gyro, Limits, PROBE_CHANNELS,
@@ -58,6 +59,8 @@ impl Parts for Memory {
     type Wheels = Bridges;
     type Reset = Record;
     type Watchdog = Fed;
+    type Kept = Ram;
+    type Checks = Checks;
     type Encoders = Counters;
     type Bumpers = Switches;
     type Cliffs = Floor;
@@ -93,6 +96,8 @@ pub fn board(room: usize) -> Board<Memory> {
         },
         reset: Record::default(),
         watchdog: Fed::default(),
+        kept: Ram::default(),
+        checks: Checks::default(),
         encoders: Counters::default(),
         bumpers: Switches::default(),
         cliffs: Floor {
@@ -169,15 +174,25 @@ impl WheelMotors for Bridges {
     }
 }
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Record {
     pub recent: u8,
+    pub cause: ResetCause,
+}
+
+impl Default for Record {
+    fn default() -> Self {
+        Self {
+            recent: 0,
+            cause: ResetCause::PowerOn,
+        }
+    }
 }
 
 impl ResetRecord for Record {
     fn cause(&mut self) -> ResetCause {
         called();
-        ResetCause::PowerOn
+        self.cause
     }
 
     fn boot_count(&mut self) -> u32 {
@@ -193,6 +208,39 @@ impl ResetRecord for Record {
     fn forget_recent(&mut self) {
         called();
         self.recent = 0;
+    }
+}
+
+/// What a reset leaves alone; `stores` counts.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ram {
+    pub words: Option<KeptWords>,
+    pub stores: u32,
+}
+
+impl KeptMemory for Ram {
+    const PRESENT: bool = true;
+
+    fn load(&mut self) -> Option<KeptWords> {
+        called();
+        self.words
+    }
+
+    fn store(&mut self, words: &KeptWords) {
+        called();
+        self.words = Some(*words);
+        self.stores += 1;
+    }
+}
+
+/// Faults whose causes stand.
+#[derive(Debug, Default)]
+pub struct Checks(pub Vec<HardwareFault>);
+
+impl HardwareChecks for Checks {
+    fn stands(&mut self, fault: HardwareFault) -> bool {
+        called();
+        self.0.contains(&fault)
     }
 }
 
