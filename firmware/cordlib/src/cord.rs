@@ -1,11 +1,13 @@
 //! The main loop.
 
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Cliffs, Description, Inhibit, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
+    ArmingState, BinaryKinds, Capabilities, Cliffs, Description, Inhibit, Inhibits, LogLevel, MotionPhase,
+    MoveEnd, Name,
 };
 use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
 
+use crate::arming::ArmingFacts;
 use crate::board::{
     Board, BumperSwitches, Clock, Encoders, HardwareFault, Link, Parts, Received, ResetRecord, Watchdog,
     WheelDrive, WheelDropSwitches, WheelMotors,
@@ -156,6 +158,13 @@ impl<P: Parts> Cord<P> {
         self.end(ending);
         let findings = self.reflexes.check_contacts(&self.senses, &self.motion.status());
         self.react(&findings, now);
+        let facts = ArmingFacts {
+            docked: self.reflexes.dock.is_docked(),
+            session: self.session.session(),
+        };
+        if let Some(event) = self.reflexes.arming.pass(facts, now) {
+            self.react_to_time(event);
+        }
     }
 
     fn is_within_last_millisecond(&mut self) -> bool {
@@ -240,7 +249,7 @@ impl<P: Parts> Cord<P> {
         }
         let checked = self.session.mode() == rvac_protocol::session::Mode::Checked;
         if checked && self.motion.is_following() && now.since(self.heard) >= MOVE_SILENCE_MS {
-            self.reflexes.host.lose_link();
+            self.reflexes.arming.lose_link();
         }
     }
 
@@ -312,10 +321,7 @@ impl<P: Parts> Cord<P> {
     /// Which motion is allowed now, and what inhibits the rest.
     #[must_use]
     pub fn motion_permit(&self) -> MotionPermit {
-        MotionPermit {
-            escaping_dock: self.dock_escape.is_backing(),
-            ..self.reflexes.motion_permit(self.motion.is_fresh())
-        }
+        self.reflexes.motion_permit(self.motion.is_fresh())
     }
 
     /// Everything that keeps the robot from moving now.
@@ -324,10 +330,16 @@ impl<P: Parts> Cord<P> {
         self.reflexes.inhibits()
     }
 
-    /// Whether the host has armed motion.
+    /// Who may move the robot.
     #[must_use]
-    pub fn is_armed(&self) -> bool {
-        self.reflexes.host.is_armed()
+    pub const fn arming(&self) -> ArmingState {
+        self.reflexes.arming.state()
+    }
+
+    /// Whether anybody may move the robot.
+    #[must_use]
+    pub const fn is_armed(&self) -> bool {
+        !self.reflexes.arming.is_locked()
     }
 
     /// Whether a lease (or a `move` with a live link) covers wheel motion now.

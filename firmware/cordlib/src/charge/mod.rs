@@ -23,7 +23,7 @@ mod scale;
 mod stops;
 mod thermometer;
 
-pub use controller::{ChargeContext, ChargeController, ChargeOutput, MotorActivity};
+pub use controller::{ChargeContext, ChargeController, ChargeOutput, Docking, MotorActivity};
 pub use stops::{AllStops, Stops};
 
 pub(crate) use thermometer::Thermometer;
