@@ -355,7 +355,8 @@ fn hand_mode_ends_with_a_checked_packet_and_comes_back_after_silence() {
 
 #[test]
 fn what_a_host_armed_ends_with_its_session() {
-    let ends: [(&str, fn(&mut Scene)); 3] = [
+    type SessionEnd = fn(&mut Scene);
+    let ends: [(&str, SessionEnd); 3] = [
         ("silence", |scene| drop(scene.pass(2_060, OFF))),
         ("by hand", |scene| {
             scene.host(r#"{"c":"hand"}"#);

@@ -72,7 +72,7 @@ impl ChargeDisturbance {
 
     fn begin(self, testbed: &mut Testbed, seed: u64) {
         // Every other shorted switch meets a host that has armed the robot to leave, and does nothing.
-        if self == Self::SwitchShorted && (seed / Self::ALL.len() as u64) % 2 == 1 {
+        if self == Self::SwitchShorted && (seed / Self::ALL.len() as u64).is_multiple_of(2) {
             testbed.arm_to_leave();
             testbed.run(100);
         }
