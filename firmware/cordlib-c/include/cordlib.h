@@ -66,6 +66,10 @@ int32_t cord_set_wheels(double track, double distance_per_count, double dead_ban
  * number. */
 int32_t cord_declare(const char *part, int32_t count);
 
+/* Allows (1, as it is at first) or forbids (0) that a person arms the robot by packets without a session. Returns 1, or
+ * 0 for another number. */
+int32_t cord_set_hand_mode(int32_t allowed);
+
 /* Sets how often the chip has started, and the number of consecutive recent resets. Three of them inhibit motion. */
 void cord_set_resets(uint32_t boot_count, uint8_t recent_resets);
 
@@ -200,7 +204,8 @@ int32_t cord_set_speed_goal(double left, double right);
  * s. Returns CORD_OK or why not. */
 int32_t cord_set_motor_goal(int32_t motor, double throttle);
 
-/* Allows motion; on the dock only with undock = 1. Returns CORD_OK or why not. */
+/* Allows motion; on the dock only with undock = 1. Without a host's session it ends 10 s after the last goal. Returns
+ * CORD_OK or why not. */
 int32_t cord_arm(int32_t undock);
 
 /* Stops everything until cord_arm or an arming host. Returns CORD_OK or CORD_NOT_NOW. */

@@ -3,8 +3,8 @@
 use std::ffi::{CStr, c_char};
 use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 
-use cord::Parameters;
 use cord::board::KeptWords;
+use cord::{HandMode, Parameters};
 use rvac_protocol::message::{Capabilities, Limits};
 use rvac_units::{AngularSpeed, Length, Speed, Throttle};
 
@@ -120,6 +120,7 @@ pub extern "C" fn cord_set_limits(speed: f64, turn: f64) -> i32 {
     machine.parameters = Parameters {
         wheel: described.wheel,
         guard: described.guard,
+        hand_mode: described.hand_mode,
         ..Parameters::for_machine(described.device, described.firmware, limits)
     };
     1
@@ -169,6 +170,18 @@ pub unsafe extern "C" fn cord_declare(part: *const c_char, count: i32) -> i32 {
         }
         _ => 0,
     }
+}
+
+/// Allows (1, as it is at first) or forbids (0) that a person arms the robot by packets without a session. Returns 1, or
+/// 0 for another number.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_set_hand_mode(allowed: i32) -> i32 {
+    machine().parameters.hand_mode = match allowed {
+        0 => HandMode::Forbidden,
+        1 => HandMode::Allowed,
+        _ => return 0,
+    };
+    1
 }
 
 /// Sets how often the chip has started, and the number of consecutive recent resets. Three of them inhibit motion.

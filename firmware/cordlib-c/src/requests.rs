@@ -81,7 +81,8 @@ pub extern "C" fn cord_set_motor_goal(motor: i32, throttle: f64) -> i32 {
     }))
 }
 
-/// Allows motion; on the dock only with undock = 1. Returns CORD_OK or why not.
+/// Allows motion; on the dock only with undock = 1. Without a host's session it ends 10 s after the last goal. Returns
+/// CORD_OK or why not.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_arm(undock: i32) -> i32 {
     request(&Command::Arm {

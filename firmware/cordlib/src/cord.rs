@@ -1,11 +1,13 @@
 //! The main loop.
 
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd, Name,
+    ArmingState, BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd,
+    Name,
 };
 use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
 
+use crate::arming::ArmingFacts;
 use crate::board::{
     Board, BumperSwitches, CleaningMotor, Clock, CurrentSense, Encoders, HardwareChecks, HardwareFault, Link,
     Parts, Received, ResetRecord, Watchdog, WheelDrive, WheelDropSwitches, WheelMotors,
@@ -191,6 +193,13 @@ impl<P: Parts> Cord<P> {
         self.cleaning.expire(now);
         let findings = self.reflexes.check_contacts(&self.senses, &self.motion.status());
         self.react(&findings, now);
+        let facts = ArmingFacts {
+            docked: self.reflexes.dock.is_docked(),
+            session: self.session.session(),
+        };
+        if let Some(event) = self.reflexes.arming.pass(facts, now) {
+            self.react_to_time(event);
+        }
     }
 
     fn is_within_last_millisecond(&mut self) -> bool {
@@ -276,7 +285,7 @@ impl<P: Parts> Cord<P> {
         }
         let checked = self.session.mode() == rvac_protocol::session::Mode::Checked;
         if checked && self.motion.is_following() && now.since(self.heard) >= MOVE_SILENCE_MS {
-            self.reflexes.host.lose_link();
+            self.reflexes.arming.lose_link();
         }
     }
 
@@ -356,7 +365,6 @@ impl<P: Parts> Cord<P> {
     #[must_use]
     pub fn motion_permit(&self) -> MotionPermit {
         MotionPermit {
-            escaping_dock: self.dock_escape.is_backing(),
             reverse: ReverseBound::of(self.motion.rims_um_per_s(), &self.parameters.wheel),
             ..self.reflexes.motion_permit(self.motion.is_fresh())
         }
@@ -368,10 +376,16 @@ impl<P: Parts> Cord<P> {
         self.reflexes.inhibits()
     }
 
-    /// Whether the host has armed motion.
+    /// Who may move the robot.
     #[must_use]
-    pub fn is_armed(&self) -> bool {
-        self.reflexes.host.is_armed()
+    pub const fn arming(&self) -> ArmingState {
+        self.reflexes.arming.state()
+    }
+
+    /// Whether anybody may move the robot.
+    #[must_use]
+    pub const fn is_armed(&self) -> bool {
+        !self.reflexes.arming.is_locked()
     }
 
     /// Whether a lease (or a `move` with a live link) covers wheel motion now.

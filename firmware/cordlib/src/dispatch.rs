@@ -8,9 +8,11 @@ use rvac_protocol::message::{
 use rvac_protocol::session::{HAND_SPEED_MAX, HAND_TURN_MAX, Mode, RobotEvent, SessionEnd};
 use rvac_units::Tick;
 
+use crate::arming::{ArmingEvent, Holder};
 use crate::board::Parts;
 use crate::cord::Cord;
 use crate::motion::{Ending, MoveLimits, Path, WheelSide, suits_drive, suits_path};
+use crate::parameters::HandMode;
 use crate::permit::MotionPermit;
 
 /// Largest turn of one `move`, in radians: ten turns.
@@ -29,12 +31,12 @@ impl<P: Parts> Cord<P> {
         match event {
             RobotEvent::Command(command) => self.obey(command, now),
             RobotEvent::SessionOpened => {
-                self.void_leases();
+                self.void_permissions(now);
                 self.journal.note(LogLevel::Info, "session opened", "");
                 self.tell_unguarded_motors();
             }
             RobotEvent::SessionClosed(end) => {
-                self.void_leases();
+                self.void_permissions(now);
                 let why = match end {
                     SessionEnd::Hand => "by hand",
                     SessionEnd::Silence => "by silence",
@@ -44,18 +46,20 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Leases of another session are void.
-    fn void_leases(&mut self) {
+    /// Leases and arming of another session are void.
+    fn void_permissions(&mut self, now: Tick) {
         if self.motion.is_active() {
-            self.reflexes.host.lose_link();
+            self.reflexes.arming.lose_link();
         }
+        self.reflexes.arming.take(ArmingEvent::SessionChange, now);
         self.stop_all(MoveEnd::Inhibited);
         self.probing.end(&mut self.board.probe);
     }
 
     /// Executes a command of the host and answers it as the protocol requires.
     fn obey(&mut self, command: &Command, now: Tick) {
-        let answer = self.carry_out(command, now);
+        let by = self.holder_or(Holder::Typist);
+        let answer = self.carry_out(command, by, now);
         let Some(sequence) = command.sequence() else {
             return;
         };
@@ -73,21 +77,30 @@ impl<P: Parts> Cord<P> {
     /// `Unknown`.
     pub fn request(&mut self, command: &Command) -> Result<(), Refusal> {
         let now = self.senses.now;
-        self.carry_out(command, now)
+        let by = self.holder_or(Holder::Board);
+        self.carry_out(command, by, now)
     }
 
-    pub(crate) fn carry_out(&mut self, command: &Command, now: Tick) -> CommandResult {
+    /// The host of the open session, whose permission the board's own firmware shares, or who commands without one.
+    fn holder_or(&self, without: Holder) -> Holder {
+        match self.session.mode() {
+            Mode::Checked => Holder::Session(self.session.session()),
+            Mode::Hand => without,
+        }
+    }
+
+    pub(crate) fn carry_out(&mut self, command: &Command, by: Holder, now: Tick) -> CommandResult {
         match command {
             Command::Info => self.reporter.want_info(),
             Command::State => self.reporter.want_state(),
-            Command::Drive(drive) => return self.drive(drive, now),
-            Command::Motor(motor) => return self.motor(motor, now),
-            Command::Move(movement) => return self.follow(movement, now),
-            Command::Stop => self.stop(),
+            Command::Drive(drive) => return self.drive(drive, by, now),
+            Command::Motor(motor) => return self.motor(motor, by, now),
+            Command::Move(movement) => return self.follow(movement, by, now),
+            Command::Stop => self.stop(now),
             Command::Beep(beep) => return self.beep(*beep),
             Command::Led(led) => return self.light(led),
-            Command::Arm { undock: true, .. } => return self.undock(),
-            Command::Arm { undock: false, .. } => return self.arm(),
+            Command::Arm { undock: true, .. } => return self.undock(by, now),
+            Command::Arm { undock: false, .. } => return self.arm(by, now),
             Command::Clear { inhibit, .. } => return self.clear(*inhibit),
             Command::Set { parameter, value, .. } => return self.set(*parameter, *value, now),
             Command::Charge { wanted, .. } => return self.charge(*wanted),
@@ -102,13 +115,14 @@ impl<P: Parts> Cord<P> {
     }
 
     /// What a fresh motion command meets: it is the sign of life that ends `link-lost`.
-    fn permit_for_command(&self) -> MotionPermit {
+    fn permit_for_command(&self, by: Holder) -> MotionPermit {
         let mut permit = self.motion_permit();
+        permit.armed = self.reflexes.arming.lets_move(by);
         permit.inhibits.remove(Inhibit::LinkLost);
         permit
     }
 
-    fn drive(&mut self, drive: &Drive, now: Tick) -> CommandResult {
+    fn drive(&mut self, drive: &Drive, by: Holder, now: Tick) -> CommandResult {
         if !self.fitted.encoders {
             return Err(Refusal::Absent);
         }
@@ -116,23 +130,23 @@ impl<P: Parts> Cord<P> {
         if drive.speed.magnitude() > limits.speed_max.0 || drive.turn.magnitude() > limits.turn_max.0 {
             return Err(Refusal::Range);
         }
-        let permit = self.permit_for_command();
+        let permit = self.permit_for_command(by);
         if !permit.armed || !suits_drive(drive, &permit, &self.parameters) {
             return Err(Refusal::Inhibited);
         }
-        self.reflexes.host.hear();
+        self.reflexes.arming.hear(now);
         let ending = self.motion.drive(drive, now);
         self.end(ending);
         Ok(())
     }
 
-    fn motor(&mut self, command: &MotorCommand, now: Tick) -> CommandResult {
+    fn motor(&mut self, command: &MotorCommand, by: Holder, now: Tick) -> CommandResult {
         let side = match command.motor {
             Motor::WheelLeft => WheelSide::Left,
             Motor::WheelRight => WheelSide::Right,
-            _ => return self.cleaner(command, now),
+            _ => return self.cleaner(command, by, now),
         };
-        let permit = self.permit_for_command();
+        let permit = self.permit_for_command(by);
         let sign = command.throttle.millionths();
         let (left, right) = match side {
             WheelSide::Left => (sign, 0),
@@ -141,14 +155,14 @@ impl<P: Parts> Cord<P> {
         if !permit.armed || !permit.allows_direction(left, right) {
             return Err(Refusal::Inhibited);
         }
-        self.reflexes.host.hear();
+        self.reflexes.arming.hear(now);
         let lease_end = now.after(u32::from(command.lease_ms));
         let ending = self.motion.direct(side, command.throttle, lease_end);
         self.end(ending);
         Ok(())
     }
 
-    fn cleaner(&mut self, command: &MotorCommand, now: Tick) -> CommandResult {
+    fn cleaner(&mut self, command: &MotorCommand, by: Holder, now: Tick) -> CommandResult {
         let is_fitted = match command.motor {
             Motor::BrushMain => self.fitted.brush_main,
             Motor::BrushSides => self.fitted.brush_sides,
@@ -158,11 +172,13 @@ impl<P: Parts> Cord<P> {
         if !is_fitted {
             return Err(Refusal::Absent);
         }
-        let permit = self.permit_for_command();
-        self.cleaning.command(command, &permit, now)
+        let permit = self.permit_for_command(by);
+        self.cleaning.command(command, &permit, now)?;
+        self.reflexes.arming.renew(now);
+        Ok(())
     }
 
-    fn follow(&mut self, movement: &Move, now: Tick) -> CommandResult {
+    fn follow(&mut self, movement: &Move, by: Holder, now: Tick) -> CommandResult {
         if !self.fitted.encoders {
             return Err(Refusal::Absent);
         }
@@ -174,14 +190,15 @@ impl<P: Parts> Cord<P> {
             return Err(Refusal::Range);
         }
         let motion = &self.parameters.motion;
-        let pace = match self.session.mode() {
-            Mode::Hand => HAND_PACE,
-            Mode::Checked => MoveLimits {
+        let pace = if by == Holder::Typist {
+            HAND_PACE
+        } else {
+            MoveLimits {
                 speed_um_per_s: motion.move_speed.0,
                 turn_urad_per_s: motion.move_turn.0,
-            },
+            }
         };
-        let permit = self.permit_for_command();
+        let permit = self.permit_for_command(by);
         if !permit.armed {
             return Err(Refusal::Inhibited);
         }
@@ -195,16 +212,15 @@ impl<P: Parts> Cord<P> {
         if !suits_path(&path, &permit) {
             return Err(Refusal::Inhibited);
         }
-        self.reflexes.host.hear();
+        self.reflexes.arming.hear(now);
         self.heard = now;
         let replaced = self.motion.follow(path);
         self.end(replaced);
         Ok(())
     }
 
-    fn stop(&mut self) {
-        self.reflexes.host.stop();
-        self.reflexes.dock.stay();
+    fn stop(&mut self, now: Tick) {
+        self.reflexes.arming.take(ArmingEvent::Stop, now);
         self.stop_all(MoveEnd::Inhibited);
     }
 
@@ -224,31 +240,41 @@ impl<P: Parts> Cord<P> {
         if is_there { Ok(()) } else { Err(Refusal::Absent) }
     }
 
-    fn arm(&mut self) -> CommandResult {
-        if self.reflexes.dock.inhibits() {
+    fn arm(&mut self, by: Holder, now: Tick) -> CommandResult {
+        if self.reflexes.dock.is_docked() {
             return Err(Refusal::Inhibited);
         }
-        self.arm_anew()?;
-        // An earlier undock command ends here: closing the contacts again is an arrival (S19).
-        self.reflexes.dock.stay();
-        Ok(())
+        self.arm_anew(ArmingEvent::Arm(by), by, now)
     }
 
-    fn undock(&mut self) -> CommandResult {
-        self.arm_anew()?;
-        self.reflexes.dock.undock();
-        Ok(())
+    fn undock(&mut self, by: Holder, now: Tick) -> CommandResult {
+        self.arm_anew(ArmingEvent::Undock(by), by, now)
     }
 
     /// Allows motion from now on and forgets earlier requests (S19).
-    fn arm_anew(&mut self) -> CommandResult {
+    fn arm_anew(&mut self, event: ArmingEvent, by: Holder, now: Tick) -> CommandResult {
+        if by == Holder::Typist && self.parameters.hand_mode == HandMode::Forbidden {
+            self.journal
+                .note(LogLevel::Warn, "not armed:", "this board forbids hand mode");
+            return Err(Refusal::Inhibited);
+        }
+        if self.reflexes.arming.is_escaping() {
+            return Err(Refusal::Inhibited);
+        }
         if self.inhibits().contains(Inhibit::ButtonStop) && self.reflexes.any_button() {
             return Err(Refusal::CauseRemains);
         }
         let ending = self.motion.halt(MoveEnd::Replaced);
         self.end(ending);
         self.cleaning.forget();
-        self.reflexes.host.arm();
+        self.reflexes.arming.take(event, now);
+        if by == Holder::Typist {
+            self.journal.note(
+                LogLevel::Warn,
+                "armed by hand:",
+                "slow, until 10 s without motion",
+            );
+        }
         Ok(())
     }
 
@@ -258,7 +284,7 @@ impl<P: Parts> Cord<P> {
             return Err(Refusal::Absent);
         }
         let faulty = self.charger.status().fault.is_some();
-        if !self.reflexes.dock.inhibits() || (wanted && faulty) {
+        if !self.reflexes.is_held_by_dock() || (wanted && faulty) {
             return Err(Refusal::Inhibited);
         }
         self.charger.want(wanted);
@@ -270,7 +296,7 @@ impl<P: Parts> Cord<P> {
         if !self.fitted.probe {
             return Err(Refusal::Absent);
         }
-        if probe.lease_ms == 0 && self.reflexes.host.lets_move() {
+        if probe.lease_ms == 0 && !self.reflexes.arming.is_locked() {
             return Err(Refusal::Inhibited);
         }
         self.probing.begin(&mut self.board.probe, probe, now)

@@ -1,12 +1,13 @@
 //! Reaction to a shorted transistor of the charger (S18). The current cannot be switched off; only leaving the dock ends
-//! it. The robot reports the fault at once. If the host does nothing the robot warns with three beeps, waits 2 s and backs
-//! off by itself, up to 0.2 m, at most three times.
+//! it. The robot reports the fault at once. If the current still flows after three beeps and 2 s, whether a host lives or
+//! has armed or not, the robot backs off by itself, up to 0.2 m, at most three times. [`crate::arming`] keeps the permission.
 
 use rvac_protocol::message::{
     Beep, Command, Drive, LogLevel, Motor, MotorCommand, MoveEnd, Refusal, Sequence,
 };
 use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Throttle, Tick};
 
+use crate::arming::{ArmingEvent, Holder};
 use crate::board::Parts;
 use crate::cord::Cord;
 use crate::timing::{Deadline, HoldTimer, Periodic};
@@ -53,24 +54,18 @@ impl DockEscape {
             tries: 0,
         }
     }
-
-    /// Whether the robot is backing off.
-    pub(crate) fn is_backing(&self) -> bool {
-        self.stage == EscapeStage::Backing
-    }
 }
 
 impl<P: Parts> Cord<P> {
     /// Backs off the dock if current flows that nothing else can stop.
     pub(crate) fn escape_shorted_dock(&mut self, now: Tick) {
-        // A host that has armed the robot on the dock drives it off itself.
-        let led = self.reflexes.host.is_armed() && !self.dock_escape.is_backing();
-        let held = self.is_charger_shorted() && self.reflexes.dock.is_docked() && !led;
+        let docked = self.reflexes.dock.is_docked();
+        let held = docked && self.is_charger_shorted() && self.charger.leaks();
         let over = self.dock_escape.deadline.has_come(now);
         match self.dock_escape.stage {
-            EscapeStage::Resting if !held => self.dock_escape.tries = 0,
+            EscapeStage::Resting if !docked || !self.is_charger_shorted() => self.dock_escape.tries = 0,
             EscapeStage::Resting
-                if self.dock_escape.tries < TRIES_MAX && !self.dock_escape.deadline.is_running() =>
+                if held && self.dock_escape.tries < TRIES_MAX && !self.dock_escape.deadline.is_running() =>
             {
                 self.warn(now);
             }
@@ -82,22 +77,22 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Ends when the contacts are open or the time is over; the robot is then disarmed.
+    /// Ends when the contacts are open, the time is over or a person stops it; the robot is then locked.
     fn back_off(&mut self, over: bool, now: Tick) {
         let open = !self.senses.docked;
         let away = self.dock_escape.open.for_at_least(open, now, OPEN_MS);
-        if !over && !away && self.dock_escape.renew.is_due(now, RENEW_MS) {
+        let ended = over || away || !self.reflexes.arming.is_escaping();
+        if !ended && self.dock_escape.renew.is_due(now, RENEW_MS) {
             let answer = self.push_back(now);
             if let Err(refusal) = answer {
                 self.journal
                     .note(LogLevel::Error, "cannot leave the dock:", refusal.name());
             }
         }
-        if over || away {
+        if ended {
             self.dock_escape.stage = EscapeStage::Resting;
             self.dock_escape.deadline = Deadline::at(now.after(TRY_MS));
-            self.reflexes.host.disarm();
-            self.reflexes.dock.stay();
+            self.reflexes.arming.take(ArmingEvent::EscapeOver, now);
             self.stop_all(MoveEnd::Inhibited);
         }
     }
@@ -120,22 +115,16 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Goes through the same code as a command of the host, so that the permit and every reflex apply.
     fn begin_backing(&mut self, now: Tick) {
         self.dock_escape.stage = EscapeStage::Backing;
         self.dock_escape.deadline = Deadline::at(now.after(TRY_MS));
         self.dock_escape.renew = Periodic::starting_at(now);
         self.dock_escape.open.restart();
-        let undock = Command::Arm {
-            sequence: Sequence(0),
-            undock: true,
-        };
-        if let Err(refusal) = self.carry_out(&undock, now) {
-            self.journal
-                .note(LogLevel::Error, "cannot leave the dock:", refusal.name());
-        }
+        self.stop_all(MoveEnd::Inhibited);
+        self.reflexes.arming.take(ArmingEvent::EscapeBegins, now);
     }
 
+    /// Goes through the same code as a command of the host, so that the permit and every reflex apply.
     fn push_back(&mut self, now: Tick) -> Result<(), Refusal> {
         let sequence = Sequence(0);
         if self.fitted.encoders {
@@ -147,6 +136,7 @@ impl<P: Parts> Cord<P> {
                     sequence,
                     seen_tick: now,
                 }),
+                Holder::Escape,
                 now,
             );
         }
@@ -158,7 +148,7 @@ impl<P: Parts> Cord<P> {
                 sequence,
                 seen_tick: now,
             };
-            self.carry_out(&Command::Motor(back), now)?;
+            self.carry_out(&Command::Motor(back), Holder::Escape, now)?;
         }
         Ok(())
     }

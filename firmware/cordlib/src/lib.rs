@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod arming;
 pub mod board;
 mod causes;
 pub mod charge;
@@ -37,6 +38,6 @@ mod watch;
 
 pub use cord::Cord;
 pub use parameters::{
-    GuardParameters, LoadParameters, MotionParameters, PackParameters, Parameters, WheelParameters,
+    GuardParameters, HandMode, LoadParameters, MotionParameters, PackParameters, Parameters, WheelParameters,
 };
 pub use permit::MotionPermit;

@@ -25,6 +25,18 @@ pub struct Parameters {
     pub guard: GuardParameters,
     /// The battery.
     pub pack: PackParameters,
+    /// Whether packets without a session may arm the robot.
+    pub hand_mode: HandMode,
+}
+
+/// What a person may do who types packets without a session, and so without a CRC.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HandMode {
+    /// Arm the robot and move it slowly, for some seconds after each packet.
+    #[default]
+    Allowed,
+    /// Look and stop, but not arm.
+    Forbidden,
 }
 
 /// Speed control of one wheel.
@@ -175,6 +187,7 @@ impl Parameters {
                 floor_level_min: 100,
             },
             pack: PackParameters::NIMH_12,
+            hand_mode: HandMode::Allowed,
         }
     }
 }

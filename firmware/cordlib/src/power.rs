@@ -4,7 +4,7 @@ use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, Inh
 use rvac_units::{Current, Temperature, Throttle, Tick, Voltage};
 
 use crate::board::{ChargeDrive, Charger, Parts};
-use crate::charge::{ChargeContext, ChargeOutput, MotorActivity};
+use crate::charge::{ChargeContext, ChargeOutput, Docking, MotorActivity};
 use crate::cord::Cord;
 use crate::reflex::PackView;
 
@@ -68,13 +68,23 @@ impl<P: Parts> Cord<P> {
             .filter(|(on, _)| *on)
             .fold(0, |sum: i32, (_, ma)| sum.saturating_add(i32::from(ma)));
         ChargeContext {
-            docked: self.reflexes.dock.inhibits(),
+            docking: self.docking(),
             motors: if idle {
                 MotorActivity::Idle
             } else {
                 MotorActivity::Running
             },
             load_ma,
+        }
+    }
+
+    fn docking(&self) -> Docking {
+        if self.reflexes.is_held_by_dock() {
+            Docking::Docked
+        } else if self.reflexes.dock.is_docked() {
+            Docking::Leaving
+        } else {
+            Docking::Away
         }
     }
 

@@ -3,10 +3,11 @@
 use rvac_protocol::message::{Event, Inhibit, LogLevel, Motor, MoveEnd};
 use rvac_units::Tick;
 
+use crate::arming::ArmingEvent;
 use crate::board::Parts;
 use crate::cord::Cord;
 use crate::motion::Ending;
-use crate::reflex::{DockChange, Findings};
+use crate::reflex::Findings;
 
 /// Debouncing reports a press 10 ms after the finger came down, or later if the contact bounces. Motion may have ended in
 /// that time; the press still counts as one during motion.
@@ -15,23 +16,31 @@ const PRESS_MS: u32 = 30;
 impl<P: Parts> Cord<P> {
     /// Acts on the findings of the contact rules.
     pub(crate) fn react(&mut self, findings: &Findings, now: Tick) {
-        match findings.dock {
-            Some(DockChange::Arrived | DockChange::TakenOff) => {
-                self.reflexes.host.disarm();
+        if let Some(change) = findings.dock {
+            self.reflexes.arming.take(change, now);
+            if self.reflexes.arming.is_locked() {
                 self.stop_all(MoveEnd::Inhibited);
             }
-            Some(DockChange::Left) | None => {}
         }
         let rests = !self.is_in_motion();
         let rested = self.rest.for_at_least(rests, now, PRESS_MS);
         if findings.buttons.any_pressed && !rested {
-            self.reflexes.host.button();
+            self.reflexes.arming.take(ArmingEvent::Button, now);
             self.stop_all(MoveEnd::Inhibited);
         }
         let changed = findings.buttons.pressed | findings.buttons.released;
         for button in (0..8).filter(|number| changed & (1 << number) != 0) {
             let pressed = findings.buttons.pressed & (1 << button) != 0;
             self.session.queue_event(Event::Button { button, pressed }, now);
+        }
+    }
+
+    /// Stops whatever a permission allowed that has just ended by itself.
+    pub(crate) fn react_to_time(&mut self, event: ArmingEvent) {
+        if self.reflexes.arming.is_locked() {
+            self.stop_all(MoveEnd::Inhibited);
+            self.journal
+                .note(LogLevel::Warn, "no longer armed:", event.explanation());
         }
     }
 
@@ -51,7 +60,7 @@ impl<P: Parts> Cord<P> {
                 let now = self.senses.now;
                 self.session.queue_event(Event::MoveFinished(end), now);
             }
-            Some(Ending::LeaseLost) => self.reflexes.host.lose_link(),
+            Some(Ending::LeaseLost) => self.reflexes.arming.lose_link(),
             None => {}
         }
     }

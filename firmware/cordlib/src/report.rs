@@ -200,6 +200,7 @@ impl<P: Parts> Cord<P> {
             bandwidth_in: self.reporter.bytes_in.per_second(),
             bandwidth_out: self.reporter.bytes_out.per_second(),
             link: self.session.counters(),
+            arming: Some(self.reflexes.arming.state()),
         }
     }
 

@@ -5,8 +5,8 @@ mod pair;
 use pair::{Pair, identity};
 use rvac_protocol::crc::{Direction, packet_crc};
 use rvac_protocol::message::{
-    BinaryKinds, Bumpers, Command, CommandName, CommandNames, Drive, Event, Info, Inhibit, Move, Name,
-    Parameter, Refusal, Report, Sequence,
+    ArmingState, BinaryKinds, Bumpers, Command, CommandName, CommandNames, Drive, Event, Info, Inhibit, Move,
+    Name, Parameter, Refusal, Report, Sequence,
 };
 use rvac_protocol::quality::LinkVerdict;
 use rvac_protocol::session::{HostEvent, Mode, RobotEvent, RobotSession, SendError, SessionEnd};
@@ -406,6 +406,7 @@ fn info_arrives_whole_although_it_takes_three_packets() {
             accepted: 7,
             ..LinkCounters::default()
         },
+        arming: Some(ArmingState::Hand),
     };
     pair.report(&Report::Info(info.clone()));
     assert_eq!(

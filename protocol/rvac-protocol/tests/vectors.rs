@@ -148,6 +148,7 @@ fn gather(texts: &[Vec<u8>]) -> Report {
         bandwidth_in: firmware.bandwidth_in,
         bandwidth_out: firmware.bandwidth_out,
         link: whole.link.expect("an info tells the link"),
+        arming: firmware.arming,
     })
 }
 

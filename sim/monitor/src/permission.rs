@@ -8,8 +8,16 @@ use super::wire::Splitter;
 
 /// S1: each motor is off 50 ms after its lease at the latest.
 const LEASE_GRACE_MS: u64 = 50;
-/// `stop` and a late packet of the same millisecond.
+/// `stop`, the end of a session, and a late packet of the same millisecond.
 const STOP_GRACE_MS: u64 = 20;
+/// The firmware's clock may begin any of the longer times this much later.
+const CLOCK_GRACE_MS: u64 = 200;
+/// S19: an arrival at the dock ends every permission.
+const ARRIVAL_MS: u32 = 50;
+/// What a person who types without a session may do ends so long after the last packet that arms or moves.
+const HAND_QUIET_MS: u64 = 10_000;
+/// Leaving the dock ends on its contacts, so long after the `arm`.
+const LEAVING_MS: u64 = 20_000;
 /// S3: the host's view may be this old, with the length of a packet on the line.
 const FRESH_MS: i32 = 400 + 20;
 /// A session ends after this silence, and hand mode begins.
@@ -26,17 +34,28 @@ const ANSWER_MS: u64 = 1_000;
 /// S4: three resets within this time latch.
 const RESET_WINDOW_MS: u64 = 60_000;
 
-/// Whether motion is armed, and what revokes that.
+/// Whether motion is armed, and what revokes that (SPEC.md section 4).
 #[derive(Clone, Copy, Debug, Default)]
 struct Arming {
     armed: bool,
     since_ms: u64,
-    /// Motors must be off from here on for `stop`.
-    stop_ms: Option<u64>,
+    /// Armed by a packet without a session.
+    typed: bool,
+    /// The newest typed packet that arms or moves.
+    typed_ms: u64,
+    /// Motors must be off from here on: the permission has ended.
+    off_ms: Option<u64>,
     /// Motors must be off from here on for a button, without the reaction time.
     button_ms: Option<u64>,
     undock: bool,
     number: Option<u16>,
+}
+
+impl Arming {
+    /// Motors must be off from this time on, or from an earlier one that is known already.
+    fn end(&mut self, off_ms: u64) {
+        self.off_ms = Some(self.off_ms.map_or(off_ms, |known| known.min(off_ms)));
+    }
 }
 
 /// Permissions given by the host.
@@ -80,24 +99,46 @@ impl HostPermission {
         else {
             return;
         };
-        if heard.checked {
+        // Without a session a CRC is optional and makes no host.
+        let checked = heard.checked && session != 0;
+        if checked {
             self.checked_ms = Some(now_ms);
         } else if !self.hand(now_ms) && heard.word != Heard::Stop {
             return;
         }
-        self.obey(now_ms, heard.word, heard.checked);
+        if !checked && heard.word.moves() {
+            self.arming.typed_ms = now_ms;
+        }
+        self.obey(now_ms, heard.word, checked);
     }
 
     fn hand(&self, now_ms: u64) -> bool {
-        self.checked_ms
-            .is_none_or(|checked| now_ms > checked + SILENCE_MS)
+        self.session == 0
+            || self
+                .checked_ms
+                .is_none_or(|checked| now_ms > checked + SILENCE_MS)
     }
 
     fn obey(&mut self, now_ms: u64, word: Heard, checked: bool) {
         match word {
-            Heard::Stop => self.arming.stop_ms = Some(now_ms + STOP_GRACE_MS),
-            Heard::Hand => self.checked_ms = None,
-            Heard::Arm { number, undock } => self.arm(now_ms, number, undock),
+            Heard::Stop => self.arming.end(now_ms + STOP_GRACE_MS),
+            Heard::Hand => {
+                if checked {
+                    self.arming.end(now_ms + STOP_GRACE_MS);
+                }
+                self.session = 0;
+                self.checked_ms = None;
+            }
+            // A host's arm without a number is refused, and the number of a typed one means nothing.
+            Heard::Arm { number, undock } if !checked || number.is_some() => self.arm(
+                now_ms,
+                Arming {
+                    undock,
+                    number: number.filter(|_| checked),
+                    typed: !checked,
+                    ..Arming::default()
+                },
+            ),
             Heard::Clear => self.resets_ms = [None; 3],
             Heard::Wheels {
                 wheels,
@@ -125,22 +166,20 @@ impl HostPermission {
                     *end_ms = now_ms + lease_ms;
                 }
             }
-            Heard::Wheels { .. } | Heard::Cleaner { .. } | Heard::Other => {}
+            Heard::Arm { .. } | Heard::Wheels { .. } | Heard::Cleaner { .. } | Heard::Other => {}
         }
     }
 
-    fn arm(&mut self, now_ms: u64, number: Option<u16>, undock: bool) {
-        if number.is_some() && number == self.arming.number {
+    fn arm(&mut self, now_ms: u64, arming: Arming) {
+        if !arming.typed && arming.number == self.arming.number {
             return;
         }
         self.before = self.arming;
         self.arming = Arming {
             armed: true,
             since_ms: now_ms,
-            stop_ms: None,
-            button_ms: None,
-            undock,
-            number,
+            typed_ms: now_ms,
+            ..arming
         };
     }
 
@@ -172,8 +211,10 @@ impl HostPermission {
         {
             Some(Said::Session(number)) if number != self.session => {
                 self.session = number;
+                self.checked_ms = Some(now_ms);
                 self.newest_motion = None;
                 self.arming.number = None;
+                self.arming.end(now_ms + STOP_GRACE_MS);
             }
             Some(Said::Refused(number))
                 if self.arming.number == Some(number) && now_ms <= self.arming.since_ms + ANSWER_MS =>
@@ -225,20 +266,46 @@ impl HostPermission {
         if standing.undocked_ms > UNDOCKED_MS {
             self.arming.undock = false;
         }
+        if self.has_run_out(now_ms, standing) {
+            self.arming.end(now_ms);
+        }
+    }
+
+    /// Silence of the host or of the person who types, an arrival at the dock, or a robot that does not leave it.
+    fn has_run_out(&self, now_ms: u64, standing: &CauseTimes) -> bool {
+        let Arming {
+            typed,
+            typed_ms,
+            undock,
+            since_ms,
+            ..
+        } = self.arming;
+        let heard_ms = if typed {
+            typed_ms + HAND_QUIET_MS + CLOCK_GRACE_MS
+        } else {
+            self.checked_ms.unwrap_or(0) + SILENCE_MS + LEASE_GRACE_MS
+        };
+        let at_dock = if undock {
+            standing.docked_ms > 0 && now_ms > since_ms + LEAVING_MS + CLOCK_GRACE_MS
+        } else {
+            standing.docked_ms > ARRIVAL_MS
+        };
+        now_ms > heard_ms || at_dock
     }
 
     pub(crate) fn armed(&self, now_ms: u64) -> bool {
-        self.arming.armed && self.arming.stop_ms.is_none_or(|until| now_ms <= until)
+        self.arming.armed && self.arming.off_ms.is_none_or(|until| now_ms <= until)
     }
 
-    pub(crate) fn button_stop(&self, now_ms: u64, reaction_ms: u32) -> bool {
+    /// How long ago a button stopped the robot, if nobody has armed since.
+    pub(crate) fn button_age_ms(&self, now_ms: u64) -> Option<u64> {
         self.arming
             .button_ms
-            .is_some_and(|pressed| now_ms > pressed + u64::from(reaction_ms))
+            .map(|pressed| now_ms.saturating_sub(pressed))
     }
 
-    pub(crate) fn may_undock(&self) -> bool {
-        self.arming.undock
+    pub(crate) fn may_undock(&self, now_ms: u64) -> bool {
+        self.arming.undock && self.armed(now_ms)
     }
 
     /// Whether a lease covers each wheel that is driven.

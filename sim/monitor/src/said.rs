@@ -37,6 +37,16 @@ pub(crate) enum Heard {
     Other,
 }
 
+impl Heard {
+    /// Whether it arms or moves.
+    pub(crate) const fn moves(self) -> bool {
+        matches!(
+            self,
+            Self::Arm { .. } | Self::Wheels { .. } | Self::Cleaner { .. }
+        )
+    }
+}
+
 /// Number and tick of a motion command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mark {

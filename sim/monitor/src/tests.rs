@@ -58,6 +58,13 @@ impl Scene {
         }
     }
 
+    /// A packet without a CRC.
+    fn typed(&mut self, json: &str) {
+        for byte in json.bytes().chain([0x1F]) {
+            self.monitor.heard(self.now_ms, Some(byte));
+        }
+    }
+
     fn arm(&mut self, undock: bool) {
         self.number += 1;
         self.host(&format!(r#"{{"c":"arm","n":{},"undock":{undock}}}"#, self.number));
@@ -401,23 +408,104 @@ fn a_fall_is_a_violation_whatever_the_motors_do() {
     assert_eq!(scene.pass(10, OFF), [Rule::Fallen]);
 }
 
+const TYPED_DRIVE: &str = r#"{"c":"drive","v":0.05,"w":0,"ttl":500}"#;
+
 #[test]
 fn hand_mode_ends_with_a_checked_packet_and_comes_back_after_silence() {
-    let without_crc = b"{\"c\":\"drive\",\"v\":0.05,\"w\":0,\"ttl\":250}\x1f";
     let mut scene = Scene::armed();
-    for byte in without_crc {
-        scene.monitor.heard(scene.now_ms, Some(*byte));
-    }
+    scene.typed(TYPED_DRIVE);
     assert_eq!(
         scene.pass(1, FORWARD),
         [Rule::WheelsWithoutLease],
         "checked mode refuses it"
     );
     scene.pass(2100, OFF);
-    for byte in without_crc {
-        scene.monitor.heard(scene.now_ms, Some(*byte));
-    }
+    scene.typed(r#"{"c":"arm"}"#);
+    scene.typed(TYPED_DRIVE);
     assert_eq!(scene.pass(10, FORWARD).len(), 1, "hand mode takes it");
+}
+
+#[test]
+fn what_a_host_armed_ends_with_its_session() {
+    type SessionEnd = fn(&mut Scene);
+    let ends: [(&str, SessionEnd); 3] = [
+        ("silence", |scene| drop(scene.pass(2_060, OFF))),
+        ("by hand", |scene| {
+            scene.host(r#"{"c":"hand"}"#);
+            scene.pass(30, OFF);
+        }),
+        ("a new session", |scene| {
+            scene.open_session(SESSION + 1);
+            scene.open_session(0);
+            scene.pass(30, OFF);
+        }),
+    ];
+    for (name, end) in ends {
+        let mut scene = Scene::armed();
+        scene.drive();
+        end(&mut scene);
+        scene.typed(TYPED_DRIVE);
+        assert_eq!(scene.pass(1, FORWARD), [Rule::NotArmed], "{name}");
+    }
+}
+
+#[test]
+fn what_a_person_armed_ends_ten_seconds_after_the_last_motion_and_with_a_session() {
+    let mut scene = Scene::armed();
+    scene.pass(2_100, OFF);
+    scene.typed(r#"{"c":"arm"}"#);
+    for _ in 0..3 {
+        scene.pass(9_000, OFF);
+        scene.typed(TYPED_DRIVE);
+        assert_eq!(scene.pass(400, FORWARD), []);
+    }
+    scene.pass(9_900, OFF);
+    scene.typed(TYPED_DRIVE);
+    assert_eq!(scene.pass(1, FORWARD), [Rule::NotArmed]);
+
+    let mut scene = Scene::armed();
+    scene.pass(2_100, OFF);
+    scene.typed(r#"{"c":"arm"}"#);
+    scene.open_session(SESSION + 1);
+    scene.open_session(SESSION);
+    scene.pass(30, OFF);
+    assert!(scene.pass_driven(10, FORWARD).contains(&Rule::NotArmed));
+}
+
+#[test]
+fn an_arrival_at_the_dock_ends_what_was_armed() {
+    let mut scene = Scene::armed();
+    scene.pins.docked = true;
+    scene.pass(60, OFF);
+    scene.pins.docked = false;
+    assert_eq!(scene.pass_driven(1, FORWARD), [Rule::NotArmed]);
+}
+
+#[test]
+fn a_robot_that_is_told_to_leave_the_dock_may_do_so_for_twenty_seconds() {
+    let mut scene = Scene::armed();
+    scene.pins.docked = true;
+    scene.arm(true);
+    assert_eq!(scene.pass_driven(20_000, BACKWARD), []);
+    assert_eq!(scene.pass_driven(300, BACKWARD), [Rule::NotArmed, Rule::Docked]);
+}
+
+#[test]
+fn a_button_holds_a_robot_on_a_bad_dock_for_that_try_only() {
+    let mut scene = Scene::armed();
+    scene.pins.docked = true;
+    scene.pins.charging = Charging {
+        driven: false,
+        ..CHARGING
+    };
+    scene.pass(1_100, OFF);
+    scene.pass(100, BACKWARD);
+    scene.pins.button = true;
+    assert_eq!(scene.pass(49, BACKWARD), []);
+    assert_eq!(scene.pass(30, BACKWARD), [Rule::Button]);
+    scene.pins.button = false;
+    scene.pass(4_000, OFF);
+    assert_eq!(scene.pass(1_000, BACKWARD), [Rule::Button], "a new try");
 }
 
 #[test]

@@ -182,7 +182,9 @@ const WHEEL_DROP_MS: u32 = 50;
 const GROUNDED_MS: u32 = 1_000;
 const STALL_MS: u32 = 300;
 const DOCKED_MS: u32 = 20;
-const BUTTON_MS: u32 = 50;
+const BUTTON_MS: u64 = 50;
+/// S18: a robot warns for so long before each try to back off.
+const ESCAPE_WARNING_MS: u64 = 2_000;
 /// A cause in the same millisecond as a start cannot prevent it; one that has lasted for the reaction time can.
 const START_MS: u32 = 20;
 /// A pass of the firmware's loop and the debouncing of the judge's own clock.
@@ -217,6 +219,10 @@ pub(crate) fn broken(
     let forward = drives.forward();
     // S18: off a dock whose current nothing else can stop, backwards only.
     let leaving = standing.charge.may_leave() && !forward && !cleaners;
+    // The press of another occasion does not keep a robot on such a dock.
+    let stopped_by_button = permission
+        .button_age_ms(now_ms)
+        .is_some_and(|age_ms| age_ms > BUTTON_MS && (!leaving || age_ms <= ESCAPE_WARNING_MS));
     let blocked = standing.bumper_ms > START_MS || standing.wheel_drop_ms > START_MS;
     let verdicts = [
         (
@@ -262,9 +268,9 @@ pub(crate) fn broken(
         ),
         (
             Rule::Docked,
-            wheels && standing.docked_ms > DOCKED_MS && !permission.may_undock() && !leaving,
+            wheels && standing.docked_ms > DOCKED_MS && !permission.may_undock(now_ms) && !leaving,
         ),
-        (Rule::Button, any && permission.button_stop(now_ms, BUTTON_MS)),
+        (Rule::Button, any && stopped_by_button),
         (Rule::CleanersStart, standing.cleaners_start && blocked),
     ];
     bits(verdicts) | broken_by_charger(&standing.charge)

@@ -66,6 +66,17 @@ fn fault(testbed: &mut Testbed, sensor: SensorId, fault: SensorFault) {
     testbed.robot_mut().world_mut().set_fault(sensor, Some(fault));
 }
 
+/// The host falls silent until its session is over; then somebody types motion and arms nothing.
+fn type_without_a_host(testbed: &mut Testbed, _: u64) {
+    testbed.set_speaking(false);
+    testbed.run(2_300);
+    for _ in 0..10 {
+        testbed.type_in(r#"{"c":"drive","v":0.1,"w":0,"ttl":500}"#);
+        testbed.type_in(r#"{"c":"motor","motor":"vacuum","throttle":1,"ttl":500}"#);
+        testbed.run(50);
+    }
+}
+
 /// The pack warms from 25 to 62 °C at 2 °C/s: faster would be no temperature but a broken sensor.
 fn heat_up(testbed: &mut Testbed, _: u64) {
     for counts in (HOT..WARM).rev() {
@@ -140,7 +151,7 @@ pub fn trials() -> Vec<Trial> {
     .concat()
 }
 
-fn link() -> [Trial; 4] {
+fn link() -> [Trial; 5] {
     [
         trial(
             ("S1", "the host falls silent: wheels"),
@@ -164,6 +175,12 @@ fn link() -> [Trial; 4] {
                 });
             },
             (Expectation::Lawful, 500),
+        ),
+        trial(
+            ("S2", "packets are typed after the host has died"),
+            OperatingState::Cleaning,
+            type_without_a_host,
+            (Expectation::AllOff, 2_300),
         ),
         trial(
             ("S3", "0.6 s of commands arrive late, all at once"),

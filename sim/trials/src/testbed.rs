@@ -10,6 +10,7 @@ use pic32::board::{
 };
 use pic32::image::{Image, ImageError};
 use rvac_protocol::PacketBuffer;
+use rvac_protocol::frame::SEPARATOR;
 use rvac_protocol::message::{
     BinaryKinds, Command, Drive, Inhibits, Motor, MotorCommand, Report, ResetCause, Sequence, State,
 };
@@ -302,6 +303,19 @@ impl Testbed {
             sequence: Sequence(0),
             undock: false,
         });
+    }
+
+    /// The host allows motion off the dock.
+    pub fn arm_to_leave(&mut self) {
+        self.say(Command::Arm {
+            sequence: Sequence(0),
+            undock: true,
+        });
+    }
+
+    /// A person types a packet without a CRC, whatever has become of the host.
+    pub fn type_in(&mut self, text: &str) {
+        self.to_robot.extend(text.bytes().chain([SEPARATOR]));
     }
 
     /// Sets the host's motion from now on; `None` = it stops renewing.

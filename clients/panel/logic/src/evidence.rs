@@ -175,7 +175,7 @@ mod tests {
                 row(
                     "-0.2 to 0.0\u{a0}s",
                     "standing",
-                    "bumper on the left, the robot's controller was reset and has not been released to move yet"
+                    "bumper on the left, the robot has not been released to move since it started, stopped or reconnected"
                 ),
             ]
         );

@@ -25,7 +25,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("finished", "The job is done.", ""),
     entry("continued", "It goes on by itself after an interruption.", ""),
     entry("restored", "It takes up the job again after a restart.", ""),
-    entry("not-armed", "The robot's controller was reset and has not been released to move yet.", "It releases itself when you start a job."),
+    entry("not-armed", "The robot has not been released to move since it started, stopped or reconnected.", "It releases itself when you start a job."),
     entry("arm-refused", "The robot's firmware does not release its wheels.", "Look at what inhibits it in the device table."),
     entry("link-lost", "The robot does not answer any more.", "Check the cable and its power; it comes back by itself."),
     entry("link-restored", "The robot answers again.", ""),

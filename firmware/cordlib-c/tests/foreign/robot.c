@@ -149,6 +149,7 @@ static void check_machine(void)
     check(cord_set_wheels(0.23, -1, 0.1, 0.4) == 0, "a negative way is refused");
     check(cord_declare("bumpers", 2) && cord_declare("beeper", 1), "parts are declared");
     check(cord_declare("bumper", 2) == 0, "names match exactly");
+    check(cord_set_hand_mode(1) == 1 && cord_set_hand_mode(2) == 0, "hand mode is allowed or not");
 }
 
 /* A fault that stands cannot be cleared, and cord_init, which is a reset, does not take it away. */
@@ -205,6 +206,8 @@ int main(void)
     run(50);
 
     check(cord_set_speed_goal(NAN, 0) == CORD_RANGE, "NaN is no speed");
+    check(cord_set_speed_goal(0.1, -0.1) == CORD_INHIBITED, "who types has armed for nobody else");
+    check(cord_arm(0) == CORD_OK, "the firmware arms for itself");
     check(cord_set_speed_goal(0.1, -0.1) == CORD_OK, "the firmware's own goal");
     run(150);
     check(throttles[0] > 0 && throttles[1] < 0, "turns on the spot");

@@ -32,15 +32,33 @@ pub enum MotorActivity {
     Running,
 }
 
+/// How the robot stands to the dock. The contacts are debounced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Docking {
+    /// The contacts are open.
+    Away,
+    /// The contacts are closed, and the robot is about to leave.
+    Leaving,
+    /// The contacts are closed, and the robot stays.
+    Docked,
+}
+
 /// What the charger must know of the rest of the firmware.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChargeContext {
-    /// The contacts are closed, debounced, and the robot is not about to leave.
-    pub docked: bool,
+    /// How the robot stands to the dock.
+    pub docking: Docking,
     /// Whether anything turns.
     pub motors: MotorActivity,
     /// Estimated load of the parts that are switched on, in mA.
     pub load_ma: i32,
+}
+
+impl ChargeContext {
+    /// Whether the pack may be charged, as far as the dock is concerned.
+    pub(super) fn is_docked(&self) -> bool {
+        self.docking == Docking::Docked
+    }
 }
 
 /// What the board has to do.
@@ -149,7 +167,7 @@ impl<S: Stops> ChargeController<S> {
     }
 
     fn pass_time(&mut self, context: ChargeContext, elapsed_ms: u32) {
-        let supplied = context.docked && self.meter.adapter();
+        let supplied = context.is_docked() && self.meter.adapter();
         let add = |condition: bool, span_ms: u32| {
             if condition {
                 span_ms.saturating_add(elapsed_ms)
@@ -157,8 +175,8 @@ impl<S: Stops> ChargeController<S> {
                 0
             }
         };
-        self.docked_ms = add(context.docked, self.docked_ms);
-        self.undocked_ms = add(!context.docked, self.undocked_ms);
+        self.docked_ms = add(context.is_docked(), self.docked_ms);
+        self.undocked_ms = add(!context.is_docked(), self.undocked_ms);
         self.supplied_ms = add(supplied, self.supplied_ms);
         self.off_ms = add(self.output.drive == ChargeDrive::Off, self.off_ms);
         self.asked_ms = add(self.output.request == DockRequest::Current, self.asked_ms);
@@ -178,7 +196,7 @@ impl<S: Stops> ChargeController<S> {
         }
         if let Some(averages) = windows.of(AveragingWindow::Second) {
             self.thermometer.each_second(&averages);
-            let no_supply = !self.meter.adapter() && !context.docked;
+            let no_supply = !self.meter.adapter() && context.docking == Docking::Away;
             if no_supply && self.off_ms >= averages.elapsed_ms {
                 self.current_offset.learn(&averages);
             }
@@ -230,7 +248,7 @@ impl<S: Stops> ChargeController<S> {
         } else {
             self.charge.flow();
         }
-        let request = if wanted && context.docked {
+        let request = if wanted && context.is_docked() {
             DockRequest::Current
         } else {
             DockRequest::Silent
@@ -241,7 +259,7 @@ impl<S: Stops> ChargeController<S> {
 
     fn view(&self, context: ChargeContext) -> ChargeConditions {
         ChargeConditions {
-            supplied: context.docked && self.meter.adapter(),
+            supplied: context.is_docked() && self.meter.adapter(),
             motors_idle: context.motors == MotorActivity::Idle,
             age_ms: self.meter.age_ms(),
             temperature_cc: self.thermometer.cc(),

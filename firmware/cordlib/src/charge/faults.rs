@@ -4,7 +4,7 @@ use rvac_protocol::message::{ChargeFault, ChargePhase};
 
 use crate::board::ThermistorFault;
 
-use super::controller::{ChargeContext, ChargeController};
+use super::controller::{ChargeContext, ChargeController, Docking};
 use super::frozen_sensor::FrozenSensorDetector;
 use super::guard::AGE_MAX_MS;
 use super::meter::{Averages, AveragingWindow, CompletedWindows};
@@ -69,6 +69,13 @@ impl FaultWatch {
         self.seconds_mv = [None; 2];
     }
 
+    /// Resets the timers of faults that need a charge. A shorted switch needs none.
+    fn rest_but_for_leaks(&mut self) {
+        let leak_ms = self.leak_ms;
+        self.rest();
+        self.leak_ms = leak_ms;
+    }
+
     /// Resets the timers: off the dock the charger has no faults. The count of interruptions stays.
     fn rest(&mut self) {
         *self = Self {
@@ -97,14 +104,17 @@ impl<S: Stops> ChargeController<S> {
         windows: &CompletedWindows,
         context: ChargeContext,
     ) -> Option<ChargeFault> {
-        if !context.docked {
+        if context.docking == Docking::Away {
             self.watch.rest();
             return None;
+        }
+        if context.docking == Docking::Leaving {
+            self.watch.rest_but_for_leaks();
         }
         let leak = windows
             .of(AveragingWindow::Tenth)
             .and_then(|averages| self.find_leak(&averages));
-        if self.phase == ChargePhase::Fault {
+        if self.phase == ChargePhase::Fault || context.docking == Docking::Leaving {
             return leak.filter(|_| self.fault != Some(ChargeFault::Shorted));
         }
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
@@ -120,6 +130,11 @@ impl<S: Stops> ChargeController<S> {
         let current_ma = self.current_offset.correct(*averages).current_ma;
         let leaks = self.off_ms >= SETTLE_MS && current_ma > LEAK_MA;
         lasts(&mut self.watch.leak_ms, leaks, averages.elapsed_ms, LEAK_MS).then_some(ChargeFault::Shorted)
+    }
+
+    /// Whether current flows though the switch is off, and has done so for a second.
+    pub(crate) const fn leaks(&self) -> bool {
+        self.watch.leak_ms >= LEAK_MS
     }
 
     fn find_in_envelope(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {

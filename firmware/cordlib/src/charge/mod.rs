@@ -24,7 +24,7 @@ mod scale;
 mod stops;
 mod thermometer;
 
-pub use controller::{ChargeContext, ChargeController, ChargeOutput, MotorActivity};
+pub use controller::{ChargeContext, ChargeController, ChargeOutput, Docking, MotorActivity};
 pub use memory::ChargeMemory;
 pub use stops::{AllStops, Stops};
 

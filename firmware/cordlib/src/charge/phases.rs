@@ -278,7 +278,7 @@ impl<S: Stops> ChargeController<S> {
 
     /// Advances the state machine by what was measured.
     pub(super) fn advance(&mut self, windows: &CompletedWindows, context: ChargeContext) {
-        if !context.docked {
+        if !context.is_docked() {
             self.leave_dock();
             return;
         }

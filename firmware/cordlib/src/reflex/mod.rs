@@ -9,7 +9,6 @@ mod button;
 mod cliff;
 mod dock;
 mod encoder;
-mod host;
 mod lift;
 mod progress;
 mod reset;
@@ -18,11 +17,11 @@ mod stall;
 
 pub(crate) use battery::PackView;
 pub(crate) use button::ButtonChange;
-pub(crate) use dock::DockChange;
 pub(crate) use stall::{Load, StallRule};
 
 use rvac_protocol::message::{Bumpers, ChargeFault, Cliffs, Inhibit, Inhibits, Motor, WheelDrops};
 
+use crate::arming::{Arming, ArmingEvent};
 use crate::board::ResetRecord;
 use crate::guarded::Latches;
 use crate::motion::{MotionStatus, WheelStatus};
@@ -36,7 +35,6 @@ use button::ButtonRule;
 use cliff::{CliffContext, CliffRule};
 use dock::DockRule;
 use encoder::EncoderRule;
-use host::HostRule;
 use lift::LiftRule;
 use progress::{Headway, ProgressRule};
 use reset::ResetRule;
@@ -45,7 +43,7 @@ use runaway::RunawayRule;
 /// State of all rules.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reflexes {
-    pub(crate) host: HostRule,
+    pub(crate) arming: Arming,
     pub(crate) dock: DockRule,
     /// What is wrong with the charger.
     pub(crate) charger_fault: Option<ChargeFault>,
@@ -64,6 +62,8 @@ pub(crate) struct Reflexes {
     idle: bool,
     latched: Latches,
     wheel_turns: bool,
+    /// Turning wheels are the robot's own doing, and no push by hand.
+    is_watched: bool,
     /// Encoders are fitted and calibrated: counts are distances.
     counted: bool,
     /// Wheels whose encoder has counted since the reset, calibrated or not.
@@ -73,7 +73,7 @@ pub(crate) struct Reflexes {
 /// What the fast rules found in one pass.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Findings {
-    pub(crate) dock: Option<DockChange>,
+    pub(crate) dock: Option<ArmingEvent>,
     pub(crate) buttons: ButtonChange,
 }
 
@@ -86,7 +86,7 @@ impl Reflexes {
             latched.insert(Inhibit::ResetLoop);
         }
         Self {
-            host: HostRule::default(),
+            arming: Arming::default(),
             dock: DockRule::default(),
             charger_fault: None,
             battery: BatteryRule::default(),
@@ -104,6 +104,7 @@ impl Reflexes {
             idle: false,
             latched,
             wheel_turns: false,
+            is_watched: false,
             counted,
             alive: [false; 2],
         }
@@ -189,6 +190,8 @@ impl Reflexes {
     fn judge_encoders(&mut self, senses: &Senses, motion: &MotionStatus, parameters: &Parameters) {
         let wheels = [motion.left, motion.right];
         self.wheel_turns = wheels.iter().any(WheelStatus::is_turning);
+        // A permission that ends does not end a bridge that goes on: the watch lasts until the wheels have come to rest.
+        self.is_watched = !self.arming.is_locked() || (self.is_watched && self.wheel_turns);
         for (wheel, rule) in wheels.into_iter().zip(&mut self.encoder) {
             if rule.update(wheel, senses.now) {
                 self.latched.insert(Inhibit::EncoderFault);
@@ -196,7 +199,7 @@ impl Reflexes {
         }
         for (wheel, rule) in wheels.into_iter().zip(&mut self.runaway) {
             let is_runaway = rule.update(wheel, senses.now);
-            if is_runaway && self.host.is_armed() {
+            if is_runaway && self.is_watched {
                 self.latched.insert(Inhibit::Runaway);
             }
         }
@@ -279,7 +282,7 @@ impl Reflexes {
     /// Everything that inhibits now.
     pub(crate) fn inhibits(&self) -> Inhibits {
         let mut all = Inhibits::from_bits(
-            self.latched.members().bits() | self.host.inhibits().bits() | self.battery.inhibits().bits(),
+            self.latched.members().bits() | self.arming.inhibits().bits() | self.battery.inhibits().bits(),
         );
         let shorted = self.charger_fault == Some(ChargeFault::Shorted);
         let present = [
@@ -290,7 +293,7 @@ impl Reflexes {
             (Inhibit::CliffSensorFault, self.blinded),
             (Inhibit::WheelDrop, self.lifted),
             (Inhibit::NotMoving, self.idle),
-            (Inhibit::Docked, self.dock.inhibits()),
+            (Inhibit::Docked, self.is_held_by_dock()),
         ];
         for (inhibit, is_present) in present {
             if is_present {
@@ -303,13 +306,18 @@ impl Reflexes {
     /// Which motion is allowed, given whether a lease is fresh.
     pub(crate) fn motion_permit(&self, fresh: bool) -> MotionPermit {
         MotionPermit {
-            armed: self.host.is_armed(),
+            armed: !self.arming.is_locked(),
             fresh,
             inhibits: self.inhibits(),
             bumpers: self.bumper.pressed(),
-            escaping_dock: false,
+            escaping_dock: self.arming.is_escaping(),
             reverse: ReverseBound::default(),
         }
+    }
+
+    /// Whether the robot stands on the dock and is not about to leave it.
+    pub(crate) const fn is_held_by_dock(&self) -> bool {
+        self.dock.is_docked() && !self.arming.may_leave_dock()
     }
 
     /// Bumper zones that count as pressed.

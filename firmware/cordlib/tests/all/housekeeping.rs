@@ -1,7 +1,7 @@
 //! Telemetry, clock, tones, lights, counters, and what a panic leaves behind.
 
 use crate::rig;
-use crate::rig::{Rig, drive, motor};
+use crate::rig::{Rig, motor};
 use cordlib::board::{Board, WheelDrive};
 use rvac_protocol::message::{
     Beep, Bumpers, Command, Event, Inhibit, Led, LedPattern, Motor, Parameter, Report, Sequence,
@@ -229,27 +229,11 @@ fn a_late_pass_neither_doubles_nor_loses_anything() {
 fn hand_mode_drives_slowly_by_typed_packets() {
     let mut rig = Rig::switched_on(0);
     rig.host_dead = true;
-    let type_in = |rig: &mut Rig, text: &str| {
-        let bytes = text.bytes().chain([0x1F]);
-        let received = bytes.map(cordlib::board::Received::Byte);
-        rig.cord.board_mut().link.to_robot.extend(received);
-        rig.run(20);
-    };
-    type_in(&mut rig, r#"{"c":"arm","n":1,"undock":false}"#);
+    rig.type_in(r#"{"c":"arm","n":1,"undock":false}"#);
     assert!(rig.cord.is_armed());
-    type_in(&mut rig, r#"{"c":"drive","v":0.3,"w":0,"ttl":1000}"#);
+    rig.type_in(r#"{"c":"drive","v":0.3,"w":0,"ttl":1000}"#);
     rig.run(400);
     assert!((rig.rims[0] - 0.1).abs() < 0.02, "{:?}", rig.rims);
     rig.run(200);
     assert!(rig.wheels_off(), "at most half a second of lease");
-}
-
-#[test]
-fn a_new_session_voids_leases() {
-    let mut rig = Rig::driving(0);
-    rig.repeated.clear();
-    rig.host = rvac_protocol::session::HostSession::new(Default::default(), rvac_units::Tick(0));
-    rig.run_until(500, |rig| rig.wheels_off());
-    rig.connect();
-    assert_eq!(rig.try_motion(drive(0.1, 0.0)), Ok(()));
 }

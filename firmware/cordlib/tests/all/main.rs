@@ -1,6 +1,7 @@
 //! The firmware's shared logic on a board of plain values; one program, so that it is linked once.
 
 mod absence;
+mod arming;
 mod charge_faults;
 mod charging;
 mod dock;

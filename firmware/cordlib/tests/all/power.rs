@@ -8,7 +8,7 @@ use rvac_protocol::message::{
 };
 use rvac_units::Temperature;
 
-const PACK: ChargerReadings = ChargerReadings {
+pub(crate) const PACK: ChargerReadings = ChargerReadings {
     pack_mv: 15_000,
     input_mv: 15_000,
     current_ma: 0,
@@ -51,7 +51,7 @@ fn docked(rig: &mut Rig, readings: ChargerReadings) {
 }
 
 /// The current follows the switch, as a supply of 1.5 A makes it.
-fn feed(rig: &mut Rig, milliseconds: u32) {
+pub(crate) fn feed(rig: &mut Rig, milliseconds: u32) {
     for _ in 0..milliseconds {
         let board = rig.cord.board_mut();
         let current_ma = match board.charger.drive {
@@ -66,7 +66,7 @@ fn feed(rig: &mut Rig, milliseconds: u32) {
 }
 
 /// On the dock, with current flowing.
-fn charging(start: u32) -> Rig {
+pub(crate) fn charging(start: u32) -> Rig {
     let mut rig = Rig::connected(start);
     show(&mut rig, PACK);
     rig.run(1_000);

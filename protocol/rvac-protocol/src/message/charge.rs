@@ -29,6 +29,8 @@ macro_rules! names {
     };
 }
 
+pub(super) use names;
+
 names! {
     /// Phase of the charger's state machine (table of the charger in SAFETY.md).
     ChargePhase: 6 {

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Inhibit {
-    /// No `arm` since the reset (S4), or disarmed.
+    /// Nobody has armed since the reset (S4), or since what ended the last arming.
     NotArmed = 0,
     /// Three resets within 60 s (S4). Latched.
     ResetLoop = 1,

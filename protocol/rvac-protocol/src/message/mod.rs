@@ -1,5 +1,6 @@
 //! All messages of both sides, as closed types. The text and binary forms encode these.
 
+mod arming;
 mod charge;
 mod command;
 mod describe;
@@ -8,6 +9,7 @@ mod inhibit;
 mod probe;
 mod report;
 
+pub use arming::ArmingState;
 pub use charge::{ChargeEnd, ChargeFault, ChargePhase, ChargerStatus};
 pub use command::{
     Beep, Command, Drive, HostHello, Led, LedPattern, Motor, MotorCommand, Move, Parameter, Sequence,

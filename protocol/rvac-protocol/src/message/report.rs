@@ -3,7 +3,7 @@
 use heapless::String;
 use rvac_units::{Angle, AngularSpeed, Current, Ratio, Temperature, Tick, Voltage};
 
-use super::{ChargerStatus, Inhibits, Motor, Name, Probed, RobotHello, Sequence};
+use super::{ArmingState, ChargerStatus, Inhibits, Motor, Name, Probed, RobotHello, Sequence};
 
 /// Most proximity sensors a report can carry.
 pub const PROXIMITY_SENSORS: usize = 8;
@@ -54,6 +54,8 @@ pub struct Info {
     pub bandwidth_out: u32,
     /// Link counters since reset.
     pub link: LinkCounters,
+    /// `arming`: who may move the robot; firmware before this key does not tell.
+    pub arming: Option<ArmingState>,
 }
 
 /// Quality of the link as the robot sees it, totals since its reset.

@@ -7,8 +7,8 @@ use super::report_robot::read_name;
 use super::write::ObjectWriter;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::message::{
-    Battery, ChargeEnd, ChargeFault, ChargePhase, ChargeState, ChargerStatus, Info, LinkCounters, Name,
-    Refusal,
+    ArmingState, Battery, ChargeEnd, ChargeFault, ChargePhase, ChargeState, ChargerStatus, Info,
+    LinkCounters, Name, Refusal,
 };
 use crate::span;
 
@@ -36,6 +36,8 @@ pub struct FirmwareInfo {
     pub bandwidth_in: u32,
     /// `bandwidth-out`
     pub bandwidth_out: u32,
+    /// `arming`
+    pub arming: Option<ArmingState>,
 }
 
 const CHARGE_STATES: [(ChargeState, &str); 4] = [
@@ -45,13 +47,14 @@ const CHARGE_STATES: [(ChargeState, &str); 4] = [
     (ChargeState::Fault, "fault"),
 ];
 
-const FIRMWARE_KEYS: [&str; 6] = [
+const FIRMWARE_KEYS: [&str; 7] = [
     "c",
     "firmware-version",
     "cordlib-version",
     "main-steps",
     "bandwidth-in",
     "bandwidth-out",
+    "arming",
 ];
 
 const BATTERY_KEYS: [&str; 9] = [
@@ -78,14 +81,18 @@ const LINK_KEYS: [&str; 8] = [
 ];
 
 pub(super) fn write_firmware(info: &Info, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
-    ObjectWriter::new(buffer)
+    let mut object = ObjectWriter::new(buffer);
+    object
         .name("c", "info")
         .name("firmware-version", &info.firmware_version)
         .name("cordlib-version", &info.cordlib_version)
         .number("main-steps", info.main_steps_hz, span::TOTAL)
         .number("bandwidth-in", info.bandwidth_in, span::TOTAL)
-        .number("bandwidth-out", info.bandwidth_out, span::TOTAL)
-        .finish()
+        .number("bandwidth-out", info.bandwidth_out, span::TOTAL);
+    if let Some(arming) = info.arming {
+        object.name("arming", arming.name());
+    }
+    object.finish()
 }
 
 pub(super) fn write_battery(battery: &Battery, buffer: &mut PacketBuffer) -> Result<(), EncodeError> {
@@ -146,13 +153,15 @@ pub(super) fn read(text: &[u8]) -> Result<InfoPart, Refusal> {
     })
 }
 
-fn read_firmware(fields: &Fields<'_, 6>) -> Result<FirmwareInfo, Refusal> {
+fn read_firmware(fields: &Fields<'_, 7>) -> Result<FirmwareInfo, Refusal> {
     Ok(FirmwareInfo {
         firmware_version: read_name(fields.text(1)?)?,
         cordlib_version: read_name(fields.text(2)?)?,
         main_steps_hz: fields.total(3)?,
         bandwidth_in: fields.total(4)?,
         bandwidth_out: fields.total(5)?,
+        // A name of a newer robot is ignored.
+        arming: ArmingState::from_name(fields.text_or_empty(6)?),
     })
 }
 

@@ -162,12 +162,16 @@ fn capabilities(parts: &Capabilities) -> Value {
 }
 
 pub(crate) fn firmware(info: &Info) -> Value {
-    json!({
+    let mut meaning = json!({
         "report": "info", "firmware_version": info.firmware_version.as_str(),
         "cordlib_version": info.cordlib_version.as_str(), "main_steps_hz": info.main_steps_hz,
         "bandwidth_in": info.bandwidth_in, "bandwidth_out": info.bandwidth_out,
         "battery": info.battery.as_ref().map(battery), "link": link(&info.link),
-    })
+    });
+    if let Some(arming) = info.arming {
+        meaning["arming"] = json!(arming.name());
+    }
+    meaning
 }
 
 pub(crate) fn battery(battery: &Battery) -> Value {

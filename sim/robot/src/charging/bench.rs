@@ -2,7 +2,7 @@
 
 use cordlib::PackParameters;
 use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest};
-use cordlib::charge::{ChargeContext, ChargeController, ChargeOutput, MotorActivity, Stops};
+use cordlib::charge::{ChargeContext, ChargeController, ChargeOutput, Docking, MotorActivity, Stops};
 use home::{Pack, Pcg};
 use rvac_units::Tick;
 
@@ -146,7 +146,11 @@ impl<S: Stops> ChargeBench<S> {
         let readings = self.read();
         let context = ChargeContext {
             // The contacts are debounced by 300 ms, so a bounce leaves the robot docked.
-            docked: self.seconds() >= DOCKS_S,
+            docking: if self.seconds() >= DOCKS_S {
+                Docking::Docked
+            } else {
+                Docking::Away
+            },
             motors: MotorActivity::Idle,
             load_ma: 15,
         };

@@ -38,7 +38,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("finished", "Töö on tehtud.", ""),
     entry("continued", "Robot jätkab pärast katkestust ise.", ""),
     entry("restored", "Robot jätkab pärast taaskäivitust poolelijäänud tööd.", ""),
-    entry("not-armed", "Roboti kontroller lähtestati ja tal ei ole veel luba liikuda.", "Luba tuleb tööd alustades iseenesest."),
+    entry("not-armed", "Robotil ei ole pärast käivitumist, peatumist või uut ühendust veel luba liikuda.", "Luba tuleb tööd alustades iseenesest."),
     entry("arm-refused", "Roboti püsivara ei luba ratastel liikuda.", "Vaata seadme tabelist, mis seda takistab."),
     entry("link-lost", "Robot ei vasta enam.", "Kontrolli kaablit ja toidet; ühendus taastub ise."),
     entry("link-restored", "Robot vastab jälle.", ""),

@@ -7,7 +7,7 @@
 
 use cordlib::PackParameters;
 use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, ThermistorFault};
-use cordlib::charge::{ChargeContext, ChargeController, ChargeMemory, ChargeOutput, MotorActivity};
+use cordlib::charge::{ChargeContext, ChargeController, ChargeMemory, ChargeOutput, Docking, MotorActivity};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use rvac_units::{Temperature, Tick};
 
@@ -109,7 +109,11 @@ impl Dock {
             adapter: self.adapter,
         };
         let context = ChargeContext {
-            docked: self.docked,
+            docking: if self.docked {
+                Docking::Docked
+            } else {
+                Docking::Away
+            },
             motors: self.motors,
             load_ma: 15,
         };

@@ -235,6 +235,13 @@ impl Rig {
         }
     }
 
+    /// A person types a packet without a CRC, whatever has become of the host.
+    pub fn type_in(&mut self, text: &str) {
+        let received = text.bytes().chain([0x1F]).map(Received::Byte);
+        self.cord.board_mut().link.to_robot.extend(received);
+        self.run(20);
+    }
+
     pub fn host_now(&self) -> Tick {
         Tick(self.now_ms as u32)
     }

@@ -119,6 +119,7 @@ impl HostCore {
             bandwidth_in: firmware.bandwidth_in,
             bandwidth_out: firmware.bandwidth_out,
             link: self.info_link,
+            arming: firmware.arming,
         })))
     }
 
