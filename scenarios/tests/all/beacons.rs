@@ -11,7 +11,7 @@ use robot::RobotSettings;
 use rvac_api::RequestBody;
 use rvac_sim::run::{core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
-use scenarios::{cleaning, relax};
+use scenarios::{cleaning, in_phase, relax};
 
 const SEED: u64 = 6;
 const MINUTE_MS: u64 = 60_000;
@@ -38,7 +38,11 @@ fn household(scene: &Scene) -> Household {
         ..RobotSettings::default()
     };
     let config = core_config(scene, SEED, StrategyName::Systematic);
-    Household::new(scene.robot(SEED, &settings), Host::start(0, config)).with_known_map()
+    in_phase(Household::new(
+        scene.robot(SEED, &settings),
+        Host::start(0, config),
+    ))
+    .with_known_map()
 }
 
 /// Lets it clean both rooms, carries it to a place of the second one, and waits until it says that it knows its place; gives by how

@@ -2,9 +2,9 @@
 
 use brain::command::StrategyName;
 use brain::{GyroLearnt, Learnt};
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{generated_with, scene, settings};
+use scenarios::{generated_with, household, scene, settings};
 use vthal_core::CoreConfig;
 use vthal_core::learnt::{Learnings, RobotRecord};
 

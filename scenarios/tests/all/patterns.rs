@@ -3,9 +3,9 @@
 use brain::command::StrategyName;
 use brain::{Cell, Map};
 use rvac_api::{CleaningPattern, RequestBody, RoomSettings};
-use rvac_sim::run::{RunEnd, RunSettings, household, run_until};
+use rvac_sim::run::{RunEnd, RunSettings, run_until};
 use rvac_sim::{Host, Household, RunReport};
-use scenarios::{scene, settings};
+use scenarios::{household, scene, settings};
 
 const MINUTE_MS: u64 = 60_000;
 

@@ -5,9 +5,9 @@ use brain::BehaviorState;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_api::RequestBody;
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{household, scene, settings};
 
 const HOME: &str = "furnished-room";
 const MINUTE_MS: u64 = 60_000;
