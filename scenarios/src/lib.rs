@@ -2,6 +2,7 @@
 //! `tests/`; here is what they share.
 #![forbid(unsafe_code)]
 
+mod draws;
 mod phase;
 mod table;
 mod watched;
@@ -13,6 +14,7 @@ use home::Pose;
 use rvac_sim::run::{RunSettings, start_cleaning};
 use rvac_sim::{CalibrationChoice, GyroFitted, Household, Scene, SceneSettings};
 
+pub use draws::{Bounds, Draws};
 pub use phase::{household, in_phase};
 pub use table::Table;
 pub use watched::{JOB_S, Watched, free_place, is_home, recorded, usual};
