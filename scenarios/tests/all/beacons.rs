@@ -80,7 +80,7 @@ const NEAR_M: f64 = 0.25;
 /// Robots that were carried, each by a seed of its own.
 const CARRIED: RangeInclusive<u64> = 1..=6;
 
-/// With strengths 24 of 24 knew their place, and by sight alone one of 24 in that time.
+/// With strengths 24 of 24 knew their place; by sight alone one of 24 thought so in that time, and was wrong.
 #[test]
 fn strengths_of_beacons_tell_rooms_apart_that_look_the_same() {
     let scene = twins();
@@ -103,7 +103,8 @@ const DRIVINGS: RangeInclusive<u64> = 1..=8;
 const DRIVEN_MS: u64 = 6 * MINUTE_MS;
 /// How often its place is compared with the true one.
 const LOOK_MS: u64 = 1_000;
-/// Metres by which a place by beacons is off in the last minute: in 16 drivings 0.31 in the middle and 1.24 at most.
+/// Metres by which a place by beacons is off in the last minute: in 16 drivings (four seeds, four phases) 0.31 in
+/// the middle and 1.24 at most.
 const HEARD_M: Bounds = Bounds {
     median: 0.7,
     worst: 2.0,

@@ -77,7 +77,7 @@ fn the_daemon_after_this_one_begins_with_the_scale_that_was_learnt() {
 const NEW: RangeInclusive<u64> = 1..=8;
 const NEW_HOMES: [u32; 4] = [1, 7, 11, 25];
 const TURNS_MS: u64 = 4 * MINUTE_MS;
-/// By how much the scale is off, how well the robot says to know it, and the one by the other. In 64 runs the middle was 1.1e-3, 1.4e-3 and 0.9,
+/// By how much the scale is off, how well the robot says to know it, and the one by the other. In 60 runs the middle was 1.1e-3, 1.4e-3 and 0.9,
 /// that of eight runs 2.0e-3, 1.6e-3 and 1.3 at most, and the worst 5.1e-3, 2.3e-3 and 4.8.
 const OFF: Bounds = Bounds {
     median: 3e-3,

@@ -9,7 +9,7 @@ use scenarios::{household, scene, settings};
 
 const MINUTE_MS: u64 = 60_000;
 
-/// Rings may sweep less than lanes by this share: in six phases they swept between 0.003 less and 0.014 more.
+/// Rings may sweep less than lanes by this share: in five draws they swept between 0.003 less and 0.014 more.
 const LESS: f64 = 0.02;
 
 /// A job in the furnished room, which the robot knows.
