@@ -1,5 +1,6 @@
 //! Reasons that keep a robot from moving or working, independent of its make.
 
+use crate::model::link_fault::LinkFault;
 use crate::model::named_enum::named_enum;
 
 named_enum! {
@@ -61,6 +62,20 @@ named_enum! {
         Clock => "clock",
         /// Memory failed its check.
         Memory => "memory",
+        /// What comes over the line is not the robot's. This and all that follow are of the host, not of the firmware.
+        LinkGarbled => "link-garbled",
+        /// Reports arrive damaged.
+        LinkCorrupted => "link-corrupted",
+        /// Reports come too seldom.
+        LinkLate => "link-late",
+        /// Reports come, and the robot's clock in them stands.
+        ClockFrozen => "clock-frozen",
+        /// The robot's clock jumps.
+        ClockJumped => "clock-jumped",
+        /// Most commands reach the robot damaged.
+        CommandsLost => "commands-lost",
+        /// The robot refuses commands because they are too old when they reach it.
+        CommandsStale => "commands-stale",
     }
 }
 
@@ -87,8 +102,8 @@ impl Inhibit {
         )
     }
 
-    const fn bit(self) -> u32 {
-        1 << self as u32
+    const fn bit(self) -> u64 {
+        1 << self as u64
     }
 }
 
@@ -98,7 +113,7 @@ const UNKNOWN: &str = "unknown-inhibit";
 /// A set of inhibits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inhibits {
-    known: u32,
+    known: u64,
     other: Option<&'static str>,
 }
 
@@ -164,6 +179,12 @@ impl Inhibits {
     /// The known members, in the order of [`Inhibit::all`].
     pub fn iter(self) -> impl Iterator<Item = Inhibit> {
         Inhibit::all().filter(move |inhibit| self.contains(*inhibit))
+    }
+
+    /// What is wrong with the link, if it is not silent.
+    #[must_use]
+    pub fn link_fault(self) -> Option<LinkFault> {
+        self.iter().find_map(LinkFault::of_inhibit)
     }
 
     /// The names of all members; one that [`Inhibit`] lacks comes last.

@@ -8,7 +8,7 @@ use home::{Beacons, BoardGyro, Home, Pose};
 use crate::carpet_quality;
 use crate::figures::{Belief, Collector, MeasuredFloor};
 use crate::known_map::known_map;
-use crate::link_faults::{HostClock, Tamper};
+use crate::line_faults::{HostClock, Tamper};
 use crate::linux_board::LinuxBoard;
 use crate::map_quality::judge;
 use crate::report::{Driven, RunReport, StuckWatch};

@@ -19,7 +19,7 @@ use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
 use rvac_sim::baseline::add_missing;
 use rvac_sim::faults::{FaultCampaign, Summary, trials};
-use rvac_sim::link_faults::{LinkFault, LinkFaultTable, passages};
+use rvac_sim::line_faults::{LineFault, LineFaultTable, passages};
 use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
@@ -37,7 +37,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         SimCommand::Serve(arguments) => serve_robot(&arguments),
         SimCommand::Run(arguments) => run_household(&arguments),
-        SimCommand::Faults(arguments) if arguments.link => run_link_trials(&arguments),
+        SimCommand::Faults(arguments) if arguments.line => run_line_trials(&arguments),
         SimCommand::Faults(arguments) => run_trials(&arguments),
         SimCommand::Homes(arguments) => write_homes(&arguments.folder),
         SimCommand::Report(arguments) => write_page(&arguments),
@@ -206,11 +206,11 @@ fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
 }
 
 /// The home in which the faults of the line are measured.
-const LINK_HOME: &str = "generated:1";
+const LINE_HOME: &str = "generated:1";
 
-fn run_link_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
+fn run_line_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     let scene = Scene::load(&SceneSettings {
-        home: LINK_HOME.into(),
+        home: LINE_HOME.into(),
         robot: arguments.robot.clone(),
         noise: "nominal".to_owned(),
         firmware: arguments.firmware.clone(),
@@ -222,11 +222,11 @@ fn run_link_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     let count = seeds.end - seeds.start;
     let mut all = Vec::new();
     for seed in seeds {
-        all.push(passages(&scene, seed, &LinkFault::ALL));
+        all.push(passages(&scene, seed, &LineFault::ALL));
         progress.show(all.len() as f64 / count as f64);
     }
     progress.clear();
-    let table = LinkFaultTable::of(&all);
+    let table = LineFaultTable::of(&all);
     if arguments.json {
         print(&serde_json::to_string(&table)?)?;
     } else {

@@ -84,7 +84,7 @@ impl Sign {
         }
     }
 
-    const fn is_in(self, observation: &Observation) -> bool {
+    fn is_in(self, observation: &Observation) -> bool {
         match self {
             Self::BumperLeft => observation.contacts.left,
             Self::BumperRight => observation.contacts.right,
@@ -93,7 +93,8 @@ impl Sign {
             Self::CliffRight => observation.cliffs.right,
             Self::WheelDrop => observation.wheel_drop,
             Self::Docked => observation.docked,
-            Self::LinkLost => !observation.link_up,
+            // What is wrong with a link that is not silent is among the inhibits.
+            Self::LinkLost => !observation.link_up && observation.inhibits.link_fault().is_none(),
         }
     }
 }

@@ -10,7 +10,7 @@ mod table;
 mod tamper;
 mod trial;
 
-pub use fault::{HostClock, LinkFault};
-pub use table::LinkFaultTable;
+pub use fault::{HostClock, LineFault};
+pub use table::LineFaultTable;
 pub use tamper::Tamper;
-pub use trial::{FaultPassage, LinkTrial, passages};
+pub use trial::{FaultPassage, LineTrial, passages};

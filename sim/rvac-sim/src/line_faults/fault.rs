@@ -4,7 +4,7 @@ use core::fmt;
 
 /// A fault of the line. All but those of a single moment last until they are taken away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LinkFault {
+pub enum LineFault {
     /// Nothing is wrong.
     #[default]
     None,
@@ -95,7 +95,7 @@ pub(super) const SUSPENDED_MS: u64 = 60_000;
 /// Jumps of a clock that jumps more than once are so far apart, ms.
 pub(super) const JUMP_PAUSE_MS: u64 = 2_000;
 
-impl LinkFault {
+impl LineFault {
     /// Those of the table: mild and hard ones of each kind.
     pub const ALL: [Self; 39] = [
         Self::None,
@@ -185,7 +185,7 @@ impl LinkFault {
     }
 }
 
-impl fmt::Display for LinkFault {
+impl fmt::Display for LineFault {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let seconds = |ms: i32| f64::from(ms) / 1_000.0;
         match *self {

@@ -8,14 +8,14 @@ use super::trial::FaultPassage;
 
 /// Passages over several seeds: means of ways, the worst of times.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct LinkFaultTable {
+pub struct LineFaultTable {
     /// Seeds of each fault.
     pub seeds: u64,
     /// One row for each fault.
     pub rows: Vec<FaultPassage>,
 }
 
-impl LinkFaultTable {
+impl LineFaultTable {
     /// Joins the passages of several seeds, each list in the same order.
     #[must_use]
     pub fn of(seeds: &[Vec<FaultPassage>]) -> Self {
@@ -54,7 +54,7 @@ fn joined(all: &[&FaultPassage], first: &FaultPassage) -> FaultPassage {
     }
 }
 
-impl fmt::Display for LinkFaultTable {
+impl fmt::Display for LineFaultTable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             formatter,

@@ -8,7 +8,7 @@ use rvac_protocol::frame::SEPARATOR;
 use rvac_protocol::message::{Command, State};
 use rvac_units::Tick;
 
-use super::fault::{JUMP_PAUSE_MS, LinkFault};
+use super::fault::{JUMP_PAUSE_MS, LineFault};
 use super::packets::{Content, Packet, PacketReader};
 
 const STREAM: u64 = 0x11F4;
@@ -18,7 +18,7 @@ const STREAM: u64 = 0x11F4;
 pub struct Tamper {
     from_robot: PacketReader,
     to_robot: PacketReader,
-    fault: LinkFault,
+    fault: LineFault,
     begun_ms: u64,
     now_ms: u64,
     /// Reports and commands since the fault began.
@@ -43,7 +43,7 @@ impl Tamper {
         Self {
             from_robot: PacketReader::new(Direction::RobotToHost),
             to_robot: PacketReader::new(Direction::HostToRobot),
-            fault: LinkFault::None,
+            fault: LineFault::None,
             begun_ms: 0,
             now_ms: 0,
             reports: 0,
@@ -58,7 +58,7 @@ impl Tamper {
     }
 
     /// From now on this is wrong with the line, instead of what was.
-    pub fn begin(&mut self, fault: LinkFault) {
+    pub fn begin(&mut self, fault: LineFault) {
         self.fault = fault;
         self.begun_ms = self.now_ms;
         (self.reports, self.commands, self.jumps) = (0, 0, 0);
@@ -97,8 +97,8 @@ impl Tamper {
 
     fn add_garbage(&mut self, out: &mut Vec<u8>) {
         let (per_s, is_open) = match self.fault {
-            LinkFault::Garbage { per_s } => (per_s, false),
-            LinkFault::OpenGarbage { per_s } => (per_s, true),
+            LineFault::Garbage { per_s } => (per_s, false),
+            LineFault::OpenGarbage { per_s } => (per_s, true),
             _ => return,
         };
         self.garbage += per_s;
@@ -140,20 +140,20 @@ impl Tamper {
     fn told(&mut self, state: State) -> State {
         let mut told = state;
         match self.fault {
-            LinkFault::StrayTick { by_ms } if self.reports == 0 => told.tick = shifted(told.tick, by_ms),
-            LinkFault::ShiftedTicks { by_ms } => told.tick = shifted(told.tick, by_ms),
-            LinkFault::ClockJump { by_ms, times } => {
+            LineFault::StrayTick { by_ms } if self.reports == 0 => told.tick = shifted(told.tick, by_ms),
+            LineFault::ShiftedTicks { by_ms } => told.tick = shifted(told.tick, by_ms),
+            LineFault::ClockJump { by_ms, times } => {
                 let due = 1 + (self.since_ms() / JUMP_PAUSE_MS).min(u64::from(times) - 1) as u32;
                 while self.jumps < due {
                     self.jumps += 1;
                     self.shift_ms = self.shift_ms.wrapping_add_signed(by_ms);
                 }
             }
-            LinkFault::FrozenTick { for_ms } if self.since_ms() < for_ms => {
+            LineFault::FrozenTick { for_ms } if self.since_ms() < for_ms => {
                 told.tick = self.before.map_or(told.tick, |before| before.tick);
                 return told;
             }
-            LinkFault::FrozenCounts => {
+            LineFault::FrozenCounts => {
                 if let Some(before) = self.before {
                     (told.count_left, told.count_right) = (before.count_left, before.count_right);
                 }
@@ -170,19 +170,19 @@ impl Tamper {
         let number = self.reports;
         let is_bad_second = self.since_ms() / 1_000 % 2 == 0;
         match self.fault {
-            LinkFault::WrongSeal { every } if number.is_multiple_of(every) => damage(&mut bytes),
-            LinkFault::EverySecondSecond if is_bad_second => damage(&mut bytes),
-            LinkFault::Thinned { keep_every } if !number.is_multiple_of(keep_every) => return,
-            LinkFault::Delayed { ms } => {
+            LineFault::WrongSeal { every } if number.is_multiple_of(every) => damage(&mut bytes),
+            LineFault::EverySecondSecond if is_bad_second => damage(&mut bytes),
+            LineFault::Thinned { keep_every } if !number.is_multiple_of(keep_every) => return,
+            LineFault::Delayed { ms } => {
                 self.waiting.push_back((self.now_ms + ms, bytes));
                 return;
             }
             // The first of two waits until the second has come.
-            LinkFault::Swapped if !number.is_multiple_of(2) => {
+            LineFault::Swapped if !number.is_multiple_of(2) => {
                 self.waiting.push_back((self.now_ms + 1_000, bytes));
                 return;
             }
-            LinkFault::Repeated { times } => {
+            LineFault::Repeated { times } => {
                 for _ in 1..times {
                     out.extend(&bytes);
                 }
@@ -190,7 +190,7 @@ impl Tamper {
             _ => {}
         }
         out.extend(bytes);
-        if self.fault == LinkFault::Swapped {
+        if self.fault == LineFault::Swapped {
             out.extend(self.waiting.drain(..).flat_map(|(_, first)| first));
         }
     }
@@ -204,7 +204,7 @@ impl Tamper {
             packet.bytes = self.to_robot.write(&packet.content);
         }
         self.commands += 1;
-        if let LinkFault::WrongCommandSeal { every } = self.fault
+        if let LineFault::WrongCommandSeal { every } = self.fault
             && self.commands.is_multiple_of(every)
         {
             damage(&mut packet.bytes);

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rvac_api::LogLevel;
 use serde::Serialize;
 
-use super::fault::{LinkFault, SUSPENDED_MS};
+use super::fault::{LineFault, SUSPENDED_MS};
 use super::tamper::Tamper;
 use crate::run::{RunSettings, household, start_cleaning};
 use crate::{Household, Scene};
@@ -23,11 +23,11 @@ const BEFORE_MAX_MS: u64 = 60_000;
 
 /// A fault and where it happens.
 #[derive(Clone, Debug)]
-pub struct LinkTrial<'a> {
+pub struct LineTrial<'a> {
     /// The home and the robot.
     pub scene: &'a Scene,
     /// What is wrong with the line.
-    pub fault: LinkFault,
+    pub fault: LineFault,
     /// Seed of everything.
     pub seed: u64,
 }
@@ -57,15 +57,15 @@ pub struct FaultPassage {
 
 /// The passages of all faults, in their order.
 #[must_use]
-pub fn passages(scene: &Scene, seed: u64, faults: &[LinkFault]) -> Vec<FaultPassage> {
-    let trial = |fault: &LinkFault| {
+pub fn passages(scene: &Scene, seed: u64, faults: &[LineFault]) -> Vec<FaultPassage> {
+    let trial = |fault: &LineFault| {
         let fault = *fault;
-        LinkTrial { scene, fault, seed }.run()
+        LineTrial { scene, fault, seed }.run()
     };
     faults.par_iter().map(trial).collect()
 }
 
-impl LinkTrial<'_> {
+impl LineTrial<'_> {
     /// Runs it.
     ///
     /// # Panics
@@ -94,7 +94,7 @@ impl LinkTrial<'_> {
             .map(|host| host.status().state)
             .unwrap_or_default();
         if let Some(tamper) = household.tamper_mut() {
-            tamper.begin(LinkFault::None);
+            tamper.begin(LineFault::None);
         }
         for ms in MEASURED_MS.. {
             if passage.healed_s.is_some() || ms > ends_ms + HEALING_MAX_MS {
@@ -132,8 +132,8 @@ impl LinkTrial<'_> {
             host.keep_log();
         }
         match self.fault {
-            LinkFault::HostSuspended(clock) => household.suspend_host(SUSPENDED_MS, clock),
-            LinkFault::CutOut { for_ms } => household.robot_mut().cut_line(for_ms),
+            LineFault::HostSuspended(clock) => household.suspend_host(SUSPENDED_MS, clock),
+            LineFault::CutOut { for_ms } => household.robot_mut().cut_line(for_ms),
             fault => {
                 if let Some(tamper) = household.tamper_mut() {
                     tamper.begin(fault);
