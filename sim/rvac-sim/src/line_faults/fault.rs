@@ -97,7 +97,7 @@ pub(super) const JUMP_PAUSE_MS: u64 = 2_000;
 
 impl LineFault {
     /// Those of the table: mild and hard ones of each kind.
-    pub const ALL: [Self; 39] = [
+    pub const ALL: [Self; 40] = [
         Self::None,
         Self::Garbage { per_s: 1 },
         Self::Garbage { per_s: 20 },
@@ -139,6 +139,7 @@ impl LineFault {
         Self::Swapped,
         Self::Thinned { keep_every: 2 },
         Self::Thinned { keep_every: 10 },
+        Self::Thinned { keep_every: 25 },
         Self::Delayed { ms: 200 },
         Self::Delayed { ms: 600 },
         Self::EverySecondSecond,

@@ -229,10 +229,14 @@ fn unshift(command: &mut Command, shift_ms: u32) -> bool {
     true
 }
 
-/// Changes the last byte of the seal, before the separator, and keeps the packet one packet.
+/// Changes the last byte of the seal, before the separator, to another one of its kind.
 fn damage(bytes: &mut [u8]) {
     if let [.., last, _] = bytes {
-        let other = *last ^ 0x41;
-        *last = if other < 0x20 { *last ^ 0x01 } else { other };
+        *last = match *last {
+            b'0' => b'1',
+            digit if digit.is_ascii_hexdigit() => b'0',
+            0x20..0x80 => b'0',
+            _ => *last ^ 0x40,
+        };
     }
 }

@@ -20,6 +20,8 @@ const HEALING_MAX_MS: u64 = 40_000;
 /// The robot has driven so far when the fault begins.
 const DRIVEN_BEFORE_M: f64 = 0.5;
 const BEFORE_MAX_MS: u64 = 60_000;
+/// A robot that goes on has cleaned so far.
+const GOES_ON_M: f64 = 0.1;
 
 /// A fault and where it happens.
 #[derive(Clone, Debug)]
@@ -47,7 +49,7 @@ pub struct FaultPassage {
     pub named: BTreeSet<String>,
     /// What the host was doing at the end of the minute.
     pub state: String,
-    /// Seconds from the end of the fault until it cleaned on with driven wheels; `None` if it did not.
+    /// Seconds from the end of the fault until it had cleaned on for 10 cm; `None` if it did not.
     pub healed_s: Option<f64>,
     /// Lines in the log from the beginning of the fault until the robot went on, without those for developers.
     pub log_lines: usize,
@@ -81,12 +83,14 @@ impl LineTrial<'_> {
         };
         self.begin(&mut household);
         let ends_ms = self.fault.lasts_ms().unwrap_or(MEASURED_MS);
+        let mut end_m = before_m;
         for ms in 0..MEASURED_MS {
             household.tick();
             passage.watch(&household);
-            if ms >= ends_ms {
-                passage.note_healed(ms - ends_ms, &household);
+            if ms <= ends_ms {
+                end_m = way_m(&household);
             }
+            passage.note_healed(ms.saturating_sub(ends_ms), way_m(&household) - end_m, &household);
         }
         passage.way_m = way_m(&household) - before_m;
         passage.state = household
@@ -101,7 +105,7 @@ impl LineTrial<'_> {
                 break;
             }
             household.tick();
-            passage.note_healed(ms - ends_ms, &household);
+            passage.note_healed(ms.saturating_sub(ends_ms), way_m(&household) - end_m, &household);
         }
         passage.finish(&household);
         passage
@@ -159,9 +163,10 @@ impl FaultPassage {
         }
     }
 
-    fn note_healed(&mut self, ms: u64, household: &Household) {
+    /// Notes when the robot has gone on, with the milliseconds and the way since the end of the fault.
+    fn note_healed(&mut self, ms: u64, way_m: f64, household: &Household) {
         let state = household.host().and_then(crate::Host::state);
-        let cleans = state == Some(BehaviorState::Cleaning) && household.robot().wheels_driven();
+        let cleans = state == Some(BehaviorState::Cleaning) && way_m >= GOES_ON_M;
         if cleans && self.healed_s.is_none() {
             self.healed_s = Some(ms as f64 / 1e3);
         }

@@ -338,16 +338,13 @@ fn link_line(news: LinkNews) -> (LogLevel, String) {
             let name = fault.name();
             (LogLevel::Warn, format!("{name}: {}", refusal::text(name)))
         }
-        LinkNews::Ended {
-            fault,
-            lasted_s,
-            arrivals,
-        } => {
-            let name = fault.name();
+        LinkNews::Ended(episode) => {
+            let (name, times, lasted_s) = (episode.fault.name(), episode.times, episode.lasted_s());
+            let came = episode.arrivals;
             let text = format!(
-                "{name} is over after {lasted_s:.1} s, with {} sound reports, {} pieces of garbage, {} wrong check sums, \
-                 {} repeated and {} stray reports",
-                arrivals.reports, arrivals.garbled, arrivals.corrupted, arrivals.repeated, arrivals.stray
+                "{name} is over: {times} times within {lasted_s:.1} s, with {} sound reports, {} pieces of garbage, {} wrong \
+                 check sums, {} repeated and {} stray reports",
+                came.reports, came.garbled, came.corrupted, came.repeated, came.stray
             );
             (LogLevel::Info, text)
         }

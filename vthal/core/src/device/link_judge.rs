@@ -27,28 +27,42 @@ const HEALED_US: u64 = 1_000_000;
 /// A fault that comes back within this time must stay away for twice as long as before,
 const RELAPSE_US: u64 = 10_000_000;
 /// but no longer than this.
-const HEALED_MAX_US: u64 = 16_000_000;
+const HEALED_MAX_US: u64 = 8_000_000;
 /// So many commands that are refused as too old within [`SLICE_US`] are a fault: those of a third of a second.
 const STALE_MAX: u32 = 10;
 /// A greater share of damaged commands halves the speed,
-const LOST_POOR: f64 = 0.1;
+const LOST_POOR: f64 = 0.2;
 /// and with a greater one than this leases end again and again.
-const LOST_BAD: f64 = 0.5;
+const LOST_BAD: f64 = 0.67;
 
-/// A fault began or is over.
+/// A fault began or is over. One that comes back soon is not told again.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LinkNews {
     /// It began.
     Began(LinkFault),
-    /// It is over.
-    Ended {
-        /// Which.
-        fault: LinkFault,
-        /// How long it lasted, seconds.
-        lasted_s: f64,
-        /// What came meanwhile.
-        arrivals: Arrivals,
-    },
+    /// It is over and has not come back.
+    Ended(Episode),
+}
+
+/// A fault from when it began until it was over for good.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Episode {
+    pub(crate) fault: LinkFault,
+    /// How often the robot stood for it.
+    pub(crate) times: u32,
+    since_us: u64,
+    until_us: u64,
+    /// Totals when it began.
+    before: Arrivals,
+    /// What came meanwhile.
+    pub(crate) arrivals: Arrivals,
+}
+
+impl Episode {
+    /// How long it lasted, seconds.
+    pub(crate) const fn lasted_s(&self) -> f64 {
+        self.until_us.saturating_sub(self.since_us) as f64 * 1e-6
+    }
 }
 
 /// The judge of one link.
@@ -68,18 +82,12 @@ pub(super) struct LinkJudge {
     silence_ended_us: Option<u64>,
     stale: StaleCommands,
     lost_share: f64,
-    standing: Option<Standing>,
+    standing: Option<LinkFault>,
+    /// The last fault, until it is over for good.
+    episode: Option<Episode>,
     ended_us: Option<u64>,
     healed_after_us: u64,
     news: Vec<LinkNews>,
-}
-
-/// A fault that stands.
-#[derive(Clone, Copy, Debug)]
-struct Standing {
-    fault: LinkFault,
-    since_us: u64,
-    arrivals: Arrivals,
 }
 
 /// The longest pause between two sound reports, in this slice of time and the one before.
@@ -100,7 +108,7 @@ struct StaleCommands {
 impl LinkJudge {
     /// The line was opened: all totals begin anew.
     pub(super) fn open(&mut self, now_us: u64) {
-        (self.seen, self.reported) = (Arrivals::default(), Arrivals::default());
+        self.seen = Arrivals::default();
         self.restart(now_us);
     }
 
@@ -134,7 +142,17 @@ impl LinkJudge {
         if new != Arrivals::default() {
             self.heard_us = now_us;
         }
-        let fresh_us = fresh_us.unwrap_or(FIRST_REPORT_US);
+        self.lost_share = quality.lost_share;
+        if now_us.saturating_sub(self.heard_us) > SILENT_US {
+            self.reported = self.seen;
+            self.end(now_us);
+        } else {
+            self.judge(now_us, new, fresh_us.unwrap_or(FIRST_REPORT_US));
+        }
+        self.close_episode(now_us);
+    }
+
+    fn judge(&mut self, now_us: u64, new: Arrivals, fresh_us: u64) {
         if new.reports > 0 {
             self.take_report(now_us, new, fresh_us);
         } else if self.pause_us(now_us) > fresh_us
@@ -142,16 +160,20 @@ impl LinkJudge {
         {
             self.stand(now_us, fault);
         }
-        self.lost_share = quality.lost_share;
-        if self.lost_share > LOST_BAD {
+        if self.lost_share > LOST_BAD && self.reported_us.is_some() {
             self.stand(now_us, LinkFault::CommandsLost);
         }
-        self.heal(now_us, fresh_us);
+        let is_sound = self.reported_us.is_some()
+            && self.pause_us(now_us) <= fresh_us
+            && now_us.saturating_sub(self.sound_since_us) >= self.healed_after_us;
+        if is_sound {
+            self.end(now_us);
+        }
     }
 
     /// The fault that stands.
-    pub(super) fn fault(&self) -> Option<LinkFault> {
-        self.standing.map(|standing| standing.fault)
+    pub(super) const fn fault(&self) -> Option<LinkFault> {
+        self.standing
     }
 
     /// Share of its speed that the robot may drive at.
@@ -217,28 +239,44 @@ impl LinkJudge {
             true => (2 * self.healed_after_us).min(HEALED_MAX_US),
             false => HEALED_US,
         };
-        self.standing = Some(Standing {
+        self.standing = Some(fault);
+        match &mut self.episode {
+            Some(episode) if episode.fault == fault => episode.times += 1,
+            _ => self.begin_episode(now_us, fault),
+        }
+    }
+
+    fn begin_episode(&mut self, now_us: u64, fault: LinkFault) {
+        let episode = Episode {
             fault,
+            times: 1,
             since_us: now_us,
-            arrivals: self.seen,
-        });
+            until_us: now_us,
+            before: self.seen,
+            arrivals: Arrivals::default(),
+        };
+        let last = self.episode.replace(episode);
+        self.news.extend(last.map(LinkNews::Ended));
         self.news.push(LinkNews::Began(fault));
     }
 
-    fn heal(&mut self, now_us: u64, fresh_us: u64) {
-        let Some(standing) = self.standing else { return };
-        let is_sound = self.reported_us.is_some()
-            && self.pause_us(now_us) <= fresh_us
-            && now_us.saturating_sub(self.sound_since_us) >= self.healed_after_us;
-        let is_silent = now_us.saturating_sub(self.heard_us) > SILENT_US;
-        if is_sound || is_silent {
-            self.standing = None;
-            self.ended_us = Some(now_us);
-            self.news.push(LinkNews::Ended {
-                fault: standing.fault,
-                lasted_s: now_us.saturating_sub(standing.since_us) as f64 * 1e-6,
-                arrivals: self.seen.since(standing.arrivals),
-            });
+    /// The fault that stands, if any, is over.
+    fn end(&mut self, now_us: u64) {
+        if self.standing.take().is_none() {
+            return;
+        }
+        self.ended_us = Some(now_us);
+        if let Some(episode) = &mut self.episode {
+            episode.until_us = now_us;
+            episode.arrivals = self.seen.since(episode.before);
+        }
+    }
+
+    fn close_episode(&mut self, now_us: u64) {
+        let is_over = |episode: &mut Episode| now_us.saturating_sub(episode.until_us) > RELAPSE_US;
+        if self.standing.is_none() {
+            self.news
+                .extend(self.episode.take_if(is_over).map(LinkNews::Ended));
         }
     }
 }

@@ -6,10 +6,12 @@
 
 use rvac_units::Tick;
 
-/// A tick may lead the one before by this much more than the host's own clock has advanced, ms: the one before was late.
+/// A tick may be ahead of what those before and the host's own clock make likely by so much, ms: those were late.
 const LEAD_MAX_MS: u32 = 500;
 /// So many states in a row that follow from each other, but not from those before, tell that the robot's clock has jumped.
 const AGREE: u8 = 5;
+/// States of a slice of [`Offsets`]: those of a minute.
+const SLICE_STATES: u16 = 3_000;
 
 /// What the tick of a state says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,9 +34,47 @@ struct Heard {
 }
 
 impl Heard {
-    /// Whether a tick that is heard now can be the next one.
-    const fn is_followed_by(self, tick: Tick, now: Tick) -> bool {
-        tick.reached(self.tick) && tick.since(self.tick) <= now.since(self.at).saturating_add(LEAD_MAX_MS)
+    /// What the robot's clock shows more than the host's, as far as this tick tells; less than that if it was late.
+    const fn offset(self) -> u32 {
+        self.tick.since(self.at)
+    }
+}
+
+/// By how much the robot's clock is ahead of the host's: by the punctual ones of the states of the last one to two slices,
+/// because two clocks drift apart.
+#[derive(Clone, Copy, Debug, Default)]
+struct Offsets {
+    now: Option<u32>,
+    before: Option<u32>,
+    states: u16,
+}
+
+impl Offsets {
+    fn take(&mut self, heard: Heard) {
+        self.states += 1;
+        if self.states > SLICE_STATES {
+            *self = Self {
+                now: None,
+                before: self.now,
+                states: 1,
+            };
+        }
+        self.now = greater(self.now, Some(heard.offset()));
+    }
+
+    /// Whether a tick is not too far ahead.
+    fn allow(&self, heard: Heard) -> bool {
+        let latest = |offset: u32| Tick(heard.at.0.wrapping_add(offset)).after(LEAD_MAX_MS);
+        greater(self.now, self.before).is_none_or(|offset| latest(offset).reached(heard.tick))
+    }
+}
+
+/// The greater one of two offsets on clocks that wrap.
+fn greater(one: Option<u32>, other: Option<u32>) -> Option<u32> {
+    match (one, other) {
+        (Some(a), Some(b)) if Tick(b).reached(Tick(a)) => Some(b),
+        (Some(a), _) => Some(a),
+        (None, other) => other,
     }
 }
 
@@ -51,7 +91,8 @@ pub(super) struct RobotClock {
     /// Of states, events and the greeting.
     newest: Option<Heard>,
     /// Of the newest state, or the greeting.
-    state: Option<Heard>,
+    state: Option<Tick>,
+    offsets: Offsets,
     /// The tick of the state that came last, right or not.
     last: Option<Tick>,
     other: Option<OtherTime>,
@@ -59,11 +100,14 @@ pub(super) struct RobotClock {
 
 impl RobotClock {
     /// A session has begun with this tick.
-    pub(super) const fn begin(tick: Tick, at: Tick) -> Self {
-        let heard = Some(Heard { tick, at });
+    pub(super) fn begin(tick: Tick, at: Tick) -> Self {
+        let heard = Heard { tick, at };
+        let mut offsets = Offsets::default();
+        offsets.take(heard);
         Self {
-            newest: heard,
-            state: heard,
+            newest: Some(heard),
+            state: Some(tick),
+            offsets,
             last: None,
             other: None,
         }
@@ -76,8 +120,9 @@ impl RobotClock {
 
     /// Takes the tick of an event; a repeated one carries an old tick.
     pub(super) fn hear_event(&mut self, tick: Tick, at: Tick) {
-        if self.newest.is_none_or(|newest| newest.is_followed_by(tick, at)) {
-            self.newest = Some(Heard { tick, at });
+        let heard = Heard { tick, at };
+        if self.offsets.allow(heard) && self.newest.is_none_or(|newest| tick.reached(newest.tick)) {
+            self.newest = Some(heard);
         }
     }
 
@@ -87,8 +132,9 @@ impl RobotClock {
             return TickVerdict::Repeated;
         }
         let heard = Heard { tick, at };
-        if self.state.is_none_or(|state| state.is_followed_by(tick, at)) {
-            self.state = Some(heard);
+        if self.offsets.allow(heard) && self.state.is_none_or(|state| tick.reached(state)) {
+            self.state = Some(tick);
+            self.offsets.take(heard);
             self.other = None;
             self.hear_event(tick, at);
             return TickVerdict::New;
@@ -105,10 +151,11 @@ impl RobotClock {
 
     /// Whether enough states agree upon another time, this one included.
     fn agrees_upon(&mut self, heard: Heard) -> bool {
-        let before = self
-            .other
-            .filter(|other| other.newest.is_followed_by(heard.tick, heard.at));
-        let states = before.map_or(0, |other| other.states) + 1;
+        let follows = |other: &OtherTime| {
+            let step_ms = heard.tick.since(other.newest.tick);
+            step_ms <= heard.at.since(other.newest.at).saturating_add(LEAD_MAX_MS)
+        };
+        let states = self.other.filter(follows).map_or(0, |other| other.states) + 1;
         self.other = Some(OtherTime {
             newest: heard,
             states,
@@ -144,7 +191,8 @@ mod tests {
             (60, 3_000, New),
             (80, 3_000, New),
             // Much was lost between two that came at once.
-            (3_000, 3_001, Stray),
+            (3_000, 3_001, New),
+            (3_600, 3_020, Stray),
         ]);
         check([(3_000, 3_000, New), (3_020, 3_020, New)]);
     }
@@ -191,5 +239,21 @@ mod tests {
         // An event may overtake a state.
         assert_eq!(clock.hear_state(Tick(1_020), Tick(40)), New);
         assert_eq!(clock.newest(), Some((Tick(1_030), Tick(30))));
+        // Nor does one that comes again after a minute hold it back.
+        clock.hear_event(Tick(30_000), Tick(60_000));
+        assert_eq!(clock.hear_state(Tick(61_020), Tick(60_020)), New);
+        assert_eq!(clock.newest(), Some((Tick(61_020), Tick(60_020))));
+    }
+
+    #[test]
+    fn clocks_that_drift_apart_by_two_percent_stay_together() {
+        for period in [98, 102] {
+            let mut clock = RobotClock::begin(Tick(0), Tick(0));
+            for n in 1..100_000 {
+                assert_eq!(clock.hear_state(Tick(100 * n), Tick(period * n)), New);
+            }
+            let stray = clock.hear_state(Tick(100 * 100_000 + 60_000), Tick(period * 100_000));
+            assert_eq!(stray, Stray, "{period}");
+        }
     }
 }
