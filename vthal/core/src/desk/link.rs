@@ -86,6 +86,7 @@ impl LinkDesk {
     /// Lets time pass; gives the events of the robot.
     pub(crate) fn pass_time(&mut self, teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.pass_time(teller.now_us);
+        self.look(teller.now_us);
         self.tell_link_news(teller);
         let mut events = core::mem::take(&mut self.events);
         if let Some(device) = &mut self.device

@@ -313,3 +313,6 @@ fn cause(missed: Arrivals) -> Option<LinkFault> {
         None
     }
 }
+
+#[cfg(test)]
+mod tests;
