@@ -69,6 +69,7 @@ impl Facts {
         for inhibit in observation.inhibits.iter() {
             facts.add_inhibit(inhibit);
         }
+        facts.link_up &= facts.link_fault.is_none();
         if observation.inhibits.other().is_some() {
             facts.fault = Some(Fault::UnknownInhibit);
         }
