@@ -1,6 +1,5 @@
 //! Reasons that keep a robot from moving or working, independent of its make.
 
-use crate::model::link_fault::LinkFault;
 use crate::model::named_enum::named_enum;
 
 named_enum! {
@@ -179,12 +178,6 @@ impl Inhibits {
     /// The known members, in the order of [`Inhibit::all`].
     pub fn iter(self) -> impl Iterator<Item = Inhibit> {
         Inhibit::all().filter(move |inhibit| self.contains(*inhibit))
-    }
-
-    /// What is wrong with the link, if it is not silent.
-    #[must_use]
-    pub fn link_fault(self) -> Option<LinkFault> {
-        self.iter().find_map(LinkFault::of_inhibit)
     }
 
     /// The names of all members; one that [`Inhibit`] lacks comes last.

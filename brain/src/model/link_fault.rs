@@ -1,6 +1,6 @@
 //! What can be wrong with the link to the firmware while it is not silent.
 
-use super::inhibit::Inhibit;
+use super::inhibit::{Inhibit, Inhibits};
 use super::named_enum::named_enum;
 
 named_enum! {
@@ -28,6 +28,12 @@ impl LinkFault {
     /// The fault that this inhibit reports, if it is one of the link.
     pub(crate) fn of_inhibit(inhibit: Inhibit) -> Option<Self> {
         Self::from_name(inhibit.name())
+    }
+
+    /// What is wrong with the link by these inhibits, if anything.
+    #[must_use]
+    pub fn of_inhibits(inhibits: Inhibits) -> Option<Self> {
+        inhibits.iter().find_map(Self::of_inhibit)
     }
 
     /// The inhibit that reports it.
