@@ -168,7 +168,7 @@ impl Tamper {
 
     fn deliver(&mut self, mut bytes: Vec<u8>, out: &mut Vec<u8>) {
         let number = self.reports;
-        let is_bad_second = self.since_ms() / 1_000 % 2 == 0;
+        let is_bad_second = (self.since_ms() / 1_000).is_multiple_of(2);
         match self.fault {
             LineFault::WrongSeal { every } if number.is_multiple_of(every) => damage(&mut bytes),
             LineFault::EverySecondSecond if is_bad_second => damage(&mut bytes),
