@@ -2,6 +2,7 @@
 
 use crate::model::fault::Fault;
 use crate::model::inhibit::Inhibit;
+use crate::model::link_fault::LinkFault;
 use crate::model::observation::{ChargeFlow, Observation};
 
 /// Digest of one observation.
@@ -9,6 +10,8 @@ use crate::model::observation::{ChargeFlow, Observation};
 pub(crate) struct Facts {
     pub(crate) now_us: u64,
     pub(crate) link_up: bool,
+    /// Why the link is not up, unless it is silent.
+    pub(crate) link_fault: Option<LinkFault>,
     pub(crate) wheel_drop: bool,
     pub(crate) docked: bool,
     pub(crate) battery_low: bool,
@@ -66,6 +69,7 @@ impl Facts {
         for inhibit in observation.inhibits.iter() {
             facts.add_inhibit(inhibit);
         }
+        facts.link_up &= facts.link_fault.is_none();
         if observation.inhibits.other().is_some() {
             facts.fault = Some(Fault::UnknownInhibit);
         }
@@ -88,6 +92,13 @@ impl Facts {
             Inhibit::CliffSensorFault => self.cliff_sensor = true,
             Inhibit::WheelDrop => self.wheel_drop = true,
             Inhibit::NotMoving => self.not_moving = true,
+            Inhibit::LinkGarbled
+            | Inhibit::LinkCorrupted
+            | Inhibit::LinkLate
+            | Inhibit::ClockFrozen
+            | Inhibit::ClockJumped
+            | Inhibit::CommandsLost
+            | Inhibit::CommandsStale => self.link_fault = LinkFault::of_inhibit(inhibit),
             // These need a person.
             Inhibit::ResetLoop
             | Inhibit::BumperStuck

@@ -88,6 +88,8 @@ pub(crate) struct Behavior {
     /// Length of the path home by the last search, metres.
     pub(super) return_path_m: Option<f64>,
     pub(super) facts: Facts,
+    /// When the link was last known to be up, microseconds.
+    pub(super) up_until_us: u64,
     pub(super) cliff_sensor_since_us: Option<u64>,
     pub(super) unarmed_since_us: Option<u64>,
     /// A person's stick must come to the centre before it drives again (S23).
@@ -126,6 +128,7 @@ impl Behavior {
             return_search: None,
             return_path_m: None,
             facts: Facts::default(),
+            up_until_us: 0,
             cliff_sensor_since_us: None,
             unarmed_since_us: None,
             centre_first: false,
@@ -201,6 +204,9 @@ impl Behavior {
         commands: &[&JobCommand],
         context: &mut TaskContext,
     ) -> Intent {
+        if self.facts.link_up {
+            self.up_until_us = self.facts.now_us;
+        }
         self.facts = Facts::read(situation.observation, self.config.battery_low);
         self.facts.knows_heading = situation.knows_heading;
         self.facts.fault = self.fault();

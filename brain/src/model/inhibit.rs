@@ -61,6 +61,20 @@ named_enum! {
         Clock => "clock",
         /// Memory failed its check.
         Memory => "memory",
+        /// What comes over the line is not the robot's. This and all that follow are of the host, not of the firmware.
+        LinkGarbled => "link-garbled",
+        /// Reports arrive damaged.
+        LinkCorrupted => "link-corrupted",
+        /// Reports come too seldom.
+        LinkLate => "link-late",
+        /// Reports come, and the robot's clock in them stands.
+        ClockFrozen => "clock-frozen",
+        /// The robot's clock jumps.
+        ClockJumped => "clock-jumped",
+        /// Most commands reach the robot damaged.
+        CommandsLost => "commands-lost",
+        /// The robot refuses commands because they are too old when they reach it.
+        CommandsStale => "commands-stale",
     }
 }
 
@@ -87,8 +101,8 @@ impl Inhibit {
         )
     }
 
-    const fn bit(self) -> u32 {
-        1 << self as u32
+    const fn bit(self) -> u64 {
+        1 << self as u64
     }
 }
 
@@ -98,7 +112,7 @@ const UNKNOWN: &str = "unknown-inhibit";
 /// A set of inhibits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Inhibits {
-    known: u32,
+    known: u64,
     other: Option<&'static str>,
 }
 

@@ -2,6 +2,7 @@
 
 use super::edit_error::EditError;
 use super::fault::Fault;
+use super::link_fault::LinkFault;
 use super::named_enum::named_enum;
 
 named_enum! {
@@ -33,6 +34,8 @@ named_enum! {
     nested {
         /// A fault stands.
         Fault(Fault),
+        /// The link cannot be relied upon.
+        Link(LinkFault),
         /// The order does not fit the home.
         Order(EditError),
     }

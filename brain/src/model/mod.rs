@@ -15,6 +15,7 @@ pub(crate) mod inhibit;
 pub(crate) mod job_refusal;
 pub(crate) mod kept_place;
 pub mod learnt;
+pub(crate) mod link_fault;
 pub(crate) mod map_edit;
 pub(crate) mod named_enum;
 pub mod no_go;

@@ -47,12 +47,14 @@ mod tests {
     use crate::model::edit_error::EditError;
     use crate::model::fault::Fault;
     use crate::model::job_refusal::JobRefusal;
+    use crate::model::link_fault::LinkFault;
     use crate::model::reason::Reason;
 
     #[test]
     fn names_are_unique_and_found_again() {
         assert!(Reason::all().all(|reason| Reason::from_name(reason.name()) == Some(reason)));
         assert!(Fault::all().all(|fault| Fault::from_name(fault.name()) == Some(fault)));
+        assert!(LinkFault::all().all(|fault| LinkFault::from_name(fault.name()) == Some(fault)));
         assert!(EditError::all().all(|error| EditError::from_name(error.name()) == Some(error)));
         assert!(JobRefusal::all().all(|refusal| JobRefusal::from_name(refusal.name()) == Some(refusal)));
     }

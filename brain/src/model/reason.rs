@@ -1,6 +1,7 @@
 //! Why the robot does what it does, by name.
 
 use super::fault::Fault;
+use super::link_fault::LinkFault;
 use super::named_enum::named_enum;
 use super::observation::{Cliffs, Contacts};
 
@@ -147,8 +148,12 @@ named_enum! {
         /// There is nothing to pause or resume.
         NoJob => "no-job",
     }
-    nested { /// A fault that needs a person.
-        Fault(Fault), }
+    nested {
+        /// A fault that needs a person.
+        Fault(Fault),
+        /// The link cannot be relied upon.
+        Link(LinkFault),
+    }
 }
 
 impl Reason {

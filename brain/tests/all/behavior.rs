@@ -71,6 +71,7 @@ fn a_button_or_a_foreign_stop_pauses() {
 fn starts_are_refused_by_name() {
     for (situation, reason) in [
         ("down", "link-lost"),
+        ("inhibit link-late", "link-late"),
         ("lift", "wheel-drop"),
         ("inhibit wheel-stall", "wheel-stall"),
         ("inhibit from-the-future", "unknown-inhibit"),
@@ -117,6 +118,40 @@ fn short_outages_are_bridged_and_long_ones_announced() {
     check("up\n clean\n wait 4\n down\n stop => disconnected\n up => idle link-restored");
     check("up\n clean\n wait 4\n inhibit not-armed => starting not-armed\n wait 3.2 => cleaning");
     check("up\n clean\n wait 4\n inhibit link-lost => cleaning\n wait 1 => cleaning");
+}
+
+#[test]
+fn a_link_that_cannot_be_relied_upon_is_named_and_bridged() {
+    check(
+        "up
+         clean
+         wait 4               => cleaning
+         inhibit clock-frozen => disconnected clock-frozen
+         down                 => disconnected clock-frozen
+         wait 2
+         free clock-frozen    => disconnected link-lost
+         up                   => cleaning link-restored",
+    );
+    check(
+        "up
+         clean
+         wait 4
+         down                 => disconnected link-lost
+         inhibit link-garbled => disconnected link-garbled
+         pause                => disconnected command
+         free link-garbled    => disconnected command
+         up                   => paused link-restored",
+    );
+    // Nobody knows how long a clock that has jumped was away.
+    check(
+        "up
+         clean
+         wait 4
+         inhibit clock-jumped => disconnected clock-jumped
+         wait 1
+         free clock-jumped    => starting continued
+         wait 3.2             => cleaning",
+    );
 }
 
 #[test]

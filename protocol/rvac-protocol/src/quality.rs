@@ -1,30 +1,86 @@
-//! Quality of the link, and the speed that it allows.
+//! What comes over the link, counted: how good it is and what is wrong with it.
 
 use rvac_units::Tick;
 
-/// The speed that the quality of the link allows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum LinkVerdict {
-    /// At most 1 % of the packets of the last 5 s were bad: full speed.
-    #[default]
-    Good,
-    /// More than 1 %: half speed.
-    Poor,
-    /// More than 10 %: stop.
-    Bad,
+/// Packets of some time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PacketCounts {
+    /// Undamaged ones.
+    pub good: u32,
+    /// Those with a wrong CRC, and what is no packet.
+    pub bad: u32,
 }
 
-/// Quality of the link as the host sees it.
+impl PacketCounts {
+    /// Good and bad ones.
+    #[must_use]
+    pub const fn all(self) -> u32 {
+        self.good.saturating_add(self.bad)
+    }
+
+    /// Share of the bad ones, 0..1.
+    #[must_use]
+    pub fn bad_share(self) -> f64 {
+        f64::from(self.bad) / f64::from(self.all().max(1))
+    }
+
+    const fn plus(self, other: Self) -> Self {
+        Self {
+            good: self.good.saturating_add(other.good),
+            bad: self.bad.saturating_add(other.bad),
+        }
+    }
+}
+
+/// Quality of the link as the host sees it, over the last 5 s.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LinkQuality {
-    /// Packets of the last 5 s, in both directions as far as known.
-    pub packets: u32,
-    /// Bad ones among them.
-    pub bad: u32,
+    /// Packets from the robot.
+    pub inbound: PacketCounts,
+    /// Packets to the robot, as it counts them in its `info`.
+    pub outbound: PacketCounts,
     /// Newest round trip of a numbered command in ms.
     pub round_trip_ms: Option<u32>,
-    /// The worse of both directions.
-    pub verdict: LinkVerdict,
+}
+
+impl LinkQuality {
+    /// Packets of both directions.
+    #[must_use]
+    pub const fn both(self) -> PacketCounts {
+        self.inbound.plus(self.outbound)
+    }
+}
+
+/// What has come from the robot, as totals that wrap.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Arrivals {
+    /// States that were newer than all before.
+    pub states: u32,
+    /// Pieces that are no packets of a robot.
+    pub garbled: u32,
+    /// Packets whose CRC is wrong.
+    pub corrupted: u32,
+    /// States with the tick of the one before.
+    pub repeated: u32,
+    /// States whose tick does not follow from those before.
+    pub stray: u32,
+    /// Jumps of the robot's clock that were believed.
+    pub clock_jumps: u32,
+}
+
+impl Arrivals {
+    /// What came after `earlier`.
+    #[must_use]
+    pub const fn since(self, earlier: Self) -> Self {
+        Self {
+            states: self.states.wrapping_sub(earlier.states),
+            garbled: self.garbled.wrapping_sub(earlier.garbled),
+            corrupted: self.corrupted.wrapping_sub(earlier.corrupted),
+            repeated: self.repeated.wrapping_sub(earlier.repeated),
+            stray: self.stray.wrapping_sub(earlier.stray),
+            clock_jumps: self.clock_jumps.wrapping_sub(earlier.clock_jumps),
+        }
+    }
 }
 
 /// Length of the window in slices.
@@ -35,23 +91,16 @@ const SLICE_MS: u32 = 1_000;
 /// Good and bad packets of the last five seconds, in one direction.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct QualityWindow {
-    slices: [Slice; SLICES],
+    slices: [PacketCounts; SLICES],
     newest: usize,
     newest_since: Tick,
-}
-
-#[derive(Clone, Copy, Debug, Default)]
-struct Slice {
-    good: u32,
-    bad: u32,
 }
 
 impl QualityWindow {
     pub(crate) fn record(&mut self, good: u32, bad: u32, now: Tick) {
         self.turn(now);
         if let Some(slice) = self.slices.get_mut(self.newest) {
-            slice.good = slice.good.saturating_add(good);
-            slice.bad = slice.bad.saturating_add(bad);
+            *slice = slice.plus(PacketCounts { good, bad });
         }
     }
 
@@ -61,30 +110,17 @@ impl QualityWindow {
         for _ in 0..passed.min(SLICES as u32) {
             self.newest = (self.newest + 1) % SLICES;
             if let Some(slice) = self.slices.get_mut(self.newest) {
-                *slice = Slice::default();
+                *slice = PacketCounts::default();
             }
         }
         self.newest_since = self.newest_since.after(passed * SLICE_MS);
     }
 
-    /// Good and bad packets.
-    pub(crate) fn totals(&self) -> (u32, u32) {
+    /// All of them.
+    pub(crate) fn totals(&self) -> PacketCounts {
         self.slices
             .iter()
-            .fold((0, 0), |(good, bad), slice| (good + slice.good, bad + slice.bad))
-    }
-
-    pub(crate) fn verdict(&self) -> LinkVerdict {
-        let (good, bad) = self.totals();
-        let all = u64::from(good) + u64::from(bad);
-        let bad = u64::from(bad);
-        if bad * 10 > all {
-            LinkVerdict::Bad
-        } else if bad * 100 > all {
-            LinkVerdict::Poor
-        } else {
-            LinkVerdict::Good
-        }
+            .fold(PacketCounts::default(), |sum, slice| sum.plus(*slice))
     }
 }
 
@@ -92,22 +128,17 @@ impl QualityWindow {
 mod tests {
     use rvac_units::Tick;
 
-    use super::{LinkVerdict, QualityWindow};
-
-    #[track_caller]
-    fn check(good: u32, bad: u32, expected: LinkVerdict) {
-        let mut window = QualityWindow::default();
-        window.record(good, bad, Tick(10));
-        assert_eq!(window.verdict(), expected, "{bad} bad of {}", good + bad);
-    }
+    use super::{Arrivals, PacketCounts, QualityWindow};
 
     #[test]
-    fn limits_are_one_and_ten_percent() {
-        check(0, 0, LinkVerdict::Good);
-        check(99, 1, LinkVerdict::Good);
-        check(98, 2, LinkVerdict::Poor);
-        check(90, 10, LinkVerdict::Poor);
-        check(89, 11, LinkVerdict::Bad);
+    fn shares_are_of_all_packets_and_totals_wrap() {
+        let share = |good, bad| PacketCounts { good, bad }.bad_share();
+        assert_eq!((share(0, 0), share(3, 1), share(0, 2)), (0.0, 0.25, 1.0));
+        let before = Arrivals {
+            states: u32::MAX,
+            ..Arrivals::default()
+        };
+        assert_eq!(Arrivals::default().since(before).states, 1);
     }
 
     #[test]
@@ -117,10 +148,10 @@ mod tests {
         window.turn(start);
         window.record(0, 50, start);
         window.record(50, 0, start.after(4_000));
-        assert_eq!(window.totals(), (50, 50));
+        assert_eq!(window.totals(), PacketCounts { good: 50, bad: 50 });
         window.turn(start.after(6_000));
-        assert_eq!(window.totals(), (50, 0));
+        assert_eq!(window.totals(), PacketCounts { good: 50, bad: 0 });
         window.turn(start.after(60_000));
-        assert_eq!(window.totals(), (0, 0));
+        assert_eq!(window.totals(), PacketCounts::default());
     }
 }

@@ -8,7 +8,6 @@ use rvac_protocol::message::{
     ArmingState, BinaryKinds, Bumpers, Command, CommandName, CommandNames, Drive, Event, Info, Inhibit, Move,
     Name, Parameter, Refusal, Report, Sequence,
 };
-use rvac_protocol::quality::LinkVerdict;
 use rvac_protocol::session::{HostEvent, Mode, RobotEvent, RobotSession, SendError, SessionEnd};
 use rvac_protocol::text::write_command_with_crc;
 use rvac_protocol::{PacketBuffer, message::LinkCounters};
@@ -416,10 +415,11 @@ fn info_arrives_whole_although_it_takes_three_packets() {
 }
 
 #[test]
-fn bad_packets_lower_the_verdict_and_time_heals_it() {
+fn bad_packets_are_counted_and_time_heals() {
+    let bad_share = |pair: &Pair| pair.host.quality().both().bad_share();
     let mut pair = Pair::open(BinaryKinds::NONE);
     pair.run_ms(4_000);
-    assert_eq!(pair.host.quality().verdict, LinkVerdict::Good);
+    assert_eq!(bad_share(&pair), 0.0);
     assert_eq!(pair.host.quality().round_trip_ms, Some(0));
     let mut count = 0;
     pair.to_host = Box::new(move |bytes| {
@@ -429,7 +429,7 @@ fn bad_packets_lower_the_verdict_and_time_heals_it() {
         }
     });
     pair.run_ms(2_000);
-    assert_eq!(pair.host.quality().verdict, LinkVerdict::Poor);
+    assert!((0.01..0.1).contains(&bad_share(&pair)));
     let mut count = 0;
     pair.to_host = Box::new(move |bytes| {
         count += 1;
@@ -438,10 +438,10 @@ fn bad_packets_lower_the_verdict_and_time_heals_it() {
         }
     });
     pair.run_ms(3_000);
-    assert_eq!(pair.host.quality().verdict, LinkVerdict::Bad);
+    assert!(bad_share(&pair) > 0.1);
     pair.to_host = Box::new(|_| {});
     pair.run_ms(6_000);
-    assert_eq!(pair.host.quality().verdict, LinkVerdict::Good);
+    assert_eq!(bad_share(&pair), 0.0);
 }
 
 #[test]

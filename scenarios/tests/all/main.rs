@@ -12,6 +12,7 @@ mod homecoming;
 mod host_death;
 mod learnt;
 mod leftovers;
+mod line_faults;
 mod lost_driver;
 mod mapping;
 mod monitor;

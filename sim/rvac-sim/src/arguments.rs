@@ -294,7 +294,7 @@ pub(crate) struct ReportArguments {
 #[derive(Debug, Args)]
 pub(crate) struct FaultArguments {
     /// Seeds: `A..B` without B, or one number.
-    #[arg(long, default_value = "0..1000", value_parser = seeds)]
+    #[arg(long, default_value = "0..1000", default_value_if("line", "true", "1..4"), value_parser = seeds)]
     pub(crate) seeds: Range<u64>,
     /// Simulated minutes of each seed.
     #[arg(long, default_value_t = 10.0, value_parser = minutes)]
@@ -305,6 +305,10 @@ pub(crate) struct FaultArguments {
     /// Firmware image for the robot's chip (ELF or HEX), which is emulated then; without it the built-in firmware runs.
     #[arg(long)]
     pub(crate) firmware: Option<PathBuf>,
+    /// Instead of random faults, those of the line one by one: how far the robot cleans through each in a minute, what it
+    /// says, and how soon it goes on. With 3 seeds unless --seeds names others.
+    #[arg(long, conflicts_with = "minutes")]
+    pub(crate) line: bool,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,

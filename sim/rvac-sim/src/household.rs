@@ -8,6 +8,7 @@ use home::{Beacons, BoardGyro, Home, Pose};
 use crate::carpet_quality;
 use crate::figures::{Belief, Collector, MeasuredFloor};
 use crate::known_map::known_map;
+use crate::line_faults::{HostClock, Tamper};
 use crate::linux_board::LinuxBoard;
 use crate::map_quality::judge;
 use crate::report::{Driven, RunReport, StuckWatch};
@@ -36,7 +37,22 @@ pub struct Household {
     board: LinuxBoard,
     /// The trace of the run, if enabled.
     trace: Option<Trace>,
+    /// Stands between robot and host, if enabled.
+    tamper: Option<Tamper>,
+    suspension: Suspension,
 }
+
+/// Whether the computer of the host sleeps.
+#[derive(Clone, Copy, Debug, Default)]
+struct Suspension {
+    until_ms: u64,
+    /// The host's clock was stopped for so long in all.
+    lost_us: u64,
+    stops_clock: bool,
+}
+
+/// The kernel keeps so many bytes for a host that does not read them.
+const KERNEL_BYTES_MAX: usize = 4_096;
 
 /// Where the host's pose comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,14 +90,39 @@ impl Household {
             tells_place: false,
             board: LinuxBoard::default(),
             trace: None,
+            tamper: None,
+            suspension: Suspension::default(),
         }
     }
 
     /// Advances one millisecond.
     pub fn tick(&mut self) {
-        self.from_robot.clear();
         self.robot.tick(&mut self.from_robot);
+        if self.robot.now_ms() < self.suspension.until_ms {
+            self.sleep_ms();
+        } else {
+            self.wake_ms();
+            self.from_robot.clear();
+        }
+        if self.robot.now_ms().is_multiple_of(SAMPLE_MS) {
+            self.sample();
+        }
+    }
+
+    /// A millisecond in which the host's computer sleeps.
+    fn sleep_ms(&mut self) {
+        self.from_robot.truncate(KERNEL_BYTES_MAX);
+        if self.suspension.stops_clock {
+            self.suspension.lost_us += TICK_US;
+        }
+    }
+
+    /// A millisecond in which the host, if it lives, reads and answers.
+    fn wake_ms(&mut self) {
         let now_us = self.now_us();
+        if let Some(tamper) = &mut self.tamper {
+            tamper.pass_to_host(self.robot.now_ms(), &mut self.from_robot);
+        }
         if let Some(host) = &mut self.host {
             if self.pose_source == PoseSource::Truth && !self.from_robot.is_empty() {
                 let truth = self.robot.world().truth();
@@ -100,11 +141,28 @@ impl Household {
                     host.place(self.map_from_plan.then(truth.pose));
                 }
             }
-            deliver(&mut self.robot, host.pending());
+            deliver(&mut self.robot, self.tamper.as_mut(), host.pending());
         }
-        if self.robot.now_ms().is_multiple_of(SAMPLE_MS) {
-            self.sample();
+    }
+
+    /// The same household with somebody who can tamper with the line.
+    #[must_use]
+    pub fn with_tamper(self, tamper: Tamper) -> Self {
+        Self {
+            tamper: Some(tamper),
+            ..self
         }
+    }
+
+    /// Who tampers with the line, if anybody.
+    pub const fn tamper_mut(&mut self) -> Option<&mut Tamper> {
+        self.tamper.as_mut()
+    }
+
+    /// The host's computer sleeps for `ms` from now on.
+    pub const fn suspend_host(&mut self, ms: u64, clock: HostClock) {
+        self.suspension.until_ms = self.robot.now_ms() + ms;
+        self.suspension.stops_clock = matches!(clock, HostClock::Stands);
     }
 
     /// The same household whose host has a perfect map of the home as soon as it has the robot's description.
@@ -217,10 +275,10 @@ impl Household {
         })
     }
 
-    /// The virtual clock in microseconds.
+    /// The virtual clock in microseconds, as the host reads it.
     #[must_use]
     pub const fn now_us(&self) -> u64 {
-        self.robot.now_ms() * TICK_US
+        self.robot.now_ms() * TICK_US - self.suspension.lost_us
     }
 
     fn sample(&mut self) {
@@ -287,7 +345,7 @@ impl Household {
         let now_us = self.now_us();
         if let Some(host) = &mut self.host {
             host.ask(now_us, body);
-            deliver(&mut self.robot, host.pending());
+            deliver(&mut self.robot, self.tamper.as_mut(), host.pending());
         }
     }
 
@@ -325,8 +383,11 @@ impl Household {
     }
 }
 
-fn deliver(robot: &mut Robot, pending: &mut Vec<u8>) {
-    if !pending.is_empty() {
+fn deliver(robot: &mut Robot, tamper: Option<&mut Tamper>, pending: &mut Vec<u8>) {
+    if let Some(tamper) = tamper {
+        // The line of a robot whose host keeps up has room for all.
+        robot.send(&tamper.pass_to_robot(pending));
+    } else if !pending.is_empty() {
         let taken = robot.send(pending);
         pending.drain(..taken);
     }

@@ -2,8 +2,8 @@
 //!
 //! A [`Robot`] runs the firmware that is built into this program, or an image in an emulated chip ([`Firmware`]). A
 //! [`Household`] is a robot and a host that run against each other in memory, on a virtual clock. [`run`] measures how
-//! well such a household cleans, [`faults`] injects random faults under the safety monitor, and [`serve`] puts the
-//! robot alone behind a pseudoterminal for a real daemon.
+//! well such a household cleans, [`faults`] injects random faults under the safety monitor, [`line_faults`] those of the
+//! line one by one, and [`serve`] puts the robot alone behind a pseudoterminal for a real daemon.
 #![forbid(unsafe_code)]
 
 pub mod baseline;
@@ -18,6 +18,7 @@ mod host_floors;
 mod host_wall;
 mod household;
 mod known_map;
+pub mod line_faults;
 mod linux_board;
 mod map_alignment;
 mod map_quality;

@@ -19,11 +19,15 @@ use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
 use rvac_sim::baseline::add_missing;
 use rvac_sim::faults::{FaultCampaign, Summary, trials};
+use rvac_sim::line_faults::{LineFault, LineFaultTable, passages};
 use rvac_sim::page;
 use rvac_sim::run::{household, run_until};
 use rvac_sim::serve::serve;
 use rvac_sim::trace::KeptRun;
-use rvac_sim::{CalibrationChoice, Firmware, Host, Household, RunReport, Scene, SceneError, explain};
+use rvac_sim::{
+    CalibrationChoice, Firmware, GyroFitted, Host, Household, RunReport, Scene, SceneError, SceneSettings,
+    explain,
+};
 use vthal_core::stored_map;
 
 /// Bad input; nothing was done.
@@ -33,6 +37,7 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         SimCommand::Serve(arguments) => serve_robot(&arguments),
         SimCommand::Run(arguments) => run_household(&arguments),
+        SimCommand::Faults(arguments) if arguments.line => run_line_trials(&arguments),
         SimCommand::Faults(arguments) => run_trials(&arguments),
         SimCommand::Homes(arguments) => write_homes(&arguments.folder),
         SimCommand::Report(arguments) => write_page(&arguments),
@@ -198,6 +203,36 @@ fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
         )?;
     }
     Ok(verdict(summary.violations()))
+}
+
+/// The home in which the faults of the line are measured.
+const LINE_HOME: &str = "generated:1";
+
+fn run_line_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
+    let scene = Scene::load(&SceneSettings {
+        home: LINE_HOME.into(),
+        robot: arguments.robot.clone(),
+        noise: "nominal".to_owned(),
+        firmware: arguments.firmware.clone(),
+        record: CalibrationChoice::Complete,
+        gyro: GyroFitted::default(),
+    })?;
+    let progress = Progress::new("faults of the line");
+    let seeds = arguments.seeds.clone();
+    let count = seeds.end - seeds.start;
+    let mut all = Vec::new();
+    for seed in seeds {
+        all.push(passages(&scene, seed, &LineFault::ALL));
+        progress.show(all.len() as f64 / count as f64);
+    }
+    progress.clear();
+    let table = LineFaultTable::of(&all);
+    if arguments.json {
+        print(&serde_json::to_string(&table)?)?;
+    } else {
+        print(&table.to_string())?;
+    }
+    Ok(verdict(table.violations()))
 }
 
 fn verdict(violations: u64) -> ExitCode {

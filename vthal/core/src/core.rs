@@ -33,6 +33,8 @@ use crate::{Checkpoints, ClientId, CoreConfig, FloorHome, Input, LinkLoss, Outpu
 
 /// The brain is called at least this often while there is one.
 const STEP_MAX_US: u64 = 100_000;
+/// After so long without a step this computer was suspended, or too busy.
+const HOST_AWAY_US: u64 = 5 * STEP_MAX_US;
 /// Pause between two steps of making a home ready: whatever else comes is served in between.
 const PREPARE_US: u64 = 2_000;
 
@@ -107,6 +109,10 @@ impl Core {
         let link_before = outputs.link.len();
         let delivered_before = outputs.deliveries.len();
         self.end_leases(now_us, outputs);
+        if self.brain_session.is_some() && now_us > self.pace.stepped_us + HOST_AWAY_US {
+            // Before anything new comes the brain shall know that the link is old.
+            self.think(now_us, outputs);
+        }
         self.take(now_us, input, outputs);
         self.pass_time(now_us, outputs);
         let mut teller = self.audience.teller(self.now(now_us), outputs);

@@ -1,7 +1,7 @@
 //! What a robot feels that comes and goes: bumpers, cliffs, a wheel that hangs, the dock, the link. The one place of the daemon
 //! where levels become times; whoever asks since when something is felt asks here.
 
-use brain::Observation;
+use brain::{LinkFault, Observation};
 
 /// When a level came, and when it was last there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,7 +84,7 @@ impl Sign {
         }
     }
 
-    const fn is_in(self, observation: &Observation) -> bool {
+    fn is_in(self, observation: &Observation) -> bool {
         match self {
             Self::BumperLeft => observation.contacts.left,
             Self::BumperRight => observation.contacts.right,
@@ -93,7 +93,8 @@ impl Sign {
             Self::CliffRight => observation.cliffs.right,
             Self::WheelDrop => observation.wheel_drop,
             Self::Docked => observation.docked,
-            Self::LinkLost => !observation.link_up,
+            // What is wrong with a link that is not silent is among the inhibits.
+            Self::LinkLost => !observation.link_up && LinkFault::of_inhibits(observation.inhibits).is_none(),
         }
     }
 }

@@ -46,7 +46,10 @@ impl Behavior {
     /// What keeps any motion from starting (S25).
     fn startable(&self) -> Result<(), JobRefusal> {
         if !self.facts.link_up {
-            return Err(JobRefusal::LinkLost);
+            return Err(match self.facts.link_fault {
+                Some(fault) => JobRefusal::Link(fault),
+                None => JobRefusal::LinkLost,
+            });
         }
         if let Some(fault) = self.facts.fault {
             return Err(JobRefusal::Fault(fault));

@@ -6,6 +6,7 @@ use crate::behavior::job::Job;
 use crate::behavior::parameters::ARMING;
 use crate::model::decision::DecisionKind;
 use crate::model::fault::Fault;
+use crate::model::link_fault::LinkFault;
 use crate::model::reason::Reason;
 use crate::navigation::{Situation, TaskContext};
 
@@ -43,8 +44,14 @@ impl Behavior {
     }
 
     fn lose_link(&mut self, context: &mut TaskContext) {
+        let reason = self.facts.link_fault.map_or(Reason::LinkLost, Reason::Link);
         let resume = match self.mode {
-            Mode::Disconnected { .. } => return,
+            Mode::Disconnected { .. } => {
+                if matches!(self.reason, Reason::LinkLost | Reason::Link(_)) {
+                    self.reason = reason;
+                }
+                return;
+            }
             Mode::Starting { .. } | Mode::Working => true,
             Mode::Recharging => {
                 self.put_off_again();
@@ -56,8 +63,10 @@ impl Behavior {
             }
             _ => false,
         };
-        let since_us = Some(self.facts.now_us);
-        self.enter(Mode::Disconnected { since_us, resume }, Reason::LinkLost, context);
+        // Nobody knows how long a clock that has jumped was away.
+        let has_jumped = self.facts.link_fault == Some(LinkFault::ClockJumped);
+        let since_us = (!has_jumped).then_some(self.up_until_us);
+        self.enter(Mode::Disconnected { since_us, resume }, reason, context);
     }
 
     fn reconnect(&mut self, since_us: Option<u64>, resume: bool, context: &mut TaskContext) {

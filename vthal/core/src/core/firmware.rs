@@ -15,6 +15,9 @@ use crate::{Checkpoint, Outputs, RunEnd, cut_short};
 /// changed for that very press. A press so soon after a change means the state before.
 const AFTER_CHANGE_US: u64 = 500_000;
 
+/// What the log calls commands that the robot did not answer.
+const UNANSWERED: &str = "no answer";
+
 impl Core {
     pub(super) fn take_events(&mut self, now_us: u64, mut events: Vec<DeviceEvent>, outputs: &mut Outputs) {
         for event in events.drain(..) {
@@ -55,6 +58,8 @@ impl Core {
                 (LogLevel::Info, LogSource::Firmware, text.to_owned())
             }
             DeviceEvent::Log { level, text } => (level, LogSource::Firmware, text),
+            DeviceEvent::Refused { reason, .. } if !self.link.is_failure_news(now_us, reason) => return,
+            DeviceEvent::Unanswered(_) if !self.link.is_failure_news(now_us, UNANSWERED) => return,
             DeviceEvent::Refused { number, reason } => {
                 let number = number.map_or_else(String::new, |number| format!(" {number}"));
                 let text = format!("the robot refused command{number}: {reason}");

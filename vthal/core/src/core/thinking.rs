@@ -25,6 +25,7 @@ impl Core {
         if self.ended {
             return;
         }
+        self.link.look(now_us);
         let link = self.link.view(now_us);
         let recording = self.config.recording;
         let Some(brain_session) = &mut self.brain_session else {

@@ -1,18 +1,19 @@
 //! The robot on the serial device: bytes to and from it, its last report, and the quality of the link.
 
-use brain::Inhibit;
+use brain::{Inhibit, LinkFault};
 use rvac_api::{DeviceTable, LinkReading, LogLevel, Topic, Update, Versions};
 
 use super::audience::Teller;
+use super::command_failures::CommandFailures;
 use super::driver::Brakes;
 use super::journal::LogSource;
 use super::link_facts::LinkFacts;
 use crate::device::{
-    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, LinkVerdict, Make, Report,
+    CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, LinkNews, Make, Report,
     SlowFacts, Supervisor, WheelSpeeds,
 };
 use crate::observe::{LinkView, currents_a};
-use crate::refusal::Refused;
+use crate::refusal::{self, Refused};
 use crate::{Direction, LinkLoss, Record, to_api};
 
 /// The link and the robot at its other end.
@@ -26,6 +27,7 @@ pub(crate) struct LinkDesk {
     events: Vec<DeviceEvent>,
     /// Scratch, so that packets cost no list of their own.
     packets: Vec<(Direction, String)>,
+    failures: CommandFailures,
 }
 
 impl LinkDesk {
@@ -84,6 +86,8 @@ impl LinkDesk {
     /// Lets time pass; gives the events of the robot.
     pub(crate) fn pass_time(&mut self, teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.pass_time(teller.now_us);
+        self.look(teller.now_us);
+        self.tell_link_news(teller);
         let mut events = core::mem::take(&mut self.events);
         if let Some(device) = &mut self.device
             && teller.now_us >= device.next_wake_us()
@@ -97,6 +101,27 @@ impl LinkDesk {
             teller.outputs.next_rate |= device.gives_up_rate(teller.now_us);
         }
         events
+    }
+
+    /// Whether it is worth a line in the log that a command failed in this way.
+    pub(crate) fn is_failure_news(&mut self, now_us: u64, kind: &'static str) -> bool {
+        self.failures.is_news(now_us, kind)
+    }
+
+    /// Why the link cannot be relied upon, unless it is silent.
+    pub(crate) fn fault(&self) -> Option<LinkFault> {
+        self.device.as_ref().and_then(Supervisor::link_fault)
+    }
+
+    fn tell_link_news(&mut self, teller: &mut Teller<'_>) {
+        for text in self.failures.ended(teller.now_us) {
+            teller.log(LogLevel::Warn, LogSource::Link, text);
+        }
+        let Some(device) = &mut self.device else { return };
+        for news in device.take_link_news() {
+            let (level, text) = link_line(news);
+            teller.log(level, LogSource::Link, text);
+        }
     }
 
     /// Takes the list of events back, so that the next ones cost no memory of their own.
@@ -206,23 +231,25 @@ impl LinkDesk {
         }
     }
 
+    /// Judges the link as it is now.
+    pub(crate) fn look(&mut self, now_us: u64) {
+        if let Some(device) = &mut self.device {
+            device.look_at_link(now_us);
+        }
+    }
+
     /// The state of the link for the brain.
     pub(crate) fn view(&self, now_us: u64) -> LinkView {
         let attached = self.device.as_ref().filter(|device| device.is_attached());
         let up = attached
             .and_then(Supervisor::fresh_us)
             .is_some_and(|fresh_us| self.facts.is_fresh(now_us, fresh_us));
-        let verdict = self
-            .device
-            .as_ref()
-            .map(|device| device.link_quality().verdict)
-            .unwrap_or_default();
-        let speed_share = match verdict {
-            LinkVerdict::Good => 1.0,
-            LinkVerdict::Poor => 0.5,
-            LinkVerdict::Bad => 0.0,
-        };
-        LinkView { up, speed_share }
+        let fault = self.fault();
+        LinkView {
+            up: up && fault.is_none(),
+            fault,
+            speed_share: self.device.as_ref().map_or(1.0, Supervisor::speed_share),
+        }
     }
 
     /// Versions of all that is at work, with a daemon of this one.
@@ -301,6 +328,26 @@ impl LinkDesk {
         if let Some(device) = &mut self.device {
             device.tap(direction, bytes, &mut self.packets);
             tell_packets(&mut self.packets, teller);
+        }
+    }
+}
+
+/// The line of the log for a fault of the link.
+fn link_line(news: LinkNews) -> (LogLevel, String) {
+    match news {
+        LinkNews::Began(fault) => {
+            let name = fault.name();
+            (LogLevel::Warn, format!("{name}: {}", refusal::text(name)))
+        }
+        LinkNews::Ended(episode) => {
+            let (name, times, lasted_s) = (episode.fault.name(), episode.times, episode.lasted_s());
+            let came = episode.arrivals;
+            let text = format!(
+                "{name} is over: {times} times within {lasted_s:.1} s, with {} sound reports, {} pieces of garbage, {} wrong \
+                 check sums, {} repeated and {} stray reports",
+                came.reports, came.garbled, came.corrupted, came.repeated, came.stray
+            );
+            (LogLevel::Info, text)
         }
     }
 }

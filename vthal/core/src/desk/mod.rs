@@ -10,6 +10,7 @@ mod buttons;
 pub(crate) mod checkpoints;
 mod client_inputs;
 mod clients;
+pub(crate) mod command_failures;
 pub(crate) mod driver;
 pub(crate) mod evidence;
 pub(crate) mod feed;

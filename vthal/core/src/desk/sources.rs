@@ -1,6 +1,6 @@
 //! What clients can be shown at this moment, put together from what the desks know.
 
-use brain::{BehaviorState, Brain};
+use brain::{BehaviorState, Brain, LinkFault};
 use rvac_api::{API_VERSION, DeviceTable, Pose, RoomHere, Status, Topic, Update};
 
 use super::floors::FloorDesk;
@@ -35,7 +35,7 @@ impl Sources<'_> {
         let Some(brain_session) = self.brain_session else {
             return Status {
                 state: BehaviorState::Disconnected.name().to_owned(),
-                reason: "no-robot".to_owned(),
+                reason: self.link.fault().map_or("no-robot", LinkFault::name).to_owned(),
                 ..Status::default()
             };
         };

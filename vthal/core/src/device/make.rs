@@ -22,7 +22,7 @@ pub trait Device: fmt::Debug + Send {
     /// Whether it is described and listens.
     fn is_attached(&self) -> bool;
 
-    /// How good the link is.
+    /// How good the link is, and what has come over it.
     fn link_quality(&self) -> LinkQuality;
 
     /// Takes bytes from the robot.

@@ -12,6 +12,7 @@ mod dead_man;
 mod description;
 mod event;
 mod latches;
+mod link_judge;
 mod make;
 mod reflex;
 mod report;
@@ -28,9 +29,10 @@ pub use description::{
     SensorCounts, StopSite,
 };
 pub use event::{DeviceEvent, Greeting};
+pub(crate) use link_judge::LinkNews;
 pub use make::{Device, DeviceIo, Drive, Make, Opening};
 pub use report::{
-    Battery, ChargeState, Charger, CleanersRunning, DOCK_RECEIVERS_MAX, LinkQuality, LinkVerdict, Report,
+    Arrivals, Battery, ChargeState, Charger, CleanersRunning, DOCK_RECEIVERS_MAX, LinkQuality, Report,
     SlowFacts, WheelDrops, WheelSpeeds, WheelTravel,
 };
 pub use shape::Shape;

@@ -148,24 +148,46 @@ pub struct Charger {
 /// How good the link is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinkQuality {
-    /// What this allows.
-    pub verdict: LinkVerdict,
+    /// What has come since the line was opened.
+    pub arrivals: Arrivals,
     /// Share of the newest packets that were bad, 0..1.
     pub bad_share: f64,
+    /// Share of the newest commands that reached the robot damaged, 0..1; 0 where it does not tell, or had few.
+    pub lost_share: f64,
     /// Newest round trip of a command in ms, if known.
     pub round_trip_ms: Option<f64>,
     /// Whether telemetry comes in a compact binary form.
     pub is_binary: bool,
 }
 
-/// What the quality of the link allows.
+/// What has come from the robot since the line was opened, as totals that wrap.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LinkVerdict {
-    /// Full speed.
-    #[default]
-    Good,
-    /// Half speed.
-    Poor,
-    /// No motion.
-    Bad,
+pub struct Arrivals {
+    /// Reports that are new and undamaged.
+    pub reports: u32,
+    /// Pieces that are nothing of the robot's.
+    pub garbled: u32,
+    /// Packets whose check sum is wrong.
+    pub corrupted: u32,
+    /// Reports with the time of the one before.
+    pub repeated: u32,
+    /// Reports whose time does not follow from those before.
+    pub stray: u32,
+    /// Jumps of the robot's clock.
+    pub clock_jumps: u32,
+}
+
+impl Arrivals {
+    /// What came after `earlier`.
+    #[must_use]
+    pub const fn since(self, earlier: Self) -> Self {
+        Self {
+            reports: self.reports.wrapping_sub(earlier.reports),
+            garbled: self.garbled.wrapping_sub(earlier.garbled),
+            corrupted: self.corrupted.wrapping_sub(earlier.corrupted),
+            repeated: self.repeated.wrapping_sub(earlier.repeated),
+            stray: self.stray.wrapping_sub(earlier.stray),
+            clock_jumps: self.clock_jumps.wrapping_sub(earlier.clock_jumps),
+        }
+    }
 }

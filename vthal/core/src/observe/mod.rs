@@ -2,6 +2,7 @@
 
 mod charge;
 
+use brain::LinkFault;
 use brain::observation::{BeaconSignal, Contacts, Observation};
 
 use crate::device::{Battery, Description, Report, WrappingTotal};
@@ -123,6 +124,12 @@ impl Observer {
     pub fn stamp(&mut self, now_us: u64, link: LinkView) {
         self.observation.time_us = now_us.max(self.observation.time_us + 1);
         self.observation.link_up = link.up;
+        for fault in LinkFault::all() {
+            self.observation.inhibits.remove(fault.inhibit());
+        }
+        if let Some(fault) = link.fault {
+            self.observation.inhibits.insert(fault.inhibit());
+        }
         self.observation.speed_share = link.speed_share;
     }
 }
@@ -136,8 +143,10 @@ impl Default for Observer {
 /// How the link is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkView {
-    /// A session is open and telemetry is fresh.
+    /// A session is open, telemetry is fresh and nothing is wrong with it.
     pub up: bool,
+    /// Why it is not up, unless it is silent.
+    pub fault: Option<LinkFault>,
     /// Share of the commanded speed that quality allows, 0..1.
     pub speed_share: f64,
 }
@@ -180,6 +189,7 @@ mod tests {
         let mut observer = Observer::new();
         let link = LinkView {
             up: true,
+            fault: None,
             speed_share: 1.0,
         };
         for (given, stamped) in [(5, 5), (5, 6), (4, 7), (100, 100)] {

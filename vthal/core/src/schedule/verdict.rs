@@ -1,5 +1,6 @@
 //! What is decided of a run whose time has come.
 
+use brain::LinkFault;
 use jiff::civil::Date;
 use rvac_api::InQuiet;
 
@@ -13,8 +14,10 @@ pub const GRACE_S: i64 = 120;
 const GIVES_UP_S: i64 = 30;
 /// There is no robot at the serial line.
 pub const NO_ROBOT: &str = "no-robot";
-/// What is waited for: a robot that does not answer at this moment may do so at the next.
-const WAITED_FOR: [&str; 2] = [NO_ROBOT, "link-lost"];
+/// Whether a run waits: a robot that cannot be reached at this moment may answer at the next.
+fn is_waited_for(reason: &str) -> bool {
+    [NO_ROBOT, "link-lost"].contains(&reason) || LinkFault::from_name(reason).is_some()
+}
 
 /// What becomes of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -163,7 +166,7 @@ fn judge(
     }
     match ready(entry) {
         Ok(()) => Some(Outcome::Starting),
-        Err(reason) if WAITED_FOR.contains(&reason) && late_s < late_max_s(entry) - GIVES_UP_S => None,
+        Err(reason) if is_waited_for(reason) && late_s < late_max_s(entry) - GIVES_UP_S => None,
         Err(reason) => Some(Outcome::Refused(reason.to_owned())),
     }
 }

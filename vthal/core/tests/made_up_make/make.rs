@@ -4,8 +4,8 @@
 use brain::observation::{Cliffs, Contacts};
 use vthal_core::Direction;
 use vthal_core::device::{
-    CleanerDrive, CommandError, DeadManKind, Description, Device, DeviceEvent, DeviceIo, Drive, DriveLimits,
-    Greeting, Identity, Level, LinkQuality, LinkVerdict, Make, Odometry, Opening, ReflexSite, Reflexes,
+    Arrivals, CleanerDrive, CommandError, DeadManKind, Description, Device, DeviceEvent, DeviceIo, Drive,
+    DriveLimits, Greeting, Identity, Level, LinkQuality, Make, Odometry, Opening, ReflexSite, Reflexes,
     Report, SensorCounts, Shape, StopSite, WheelDrops, WheelTravel,
 };
 
@@ -184,10 +184,10 @@ impl Device for Pebble {
         let [good, bad] = self.lines;
         let bad_share = f64::from(bad) / f64::from((good + bad).max(1));
         LinkQuality {
-            verdict: if bad_share > 0.1 {
-                LinkVerdict::Bad
-            } else {
-                LinkVerdict::Good
+            arrivals: Arrivals {
+                reports: good,
+                garbled: bad,
+                ..Arrivals::default()
             },
             bad_share,
             ..LinkQuality::default()

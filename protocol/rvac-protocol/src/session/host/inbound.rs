@@ -3,6 +3,7 @@
 use rvac_units::Tick;
 
 use super::event_order::{Arrival, EventOrder};
+use super::robot_clock::{RobotClock, TickVerdict};
 use super::{
     GREETING_INCOMPATIBLE_MS, GREETING_MS, Gathering, HostCore, HostEvent, HostPhase, LinkCounters, PING_MS,
     SILENCE_MS,
@@ -26,17 +27,18 @@ impl HostCore {
             }
             Framed::Binary { kind, body } => self.take_binary(kind, body),
             Framed::BadCrc { text, crc } => self.take_bad_crc(text, crc),
-            // A robot sends a CRC with every packet: one that arrives without it was damaged on the line.
-            Framed::Unchecked(_) | Framed::BinaryBadCrc => {
+            Framed::BinaryBadCrc => self.corrupted(),
+            // A robot sends a CRC with every packet: this is none of its packets, or not the whole of one.
+            Framed::Unchecked(_) => {
                 count(&mut self.counters.bad_crc);
-                self.bad()
+                self.garbled()
             }
             Framed::Poisoned(poison) => {
                 if matches!(poison, Poison::TooLong | Poison::ControlByte) {
                     count(&mut self.counters.malformed);
                 }
                 count(&mut self.counters.resync);
-                self.bad()
+                self.garbled()
             }
         }
     }
@@ -49,8 +51,7 @@ impl HostCore {
             self.good();
             return self.take_hello(hello);
         }
-        count(&mut self.counters.bad_crc);
-        self.bad()
+        self.corrupted()
     }
 
     fn take_binary(&mut self, kind: u8, body: &[u8]) -> Option<HostEvent> {
@@ -87,14 +88,27 @@ impl HostCore {
         }
     }
 
+    /// Only a state that is newer than all before goes on: another one tells nothing of the present.
     fn take_state(&mut self, state: State) -> Option<HostEvent> {
-        self.hear_tick(state.tick);
+        match self.clock.hear_state(state.tick, self.now) {
+            TickVerdict::New => {}
+            TickVerdict::Jumped => count(&mut self.arrivals.clock_jumps),
+            TickVerdict::Repeated => {
+                count(&mut self.arrivals.repeated);
+                return None;
+            }
+            TickVerdict::Stray => {
+                count(&mut self.arrivals.stray);
+                return None;
+            }
+        }
+        count(&mut self.arrivals.states);
         self.state_wanted = false;
         Some(HostEvent::Report(Report::State(state)))
     }
 
     fn take_event(&mut self, event: NumberedEvent) -> Option<HostEvent> {
-        self.hear_tick(event.tick);
+        self.clock.hear_event(event.tick, self.now);
         match self.event_order.take(event.number, self.now) {
             Arrival::Next => Some(HostEvent::Report(Report::Event(event))),
             Arrival::Hold => None,
@@ -201,7 +215,7 @@ impl HostCore {
         self.session = hello.session;
         self.packet_max = usize::from(hello.packet_max);
         self.binary = self.binary_wanted.common(hello.binary);
-        self.robot_tick = Some((hello.tick, self.now));
+        self.clock = RobotClock::begin(hello.tick, self.now);
         self.gathering = Gathering::begin();
         self.ping.due = self.now.after(PING_MS);
         HostEvent::Opened(hello)
@@ -221,7 +235,7 @@ impl HostCore {
         self.binary = BinaryKinds::NONE;
         self.binary_left = false;
         self.bad_in_row = 0;
-        self.robot_tick = None;
+        self.clock = RobotClock::default();
         self.event_order = EventOrder::default();
         self.gathering = Gathering::default();
         self.ping.under_way = None;
@@ -260,19 +274,22 @@ impl HostCore {
         }
     }
 
-    /// Keeps the newest tick; a repeated event carries an old one.
-    fn hear_tick(&mut self, tick: Tick) {
-        let newer = self.robot_tick.is_none_or(|(known, _)| tick.reached(known));
-        if newer {
-            self.robot_tick = Some((tick, self.now));
-        }
-    }
-
     fn good(&mut self) {
         count(&mut self.counters.accepted);
         self.heard = self.now;
         self.bad_in_row = 0;
         self.inbound.record(1, 0, self.now);
+    }
+
+    fn corrupted(&mut self) -> Option<HostEvent> {
+        count(&mut self.counters.bad_crc);
+        count(&mut self.arrivals.corrupted);
+        self.bad()
+    }
+
+    fn garbled(&mut self) -> Option<HostEvent> {
+        count(&mut self.arrivals.garbled);
+        self.bad()
     }
 
     fn bad(&mut self) -> Option<HostEvent> {

@@ -5,6 +5,7 @@ mod description;
 mod event_order;
 mod inbound;
 mod outbound;
+mod robot_clock;
 
 use heapless::Deque;
 use rvac_units::Tick;
@@ -12,6 +13,7 @@ use rvac_units::Tick;
 use self::delivery::Delivery;
 use self::description::Gathering;
 use self::event_order::EventOrder;
+use self::robot_clock::RobotClock;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::crc::Direction;
 use crate::frame::{Framer, PACKET_BYTES_MAX, Poison};
@@ -19,7 +21,7 @@ use crate::message::{
     Battery, BinaryKinds, Command, CommandNames, Description, LinkCounters, ProtocolVersion, Refusal, Report,
     RobotHello, Sequence,
 };
-use crate::quality::{LinkQuality, QualityWindow};
+use crate::quality::{Arrivals, LinkQuality, QualityWindow};
 
 /// An event for the host.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +30,8 @@ pub enum HostEvent {
     Opened(RobotHello),
     /// The robot's description is complete. Comes some packets after `Opened`.
     Described(Description),
-    /// `Info`, `State`, `Log`, or an `Event` that was not delivered before. Events come in order and once.
+    /// `Info`, `Log`, a `State` that is newer than all before, or an `Event` that was not delivered before. Events come in
+    /// order and once.
     Report(Report),
     /// The robot has answered a numbered command: executed (`None`) or refused. Refused `drive` and `motor` are
     /// answered too.
@@ -109,8 +112,8 @@ struct HostCore {
     counters: LinkCounters,
     heard: Tick,
     next_sequence: Sequence,
-    /// The robot's newest tick and when it came.
-    robot_tick: Option<(Tick, Tick)>,
+    clock: RobotClock,
+    arrivals: Arrivals,
     delivery: Delivery,
     gathering: Gathering,
     event_order: EventOrder,
@@ -158,7 +161,8 @@ impl HostSession {
             counters: LinkCounters::default(),
             heard: now,
             next_sequence: Sequence(1),
-            robot_tick: None,
+            clock: RobotClock::default(),
+            arrivals: Arrivals::default(),
             delivery: Delivery::default(),
             gathering: Gathering::default(),
             event_order: EventOrder::default(),
@@ -266,19 +270,22 @@ impl HostSession {
     /// The robot's clock: newest received tick and its time on the host's clock.
     #[must_use]
     pub fn robot_tick(&self) -> Option<(Tick, Tick)> {
-        self.core.robot_tick
+        self.core.clock.newest()
+    }
+
+    /// What has come from the robot since this end was made.
+    #[must_use]
+    pub const fn arrivals(&self) -> Arrivals {
+        self.core.arrivals
     }
 
     /// Quality of the link over the last 5 s.
     #[must_use]
     pub fn quality(&self) -> LinkQuality {
-        let (good_in, bad_in) = self.core.inbound.totals();
-        let (good_out, bad_out) = self.core.outbound.totals();
         LinkQuality {
-            packets: good_in + bad_in + good_out + bad_out,
-            bad: bad_in + bad_out,
+            inbound: self.core.inbound.totals(),
+            outbound: self.core.outbound.totals(),
             round_trip_ms: self.core.round_trip_ms,
-            verdict: self.core.inbound.verdict().max(self.core.outbound.verdict()),
         }
     }
 

@@ -39,7 +39,7 @@ impl HostCore {
     /// Puts the session's number and the robot's newest tick into the command.
     fn stamp(&mut self, command: Command) -> Command {
         let next = self.next_sequence;
-        let (tick, heard) = self.robot_tick.unwrap_or_default();
+        let (tick, heard) = self.clock.newest().unwrap_or_default();
         let is_motion = matches!(command, Command::Drive(_) | Command::Motor(_) | Command::Move(_));
         self.state_wanted |= is_motion && self.now.since(heard) >= TICK_OLD_MS;
         match command {

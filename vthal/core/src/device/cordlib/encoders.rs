@@ -45,8 +45,8 @@ impl Encoders {
         self.count_m = count_m;
     }
 
-    /// A session has begun: no speed is told over its border.
-    pub(super) const fn greeted(&mut self) {
+    /// A session has begun, or the robot's clock has jumped: no speed is told over that.
+    pub(super) const fn forget_newest(&mut self) {
         self.last = None;
     }
 
@@ -153,7 +153,7 @@ mod tests {
         let mut encoders = of_robot();
         encoders.take(&state(0, 0, 0));
         encoders.take(&state(20, 500, 400));
-        encoders.greeted();
+        encoders.forget_newest();
         encoders.rebase();
         encoders.described("paper", 0.001);
         assert_eq!(encoders.take(&state(0, 3, 0)).left_m, 0.5);

@@ -67,7 +67,7 @@ impl Cordlib {
             boot_count: hello.boot_count,
             tick: None,
         });
-        self.encoders.greeted();
+        self.encoders.forget_newest();
         self.momentary = MomentaryLevels::default();
         if was_reset {
             self.encoders.rebase();
@@ -85,6 +85,7 @@ impl Cordlib {
     fn report(&mut self, report: Report) -> Option<DeviceEvent> {
         match report {
             Report::State(mut state) => {
+                self.follow_clock();
                 self.momentary.complete(&mut state);
                 Some(DeviceEvent::Report(self.state(&state)))
             }
@@ -101,6 +102,15 @@ impl Cordlib {
             Report::Hello(_) | Report::Describe(_) | Report::Acknowledgement(_) => None,
             // Raw readings are for tools that speak to a robot directly.
             Report::Probed(_) => None,
+        }
+    }
+
+    /// Over a jump of the robot's clock no speed is told, and no event is compared with a report.
+    fn follow_clock(&mut self) {
+        let clock_jumps = self.session.arrivals().clock_jumps;
+        if core::mem::replace(&mut self.clock_jumps, clock_jumps) != clock_jumps {
+            self.encoders.forget_newest();
+            self.momentary = MomentaryLevels::default();
         }
     }
 

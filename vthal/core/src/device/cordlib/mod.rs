@@ -60,6 +60,8 @@ struct Cordlib {
     last_start: Option<LastStart>,
     encoders: Encoders,
     momentary: MomentaryLevels,
+    /// Jumps of the robot's clock that are known here.
+    clock_jumps: u32,
 }
 
 fn tick(now_us: u64) -> Tick {
@@ -79,6 +81,7 @@ impl Cordlib {
             last_start: None,
             encoders: Encoders::default(),
             momentary: MomentaryLevels::default(),
+            clock_jumps: 0,
         }
     }
 
@@ -117,6 +120,7 @@ impl Device for Cordlib {
         self.capabilities = Capabilities::default();
         self.encoders.forget_speeds();
         self.momentary = MomentaryLevels::default();
+        self.clock_jumps = 0;
     }
 
     fn description(&self) -> Option<&Description> {
@@ -129,7 +133,10 @@ impl Device for Cordlib {
 
     fn link_quality(&self) -> LinkQuality {
         let is_binary = self.hello.as_ref().is_some_and(|hello| hello.binary.state);
-        to_model::link_quality(self.session.quality(), is_binary)
+        LinkQuality {
+            is_binary,
+            ..to_model::link_quality(self.session.quality(), self.session.arrivals())
+        }
     }
 
     fn receive(&mut self, bytes: &[u8], io: &mut DeviceIo<'_>) {

@@ -8,10 +8,13 @@ use rvac_protocol::message::{
 use rvac_protocol::quality;
 
 use super::super::{
-    Battery, ChargeState, Charger, CleanersRunning, DeadManKind, Description, DriveLimits, Identity, Level,
-    LinkQuality, LinkVerdict, Odometry, Part, ReflexSite, Reflexes, Report, SensorCounts, Shape, SlowFacts,
-    StopSite, WheelDrops, WheelTravel,
+    Arrivals, Battery, ChargeState, Charger, CleanersRunning, DeadManKind, Description, DriveLimits,
+    Identity, Level, LinkQuality, Odometry, Part, ReflexSite, Reflexes, Report, SensorCounts, Shape,
+    SlowFacts, StopSite, WheelDrops, WheelTravel,
 };
+
+/// A share of fewer packets says little: those of a second in which the robot drives.
+const COUNTED_MIN: u32 = 20;
 
 /// What the robot is and can do.
 pub(super) fn description(hello: Option<&RobotHello>, table: &message::Description) -> Description {
@@ -218,16 +221,25 @@ fn battery(battery: &message::Battery) -> Battery {
 }
 
 /// How good the link is.
-pub(super) fn link_quality(wire: quality::LinkQuality, is_binary: bool) -> LinkQuality {
+pub(super) fn link_quality(wire: quality::LinkQuality, arrivals: quality::Arrivals) -> LinkQuality {
+    let sent = wire.outbound;
     LinkQuality {
-        verdict: match wire.verdict {
-            quality::LinkVerdict::Good => LinkVerdict::Good,
-            quality::LinkVerdict::Poor => LinkVerdict::Poor,
-            quality::LinkVerdict::Bad => LinkVerdict::Bad,
+        arrivals: Arrivals {
+            reports: arrivals.states,
+            garbled: arrivals.garbled,
+            corrupted: arrivals.corrupted,
+            repeated: arrivals.repeated,
+            stray: arrivals.stray,
+            clock_jumps: arrivals.clock_jumps,
         },
-        bad_share: f64::from(wire.bad) / f64::from(wire.packets.max(1)),
+        bad_share: wire.both().bad_share(),
+        lost_share: if sent.all() >= COUNTED_MIN {
+            sent.bad_share()
+        } else {
+            0.0
+        },
         round_trip_ms: wire.round_trip_ms.map(f64::from),
-        is_binary,
+        is_binary: false,
     }
 }
 
@@ -243,13 +255,16 @@ pub(super) const fn log_level(level: message::LogLevel) -> rvac_api::LogLevel {
 
 #[cfg(test)]
 mod tests {
+    use brain::LinkFault;
     use rvac_protocol::message;
 
     use super::{Inhibit, inhibit, inhibit_of_wire, inhibits};
 
     #[test]
     fn inhibits_have_the_same_names_on_the_wire() {
+        let of_host = |inhibit: &Inhibit| LinkFault::from_name(inhibit.name()).is_some();
         let here: Vec<_> = Inhibit::all()
+            .filter(|inhibit| !of_host(inhibit))
             .map(|inhibit| (inhibit.name(), inhibit.is_latched()))
             .collect();
         let wire = message::Inhibit::ALL.map(|inhibit| (inhibit.name(), inhibit.is_latched()));

@@ -3,8 +3,11 @@
 
 mod reports;
 
+use brain::LinkFault;
+
 use super::dead_man::{DeadMan, Setpoint, VALID_FOR_MAX_US, WheelOrder};
 use super::latches::HostLatches;
+use super::link_judge::{LinkJudge, LinkNews};
 use super::reflex::{HostReflexes, fresh_us};
 use super::wheel_watch::WheelWatch;
 use super::{
@@ -28,6 +31,7 @@ pub struct Supervisor {
     duties: Duties,
     watch: WheelWatch,
     latches: HostLatches,
+    judge: LinkJudge,
 }
 
 /// What is under way since the line was opened.
@@ -87,6 +91,7 @@ impl Supervisor {
             duties: Duties::new(0),
             watch: WheelWatch::default(),
             latches: HostLatches::default(),
+            judge: LinkJudge::default(),
         }
     }
 
@@ -99,6 +104,7 @@ impl Supervisor {
         self.duties.answer_until_us = has_others.then_some(io.now_us + patience_us);
         self.watch.rebase();
         self.latches.rebase();
+        self.judge.open(io.now_us);
         self.device.open(io);
         self.device.release(io);
     }
@@ -134,6 +140,30 @@ impl Supervisor {
         self.device.link_quality()
     }
 
+    /// Judges the link as it is now.
+    pub fn look_at_link(&mut self, now_us: u64) {
+        let fresh_us = self.fresh_us();
+        self.judge.look(now_us, self.device.link_quality(), fresh_us);
+    }
+
+    /// Why the link cannot be relied upon, unless it is silent.
+    #[must_use]
+    pub fn link_fault(&self) -> Option<LinkFault> {
+        self.judge.fault()
+    }
+
+    /// Share of its speed that the robot may drive at over this link.
+    #[must_use]
+    pub fn speed_share(&self) -> f64 {
+        self.fresh_us()
+            .map_or(1.0, |fresh_us| self.judge.speed_share(fresh_us))
+    }
+
+    /// Faults of the link that began or ended since the last call.
+    pub(crate) fn take_link_news(&mut self) -> Vec<LinkNews> {
+        self.judge.take_news()
+    }
+
     /// Reports in a row that say that it stands.
     #[must_use]
     pub const fn still_reports(&self) -> u32 {
@@ -156,6 +186,7 @@ impl Supervisor {
         let before = io.events.len();
         self.device.receive(bytes, io);
         self.note(before, io);
+        self.look_at_link(io.now_us);
     }
 
     /// Lets time pass: the dead man acts, running commands are repeated.

@@ -10,6 +10,9 @@ use super::Supervisor;
 /// Telemetry has had the time to know of a stop after this long.
 const STOP_REPEAT_US: u64 = 200_000;
 
+/// The name of the refusal of a command that was too old.
+const STALE: &str = "stale";
+
 /// What the reports of one chunk of bytes ask for.
 #[derive(Clone, Copy, Debug, Default)]
 struct Heard {
@@ -34,7 +37,9 @@ impl Supervisor {
                     self.duties.in_control = false;
                     self.watch.rebase();
                     self.latches.rebase();
+                    self.judge.restart(io.now_us);
                 }
+                DeviceEvent::Refused { reason: STALE, .. } => self.judge.refused_as_stale(io.now_us),
                 DeviceEvent::ControlLost(_) => self.duties.in_control = false,
                 _ => {}
             }
