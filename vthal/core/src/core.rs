@@ -211,6 +211,7 @@ impl Core {
 
     fn link_closed(&mut self, now_us: u64, reason: &LinkLoss, outputs: &mut Outputs) {
         self.buttons.forget();
+        self.driver.arbiter.preempt();
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.link.closed(reason, &mut teller);
     }
