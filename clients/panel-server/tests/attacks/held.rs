@@ -18,6 +18,8 @@ const STANDS: Duration = Duration::from_millis(600);
 /// So long the stick is held on after that.
 const HELD_ON: Duration = Duration::from_millis(500);
 const TURN_RAD_S: f64 = 0.8;
+/// What no answer to a held stick may be.
+const DRIVES: &str = "drives";
 
 /// Where the stick is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,40 +52,54 @@ impl Stick {
         }
     }
 
-    /// Turns the robot from the stick's centre on.
+    /// Turns the robot from the stick's centre on. One that has just started anew is armed first.
     async fn begin(&mut self, scene: &Scene) {
         let deadline = Instant::now() + DEADLINE;
-        while self.turns(0.0).await.is_some() {
-            assert!(Instant::now() < deadline, "nobody may drive");
-            tokio::time::sleep(BETWEEN).await;
+        while scene.witness.stands_within(STANDS).is_none() {
+            assert!(Instant::now() < deadline, "the robot does not rest");
         }
-        for _ in 0..6 {
-            self.turns(TURN_RAD_S).await;
-            tokio::time::sleep(BETWEEN).await;
+        loop {
+            let from_rest = self.turns(0.0).await;
+            for _ in 0..6 {
+                let held = self.turns(TURN_RAD_S).await;
+                tokio::time::sleep(BETWEEN).await;
+                if from_rest.is_none() && held.is_none() && scene.witness.moves_within(BETWEEN) {
+                    return;
+                }
+            }
+            assert!(Instant::now() < deadline, "a stick from its centre drives");
         }
-        assert!(
-            scene.witness.moves_within(STANDS),
-            "a stick from its centre drives"
-        );
     }
 
     /// Holds on; gives what went wrong, or the last answer. What has started anew is waited for.
     async fn hold_on(&mut self, scene: &Scene) -> String {
         let began = Instant::now();
-        let mut last = String::new();
-        while began.elapsed() < STANDS || (last != "centre-first" && began.elapsed() < DEADLINE) {
-            match self.turns(TURN_RAD_S).await {
-                None => return "drives".to_owned(),
-                Some(reason) => last = reason,
+        let mut last = self.hold_for(STANDS).await;
+        while last != "centre-first" && last != DRIVES && began.elapsed() < DEADLINE {
+            last = self.hold_for(BETWEEN).await;
+        }
+        if scene.witness.stands_within(STANDS).is_none() {
+            return "moves on".to_owned();
+        }
+        let last = self.hold_for(HELD_ON).await;
+        // What the witness has seen meanwhile.
+        if scene.witness.moves_within(BETWEEN) {
+            return "moves again".to_owned();
+        }
+        last
+    }
+
+    /// Says again and again that it is pushed. Gives the last answer, or that one was granted.
+    async fn hold_for(&mut self, span: Duration) -> String {
+        let began = Instant::now();
+        loop {
+            let Some(reason) = self.turns(TURN_RAD_S).await else {
+                return DRIVES.to_owned();
+            };
+            if began.elapsed() >= span {
+                return reason;
             }
             tokio::time::sleep(BETWEEN).await;
-        }
-        if scene.witness.moves_within(HELD_ON) {
-            return "moves".to_owned();
-        }
-        match self.turns(TURN_RAD_S).await {
-            None => "drives".to_owned(),
-            Some(reason) => reason,
         }
     }
 }
