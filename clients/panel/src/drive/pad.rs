@@ -5,7 +5,8 @@ use leptos::html;
 use leptos::prelude::*;
 use mixer::KeyCode;
 use panel_logic::{Driver, PadEvent, Pointer, PointerKind, knob_place};
-use web_sys::MouseEvent;
+use wasm_bindgen::JsCast;
+use web_sys::{MouseEvent, Node};
 
 use crate::drive::Seat;
 use crate::language::words;
@@ -24,15 +25,15 @@ struct PadControl {
 }
 
 impl PadControl {
-    /// A pointer goes down on the pad. One that the browser does not capture for the pad would not tell its end.
+    /// A pointer goes down, on the pad or elsewhere. One that the browser does not capture for the pad would not tell its end.
     fn press(self, event: &PointerEvent) {
-        if !self.ready.get_untracked() || event.button() != 0 {
-            return;
-        }
-        let Some(pad) = self.pad.get_untracked() else {
-            return;
+        let target = event.target().and_then(|target| target.dyn_into::<Node>().ok());
+        let pad = self.pad.get_untracked();
+        let Some(pad) = pad.filter(|pad| pad.contains(target.as_ref())) else {
+            return self.end(event);
         };
-        if pad.set_pointer_capture(event.pointer_id()).is_ok() {
+        let counts = self.ready.get_untracked() && event.button() == 0;
+        if counts && pad.set_pointer_capture(event.pointer_id()).is_ok() {
             self.hear(event, PadEvent::Pressed);
         }
     }
@@ -128,6 +129,7 @@ impl PadControl {
     /// Hears what happens to a pressed pointer anywhere on the page, until the view is gone.
     fn watch_page(self) {
         let listeners = [
+            window_event_listener(ev::pointerdown, move |event| self.press(&event)),
             window_event_listener(ev::pointermove, move |event| self.follow(&event)),
             window_event_listener(ev::pointerup, move |event| self.end(&event)),
             window_event_listener(ev::pointercancel, move |event| self.end(&event)),
@@ -158,7 +160,6 @@ pub(crate) fn Pad(seat: Seat, ready: Signal<bool>) -> impl IntoView {
             aria-label=words().drive.pad
             aria-describedby="drive-hint"
             aria-disabled=move || if ready.get() { "false" } else { "true" }
-            on:pointerdown=move |event| grip.press(&event)
             on:lostpointercapture=move |event| grip.end(&event)
             on:mousedown=move |event| grip.focus(&event)
             on:keydown=move |event| grip.key(&event)
