@@ -1,6 +1,6 @@
 //! Inputs of other clients, as the robot passes them on. Each expires by itself at the client that drives by it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rvac_api::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX};
 
@@ -10,6 +10,8 @@ use crate::Name;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ClientInputs {
     inputs: BTreeMap<Name, LeasedInput>,
+    /// Those that were absent for a moment since the last look: another client may tell them now.
+    interrupted: BTreeSet<Name>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,18 +30,29 @@ impl ClientInputs {
             let until_us = now_us.saturating_add(left_us);
             Some((name, LeasedInput { value, until_us }))
         });
-        self.inputs = valid.collect();
+        let before = std::mem::replace(&mut self.inputs, valid.collect());
+        let ended = before
+            .into_iter()
+            .filter(|(name, input)| now_us >= input.until_us || !self.inputs.contains_key(name));
+        self.interrupted.extend(ended.map(|(name, _)| name));
     }
 
     /// Forgets all inputs, because the connection to the robot is lost.
     pub fn forget(&mut self) {
-        self.inputs.clear();
+        let gone = std::mem::take(&mut self.inputs);
+        self.interrupted.extend(gone.into_keys());
     }
 
-    /// The inputs that are valid at this moment, for [`crate::Readings::clients`].
+    /// The inputs that are valid at this moment, for [`crate::Readings::clients`]. One that was absent since the last look is left
+    /// out once, so that who mixes sees that.
     #[must_use]
-    pub fn at(&self, now_us: u64) -> BTreeMap<Name, f64> {
-        let live = self.inputs.iter().filter(|(_, input)| now_us < input.until_us);
+    pub fn at(&mut self, now_us: u64) -> BTreeMap<Name, f64> {
+        let interrupted = std::mem::take(&mut self.interrupted);
+        self.inputs.retain(|_, input| now_us < input.until_us);
+        let live = self
+            .inputs
+            .iter()
+            .filter(|(name, _)| !interrupted.contains(*name));
         live.map(|(name, input)| (name.clone(), input.value)).collect()
     }
 }
@@ -57,7 +70,7 @@ mod tests {
         }
     }
 
-    fn at(inputs: &ClientInputs, now_us: u64) -> Vec<(String, f64)> {
+    fn at(inputs: &mut ClientInputs, now_us: u64) -> Vec<(String, f64)> {
         let all = inputs.at(now_us).into_iter();
         all.map(|(name, value)| (name.to_string(), value)).collect()
     }
@@ -67,15 +80,30 @@ mod tests {
         let mut inputs = ClientInputs::default();
         inputs.replace(1_000, &[input("go", 1.0, 300), input("steer", -0.5, 100)]);
         assert_eq!(
-            at(&inputs, 100_999),
+            at(&mut inputs, 100_999),
             [("go".to_owned(), 1.0), ("steer".to_owned(), -0.5)]
         );
-        assert_eq!(at(&inputs, 101_000), [("go".to_owned(), 1.0)]);
-        assert_eq!(at(&inputs, 301_000), []);
+        assert_eq!(at(&mut inputs, 101_000), [("go".to_owned(), 1.0)]);
+        assert_eq!(at(&mut inputs, 301_000), []);
         inputs.replace(302_000, &[input("steer", 0.0, 100)]);
-        assert_eq!(at(&inputs, 302_000), [("steer".to_owned(), 0.0)]);
+        assert_eq!(at(&mut inputs, 302_000), [("steer".to_owned(), 0.0)]);
         inputs.forget();
-        assert_eq!(at(&inputs, 302_000), []);
+        assert_eq!(at(&mut inputs, 302_000), []);
+    }
+
+    #[test]
+    fn an_input_that_was_absent_between_two_looks_is_seen_to_be() {
+        let mut inputs = ClientInputs::default();
+        let go = [("go".to_owned(), 1.0)];
+        inputs.replace(0, &[input("go", 1.0, 300)]);
+        assert_eq!(at(&mut inputs, 1), go);
+        inputs.replace(2, &[]);
+        inputs.replace(3, &[input("go", 1.0, 300)]);
+        assert_eq!(at(&mut inputs, 4), [], "another client may hold it now");
+        assert_eq!(at(&mut inputs, 5), go);
+        inputs.replace(300_003, &[input("go", 1.0, 300)]);
+        assert_eq!(at(&mut inputs, 300_004), [], "its lease was over");
+        assert_eq!(at(&mut inputs, 300_005), go);
     }
 
     #[test]
@@ -88,14 +116,18 @@ mod tests {
             input("over", 1.0, 0),
         ];
         inputs.replace(0, &wrong);
-        assert_eq!(at(&inputs, 0), []);
+        assert_eq!(at(&mut inputs, 0), []);
         inputs.replace(0, &[input("long", 1.0, u16::MAX)]);
-        assert_eq!(at(&inputs, 399_999).len(), 1);
-        assert_eq!(at(&inputs, 400_000), [], "no lease is longer than the longest");
+        assert_eq!(at(&mut inputs, 399_999).len(), 1);
+        assert_eq!(
+            at(&mut inputs, 400_000),
+            [],
+            "no lease is longer than the longest"
+        );
         let flood: Vec<ClientInput> = (0..1000)
             .map(|number| input(&format!("x{number}"), 0.0, 300))
             .collect();
         inputs.replace(0, &flood);
-        assert_eq!(at(&inputs, 0).len(), INPUTS_MAX);
+        assert_eq!(at(&mut inputs, 0).len(), INPUTS_MAX);
     }
 }

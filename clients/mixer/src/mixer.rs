@@ -1,5 +1,7 @@
 //! The mixer: from readings to outputs, stage by stage.
 
+use std::collections::BTreeSet;
+
 use crate::line::{Line, Mix};
 use crate::switch::SwitchMemory;
 use crate::{
@@ -56,6 +58,8 @@ pub struct Mixed {
     pub state: MixState,
     /// Something that moves or cleans is away from rest.
     pub held: bool,
+    /// The devices whose inputs are.
+    pub pushed: BTreeSet<Device>,
     /// The outputs, in the order of the profile.
     pub outputs: Vec<MixedOutput>,
     /// The switches, in the order of the profile.
@@ -151,6 +155,7 @@ impl Mixer {
             span_s: if changed { 0.0 } else { span_us as f64 * 1e-6 },
             held: false,
             at_rest: true,
+            pushed: BTreeSet::new(),
         };
         let outputs = self.step_outputs(&mut step, readings);
         if !changed && step.at_rest {
@@ -160,6 +165,7 @@ impl Mixer {
         Mixed {
             state: self.state,
             held: step.held,
+            pushed: step.pushed,
             outputs: self.limited(outputs),
             switches: self.switches.iter().map(|switch| switch.on).collect(),
             fired,
@@ -261,6 +267,8 @@ struct Step {
     held: bool,
     /// No input is away from rest.
     at_rest: bool,
+    /// The devices of those that are.
+    pushed: BTreeSet<Device>,
 }
 
 impl Step {
@@ -324,7 +332,10 @@ impl Step {
             idle(profile, line)
         };
         let replaced = line.mix == Mix::Replace && !is_on;
-        self.at_rest &= replaced || !is_on || stages.weighted == idle;
+        if is_on && !replaced && stages.weighted != idle {
+            self.at_rest = false;
+            self.pushed.extend(profile.devices_of(line));
+        }
         // A line that has just lost its input still runs down; one without an input makes nothing.
         let gone = if is_on { idle } else { 0.0 };
         self.held |= !replaced && stages.slowed != gone;

@@ -1,8 +1,11 @@
 //! From readings to requests: a mixer at work, the seat that it holds, and how often its lease is renewed.
 
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
 use rvac_api::{CleaningPower, RequestBody};
 
-use crate::{Axes, Cleaning, Helm, Mixed, Mixer, Order, Press, Profile, Readings};
+use crate::{Axes, Cleaning, Device, Helm, Mixed, Mixer, Order, PadWatch, Press, Profile, Readings};
 
 /// Period at which the mixer reads the inputs.
 pub const STEP_EVERY_US: u64 = 20_000;
@@ -29,6 +32,8 @@ pub struct Steered {
     pub presses: Vec<RequestBody>,
     /// What to say for the driver's seat: to drive, or to leave it.
     pub seat: Option<RequestBody>,
+    /// Pads that are pushed and say nothing more. They count as gone.
+    pub silent_pads: BTreeSet<u8>,
 }
 
 /// A person who drives by a profile.
@@ -36,6 +41,9 @@ pub struct Steered {
 pub struct Pilot {
     mixer: Mixer,
     helm: Helm,
+    pads: PadWatch,
+    /// The devices that were pushed in the step before.
+    pushed: BTreeSet<Device>,
     said: Option<(u64, Order)>,
 }
 
@@ -46,6 +54,8 @@ impl Pilot {
         Self {
             mixer,
             helm: Helm::default(),
+            pads: PadWatch::default(),
+            pushed: BTreeSet::new(),
             said: None,
         }
     }
@@ -63,7 +73,10 @@ impl Pilot {
 
     /// Looks at the inputs. To be called every [`STEP_EVERY_US`], and at once when an input is lost.
     pub fn step(&mut self, now_us: u64, readings: &Readings, top: TopSpeeds) -> Steered {
-        let mixed = self.mixer.step(now_us, readings);
+        let is_pushed = |pad| self.pushed.contains(&Device::Pad(pad));
+        let silent_pads = self.pads.look(now_us, &readings.pads, is_pushed).clone();
+        let mixed = self.mixer.step(now_us, &without(readings, &silent_pads));
+        self.pushed.clone_from(&mixed.pushed);
         let wish = mixed.wish();
         let order = self.helm.order(&wish);
         let is_due = self
@@ -81,6 +94,7 @@ impl Pilot {
             mixed,
             presses: wish.presses.into_iter().map(pressed).collect(),
             seat,
+            silent_pads,
         }
     }
 
@@ -88,6 +102,15 @@ impl Pilot {
     pub fn refuse(&mut self) {
         self.helm.refuse();
     }
+}
+
+/// The readings as if these pads were gone.
+fn without<'a>(readings: &'a Readings, pads: &BTreeSet<u8>) -> Cow<'a, Readings> {
+    let mut left = Cow::Borrowed(readings);
+    for pad in pads {
+        left.to_mut().remove(&Device::Pad(*pad));
+    }
+    left
 }
 
 fn drive(axes: Axes, cleaning: Cleaning, top: TopSpeeds) -> RequestBody {
@@ -118,7 +141,7 @@ mod tests {
     use rvac_api::RequestBody;
 
     use super::{Pilot, RENEW_US, STEP_EVERY_US, TopSpeeds};
-    use crate::{KeyCode, Mixer, Readings, Source};
+    use crate::{KeyCode, Mixer, PAD_SILENT_US, Readings, Source};
 
     const TOP: TopSpeeds = TopSpeeds {
         forward_m_per_s: 0.3,
@@ -201,6 +224,49 @@ mod tests {
         hands.pilot.take(Mixer::standard());
         assert_eq!(hands.step().1, Some(RequestBody::Release));
         assert_eq!(hands.step().1, None, "the key is not at rest yet");
+    }
+
+    #[test]
+    fn a_pad_that_says_nothing_more_stops_the_wheels_and_must_come_to_rest() {
+        let mut hands = Hands::new();
+        let across = || "pad-0-axis-0".parse().expect("an input");
+        for _ in 0..3 {
+            hands.readings.set(&across(), 0.0);
+            hands.step();
+        }
+        // Trembles as a thumb does, for as long as it likes.
+        for step in 0..400 {
+            hands.readings.set(&across(), -0.9 - 0.01 * f64::from(step % 2));
+            assert_ne!(hands.step().1, Some(RequestBody::Release));
+        }
+        let silent_from_us = hands.now_us;
+        while hands.step().1 != Some(RequestBody::Release) {
+            assert!(hands.now_us < silent_from_us + PAD_SILENT_US);
+        }
+        assert_eq!(hands.now_us, silent_from_us + PAD_SILENT_US);
+        hands.readings.set(&across(), -0.9);
+        for _ in 0..5 {
+            assert_eq!(hands.step().1, None, "it is pushed when it is heard again");
+        }
+        hands.readings.set(&across(), 0.0);
+        hands.step();
+        hands.readings.set(&across(), -0.9);
+        hands.step();
+        assert!(matches!(hands.step().1, Some(RequestBody::Drive { w, .. }) if w > 0.0));
+    }
+
+    #[test]
+    fn a_key_beside_a_resting_pad_is_held_as_long_as_one_likes() {
+        let mut hands = Hands::new();
+        let across = "pad-0-axis-0".parse().expect("an input");
+        hands.readings.set(&across, 0.02);
+        for _ in 0..3 {
+            hands.step();
+        }
+        hands.key("KeyW", 1.0);
+        for _ in 0..10 * PAD_SILENT_US / STEP_EVERY_US {
+            assert_ne!(hands.step().1, Some(RequestBody::Release));
+        }
     }
 
     #[test]

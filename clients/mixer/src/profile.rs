@@ -1,9 +1,11 @@
 //! A profile: all that a person has set, as one JSON object.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use crate::check::{self, ProfileError};
-use crate::{Name, Output, Source, Switch};
+use crate::{Device, Line, Name, Output, Source, Switch};
 
 /// Version of the form of profiles. Raised when a key changes its meaning; this program reads only its own.
 pub const VERSION: u32 = 1;
@@ -107,6 +109,26 @@ impl Profile {
         let lines = self.outputs.iter().flat_map(|output| &output.lines);
         let conditions = self.switches.iter().filter_map(|switch| switch.on.input());
         lines.map(|line| &line.input).chain(conditions)
+    }
+
+    /// The devices by which a person holds a line: that of its input, or those that switch it on.
+    #[must_use]
+    pub fn devices_of(&self, line: &Line) -> BTreeSet<Device> {
+        match (&line.input, &line.when) {
+            (Source::Switch(name), _) | (Source::Always, Some(name)) => self.devices_of_switch(name),
+            (input, _) => input.device().into_iter().collect(),
+        }
+    }
+
+    /// Each switch refers only to those before it, so this ends.
+    fn devices_of_switch(&self, name: &Name) -> BTreeSet<Device> {
+        let Some(switch) = self.switches.iter().find(|switch| switch.name == *name) else {
+            return BTreeSet::new();
+        };
+        let own = switch.on.input().and_then(Source::device);
+        let others = switch.on.switches().into_iter();
+        let others = others.flat_map(|name| self.devices_of_switch(name));
+        own.into_iter().chain(others).collect()
     }
 
     /// How an input is read.

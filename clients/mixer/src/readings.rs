@@ -15,6 +15,21 @@ pub struct PadReading {
     pub axes: Vec<f64>,
     /// Buttons, 0..=1.
     pub buttons: Vec<f64>,
+    /// Another number with each word of the pad, also with one that changes nothing here.
+    pub words: u64,
+}
+
+impl PadReading {
+    /// Whether the pad has said nothing between the two.
+    pub(crate) fn says_the_same(&self, other: &Self) -> bool {
+        let same = |one: &[f64], other: &[f64]| {
+            // Nonsense is the same as itself.
+            one.iter()
+                .map(|value| value.to_bits())
+                .eq(other.iter().map(|value| value.to_bits()))
+        };
+        self.words == other.words && same(&self.axes, &other.axes) && same(&self.buttons, &other.buttons)
+    }
 }
 
 /// What all devices read. A device that is not there is absent, which is not the same as one at rest. The empty value says
@@ -74,8 +89,12 @@ impl Readings {
     pub fn set(&mut self, source: &Source, value: f64) -> bool {
         match source {
             Source::Always | Source::Switch(_) => return false,
-            Source::PadAxis { pad, axis } => put(&mut self.pads.entry(*pad).or_default().axes, *axis, value),
+            Source::PadAxis { pad, axis } => {
+                self.note_word(*pad);
+                put(&mut self.pads.entry(*pad).or_default().axes, *axis, value);
+            }
             Source::PadButton { pad, button } => {
+                self.note_word(*pad);
                 put(&mut self.pads.entry(*pad).or_default().buttons, *button, value);
             }
             Source::Key(code) => {
@@ -95,6 +114,13 @@ impl Readings {
             }
         }
         true
+    }
+
+    /// Notes that a pad has said something, whatever it was.
+    pub fn note_word(&mut self, pad: u8) {
+        if let Some(pad) = self.pads.get_mut(&pad) {
+            pad.words = pad.words.wrapping_add(1);
+        }
     }
 
     /// Notes that a device is gone.
@@ -177,6 +203,7 @@ mod tests {
         let reading = PadReading {
             axes: axes.to_vec(),
             buttons: vec![0.0],
+            words: 0,
         };
         Readings {
             pads: [(0, reading)].into(),

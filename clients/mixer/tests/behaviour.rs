@@ -17,6 +17,7 @@ struct Hands {
 impl Hands {
     fn on(profile: Profile) -> Self {
         let pad = PadReading {
+            words: 0,
             axes: vec![0.0; 4],
             buttons: vec![0.0; 17],
         };

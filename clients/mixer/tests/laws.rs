@@ -36,6 +36,7 @@ fn single(lines: Vec<Line>) -> Profile {
 
 fn sticks(axes: &[f64]) -> Readings {
     let reading = PadReading {
+        words: 0,
         axes: axes.to_vec(),
         buttons: vec![0.0; 17],
     };
@@ -136,33 +137,33 @@ proptest! {
         let mut mixer = Mixer::new(single(vec![Line::new(name("line"), steer)])).expect("a profile");
         let mut inputs = ClientInputs::default();
         let mut now_us = 0;
-        let mut step = |now_us: u64, inputs: &ClientInputs| {
+        let mut step = |now_us: u64, inputs: &mut ClientInputs| {
             let readings = Readings { clients: inputs.at(now_us), ..Readings::default() };
             mixer.step(now_us, &readings)
         };
         for value in [0.0, 0.0, 1.0] {
             now_us += STEP_US;
             inputs.replace(now_us, &[client_input(value, 400)]);
-            let mixed = step(now_us, &inputs);
+            let mixed = step(now_us, &mut inputs);
             prop_assert_eq!(mixed.outputs[0].value, value, "at rest first, then it drives");
         }
         for (value, left_ms, pause_us) in words {
             now_us += pause_us;
             inputs.replace(now_us, &[client_input(value, left_ms)]);
-            step(now_us, &inputs);
+            step(now_us, &mut inputs);
         }
         let over_us = now_us + u64::from(INPUT_LEASE_MS_MAX) * 1000;
         while now_us < over_us {
             now_us += STEP_US;
-            step(now_us, &inputs);
+            step(now_us, &mut inputs);
         }
-        let mixed = step(now_us, &inputs);
+        let mixed = step(now_us, &mut inputs);
         prop_assert_eq!(mixed.outputs[0].value, 0.0);
         prop_assert!(!mixed.wish().drives);
         inputs.replace(now_us, &[client_input(1.0, 400)]);
         for _ in 0..3 {
             now_us += STEP_US;
-            prop_assert_eq!(step(now_us, &inputs).outputs[0].value, 0.0, "it comes back held");
+            prop_assert_eq!(step(now_us, &mut inputs).outputs[0].value, 0.0, "it comes back held");
         }
     }
 

@@ -7,6 +7,7 @@ mod edges;
 mod floors;
 mod forbidden;
 mod health;
+mod held_stick;
 mod history;
 mod homecoming;
 mod host_death;

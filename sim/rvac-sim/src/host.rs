@@ -6,7 +6,7 @@ use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength};
 use brain::{BehaviorState, Brain, Pose2};
 use home::{Beacons, Measured, Pose as TruePose};
 use rvac_api::{
-    ComponentHealth, FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status,
+    ComponentHealth, FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status, Update,
 };
 use vthal_core::health::StoredHealth;
 use vthal_core::learnt::StoredLearnings;
@@ -42,6 +42,8 @@ pub struct Host {
     floors: HostFloors,
     /// Its disk accepts writes but never confirms them.
     disk_is_mute: bool,
+    /// Why the newest request was refused, if it was.
+    refusal: Option<String>,
 }
 
 const CLIENT: ClientId = ClientId(1);
@@ -67,6 +69,7 @@ impl Host {
             learnt: None,
             runs: Vec::new(),
             disk_is_mute: false,
+            refusal: None,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
         host.handle(now_us, Input::LinkOpened);
@@ -167,17 +170,19 @@ impl Host {
 
     /// The client asks for something.
     pub fn ask(&mut self, now_us: u64, body: RequestBody) {
-        let request = Request { id: None, body };
-        self.handle(
-            now_us,
-            Input::Client {
-                client: CLIENT,
-                request,
-            },
-        );
+        self.ask_as(now_us, CLIENT, body);
     }
 
-    fn handle(&mut self, now_us: u64, input: Input<'_>) {
+    /// This client asks for something; gives why that is refused, if it is.
+    pub fn ask_as(&mut self, now_us: u64, client: ClientId, body: RequestBody) -> Option<String> {
+        self.refusal = None;
+        let request = Request { id: None, body };
+        self.handle(now_us, Input::Client { client, request });
+        self.refusal.take()
+    }
+
+    /// Something reaches the core: clients come and go, the link opens and closes.
+    pub fn handle(&mut self, now_us: u64, input: Input<'_>) {
         let (core, outputs) = (&mut self.core, &mut self.outputs);
         let age_us = now_us - self.born_us;
         let step = || core.handle(age_us, input, outputs);
@@ -202,6 +207,17 @@ impl Host {
         let floor_orders = core::mem::take(&mut self.outputs.floor_orders);
         if let Some(kept) = self.outputs.home.take() {
             self.floors.keep(kept);
+        }
+        let refusals = self
+            .outputs
+            .deliveries
+            .iter()
+            .filter_map(|delivery| match &delivery.update {
+                Update::Failed(failure) => Some(&failure.reason),
+                _ => None,
+            });
+        if let Some(reason) = refusals.last() {
+            self.refusal = Some(reason.clone());
         }
         self.outputs.clear();
         if let Some(record) = run {

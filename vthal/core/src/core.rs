@@ -217,6 +217,7 @@ impl Core {
 
     fn link_closed(&mut self, now_us: u64, reason: &LinkLoss, outputs: &mut Outputs) {
         self.buttons.forget();
+        self.driver.arbiter.preempt();
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.link.closed(reason, &mut teller);
     }
@@ -255,6 +256,8 @@ impl Core {
         }
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.inputs.expire(&mut teller);
+        // Another client may take the name in the same moment: whoever mixes must have seen it free.
+        self.inputs.feed(&mut teller);
     }
 
     fn pass_time(&mut self, now_us: u64, outputs: &mut Outputs) {

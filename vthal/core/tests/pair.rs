@@ -135,6 +135,11 @@ impl Pair {
         )
     }
 
+    /// A person pushes a stick from its centre: gives the reason of a refusal.
+    fn push(&mut self, client: ClientId, v: f64) -> Option<String> {
+        self.drive(client, 0.0).or_else(|| self.drive(client, v))
+    }
+
     fn log_lines(&self) -> Vec<&str> {
         let lines = self.updates.iter().filter_map(|update| match update {
             Update::Log(entry) => Some(entry.text.as_str()),
@@ -252,7 +257,7 @@ fn identity() -> RobotIdentity {
 #[test]
 fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
     let mut pair = Pair::new();
-    assert_eq!(pair.drive(ANNA, 0.2), None);
+    assert_eq!(pair.push(ANNA, 0.2), None);
     pair.run_ms(300);
     assert_eq!(pair.last_drive().1, 0.2);
     let silent_from_ms = pair.now_ms - 300;
@@ -279,7 +284,7 @@ fn a_driver_who_falls_silent_stops_within_the_lease_and_must_centre() {
 #[test]
 fn a_bump_between_two_reports_is_felt_once() {
     let mut pair = Pair::new();
-    assert_eq!(pair.drive(ANNA, 0.2), None);
+    assert_eq!(pair.push(ANNA, 0.2), None);
     pair.run_ms(PERIOD_MS - pair.now_ms % PERIOD_MS);
     let left = Bumpers {
         left: true,
@@ -305,7 +310,7 @@ fn a_driver_whose_connection_breaks_is_braked_and_one_who_lets_go_is_not() {
     };
     for (end, expected) in [(None, 0), (Some(Input::ClientGone(ANNA)), 1)] {
         let mut pair = Pair::new();
-        assert_eq!(pair.drive(ANNA, 0.2), None);
+        assert_eq!(pair.push(ANNA, 0.2), None);
         pair.run_ms(300);
         match end {
             Some(end) => pair.handle(end),
@@ -530,7 +535,7 @@ fn a_driver_chooses_how_hard_each_part_cleans_and_a_job_cleans_at_full_power() {
 #[test]
 fn nobody_takes_the_seat_over_and_whoever_leaves_stops() {
     let mut pair = Pair::new();
-    assert_eq!(pair.drive(ANNA, 0.2), None);
+    assert_eq!(pair.push(ANNA, 0.2), None);
     pair.run_ms(100);
     assert_eq!(pair.drive(BERT, 0.1).as_deref(), Some("driver-busy"));
     assert_eq!(
@@ -554,7 +559,7 @@ fn is_braked(pair: &Pair) -> bool {
 #[test]
 fn anybody_may_stop_and_the_wheels_do_not_wait_for_the_brain() {
     let mut pair = Pair::new();
-    pair.drive(ANNA, 0.2);
+    pair.push(ANNA, 0.2);
     pair.run_ms(100);
     assert_eq!(pair.ask(BERT, RequestBody::Stop), None);
     let stopped_ms = pair.now_ms;
@@ -578,7 +583,7 @@ fn anybody_may_stop_and_the_wheels_do_not_wait_for_the_brain() {
 #[test]
 fn a_stop_that_got_lost_is_repeated_until_the_robot_knows_of_it() {
     let mut pair = Pair::new();
-    pair.drive(ANNA, 0.2);
+    pair.push(ANNA, 0.2);
     pair.run_ms(100);
     pair.hears_stop = false;
     pair.ask(BERT, RequestBody::Stop);
@@ -857,7 +862,7 @@ fn the_same_inputs_give_the_same_outputs() {
 #[test]
 fn records_hold_all_that_the_brain_needs_to_decide_the_same_again() {
     let mut pair = Pair::new();
-    pair.drive(ANNA, 0.1);
+    pair.push(ANNA, 0.1);
     pair.run_ms(200);
     pair.ask(ANNA, RequestBody::Release);
     pair.run_ms(300);
@@ -1753,7 +1758,7 @@ fn a_refusal_is_in_the_log_in_the_words_of_the_answer_and_not_again_and_again() 
     let topics = vec![Topic::Log];
     pair.ask(BERT, RequestBody::Watch { topics });
     pair.run_ms(100);
-    assert_eq!(pair.drive(ANNA, 0.1), None);
+    assert_eq!(pair.push(ANNA, 0.1), None);
     let before = pair.updates.len();
     for _ in 0..10 {
         assert_eq!(pair.drive(BERT, 0.1).as_deref(), Some("driver-busy"));

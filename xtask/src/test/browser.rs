@@ -23,6 +23,7 @@ pub(super) fn browser(extent: Extent) -> Result {
         .env("RVAC_AXE", axe)
         .env("RVAC_BROWSER_TESTS", "1")
         .env("RVAC_LOSSES", extent.pick("1", "1", "100"))
+        .env("RVAC_GESTURES", extent.pick("50", "50", "1000"))
         .env("RVAC_WATCH_MINUTES", extent.pick("0.2", "0.2", "60"))
         .env("RVAC_PANEL", assets)
         .env("RVAC_FIRMWARE", elf)

@@ -175,7 +175,11 @@ pub(crate) fn readings() -> impl Strategy<Value = Readings> {
         prop::collection::vec(reading(), 0..5),
         prop::collection::vec(reading(), 0..5),
     )
-        .prop_map(|(axes, buttons)| PadReading { axes, buttons });
+        .prop_map(|(axes, buttons)| PadReading {
+            words: 0,
+            axes,
+            buttons,
+        });
     let pads = prop::collection::btree_map(0_u8..2, pad, 0..3);
     let pair = || prop::option::of(prop::array::uniform2(reading()));
     let keys = prop::option::of(any::<bool>());
@@ -192,6 +196,7 @@ pub(crate) fn readings() -> impl Strategy<Value = Readings> {
 /// All devices there, and everything pushed to its end.
 pub(crate) fn everything_pushed() -> Readings {
     let pad = PadReading {
+        words: 0,
         axes: vec![1.0; 4],
         buttons: vec![1.0; 4],
     };

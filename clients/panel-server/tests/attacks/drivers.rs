@@ -11,6 +11,7 @@ use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::Message;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest as _;
 
+use crate::held;
 use crate::report::Report;
 use crate::rig::DEADLINE;
 use crate::robot::Observer;
@@ -18,7 +19,7 @@ use crate::stack::Stack;
 
 /// Of the drivers here, milliseconds: a lease is never longer than 400.
 const LEASE_MS: u32 = 250;
-const BETWEEN: Duration = Duration::from_millis(80);
+pub(crate) const BETWEEN: Duration = Duration::from_millis(80);
 
 /// What the table allows from the loss to the standstill. The robot is polled a hundred times a second, so that polling adds a
 /// hundredth at most; how long it really takes is measured on a virtual clock (`scenarios/tests/all/lost_driver.rs`).
@@ -31,15 +32,17 @@ pub(crate) async fn try_all(report: &mut Report) {
     let page = std::env::temp_dir().join(format!("panel-drivers-{}", std::process::id()));
     std::fs::create_dir_all(&page).unwrap();
     std::fs::write(page.join("index.html"), "<!doctype html><title>x</title>").unwrap();
-    let scene = Scene::new(page).await;
+    let mut scene = Scene::new(page).await;
     scene.theft(report).await;
     scene.losses(report).await;
+    held::try_all(&mut scene, report).await;
 }
 
-struct Scene {
-    stack: Stack,
-    witness: Observer,
-    page: PathBuf,
+/// A robot with its daemon and its server.
+pub(crate) struct Scene {
+    pub(crate) stack: Stack,
+    pub(crate) witness: Observer,
+    pub(crate) page: PathBuf,
 }
 
 impl Drop for Scene {
@@ -64,7 +67,7 @@ impl Scene {
         scene
     }
 
-    async fn driver(&self) -> Driver {
+    pub(crate) async fn driver(&self) -> Driver {
         let host = self
             .stack
             .address
@@ -174,14 +177,14 @@ fn in_words(mut seen: Vec<Option<u128>>) -> String {
 }
 
 /// Somebody at the panel.
-struct Driver {
+pub(crate) struct Driver {
     socket: WebSocketStream<TcpStream>,
     asked: u32,
 }
 
 impl Driver {
     /// Asks to turn on the spot so fast, rad/s, and gives why not.
-    async fn turns(&mut self, turn_rad_s: f64) -> Option<String> {
+    pub(crate) async fn turns(&mut self, turn_rad_s: f64) -> Option<String> {
         self.asks(&format!(
             r#"{{"c":"drive","v":0,"w":{turn_rad_s},"ttl":{LEASE_MS}"#
         ))

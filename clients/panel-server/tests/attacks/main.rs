@@ -6,6 +6,7 @@ mod absent;
 mod connections;
 mod drivers;
 mod entrance;
+mod held;
 mod identity;
 mod pages;
 mod presses;
@@ -13,6 +14,8 @@ mod recovery;
 mod report;
 #[path = "../gate/rig.rs"]
 mod rig;
+#[path = "../browser/rival.rs"]
+mod rival;
 #[path = "../browser/robot.rs"]
 mod robot;
 mod roles;
@@ -52,6 +55,7 @@ async fn main() -> ExitCode {
     report.elsewhere("A20: a name with HTML is text in Chromium (panel-server's browser test of pairing)");
     report.elsewhere("A20: texts of a robot in a terminal (rvac-cli's tests)");
     report.elsewhere("A17: a hundred silent drivers on a virtual clock (scenarios/tests/all/lost_driver.rs)");
+    report.elsewhere("A17: a thousand held sticks on a virtual clock (scenarios/tests/all/held_stick.rs)");
     report.elsewhere("A17: browsers that hide, freeze and lose their pad (panel-server's browser tests)");
     report.elsewhere("A24: a window's time on a virtual clock (clients/pairing/tests/door.rs)");
     report.not_there_yet("A26: updates of firmware and daemon; there is nothing to refuse them");

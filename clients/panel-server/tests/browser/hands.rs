@@ -64,6 +64,7 @@ async fn turn_by(browser: &Browser, witness: &Observer, [rest, push]: [&str; 2])
 const SECOND_PAD: &str = "
     window.second = { ...window.pad, index: 1, id: 'Second pad', axes: [0, 0, 0, 0] };
     window.secondPlugged = true;
+    setInterval(() => { window.second.timestamp = performance.now(); }, 100);
     navigator.getGamepads = () =>
         [window.plugged ? window.pad : null, window.secondPlugged ? window.second : null, null, null];
     window.secondStick = (value) => { window.second.axes[0] = value; window.second.timestamp = performance.now(); };

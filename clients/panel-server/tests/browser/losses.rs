@@ -22,10 +22,11 @@ pub(crate) fn times() -> usize {
 pub(crate) struct Losses(Vec<Duration>);
 
 impl Losses {
-    /// Waits for rest after a loss of this moment.
+    /// Waits for rest after a loss that is noticed at this moment, now or later.
     pub(crate) fn watch(&mut self, witness: &Observer, lost: Instant) {
+        let until_then = lost.saturating_duration_since(Instant::now());
         let stood = witness
-            .stands_within(Duration::from_secs(3))
+            .stands_within(until_then + Duration::from_secs(3))
             .expect("the robot drives on although nobody drives it");
         self.0.push(stood.saturating_duration_since(lost));
     }
@@ -101,6 +102,31 @@ async fn a_lost_gamepad_stops_the_wheels() {
         is_ready(browser).await;
     }
     losses.tell("the pad was lost");
+}
+
+/// A pushed pad may say nothing for so long.
+const PAD_SILENT: Duration = Duration::from_secs(2);
+
+/// The browser goes on to show the last position of a pad without power.
+#[tokio::test]
+async fn a_pad_without_power_stops_the_wheels() {
+    let Some((visit, witness)) = ready_to_drive(Screen::Desktop).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    plug_in(browser).await;
+    let mut losses = Losses::default();
+    for _ in 0..times() {
+        turn_by_pad(browser, &witness).await;
+        browser.text("window.trembles = false; return ''").await;
+        losses.watch(&witness, Instant::now() + PAD_SILENT);
+        browser.says("drive-state", "says nothing any more").await;
+        browser.text("window.trembles = true; return ''").await;
+        stays(&witness, "a stick that is heard again");
+        browser.text("stick(0, 0); return ''").await;
+        is_ready(browser).await;
+    }
+    losses.tell("a pushed pad had said nothing for two seconds");
 }
 
 /// The computer in front of which the person sits stops in the middle of a word: nothing says good-bye.

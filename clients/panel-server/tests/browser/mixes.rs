@@ -6,7 +6,7 @@ use crate::Visit;
 use crate::browser::{Browser, Screen};
 use crate::robot::Observer;
 
-/// A pad that the page cannot distinguish from a real one; it counts its rumbles.
+/// A pad that the page cannot distinguish from a real one; it trembles as in a hand, and counts its rumbles.
 const PAD: &str = "
     window.rumbles = 0;
     window.pad = {
@@ -15,6 +15,8 @@ const PAD: &str = "
         vibrationActuator: { playEffect: () => { window.rumbles += 1; return Promise.resolve('complete'); } },
     };
     window.plugged = true;
+    window.trembles = true;
+    setInterval(() => { if (window.trembles) window.pad.timestamp = performance.now(); }, 100);
     navigator.getGamepads = () => [window.plugged ? window.pad : null, null, null, null];
     window.stick = (axis, value) => { window.pad.axes[axis] = value; window.pad.timestamp = performance.now(); };
     window.button = (number, value) => { window.pad.buttons[number] = { value }; };

@@ -1,4 +1,8 @@
 //! Another client that asks to drive, directly at the daemon's socket.
+#![allow(
+    dead_code,
+    reason = "each set of tests that shares this uses another part of it"
+)]
 
 use std::io::{BufRead, BufReader, Write};
 use std::os::unix::net::UnixStream;
@@ -34,7 +38,7 @@ impl Rival {
     }
 
     /// Asks to turn on the spot so fast, rad/s, and gives why not.
-    fn ask(&mut self, turn_rad_s: f64) -> Option<String> {
+    pub(crate) fn ask(&mut self, turn_rad_s: f64) -> Option<String> {
         self.asked += 1;
         let id = self.asked;
         let asked =

@@ -10,6 +10,10 @@ use mixer::{
 use rvac_api::{CleaningPower, ClientInput, RequestBody, RobotDescription};
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::codes::explain;
+use crate::grip::{Grip, PadEvent};
+use crate::words::Words;
+
 /// What the robot can do; before it said so, what every robot can.
 #[must_use]
 pub fn top_speeds(robot: Option<&RobotDescription>) -> TopSpeeds {
@@ -49,9 +53,19 @@ pub fn keys_of(profile: &Profile) -> BTreeSet<KeyCode> {
         .collect()
 }
 
+/// Name of the reason why a pushed pad that says nothing stops the wheels.
+const PAD_SILENT: &str = "pad-silent";
 /// A device in a hand is never so still that its browser reports nothing for so long (Chromium reports every change of a tenth of a
 /// degree): it lies somewhere, or its sensor is gone.
 const TILT_SILENT_US: u64 = 1_000_000;
+
+/// Which gamepads are pushed and say nothing more, for people; none when all that are pushed are heard.
+#[must_use]
+pub fn silent_text(words: &Words, pads: &BTreeSet<u8>) -> Option<String> {
+    let pad = pads.first()?;
+    let told = explain(words, PAD_SILENT)?;
+    Some(format!("pad-{pad}: {} {}", told.cause, told.remedy))
+}
 
 /// What is held, the mix that it goes through, and the seat.
 #[derive(Debug)]
@@ -59,6 +73,8 @@ pub struct Driver {
     pilot: Pilot,
     keys: BTreeSet<KeyCode>,
     readings: Readings,
+    /// Which pointer holds the knob on the screen.
+    grip: Grip,
     /// Inputs of other clients.
     client_inputs: ClientInputs,
     /// When the tilt was last reported.
@@ -74,6 +90,7 @@ impl Default for Driver {
             keys: keys_of(pilot.profile()),
             pilot,
             readings: at_rest(),
+            grip: Grip::default(),
             client_inputs: ClientInputs::default(),
             tilted_us: 0,
             cleaners: false,
@@ -110,9 +127,17 @@ impl Driver {
         &self.readings
     }
 
-    /// The knob of the pad on the screen is here, as from [`knob_place`].
-    pub fn place_knob(&mut self, [right, down]: [f64; 2]) {
+    /// Hands do something at the pad on the screen. Gives where the knob goes by that, right and down; none where it stays.
+    pub fn touch(&mut self, event: PadEvent) -> Option<[f64; 2]> {
+        let [right, down] = self.grip.hear(event)?;
         self.readings.touch = Some([right, -down]);
+        Some([right, down])
+    }
+
+    /// Whether a pointer holds the knob.
+    #[must_use]
+    pub const fn is_touched(&self) -> bool {
+        self.grip.is_held()
     }
 
     /// The key of this code, if the mix has a use for it.
@@ -126,9 +151,11 @@ impl Driver {
         self.readings.set(&Source::Key(code), 1.0);
     }
 
-    /// A key went up.
-    pub fn lift(&mut self, code: KeyCode) {
-        self.readings.set(&Source::Key(code), 0.0);
+    /// The key of this code went up, whether the mix has a use for it or had one when it went down.
+    pub fn lift(&mut self, code: &str) {
+        if let Some(code) = KeyCode::new(code) {
+            self.readings.set(&Source::Key(code), 0.0);
+        }
     }
 
     /// The gamepads that there are now, by their numbers.
@@ -159,6 +186,7 @@ impl Driver {
 
     /// Hands are off keys and pad; other inputs stay held.
     pub fn let_go(&mut self) {
+        self.grip = Grip::default();
         let tilt = self.readings.tilt;
         let pads = std::mem::take(&mut self.readings.pads);
         self.readings = Readings {
@@ -246,8 +274,10 @@ fn at_rest() -> Readings {
 
 #[cfg(test)]
 mod tests {
-    use super::{Driver, FULL, knob_place, top_speeds};
-    use mixer::{MixState, PadReading, Profile, STEP_EVERY_US, Steered, standard_profile};
+    use super::{Driver, FULL, knob_place, silent_text, top_speeds};
+    use crate::grip::{PadEvent, Pointer, PointerKind};
+    use crate::words::Language;
+    use mixer::{MixState, PAD_SILENT_US, PadReading, Profile, STEP_EVERY_US, Steered, standard_profile};
     use rvac_api::{ClientInput, RequestBody};
 
     struct Page {
@@ -297,10 +327,20 @@ mod tests {
         }
     }
 
+    fn pressed_at(place: [f64; 2]) -> Pointer {
+        Pointer {
+            number: 1,
+            kind: PointerKind::Other,
+            buttons: 1,
+            place,
+        }
+    }
+
     fn pad(across: f64) -> PadReading {
         PadReading {
             axes: vec![across, 0.0, 0.0, 0.0],
             buttons: vec![0.0; 17],
+            words: 0,
         }
     }
 
@@ -327,9 +367,43 @@ mod tests {
         }
         assert_eq!(knob_place(f64::NAN, 0.0), [0.0, 0.0]);
         let mut page = Page::new();
-        page.driver.place_knob(knob_place(0.0, 3.0));
+        page.driver
+            .touch(PadEvent::Pressed(pressed_at(knob_place(0.0, 3.0))));
         let (v, _) = page.speeds();
         assert!((v + 0.075).abs() < 1e-9, "backwards it sees nothing: {v}");
+    }
+
+    /// The browser goes on to tell of a pointer that was captured before the page was hidden.
+    #[test]
+    fn a_pointer_that_was_pressed_before_the_page_was_away_drives_no_more() {
+        let mut page = Page::new();
+        let pointer = pressed_at([0.0, -1.0]);
+        page.driver.touch(PadEvent::Pressed(pointer));
+        page.speeds();
+        page.now_us += STEP_EVERY_US;
+        page.driver.lose(page.now_us);
+        for _ in 0..10 {
+            assert_eq!(page.driver.touch(PadEvent::Moved(pointer)), None);
+            assert_eq!(page.step().seat, None);
+        }
+        page.driver.touch(PadEvent::Pressed(pointer));
+        assert!(page.speeds().0 > 0.0, "a new press drives");
+    }
+
+    /// With Ctrl held, or another mix chosen meanwhile, a browser still tells that a key went up.
+    #[test]
+    fn a_key_that_goes_up_is_let_go_whatever_it_means_now() {
+        let mut page = Page::new();
+        page.press("KeyW");
+        page.speeds();
+        page.turn_by("key-KeyQ");
+        page.driver.lift("KeyW");
+        page.driver.take_mix(standard_profile()).expect("a mix");
+        for _ in 0..5 {
+            assert!(!matches!(page.step().seat, Some(RequestBody::Drive { .. })));
+        }
+        page.press("KeyW");
+        assert!(page.speeds().0 > 0.0);
     }
 
     #[test]
@@ -360,6 +434,53 @@ mod tests {
         page.speeds();
         page.driver.set_pads([].into());
         assert_eq!(page.step().seat, Some(RequestBody::Release));
+    }
+
+    #[test]
+    fn a_pad_without_power_stops_the_wheels_and_is_told_by_name() {
+        let mut page = Page::new();
+        for across in [0.0, 0.0, -1.0] {
+            page.driver.set_pads([(0, pad(across))].into());
+            page.step();
+        }
+        let silent_from_us = page.now_us;
+        let steered = loop {
+            let steered = page.step();
+            if steered.seat == Some(RequestBody::Release) {
+                break steered;
+            }
+        };
+        assert_eq!(page.now_us, silent_from_us + PAD_SILENT_US);
+        let told = |pads| silent_text(Language::English.words(), pads);
+        let said = told(&steered.silent_pads).expect("it is told");
+        assert!(
+            said.starts_with("pad-0: ") && said.contains("says nothing any more"),
+            "{said}"
+        );
+        assert_eq!(told(&[].into()), None);
+    }
+
+    /// Another pad of the same name takes the place of one that is gone, and is pushed.
+    #[test]
+    fn another_pad_does_not_go_on_where_the_first_one_was() {
+        let mut page = Page::new();
+        for across in [0.0, 0.0, -1.0] {
+            page.driver.set_pads([(0, pad(across))].into());
+            page.step();
+        }
+        page.driver.set_pads([(0, pad(-1.0)), (1, pad(-1.0))].into());
+        page.step();
+        page.driver.set_pads([(0, pad(-1.0))].into());
+        assert!(
+            matches!(page.step().seat, Some(RequestBody::Drive { .. }) | None),
+            "the mix reads the first one only"
+        );
+        page.driver.set_pads([].into());
+        assert_eq!(page.step().seat, Some(RequestBody::Release));
+        page.driver.set_pads([(0, pad(-1.0))].into());
+        for _ in 0..5 {
+            assert_eq!(page.step().seat, None);
+        }
     }
 
     #[test]

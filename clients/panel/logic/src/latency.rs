@@ -86,6 +86,7 @@ mod tests {
 
     fn mixed(held: bool) -> Mixed {
         Mixed {
+            pushed: [].into(),
             state: MixState::Live,
             held,
             outputs: Vec::new(),

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use mixer::{Name, Readings};
+use mixer::{Name, PadReading, PadWatch, Readings};
 use rvac_api::{ClientInput, RequestBody};
 
 use crate::words::Words;
@@ -17,6 +17,8 @@ const AXES: usize = 4;
 const BUTTONS: usize = 8;
 /// What does not change is said again so often: two renewals of the lease may be lost.
 const RENEW_US: u64 = 80_000;
+/// Worn sticks at rest read up to this much. What pushes a lent pad is known only where it drives.
+const AT_REST: f64 = 0.15;
 /// The lease of the lent inputs.
 const LEASE_MS: u16 = 250;
 
@@ -25,6 +27,7 @@ const LEASE_MS: u16 = 250;
 pub struct Lending {
     name: Option<Name>,
     told: Option<(u64, BTreeMap<String, f64>)>,
+    pads: PadWatch,
 }
 
 impl Lending {
@@ -46,7 +49,11 @@ impl Lending {
 
     /// Looks at the inputs, and gives what to say about them.
     pub fn step(&mut self, now_us: u64, readings: &Readings) -> Option<RequestBody> {
-        let values = inputs(self.name.as_ref()?, readings);
+        let name = self.name.as_ref()?;
+        let is_pushed = |pad| readings.pads.get(&pad).is_some_and(is_away_from_rest);
+        let silent = self.pads.look(now_us, &readings.pads, is_pushed);
+        let pad = readings.pads.iter().find(|(number, _)| !silent.contains(number));
+        let values = inputs(name, (readings, pad.map(|(_, pad)| pad)));
         let is_due = self
             .told
             .as_ref()
@@ -75,14 +82,20 @@ fn tell(values: BTreeMap<String, f64>) -> RequestBody {
     }
 }
 
-fn inputs(name: &Name, readings: &Readings) -> BTreeMap<String, f64> {
+fn is_away_from_rest(pad: &PadReading) -> bool {
+    pad.axes
+        .iter()
+        .chain(&pad.buttons)
+        .any(|value| value.abs() > AT_REST)
+}
+
+fn inputs(name: &Name, (readings, pad): (&Readings, Option<&PadReading>)) -> BTreeMap<String, f64> {
     let touch = readings.touch.map(|[right, up]| [("right", right), ("up", up)]);
     let tilt = readings
         .tilt
         .map(|[forward, left]| [("forward", forward), ("left", left)]);
     let sticks = touch.into_iter().chain(tilt).flatten();
     let sticks = sticks.map(|(what, value)| (format!("{name}-{what}"), value));
-    let pad = readings.pads.values().next();
     let numbered = |what: &'static str, values: &[f64], count: usize| {
         let values = values.iter().copied().take(count).enumerate();
         let named = values.map(|(number, value)| (format!("{name}-{what}-{number}"), value));
@@ -131,7 +144,7 @@ mod tests {
 
     use super::{LENT_NAME_MAX, Lending, lending_text, lent_name};
     use crate::words::{Language, Words};
-    use mixer::{PadReading, Readings};
+    use mixer::{PAD_SILENT_US, PadReading, Readings};
     use rvac_api::{ClientInput, INPUTS_PER_CLIENT_MAX, RequestBody, is_mix_name};
 
     const ENGLISH: &Words = Language::English.words();
@@ -186,6 +199,7 @@ mod tests {
         let pad = PadReading {
             axes: vec![0.25, -2.0, f64::NAN, 0.0, 0.0],
             buttons: vec![1.0; 17],
+            words: 0,
         };
         let mut readings = touched(0.0);
         readings.pads.insert(1, pad);
@@ -199,6 +213,28 @@ mod tests {
         let told = values(lending.step(20_000, &readings));
         let names: Vec<&str> = told.keys().map(String::as_str).collect();
         assert_eq!(names, ["phone-right", "phone-up"]);
+    }
+
+    #[test]
+    fn a_pushed_pad_that_says_nothing_more_is_lent_no_more() {
+        let mut lending = lending();
+        let mut readings = touched(0.0);
+        let pad = PadReading {
+            axes: vec![-1.0],
+            ..PadReading::default()
+        };
+        readings.pads.insert(0, pad);
+        let lends = |lending: &mut Lending, now_us, readings: &Readings| {
+            values(lending.step(now_us, readings)).contains_key("phone-axis-0")
+        };
+        assert!(lends(&mut lending, 0, &readings));
+        assert!(lends(&mut lending, PAD_SILENT_US - 1, &readings));
+        assert!(!lends(&mut lending, PAD_SILENT_US, &readings));
+        readings.pads.insert(0, PadReading::default());
+        lending.step(PAD_SILENT_US + 1, &readings);
+        readings.pads.entry(0).or_default().axes = vec![0.05];
+        assert!(lends(&mut lending, PAD_SILENT_US + 2, &readings));
+        assert!(lends(&mut lending, 9 * PAD_SILENT_US, &readings), "it rests");
     }
 
     #[test]

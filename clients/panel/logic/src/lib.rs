@@ -19,6 +19,7 @@ mod evidence;
 mod figures;
 mod floor_upload;
 mod frame_meter;
+mod grip;
 mod health;
 mod history;
 mod home;
@@ -58,13 +59,14 @@ pub use codes::{
 pub use connection::Backoff;
 pub use device_rows::{Row, Section, device_sections};
 pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
-pub use driver::{Driver, keys_of, knob_place, top_speeds};
+pub use driver::{Driver, keys_of, knob_place, silent_text, top_speeds};
 pub use edit_log::{Change, EditLog, Step};
 pub use edits::{Edit, EditError, Forbidden, Kept};
 pub use evidence::{EvidenceRow, evidence_rows};
 pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar};
 pub use floor_upload::{FloorUpload, floor_file_problem};
 pub use frame_meter::FrameMeter;
+pub use grip::{Grip, PadEvent, Pointer, PointerKind};
 pub use health::{PartRow, part_rows};
 pub use history::{
     Plot, Replay, RunDrawing, RunRow, StopRow, plots, room_here_text, run_drawing, run_figures, run_rows,

@@ -1,8 +1,9 @@
 //! Gamepads of the browser. A browser shows one only after a button of it was pressed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use js_sys::{Array, Function, Object, Reflect};
+use leptos::ev;
 use leptos::prelude::*;
 use mixer::PadReading;
 use wasm_bindgen::{JsCast, JsValue};
@@ -26,16 +27,33 @@ pub(super) struct Pads {
     pub(super) time_ms: Option<f64>,
 }
 
-/// Reads all pads; none where the browser gives none to this page.
-pub(super) fn read() -> Pads {
+/// Pads that were plugged in since the last reading, by their numbers. Another one may have the number of one that is gone.
+pub(super) type Plugged = StoredValue<BTreeSet<u8>>;
+
+/// Notes which pads are plugged in, until the view is gone.
+pub(super) fn watch(plugged: Plugged) {
+    let listener = window_event_listener(ev::gamepadconnected, move |event| {
+        let number = event.gamepad().and_then(|pad| u8::try_from(pad.index()).ok());
+        plugged.update_value(|plugged| plugged.extend(number));
+    });
+    on_cleanup(move || listener.remove());
+}
+
+/// Reads all pads; none where the browser gives none to this page. A pad that was just plugged in is left out once, so that
+/// whoever mixes sees that it is not the one before.
+pub(super) fn read(plugged: Plugged) -> Pads {
+    let new = plugged.try_update_value(std::mem::take).unwrap_or_default();
     let mut pads = Pads::default();
     for pad in connected() {
-        let Ok(number) = u8::try_from(pad.index()) else {
+        let number = u8::try_from(pad.index()).ok();
+        let Some(number) = number.filter(|number| !new.contains(number)) else {
             continue;
         };
         let reading = PadReading {
             axes: pad.axes().iter().filter_map(|axis| axis.as_f64()).collect(),
             buttons: pad.buttons().iter().map(pressed).collect(),
+            // Browsers give the time of the newest word of the pad.
+            words: pad.timestamp().to_bits(),
         };
         pads.readings.insert(number, reading);
         pads.names.push(words().drive.gamepad.fill([&number, &pad.id()]));

@@ -6,10 +6,12 @@ use leptos::ev;
 use leptos::prelude::*;
 use mixer::STEP_EVERY_US;
 
+use super::gamepads;
 use crate::store::Store;
 
 /// Steps until the view is gone.
 pub(super) fn watch(store: Store) {
+    gamepads::watch(store.seat.plugged);
     let step = move || {
         if is_away() {
             store.let_go();

@@ -98,12 +98,10 @@ fn Hands(seat: Seat) -> impl IntoView {
             names.join(", ")
         }
     };
-    let state = move || {
-        if seat.is_live.get() {
-            ""
-        } else {
-            words().drive.waits_for_rest
-        }
+    let state = move || match seat.silent.get() {
+        Some(silent) => silent,
+        None if seat.is_live.get() => String::new(),
+        None => words().drive.waits_for_rest.to_owned(),
     };
     view! {
         <div class="hands">

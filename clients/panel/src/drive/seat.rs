@@ -1,11 +1,14 @@
 //! Who drives: what hands do now, the mix that they go through, and the mixes that there are.
 
+use std::collections::BTreeSet;
+
 use leptos::prelude::*;
 use mixer::{BumpWatch, MixState, Name, Profile, Steered, TopSpeeds, standard_profile};
-use panel_logic::{Driver, LatencyMeter, Lending, top_speeds};
+use panel_logic::{Driver, LatencyMeter, Lending, PadEvent, silent_text, top_speeds};
 use rvac_api::{ClientInput, Pose, Status};
 
-use super::{choice, gamepads};
+use super::choice;
+use super::gamepads::{self, Plugged};
 
 use crate::changes::set_if_changed;
 use crate::language::words;
@@ -36,6 +39,9 @@ pub(crate) struct Seat {
     pub(crate) is_lent: RwSignal<bool>,
     /// What of it the robot passes on, as mixes call it.
     pub(super) passed_on: RwSignal<Vec<String>>,
+    /// Gamepads that are pushed and say nothing more, for people.
+    pub(crate) silent: RwSignal<Option<String>>,
+    pub(super) plugged: Plugged,
     meter: StoredValue<LatencyMeter>,
     /// When the newest input came.
     input_ms: StoredValue<f64>,
@@ -55,6 +61,8 @@ impl Seat {
             lending: StoredValue::new(Lending::default()),
             is_lent: RwSignal::new(false),
             passed_on: RwSignal::new(Vec::new()),
+            silent: RwSignal::new(None),
+            plugged: StoredValue::new(BTreeSet::new()),
             meter: StoredValue::new(LatencyMeter::default()),
             input_ms: StoredValue::new(0.0),
             bumps: StoredValue::new(BumpWatch::default()),
@@ -66,10 +74,12 @@ impl Seat {
         self.input_ms.set_value(time_ms);
     }
 
-    /// Puts the knob here: right and down, within its disc.
-    pub(crate) fn put_knob(self, place: [f64; 2]) {
-        self.knob.set(place);
-        self.driver.update_value(|driver| driver.place_knob(place));
+    /// Hands do something at the pad on the screen: the knob follows.
+    pub(crate) fn touch(self, event: PadEvent) {
+        let place = self.driver.try_update_value(|driver| driver.touch(event));
+        if let Some(place) = place.flatten() {
+            self.knob.set(place);
+        }
     }
 
     /// Hands are off the pad and off the keys.
@@ -91,6 +101,7 @@ impl Seat {
             .update_value(|meter| meter.on_mixed(&steered.mixed, began_ms));
         let is_live = steered.mixed.state == MixState::Live;
         set_if_changed(self.is_live, is_live);
+        set_if_changed(self.silent, silent_text(words(), &steered.silent_pads));
         steered
     }
 
@@ -104,7 +115,7 @@ impl Seat {
     /// Reads the gamepads; the time of it.
     fn look(self) -> f64 {
         let now = now_ms();
-        let pads = gamepads::read();
+        let pads = gamepads::read(self.plugged);
         set_if_changed(self.pads, pads.names);
         self.driver.update_value(|driver| {
             if driver.readings().pads != pads.readings {

@@ -226,8 +226,8 @@ impl Bench {
 
     /// A key went up.
     pub(super) fn lift_key(self, code: &str) {
-        if let (Some(key), Some(seat)) = (KeyCode::new(code), self.seat.get_value()) {
-            seat.driver.update_value(|driver| driver.lift(key));
+        if let Some(seat) = self.seat.get_value() {
+            seat.driver.update_value(|driver| driver.lift(code));
         }
     }
 

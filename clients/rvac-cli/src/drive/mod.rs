@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use std::sync::mpsc::channel;
 
 use anyhow::bail;
-use mixer::{Device, Source};
+use mixer::{Device, PadReading, Source};
 use rvac_api::Update;
 
 use crate::arguments::DriveOptions;
@@ -30,6 +30,10 @@ pub(crate) use profile::{kept as kept_profiles, named as named_profile, read as 
 enum DriveEvent {
     /// An input reads this.
     Moved(Source, f64),
+    /// This pad is there from now on, and reads this.
+    Plugged(u8, PadReading),
+    /// This pad has said something, whatever it was.
+    Heard(u8),
     /// A device is gone with all of its inputs.
     Gone(Device),
     /// This pad can shake.

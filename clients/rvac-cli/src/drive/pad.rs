@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use evdev::{AbsoluteAxisCode, EventSummary, KeyCode};
-use mixer::{Device, Source};
+use mixer::{Device, PadReading, Readings, Source};
 
 use super::DriveEvent;
 use super::shaker::Shaker;
@@ -17,6 +17,8 @@ use super::shaker::Shaker;
 const LOOK: Duration = Duration::from_secs(1);
 /// As many pads as a profile can name.
 const PADS: u8 = 4;
+/// Buttons of the "standard" mapping.
+const BUTTONS: u8 = 17;
 /// Makers whose drivers name the upper and the left button by their places. All others give them the letters of an Xbox pad,
 /// where the same two codes are swapped.
 const BY_PLACE: [u16; 2] = [0x054C, 0x057E];
@@ -84,16 +86,11 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<DriveEvent>) {
     if let Some(shaker) = Shaker::of(&mut device) {
         events.send(DriveEvent::CanShake(pad, shaker)).ok();
     }
-    // It is there from now on, with the sticks where they are.
-    for button in 0..17 {
-        events
-            .send(DriveEvent::Moved(Source::PadButton { pad, button }, 0.0))
-            .ok();
-    }
-    for (code, info) in device.get_absinfo().into_iter().flatten() {
-        moved(pad, (code, info.value()), &ranges, events);
-    }
+    // All at once: a stick that is pushed must not come into sight after the pad was seen at rest.
+    let reading = whole_reading(pad, &device, &ranges);
+    events.send(DriveEvent::Plugged(pad, reading)).ok();
     while let Ok(batch) = device.fetch_events() {
+        events.send(DriveEvent::Heard(pad)).ok();
         for event in batch {
             match event.destructure() {
                 EventSummary::Key(_, code, value) => {
@@ -112,16 +109,39 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<DriveEvent>) {
     events.send(DriveEvent::Gone(Device::Pad(pad))).ok();
 }
 
+/// A pad with the sticks where they are. Buttons count from their next press on.
+fn whole_reading(pad: u8, device: &evdev::Device, ranges: &BTreeMap<u16, Range>) -> PadReading {
+    let mut readings = Readings::default();
+    for button in 0..BUTTONS {
+        readings.set(&Source::PadButton { pad, button }, 0.0);
+    }
+    for (code, info) in device.get_absinfo().into_iter().flatten() {
+        for (source, value) in said(pad, (code, info.value()), ranges) {
+            readings.set(&source, value);
+        }
+    }
+    readings.pads.remove(&pad).unwrap_or_default()
+}
+
 fn moved(
     pad: u8,
-    (code, value): (AbsoluteAxisCode, i32),
+    moved: (AbsoluteAxisCode, i32),
     ranges: &BTreeMap<u16, Range>,
     events: &Sender<DriveEvent>,
 ) {
-    let range = ranges.get(&code.0).copied().unwrap_or(Range::new(-1, 1));
-    for (source, value) in sources(pad, code, range.share(value)) {
+    for (source, value) in said(pad, moved, ranges) {
         events.send(DriveEvent::Moved(source, value)).ok();
     }
+}
+
+/// What an axis says that reads this.
+fn said(
+    pad: u8,
+    (code, value): (AbsoluteAxisCode, i32),
+    ranges: &BTreeMap<u16, Range>,
+) -> Vec<(Source, f64)> {
+    let range = ranges.get(&code.0).copied().unwrap_or(Range::new(-1, 1));
+    sources(pad, code, range.share(value))
 }
 
 /// What an axis can read.

@@ -1,6 +1,6 @@
 //! One drive: readings come in, requests go out under a lease.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
 use std::process::ExitCode;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
@@ -11,7 +11,7 @@ use mixer::{
     BumpWatch, ClientInputs, Device, MixState, Mixed, Mixer, Pilot, Profile, Readings, STEP_EVERY_US, Source,
     TopSpeeds,
 };
-use rvac_api::{Request, RequestBody, RobotDescription, Status, Topic, Update};
+use rvac_api::{Explanation, Request, RequestBody, RobotDescription, Status, Topic, Update, explain};
 
 use super::DriveEvent;
 use super::shaker::Shaker;
@@ -19,6 +19,8 @@ use crate::socket::Connection;
 
 /// Period at which the mixer reads the inputs.
 const TICK: Duration = Duration::from_micros(STEP_EVERY_US);
+/// Name of the reason why a pushed pad that says nothing stops the wheels.
+const PAD_SILENT: &str = "pad-silent";
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 /// Number of all other requests.
@@ -36,6 +38,8 @@ pub(super) struct Session {
     shakers: BTreeMap<u8, Shaker>,
     bumps: BumpWatch,
     start: Instant,
+    /// Pads of which the person knows that they are silent.
+    silent_pads: BTreeSet<u8>,
     /// The last message to the person.
     told: Option<MixState>,
 }
@@ -79,6 +83,7 @@ impl Session {
             shakers: BTreeMap::new(),
             bumps: BumpWatch::default(),
             start: Instant::now(),
+            silent_pads: BTreeSet::new(),
             told: None,
         })
     }
@@ -114,13 +119,11 @@ impl Session {
             DriveEvent::Moved(source, value) => {
                 self.readings.set(&source, value);
             }
-            DriveEvent::Gone(device) => {
-                self.readings.remove(&device);
-                if let Device::Pad(pad) = device {
-                    self.shakers.remove(&pad);
-                }
-                remark(&format!("{device} is gone: the wheels stand"))?;
+            DriveEvent::Plugged(pad, reading) => {
+                self.readings.pads.insert(pad, reading);
             }
+            DriveEvent::Heard(pad) => self.readings.note_word(pad),
+            DriveEvent::Gone(device) => self.lose(&device)?,
             DriveEvent::CanShake(pad, shaker) => {
                 self.shakers.insert(pad, shaker);
             }
@@ -132,6 +135,16 @@ impl Session {
             DriveEvent::Lost(error) => return Err(error),
         }
         Ok(false)
+    }
+
+    /// The mixer sees at once that a device is gone: another one may take its number before the next step.
+    fn lose(&mut self, device: &Device) -> anyhow::Result<()> {
+        self.readings.remove(device);
+        if let Device::Pad(pad) = device {
+            self.shakers.remove(pad);
+        }
+        remark(&format!("{device} is gone: the wheels stand"))?;
+        self.step()
     }
 
     fn hear(&mut self, update: Update) -> anyhow::Result<()> {
@@ -156,6 +169,7 @@ impl Session {
         let now_us = self.now_us();
         self.take_client_inputs(now_us)?;
         let steered = self.pilot.step(now_us, &self.readings, self.top);
+        self.tell_silent(steered.silent_pads)?;
         self.tell(&steered.mixed)?;
         for body in steered.presses {
             self.send(PRESS_ID, body)?;
@@ -194,6 +208,16 @@ impl Session {
 
     fn send(&mut self, id: u32, body: RequestBody) -> anyhow::Result<()> {
         self.connection.send(&Request { id: Some(id), body })
+    }
+
+    /// Tells the person which pads are pushed and say nothing more.
+    fn tell_silent(&mut self, pads: BTreeSet<u8>) -> anyhow::Result<()> {
+        for pad in pads.difference(&self.silent_pads) {
+            let why = explain(PAD_SILENT).map(Explanation::text).unwrap_or_default();
+            remark(&format!("pad-{pad} is silent ({PAD_SILENT}): {why}"))?;
+        }
+        self.silent_pads = pads;
+        Ok(())
     }
 
     /// Tells the person when the inputs begin or cease to count.

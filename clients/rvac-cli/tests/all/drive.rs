@@ -177,10 +177,18 @@ impl Drive {
     }
 
     fn wait_for(&self, wanted: &str) {
+        self.wait_until(|line| line == wanted);
+    }
+
+    fn wait_for_start(&self, wanted: &str) {
+        self.wait_until(|line| line.starts_with(wanted));
+    }
+
+    fn wait_until(&self, is_wanted: impl Fn(&str) -> bool) {
         let deadline = Instant::now() + PATIENCE;
         loop {
             let left = deadline.saturating_duration_since(Instant::now());
-            if self.said.recv_timeout(left).unwrap().trim() == wanted {
+            if is_wanted(self.said.recv_timeout(left).unwrap().trim()) {
                 return;
             }
         }
@@ -263,6 +271,49 @@ fn a_pad_drives_and_whatever_is_lost_stops_the_wheels() {
     assert!(world.rvac(&["mix", "remove", "Touch only"]).status.success());
     let absent = world.rvac(&["drive", "--readings", "--mix", "Touch only"]);
     assert!(text(&absent.stderr).contains("the robot keeps no mix `Touch only`"));
+}
+
+/// What a pushed pad may say nothing for, in the mixer.
+const SILENT: Duration = Duration::from_secs(2);
+
+/// A gamepad without power keeps its last position in the kernel, and says nothing.
+#[test]
+fn a_pushed_pad_that_says_nothing_more_stops_the_wheels() {
+    let world = World::start("silent");
+    let witness = world.witness();
+    let mut drive = Drive::start(&world, &[]);
+    drive.read("pad-0-axis-0 0");
+    drive.wait_for("ready");
+    for _ in 0..3 {
+        drive.push("pad-0-axis-0", &witness);
+        let last_word = Instant::now();
+        drive.read("pad-0-axis-0 -1");
+        drive.wait_for_start("pad-0 is silent (pad-silent)");
+        let told = last_word.elapsed();
+        assert!(told >= SILENT, "{told:?}");
+        stands_soon(
+            &witness,
+            last_word + SILENT,
+            "a pushed pad that was silent for two seconds",
+        );
+        // Another pad of the same name may be there instead, still pushed.
+        drive.read("pad-0 gone");
+        drive.read("pad-0-axis-0 -1");
+        assert!(
+            !witness.moves_within(Duration::from_secs(1)),
+            "it drives though it was not at rest"
+        );
+    }
+    // The same place said again and again is a pad that lives.
+    drive.push("pad-0-axis-0", &witness);
+    for _ in 0..30 {
+        drive.read("pad-0-axis-0 -1");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+    assert!(
+        witness.moves_within(Duration::from_millis(300)),
+        "a pad that lives drives on"
+    );
 }
 
 /// A mix that drives by another client's input only.

@@ -193,8 +193,25 @@ impl FaultTrial {
                 robot.world_mut().press_button(button);
                 self.ends.push((now_ms + ms, EffectEnd::Button(button)));
             }
-            Fault::Request(body) => self.household.ask(body),
+            Fault::Request(body) => self.ask(body),
         }
+    }
+
+    /// The owner asks for something. A stick is pushed from its centre.
+    fn ask(&mut self, body: RequestBody) {
+        if let RequestBody::Drive {
+            ttl, clean, power, ..
+        } = &body
+        {
+            self.household.ask(RequestBody::Drive {
+                v: 0.0,
+                w: 0.0,
+                ttl: *ttl,
+                clean: *clean,
+                power: *power,
+            });
+        }
+        self.household.ask(body);
     }
 
     /// Whether something of the same kind is still going on; sensors lie one at a time.

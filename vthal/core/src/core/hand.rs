@@ -102,7 +102,7 @@ impl Core {
 
     /// Nobody can let go of a stick over a connection that takes no more requests.
     pub(super) fn client_silent(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
-        if self.driver.arbiter.forget(client) {
+        if self.driver.arbiter.release(client) {
             // Whoever is lost has not let go: no ramp.
             self.driver_left(now_us, (client, DeviceCommand::EmergencyStop), outputs);
         }

@@ -1,11 +1,9 @@
 //! Who may command (S27) and for how long (S23).
 //!
 //! Priority: safety, then the buttons on the robot, then the person who drives, then schedules. *Seat*: the one place from
-//! which somebody drives by hand; its holder keeps it as long as the lease is renewed. *Centring*: a stick that
-//! was held while its lease ended or while somebody else stopped the robot must return to the centre first, so that the
-//! robot never starts from a touch of long ago.
-
-use std::collections::BTreeSet;
+//! which somebody drives by hand; its holder keeps it as long as the lease is renewed. Only a stick in its centre takes the
+//! empty seat, whoever moves it and however the seat became empty. A stick that is still held over a connection that broke, a
+//! lease that ended, a stop, or a restart of the daemon therefore moves nothing.
 
 use crate::ClientId;
 
@@ -34,7 +32,7 @@ impl Stick {
 pub(crate) enum Denied {
     /// Somebody else sits in the driver's seat.
     DriverBusy(ClientId),
-    /// The stick must return to the centre first.
+    /// The seat is empty, and only a stick in its centre takes it.
     ReturnToCentre,
     /// The lease is 0 or longer than [`LEASE_MAX_US`].
     LeaseRange,
@@ -61,7 +59,6 @@ struct Seat {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Arbiter {
     seat: Option<Seat>,
-    centring: BTreeSet<ClientId>,
 }
 
 impl Arbiter {
@@ -86,15 +83,10 @@ impl Arbiter {
             return Err(Denied::LeaseRange);
         }
         self.expire(now_us);
-        if let Some(seat) = self.seat
-            && seat.client != client
-        {
-            return Err(Denied::DriverBusy(seat.client));
-        }
-        if stick.is_centred() {
-            self.centring.remove(&client);
-        } else if self.centring.contains(&client) {
-            return Err(Denied::ReturnToCentre);
+        match self.seat {
+            Some(seat) if seat.client != client => return Err(Denied::DriverBusy(seat.client)),
+            None if !stick.is_centred() => return Err(Denied::ReturnToCentre),
+            _ => {}
         }
         let until_us = now_us + stick.lease_us;
         self.seat = Some(Seat { client, until_us });
@@ -125,11 +117,10 @@ impl Arbiter {
     pub(crate) fn expire(&mut self, now_us: u64) -> Option<ClientId> {
         let seat = self.seat.filter(|seat| now_us >= seat.until_us)?;
         self.seat = None;
-        self.centring.insert(seat.client);
         Some(seat.client)
     }
 
-    /// The driver leaves by itself. Whether it was the driver.
+    /// A client lets go of the stick, or is gone. Whether it was the driver.
     pub(crate) fn release(&mut self, client: ClientId) -> bool {
         let was_driver = self.driver() == Some(client);
         if was_driver {
@@ -138,17 +129,9 @@ impl Arbiter {
         was_driver
     }
 
-    /// Something of higher priority stops the robot: the driver leaves and must centre the stick.
+    /// Something of higher priority stops the robot: the driver leaves.
     pub(crate) fn preempt(&mut self) {
-        if let Some(seat) = self.seat.take() {
-            self.centring.insert(seat.client);
-        }
-    }
-
-    /// A client is gone for ever. Whether it was the driver.
-    pub(crate) fn forget(&mut self, client: ClientId) -> bool {
-        self.centring.remove(&client);
-        self.release(client)
+        self.seat = None;
     }
 }
 
@@ -169,11 +152,19 @@ mod tests {
         ..FORWARD
     };
 
+    /// Somebody sits who took the seat in the centre.
+    fn with_anna() -> Arbiter {
+        let mut arbiter = Arbiter::default();
+        arbiter.drive(0, ANNA, CENTRE).expect("free");
+        arbiter.drive(0, ANNA, FORWARD).expect("hers");
+        arbiter
+    }
+
     #[test]
     fn one_seat_and_no_take_over() {
-        let mut arbiter = Arbiter::default();
-        assert_eq!(arbiter.drive(0, ANNA, FORWARD), Ok(400_000));
+        let mut arbiter = with_anna();
         assert_eq!(arbiter.drive(1, BERT, FORWARD), Err(Denied::DriverBusy(ANNA)));
+        assert_eq!(arbiter.drive(1, BERT, CENTRE), Err(Denied::DriverBusy(ANNA)));
         assert_eq!(
             arbiter.admit(1, Source::Person(BERT)),
             Err(Denied::DriverBusy(ANNA))
@@ -186,29 +177,40 @@ mod tests {
             "a schedule never takes the robot from anybody"
         );
         assert!(!arbiter.release(BERT) && arbiter.release(ANNA));
-        assert_eq!(arbiter.drive(2, BERT, FORWARD), Ok(400_002));
+        assert_eq!(arbiter.drive(2, BERT, CENTRE), Ok(400_002));
     }
 
     #[test]
-    fn a_lease_that_ended_wants_the_stick_centred() {
-        let mut arbiter = Arbiter::default();
-        arbiter.drive(0, ANNA, FORWARD).expect("free");
-        assert_eq!(arbiter.expire(399_999), None);
-        assert_eq!(arbiter.expire(400_000), Some(ANNA));
-        assert_eq!(arbiter.drive(400_001, ANNA, FORWARD), Err(Denied::ReturnToCentre));
-        assert_eq!(arbiter.driver(), None, "a refused driver does not sit");
-        arbiter.drive(400_002, ANNA, CENTRE).expect("centred");
-        arbiter.drive(400_003, ANNA, FORWARD).expect("armed again");
+    fn only_a_stick_in_its_centre_takes_the_empty_seat_however_it_became_empty() {
+        let ends: [(&str, fn(&mut Arbiter)); 4] = [
+            ("nobody ever drove", |arbiter| *arbiter = Arbiter::default()),
+            ("silence", |arbiter| {
+                assert_eq!(arbiter.expire(399_999), None);
+                assert_eq!(arbiter.expire(400_000), Some(ANNA));
+            }),
+            ("let go, or gone", |arbiter| assert!(arbiter.release(ANNA))),
+            ("a stop", Arbiter::preempt),
+        ];
+        for (end, empty) in ends {
+            for client in [ANNA, BERT] {
+                let mut arbiter = with_anna();
+                empty(&mut arbiter);
+                for _ in 0..3 {
+                    let refused = arbiter.drive(400_001, client, FORWARD);
+                    assert_eq!(refused, Err(Denied::ReturnToCentre), "{end}, {client:?}");
+                    assert_eq!(arbiter.driver(), None, "a refused driver does not sit");
+                }
+                arbiter.drive(400_002, client, CENTRE).expect("centred");
+                arbiter.drive(400_003, client, FORWARD).expect("and then off");
+            }
+        }
     }
 
+    /// The lease ends unseen: no wake came between it and the next word of the same client.
     #[test]
-    fn whoever_is_preempted_must_centre() {
-        let mut arbiter = Arbiter::default();
-        arbiter.drive(0, ANNA, FORWARD).expect("free");
-        arbiter.preempt();
-        assert_eq!(arbiter.driver(), None);
-        assert_eq!(arbiter.drive(1, ANNA, FORWARD), Err(Denied::ReturnToCentre));
-        assert_eq!(arbiter.drive(1, BERT, FORWARD), Ok(400_001));
+    fn a_lease_that_ended_unseen_has_ended() {
+        let mut arbiter = with_anna();
+        assert_eq!(arbiter.drive(400_000, ANNA, FORWARD), Err(Denied::ReturnToCentre));
     }
 
     #[test]

@@ -74,8 +74,9 @@ impl Pair {
         })
     }
 
-    /// Holds the stick until something happens, for fifteen seconds at most.
+    /// Pushes the stick from its centre, and holds it until something happens, for fifteen seconds at most.
     fn drive_until(&mut self, v: f64, end: impl Fn(&Self) -> bool) {
+        assert_eq!(self.drive(0.0), None);
         for _ in 0..300 {
             assert_eq!(self.drive(v), None);
             for _ in 0..50 {

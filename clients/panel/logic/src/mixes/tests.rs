@@ -192,6 +192,7 @@ fn a_mix_keeps_outputs_that_the_robot_lacks() {
 
 fn readings(axis: f64) -> Readings {
     let pad = PadReading {
+        words: 0,
         axes: vec![axis],
         buttons: vec![0.0],
     };
