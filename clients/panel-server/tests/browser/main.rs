@@ -13,6 +13,8 @@ mod carpets;
 mod costs;
 mod edits;
 mod floors;
+#[path = "../folder/mod.rs"]
+mod folder;
 mod foreign;
 mod frozen;
 mod hands;

@@ -1,6 +1,8 @@
 //! `rvac` on another computer: paired by a code, it does over TLS what it does over the daemon's socket, and speaks to no other robot.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
+#[path = "../folder/mod.rs"]
+mod folder;
 #[path = "../stack/mod.rs"]
 mod stack;
 
@@ -10,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
+use folder::Folder;
 use stack::{Stack, binary};
 
 /// A computer with its own settings.
@@ -105,8 +108,7 @@ fn types_packets(desk: &Computer, stack: &Stack) {
 
 #[test]
 fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot() {
-    let page = std::env::temp_dir().join(format!("rvac-network-{}", std::process::id()));
-    std::fs::create_dir_all(&page).unwrap();
+    let page = Folder::new();
     std::fs::write(page.join("index.html"), "<!doctype html><title>Panel</title>").unwrap();
     let mut stack = Stack::start_on_network(&page);
     let (code, address) = open(&stack);
@@ -168,5 +170,4 @@ fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot()
         refused.contains("does not know this computer any more"),
         "{refused}"
     );
-    std::fs::remove_dir_all(&page).ok(); // A leftover in the temporary folder does no harm.
 }

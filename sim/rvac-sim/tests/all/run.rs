@@ -1,6 +1,7 @@
 //! The batch commands as processes.
 
 use crate::echo;
+use crate::folder::Folder;
 use std::borrow::Cow;
 use std::process::{Command, Output};
 
@@ -133,7 +134,8 @@ fn what_the_host_took_of_the_processor_is_told_on_demand() {
 
 #[test]
 fn an_image_that_is_no_robot_is_told_so() {
-    let image = std::env::temp_dir().join(format!("rvac-sim-echo-{}.hex", std::process::id()));
+    let folder = Folder::new("echo");
+    let image = folder.join("echo.hex");
     std::fs::write(&image, echo::image()).unwrap();
     let home = "homes/two-room-flat.toml";
     let image_name = image.to_str().unwrap();
@@ -142,12 +144,12 @@ fn an_image_that_is_no_robot_is_told_so() {
     assert_eq!(output.status.code(), Some(2), "{text}");
     assert!(text.contains("did not answer within 5 s"), "{text}");
     assert_eq!(output.stdout, b"");
-    std::fs::remove_file(image).unwrap();
 }
 
 #[test]
 fn kept_runs_become_one_page_without_foreign_parts() {
-    let folder = std::env::temp_dir().join(format!("rvac-sim-page-{}", std::process::id()));
+    let files = Folder::new("page");
+    let folder = files.join("runs");
     let name = folder.to_str().unwrap();
     let empty = rvac_sim(&["report", name]);
     assert_eq!(empty.status.code(), Some(2), "there is no such folder yet");
@@ -178,13 +180,13 @@ fn kept_runs_become_one_page_without_foreign_parts() {
     for foreign in ["<script", "http:", "https:", "src=", "NaN", "inf"] {
         assert!(!page.contains(foreign), "{foreign}");
     }
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 #[ignore = "campaign: whole runs for a page; cargo xtask test --all"]
 fn a_page_shows_bounce_beside_a_run_that_came_without() {
-    let folder = std::env::temp_dir().join(format!("rvac-sim-bounce-{}", std::process::id()));
+    let files = Folder::new("bounce");
+    let folder = files.join("runs");
     let name = folder.to_str().unwrap();
     let home = "homes/furnished-room.toml";
     let run = [
@@ -213,7 +215,6 @@ fn a_page_shows_bounce_beside_a_run_that_came_without() {
     assert_eq!(page(&["--with-bounce"]), both, "it is there already");
     let kept = std::fs::read_dir(&folder).unwrap().count();
     assert_eq!(kept, 3, "two runs and the page");
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
@@ -277,7 +278,8 @@ fn a_relax_without_gyro_keeps_no_map_and_with_beacons_it_knows_its_place() {
 #[test]
 fn bad_input_names_itself() {
     let flat = "homes/two-room-flat.toml";
-    let cut = std::env::temp_dir().join(format!("rvac-sim-cut-{}.elf", std::process::id()));
+    let folder = Folder::new("cut");
+    let cut = folder.join("cut.elf");
     std::fs::write(&cut, b"\x7fELF\x01\x01\x01\0").unwrap();
     let cut = cut.to_str().unwrap();
     let cases: [(&[&str], &str); 10] = [
@@ -299,5 +301,4 @@ fn bad_input_names_itself() {
         assert!(text.contains(named), "{text}");
         assert_eq!(output.stdout, b"");
     }
-    std::fs::remove_file(cut).unwrap();
 }
