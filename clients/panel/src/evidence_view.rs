@@ -1,7 +1,7 @@
 //! Why the robot stands still: sensor readings in the seconds before, and what it tried.
 
 use leptos::prelude::*;
-use panel_logic::{EvidenceRow, decision_text, evidence_rows};
+use panel_logic::{EvidenceRow, MapPoint, decision_text, evidence_rows};
 use rvac_api::{Evidence, Standstill, Status};
 
 use crate::language::words;
@@ -13,7 +13,7 @@ pub(crate) fn StandstillView(store: Store) -> impl IntoView {
     let told = Memo::new(move |_| going_on(store));
     let place = Memo::new(move |_| {
         let told = told.get().filter(|told| !told.lost);
-        told.map(|told| (told.place.x, told.place.y))
+        told.map(|told| MapPoint::new(told.place.x, told.place.y))
     });
     Effect::new(move |_| {
         let place = place.get();

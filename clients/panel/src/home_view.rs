@@ -50,7 +50,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
             <ul id="maps" class="rows" aria-labelledby="maps-title">
                 {move || {
                     let maps = store.maps.get();
-                    maps.into_iter().enumerate().map(|(place, map)| kept(store, (place, map))).collect_view()
+                    maps.into_iter().enumerate().map(|(place, map)| kept(store, place, map)).collect_view()
                 }}
             </ul>
             <Show when=move || store.maps.with(Vec::is_empty)>
@@ -87,7 +87,7 @@ pub(crate) fn rooms_text(count: u32) -> String {
     }
 }
 
-fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
+fn kept(store: Store, place: usize, map: KeptMap) -> impl IntoView {
     let told = &words().home;
     let kept_s = i64::try_from(map.kept_s).ok();
     let extent = format!(

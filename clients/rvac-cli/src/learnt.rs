@@ -17,11 +17,17 @@ pub(crate) fn run(job: &LearntJob) -> anyhow::Result<ExitCode> {
         return control::send(RequestBody::ForgetLearnt { device, part }, &job.daemon);
     }
     let mut connection = Connection::open(&job.daemon)?;
-    let request = (RequestBody::Learnt, control::ANSWER);
-    let (devices, text) = control::answer(&mut connection, request, |update, text| match update {
-        Update::Learnt { devices, .. } => Some((devices, text)),
-        _ => None,
-    })?;
+    let request = RequestBody::Learnt;
+    let (devices, text) =
+        control::answer(
+            &mut connection,
+            request,
+            control::ANSWER,
+            |update, text| match update {
+                Update::Learnt { devices, .. } => Some((devices, text)),
+                _ => None,
+            },
+        )?;
     if job.json {
         writeln!(stdout(), "{text}")?;
     } else {

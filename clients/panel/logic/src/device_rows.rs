@@ -72,7 +72,7 @@ pub fn device_sections(words: &Words, table: &DeviceTable, robot: Option<&RobotD
 }
 
 /// A number with its unit.
-fn with_unit(words: &Words, unit: Template<1>, (value, decimals): (f64, usize)) -> String {
+fn with_unit(words: &Words, unit: Template<1>, value: f64, decimals: usize) -> String {
     unit.fill([&words.number(value, decimals)])
 }
 
@@ -89,7 +89,7 @@ fn battery(words: &Words, table: &DeviceTable) -> Vec<Row> {
         other => other,
     };
     let temperature = match battery.temperature_c {
-        Some(celsius) => with_unit(words, told.celsius, (celsius, 1)),
+        Some(celsius) => with_unit(words, told.celsius, celsius, 1),
         None => told.not_measured.to_owned(),
     };
     let mut rows = vec![
@@ -99,11 +99,8 @@ fn battery(words: &Words, table: &DeviceTable) -> Vec<Row> {
             battery.charge < 0.15,
         ),
         alarm(told.state, state, battery.state == "fault"),
-        row(told.voltage, with_unit(words, told.volts, (battery.voltage_v, 2))),
-        row(
-            told.current,
-            with_unit(words, told.amperes, (battery.current_a, 2)),
-        ),
+        row(told.voltage, with_unit(words, told.volts, battery.voltage_v, 2)),
+        row(told.current, with_unit(words, told.amperes, battery.current_a, 2)),
         alarm(told.temperature, temperature, battery.temperature_c.is_none()),
     ];
     if let Some(charger) = &battery.charger {
@@ -128,7 +125,7 @@ fn link(words: &Words, table: &DeviceTable) -> Vec<Row> {
         reconnects,
         binary,
     } = &table.link;
-    let bandwidth = |bytes_per_s: f64| with_unit(words, told.kilobytes_per_s, (bytes_per_s / 1000.0, 2));
+    let bandwidth = |bytes_per_s: f64| with_unit(words, told.kilobytes_per_s, bytes_per_s / 1000.0, 2);
     let mut rows = vec![alarm(told.connection, if *up { told.up } else { told.lost }, !up)];
     if let Some(frequency) = table.main_loop_hz {
         rows.push(row(told.main_loop, told.hertz.fill([&frequency])));
@@ -137,13 +134,13 @@ fn link(words: &Words, table: &DeviceTable) -> Vec<Row> {
     rows.push(row(told.from_robot, bandwidth(table.bytes_in_per_s)));
     rows.push(alarm(
         told.bad_packets,
-        with_unit(words, words.unit.percent, (bad_share * 100.0, 2)),
+        with_unit(words, words.unit.percent, bad_share * 100.0, 2),
         *bad_share > 0.02,
     ));
     if let Some(round_trip) = round_trip_ms {
         rows.push(row(
             told.round_trip,
-            with_unit(words, told.milliseconds, (*round_trip, 1)),
+            with_unit(words, told.milliseconds, *round_trip, 1),
         ));
     }
     rows.push(row(told.age, told.milliseconds.fill([age_ms])));
@@ -165,7 +162,7 @@ fn motion(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) 
         Some(current) => told.with_current.fill([&text, &words.number(current.into(), 2)]),
         None => text,
     };
-    let speed = |m_per_s: f64| with_unit(words, told.metres_per_s, (m_per_s, 2));
+    let speed = |m_per_s: f64| with_unit(words, told.metres_per_s, m_per_s, 2);
     let [main, sides, suction] = table
         .cleaners
         .map(|runs| if runs { told.running } else { told.off });

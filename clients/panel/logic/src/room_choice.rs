@@ -6,6 +6,7 @@ use crate::figures::{area_text, percent_text};
 use crate::home::RoomRow;
 use crate::job_settings::JobSettings;
 use crate::kept_places::shape_text;
+use crate::point::MapPoint;
 use crate::reshape::Outline;
 use crate::sketch::{extent, spot_border};
 use crate::words::Words;
@@ -84,8 +85,8 @@ impl RoomChoice {
     }
 
     /// Takes out the spot that was chosen last of those that cover a place of the map. `false` when none does.
-    pub fn take_spot_out_at(&mut self, (x, y): (f64, f64)) -> bool {
-        let is_under = |part: &JobPart| matches!(part, JobPart::Spot(at) if (at[0] - x).hypot(at[1] - y) <= SPOT_RADIUS_M);
+    pub fn take_spot_out_at(&mut self, place: MapPoint) -> bool {
+        let is_under = |part: &JobPart| matches!(part, JobPart::Spot(at) if (at[0] - place.x).hypot(at[1] - place.y) <= SPOT_RADIUS_M);
         let found = self.parts.iter().rposition(is_under);
         if let Some(index) = found {
             self.parts.remove(index);
@@ -369,9 +370,9 @@ pub fn job_estimate_text(words: &Words, estimate: &JobEstimate) -> String {
 
 /// The room under a place of the map.
 #[must_use]
-pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
+pub fn room_at(home: &HomeView, place: MapPoint) -> Option<u16> {
     let cell = |metres: f64, origin: i32| (metres / home.cell_m).floor() - f64::from(origin);
-    let (column, row) = (cell(x_m, home.x), cell(y_m, home.y));
+    let (column, row) = (cell(place.x, home.x), cell(place.y, home.y));
     // Written so that NaN is nowhere.
     let is_inside =
         (0.0..f64::from(home.width)).contains(&column) && (0.0..f64::from(home.height)).contains(&row);
@@ -392,6 +393,7 @@ pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
 #[cfg(test)]
 mod tests {
     use super::{JobSettings, RoomChoice, job_estimate_text, room_at};
+    use crate::MapPoint;
     use crate::words::{Language, Words};
     use rvac_api::{CleaningPower, HomeView, JobEstimate, JobPart, NoGoShape, PlaceShape, PlaceView};
 
@@ -456,8 +458,11 @@ mod tests {
             .collect();
         assert_eq!(places, [(2, [1.0, 2.0]), (3, [1.0, 0.5]), (4, [1.3, 2.0])]);
         assert!(choice.text(ENGLISH, &[]).ends_with(", 2 spots"));
-        assert!(!choice.take_spot_out_at((0.2, 2.0)));
-        assert!(choice.take_spot_out_at((1.1, 2.1)), "the one that lies above");
+        assert!(!choice.take_spot_out_at(MapPoint::new(0.2, 2.0)));
+        assert!(
+            choice.take_spot_out_at(MapPoint::new(1.1, 2.1)),
+            "the one that lies above"
+        );
         choice.take_out(3);
         choice.take_out(9);
         choice.take_out(0);
@@ -535,7 +540,7 @@ mod tests {
             room_cells: vec![1, 2, 0, 1, 2, 3],
             ..HomeView::default()
         };
-        for (place, room) in [
+        for ((x, y), room) in [
             ((-0.9, 2.1), Some(1)),
             ((-0.1, 2.1), Some(1)),
             ((0.1, 2.4), None),
@@ -544,9 +549,9 @@ mod tests {
             ((0.6, 2.1), None),
             ((f64::NAN, 2.1), None),
         ] {
-            assert_eq!(room_at(&home, place), room, "{place:?}");
+            assert_eq!(room_at(&home, MapPoint::new(x, y)), room, "{x} {y}");
         }
-        assert_eq!(room_at(&HomeView::default(), (0.0, 0.0)), None);
+        assert_eq!(room_at(&HomeView::default(), MapPoint::default()), None);
     }
 
     #[test]

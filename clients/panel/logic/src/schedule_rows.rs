@@ -30,13 +30,20 @@ pub struct ScheduleRow {
     pub skips: bool,
 }
 
+/// What is known of the home: rooms and places of the floor on which the robot is, and all floors.
+#[derive(Clone, Copy, Debug)]
+pub struct HomeRows<'a> {
+    /// Rooms of this floor.
+    pub rooms: &'a [RoomRow],
+    /// Kept places of this floor.
+    pub places: &'a [PlaceRow],
+    /// The floors.
+    pub floors: &'a FloorsView,
+}
+
 /// The schedules, by their numbers.
 #[must_use]
-pub fn schedule_rows(
-    words: &Words,
-    schedules: &Schedules,
-    home: (&[RoomRow], &[PlaceRow], &FloorsView),
-) -> Vec<ScheduleRow> {
+pub fn schedule_rows(words: &Words, schedules: &Schedules, home: HomeRows<'_>) -> Vec<ScheduleRow> {
     let row = |view| row(words, view, home);
     schedules.entries.iter().map(row).collect()
 }
@@ -59,19 +66,15 @@ pub fn floor_elsewhere(words: &Words, floor: Option<u16>, floors: &FloorsView) -
     ))
 }
 
-fn row(
-    words: &Words,
-    view: &ScheduleView,
-    (rooms, places, floors): (&[RoomRow], &[PlaceRow], &FloorsView),
-) -> ScheduleRow {
+fn row(words: &Words, view: &ScheduleView, home: HomeRows<'_>) -> ScheduleRow {
     let (told, entry) = (&words.schedule, &view.entry);
-    let elsewhere = floor_elsewhere(words, entry.floor, floors);
+    let elsewhere = floor_elsewhere(words, entry.floor, home.floors);
     // The rooms and places that are known are those of the floor on which the robot is.
     let job = match &elsewhere {
         Some(title) => told
             .on_floor
-            .fill([&job_text(words, &entry.job, (&[], &[])), title]),
-        None => job_text(words, &entry.job, (rooms, places)),
+            .fill([&job_text(words, &entry.job, &[], &[]), title]),
+        None => job_text(words, &entry.job, home.rooms, home.places),
     };
     let next = match view.next.first() {
         Some(run) => told.next.fill([&planned_text(words, run)]),
@@ -166,7 +169,7 @@ fn time_text(words: &Words, when: &ScheduleTime) -> String {
     }
 }
 
-fn job_text(words: &Words, job: &ScheduledJob, (rooms, places): (&[RoomRow], &[PlaceRow])) -> String {
+fn job_text(words: &Words, job: &ScheduledJob, rooms: &[RoomRow], places: &[PlaceRow]) -> String {
     let told = &words.schedule;
     let order = match job {
         ScheduledJob::Start { strategy: None } => return told.whole_home.to_owned(),
@@ -240,7 +243,7 @@ mod tests {
         ScheduleTime, ScheduleView, ScheduledJob, Schedules, Weekday,
     };
 
-    use super::{instant_text, next_rows, past_rows, schedule_rows, zone_text};
+    use super::{HomeRows, instant_text, next_rows, past_rows, schedule_rows, zone_text};
     use crate::home::RoomRow;
     use crate::words::{Language, Words};
 
@@ -302,7 +305,12 @@ mod tests {
             here: Some(1),
             ..FloorsView::default()
         };
-        let rows = schedule_rows(ENGLISH, &told(), (&[kitchen], &[], &here));
+        let home = HomeRows {
+            rooms: &[kitchen],
+            places: &[],
+            floors: &here,
+        };
+        let rows = schedule_rows(ENGLISH, &told(), home);
         assert_eq!(
             rows[0].words,
             "Mon, Fri at 07:30, Kitchen, room 9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
@@ -338,13 +346,12 @@ mod tests {
             ..FloorsView::default()
         };
         let words = |here| {
-            schedule_rows(
-                ENGLISH,
-                &upstairs,
-                (std::slice::from_ref(&kitchen), &[], &floors(here)),
-            )[0]
-            .words
-            .clone()
+            let home = HomeRows {
+                rooms: std::slice::from_ref(&kitchen),
+                places: &[],
+                floors: &floors(here),
+            };
+            schedule_rows(ENGLISH, &upstairs, home)[0].words.clone()
         };
         assert_eq!(
             words(1),

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use leptos::prelude::{RwSignal, Track, Update, request_animation_frame, window};
-use panel_logic::{FrameMeter, RoomChoice};
+use panel_logic::{FrameMeter, MapPoint, RoomChoice};
 use rvac_api::{
     Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, RobotDescription, SimulatedPlan,
 };
@@ -137,7 +137,7 @@ impl MapHandle {
     }
 
     /// Marks where the robot waits for help, if it does.
-    pub(crate) fn mark_stop(&self, place: Option<(f64, f64)>) {
+    pub(crate) fn mark_stop(&self, place: Option<MapPoint>) {
         self.shared.labels.borrow_mut().mark_stop(place);
         self.change(|_| {});
     }

@@ -205,11 +205,16 @@ fn doors_of(home: &HomeView, room: u16) -> String {
 fn list(daemon: &Daemon, floor: Option<&str>) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(daemon)?;
     let floor = floor_meant(&mut connection, floor)?;
-    let request = (RequestBody::Maps { floor }, control::ANSWER);
-    let maps = control::answer(&mut connection, request, |update, _| match update {
-        Update::Maps { maps, .. } => Some(maps),
-        _ => None,
-    })?;
+    let request = RequestBody::Maps { floor };
+    let maps = control::answer(
+        &mut connection,
+        request,
+        control::ANSWER,
+        |update, _| match update {
+            Update::Maps { maps, .. } => Some(maps),
+            _ => None,
+        },
+    )?;
     write!(stdout(), "{}", table(&maps, now_s()))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -78,10 +78,18 @@ fn view_box(extent: Extent) -> [i32; 4] {
     [left, top, width, height]
 }
 
-/// Adds a rectangle that spans `from` to `to` metres and is one cell high.
-fn add_row(path: &mut String, (from_m, to_m, low_m): (f64, f64, f64), cell_m: f64, extent: &mut Extent) {
-    let (left, right) = (cm(from_m), cm(to_m));
-    let (top, bottom) = (cm(-(low_m + cell_m)), cm(-low_m));
+/// A row of cells in metres.
+#[derive(Clone, Copy, Debug)]
+struct CellRow {
+    from_m: f64,
+    to_m: f64,
+    low_m: f64,
+}
+
+/// Adds the rectangle of a row, which is one cell high.
+fn add_row(path: &mut String, row: CellRow, cell_m: f64, extent: &mut Extent) {
+    let (left, right) = (cm(row.from_m), cm(row.to_m));
+    let (top, bottom) = (cm(-(row.low_m + cell_m)), cm(-row.low_m));
     extent.hold(left, top);
     extent.hold(right, bottom);
     // Writing to a string does not fail.
@@ -108,7 +116,12 @@ fn home_paths(home: &HomeView, extent: &mut Extent) -> (String, String) {
                 let x = |cell: u64| (f64::from(home.x) + cell as f64) * home.cell_m;
                 let low_m = (f64::from(home.y) + (from / width) as f64) * home.cell_m;
                 let left = from % width;
-                add_row(path, (x(left), x(left + to - from), low_m), home.cell_m, extent);
+                let row = CellRow {
+                    from_m: x(left),
+                    to_m: x(left + to - from),
+                    low_m,
+                };
+                add_row(path, row, home.cell_m, extent);
                 from = to;
             }
         }
@@ -123,11 +136,11 @@ fn swept_path(picture: &RunPicture, extent: &mut Extent) -> String {
         let &[x, y, length] = row else { continue };
         let metres = |cells: f64| cells * picture.cell_m;
         let from = f64::from(x);
-        let span = (
-            metres(from),
-            metres(from + f64::from(length)),
-            metres(f64::from(y)),
-        );
+        let span = CellRow {
+            from_m: metres(from),
+            to_m: metres(from + f64::from(length)),
+            low_m: metres(f64::from(y)),
+        };
         add_row(&mut path, span, picture.cell_m, extent);
     }
     path

@@ -179,7 +179,7 @@ impl Field {
                     part.set(line, text)?;
                 }
             }
-            Self::Switch(switch, part) => set_switch(profile, switch, (part, text))?,
+            Self::Switch(switch, part) => set_switch(profile, switch, part, text)?,
             Self::Input(input, part) => {
                 if let Some(input) = profile.inputs.get_mut(input) {
                     part.set(input, text)?;
@@ -191,11 +191,7 @@ impl Field {
 }
 
 /// A switch that becomes one that refers to another refers to the one before it.
-fn set_switch(
-    profile: &mut Profile,
-    place: usize,
-    (part, text): (SwitchPart, &str),
-) -> Result<(), FieldError> {
+fn set_switch(profile: &mut Profile, place: usize, part: SwitchPart, text: &str) -> Result<(), FieldError> {
     let place = place.min(profile.switches.len());
     let (earlier, rest) = profile.switches.split_at_mut(place);
     let Some(switch) = rest.first_mut() else {
