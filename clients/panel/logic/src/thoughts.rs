@@ -86,8 +86,8 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
 
 /// The planned path as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
 #[must_use]
-pub fn path_dashes(way: &PlannedPath, dash_m: f64) -> Vec<f32> {
-    let corners: Vec<[f64; 2]> = way
+pub fn path_dashes(path: &PlannedPath, dash_m: f64) -> Vec<f32> {
+    let corners: Vec<[f64; 2]> = path
         .points_mm
         .chunks_exact(2)
         .take(CORNERS_MAX)
@@ -209,10 +209,10 @@ mod tests {
 
     #[test]
     fn a_way_becomes_dashes_that_go_on_round_corners() {
-        let way = PlannedPath {
+        let path = PlannedPath {
             points_mm: vec![0, 0, 1500, 0, 1500, 1500],
         };
-        let dashes = path_dashes(&way, 1.0);
+        let dashes = path_dashes(&path, 1.0);
         assert_eq!(
             dashes,
             [0.0, 0.0, 1.0, 0.0, 1.5, 0.5, 1.5, 1.5].map(|metres: f64| metres as f32)

@@ -128,8 +128,7 @@ fn picture(
             .as_ref()
             .is_some_and(|picture| !picture.swept_rows.is_empty())
     });
-    let (swept, way) = (drawing.swept, drawing.way);
-    let whole_way = way.clone();
+    let (swept, path) = (drawing.swept, drawing.path);
     let driven = move || {
         replay.with(|replay| {
             replay
@@ -164,7 +163,7 @@ fn picture(
                 stroke-width=100.0 * swath_m
                 d=move || if swept_is_whole() || !sweeps { String::new() } else { driven() }
             />
-            <path class="way" d=move || if swept_is_whole() { whole_way.clone() } else { driven() } />
+            <path class="way" d=move || if swept_is_whole() { path.clone() } else { driven() } />
             <g class="robot" id="replay-robot" transform=move || robot().unwrap_or_default() hidden=move || robot().is_none()>
                 <circle r=radius_cm />
                 <path d=format!("M0 0H{radius_cm:.0}") />

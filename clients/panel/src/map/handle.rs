@@ -142,8 +142,8 @@ impl MapHandle {
         self.change(|_| {});
     }
 
-    pub(crate) fn on_way(&self, way: &PlannedPath) {
-        self.change(|scene| scene.on_way(way));
+    pub(crate) fn on_planned_path(&self, path: &PlannedPath) {
+        self.change(|scene| scene.on_planned_path(path));
     }
 
     pub(crate) fn on_estimate(&self, estimate: &Estimate) {
@@ -228,7 +228,7 @@ impl MapHandle {
         set("data-ground", self.with(|scene| format!("{:?}", scene.ground())));
         set(
             "data-way-dashes",
-            self.with(|scene| (scene.way.len() / 4).to_string()),
+            self.with(|scene| (scene.planned_path.len() / 4).to_string()),
         );
         if let Some(rate) = self.frames_per_second() {
             set("data-frames-per-second", format!("{rate:.1}"));

@@ -168,7 +168,7 @@ impl PlainRenderer {
     }
 
     fn draw_lines(&self, scene: &mut Scene, palette: &MapPalette) {
-        let way: Vec<f32> = scene
+        let driven: Vec<f32> = scene
             .path
             .chunks_exact(2)
             .zip(scene.path.chunks_exact(2).skip(1))
@@ -181,8 +181,8 @@ impl PlainRenderer {
         };
         for (strokes, (width_px, colour)) in [
             (walls, (LINE_PX, palette.wall)),
-            (&way, (LINE_PX, palette.path)),
-            (&scene.way, (LINE_PX, palette.thought)),
+            (&driven, (LINE_PX, palette.path)),
+            (&scene.planned_path, (LINE_PX, palette.thought)),
             (&scene.forbidden, (BORDER_PX, palette.forbidden)),
             (&scene.avoided, (BORDER_PX, palette.forbidden)),
             (&scene.wanted, (BORDER_PX, palette.wanted)),

@@ -29,7 +29,7 @@ pub(crate) struct Renderer {
     pub(super) swept: WebGlTexture,
     path: Layer,
     walls: Layer,
-    way: Layer,
+    planned_path: Layer,
     wanted: Layer,
     forbidden: Layer,
     bumps: Layer,
@@ -141,7 +141,7 @@ impl Renderer {
             swept: texture(gl, Look::Smooth)?,
             path: Layer::new(gl)?,
             walls: Layer::new(gl)?,
-            way: Layer::new(gl)?,
+            planned_path: Layer::new(gl)?,
             wanted: Layer::new(gl)?,
             forbidden: Layer::new(gl)?,
             bumps: Layer::new(gl)?,
@@ -163,7 +163,8 @@ impl Renderer {
             gl.vertex_attrib_pointer_with_i32(place, size, Gl::FLOAT, false, stride, offset);
             gl.vertex_attrib_divisor(place, 1);
         };
-        let strokes = [&self.walls, &self.way, &self.wanted, &self.forbidden].map(|layer| (layer, 16));
+        let strokes =
+            [&self.walls, &self.planned_path, &self.wanted, &self.forbidden].map(|layer| (layer, 16));
         for (layer, stride) in strokes.into_iter().chain([(&self.path, 8)]) {
             gl.bind_vertex_array(Some(&layer.layout));
             layer.buffer.bind();
@@ -302,7 +303,7 @@ impl Renderer {
         self.path.buffer.catch_up(&scene.path);
         if std::mem::take(&mut scene.strokes_changed) {
             self.walls.replace(&scene.walls);
-            self.way.replace(&scene.way);
+            self.planned_path.replace(&scene.planned_path);
             self.wanted.replace(&scene.wanted);
             self.forbidden
                 .replace(&[scene.forbidden.as_slice(), &scene.avoided].concat());
@@ -318,7 +319,11 @@ impl Renderer {
         for (layer, segments, (half_width_px, colour)) in [
             (&self.walls, walls, (1.0, &palette.wall)),
             (&self.path, segments, (0.8, &palette.path)),
-            (&self.way, scene.way.len() / 4, (1.0, &palette.thought)),
+            (
+                &self.planned_path,
+                scene.planned_path.len() / 4,
+                (1.0, &palette.thought),
+            ),
             (&self.forbidden, forbidden, (1.5, &palette.forbidden)),
             (&self.wanted, scene.wanted.len() / 4, (1.5, &palette.wanted)),
         ] {

@@ -79,7 +79,7 @@ pub(crate) struct Scene {
     doors: Vec<DoorView>,
     /// Walls as strokes, and the planned path as dashes.
     pub(crate) walls: Vec<f32>,
-    pub(crate) way: Vec<f32>,
+    pub(crate) planned_path: Vec<f32>,
     /// Borders of zones and spots that are to be cleaned, of what is forbidden for the next job, and of what is for good.
     pub(crate) wanted: Vec<f32>,
     pub(crate) avoided: Vec<f32>,
@@ -117,7 +117,7 @@ impl Default for Scene {
             chosen: Vec::new(),
             doors: Vec::new(),
             walls: Vec::new(),
-            way: Vec::new(),
+            planned_path: Vec::new(),
             wanted: Vec::new(),
             avoided: Vec::new(),
             forbidden: Vec::new(),
@@ -198,8 +198,8 @@ impl Scene {
     }
 
     /// Takes where the robot means to drive.
-    pub(crate) fn on_way(&mut self, way: &PlannedPath) {
-        self.way = path_dashes(way, DASH_M);
+    pub(crate) fn on_planned_path(&mut self, path: &PlannedPath) {
+        self.planned_path = path_dashes(path, DASH_M);
         self.strokes_changed = true;
     }
 

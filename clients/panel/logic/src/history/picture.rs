@@ -23,7 +23,7 @@ pub struct RunDrawing {
     /// Swept floor.
     pub swept: String,
     /// The path.
-    pub way: String,
+    pub path: String,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -51,13 +51,13 @@ pub fn run_drawing(picture: &RunPicture) -> RunDrawing {
         .as_ref()
         .map_or_else(Default::default, |home| home_paths(home, &mut extent));
     let swept = swept_path(picture, &mut extent);
-    let way = way_path(&picture.path_mm, &mut extent);
+    let path = driven_path(&picture.path_mm, &mut extent);
     RunDrawing {
         view_box: view_box(extent),
         floor,
         walls,
         swept,
-        way,
+        path,
     }
 }
 
@@ -146,7 +146,7 @@ fn swept_path(picture: &RunPicture, extent: &mut Extent) -> String {
     path
 }
 
-fn way_path(path_mm: &[i32], extent: &mut Extent) -> String {
+fn driven_path(path_mm: &[i32], extent: &mut Extent) -> String {
     let mut path = String::new();
     for point in path_mm.chunks_exact(2) {
         let &[x_mm, y_mm] = point else { continue };
@@ -189,7 +189,7 @@ mod tests {
         };
         let drawing = run_drawing(&picture);
         assert_eq!(drawing.swept, "M0 -15H20V-10H0Z");
-        assert_eq!(drawing.way, "M0 0L100 -50");
+        assert_eq!(drawing.path, "M0 0L100 -50");
         assert_eq!(drawing.walls, "M-10 -10H0V0H-10Z");
         assert_eq!(drawing.floor, "M0 -10H20V0H0ZM-10 -20H10V-10H-10Z");
         assert_eq!(drawing.view_box, [-55, -125, 200, 200]);
