@@ -305,7 +305,7 @@ fn what_lies_on_the_disk_opens_nothing() {
 }
 
 #[test]
-fn a_full_register_lets_nobody_in_and_damaged_ones_are_told() {
+fn a_full_register_lets_nobody_in_and_damaged_ones_are_reported() {
     let mut hall = Hall::new();
     for _ in 0..CLIENTS_MAX {
         let random = hall.random();

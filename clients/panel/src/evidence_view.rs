@@ -66,7 +66,7 @@ pub(crate) fn EvidenceView(evidence: Evidence) -> impl IntoView {
 
 #[component]
 fn EvidenceTables(evidence: Evidence) -> impl IntoView {
-    let told = &words().evidence;
+    let texts = &words().evidence;
     let rows = evidence_rows(words(), &evidence);
     let tried: Vec<String> = evidence
         .tried
@@ -76,19 +76,19 @@ fn EvidenceTables(evidence: Evidence) -> impl IntoView {
     let has_tried = !tried.is_empty();
     view! {
         <table>
-            <caption>{told.felt}</caption>
+            <caption>{texts.felt}</caption>
             <thead>
                 <tr>
-                    <th scope="col">{told.when}</th>
-                    <th scope="col">{told.motion}</th>
-                    <th scope="col">{told.signs}</th>
-                    <th scope="col">{told.echo}</th>
+                    <th scope="col">{texts.when}</th>
+                    <th scope="col">{texts.motion}</th>
+                    <th scope="col">{texts.signs}</th>
+                    <th scope="col">{texts.echo}</th>
                 </tr>
             </thead>
             <tbody>{rows.into_iter().map(row).collect_view()}</tbody>
         </table>
         <Show when=move || has_tried>
-            <p class="tried">{told.tried}</p>
+            <p class="tried">{texts.tried}</p>
         </Show>
         <ol class="sentences">{tried.into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}</ol>
     }

@@ -63,7 +63,7 @@ mod tests {
     use rvac_api::ComponentHealth;
 
     #[test]
-    fn a_part_that_runs_hard_is_told_with_what_to_do() {
+    fn a_part_that_runs_hard_is_shown_with_what_to_do() {
         let parts = [
             ComponentHealth {
                 component: "brush-main".to_owned(),

@@ -83,7 +83,7 @@ mod tests {
     use rvac_api::{EnergyLearnt, GyroLearnt, LearntView};
 
     #[test]
-    fn each_robot_is_told_with_what_is_kept_of_it() {
+    fn each_robot_is_shown_with_what_is_kept_of_it() {
         let devices = [
             LearntView {
                 device: "relax".to_owned(),

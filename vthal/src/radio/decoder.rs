@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_lines_are_counted_and_told_once_a_minute() {
+    fn broken_lines_are_counted_and_reported_once_a_minute() {
         let mut decoder = RadioDecoder::new(&settings(RadioForm::Lines));
         let mut refusals = Vec::new();
         for second in 0..=120 {

@@ -357,7 +357,7 @@ async fn one_room_is_chosen_in_the_list_and_cleaned() {
 }
 
 #[tokio::test]
-async fn a_daemon_that_dies_is_told_and_found_again() {
+async fn a_daemon_that_dies_is_shown_and_found_again() {
     let Some(mut visit) = Visit::begin(Screen::Desktop).await else {
         return;
     };

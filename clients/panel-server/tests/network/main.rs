@@ -37,7 +37,7 @@ impl Computer {
     }
 
     fn says(&self, words: &[&str]) -> String {
-        told(&self.rvac(words, ""))
+        printed(&self.rvac(words, ""))
     }
 
     fn until(&self, word: &str) {
@@ -51,7 +51,7 @@ impl Computer {
     }
 }
 
-fn told(output: &Output) -> String {
+fn printed(output: &Output) -> String {
     let [out, errors] =
         [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
     format!("{out}{errors}")
@@ -59,7 +59,7 @@ fn told(output: &Output) -> String {
 
 fn here(stack: &Stack, words: &[&str]) -> String {
     let mut command = Command::new(binary("rvac"));
-    told(
+    printed(
         &command
             .args(words)
             .arg("--socket")
@@ -92,17 +92,17 @@ fn types_packets(desk: &Computer, stack: &Stack) {
     let words = ["term", "--linger", "3000", "--skip", "state"];
     let refused = desk.rvac(&words, "{\"c\":\"info\"}\n");
     assert!(
-        !refused.status.success() && told(&refused).contains("(not-present)"),
+        !refused.status.success() && printed(&refused).contains("(not-present)"),
         "{}",
-        told(&refused)
+        printed(&refused)
     );
     let listed = stack.console(&["clients"]);
     stack.console(&["clients", "vouch", listed.split_whitespace().next().unwrap()]);
     let typed = desk.rvac(&words, "{\"c\":\"info\"}\n");
     assert!(
-        typed.status.success() && told(&typed).contains("> {\"c\":\"info\""),
+        typed.status.success() && printed(&typed).contains("> {\"c\":\"info\""),
         "{}",
-        told(&typed)
+        printed(&typed)
     );
 }
 
@@ -127,12 +127,12 @@ fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot()
     } else {
         "00000000\n"
     };
-    let refused = told(&desk.rvac(&["pair", "--name", "desk"], wrong));
+    let refused = printed(&desk.rvac(&["pair", "--name", "desk"], wrong));
     assert!(
         refused.contains("The code is wrong; 4 more attempts."),
         "{refused}"
     );
-    let paired = told(&desk.rvac(&["pair", "--name", "desk"], &format!("{code}\n")));
+    let paired = printed(&desk.rvac(&["pair", "--name", "desk"], &format!("{code}\n")));
     assert!(paired.contains("with the role admin"), "{paired}");
     let mode = std::fs::metadata(kept(&desk.settings))
         .unwrap()

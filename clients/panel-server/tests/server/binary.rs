@@ -44,7 +44,7 @@ fn the_network_is_refused_with_code_2() {
 }
 
 #[test]
-fn ready_is_said_when_it_listens_and_it_ends_when_told() {
+fn ready_is_printed_when_it_listens_and_it_ends_by_signal() {
     let assets = assets();
     let mut child = command("0", &assets)
         .stdout(Stdio::piped())

@@ -42,7 +42,7 @@ async fn a_driver_who_vanishes_is_released_at_once() {
 }
 
 #[tokio::test]
-async fn a_lost_daemon_is_told_and_found_again() {
+async fn a_lost_daemon_is_shown_and_found_again() {
     let rig = Rig::start().await;
     let mut browser = rig.browser().await;
     let mut vthal = rig.accept().await;

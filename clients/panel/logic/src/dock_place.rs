@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dock_of_which_a_person_has_told_is_said_to_be_that() {
+    fn a_dock_that_a_person_has_reported_is_shown_as_such() {
         let words = Language::English.words();
         let mut home = HomeView::default();
         assert_eq!(dock_text(words, &home), None);

@@ -246,29 +246,29 @@ impl RoomChoice {
     /// `Kitchen, zone of 1.5 x 0.8 m, 2 spots, with 2 no-go areas`
     #[must_use]
     pub fn text(&self, words: &Words, rows: &[RoomRow]) -> String {
-        let told = &words.map;
+        let texts = &words.map;
         let word = |part: &JobPart| match part {
             JobPart::Room(id) => rows.iter().find(|row| row.id == *id).map(|row| row.name.clone()),
-            JobPart::Zone(corners) => Some(told.zone_of.fill([&extent(words, corners)])),
+            JobPart::Zone(corners) => Some(texts.zone_of.fill([&extent(words, corners)])),
             JobPart::Place(number) => self.kept(*number).map(|place| place.name.clone()),
             JobPart::Spot(_) => None,
         };
         let is_spot = |part: &&JobPart| matches!(part, JobPart::Spot(_));
         let spots = match self.parts.iter().filter(is_spot).count() {
             0 => None,
-            1 => Some(told.spot.to_owned()),
-            count => Some(told.spots.fill([&count])),
+            1 => Some(texts.spot.to_owned()),
+            count => Some(texts.spots.fill([&count])),
         };
         let parts: Vec<String> = self.parts.iter().filter_map(word).chain(spots).collect();
         let parts = if self.parts.is_empty() {
-            told.whole_home.to_owned()
+            texts.whole_home.to_owned()
         } else {
             parts.join(", ")
         };
         match self.avoid.len() {
             0 => parts,
-            1 => told.out_of_one.fill([&parts]),
-            count => told.out_of_many.fill([&parts, &count]),
+            1 => texts.out_of_one.fill([&parts]),
+            count => texts.out_of_many.fill([&parts, &count]),
         }
     }
 
@@ -302,7 +302,7 @@ impl RoomChoice {
     /// How often and how each part is cleaned: `2x, quiet, along the walls`.
     #[must_use]
     pub fn manner_text(&self, words: &Words) -> String {
-        let settings = self.settings.told(words);
+        let settings = self.settings.texts(words);
         let manner = if settings.is_empty() {
             words.home.as_rooms.to_lowercase()
         } else {

@@ -157,24 +157,26 @@ impl Sketch {
     /// What to do next, for people; nothing while nothing is drawn.
     #[must_use]
     pub fn hint(self, words: &Words) -> Option<&'static str> {
-        let told = &words.map;
+        let texts = &words.map;
         if self.is_too_small {
             return Some(match self.tool {
-                Tool::Wall | Tool::Cut | Tool::Dock => told.too_short,
-                Tool::Choose | Tool::Spot | Tool::Zone | Tool::CleanZone | Tool::AvoidZone => told.too_narrow,
+                Tool::Wall | Tool::Cut | Tool::Dock => texts.too_short,
+                Tool::Choose | Tool::Spot | Tool::Zone | Tool::CleanZone | Tool::AvoidZone => {
+                    texts.too_narrow
+                }
             });
         }
         match (self.tool, self.first) {
             (Tool::Choose, _) => None,
-            (Tool::Spot, _) => Some(told.spot_place),
-            (Tool::Wall, None) => Some(told.wall_first),
-            (Tool::Wall, Some(_)) => Some(told.wall_second),
-            (Tool::Dock, None) => Some(told.dock_first),
-            (Tool::Dock, Some(_)) => Some(told.dock_second),
-            (Tool::Cut, None) => Some(told.cut_first),
-            (Tool::Cut, Some(_)) => Some(told.cut_second),
-            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => Some(told.zone_first),
-            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some(told.zone_second),
+            (Tool::Spot, _) => Some(texts.spot_place),
+            (Tool::Wall, None) => Some(texts.wall_first),
+            (Tool::Wall, Some(_)) => Some(texts.wall_second),
+            (Tool::Dock, None) => Some(texts.dock_first),
+            (Tool::Dock, Some(_)) => Some(texts.dock_second),
+            (Tool::Cut, None) => Some(texts.cut_first),
+            (Tool::Cut, Some(_)) => Some(texts.cut_second),
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => Some(texts.zone_first),
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some(texts.zone_second),
         }
     }
 }

@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_swept_by_an_unsure_robot_is_paler_and_wider_and_grows_as_if_told_at_once() {
+    fn what_was_swept_by_an_unsure_robot_is_paler_and_wider_and_grows_as_if_received_at_once() {
         let cells: Vec<i32> = (0..400).flat_map(|index| [index % 20, index / 20]).collect();
         let mut at_once = SweptGrid::default();
         at_once.mark_all(&cells, &[400, 12], CELL_M);
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn deviations_belong_to_their_cells_and_what_is_not_told_is_sure() {
+    fn deviations_belong_to_their_cells_and_what_is_not_reported_is_sure() {
         let mut grid = SweptGrid::default();
         grid.mark_all(&[0, 0, 100, 0, 200, 0], &[1, 0, 1, 25], CELL_M);
         assert_eq!((byte(&grid, 0, 0), byte(&grid, 200, 0)), (255, 255));
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn changes_are_told_once() {
+    fn changes_are_reported_once() {
         let mut grid = SweptGrid::default();
         grid.mark_all(&[3, 5], &[], CELL_M);
         assert!(grid.take_resized());

@@ -257,7 +257,7 @@ mod tests {
     use rvac_api::{DoorView, HomeView, SurenessView};
 
     #[test]
-    fn ages_are_told_roughly() {
+    fn ages_are_shown_roughly() {
         for (seconds, words) in [
             (5, "just now"),
             (3_599, "59 min ago"),
@@ -286,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_map_says_how_sure_it_is_where_that_is_told() {
+    fn a_map_says_how_sure_it_is_where_that_is_shown() {
         let home = HomeView {
             sureness: vec![
                 SurenessView::default(),

@@ -116,7 +116,7 @@ mod tests {
     use super::{in_words, table};
 
     #[test]
-    fn a_stop_is_told_with_what_to_do() {
+    fn a_stop_is_shown_with_what_to_do() {
         let mut told = Standstill {
             number: 1,
             t: 60.0,

@@ -177,7 +177,7 @@ fn every_request_goes_out_under_its_name_and_done_is_success() {
 }
 
 #[test]
-fn a_refusal_is_told_with_its_reason_and_fails() {
+fn a_refusal_is_shown_with_its_reason_and_fails() {
     let (output, _) = Daemon::start(busy).rvac(&["start"], "");
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(
@@ -187,7 +187,7 @@ fn a_refusal_is_told_with_its_reason_and_fails() {
 }
 
 #[test]
-fn status_is_told_in_words_or_as_json() {
+fn status_is_shown_in_words_or_as_json() {
     let (output, _) = Daemon::start(talkative).rvac(&["status"], "");
     let words = text(&output.stdout);
     assert!(
@@ -690,7 +690,7 @@ fn schedules_are_asked_for_under_their_names() {
 }
 
 #[test]
-fn a_schedule_is_told_how_its_runs_clean_and_what_they_clean_stays() {
+fn a_schedule_takes_how_its_runs_clean_and_keeps_what_they_clean() {
     let job = |parts, passes| JobOrder {
         parts,
         passes,
@@ -826,7 +826,7 @@ fn learned(request: &Request) -> Vec<Update> {
 }
 
 #[test]
-fn what_was_learnt_is_told_and_forgotten_in_parts() {
+fn what_was_learnt_is_shown_and_forgotten_in_parts() {
     let (output, _) = Daemon::start(learned).rvac(&["learnt"], "");
     let words = text(&output.stdout);
     assert!(
@@ -849,7 +849,7 @@ fn what_was_learnt_is_told_and_forgotten_in_parts() {
 }
 
 #[test]
-fn an_estimate_is_told_and_an_unknown_room_is_named() {
+fn an_estimate_is_shown_and_an_unknown_room_is_named() {
     let (output, _) = Daemon::start(at_home).rvac(&["estimate", "--room", "Hall"], "");
     let words = text(&output.stdout);
     assert!(
@@ -867,7 +867,7 @@ fn an_estimate_is_told_and_an_unknown_room_is_named() {
 }
 
 #[test]
-fn the_home_is_told_with_its_rooms_and_a_picture() {
+fn the_home_is_shown_with_its_rooms_and_a_picture() {
     let (output, _) = Daemon::start(at_home).rvac(&["map"], "");
     let words = text(&output.stdout);
     assert!(
@@ -898,7 +898,7 @@ fn kept_maps_are_listed_and_one_is_asked_back() {
 }
 
 #[test]
-fn a_dock_that_was_moved_is_told_by_where_the_robot_stands_and_looks() {
+fn a_dock_that_was_moved_is_shown_by_where_the_robot_stands_and_looks() {
     let moved = RequestBody::MoveDock {
         x: -1.0,
         y: 0.5,

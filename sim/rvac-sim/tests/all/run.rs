@@ -26,7 +26,7 @@ fn parsed(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-fn told(output: &Output) -> Cow<'_, str> {
+fn printed(output: &Output) -> Cow<'_, str> {
     String::from_utf8_lossy(&output.stderr)
 }
 
@@ -43,8 +43,8 @@ fn it_tells_what_the_robot_decided_and_why() {
     let silent = rvac_sim(&words);
     let explained = rvac_sim(&[words.as_slice(), &["--explain"]].concat());
     let starts = "brain    state-cleaning (command)";
-    assert!(told(&explained).contains(starts), "{}", told(&explained));
-    assert!(!told(&silent).contains(starts));
+    assert!(printed(&explained).contains(starts), "{}", printed(&explained));
+    assert!(!printed(&silent).contains(starts));
     let figures = |output| {
         let mut figures = parsed(output);
         figures["wall_seconds"].take();
@@ -124,7 +124,7 @@ fn a_report_has_all_keys_and_repeats_itself() {
 }
 
 #[test]
-fn what_the_host_took_of_the_processor_is_told_on_demand() {
+fn what_the_host_took_of_the_processor_is_reported_on_demand() {
     let home = "homes/two-room-flat.toml";
     let output = rvac_sim(&["run", "--home", home, "--minutes", "1", "--host-cost", "--json"]);
     let report = parsed(&output);
@@ -133,7 +133,7 @@ fn what_the_host_took_of_the_processor_is_told_on_demand() {
 }
 
 #[test]
-fn an_image_that_is_no_robot_is_told_so() {
+fn an_image_that_is_no_robot_is_reported() {
     let folder = Folder::new("echo");
     let image = folder.join("echo.hex");
     std::fs::write(&image, echo::image()).unwrap();

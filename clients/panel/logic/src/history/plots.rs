@@ -68,32 +68,33 @@ type Reading = fn(&TrackReading) -> Option<f32>;
 /// The plots of a run that lasted `end_s`; only of what was measured.
 #[must_use]
 pub fn plots(words: &Words, track: &RunTrack, end_s: f64) -> Vec<Plot> {
-    let told = &words.history;
-    let battery: [(&str, Reading); 1] =
-        [(told.charge, |reading| reading.charge.map(|charge| 100.0 * charge))];
-    let battery_a: [(&str, Reading); 1] = [(told.battery, |reading| reading.battery_a)];
+    let texts = &words.history;
+    let battery: [(&str, Reading); 1] = [(texts.charge, |reading| {
+        reading.charge.map(|charge| 100.0 * charge)
+    })];
+    let battery_a: [(&str, Reading); 1] = [(texts.battery, |reading| reading.battery_a)];
     let motors: [(&str, Reading); 3] = [
-        (told.left_wheel, |reading| {
+        (texts.left_wheel, |reading| {
             reading.motors_a.map(|[left, _, _]| left)
         }),
-        (told.right_wheel, |reading| {
+        (texts.right_wheel, |reading| {
             reading.motors_a.map(|[_, right, _]| right)
         }),
-        (told.main_brush, |reading| {
+        (texts.main_brush, |reading| {
             reading.motors_a.map(|[_, _, brush]| brush)
         }),
     ];
-    let link: [(&str, Reading); 1] = [(told.bad_packets, |reading| Some(100.0 * reading.bad_share))];
+    let link: [(&str, Reading); 1] = [(texts.bad_packets, |reading| Some(100.0 * reading.bad_share))];
     let subject = |title, lines, possible| Subject {
         title,
         lines,
         possible,
     };
     [
-        subject(told.plot_charge, &battery[..], PERCENT),
-        subject(told.plot_battery, &battery_a[..], ANY),
-        subject(told.plot_motors, &motors[..], ANY),
-        subject(told.plot_link, &link[..], PERCENT),
+        subject(texts.plot_charge, &battery[..], PERCENT),
+        subject(texts.plot_battery, &battery_a[..], ANY),
+        subject(texts.plot_motors, &motors[..], ANY),
+        subject(texts.plot_link, &link[..], PERCENT),
     ]
     .into_iter()
     .filter_map(|subject| plot(words, subject, track, end_s))

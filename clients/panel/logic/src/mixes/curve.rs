@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_told_in_words() {
+    fn it_is_shown_in_words() {
         let made = curve(|line| line.expo = 1.0).unwrap();
         let told = made.text(Language::English.words());
         // (0.5 - 0.2) / 0.8 = 0.375, and 0.375³ = 0.053.
