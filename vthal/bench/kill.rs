@@ -98,7 +98,7 @@ fn live(arguments: &Arguments, robot: u32) -> anyhow::Result<Life> {
     let (vthal, simulator) = (needed_beside("vthal")?, needed_beside("rvac-sim")?);
     let scratch = Scratch::new()?;
     let seed = arguments.seed + u64::from(robot);
-    let _simulator = start_simulator(&simulator, &scratch, (&arguments.home, seed))?;
+    let _simulator = start_simulator(&simulator, &scratch, &arguments.home, seed)?;
     let mut truth = Truth {
         client: Client::connect(&scratch.join("sim.sock"))?,
     };
@@ -129,7 +129,7 @@ fn live(arguments: &Arguments, robot: u32) -> anyhow::Result<Life> {
     Ok(life)
 }
 
-fn start_simulator(program: &Path, scratch: &Scratch, (home, seed): (&Path, u64)) -> anyhow::Result<Daemon> {
+fn start_simulator(program: &Path, scratch: &Scratch, home: &Path, seed: u64) -> anyhow::Result<Daemon> {
     let mut command = Command::new(program);
     command.arg("serve").arg("--home").arg(home);
     command.arg("--seed").arg(seed.to_string());

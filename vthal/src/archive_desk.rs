@@ -84,6 +84,7 @@ struct Upload {
 
 /// A piece as it came.
 struct Piece {
+    client: ClientId,
     from: u64,
     size: u64,
     data: String,
@@ -97,16 +98,18 @@ pub(crate) struct ArchiveDesk {
 
 impl ArchiveDesk {
     /// Handles a client's order at `now`.
-    pub(crate) fn obey(
-        &mut self,
-        order: ArchiveOrder,
-        (floors, now): (&FloorFolder, Instant),
-    ) -> ArchiveAnswer {
+    pub(crate) fn obey(&mut self, order: ArchiveOrder, floors: &FloorFolder, now: Instant) -> ArchiveAnswer {
         let ArchiveOrder { client, id, task } = order;
         let outcome = match task {
             ArchiveTask::Export { floor, from } => export(floors, floor, from),
             ArchiveTask::Import { from, size, data } => {
-                self.import(client, Piece { from, size, data }, (floors, now))
+                let piece = Piece {
+                    client,
+                    from,
+                    size,
+                    data,
+                };
+                self.import(piece, floors, now)
             }
         };
         ArchiveAnswer { client, id, outcome }
@@ -114,12 +117,12 @@ impl ArchiveDesk {
 
     fn import(
         &mut self,
-        client: ClientId,
         piece: Piece,
-        (floors, now): (&FloorFolder, Instant),
+        floors: &FloorFolder,
+        now: Instant,
     ) -> Result<ArchiveOutcome, DeskError> {
         // A failure ends the upload; only that of another client continues.
-        let mut upload = self.upload_of(client, &piece, now)?;
+        let mut upload = self.upload_of(&piece, now)?;
         take(&mut upload, &piece)?;
         if (upload.bytes.len() as u64) < upload.size {
             self.upload = Some(upload);
@@ -130,12 +133,13 @@ impl ArchiveDesk {
     }
 
     /// The upload to which the piece belongs; a first piece begins one.
-    fn upload_of(&mut self, client: ClientId, piece: &Piece, now: Instant) -> Result<Upload, DeskError> {
-        let is_busy = |upload: &Upload| upload.client != client && now.duration_since(upload.touched) < IDLE;
+    fn upload_of(&mut self, piece: &Piece, now: Instant) -> Result<Upload, DeskError> {
+        let is_busy =
+            |upload: &Upload| upload.client != piece.client && now.duration_since(upload.touched) < IDLE;
         if self.upload.as_ref().is_some_and(is_busy) {
             return Err(DeskError::Busy);
         }
-        let present = self.upload.take().filter(|upload| upload.client == client);
+        let present = self.upload.take().filter(|upload| upload.client == piece.client);
         if piece.from > 0 {
             let mut present = present.ok_or(DeskError::Piece { expected: 0 })?;
             present.touched = now;
@@ -145,7 +149,7 @@ impl ArchiveDesk {
             return Err(ArchiveError::TooLarge(piece.size).into());
         }
         Ok(Upload {
-            client,
+            client: piece.client,
             size: piece.size,
             bytes: Vec::new(),
             touched: now,

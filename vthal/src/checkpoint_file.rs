@@ -134,9 +134,9 @@ fn digest(body: &[u8]) -> u32 {
 #[cfg(test)]
 mod tests {
     use std::fs;
-    use std::path::PathBuf;
 
     use brain::geometry::Pose2;
+    use vthal_bench::Scratch;
     use vthal_core::Checkpoint;
 
     use super::{BootTime, load, save};
@@ -166,15 +166,9 @@ mod tests {
         }
     }
 
-    fn folder(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("vthal-checkpoint-{name}-{}", std::process::id()));
-        fs::create_dir_all(&folder).expect("creates");
-        folder
-    }
-
     #[test]
     fn only_young_ones_of_this_boot_count() {
-        let folder = folder("age");
+        let folder = Scratch::new().expect("creates");
         let path = folder.join("checkpoint");
         save(&path, &checkpoint(1.5), at(100.0)).expect("saves");
         assert_eq!(load(&path, &at(160.0)), Some(checkpoint(1.5)));
@@ -190,12 +184,11 @@ mod tests {
             ),
             None
         );
-        fs::remove_dir_all(folder).expect("cleans up");
     }
 
     #[test]
     fn a_broken_one_gives_way_to_its_predecessor_at_every_byte() {
-        let folder = folder("torn");
+        let folder = Scratch::new().expect("creates");
         let path = folder.join("checkpoint");
         save(&path, &checkpoint(1.0), at(100.0)).expect("saves");
         save(&path, &checkpoint(2.0), at(101.0)).expect("saves");
@@ -215,6 +208,5 @@ mod tests {
                 "flipped at {index}"
             );
         }
-        fs::remove_dir_all(folder).expect("cleans up");
     }
 }

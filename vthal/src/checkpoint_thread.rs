@@ -313,7 +313,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
             }
         }
         if let Some(checkpoint) = checkpoint {
-            healthy = keep_checkpoint((&checkpoint, healthy), paths);
+            healthy = keep_checkpoint(&checkpoint, healthy, paths);
         }
         let kept = keep(&homes, &paths.floors);
         for record in runs {
@@ -334,7 +334,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
             answer(Event::Floors(Box::new(obey_floor(order, &paths.floors))), events);
         }
         for order in archive_orders {
-            let archive = desk.obey(order, (&paths.floors, Instant::now()));
+            let archive = desk.obey(order, &paths.floors, Instant::now());
             answer(Event::Archive(Box::new(archive)), events);
         }
         drop(places);
@@ -342,7 +342,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
 }
 
 /// Whether that worked. A fault is logged once, until it has worked again.
-fn keep_checkpoint((checkpoint, healthy): (&Checkpoint, bool), paths: &KeptPaths) -> bool {
+fn keep_checkpoint(checkpoint: &Checkpoint, healthy: bool, paths: &KeptPaths) -> bool {
     let result = BootTime::now().and_then(|now| checkpoint_file::save(&paths.checkpoint, checkpoint, now));
     if let Err(error) = &result
         && healthy

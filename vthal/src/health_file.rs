@@ -25,6 +25,7 @@ pub(crate) fn save(path: &Path, health: &StoredHealth) -> io::Result<()> {
 mod tests {
     use super::{load, save};
     use std::fs;
+    use vthal_bench::Scratch;
     use vthal_core::health::{Component, Health, Load, StoredHealth};
 
     fn measured() -> Health {
@@ -41,9 +42,7 @@ mod tests {
 
     #[test]
     fn what_was_kept_is_found_and_what_cannot_be_is_put_aside() {
-        let folder = std::env::temp_dir().join(format!("vthal-health-{}", std::process::id()));
-        fs::remove_dir_all(&folder).ok();
-        fs::create_dir_all(&folder).expect("creates");
+        let folder = Scratch::new().expect("creates");
         let path = folder.join("health.json");
         assert_eq!(load(&path), (Health::default(), Vec::new()));
         save(&path, &StoredHealth::from(&measured())).expect("saves");
@@ -62,6 +61,5 @@ mod tests {
             assert_eq!(found, Health::default());
             assert!(complaints[0].contains("is kept as"), "{complaints:?}");
         }
-        fs::remove_dir_all(&folder).expect("removes");
     }
 }

@@ -27,6 +27,7 @@ mod tests {
     use super::{load, save};
     use brain::{EnergyModel, GyroLearnt, Learnt};
     use std::fs;
+    use vthal_bench::Scratch;
     use vthal_core::learnt::{Learnings, RobotRecord, StoredLearnings};
 
     /// Figures that no short decimal number is.
@@ -54,9 +55,7 @@ mod tests {
 
     #[test]
     fn what_was_kept_is_found_bit_by_bit_and_what_cannot_be_is_put_aside() {
-        let folder = std::env::temp_dir().join(format!("vthal-learnt-{}", std::process::id()));
-        fs::remove_dir_all(&folder).ok();
-        fs::create_dir_all(&folder).expect("creates");
+        let folder = Scratch::new().expect("creates");
         let path = folder.join("learnt.json");
         assert_eq!(load(&path), (Learnings::default(), Vec::new()));
         save(&path, &StoredLearnings::from(&learnings())).expect("saves");
@@ -73,6 +72,5 @@ mod tests {
             assert_eq!(found, Learnings::default());
             assert!(complaints[0].contains("is kept as"), "{complaints:?}");
         }
-        fs::remove_dir_all(&folder).expect("removes");
     }
 }

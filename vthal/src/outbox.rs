@@ -35,8 +35,8 @@ pub(crate) enum StateKind {
     Home,
     /// [`Update::Estimate`]
     Estimate,
-    /// [`Update::Way`]
-    Way,
+    /// [`Update::PlannedPath`]
+    PlannedPath,
     /// [`Update::Inputs`]
     Inputs,
 }
@@ -51,7 +51,7 @@ impl Class {
             Update::Device(_) => Self::Newest(StateKind::Device),
             Update::Home(_) => Self::Newest(StateKind::Home),
             Update::Estimate(_) => Self::Newest(StateKind::Estimate),
-            Update::Way(_) => Self::Newest(StateKind::Way),
+            Update::PlannedPath(_) => Self::Newest(StateKind::PlannedPath),
             Update::Inputs { .. } => Self::Newest(StateKind::Inputs),
             _ => Self::Lossless,
         }

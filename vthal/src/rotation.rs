@@ -92,11 +92,13 @@ mod tests {
     use std::fs;
     use std::io::Write;
 
+    use vthal_bench::Scratch;
+
     use super::{RotatingFile, RotationLimits, numbered};
 
     #[test]
     fn old_files_move_up_and_the_oldest_goes() {
-        let folder = std::env::temp_dir().join(format!("vthal-rotation-{}", std::process::id()));
+        let folder = Scratch::new().expect("creates");
         let path = folder.join("log/vthal.log");
         let mut log = RotatingFile::open(
             &path,
@@ -114,6 +116,5 @@ mod tests {
         assert_eq!(read(numbered(&path, 1)), "third 890");
         assert_eq!(read(numbered(&path, 2)), "second 90");
         assert!(!numbered(&path, 3).exists(), "only three files are kept");
-        fs::remove_dir_all(folder).expect("cleans up");
     }
 }

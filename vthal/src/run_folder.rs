@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn a_damaged_record_is_left_out_and_told_by_its_number() {
+    fn a_damaged_record_is_left_out_and_reported_by_its_number() {
         let scratch = Scratch::new("damaged");
         let folder = scratch.folder();
         for number in 1..=3 {
@@ -367,7 +367,7 @@ mod tests {
     }
 
     #[test]
-    fn a_recording_comes_in_pieces_and_its_absence_is_told() {
+    fn a_recording_comes_in_pieces_and_its_absence_is_reported() {
         let scratch = Scratch::new("pieces");
         let folder = scratch.folder();
         folder.keep(&record(1)).expect("keeps");

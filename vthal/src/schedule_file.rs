@@ -92,7 +92,7 @@ mod tests {
                 floor: None,
             });
             let edit = ScheduleEdit::Add(plan.expect("a plan"));
-            book.edit(edit, (&Zone::utc(), 1_800_000_000)).expect("adds");
+            book.edit(edit, Zone::utc().at(1_800_000_000)).expect("adds");
         }
         book
     }

@@ -245,7 +245,7 @@ fn recorder(config: &Config, events: &mpsc::Sender<Event>) -> Result<Option<Reco
     let events = events.clone();
     // A daemon that ends has no use for the name.
     let opened = move |run, name| drop(events.blocking_send(Event::RecordingOpened(run, name)));
-    Ok(Some(recording::start(library, (format!("{config:?}"), opened))?))
+    Ok(Some(recording::start(library, format!("{config:?}"), opened)?))
 }
 
 fn watch_signals(events: &mpsc::Sender<Event>) -> io::Result<()> {

@@ -10,7 +10,8 @@ use super::scan_history::{PointKind, ScanHistory};
 use crate::model::advance::Advance;
 use crate::model::geometry::{Point2, Pose2, normalize_rad};
 
-/// Parameters of global localization. The figures come from experiments in simulated homes.
+/// Parameters of global localization. They are chosen by hand in simulated homes; `docs/book/src/measurements/relocalization.md` shows what
+/// they achieve together, and no record compares values of a single one.
 struct SearchParameters {
     /// Poses that are tried in one step: a millisecond on a desktop core.
     positions_per_step: usize,

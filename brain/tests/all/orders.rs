@@ -128,7 +128,7 @@ fn a_spot_in_the_other_room_is_cleaned_to_its_rim_and_little_else() {
 }
 
 #[test]
-fn the_room_that_it_is_in_is_told() {
+fn the_room_that_it_is_in_is_reported() {
     let mut stage = Stage::new();
     let home = stage.brain.room();
     assert!(home.is_some());

@@ -4,7 +4,7 @@ use crate::exchange::{Ends, Host};
 use crate::matching::{Matching, Standing};
 use crate::stored::{Stored, StoredError};
 use crate::window::{OPEN_US, Window};
-use crate::wire::{Begin, Begun, Finish, Finished, Forgotten, Join, Joined, Opened};
+use crate::wire::{Begin, Begun, Finish, Finished, Forgotten, Joined, Opened};
 use crate::{Code, DeviceName, Refusal, Register, RobotId, Role, Token, TokenId, Wanted};
 
 /// The two times of a moment.
@@ -22,6 +22,15 @@ struct Attempt {
     id: [u8; 16],
     name: DeviceName,
     host: Host,
+}
+
+/// A device that asks for presses.
+#[derive(Clone, Debug)]
+pub struct AskingDevice<'a> {
+    /// What it wants to be called.
+    pub name: DeviceName,
+    /// Its address.
+    pub from: &'a str,
 }
 
 /// The door of one robot.
@@ -65,7 +74,7 @@ impl Door {
     /// What must be on the disk.
     #[must_use]
     pub fn stored(&self) -> String {
-        Stored::new((self.window.counters, self.register.clone()), self.forgotten).text()
+        Stored::new(self.window.counters, self.register.clone(), self.forgotten).text()
     }
 
     /// The clients.
@@ -144,14 +153,14 @@ impl Door {
         self.window.role_by_presses(now_us).is_some()
     }
 
-    /// A device asks for presses, from this address.
+    /// A device asks for presses.
     ///
     /// # Errors
     /// See [`Refusal`].
     pub fn join(
         &mut self,
         now_us: u64,
-        (join, from): (Join, &str),
+        asking: AskingDevice<'_>,
         random: [u8; 16],
     ) -> Result<Joined, Refusal> {
         if !self.is_open_for_presses(now_us) {
@@ -162,7 +171,7 @@ impl Door {
         }
         let presses = self
             .matching
-            .join(random, join.name, from)
+            .join(random, asking.name, asking.from)
             .ok_or(Refusal::TooManyWait)?;
         Ok(Joined {
             session: random,

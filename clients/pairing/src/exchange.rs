@@ -239,23 +239,50 @@ mod tests {
         DeviceName::new("phone").unwrap()
     }
 
+    /// What one of the two believes.
+    #[derive(Clone, Copy, Debug)]
+    struct Side {
+        digits: &'static str,
+        name: &'static str,
+        robot: &'static str,
+    }
+
     /// Whether guest and host accept each other's proofs.
-    fn meet(guest: (&str, &str, &str), host: (&str, &str, &str)) -> bool {
-        let [guest_name, host_name] = [guest.1, host.1].map(|name| DeviceName::new(name).unwrap());
+    fn meet(guest: Side, host: Side) -> bool {
+        let [guest_name, host_name] = [guest.name, host.name].map(|name| DeviceName::new(name).unwrap());
         let ends = |guest, robot| Ends { guest, robot };
-        let (end, hello) = Guest::begin(&code(guest.0), ends(&guest_name, guest.2), [1; 64]);
-        let (robot, answer) = Host::answer(&code(host.0), ends(&host_name, host.2), [2; 64], &hello).unwrap();
+        let (end, hello) = Guest::begin(&code(guest.digits), ends(&guest_name, guest.robot), [1; 64]);
+        let (robot, answer) =
+            Host::answer(&code(host.digits), ends(&host_name, host.robot), [2; 64], &hello).unwrap();
         let (waiting, proof) = end.hear(&answer).unwrap();
         robot.judge(&proof).is_some_and(|proof| waiting.is_proven(&proof))
     }
 
     #[test]
     fn only_the_same_code_name_and_robot_meet() {
-        let good = ("12345678", "phone", ROBOT);
+        let good = Side {
+            digits: "12345678",
+            name: "phone",
+            robot: ROBOT,
+        };
         assert!(meet(good, good));
-        assert!(!meet(("12345679", "phone", ROBOT), good));
-        assert!(!meet(("12345678", "other", ROBOT), good));
-        assert!(!meet(("12345678", "phone", "robot-b"), good));
+        let wrongs = [
+            Side {
+                digits: "12345679",
+                ..good
+            },
+            Side {
+                name: "other",
+                ..good
+            },
+            Side {
+                robot: "robot-b",
+                ..good
+            },
+        ];
+        for wrong in wrongs {
+            assert!(!meet(wrong, good), "{wrong:?}");
+        }
     }
 
     #[test]

@@ -29,14 +29,14 @@ mod window;
 pub mod wire;
 
 pub use code::{Code, CodeError};
-pub use door::{Door, Moment};
+pub use door::{AskingDevice, Door, Moment};
 pub use exchange::{Ends, ExchangeError, Guest, Waiting};
 pub use matching::{MATCHING_MAX, Pattern};
 pub use name::{DeviceName, NameError};
 pub use presence::Presence;
 pub use refusal::Refusal;
 pub use register::{CLIENTS_MAX, Paired, Register, Wanted};
-pub use rights::{Denied, Method, Need, PRESENCE, ROUTES, Route, checked_request, need_of};
+pub use rights::{Asker, Denied, Method, Need, PRESENCE, ROUTES, Route, checked_request, need_of};
 pub use robot_id::{RobotId, sha256};
 pub use rvac_api::{Role, UnknownRole};
 pub use stored::StoredError;

@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_pattern_is_told_early() {
+    fn what_is_no_pattern_is_refused_early() {
         check(&[], 1000, Heard::Unfinished);
         check(&[10], 60, Heard::Unfinished);
         check(&[10], 91, Heard::Nonsense);

@@ -96,23 +96,31 @@ pub enum Denied {
     Absent,
 }
 
-/// A request that `role` may make, written anew, so that the daemon reads what was judged here and nothing else. `is_present` says that
-/// somebody is known to be beside the robot.
+/// Who asks.
+#[derive(Clone, Copy, Debug)]
+pub struct Asker {
+    /// What it may do.
+    pub role: Role,
+    /// Somebody is known to be beside the robot.
+    pub is_present: bool,
+}
+
+/// A request that `asker` may make, written anew, so that the daemon reads what was judged here and nothing else.
 ///
 /// # Errors
 /// See [`Denied`].
-pub fn checked_request(text: &str, (role, is_present): (Role, bool)) -> Result<String, Denied> {
+pub fn checked_request(text: &str, asker: Asker) -> Result<String, Denied> {
     let request: Request = serde_json::from_str(text).map_err(|_| Denied::Unreadable)?;
     let value = serde_json::to_value(&request).map_err(|_| Denied::Unreadable)?;
     let verb = value.get("c").and_then(|verb| verb.as_str()).unwrap_or_default();
     let needed = role_for(verb);
-    if role < needed {
+    if asker.role < needed {
         return Err(Denied::NotAllowed {
             id: request.id,
             needed,
         });
     }
-    if !is_present && PRESENCE.contains(&verb) {
+    if !asker.is_present && PRESENCE.contains(&verb) {
         return Err(Denied::Absent);
     }
     Ok(value.to_string())
@@ -120,8 +128,22 @@ pub fn checked_request(text: &str, (role, is_present): (Role, bool)) -> Result<S
 
 #[cfg(test)]
 mod tests {
-    use super::{Denied, Need, checked_request, need_of};
+    use super::{Asker, Denied, Need, checked_request, need_of};
     use rvac_api::Role;
+
+    fn beside(role: Role) -> Asker {
+        Asker {
+            role,
+            is_present: true,
+        }
+    }
+
+    fn away(role: Role) -> Asker {
+        Asker {
+            role,
+            is_present: false,
+        }
+    }
 
     #[test]
     fn what_is_not_in_the_table_is_for_administrators() {
@@ -133,27 +155,27 @@ mod tests {
     #[test]
     fn what_no_rule_checks_needs_somebody_beside_the_robot() {
         let raw = r#"{"c":"raw","packet":"x"}"#;
-        assert_eq!(checked_request(raw, (Role::Admin, false)), Err(Denied::Absent));
-        assert_eq!(checked_request(raw, (Role::Admin, true)).as_deref(), Ok(raw));
-        let denied = checked_request(raw, (Role::Drive, true));
+        assert_eq!(checked_request(raw, away(Role::Admin)), Err(Denied::Absent));
+        assert_eq!(checked_request(raw, beside(Role::Admin)).as_deref(), Ok(raw));
+        let denied = checked_request(raw, beside(Role::Drive));
         assert!(matches!(denied, Err(Denied::NotAllowed { .. })), "{denied:?}");
     }
 
     #[test]
     fn a_request_is_written_anew() {
         assert_eq!(
-            checked_request(r#"{ "id":7, "c":"stop", "extra":1 }"#, (Role::View, false)).as_deref(),
+            checked_request(r#"{ "id":7, "c":"stop", "extra":1 }"#, away(Role::View)).as_deref(),
             Ok(r#"{"c":"stop","id":7}"#)
         );
         assert_eq!(
-            checked_request(r#"{"id":7,"c":"start"}"#, (Role::View, true)),
+            checked_request(r#"{"id":7,"c":"start"}"#, beside(Role::View)),
             Err(Denied::NotAllowed {
                 id: Some(7),
                 needed: Role::Drive
             })
         );
         for hidden in [r#"{"c":"stop","c":"start"}"#, "[]", "", r#"{"c":"fly"}"#] {
-            assert!(checked_request(hidden, (Role::View, true)).is_err(), "{hidden}");
+            assert!(checked_request(hidden, beside(Role::View)).is_err(), "{hidden}");
         }
     }
 }

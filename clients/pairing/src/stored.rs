@@ -33,7 +33,7 @@ pub(crate) struct Stored {
 }
 
 impl Stored {
-    pub(crate) fn new((counters, clients): (Counters, Register), forgotten: Option<Forgotten>) -> Self {
+    pub(crate) fn new(counters: Counters, clients: Register, forgotten: Option<Forgotten>) -> Self {
         Self {
             version: VERSION,
             counters,

@@ -1,10 +1,10 @@
 //! Windows, attempts and races on a virtual clock.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
-use pairing::wire::{Begin, Finish, Join, Joined};
+use pairing::wire::{Begin, Finish, Joined};
 use pairing::{
-    ATTEMPTS_MAX, CLIENTS_MAX, Code, DeviceName, Door, Ends, Guest, MATCHING_MAX, Moment, OPEN_US,
-    REOPENING_US, Refusal, RobotId, Role, Token, TokenId, Wanted,
+    ATTEMPTS_MAX, AskingDevice, CLIENTS_MAX, Code, DeviceName, Door, Ends, Guest, MATCHING_MAX, Moment,
+    OPEN_US, REOPENING_US, Refusal, RobotId, Role, Token, TokenId, Wanted,
 };
 
 const SECOND: u64 = 1_000_000;
@@ -92,7 +92,7 @@ impl Hall {
     fn join(&mut self, from: &str) -> Result<Joined, Refusal> {
         let name = DeviceName::new(from).unwrap();
         let random = self.random();
-        self.door.join(self.now_us, (Join { name }, from), random)
+        self.door.join(self.now_us, AskingDevice { name, from }, random)
     }
 
     fn press(&mut self, pattern: [u8; 2]) {
@@ -305,7 +305,7 @@ fn what_lies_on_the_disk_opens_nothing() {
 }
 
 #[test]
-fn a_full_register_lets_nobody_in_and_damaged_ones_are_told() {
+fn a_full_register_lets_nobody_in_and_damaged_ones_are_reported() {
     let mut hall = Hall::new();
     for _ in 0..CLIENTS_MAX {
         let random = hall.random();

@@ -15,6 +15,9 @@ mod browser;
 mod buttons;
 mod courtesy;
 mod download;
+#[cfg(test)]
+#[path = "../tests/folder/mod.rs"]
+mod folder;
 mod gate;
 mod guarded;
 mod identity;

@@ -22,7 +22,7 @@ enum Reading {
     Device,
     Home,
     Estimate,
-    Way,
+    PlannedPath,
     Inputs,
 }
 
@@ -39,7 +39,7 @@ impl Reading {
             "device" => Some(Self::Device),
             "home" => Some(Self::Home),
             "estimate" => Some(Self::Estimate),
-            "way" => Some(Self::Way),
+            "way" => Some(Self::PlannedPath),
             "inputs" => Some(Self::Inputs),
             _ => None,
         }

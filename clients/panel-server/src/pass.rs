@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use pairing::wire::Greeting;
-use pairing::{Denied, Register, Role, checked_request};
+use pairing::{Asker, Denied, Register, Role, checked_request};
 use rvac_api::{Request, RequestBody};
 use tokio::sync::{broadcast, watch};
 
@@ -86,8 +86,11 @@ impl Pass {
         if !self.greeted {
             return self.greet(text);
         }
-        let is_present = self.gate.guarded.is_present(self.known.id);
-        match checked_request(text, (self.known.role, is_present)) {
+        let asker = Asker {
+            role: self.known.role,
+            is_present: self.gate.guarded.is_present(self.known.id),
+        };
+        match checked_request(text, asker) {
             Ok(request) => Judged::PassOn(self.under_own_name(request)),
             Err(Denied::Unreadable) => Judged::Answer(refused(
                 text,

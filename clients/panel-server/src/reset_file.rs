@@ -56,11 +56,11 @@ fn read_and_rename(path: &Path, done: &Path) -> io::Result<Option<Wish>> {
 #[cfg(test)]
 mod tests {
     use super::{DONE, NAME, Wish, take};
+    use crate::folder::Folder;
 
     #[test]
     fn it_asks_once_for_what_is_in_it() {
-        let folder = std::env::temp_dir().join(format!("reset-file-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = Folder::new();
         assert_eq!(take(&folder), None);
         for (text, wish) in [("", Wish::Devices), ("Everything\r\n", Wish::Everything)] {
             std::fs::write(folder.join(NAME), text).unwrap();
@@ -71,6 +71,5 @@ mod tests {
         // A folder in its place can be read no more than renamed over a file.
         std::fs::create_dir(folder.join(NAME)).unwrap();
         assert_eq!(take(&folder), None);
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -153,13 +153,13 @@ async fn next_message(
 #[cfg(test)]
 mod tests {
     use super::{Event, Upstream};
+    use crate::folder::Folder;
     use tokio::io::AsyncWriteExt;
     use tokio::net::UnixListener;
 
     #[tokio::test]
     async fn splits_messages_however_they_arrive_and_reconnects() {
-        let folder = std::env::temp_dir().join(format!("upstream-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = Folder::new();
         let path = folder.join("vthal.sock");
         let listener = UnixListener::bind(&path).unwrap();
         let mut upstream = Upstream::new(path);
@@ -173,6 +173,5 @@ mod tests {
         assert_eq!(upstream.next().await, Event::Lost);
         assert!(upstream.send("{}").await.is_err());
         assert_eq!(upstream.next().await, Event::Connected);
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -1,7 +1,7 @@
 //! Why the robot stands still: sensor readings in the seconds before, and what it tried.
 
 use leptos::prelude::*;
-use panel_logic::{EvidenceRow, decision_text, evidence_rows};
+use panel_logic::{EvidenceRow, MapPoint, decision_text, evidence_rows};
 use rvac_api::{Evidence, Standstill, Status};
 
 use crate::language::words;
@@ -13,7 +13,7 @@ pub(crate) fn StandstillView(store: Store) -> impl IntoView {
     let told = Memo::new(move |_| going_on(store));
     let place = Memo::new(move |_| {
         let told = told.get().filter(|told| !told.lost);
-        told.map(|told| (told.place.x, told.place.y))
+        told.map(|told| MapPoint::new(told.place.x, told.place.y))
     });
     Effect::new(move |_| {
         let place = place.get();
@@ -66,7 +66,7 @@ pub(crate) fn EvidenceView(evidence: Evidence) -> impl IntoView {
 
 #[component]
 fn EvidenceTables(evidence: Evidence) -> impl IntoView {
-    let told = &words().evidence;
+    let texts = &words().evidence;
     let rows = evidence_rows(words(), &evidence);
     let tried: Vec<String> = evidence
         .tried
@@ -76,19 +76,19 @@ fn EvidenceTables(evidence: Evidence) -> impl IntoView {
     let has_tried = !tried.is_empty();
     view! {
         <table>
-            <caption>{told.felt}</caption>
+            <caption>{texts.felt}</caption>
             <thead>
                 <tr>
-                    <th scope="col">{told.when}</th>
-                    <th scope="col">{told.motion}</th>
-                    <th scope="col">{told.signs}</th>
-                    <th scope="col">{told.echo}</th>
+                    <th scope="col">{texts.when}</th>
+                    <th scope="col">{texts.motion}</th>
+                    <th scope="col">{texts.signs}</th>
+                    <th scope="col">{texts.echo}</th>
                 </tr>
             </thead>
             <tbody>{rows.into_iter().map(row).collect_view()}</tbody>
         </table>
         <Show when=move || has_tried>
-            <p class="tried">{told.tried}</p>
+            <p class="tried">{texts.tried}</p>
         </Show>
         <ol class="sentences">{tried.into_iter().map(|text| view! { <li>{text}</li> }).collect_view()}</ol>
     }

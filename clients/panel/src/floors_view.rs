@@ -37,7 +37,7 @@ pub(crate) fn FloorList(store: Store) -> impl IntoView {
             {move || {
                 let view = store.floors.get();
                 let here = view.here;
-                view.floors.into_iter().map(|floor| row(store, (floor, here), renamed)).collect_view()
+                view.floors.into_iter().map(|floor| row(store, floor, here, renamed)).collect_view()
             }}
         </ul>
         <div class="draw-tools">
@@ -51,11 +51,7 @@ pub(crate) fn FloorList(store: Store) -> impl IntoView {
     }
 }
 
-fn row(
-    store: Store,
-    (floor, here): (FloorView, Option<u16>),
-    renamed: RwSignal<Option<u16>>,
-) -> impl IntoView {
+fn row(store: Store, floor: FloorView, here: Option<u16>, renamed: RwSignal<Option<u16>>) -> impl IntoView {
     let (number, title) = (floor.number, floor_title(words(), &floor));
     let is_here = here == Some(number);
     let extent = extent_text(&floor);
@@ -65,10 +61,8 @@ fn row(
     );
     let choose = (!floor.removed && !is_here).then(|| {
         action(
-            (
-                format!("choose-floor-{number}"),
-                words().home.is_on.fill([&title]),
-            ),
+            format!("choose-floor-{number}"),
+            words().home.is_on.fill([&title]),
             words().home.it_is_here,
             move || {
                 store.ask(RequestBody::ChooseFloor { floor: number });
@@ -77,10 +71,8 @@ fn row(
     });
     let remove = (!floor.removed).then(|| {
         action(
-            (
-                format!("remove-floor-{number}"),
-                words().home.remove_named.fill([&title]),
-            ),
+            format!("remove-floor-{number}"),
+            words().home.remove_named.fill([&title]),
             words().frame.remove,
             move || {
                 store.ask(RequestBody::RemoveFloor { floor: number });
@@ -89,10 +81,8 @@ fn row(
     });
     let restore = floor.removed.then(|| {
         action(
-            (
-                format!("restore-floor-{number}"),
-                words().home.bring_back_named.fill([&title]),
-            ),
+            format!("restore-floor-{number}"),
+            words().home.bring_back_named.fill([&title]),
             words().home.bring_back,
             move || {
                 store.ask(RequestBody::RestoreFloor { floor: number });
@@ -101,7 +91,8 @@ fn row(
     });
     let rename = (!floor.removed).then(|| {
         action(
-            (format!("rename-floor-{number}"), rename_label),
+            format!("rename-floor-{number}"),
+            rename_label,
             words().frame.rename,
             move || {
                 renamed.update(|renamed| *renamed = (*renamed != Some(number)).then_some(number));
@@ -117,12 +108,12 @@ fn row(
             <Needs store verb=EDITS_HOME>{rename} {remove} {restore}</Needs>
         </li>
         <Show when=move || renamed.get() == Some(number)>
-            {rename_form(store, (number, named.clone()), renamed)}
+            {rename_form(store, number, named.clone(), renamed)}
         </Show>
     }
 }
 
-fn rename_form(store: Store, (number, name): (u16, String), renamed: RwSignal<Option<u16>>) -> impl IntoView {
+fn rename_form(store: Store, number: u16, name: String, renamed: RwSignal<Option<u16>>) -> impl IntoView {
     view! {
         <RenameForm
             label=words().home.floor_name.fill([&number])
@@ -137,7 +128,7 @@ fn rename_form(store: Store, (number, name): (u16, String), renamed: RwSignal<Op
     }
 }
 
-fn action((id, label): (String, String), text: &'static str, press: impl Fn() + 'static) -> impl IntoView {
+fn action(id: String, label: String, text: &'static str, press: impl Fn() + 'static) -> impl IntoView {
     view! {
         <button type="button" class="small" id=id aria-label=label on:click=move |_| press()>
             {text}

@@ -50,7 +50,7 @@ pub(crate) fn HomeSheet(store: Store) -> impl IntoView {
             <ul id="maps" class="rows" aria-labelledby="maps-title">
                 {move || {
                     let maps = store.maps.get();
-                    maps.into_iter().enumerate().map(|(place, map)| kept(store, (place, map))).collect_view()
+                    maps.into_iter().enumerate().map(|(place, map)| kept(store, place, map)).collect_view()
                 }}
             </ul>
             <Show when=move || store.maps.with(Vec::is_empty)>
@@ -87,8 +87,8 @@ pub(crate) fn rooms_text(count: u32) -> String {
     }
 }
 
-fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
-    let told = &words().home;
+fn kept(store: Store, place: usize, map: KeptMap) -> impl IntoView {
+    let texts = &words().home;
     let kept_s = i64::try_from(map.kept_s).ok();
     let extent = format!(
         "{}, {}, {}",
@@ -98,10 +98,10 @@ fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
     );
     view! {
         <li>
-            <span class="name">{told.map.fill([&map.number])}</span>
+            <span class="name">{texts.map.fill([&map.number])}</span>
             <span class="words">{extent}</span>
             {if place == 0 {
-                view! { <span class="newest">{told.in_use}</span> }.into_any()
+                view! { <span class="newest">{texts.in_use}</span> }.into_any()
             } else {
                 view! {
                     <Needs store verb=EDITS_HOME>
@@ -109,10 +109,10 @@ fn kept(store: Store, (place, map): (usize, KeptMap)) -> impl IntoView {
                             type="button"
                             class="small"
                             id=format!("take-up-{}", map.number)
-                            aria-label=told.restore_map.fill([&map.number])
+                            aria-label=texts.restore_map.fill([&map.number])
                             on:click=move |_| store.take_up(map.number)
                         >
-                            {told.take_up}
+                            {texts.take_up}
                         </button>
                     </Needs>
                 }

@@ -56,7 +56,7 @@ fn robot(store: Store, known: LearntRobot, asked: Asked) -> impl IntoView {
     let rows = known
         .rows
         .into_iter()
-        .map(|row| part(store, (device.clone(), row), asked))
+        .map(|row| part(store, device.clone(), row, asked))
         .collect_view();
     view! {
         <h4 id=title_id.clone()>{device.to_uppercase()} " " {here}</h4>
@@ -65,7 +65,7 @@ fn robot(store: Store, known: LearntRobot, asked: Asked) -> impl IntoView {
     }
 }
 
-fn part(store: Store, (device, row): (String, LearntRow), asked: Asked) -> impl IntoView {
+fn part(store: Store, device: String, row: LearntRow, asked: Asked) -> impl IntoView {
     let what = (device.clone(), row.part);
     let id = match row.part {
         LearntPart::Gyro => format!("forget-gyro-{device}"),

@@ -16,7 +16,7 @@ pub(crate) fn LogView(store: Store) -> impl IntoView {
     let entries = move || {
         let filter = filter.get();
         store.log.with(|log| {
-            log.find(words(), (&filter, SHOWN))
+            log.find(words(), &filter, SHOWN)
                 .into_iter()
                 .cloned()
                 .collect::<Vec<_>>()

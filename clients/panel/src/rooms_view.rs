@@ -23,7 +23,7 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
                 key=|row| (row.id, row.name.clone(), row.words.clone())
                 let:row
             >
-                <Room store row opened=(renamed, set) />
+                <Room store row renamed set />
             </For>
         </ul>
         <Show when=move || store.rooms.with(Vec::is_empty)>
@@ -113,10 +113,11 @@ fn room_change(store: Store, row: RoomChangeRow) -> impl IntoView {
 fn Room(
     store: Store,
     row: RoomRow,
-    /// The room whose form for a name is open, and the same for settings.
-    opened: (RwSignal<Option<u16>>, RwSignal<Option<u16>>),
+    /// The room whose form for a name is open.
+    renamed: RwSignal<Option<u16>>,
+    /// The room whose form for settings is open.
+    set: RwSignal<Option<u16>>,
 ) -> impl IntoView {
-    let (renamed, set) = opened;
     let RoomRow {
         id,
         name,

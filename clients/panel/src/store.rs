@@ -330,7 +330,7 @@ impl Store {
             Topic::Map,
             Topic::Home,
             Topic::Estimate,
-            Topic::Way,
+            Topic::PlannedPath,
             Topic::Decisions,
             Topic::Log,
             Topic::Schedules,
@@ -393,7 +393,7 @@ impl Store {
                 self.map.with_value(|map| map.on_estimate(&estimate));
                 self.estimate.set(Some(estimate));
             }
-            Message::Way(way) => self.map.with_value(|map| map.on_way(&way)),
+            Message::PlannedPath(path) => self.map.with_value(|map| map.on_planned_path(&path)),
             Message::Evidence { evidence, .. } => self.evidence.set(Some(evidence)),
             Message::Standstill(told) => self.standstill.set(Some(*told)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),

@@ -21,15 +21,15 @@ const TABS: [&str; 7] = ["drive", "home", "schedules", "history", "why", "device
 
 /// What the tabs are called, in the same order.
 fn titles() -> [&'static str; 7] {
-    let told = &words().frame;
+    let texts = &words().frame;
     [
-        told.drive,
-        told.home,
-        told.schedules,
-        told.history,
-        told.why,
-        told.device,
-        told.log,
+        texts.drive,
+        texts.home,
+        texts.schedules,
+        texts.history,
+        texts.why,
+        texts.device,
+        texts.log,
     ]
 }
 

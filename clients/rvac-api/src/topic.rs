@@ -18,8 +18,9 @@ pub enum Topic {
     Home,
     /// [`crate::Update::Estimate`] when it changes, at most twice a second.
     Estimate,
-    /// [`crate::Update::Way`] when it changes, at most every two seconds.
-    Way,
+    /// [`crate::Update::PlannedPath`] when it changes, at most every two seconds. The wire says `way`.
+    #[serde(rename = "way")]
+    PlannedPath,
     /// [`crate::Update::Decision`]: the last 100 at once, then each new one.
     Decisions,
     /// [`crate::Update::Log`]: the last 200 entries at once, then each new one.

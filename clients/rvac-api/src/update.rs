@@ -49,8 +49,9 @@ pub enum Update {
     Home(HomeView),
     /// How sure the robot is.
     Estimate(Estimate),
-    /// Where it means to drive.
-    Way(PlannedPath),
+    /// Where it means to drive. The wire says `way`.
+    #[serde(rename = "way")]
+    PlannedPath(PlannedPath),
     /// Something that it decided.
     Decision(Decision),
     /// The robot waits, or gave up, without having been ordered to.

@@ -82,7 +82,7 @@ fn topics() {
         Topic::Map,
         Topic::Home,
         Topic::Estimate,
-        Topic::Way,
+        Topic::PlannedPath,
         Topic::Decisions,
         Topic::Log,
         Topic::Packets,
@@ -753,7 +753,10 @@ fn what_the_robot_thinks() {
     let way = PlannedPath {
         points_mm: vec![0, -100, 2500, 40],
     };
-    check(&Update::Way(way), r#"{"e":"way","points_mm":[0,-100,2500,40]}"#);
+    check(
+        &Update::PlannedPath(way),
+        r#"{"e":"way","points_mm":[0,-100,2500,40]}"#,
+    );
     let decision = Decision {
         number: 3,
         t: 1.5,

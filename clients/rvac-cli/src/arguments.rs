@@ -43,66 +43,66 @@ pub(crate) enum Subcommand {
     Status(StatusOptions),
     /// What the robot is doing, line by line, until interrupted.
     Watch(WatchOptions),
-    /// What the robot knows of the home, which versions of its map are kept, and the way back to one of them.
+    /// What the robot knows of the home; the saved versions of its map, and how to restore one.
     Map(MapJob),
-    /// The floors of the home, each with a map of its own, and on which of them the robot is; without a verb: list them.
+    /// The floors of the home, each with its own map, and the floor that the robot is on; without a command, list them.
     Floor(FloorJob),
-    /// Clean rooms and zones of the home; without any all of it.
+    /// Clean rooms, zones and spots; the whole home when none is named.
     Clean(OrderOptions),
-    /// What such a job will take.
+    /// Estimate the time and energy of such a job.
     Estimate(EstimateOptions),
     /// The rooms of the home, their names, and how they are split and joined.
     #[command(visible_alias = "room")]
     Rooms(RoomsJob),
-    /// Zones and spots that are kept under names, to be cleaned again.
+    /// Zones and spots that are saved under names.
     Places(PlacesJob),
     /// No-go zones and virtual walls.
     Zone(ZoneJob),
-    /// What starts by itself, and when; without a verb: list it.
+    /// What the robot starts by itself, and when; without a command, list it.
     Schedule(ScheduleJob),
-    /// The runs that are over, and what came of them; without a verb: list them, newest first.
+    /// Past runs and their results; without a command, list them, newest first.
     History(HistoryJob),
-    /// How worn or dirty the parts are that turn, by what their motors draw.
+    /// Wear and dirt of the brush and the wheels, by the currents of their motors.
     Health(HealthJob),
-    /// What robots have learnt of themselves; without a verb: list it.
+    /// What robots have learnt about themselves; without a command, list it.
     Learnt(LearntJob),
-    /// What the robot decided lately, and why.
+    /// What the robot has decided recently, and why.
     Why(WhyOptions),
-    /// Run a recording through the brain again.
+    /// Replay a recording through the brain.
     Replay(ReplayOptions),
-    /// Measure what nobody knows about a robot's parts; without --port: list it.
+    /// Measure the unknown figures of a robot's parts; without --port, list them.
     Calibrate(CalibrateOptions),
     /// Look at a robot's raw readings, or record its gyro module.
     Probe(ProbeJob),
     /// Drive by hand, with a gamepad or the keyboard.
     Drive(DriveOptions),
-    /// The control mixes that the robot keeps; without a verb: list them.
+    /// The control mixes that are saved on the robot; without a command, list them.
     Mix(MixJob),
     /// Let a new device in: open a window and show its code.
     Pair(PairOptions),
-    /// The devices that were let in; without a verb: list them.
+    /// The paired devices; without a command, list them.
     Clients(ClientsJob),
-    /// The robot's certificate: its fingerprint, and files for devices that shall trust it.
+    /// The robot's certificate: its fingerprint, and files for devices that are to trust it.
     Trust(TrustOptions),
     /// Start cleaning.
     Start {
-        /// Strategy by name; the daemon's default when absent.
+        /// Name of the strategy; the daemon's default when not given.
         #[arg(long)]
         strategy: Option<String>,
         #[command(flatten)]
         daemon: Daemon,
     },
-    /// End the job and stand still.
+    /// End the job and stop.
     Stop(Daemon),
-    /// Stand still, keep the job.
+    /// Stop and keep the job.
     Pause(Daemon),
-    /// Go on with the paused job.
+    /// Continue the paused job.
     Resume(Daemon),
-    /// Dock when the way leads there.
+    /// Return to the dock.
     Dock(Daemon),
-    /// Clean a small disc around the present place.
+    /// Clean a small disc around the robot.
     Spot(Daemon),
-    /// Beep, so that a person finds the robot.
+    /// Beep, so that you can find the robot.
     Locate(Daemon),
 }
 
@@ -142,13 +142,13 @@ pub(crate) struct TermOptions {
     /// The same on a robot that this computer is paired with as its administrator; somebody must be beside it to press a button.
     #[arg(long, value_name = "https://NAME[:PORT]", conflicts_with = "socket")]
     pub(crate) robot: Option<Address>,
-    /// Send what is typed as it is, without a CRC, as from a bare serial terminal.
+    /// Send what is typed unchanged, without a CRC, as a serial terminal would.
     #[arg(long, conflicts_with_all = ["socket", "robot"])]
     pub(crate) hand: bool,
-    /// Leave packets of this word out of the view, for example `state`; may be given several times.
+    /// Hide packets of this kind, for example `state`; may be given several times.
     #[arg(long, value_name = "WORD")]
     pub(crate) skip: Vec<String>,
-    /// How long to go on showing answers after the end of the input, in milliseconds.
+    /// How long to show answers after the end of the input, in milliseconds.
     #[arg(long, value_name = "MS", default_value_t = 1_000)]
     pub(crate) linger: u64,
 }
@@ -164,9 +164,9 @@ pub(crate) enum PacketVerb {
     /// Print the packets with their CRC.
     #[command(alias = "seal")]
     Crc(PacketOptions),
-    /// Say whether the CRC is right; exit code 1 if one is not.
+    /// Check the CRC; exit code 1 if one is wrong.
     Check(PacketOptions),
-    /// Say what the packets mean, or why they would be refused; exit code 1 if one is bad.
+    /// Explain the packets, or why they would be refused; exit code 1 if one is bad.
     Decode(PacketOptions),
 }
 
@@ -177,7 +177,7 @@ pub(crate) struct PacketOptions {
     /// Session number of the CRC; 0 = before any handshake.
     #[arg(long, default_value_t = 0)]
     pub(crate) session: u16,
-    /// Who speaks.
+    /// Direction of the packet.
     #[arg(long, value_enum, default_value_t = DirectionName::ToRobot)]
     pub(crate) direction: DirectionName,
     /// Packets are given as hexadecimal digits, as binary packets must be.
@@ -229,26 +229,26 @@ pub(crate) struct MapJob {
 
 #[derive(Clone, Debug, clap::Subcommand)]
 pub(crate) enum MapVerb {
-    /// The versions that are kept, newest first.
+    /// List the saved versions, newest first.
     List {
-        /// Whose, by number or name; of the floor on which the robot is when absent.
+        /// Floor by number or name; the floor that the robot is on when not given.
         #[arg(long)]
         floor: Option<String>,
     },
-    /// Take a version up again; it becomes the newest one, and the others stay.
+    /// Restore a version: it becomes the newest, and the others stay.
     Restore {
-        /// Its number, as `rvac map list` tells it.
+        /// Number of the version, as `rvac map list` shows it.
         number: u64,
-        /// Whose, by number or name; of the floor on which the robot is when absent.
+        /// Floor by number or name; the floor that the robot is on when not given.
         #[arg(long)]
         floor: Option<String>,
     },
-    /// Say where the dock stands now that it was moved: by eye is enough, the robot finds out the rest when it docks.
+    /// Set the place of a dock that was moved: by eye is enough, the robot measures it when it docks.
     Dock {
-        /// Where the middle of the robot is when it stands on it.
+        /// Where the middle of a docked robot is.
         #[arg(value_name = "X,Y", allow_hyphen_values = true)]
         at: Place,
-        /// A place that the robot looks at then, behind the dock.
+        /// A place that a docked robot faces, behind the dock.
         #[arg(value_name = "X,Y", allow_hyphen_values = true)]
         towards: Place,
     },
@@ -261,10 +261,10 @@ pub(crate) struct DriveOptions {
     /// Drive with gamepads alone, not with the keyboard of this terminal.
     #[arg(long, conflicts_with = "readings")]
     pub(crate) pad: bool,
-    /// Take what inputs read from the input, line by line: `pad-0-axis-1 -0.5`, `pad-0 gone`.
+    /// Read the values of inputs from standard input, one a line: `pad-0-axis-1 -0.5`, `pad-0 gone`.
     #[arg(long)]
     pub(crate) readings: bool,
-    /// Drive by this mix of the robot; the standard one when absent.
+    /// Drive by this mix of the robot; the standard one when not given.
     #[arg(long, value_name = "NAME", conflicts_with = "mix_file")]
     pub(crate) mix: Option<String>,
     /// Drive by the mix in this file.
@@ -282,12 +282,12 @@ pub(crate) struct MixJob {
 
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum MixVerb {
-    /// Print a mix as a file that `save` takes.
+    /// Print a mix as a file for `save`.
     Show {
-        /// Its name; the standard one when absent.
+        /// Name of the mix; the standard one when not given.
         name: Option<String>,
     },
-    /// Keep the mix of a file on the robot, in place of the one with the same name.
+    /// Save the mix of a file on the robot; it replaces one with the same name.
     Save {
         /// The file.
         file: PathBuf,
@@ -306,13 +306,13 @@ pub(crate) struct WhyOptions {
     /// Print the daemon's own JSON, one decision a line.
     #[arg(long)]
     pub(crate) json: bool,
-    /// How many, the newest last.
+    /// Number of decisions, the newest last.
     #[arg(long, value_name = "N", default_value_t = 10)]
     pub(crate) lines: usize,
-    /// Instead: what the robot has felt in the last ten seconds, and tried in the last half minute.
+    /// Print instead what the robot sensed in the last ten seconds and tried in the last half minute.
     #[arg(long, conflicts_with = "stop")]
     pub(crate) felt: bool,
-    /// Instead: why it stood still by itself the last time, with what it felt and tried before.
+    /// Print instead why the robot last stopped by itself, with what it sensed and tried before.
     #[arg(long)]
     pub(crate) stop: bool,
 }
@@ -321,14 +321,14 @@ pub(crate) struct WhyOptions {
 pub(crate) struct ReplayOptions {
     /// Recording (MCAP).
     pub(crate) file: PathBuf,
-    /// The `vthal` executable; the one beside this program when absent, else the one in the PATH.
+    /// The `vthal` executable; by default the one beside this program, else the one in the PATH.
     #[arg(long, value_name = "PATH")]
     pub(crate) vthal: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct CalibrateOptions {
-    /// Values to measure; all that the file does not hold yet when absent.
+    /// Values to measure; by default all that the file lacks.
     pub(crate) names: Vec<String>,
     /// Serial device of the robot; vthal must not run.
     #[arg(long, value_name = "PATH")]
@@ -336,10 +336,10 @@ pub(crate) struct CalibrateOptions {
     /// Bits per second.
     #[arg(long, default_value_t = 230_400, value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
     pub(crate) baud: u32,
-    /// Where the values are kept.
+    /// File of the measured values.
     #[arg(long, value_name = "PATH", default_value = "calibration.toml")]
     pub(crate) file: PathBuf,
-    /// Whose values are listed when no robot is connected.
+    /// Robot whose values are listed when none is connected.
     #[arg(long, default_value = "sr8730")]
     pub(crate) robot: String,
 }

@@ -25,7 +25,7 @@ pub(crate) fn send(body: RequestBody, daemon: &Daemon) -> anyhow::Result<ExitCod
 
 /// As [`send`], over an open connection.
 pub(crate) fn ask(connection: &mut Connection, body: RequestBody) -> anyhow::Result<ExitCode> {
-    answer(connection, (body, ANSWER), |update, _| match update {
+    answer(connection, body, ANSWER, |update, _| match update {
         Update::Done { id: REQUEST_ID } => Some(ExitCode::SUCCESS),
         _ => None,
     })
@@ -34,7 +34,8 @@ pub(crate) fn ask(connection: &mut Connection, body: RequestBody) -> anyhow::Res
 /// Sends a request and waits for the update that answers it, which `found` recognizes; it is also given the daemon's own text.
 pub(crate) fn answer<Found>(
     connection: &mut Connection,
-    (body, patience): (RequestBody, Duration),
+    body: RequestBody,
+    patience: Duration,
     found: impl Fn(Update, String) -> Option<Found>,
 ) -> anyhow::Result<Found> {
     connection.send(&Request {

@@ -16,11 +16,16 @@ pub(crate) fn run(job: &HealthJob) -> anyhow::Result<ExitCode> {
         return control::send(RequestBody::ResetHealth { component }, &job.daemon);
     }
     let mut connection = Connection::open(&job.daemon)?;
-    let request = (RequestBody::Health, control::ANSWER);
-    let (parts, text) = control::answer(&mut connection, request, |update, text| match update {
-        Update::Health { components, .. } => Some((components, text)),
-        _ => None,
-    })?;
+    let request = RequestBody::Health;
+    let (parts, text) = control::answer(
+        &mut connection,
+        request,
+        control::ANSWER,
+        |update, text| match update {
+            Update::Health { components, .. } => Some((components, text)),
+            _ => None,
+        },
+    )?;
     if job.json {
         writeln!(stdout(), "{text}")?;
     } else {
@@ -58,7 +63,7 @@ mod tests {
     use rvac_api::ComponentHealth;
 
     #[test]
-    fn a_part_that_runs_hard_is_told_with_what_to_do() {
+    fn a_part_that_runs_hard_is_shown_with_what_to_do() {
         let parts = [
             ComponentHealth {
                 component: "brush-main".to_owned(),

@@ -17,11 +17,17 @@ pub(crate) fn run(job: &LearntJob) -> anyhow::Result<ExitCode> {
         return control::send(RequestBody::ForgetLearnt { device, part }, &job.daemon);
     }
     let mut connection = Connection::open(&job.daemon)?;
-    let request = (RequestBody::Learnt, control::ANSWER);
-    let (devices, text) = control::answer(&mut connection, request, |update, text| match update {
-        Update::Learnt { devices, .. } => Some((devices, text)),
-        _ => None,
-    })?;
+    let request = RequestBody::Learnt;
+    let (devices, text) =
+        control::answer(
+            &mut connection,
+            request,
+            control::ANSWER,
+            |update, text| match update {
+                Update::Learnt { devices, .. } => Some((devices, text)),
+                _ => None,
+            },
+        )?;
     if job.json {
         writeln!(stdout(), "{text}")?;
     } else {
@@ -77,7 +83,7 @@ mod tests {
     use rvac_api::{EnergyLearnt, GyroLearnt, LearntView};
 
     #[test]
-    fn each_robot_is_told_with_what_is_kept_of_it() {
+    fn each_robot_is_shown_with_what_is_kept_of_it() {
         let devices = [
             LearntView {
                 device: "relax".to_owned(),

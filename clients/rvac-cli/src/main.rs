@@ -8,6 +8,9 @@ mod control;
 mod devices;
 mod drive;
 mod floors;
+#[cfg(test)]
+#[path = "../../panel-server/tests/folder/mod.rs"]
+mod folder;
 mod health;
 mod history;
 mod home;

@@ -43,7 +43,7 @@ mod tests {
     use super::{one_line, plain, plain_json};
 
     #[test]
-    fn a_terminal_is_told_nothing_by_a_text() {
+    fn a_text_gives_no_commands_to_a_terminal() {
         let text = "a\u{1b}[2J\u{7}b\u{9b}31mc\u{1f}\td\ne<b>";
         assert_eq!(plain(text), "a\u{fffd}[2J\u{fffd}b\u{fffd}31mc\u{fffd}\td\ne<b>");
         assert!(!one_line(text).contains(char::is_control));

@@ -53,6 +53,13 @@ struct Reports {
     input_ended: bool,
 }
 
+/// A motor that runs without its control loop.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OpenLoop {
+    pub(crate) motor: Motor,
+    pub(crate) throttle: Throttle,
+}
+
 /// How long raw readings are taken.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Watch {
@@ -196,7 +203,7 @@ impl Robot {
     pub(crate) fn watch(
         &mut self,
         target: ProbeTarget,
-        motors: &[(Motor, Throttle)],
+        motors: &[OpenLoop],
         span: Watch,
     ) -> anyhow::Result<Vec<Probed>> {
         self.heard.probed.clear();
@@ -214,12 +221,7 @@ impl Robot {
             })
     }
 
-    fn watch_running(
-        &mut self,
-        target: ProbeTarget,
-        motors: &[(Motor, Throttle)],
-        span: Watch,
-    ) -> anyhow::Result<()> {
+    fn watch_running(&mut self, target: ProbeTarget, motors: &[OpenLoop], span: Watch) -> anyhow::Result<()> {
         let (Watch::For(longest) | Watch::UntilTyped(longest)) = span;
         let until_typed = matches!(span, Watch::UntilTyped(_));
         let end = Instant::now() + longest;
@@ -251,11 +253,11 @@ impl Robot {
     }
 
     /// Gives each motor its duty for the length of a lease.
-    fn run(&mut self, motors: &[(Motor, Throttle)]) -> anyhow::Result<()> {
-        for (motor, throttle) in motors {
+    fn run(&mut self, motors: &[OpenLoop]) -> anyhow::Result<()> {
+        for OpenLoop { motor, throttle } in motors.iter().copied() {
             self.send(Command::Motor(MotorCommand {
-                motor: *motor,
-                throttle: *throttle,
+                motor,
+                throttle,
                 lease_ms: LEASE_MS,
                 sequence: Sequence(0),
                 seen_tick: Tick(0),

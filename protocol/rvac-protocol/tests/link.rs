@@ -207,7 +207,7 @@ fn edges_arrive_once_and_in_order_over_a_bad_line() {
 }
 
 #[test]
-fn an_overflow_of_edges_is_told() {
+fn an_overflow_of_edges_is_reported() {
     let mut pair = Pair::open(BinaryKinds::NONE);
     for _ in 0..20 {
         pair.robot.queue_event(Event::Bump(Bumpers::default()), pair.now);

@@ -74,9 +74,9 @@ fn measure_all(arguments: &Arguments) -> anyhow::Result<()> {
         let all = measure::run(lanes, time).with_context(|| format!("{clients} clients"))?;
         for (relay, figures) in relays.into_iter().zip(&all) {
             if !arguments.json {
-                print_row((relay, clients), figures);
+                print_row(relay, clients, figures);
             }
-            rows.push(as_json((relay, clients), figures));
+            rows.push(as_json(relay, clients, figures));
         }
     }
     let loads = [load_before, load()?];
@@ -121,7 +121,7 @@ fn build_vthal() -> anyhow::Result<PathBuf> {
     needed_beside("vthal")
 }
 
-fn print_row((relay, clients): (Relay, usize), figures: &Figures) {
+fn print_row(relay: Relay, clients: usize, figures: &Figures) {
     println!(
         "{:5} {clients:3} clients: {:7.0} packets/s to each; at 50 Hz: latency median {:4.0} us, p99 {:4.0} us; \
          {:.2} % of a core, {:.2} % waiting for one, {:.1} MiB",
@@ -135,7 +135,7 @@ fn print_row((relay, clients): (Relay, usize), figures: &Figures) {
     );
 }
 
-fn as_json((relay, clients): (Relay, usize), figures: &Figures) -> serde_json::Value {
+fn as_json(relay: Relay, clients: usize, figures: &Figures) -> serde_json::Value {
     serde_json::json!({
         "relay": relay.name(),
         "clients": clients,

@@ -142,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_is_told_with_its_cause() {
+    fn a_turn_is_reported_with_its_cause() {
         let mut diary = Diary::default();
         let entry = diary.write(2_500_000, &decision(DecisionKind::BackOff, Reason::BumpLeft, 0.8));
         assert_eq!(

@@ -318,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn a_home_is_told_cell_by_cell() {
+    fn a_home_is_reported_cell_by_cell() {
         let known = raster(4, 2, |index| match index {
             0 | 1 => CellKnowledge::Free,
             2 => CellKnowledge::Occupied,
@@ -332,7 +332,7 @@ mod tests {
     }
 
     #[test]
-    fn a_chessboard_as_large_as_a_map_can_be_is_told_coarsely_and_no_obstacle_is_lost() {
+    fn a_chessboard_as_large_as_a_map_can_be_is_reported_coarsely_and_no_obstacle_is_lost() {
         let known = raster(1_600, 1_600, |index| {
             if (index + index / 1_600).is_multiple_of(2) {
                 CellKnowledge::Occupied

@@ -97,7 +97,7 @@ pub(crate) fn estimate(brain: &Brain, swept: Option<SweptShare>) -> Estimate {
 const CORNERS_MAX: usize = 4_000;
 
 /// Where the robot means to drive; of a very long path its beginning.
-pub(crate) fn way(brain: &Brain) -> PlannedPath {
+pub(crate) fn planned_path(brain: &Brain) -> PlannedPath {
     let corners = brain.planned_path();
     let millimetres = |metres: f64| (1000.0 * metres).round() as i32;
     PlannedPath {

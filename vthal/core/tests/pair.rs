@@ -1657,7 +1657,7 @@ fn decisions_and_estimates_are_told_to_who_follows_them() {
     let mut pair = Pair::new();
     pair.ask(ANNA, RequestBody::Start { strategy: None });
     pair.run_ms(200);
-    let topics = vec![Topic::Decisions, Topic::Estimate, Topic::Way];
+    let topics = vec![Topic::Decisions, Topic::Estimate, Topic::PlannedPath];
     let before = pair.updates.len();
     pair.ask(BERT, RequestBody::Watch { topics });
     let told = &pair.updates[before..];

@@ -36,11 +36,11 @@ impl Scratch {
             id: None,
             task,
         };
-        self.desk.obey(order, (&self.floors, self.now)).outcome
+        self.desk.obey(order, &self.floors, self.now).outcome
     }
 
     /// Hands over a piece of an archive from a client and returns the answer in one word.
-    fn hand(&mut self, client: u64, (from, size): (u64, u64), bytes: &[u8]) -> &'static str {
+    fn hand(&mut self, client: u64, [from, size]: [u64; 2], bytes: &[u8]) -> &'static str {
         let task = ArchiveTask::Import {
             from,
             size,
@@ -58,7 +58,7 @@ impl Scratch {
         let size = archive.len() as u64;
         let mut answer = "nothing";
         for (place, piece) in archive.chunks(ARCHIVE_UPLOAD_BYTES as usize).enumerate() {
-            answer = self.hand(client, (place as u64 * ARCHIVE_UPLOAD_BYTES, size), piece);
+            answer = self.hand(client, [place as u64 * ARCHIVE_UPLOAD_BYTES, size], piece);
         }
         answer
     }
@@ -138,7 +138,7 @@ fn pieces_out_of_order_are_refused_and_end_the_upload() {
     let piece = &archive[..ARCHIVE_UPLOAD_BYTES as usize];
     let mut scratch = Scratch::new("order");
     assert_eq!(
-        scratch.hand(1, (ARCHIVE_UPLOAD_BYTES, size), piece),
+        scratch.hand(1, [ARCHIVE_UPLOAD_BYTES, size], piece),
         "archive-piece"
     );
     let wrong: [(u64, u64, &[u8]); 5] = [
@@ -153,19 +153,19 @@ fn pieces_out_of_order_are_refused_and_end_the_upload() {
         ),
     ];
     for (from, said, bytes) in wrong {
-        assert_eq!(scratch.hand(1, (0, size), piece), "waits");
-        let answer = scratch.hand(1, (from, said), bytes);
+        assert_eq!(scratch.hand(1, [0, size], piece), "waits");
+        let answer = scratch.hand(1, [from, said], bytes);
         // The first piece once more starts again.
         let expected = if from == 0 { "waits" } else { "archive-piece" };
         assert_eq!(answer, expected, "{from} {said}");
         if from > 0 {
-            let next = scratch.hand(1, (ARCHIVE_UPLOAD_BYTES, size), piece);
+            let next = scratch.hand(1, [ARCHIVE_UPLOAD_BYTES, size], piece);
             assert_eq!(next, "archive-piece", "it is over");
         }
     }
-    assert_eq!(scratch.hand(1, (0, 5), b"sixsix"), "archive-piece");
+    assert_eq!(scratch.hand(1, [0, 5], b"sixsix"), "archive-piece");
     assert_eq!(
-        scratch.hand(1, (0, ARCHIVE_BYTES_MAX + 1), b"x"),
+        scratch.hand(1, [0, ARCHIVE_BYTES_MAX + 1], b"x"),
         "archive-too-large"
     );
     assert!(!scratch.floors.path().exists(), "nothing was written");
@@ -177,16 +177,16 @@ fn one_archive_comes_at_a_time_and_one_that_stopped_gives_way() {
     let size = archive.len() as u64;
     let piece = &archive[..ARCHIVE_UPLOAD_BYTES as usize];
     let mut scratch = Scratch::new("busy");
-    assert_eq!(scratch.hand(1, (0, size), piece), "waits");
-    assert_eq!(scratch.hand(2, (0, size), piece), "archive-busy");
+    assert_eq!(scratch.hand(1, [0, size], piece), "waits");
+    assert_eq!(scratch.hand(2, [0, size], piece), "archive-busy");
     scratch.now += Duration::from_secs(31);
     assert_eq!(
-        scratch.hand(2, (ARCHIVE_UPLOAD_BYTES, size), piece),
+        scratch.hand(2, [ARCHIVE_UPLOAD_BYTES, size], piece),
         "archive-piece"
     );
     assert_eq!(scratch.hand_all(2, &archive), "taken in");
     assert_eq!(
-        scratch.hand(1, (ARCHIVE_UPLOAD_BYTES, size), piece),
+        scratch.hand(1, [ARCHIVE_UPLOAD_BYTES, size], piece),
         "archive-piece"
     );
 }

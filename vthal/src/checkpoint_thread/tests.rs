@@ -1,9 +1,8 @@
 //! A client that asks without end, and one that changes something meanwhile.
 
-use std::fs;
-
 use mixer::standard_profile;
 use tokio::sync::mpsc::{Receiver, channel};
+use vthal_bench::Scratch;
 use vthal_core::{ArchiveOrder, ArchiveTask, ClientId, MixOrder, MixTask};
 
 use super::{KeptPaths, MixOutcome, QUESTIONS_MAX, start};
@@ -16,9 +15,7 @@ use crate::run_folder::RunFolder;
 const MANY: usize = 100;
 const CHANGER: ClientId = ClientId(2);
 
-fn paths(name: &str) -> KeptPaths {
-    let folder = std::env::temp_dir().join(format!("vthal-thread-{name}-{}", std::process::id()));
-    fs::remove_dir_all(&folder).ok();
+fn paths_in(folder: &Scratch) -> KeptPaths {
     KeptPaths {
         checkpoint: folder.join("checkpoint.json"),
         floors: FloorFolder::new(folder.join("maps")),
@@ -66,7 +63,8 @@ fn answered_before_the_change(events: &mut Receiver<Event>) -> usize {
 fn questions_without_end_leave_room_for_changes() {
     // The answers are not read yet, so that only the first question is carried out.
     let (sender, mut events) = channel(1);
-    let thread = start(paths("flood"), sender).expect("starts");
+    let folder = Scratch::new().expect("creates");
+    let thread = start(paths_in(&folder), sender).expect("starts");
     let taken = (0..MANY)
         .filter(|number| thread.order_archive(question(*number)))
         .count();
@@ -81,7 +79,8 @@ fn questions_without_end_leave_room_for_changes() {
 #[test]
 fn a_question_that_was_answered_makes_room_for_the_next() {
     let (sender, mut events) = channel(1);
-    let thread = start(paths("turns"), sender).expect("starts");
+    let folder = Scratch::new().expect("creates");
+    let thread = start(paths_in(&folder), sender).expect("starts");
     for number in 0..MANY {
         while !thread.order_archive(question(number)) {
             std::thread::yield_now();

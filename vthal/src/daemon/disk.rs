@@ -13,6 +13,13 @@ use crate::client;
 use crate::outbox::Class;
 use crate::run_thread::RunAnswer;
 
+/// Who has asked for something, and the number of the request.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asker {
+    client: ClientId,
+    id: Option<u32>,
+}
+
 impl Daemon {
     /// Sends a client the result of its order, and the core what it needs.
     pub(super) fn take_map_answer(&mut self, MapAnswer { client, id, outcome }: MapAnswer) {
@@ -31,11 +38,11 @@ impl Daemon {
                 None
             }
             MapOutcome::Refused(reason, text) => {
-                self.refuse((client, id), reason, text);
+                self.refuse(Asker { client, id }, reason, text);
                 return;
             }
         };
-        self.tell_done((client, id), answer);
+        self.tell_done(Asker { client, id }, answer);
     }
 
     pub(super) fn take_floor_answer(&mut self, answer: FloorAnswer) {
@@ -48,9 +55,9 @@ impl Daemon {
         match outcome {
             Ok((floors, made)) => {
                 self.handle(Input::FloorsKept { task, floors, made });
-                self.tell_done((client, id), None);
+                self.tell_done(Asker { client, id }, None);
             }
-            Err(error) => self.refuse((client, id), error.name(), error.to_string()),
+            Err(error) => self.refuse(Asker { client, id }, error.name(), error.to_string()),
         }
     }
 
@@ -63,11 +70,11 @@ impl Daemon {
                 None
             }
             Err(error) => {
-                self.refuse((client, id), error.name(), error.to_string());
+                self.refuse(Asker { client, id }, error.name(), error.to_string());
                 return;
             }
         };
-        self.tell_done((client, id), answer);
+        self.tell_done(Asker { client, id }, answer);
     }
 
     pub(super) fn take_mix_answer(&mut self, MixAnswer { client, id, outcome }: MixAnswer) {
@@ -75,24 +82,24 @@ impl Daemon {
             Ok(MixOutcome::Listed(mixes)) => Some(Update::Mixes { mixes }),
             Ok(MixOutcome::Done) => None,
             Err(error) => {
-                self.refuse((client, id), error.name(), error.to_string());
+                self.refuse(Asker { client, id }, error.name(), error.to_string());
                 return;
             }
         };
-        self.tell_done((client, id), answer);
+        self.tell_done(Asker { client, id }, answer);
     }
 
     pub(super) fn take_run_answer(&mut self, RunAnswer { client, id, outcome }: RunAnswer) {
         match outcome {
-            Ok(update) => self.tell_done((client, id), Some(*update)),
-            Err(error) => self.refuse((client, id), error.name(), error.to_string()),
+            Ok(update) => self.tell_done(Asker { client, id }, Some(*update)),
+            Err(error) => self.refuse(Asker { client, id }, error.name(), error.to_string()),
         }
     }
 
     /// What came of an order, if it has an answer of its own, and that it is done, if whoever asked numbered it.
-    pub(super) fn tell_done(&mut self, (client, id): (ClientId, Option<u32>), answer: Option<Update>) {
-        for update in answer.into_iter().chain(id.map(|id| Update::Done { id })) {
-            self.tell(client, &update);
+    pub(super) fn tell_done(&mut self, asker: Asker, answer: Option<Update>) {
+        for update in answer.into_iter().chain(asker.id.map(|id| Update::Done { id })) {
+            self.tell(asker.client, &update);
         }
     }
 
@@ -103,7 +110,7 @@ impl Daemon {
     }
 
     /// Not while outputs of the core are carried out, which this makes more of.
-    fn refuse(&mut self, (client, id): (ClientId, Option<u32>), reason: &str, text: String) {
+    fn refuse(&mut self, Asker { client, id }: Asker, reason: &str, text: String) {
         let reason = reason.to_owned();
         let failure = Failure { id, reason, text };
         self.handle(Input::Refused { client, failure });

@@ -140,7 +140,7 @@ fn without_a_trigger_the_sensor_is_asked() {
 }
 
 #[test]
-fn what_is_not_there_is_told_once_with_what_there_is() {
+fn what_is_not_there_is_reported_once_with_what_there_is() {
     let kernel = Kernel::new("absent");
     let events = kernel.events("bmi160", "z", 1);
     assert_eq!(

@@ -83,8 +83,10 @@ impl RadioDecoder {
                         self.hear(&reading, &mut heard);
                     }
                 }
-                Ok((text, Err(error))) => self.refuse(now, (text, &error), &mut heard),
-                Err(error) => self.refuse(now, ("", &error), &mut heard),
+                Ok((text, Err(error))) => {
+                    heard.refused = self.refuse(now, text, &error).or(heard.refused.take())
+                }
+                Err(error) => heard.refused = self.refuse(now, "", &error).or(heard.refused.take()),
             }
         });
         self.lines = lines;
@@ -111,31 +113,40 @@ impl RadioDecoder {
         heard.signals.push(match reading.measured {
             Measured::Range(range_m, sigma_m) => {
                 let sigma_m = sigma_m.unwrap_or(self.sigma_m);
-                BeaconSignal::Range(level(beacon, (range_m, sigma_m), self.height_m))
+                BeaconSignal::Range(level(
+                    BeaconRange {
+                        beacon,
+                        range_m,
+                        sigma_m,
+                    },
+                    self.height_m,
+                ))
             }
             Measured::Strength(dbm) => BeaconSignal::Strength(BeaconStrength { beacon, dbm }),
         });
     }
 
-    fn refuse(&mut self, now: Duration, (line, error): (&str, &LineError), heard: &mut Heard) {
+    /// Counts a line; the message about it when one is due.
+    fn refuse(&mut self, now: Duration, line: &str, error: &LineError) -> Option<Refused> {
         self.untold += 1;
         let is_due = self
             .reported_at
             .is_none_or(|reported| now >= reported + REPORT_EVERY);
-        if is_due {
+        is_due.then(|| {
             self.reported_at = Some(now);
-            heard.refused = Some(Refused {
+            Refused {
                 count: std::mem::take(&mut self.untold),
                 line: line.chars().take(EXCERPT).collect(),
                 reason: error.to_string(),
-            });
-        }
+            }
+        })
     }
 }
 
-/// The distance on the floor to below a beacon that hangs `height_m` above the robot's antenna. Near below it the error of
+/// The distance on the floor to below a beacon, of the distance to it; it hangs `height_m` above the robot's antenna. Near below it the error of
 /// the slanting way counts for more.
-fn level(beacon: u16, (slant_m, sigma_m): (f64, f64), height_m: f64) -> BeaconRange {
+fn level(slant: BeaconRange, height_m: f64) -> BeaconRange {
+    let (slant_m, sigma_m) = (slant.range_m, slant.sigma_m);
     let range_m = (slant_m * slant_m - height_m * height_m).max(0.0).sqrt();
     let steepness = if height_m > 0.0 {
         slant_m.max(height_m) / range_m.max(sigma_m)
@@ -143,7 +154,7 @@ fn level(beacon: u16, (slant_m, sigma_m): (f64, f64), height_m: f64) -> BeaconRa
         1.0
     };
     BeaconRange {
-        beacon,
+        beacon: slant.beacon,
         range_m,
         sigma_m: sigma_m * steepness.max(1.0),
     }
@@ -210,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn broken_lines_are_counted_and_told_once_a_minute() {
+    fn broken_lines_are_counted_and_reported_once_a_minute() {
         let mut decoder = RadioDecoder::new(&settings(RadioForm::Lines));
         let mut refusals = Vec::new();
         for second in 0..=120 {
@@ -222,14 +233,22 @@ mod tests {
         assert_eq!(refusals, [(0, 1, line()), (60, 60, line()), (120, 60, line())]);
     }
 
+    fn slant(range_m: f64, sigma_m: f64) -> BeaconRange {
+        BeaconRange {
+            beacon: 0,
+            range_m,
+            sigma_m,
+        }
+    }
+
     #[test]
     fn what_hangs_high_is_nearer_on_the_floor() {
         let near = |range: BeaconRange, range_m: f64| (range.range_m - range_m).abs() < 1e-9;
-        assert!(near(level(0, (2.5, 0.2), 1.5), 2.0));
-        assert!(near(level(0, (1.4, 0.2), 1.5), 0.0), "shorter than it can be");
-        assert!((level(0, (2.5, 0.2), 1.5).sigma_m - 0.25).abs() < 1e-9);
-        assert!((level(0, (1.5, 0.2), 1.5).sigma_m - 1.5).abs() < 1e-9);
-        assert_eq!(level(0, (0.1, 0.2), 0.0).sigma_m, 0.2);
+        assert!(near(level(slant(2.5, 0.2), 1.5), 2.0));
+        assert!(near(level(slant(1.4, 0.2), 1.5), 0.0), "shorter than it can be");
+        assert!((level(slant(2.5, 0.2), 1.5).sigma_m - 0.25).abs() < 1e-9);
+        assert!((level(slant(1.5, 0.2), 1.5).sigma_m - 1.5).abs() < 1e-9);
+        assert_eq!(level(slant(0.1, 0.2), 0.0).sigma_m, 0.2);
     }
 
     proptest! {

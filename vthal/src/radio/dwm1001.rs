@@ -62,7 +62,7 @@ fn read_lec(fields: &str) -> Result<Vec<Reading>, LineError> {
             [label, address, x, y, z, range]
                 if *label == format!("AN{number}") && [x, y, z].into_iter().all(|field| is_number(field)) =>
             {
-                reading(number, (address, range))
+                reading(number, address, range)
             }
             _ => Err(LineError::Anchor(number)),
         })
@@ -82,7 +82,7 @@ fn read_les(line: &str) -> Result<Vec<Reading>, LineError> {
                 Some((address, (place, range)))
                     if place.split(',').count() == 3 && place.split(',').all(is_number) =>
                 {
-                    reading(number, (address, range))
+                    reading(number, address, range)
                 }
                 _ => Err(LineError::Anchor(number)),
             }
@@ -90,7 +90,7 @@ fn read_les(line: &str) -> Result<Vec<Reading>, LineError> {
         .collect()
 }
 
-fn reading(number: usize, (address, range): (&str, &str)) -> Result<Reading, LineError> {
+fn reading(number: usize, address: &str, range: &str) -> Result<Reading, LineError> {
     let broken = LineError::Anchor(number);
     if !is_address(address) || !is_number(range) {
         return Err(broken);

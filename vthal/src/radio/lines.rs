@@ -75,7 +75,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_without_end_takes_no_more_memory_and_is_told_once() {
+    fn a_line_without_end_takes_no_more_memory_and_is_reported_once() {
         let flood = vec![b'x'; 4 * LINE_MAX];
         assert_eq!(
             split(&[b"\n", &flood, &flood, b"\nok\n"]),

@@ -119,6 +119,8 @@ mod tests {
     use std::fs;
     use std::time::{Duration, UNIX_EPOCH};
 
+    use vthal_bench::Scratch;
+
     use super::{Library, LibraryLimits, date, date_and_time};
 
     #[test]
@@ -134,7 +136,8 @@ mod tests {
 
     #[test]
     fn the_oldest_go_first_and_strangers_stay() {
-        let folder = std::env::temp_dir().join(format!("vthal-library-{}", std::process::id()));
+        let scratch = Scratch::new().expect("creates");
+        let folder = scratch.join("recordings");
         let library = Library::open(
             &folder,
             LibraryLimits {
@@ -163,6 +166,5 @@ mod tests {
             ["notes.txt", "run-3.mcap", "run-4.mcap"],
             "25 bytes hold two files"
         );
-        fs::remove_dir_all(folder).expect("cleans up");
     }
 }

@@ -105,12 +105,13 @@ impl RunFile {
             bytes: 0,
             last_answer: Vec::new(),
         };
-        run.write_json((RUN, start.time_us), &RunHeader::new(start))?;
+        run.write_json(RUN, start.time_us, &RunHeader::new(start))?;
         run.write_json(
-            (ROBOT, start.time_us),
+            ROBOT,
+            start.time_us,
             &foxglove::robot(start.time_us, start.brain.body.radius_m),
         )?;
-        run.attach(("robot.json", start.time_us), &start.robot)?;
+        run.attach("robot.json", start.time_us, &start.robot)?;
         run.flush()?;
         Ok(run)
     }
@@ -139,17 +140,17 @@ impl RunFile {
                     time_us: *time_us,
                     command: GivenCommand::from(command),
                 };
-                self.write_json((COMMANDS, *time_us), &given)
+                self.write_json(COMMANDS, *time_us, &given)
             }
             Record::Observation(observation) => {
-                self.write_json((OBSERVATIONS, observation.time_us), &Seen::from(observation))
+                self.write_json(OBSERVATIONS, observation.time_us, &Seen::from(observation))
             }
             Record::Actions { time_us, actions } => {
                 let answer = serde_json::to_vec(&Answered::from(actions))?;
                 if answer == self.last_answer {
                     return Ok(());
                 }
-                self.write_bytes((DECISIONS, *time_us), &answer)?;
+                self.write_bytes(DECISIONS, *time_us, &answer)?;
                 self.last_answer = answer;
                 Ok(())
             }
@@ -157,16 +158,16 @@ impl RunFile {
                 time_us,
                 direction,
                 text,
-            } => self.write_json((PACKETS, *time_us), &SentPacket::new(*direction, text)),
-            Record::Status { time_us, status } => self.write_json((STATUS, *time_us), status),
+            } => self.write_json(PACKETS, *time_us, &SentPacket::new(*direction, text)),
+            Record::Status { time_us, status } => self.write_json(STATUS, *time_us, status),
             Record::Pose(pose) => {
                 let time_us = foxglove::time_us(pose.t);
-                self.write_json((POSE, time_us), &foxglove::pose_in_frame(*pose))?;
-                self.write_json((TRANSFORM, time_us), &foxglove::frame_transform(*pose))
+                self.write_json(POSE, time_us, &foxglove::pose_in_frame(*pose))?;
+                self.write_json(TRANSFORM, time_us, &foxglove::frame_transform(*pose))
             }
-            Record::Device { time_us, table } => self.write_json((DEVICE, *time_us), table),
-            Record::RunSummary { time_us, run } => self.attach(("run.json", *time_us), run),
-            Record::Log(entry) => self.write_json((LOG, foxglove::time_us(entry.t)), &foxglove::log(entry)),
+            Record::Device { time_us, table } => self.write_json(DEVICE, *time_us, table),
+            Record::RunSummary { time_us, run } => self.attach("run.json", *time_us, run),
+            Record::Log(entry) => self.write_json(LOG, foxglove::time_us(entry.t), &foxglove::log(entry)),
         }
     }
 
@@ -194,7 +195,7 @@ impl RunFile {
     }
 
     /// Adds what is no message: of the same name the last one counts.
-    fn attach(&mut self, (name, time_us): (&str, u64), value: &impl Serialize) -> Result<(), RecordError> {
+    fn attach(&mut self, name: &str, time_us: u64, value: &impl Serialize) -> Result<(), RecordError> {
         let data = serde_json::to_vec(value)?;
         let time_ns = time_us.saturating_mul(1000);
         let attachment = Attachment {
@@ -212,11 +213,16 @@ impl RunFile {
             })
     }
 
-    fn write_json(&mut self, to: (&'static str, u64), value: &impl Serialize) -> Result<(), RecordError> {
-        self.write_bytes(to, &serde_json::to_vec(value)?)
+    fn write_json(
+        &mut self,
+        topic: &'static str,
+        time_us: u64,
+        value: &impl Serialize,
+    ) -> Result<(), RecordError> {
+        self.write_bytes(topic, time_us, &serde_json::to_vec(value)?)
     }
 
-    fn write_bytes(&mut self, (topic, time_us): (&'static str, u64), data: &[u8]) -> Result<(), RecordError> {
+    fn write_bytes(&mut self, topic: &'static str, time_us: u64, data: &[u8]) -> Result<(), RecordError> {
         let time_ns = time_us.saturating_mul(1000);
         let header = MessageHeader {
             channel_id: self.channels.get(topic).copied().unwrap_or_default(),

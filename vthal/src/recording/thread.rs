@@ -29,7 +29,8 @@ pub struct RecorderHandle {
 /// When the system gives no thread.
 pub fn start(
     library: Library,
-    (settings, opened): (String, impl Fn(u32, String) + Send + 'static),
+    settings: String,
+    opened: impl Fn(u32, String) + Send + 'static,
 ) -> io::Result<RecorderHandle> {
     let (records, queue) = sync_channel(WAITING_MAX);
     let thread = std::thread::Builder::new()

@@ -741,7 +741,7 @@ fn asked_of_runs(client: &mut Client, request: &str) -> Update {
 }
 
 #[test]
-fn a_run_is_kept_with_its_recording_before_it_is_told() {
+fn a_run_is_kept_with_its_recording_before_it_is_reported() {
     let mut desk = Desk::started();
     wait_for_state(&mut desk.robot, &mut desk.client, "cleaning");
     let mut person = Client::watching(&desk.scratch.join("vthal.sock"), r#"["runs"]"#).expect("connects");

@@ -16,6 +16,7 @@ use mcap::{MessageStream, WriteOptions};
 use vthal::checkpoint_file::{self, BootTime};
 use vthal::recording::format::{Given, RunHeader, Seen};
 use vthal::recording::replay::{Replay, replay};
+use vthal_bench::Scratch;
 
 /// Recordings that are kept as lines.
 const LINES: [&str; 2] = ["first-run", "restart"];
@@ -73,15 +74,14 @@ fn write(messages: &[(String, Vec<u8>)], path: &Path) {
 }
 
 fn replayed(name: &str) -> Replay {
-    let path = std::env::temp_dir().join(format!("vthal-kept-{}-{name}.mcap", std::process::id()));
+    let folder = Scratch::new().expect("creates");
+    let path = folder.join("kept.mcap");
     if name == FILE {
         fs::write(&path, unpacked(&format!("{name}.mcap.gz"))).expect("the file can be written");
     } else {
         write(&messages(name), &path);
     }
-    let found = replay(&path).expect("it can be replayed");
-    fs::remove_file(&path).expect("cleans up");
-    found
+    replay(&path).expect("it can be replayed")
 }
 
 #[test]
@@ -185,13 +185,13 @@ fn a_kept_checkpoint_says_what_it_said() {
         boot: "boot".to_owned(),
         uptime_s: 101.0,
     };
-    let path = std::env::temp_dir().join(format!("vthal-kept-checkpoint-{}", std::process::id()));
+    let folder = Scratch::new().expect("creates");
+    let path = folder.join("checkpoint");
     fs::write(&path, unpacked("checkpoint.gz")).expect("the file can be written");
     let found = checkpoint_file::load(&path, &boot).expect("it can be read");
     fs::remove_file(&path).expect("cleans up");
     checkpoint_file::save(&path, &found, boot.clone()).expect("it can be written");
     assert_eq!(checkpoint_file::load(&path, &boot).as_ref(), Some(&found));
-    fs::remove_file(&path).expect("cleans up");
 
     let brain = &found.brain;
     let home = brain.home.as_ref().map(ContentHash::of_stored_map);

@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::Read as _;
-use std::path::PathBuf;
 
 use brain::action::{Arm, Tone};
 use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength, ChargeFlow, MotorCurrents};
@@ -18,6 +17,7 @@ use rvac_api::{
 };
 use serde_json::{Value, json};
 use vthal::recording::{Part, RunFile, Whole, track};
+use vthal_bench::Scratch;
 use vthal_core::{Direction, Record, RunCause, RunStart};
 
 /// Host time of the run's begin.
@@ -222,17 +222,15 @@ fn line(level: LogLevel) -> Record {
 }
 
 /// Writes a run and gives the bytes of its file.
-fn recording(name: &str) -> Vec<u8> {
-    let path: PathBuf = std::env::temp_dir().join(format!("vthal-recording-{}-{name}", std::process::id()));
-    fs::remove_file(&path).ok();
+fn recording() -> Vec<u8> {
+    let folder = Scratch::new().expect("creates");
+    let path = folder.join("recording.mcap");
     let mut run = RunFile::create(&path, &start(), "settings").expect("creates");
     for record in records() {
         run.write(&record).expect("writes");
     }
     run.finish().expect("finishes");
-    let bytes = fs::read(&path).expect("reads");
-    fs::remove_file(&path).expect("cleans up");
-    bytes
+    fs::read(&path).expect("reads")
 }
 
 /// All messages by topic, each with its time in nanoseconds.
@@ -250,7 +248,7 @@ fn messages(bytes: &[u8]) -> BTreeMap<String, Vec<(u64, Value)>> {
 
 #[test]
 fn the_index_names_every_channel_and_all_messages() {
-    let bytes = recording("index");
+    let bytes = recording();
     let summary = Summary::read(&bytes).expect("reads").expect("has a summary");
     let stats = summary.stats.as_ref().expect("has statistics");
     let found = messages(&bytes);
@@ -281,7 +279,7 @@ fn the_index_names_every_channel_and_all_messages() {
 
 #[test]
 fn every_message_keeps_to_its_schema() {
-    let bytes = recording("schemas");
+    let bytes = recording();
     let mut keys_met: BTreeSet<(String, String)> = BTreeSet::new();
     for message in MessageStream::new(&bytes).expect("is MCAP") {
         let message = message.expect("is whole");
@@ -332,7 +330,7 @@ fn fields_have_the_names_that_they_always_had() {
              cliffs wheel_drops proximity currents_a cleaners dust_box docked",
         ),
     ];
-    let schemas = schemas(&recording("names"));
+    let schemas = schemas(&recording());
     for (topic, names) in names {
         for name in names.split_whitespace() {
             let field = &schemas[topic]["properties"][name];
@@ -392,7 +390,7 @@ fn check(schema: &Value, value: &Value) -> Result<(), String> {
 
 #[test]
 fn the_robot_stands_where_the_pose_says() {
-    let found = messages(&recording("pose"));
+    let found = messages(&recording());
     let timestamp = json!({"sec": 259, "nsec": 975_123_000});
     let place = json!({"x": 1.25, "y": -0.333333, "z": 0.0});
     let turn = json!({"x": 0.0, "y": 0.0, "z": 0.479426, "w": 0.877583});
@@ -418,7 +416,7 @@ fn the_robot_stands_where_the_pose_says() {
 
 #[test]
 fn one_file_says_which_robot_it_was_and_what_came_of_the_run() {
-    let bytes = recording("attachments");
+    let bytes = recording();
     let summary = Summary::read(&bytes).expect("reads").expect("has a summary");
     let attached = |name: &str| {
         let mut indexes = summary.attachment_indexes.iter();
@@ -435,7 +433,7 @@ fn one_file_says_which_robot_it_was_and_what_came_of_the_run() {
 
 #[test]
 fn a_track_has_places_and_readings_in_the_times_of_the_run_also_of_a_file_that_was_cut() {
-    let bytes = recording("track");
+    let bytes = recording();
     let whole = track([part(8.0, &bytes)]).expect("reads");
     assert!(!whole.truncated);
     let [TrackPose(t, x, y, heading)] = whole.poses[..] else {
@@ -463,7 +461,7 @@ const ZERO_S: [f64; 2] = [8.0, -252.0];
 
 #[test]
 fn one_track_tells_of_two_recordings_what_the_run_knows() {
-    let (first, second) = (recording("track-1"), recording("track-2"));
+    let (first, second) = (recording(), recording());
     let both = track([part(ZERO_S[0], &first), part(ZERO_S[1], &second)]).expect("reads");
     assert_eq!(both.begins_s, [0.008, 260.008]);
     let times: Vec<f32> = both.poses.iter().map(|pose| pose.0).collect();
@@ -488,7 +486,7 @@ fn whole(first: &[u8], second: &[u8]) -> Vec<u8> {
 
 #[test]
 fn two_recordings_become_one_file_with_one_time_line() {
-    let (first, second) = (recording("whole-1"), recording("whole-2"));
+    let (first, second) = (recording(), recording());
     let bytes = whole(&first, &second);
     assert_eq!(bytes, whole(&first, &second), "the same bytes again");
     let (found, parts) = (messages(&bytes), messages(&first));
@@ -520,7 +518,7 @@ fn two_recordings_become_one_file_with_one_time_line() {
 
 #[test]
 fn the_index_of_one_file_knows_both_parts() {
-    let bytes = whole(&recording("index-1"), &recording("index-2"));
+    let bytes = whole(&recording(), &recording());
     let summary = Summary::read(&bytes).expect("reads").expect("has a summary");
     let count = summary.stats.as_ref().expect("has statistics").message_count;
     let all: usize = messages(&bytes).values().map(Vec::len).sum();
@@ -539,7 +537,7 @@ fn the_index_of_one_file_knows_both_parts() {
 
 #[test]
 fn a_part_that_was_cut_keeps_what_it_has_and_the_next_one_comes_after_it() {
-    let (first, second) = (recording("cut-1"), recording("cut-2"));
+    let (first, second) = (recording(), recording());
     let cut = &first[..first.len() - 100];
     let mut bytes = Vec::new();
     // The second daemon went on from the begin.

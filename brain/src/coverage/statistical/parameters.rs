@@ -68,12 +68,14 @@ pub(super) struct CoverageLaw {
     /// Steps of the bisection: they leave less than a square centimetre.
     pub(super) bisections: u32,
     /// The low bound assumes a floor this many times as large. In four simulated homes the real floor was up to 2.5
-    /// times the estimate after 20 minutes, 1.4 times after 45, 1.1 times after 120.
+    /// times the estimate after 20 minutes, 1.4 times after 45, 1.1 times after 120; the table of these runs is not kept.
+    /// `docs/book/src/measurements/relax.md` shows how often the low bound is above the truth.
     pub(super) larger: f64,
     /// The low bound grows further by this factor of `estimate_after_s` over the time swept.
     pub(super) larger_early: f64,
     /// Share that is still unswept after the floor's area was swept `n` times: `exp(-pace n^slowing)`. That is slower
-    /// than for independent points, since robots rarely leave a room and furniture hides floor. From simulated homes.
+    /// than for independent points, since robots rarely leave a room and furniture hides floor. Chosen
+    /// by hand in simulated homes; the fit is not kept.
     pub(super) pace: f64,
     /// As `pace`.
     pub(super) slowing: f64,

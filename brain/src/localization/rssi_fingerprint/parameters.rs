@@ -1,5 +1,6 @@
-//! Parameters of localization by RSSI fingerprints. The figures come from experiments in simulated homes, unless a comment names
-//! another source.
+//! Parameters of localization by RSSI fingerprints. They are chosen by hand for the simulator's own model of radio
+//! (`sim/home/src/linux_board/strength.rs`, with its sources). `docs/book/src/measurements/relocalization.md` shows what they achieve
+//! together; no record compares values of a single one.
 
 /// How means of receiver powers become a map.
 pub(super) struct FingerprintParameters {

@@ -1,4 +1,5 @@
-//! Parameters of carpet detection. The figures come from experiments in simulated homes, unless a comment names another source.
+//! Parameters of carpet detection. They are tuned to the simulator's own model of a pile: no current of a real robot on carpet is at
+//! hand. `docs/book/src/measurements/carpet.md` shows what they find together; no record compares values of a single one.
 
 /// When the floor counts as carpet. Excess is the load above that of hard floor, relative.
 pub(super) struct CarpetParameters {

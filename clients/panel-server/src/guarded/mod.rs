@@ -14,7 +14,8 @@ use pairing::wire::{
     AskMatched, Begin, Begun, Finish, Finished, Forgotten, Join, Joined, OpenWindow, Opened,
 };
 use pairing::{
-    Door, Moment, Presence, Refusal, Register, RobotId, Role, StoredError, Token, TokenId, Wanted,
+    AskingDevice, Door, Moment, Presence, Refusal, Register, RobotId, Role, StoredError, Token, TokenId,
+    Wanted,
 };
 use tokio::sync::{Notify, broadcast, watch};
 use tracing::{info, warn};
@@ -186,7 +187,16 @@ impl Guarded {
     pub(crate) async fn join(&self, join: Join, from: &str) -> Result<Joined, NotDone> {
         let random = random()?;
         let joined = self
-            .change(|door, now_us| door.join(now_us, (join, from), random))
+            .change(|door, now_us| {
+                door.join(
+                    now_us,
+                    AskingDevice {
+                        name: join.name,
+                        from,
+                    },
+                    random,
+                )
+            })
             .await?;
         info!(from, "a device waits for its presses");
         self.presses_wanted.notify_one();

@@ -100,35 +100,19 @@ fn moment(unix_s: u64) -> OffsetDateTime {
 #[cfg(test)]
 mod tests {
     use super::{DAY_S, LIFE_S, Leaf, Subjects, reckoned_now_s};
+    use crate::folder::Folder;
     use crate::identity::{Authority, IdentityError};
     use rustls::RootCertStore;
     use rustls::client::WebPkiServerVerifier;
     use rustls::client::danger::ServerCertVerifier as _;
     use rustls::pki_types::{ServerName, UnixTime};
-    use std::path::PathBuf;
     use std::sync::Arc;
     use std::time::Duration;
 
     const NOW_S: u64 = 1_800_000_000;
 
-    struct Folder(PathBuf);
-
-    impl Folder {
-        fn new(name: &str) -> Self {
-            let path = std::env::temp_dir().join(format!("identity-{name}-{}", std::process::id()));
-            std::fs::create_dir_all(&path).unwrap();
-            Self(path)
-        }
-
-        fn authority(&self) -> Authority {
-            Authority::at(&self.0.join("identity.json"), &[]).unwrap()
-        }
-    }
-
-    impl Drop for Folder {
-        fn drop(&mut self) {
-            std::fs::remove_dir_all(&self.0).ok();
-        }
+    fn authority_in(folder: &Folder) -> Authority {
+        Authority::at(&folder.join("identity.json"), &[]).unwrap()
     }
 
     fn subjects(authority: &Authority, more: &str, address: &str) -> Subjects {
@@ -156,8 +140,8 @@ mod tests {
 
     #[test]
     fn the_authority_vouches_for_this_robot_at_home_and_for_nothing_else() {
-        let folder = Folder::new("constraints");
-        let authority = folder.authority();
+        let folder = Folder::new();
+        let authority = authority_in(&folder);
         let own = authority.robot().host_name();
         let good = Leaf::issue(&authority, subjects(&authority, "", "192.168.1.7"), NOW_S).unwrap();
         assert!(is_taken(&authority, &good, &own, NOW_S));
@@ -175,14 +159,14 @@ mod tests {
 
     #[test]
     fn it_stays_the_same_after_a_restart_and_takes_no_name_later() {
-        let folder = Folder::new("restart");
-        let first = folder.authority();
+        let folder = Folder::new();
+        let first = authority_in(&folder);
         let leaf = Leaf::issue(&first, subjects(&first, "", "10.0.0.2"), NOW_S).unwrap();
-        let again = folder.authority();
+        let again = authority_in(&folder);
         assert_eq!(first.robot(), again.robot());
         assert_eq!(first.fingerprint(), again.fingerprint());
         assert!(is_taken(&again, &leaf, &first.robot().host_name(), NOW_S));
-        let path = folder.0.join("identity.json");
+        let path = folder.join("identity.json");
         let later = Authority::at(&path, &["robot.example".to_owned()]).unwrap_err();
         assert!(matches!(later, IdentityError::NameNotPermitted { .. }), "{later}");
         std::fs::write(&path, "{").unwrap();
@@ -192,8 +176,8 @@ mod tests {
 
     #[test]
     fn it_lives_at_most_398_days_and_is_renewed_at_half_of_that() {
-        let folder = Folder::new("renewal");
-        let authority = folder.authority();
+        let folder = Folder::new();
+        let authority = authority_in(&folder);
         let wanted = subjects(&authority, "", "10.0.0.2");
         let leaf = Leaf::issue(&authority, wanted.clone(), NOW_S).unwrap();
         let own = authority.robot().host_name();
@@ -210,8 +194,8 @@ mod tests {
 
     #[test]
     fn a_board_without_a_clock_serves_too() {
-        let folder = Folder::new("clock");
-        let authority = folder.authority();
+        let folder = Folder::new();
+        let authority = authority_in(&folder);
         for clock_s in [0, u64::MAX] {
             let now_s = reckoned_now_s(clock_s);
             let leaf = Leaf::issue(&authority, subjects(&authority, "", "10.0.0.2"), now_s).unwrap();

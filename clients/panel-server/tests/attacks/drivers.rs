@@ -1,6 +1,6 @@
 //! A16, A17: a second driver, and a driver who is lost, with the daemon and a robot in the simulator.
 
-use std::path::PathBuf;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use futures_util::{SinkExt as _, StreamExt as _};
@@ -11,6 +11,7 @@ use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::Message;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest as _;
 
+use crate::folder::Folder;
 use crate::held;
 use crate::report::Report;
 use crate::rig::DEADLINE;
@@ -29,8 +30,7 @@ const STANDS_MS: u128 = 400;
 const TRIALS: usize = 3;
 
 pub(crate) async fn try_all(report: &mut Report) {
-    let page = std::env::temp_dir().join(format!("panel-drivers-{}", std::process::id()));
-    std::fs::create_dir_all(&page).unwrap();
+    let page = Folder::new();
     std::fs::write(page.join("index.html"), "<!doctype html><title>x</title>").unwrap();
     let mut scene = Scene::new(page).await;
     scene.theft(report).await;
@@ -42,18 +42,12 @@ pub(crate) async fn try_all(report: &mut Report) {
 pub(crate) struct Scene {
     pub(crate) stack: Stack,
     pub(crate) witness: Observer,
-    pub(crate) page: PathBuf,
-}
-
-impl Drop for Scene {
-    fn drop(&mut self) {
-        std::fs::remove_dir_all(&self.page).ok(); // A leftover in the temporary folder does no harm.
-    }
+    pub(crate) page: Folder,
 }
 
 impl Scene {
     /// A robot in the middle of a room.
-    async fn new(page: PathBuf) -> Self {
+    async fn new(page: Folder) -> Self {
         let stack = Stack::start_with_page(&page);
         stack.hand(r#"{"c":"place","x":-3.4,"y":0,"heading":3.14}"#);
         let witness = Observer::watch_closely(&stack.simulator_socket());

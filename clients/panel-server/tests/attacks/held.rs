@@ -189,7 +189,6 @@ async fn restarted_server(scene: &mut Scene) -> String {
     let mut stick = Stick::at(scene, Door::Panel).await;
     stick.begin(scene).await;
     scene.stack.stop_server();
-    let page = scene.page.clone();
-    scene.stack.serve_again(&page);
+    scene.stack.serve_again(&scene.page);
     Stick::at(scene, Door::Panel).await.hold_on(scene).await
 }

@@ -6,6 +6,8 @@ mod absent;
 mod connections;
 mod drivers;
 mod entrance;
+#[path = "../folder/mod.rs"]
+mod folder;
 mod held;
 mod identity;
 mod pages;

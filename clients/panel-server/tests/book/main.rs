@@ -5,6 +5,8 @@
 //! `state`, are a promise. A block `sh` without such an answer defines what later ones use.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
+#[path = "../folder/mod.rs"]
+mod folder;
 mod page;
 #[path = "../stack/mod.rs"]
 mod stack;
@@ -14,6 +16,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
+use folder::Folder;
 use page::Example;
 use serde_json::Value;
 use stack::Stack;
@@ -26,7 +29,7 @@ const READY_WITHIN: Duration = Duration::from_secs(20);
 
 struct Shell {
     stack: Stack,
-    page: PathBuf,
+    page: Folder,
     /// Address of the server for paired devices.
     robot: String,
     /// Certificate that the robot's owner has written down.
@@ -36,10 +39,8 @@ struct Shell {
 }
 
 impl Shell {
-    /// For the examples of the page of this name.
-    fn open(name: &str) -> Self {
-        let page = std::env::temp_dir().join(format!("rvac-book-{name}-{}", std::process::id()));
-        fs::create_dir_all(&page).unwrap();
+    fn open() -> Self {
+        let page = Folder::new();
         fs::write(page.join("index.html"), "<!doctype html><title>Panel</title>").unwrap();
         let mut stack = Stack::start_with_page(&page);
         let address = stack.serve_guarded_besides(&page);
@@ -72,7 +73,7 @@ impl Shell {
             .env("RVAC_SIMULATOR", self.stack.simulator_socket())
             .env("PANEL", self.stack.address.trim_end_matches('/'))
             .env("ROBOT", &self.robot)
-            .env("CURL_HOME", &self.page)
+            .env("CURL_HOME", &*self.page)
             .env("CERTIFICATE", &self.certificate)
             .env("TOKEN", &self.token)
             .output()
@@ -92,12 +93,6 @@ impl Shell {
             }
             assert!(Instant::now() < deadline, "{} prints\n{printed}", example.script);
         }
-    }
-}
-
-impl Drop for Shell {
-    fn drop(&mut self) {
-        fs::remove_dir_all(&self.page).ok(); // A leftover in the temporary folder does no harm.
     }
 }
 
@@ -136,7 +131,7 @@ fn same_kind(one: &Value, other: &Value) -> bool {
 fn try_page(name: &str, text: &str) {
     let examples = page::examples(text);
     assert!(examples.len() > 3, "{name} has examples");
-    let shell = Shell::open(name);
+    let shell = Shell::open();
     // The first example asks who is there; the robot may need a moment to greet.
     shell.wait_until_ready(&examples[0]);
     for example in &examples {

@@ -2,6 +2,7 @@
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -12,6 +13,7 @@ use hyper_util::client::legacy::connect::HttpConnector;
 use serde_json::{Value, json};
 use tokio::time::sleep;
 
+use crate::folder::Folder;
 use crate::frozen::Frozen;
 use crate::processes;
 use crate::stack::Stack;
@@ -49,6 +51,8 @@ pub(crate) enum Screen {
 pub(crate) struct Browser {
     client: Client,
     driver: Child,
+    /// Where the driver and the browser keep their temporary files; the browser leaves some when it is killed.
+    _folder: Folder,
     /// Host and port of the driver.
     driver_at: String,
     session: String,
@@ -65,7 +69,8 @@ impl Drop for Browser {
 
 impl Browser {
     pub(crate) async fn open(stack: &Stack, screen: Screen) -> Self {
-        let (driver, driver_at) = start_driver();
+        let folder = Folder::new();
+        let (driver, driver_at) = start_driver(&folder);
         let capabilities = capabilities(screen).as_object().cloned().unwrap();
         let client = ClientBuilder::new(HttpConnector::new())
             .capabilities(capabilities)
@@ -76,6 +81,7 @@ impl Browser {
         let browser = Self {
             client,
             driver,
+            _folder: folder,
             driver_at,
             session,
         };
@@ -380,11 +386,12 @@ impl Browser {
     }
 }
 
-/// Starts the driver on a port that it chooses itself; gives its address.
-fn start_driver() -> (Child, String) {
+/// Starts the driver on a port that it chooses itself, with its temporary files in this folder; gives its address.
+fn start_driver(temporary: &Path) -> (Child, String) {
     let mut command = Command::new("chromedriver");
     command
         .arg("--port=0")
+        .env("TMPDIR", temporary)
         .stdout(Stdio::piped())
         .stderr(Stdio::null());
     let mut child = command.spawn().expect("chromedriver is installed");

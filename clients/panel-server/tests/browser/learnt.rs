@@ -36,7 +36,7 @@ async fn look(browser: &Browser, name: &str) {
 }
 
 #[tokio::test]
-async fn what_was_learnt_is_told_and_forgotten_only_after_a_second_word() {
+async fn what_was_learnt_is_shown_and_forgotten_only_after_a_second_word() {
     for (screen, name) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {
         let Some(visit) = Visit::with(start, screen).await else {
             return;

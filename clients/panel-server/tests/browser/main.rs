@@ -13,6 +13,8 @@ mod carpets;
 mod costs;
 mod edits;
 mod floors;
+#[path = "../folder/mod.rs"]
+mod folder;
 mod foreign;
 mod frozen;
 mod gestures;
@@ -356,7 +358,7 @@ async fn one_room_is_chosen_in_the_list_and_cleaned() {
 }
 
 #[tokio::test]
-async fn a_daemon_that_dies_is_told_and_found_again() {
+async fn a_daemon_that_dies_is_shown_and_found_again() {
     let Some(mut visit) = Visit::begin(Screen::Desktop).await else {
         return;
     };

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::browser::Screen;
+use crate::folder::Folder;
 use crate::{Visit, accessibility};
 
 /// The service worker of this version rules the page.
@@ -21,9 +22,8 @@ const LATER: &str =
     "return caches.keys().then(names => names.length === 1 && names[0].startsWith('shell-later-'))";
 
 /// Files of a later version: the page says so, and so the service worker is another one.
-fn later_version(of: &Path) -> PathBuf {
-    let folder = std::env::temp_dir().join(format!("rvac-later-panel-{}", std::process::id()));
-    fs::create_dir_all(&folder).unwrap();
+fn later_version(of: &Path) -> Folder {
+    let folder = Folder::new();
     for entry in fs::read_dir(of).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_none_or(|ending| ending != "gz") {
@@ -68,5 +68,4 @@ async fn the_page_opens_without_the_robot_and_a_new_version_takes_over() {
         .await;
     visit.browser.until_state(&["idle", "docked"]).await;
     visit.browser.until(LATER).await;
-    fs::remove_dir_all(&later).ok(); // A leftover in the temporary folder does no harm.
 }

@@ -29,7 +29,7 @@ fn wound() -> String {
 }
 
 #[tokio::test]
-async fn a_brush_that_runs_hard_is_told_until_somebody_has_cleaned_it() {
+async fn a_brush_that_runs_hard_is_shown_until_somebody_has_cleaned_it() {
     let start = || Stack::start_with_state("health.json", &wound());
     for (screen, name) in [(Screen::Desktop, "desktop"), (Screen::Phone, "phone")] {
         let Some(visit) = Visit::with(start, screen).await else {

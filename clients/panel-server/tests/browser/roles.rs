@@ -25,7 +25,7 @@ async fn refused(browser: &Browser, sheet: &str) -> String {
 }
 
 #[tokio::test]
-async fn a_device_that_may_only_look_is_told_so_before_it_presses_anything() {
+async fn a_device_that_may_only_look_is_informed_before_it_presses_anything() {
     let Some(visit) = Visit::at_the_door(Stack::start_guarded, Screen::Phone, Company::Others).await else {
         return;
     };

@@ -1,6 +1,8 @@
 //! A robot on a network: only paired devices get in, each as far as its role goes.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
+#[path = "../folder/mod.rs"]
+mod folder;
 mod openapi;
 mod rig;
 mod schema;

@@ -1,9 +1,7 @@
 //! A guarded server on a free port, spoken to over TLS by clients that trust its authority and by some that do not.
 
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
 
 use futures_util::{SinkExt as _, StreamExt as _};
@@ -24,12 +22,11 @@ use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::Message;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest as _;
 
+use crate::folder::Folder;
 pub(crate) use daemon::{DEADLINE, Daemon};
 
 #[path = "../daemon/mod.rs"]
 mod daemon;
-
-static FOLDERS: AtomicU32 = AtomicU32::new(0);
 
 /// What a request was answered.
 #[derive(Clone, Debug)]
@@ -67,7 +64,7 @@ impl Answer {
 /// A server with its folder; `vthal` is where the daemon would be.
 #[derive(Debug)]
 pub(crate) struct Rig {
-    pub(crate) folder: PathBuf,
+    pub(crate) folder: Folder,
     pub(crate) address: SocketAddr,
     pub(crate) page: SocketAddr,
     pub(crate) vthal: UnixListener,
@@ -81,7 +78,6 @@ pub(crate) struct Rig {
 impl Drop for Rig {
     fn drop(&mut self) {
         self.server.abort();
-        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder does no harm.
     }
 }
 
@@ -92,9 +88,7 @@ impl Rig {
 
     /// On a board with this clock.
     pub(crate) async fn start_at(clock: fn() -> u64) -> Self {
-        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
-        let folder = std::env::temp_dir().join(format!("panel-gate-{}-{number}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = Folder::new();
         std::fs::write(folder.join("index.html"), "<!doctype html><title>x</title>").unwrap();
         let vthal = UnixListener::bind(folder.join("vthal.sock")).unwrap();
         let (server, address, page) = serve(&folder, clock).await;

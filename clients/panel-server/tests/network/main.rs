@@ -1,6 +1,8 @@
 //! `rvac` on another computer: paired by a code, it does over TLS what it does over the daemon's socket, and speaks to no other robot.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
+#[path = "../folder/mod.rs"]
+mod folder;
 #[path = "../stack/mod.rs"]
 mod stack;
 
@@ -10,6 +12,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
+use folder::Folder;
 use stack::{Stack, binary};
 
 /// A computer with its own settings.
@@ -34,7 +37,7 @@ impl Computer {
     }
 
     fn says(&self, words: &[&str]) -> String {
-        told(&self.rvac(words, ""))
+        printed(&self.rvac(words, ""))
     }
 
     fn until(&self, word: &str) {
@@ -48,7 +51,7 @@ impl Computer {
     }
 }
 
-fn told(output: &Output) -> String {
+fn printed(output: &Output) -> String {
     let [out, errors] =
         [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text).into_owned());
     format!("{out}{errors}")
@@ -56,7 +59,7 @@ fn told(output: &Output) -> String {
 
 fn here(stack: &Stack, words: &[&str]) -> String {
     let mut command = Command::new(binary("rvac"));
-    told(
+    printed(
         &command
             .args(words)
             .arg("--socket")
@@ -89,24 +92,23 @@ fn types_packets(desk: &Computer, stack: &Stack) {
     let words = ["term", "--linger", "3000", "--skip", "state"];
     let refused = desk.rvac(&words, "{\"c\":\"info\"}\n");
     assert!(
-        !refused.status.success() && told(&refused).contains("(not-present)"),
+        !refused.status.success() && printed(&refused).contains("(not-present)"),
         "{}",
-        told(&refused)
+        printed(&refused)
     );
     let listed = stack.console(&["clients"]);
     stack.console(&["clients", "vouch", listed.split_whitespace().next().unwrap()]);
     let typed = desk.rvac(&words, "{\"c\":\"info\"}\n");
     assert!(
-        typed.status.success() && told(&typed).contains("> {\"c\":\"info\""),
+        typed.status.success() && printed(&typed).contains("> {\"c\":\"info\""),
         "{}",
-        told(&typed)
+        printed(&typed)
     );
 }
 
 #[test]
 fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot() {
-    let page = std::env::temp_dir().join(format!("rvac-network-{}", std::process::id()));
-    std::fs::create_dir_all(&page).unwrap();
+    let page = Folder::new();
     std::fs::write(page.join("index.html"), "<!doctype html><title>Panel</title>").unwrap();
     let mut stack = Stack::start_on_network(&page);
     let (code, address) = open(&stack);
@@ -125,12 +127,12 @@ fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot()
     } else {
         "00000000\n"
     };
-    let refused = told(&desk.rvac(&["pair", "--name", "desk"], wrong));
+    let refused = printed(&desk.rvac(&["pair", "--name", "desk"], wrong));
     assert!(
         refused.contains("The code is wrong; 4 more attempts."),
         "{refused}"
     );
-    let paired = told(&desk.rvac(&["pair", "--name", "desk"], &format!("{code}\n")));
+    let paired = printed(&desk.rvac(&["pair", "--name", "desk"], &format!("{code}\n")));
     assert!(paired.contains("with the role admin"), "{paired}");
     let mode = std::fs::metadata(kept(&desk.settings))
         .unwrap()
@@ -168,5 +170,4 @@ fn rvac_does_over_tls_what_it_does_over_the_socket_and_only_with_its_own_robot()
         refused.contains("does not know this computer any more"),
         "{refused}"
     );
-    std::fs::remove_dir_all(&page).ok(); // A leftover in the temporary folder does no harm.
 }

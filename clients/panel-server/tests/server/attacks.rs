@@ -108,7 +108,7 @@ async fn every_answer_carries_the_security_headers() {
 async fn paths_lead_nowhere_else() {
     let rig = Rig::start().await;
     std::fs::write(
-        rig.folder.0.parent().unwrap().join("panel-server-secret.html"),
+        rig.folder.parent().unwrap().join("panel-server-secret.html"),
         "secret",
     )
     .unwrap();
@@ -135,7 +135,7 @@ async fn paths_lead_nowhere_else() {
             "{path}: {answer}"
         );
     }
-    std::fs::remove_file(rig.folder.0.parent().unwrap().join("panel-server-secret.html")).unwrap();
+    std::fs::remove_file(rig.folder.parent().unwrap().join("panel-server-secret.html")).unwrap();
 }
 
 #[tokio::test]

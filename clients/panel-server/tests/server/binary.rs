@@ -6,18 +6,14 @@ use std::process::{Command, Stdio};
 
 use rustix::process::{Pid, Signal, kill_process};
 
-fn folder() -> std::path::PathBuf {
-    let folder = std::env::temp_dir().join(format!("panel-server-binary-{}", std::process::id()));
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("index.html"), "<!doctype html>").unwrap();
-    folder
-}
+use crate::folder::Folder;
+use crate::rig::assets;
 
-fn command(port: &str) -> Command {
+fn command(port: &str, assets: &Folder) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_panel-server"));
     command
         .args(["--vthal", "/nonexistent.sock", "--port", port, "--assets"])
-        .arg(folder());
+        .arg(&**assets);
     command
 }
 
@@ -25,7 +21,7 @@ fn command(port: &str) -> Command {
 fn a_port_in_use_is_one_sentence_and_code_2() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
-    let output = command(&port).output().unwrap();
+    let output = command(&port, &assets()).output().unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{text}");
     assert_eq!(text.lines().count(), 1, "{text}");
@@ -35,7 +31,10 @@ fn a_port_in_use_is_one_sentence_and_code_2() {
 
 #[test]
 fn the_network_is_refused_with_code_2() {
-    let output = command("0").args(["--bind", "0.0.0.0"]).output().unwrap();
+    let output = command("0", &assets())
+        .args(["--bind", "0.0.0.0"])
+        .output()
+        .unwrap();
     let text = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{text}");
     assert!(
@@ -45,8 +44,9 @@ fn the_network_is_refused_with_code_2() {
 }
 
 #[test]
-fn ready_is_said_when_it_listens_and_it_ends_when_told() {
-    let mut child = command("0")
+fn ready_is_printed_when_it_listens_and_it_ends_by_signal() {
+    let assets = assets();
+    let mut child = command("0", &assets)
         .stdout(Stdio::piped())
         .stderr(Stdio::null())
         .spawn()

@@ -70,7 +70,7 @@ async fn what_is_made_while_it_is_read_ends_with_an_empty_piece() {
 }
 
 #[tokio::test]
-async fn a_recording_that_is_not_there_is_told_in_words() {
+async fn a_recording_that_is_not_there_is_shown_in_words() {
     let rig = Rig::start().await;
     let serve = async {
         let mut vthal = rig.accept().await;

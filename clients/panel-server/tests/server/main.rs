@@ -4,5 +4,7 @@
 mod attacks;
 mod binary;
 mod download;
+#[path = "../folder/mod.rs"]
+mod folder;
 mod relay;
 mod rig;

@@ -1,6 +1,7 @@
 //! What passes between browsers and vthal, over real sockets.
 
-use crate::rig::{Daemon, Folder, Rig, settings};
+use crate::folder::Folder;
+use crate::rig::{Daemon, Rig, assets, settings};
 use panel_server::{Guard, Server, StartError};
 use tokio::net::UnixListener;
 
@@ -41,7 +42,7 @@ async fn a_driver_who_vanishes_is_released_at_once() {
 }
 
 #[tokio::test]
-async fn a_lost_daemon_is_told_and_found_again() {
+async fn a_lost_daemon_is_shown_and_found_again() {
     let rig = Rig::start().await;
     let mut browser = rig.browser().await;
     let mut vthal = rig.accept().await;
@@ -73,11 +74,11 @@ async fn a_lost_daemon_is_told_and_found_again() {
 
 #[tokio::test]
 async fn the_simulator_is_heard_but_never_spoken_to() {
-    let folder = Folder::with_assets();
-    let vthal = UnixListener::bind(folder.0.join("vthal.sock")).unwrap();
-    let simulator = UnixListener::bind(folder.0.join("simulator.sock")).unwrap();
-    let mut wanted = settings(&folder.0);
-    wanted.simulator = Some(folder.0.join("simulator.sock"));
+    let folder = assets();
+    let vthal = UnixListener::bind(folder.join("vthal.sock")).unwrap();
+    let simulator = UnixListener::bind(folder.join("simulator.sock")).unwrap();
+    let mut wanted = settings(&folder);
+    wanted.simulator = Some(folder.join("simulator.sock"));
     let server = Server::bind(wanted).await.unwrap();
     let address = server.address();
     tokio::spawn(server.run());
@@ -123,8 +124,8 @@ async fn a_stalled_browser_is_dropped_and_hurts_nobody() {
 
 #[tokio::test]
 async fn refusals_to_start_name_the_remedy() {
-    let folder = Folder::with_assets();
-    let mut open = settings(&folder.0);
+    let folder = assets();
+    let mut open = settings(&folder);
     open.address.set_ip([0, 0, 0, 0].into());
     let error = Server::bind(open.clone()).await.unwrap_err();
     assert!(
@@ -132,7 +133,7 @@ async fn refusals_to_start_name_the_remedy() {
         "{error}"
     );
     open.guard = Some(Guard {
-        state: folder.0.join("state"),
+        state: folder.join("state"),
         console: None,
         card: None,
         page_port: None,
@@ -141,8 +142,8 @@ async fn refusals_to_start_name_the_remedy() {
     let server = Server::bind(open).await.unwrap();
     assert!(server.url().starts_with("https://"), "{}", server.url());
 
-    let first = Server::bind(settings(&folder.0)).await.unwrap();
-    let mut same = settings(&folder.0);
+    let first = Server::bind(settings(&folder)).await.unwrap();
+    let mut same = settings(&folder);
     same.address = first.address();
     let error = Server::bind(same).await.unwrap_err();
     assert!(
@@ -150,14 +151,14 @@ async fn refusals_to_start_name_the_remedy() {
         "{error}"
     );
 
-    let mut missing = settings(&folder.0);
-    missing.assets = folder.0.join("nothing");
+    let mut missing = settings(&folder);
+    missing.assets = folder.join("nothing");
     let error = Server::bind(missing).await.unwrap_err();
     assert!(
         error.to_string().contains("nothing") && error.to_string().contains("--assets"),
         "{error}"
     );
     let empty = Folder::new();
-    let error = Server::bind(settings(&empty.0)).await.unwrap_err();
+    let error = Server::bind(settings(&empty)).await.unwrap_err();
     assert!(error.to_string().contains("index.html"), "{error}");
 }

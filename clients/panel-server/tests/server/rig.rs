@@ -1,8 +1,7 @@
 //! A real server on a free port in front of a Unix socket that the test answers.
 
 use std::net::{Ipv4Addr, SocketAddr};
-use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::path::Path;
 
 use futures_util::{SinkExt, StreamExt};
 use panel_server::{Server, Settings};
@@ -13,39 +12,19 @@ use tokio_tungstenite::WebSocketStream;
 use tokio_tungstenite::tungstenite::client::IntoClientRequest;
 use tokio_tungstenite::tungstenite::{Error, Message};
 
+use crate::folder::Folder;
 pub(crate) use daemon::{DEADLINE, Daemon};
 
 #[path = "../daemon/mod.rs"]
 mod daemon;
 
-static FOLDERS: AtomicU32 = AtomicU32::new(0);
-
-/// A folder of its own, removed at the end.
-#[derive(Debug)]
-pub(crate) struct Folder(pub(crate) PathBuf);
-
-impl Folder {
-    pub(crate) fn new() -> Self {
-        let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
-        let path = std::env::temp_dir().join(format!("panel-server-{}-{number}", std::process::id()));
-        std::fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    /// With a packed panel of two small files.
-    pub(crate) fn with_assets() -> Self {
-        let folder = Self::new();
-        std::fs::write(folder.0.join("index.html"), "<!doctype html><title>x</title>").unwrap();
-        std::fs::write(folder.0.join("boot-1.js"), "export {}").unwrap();
-        std::fs::write(folder.0.join("boot-1.js.gz"), "packed").unwrap();
-        folder
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        std::fs::remove_dir_all(&self.0).ok();
-    }
+/// A folder with a packed panel of two small files.
+pub(crate) fn assets() -> Folder {
+    let folder = Folder::new();
+    std::fs::write(folder.join("index.html"), "<!doctype html><title>x</title>").unwrap();
+    std::fs::write(folder.join("boot-1.js"), "export {}").unwrap();
+    std::fs::write(folder.join("boot-1.js.gz"), "packed").unwrap();
+    folder
 }
 
 /// Settings for loopback and any free port.
@@ -70,9 +49,9 @@ pub(crate) struct Rig {
 
 impl Rig {
     pub(crate) async fn start() -> Self {
-        let folder = Folder::with_assets();
-        let vthal = UnixListener::bind(folder.0.join("vthal.sock")).unwrap();
-        let server = Server::bind(settings(&folder.0)).await.unwrap();
+        let folder = assets();
+        let vthal = UnixListener::bind(folder.join("vthal.sock")).unwrap();
+        let server = Server::bind(settings(&folder)).await.unwrap();
         let address = server.address();
         tokio::spawn(server.run());
         Self {

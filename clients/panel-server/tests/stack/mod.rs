@@ -9,16 +9,15 @@ use std::io::{BufRead, BufReader};
 use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
-use std::sync::atomic::{AtomicU32, Ordering};
 
 use rvac_api::SEPARATOR;
 
-static STACKS: AtomicU32 = AtomicU32::new(0);
+use crate::folder::Folder;
 
 /// Running processes and their folder; all of it is gone when this is dropped.
 #[derive(Debug)]
 pub(crate) struct Stack {
-    folder: PathBuf,
+    folder: Folder,
     processes: Vec<Process>,
     vthal: Option<Process>,
     /// Description of the simulated home.
@@ -246,9 +245,8 @@ impl Stack {
         stack
     }
 
-    fn new_folder() -> PathBuf {
-        let number = STACKS.fetch_add(1, Ordering::Relaxed);
-        let folder = std::env::temp_dir().join(format!("rvac-browser-{}-{number}", std::process::id()));
+    fn new_folder() -> Folder {
+        let folder = Folder::new();
         std::fs::create_dir_all(folder.join("state")).unwrap();
         folder
     }
@@ -259,7 +257,7 @@ impl Stack {
     }
 
     fn without_server_in(
-        folder: PathBuf,
+        folder: Folder,
         description_of_home: PathBuf,
         (home, firmware): (Home, Option<&Path>),
     ) -> Self {
@@ -399,6 +397,5 @@ impl Drop for Stack {
     fn drop(&mut self) {
         self.vthal = None;
         self.processes.clear();
-        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder does no harm.
     }
 }

@@ -1,6 +1,7 @@
 //! Which part of the map is seen, how large, and from where: from straight above, or from an orbit around the middle.
 
 use crate::orbit::{Orbit, Projection};
+use crate::point::{MapPoint, Pixel};
 
 /// Pixels per metre, smallest and largest: a house of 150 m on a phone, and a cell of 5 cm as large as a thumb.
 const SCALE_MIN: f64 = 2.0;
@@ -77,8 +78,7 @@ pub struct ScreenBox {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     view: View,
-    x: f64,
-    y: f64,
+    middle: MapPoint,
     scale: f64,
     orbit: Option<Orbit>,
 }
@@ -90,8 +90,7 @@ impl Default for Camera {
                 width: 1.0,
                 height: 1.0,
             },
-            x: 0.0,
-            y: 0.0,
+            middle: MapPoint::new(0.0, 0.0),
             scale: 80.0,
             orbit: None,
         }
@@ -113,8 +112,8 @@ impl Camera {
 
     /// The point of the map in the middle of the canvas.
     #[must_use]
-    pub const fn middle(&self) -> (f64, f64) {
-        (self.x, self.y)
+    pub const fn middle(&self) -> MapPoint {
+        self.middle
     }
 
     /// From where the map is seen; none for straight above.
@@ -136,7 +135,7 @@ impl Camera {
     /// How the map gets to the screen at this moment.
     #[must_use]
     pub fn projection(&self) -> Projection {
-        Projection::of(self.view, (self.x, self.y), self.scale, self.orbit)
+        Projection::of(self.view, self.middle, self.scale, self.orbit)
     }
 
     /// Takes a new size of the canvas; the middle stays.
@@ -149,14 +148,14 @@ impl Camera {
 
     /// The point of the floor under a pixel.
     #[must_use]
-    pub fn map_from_screen(&self, px: f64, py: f64) -> (f64, f64) {
-        self.projection().floor_under((px, py))
+    pub fn map_from_screen(&self, pixel: Pixel) -> MapPoint {
+        self.projection().floor_under(pixel)
     }
 
     /// The pixel that shows a point of the floor.
     #[must_use]
-    pub fn screen_from_map(&self, x: f64, y: f64) -> (f64, f64) {
-        self.projection().pixel_of([x, y, 0.0])
+    pub fn screen_from_map(&self, point: MapPoint) -> Pixel {
+        self.projection().pixel_of([point.x, point.y, 0.0])
     }
 
     /// The part of the screen that things cover that are inside `bounds` and `height_m` high.
@@ -170,35 +169,35 @@ impl Camera {
             bottom: f64::NEG_INFINITY,
         };
         corners(bounds, height_m).fold(whole, |covered, corner| {
-            let (px, py) = projection.pixel_of(corner);
+            let pixel = projection.pixel_of(corner);
             ScreenBox {
-                left: covered.left.min(px),
-                top: covered.top.min(py),
-                right: covered.right.max(px),
-                bottom: covered.bottom.max(py),
+                left: covered.left.min(pixel.x),
+                top: covered.top.min(pixel.y),
+                right: covered.right.max(pixel.x),
+                bottom: covered.bottom.max(pixel.y),
             }
         })
     }
 
     /// Zooms by `factor`; the point under the pixel stays there.
-    pub fn zoom_at(&mut self, (px, py): (f64, f64), factor: f64) {
-        let (x, y) = self.map_from_screen(px, py);
+    pub fn zoom_at(&mut self, pixel: Pixel, factor: f64) {
+        let before = self.map_from_screen(pixel);
         self.scale = (self.scale * factor).clamp(SCALE_MIN, SCALE_MAX);
-        let (moved_x, moved_y) = self.map_from_screen(px, py);
-        self.x += x - moved_x;
-        self.y += y - moved_y;
+        let after = self.map_from_screen(pixel);
+        self.middle.x += before.x - after.x;
+        self.middle.y += before.y - after.y;
     }
 
     /// Zooms by `factor` about the middle.
     pub fn zoom(&mut self, factor: f64) {
-        self.zoom_at((self.view.width / 2.0, self.view.height / 2.0), factor);
+        self.zoom_at(Pixel::new(self.view.width / 2.0, self.view.height / 2.0), factor);
     }
 
     /// Moves the map by pixels, as a finger drags it.
     pub fn drag(&mut self, dx: f64, dy: f64) {
         let (x, y) = self.projection().floor_shift(dx, dy);
-        self.x -= x;
-        self.y -= y;
+        self.middle.x -= x;
+        self.middle.y -= y;
     }
 
     /// Pixels that a map that fits may take, and how far its middle is left of that of the view.
@@ -221,8 +220,8 @@ impl Camera {
         let height = (bounds.y_max - bounds.y_min).max(0.5);
         let scale = (free.width / width).min(free.height / height);
         self.scale = scale.clamp(SCALE_MIN, SCALE_MAX);
-        self.x = f64::midpoint(bounds.x_min, bounds.x_max) + aside / self.scale;
-        self.y = f64::midpoint(bounds.y_min, bounds.y_max);
+        self.middle.x = f64::midpoint(bounds.x_min, bounds.x_max) + aside / self.scale;
+        self.middle.y = f64::midpoint(bounds.y_min, bounds.y_max);
         if self.orbit.is_some() {
             // What is near looks larger, so neither size nor middle follow from the bounds at once.
             for _ in 0..FIT_STEPS {
@@ -246,10 +245,10 @@ impl Camera {
     }
 
     /// Moves towards having a point in the middle; calls with `elapsed_s` each get there in about half a second.
-    pub fn follow(&mut self, (x, y): (f64, f64), elapsed_s: f64) {
+    pub fn follow(&mut self, point: MapPoint, elapsed_s: f64) {
         let share = 1.0 - (-elapsed_s * 8.0).exp();
-        self.x += (x - self.x) * share;
-        self.y += (y - self.y) * share;
+        self.middle.x += (point.x - self.middle.x) * share;
+        self.middle.y += (point.y - self.middle.y) * share;
     }
 }
 
@@ -269,7 +268,7 @@ fn corners(bounds: Bounds, height_m: f64) -> impl Iterator<Item = [f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::{Bounds, Camera, SCALE_MAX, View};
-    use crate::Orbit;
+    use crate::{MapPoint, Orbit, Pixel};
 
     fn camera() -> Camera {
         let mut camera = Camera::default();
@@ -281,9 +280,9 @@ mod tests {
     }
 
     #[track_caller]
-    fn near(a: (f64, f64), b: (f64, f64)) {
+    fn near(a: MapPoint, b: MapPoint) {
         assert!(
-            (a.0 - b.0).abs() < 1e-9 && (a.1 - b.1).abs() < 1e-9,
+            (a.x - b.x).abs() < 1e-9 && (a.y - b.y).abs() < 1e-9,
             "{a:?} {b:?}"
         );
     }
@@ -291,18 +290,29 @@ mod tests {
     #[test]
     fn screen_and_map_are_inverse_and_y_is_turned() {
         let camera = camera();
-        near(camera.screen_from_map(0.0, 0.0), (400.0, 300.0));
-        near(camera.screen_from_map(1.0, 1.0), (480.0, 220.0));
-        near(camera.map_from_screen(480.0, 220.0), (1.0, 1.0));
+        for (point, pixel) in [
+            (MapPoint::new(0.0, 0.0), Pixel::new(400.0, 300.0)),
+            (MapPoint::new(1.0, 1.0), Pixel::new(480.0, 220.0)),
+        ] {
+            let seen = camera.screen_from_map(point);
+            assert!(
+                (seen.x - pixel.x).abs() < 1e-9 && (seen.y - pixel.y).abs() < 1e-9,
+                "{seen:?} {pixel:?}"
+            );
+        }
+        near(
+            camera.map_from_screen(Pixel::new(480.0, 220.0)),
+            MapPoint::new(1.0, 1.0),
+        );
     }
 
     #[test]
     fn the_point_under_the_pointer_stays_even_at_the_limit() {
         let mut camera = camera();
-        let before = camera.map_from_screen(100.0, 50.0);
+        let before = camera.map_from_screen(Pixel::new(100.0, 50.0));
         for _ in 0..50 {
-            camera.zoom_at((100.0, 50.0), 1.3);
-            near(camera.map_from_screen(100.0, 50.0), before);
+            camera.zoom_at(Pixel::new(100.0, 50.0), 1.3);
+            near(camera.map_from_screen(Pixel::new(100.0, 50.0)), before);
         }
         assert_eq!(camera.scale(), SCALE_MAX);
     }
@@ -317,8 +327,8 @@ mod tests {
             y_max: 5.0,
         });
         for (x, y) in [(-3.0, 2.0), (9.0, 5.0)] {
-            let (px, py) = camera.screen_from_map(x, y);
-            assert!((0.0..=800.0).contains(&px) && (0.0..=600.0).contains(&py));
+            let pixel = camera.screen_from_map(MapPoint::new(x, y));
+            assert!((0.0..=800.0).contains(&pixel.x) && (0.0..=600.0).contains(&pixel.y));
         }
     }
 
@@ -346,18 +356,18 @@ mod tests {
     #[test]
     fn a_drag_takes_the_map_along() {
         let mut camera = camera();
-        let grabbed = camera.map_from_screen(10.0, 20.0);
+        let grabbed = camera.map_from_screen(Pixel::new(10.0, 20.0));
         camera.drag(30.0, -7.0);
-        near(camera.map_from_screen(40.0, 13.0), grabbed);
+        near(camera.map_from_screen(Pixel::new(40.0, 13.0)), grabbed);
     }
 
     #[test]
     fn following_arrives() {
         let mut camera = camera();
         for _ in 0..60 {
-            camera.follow((5.0, -2.0), 1.0 / 60.0);
+            camera.follow(MapPoint::new(5.0, -2.0), 1.0 / 60.0);
         }
-        let (x, y) = camera.middle();
+        let MapPoint { x, y } = camera.middle();
         assert!((x - 5.0).abs() < 0.01 && (y + 2.0).abs() < 0.01);
     }
 
@@ -381,9 +391,9 @@ mod tests {
                 seen.right - seen.left > 650.0 || seen.bottom - seen.top > 450.0,
                 "{seen:?}"
             );
-            let before = camera.map_from_screen(200.0, 400.0);
-            camera.zoom_at((200.0, 400.0), 1.7);
-            near(camera.map_from_screen(200.0, 400.0), before);
+            let before = camera.map_from_screen(Pixel::new(200.0, 400.0));
+            camera.zoom_at(Pixel::new(200.0, 400.0), 1.7);
+            near(camera.map_from_screen(Pixel::new(200.0, 400.0)), before);
         }
     }
 }

@@ -7,13 +7,13 @@ use rvac_api::HomeView;
 /// How much of the home is carpet, as far as known; nothing without measurements or without a map.
 #[must_use]
 pub fn carpet_sentence(words: &Words, home: &HomeView) -> Option<String> {
-    let told = &words.home;
+    let texts = &words.home;
     match &home.carpet {
         None if home.cells.is_empty() => None,
-        None => Some(told.carpet_unknown.to_owned()),
+        None => Some(texts.carpet_unknown.to_owned()),
         Some(felt) if felt.area_m2 + felt.hard_m2 > 0.0 => {
             let [carpet, hard] = [felt.area_m2, felt.hard_m2].map(|area_m2| area_text(words, area_m2));
-            Some(told.carpet_felt.fill([&carpet, &hard]))
+            Some(texts.carpet_felt.fill([&carpet, &hard]))
         }
         Some(_) => None,
     }
@@ -26,7 +26,7 @@ mod tests {
     use rvac_api::{CarpetView, HomeView};
 
     #[test]
-    fn what_was_felt_is_told_and_that_nothing_can_be_felt() {
+    fn what_was_felt_is_shown_and_that_nothing_can_be_felt() {
         let words = Language::English.words();
         let home = |carpet| HomeView {
             cells: vec![1, 4],

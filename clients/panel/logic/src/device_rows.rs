@@ -44,26 +44,26 @@ fn alarm(label: &str, value: impl Into<String>, alarming: bool) -> Row {
 /// The sections for what is measured. What the robot lacks has no row.
 #[must_use]
 pub fn device_sections(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<Section> {
-    let told = &words.device;
+    let texts = &words.device;
     let mut sections = vec![
         Section {
-            title: told.battery,
+            title: texts.battery,
             rows: battery(words, table),
         },
         Section {
-            title: told.link,
+            title: texts.link,
             rows: link(words, table),
         },
         Section {
-            title: told.motion,
+            title: texts.motion,
             rows: motion(words, table, robot),
         },
         Section {
-            title: told.sensors,
+            title: texts.sensors,
             rows: sensors(words, table),
         },
         Section {
-            title: told.versions,
+            title: texts.versions,
             rows: versions(words, &table.versions, robot),
         },
     ];
@@ -72,52 +72,52 @@ pub fn device_sections(words: &Words, table: &DeviceTable, robot: Option<&RobotD
 }
 
 /// A number with its unit.
-fn with_unit(words: &Words, unit: Template<1>, (value, decimals): (f64, usize)) -> String {
+fn with_unit(words: &Words, unit: Template<1>, value: f64, decimals: usize) -> String {
     unit.fill([&words.number(value, decimals)])
 }
 
 fn battery(words: &Words, table: &DeviceTable) -> Vec<Row> {
-    let told = &words.device;
+    let texts = &words.device;
     let Some(battery) = &table.battery else {
         return Vec::new();
     };
     let state = match battery.state.as_str() {
-        "discharging" => told.discharging,
-        "charging" => told.charging,
-        "full" => told.full,
-        "fault" => told.fault,
+        "discharging" => texts.discharging,
+        "charging" => texts.charging,
+        "full" => texts.full,
+        "fault" => texts.fault,
         other => other,
     };
     let temperature = match battery.temperature_c {
-        Some(celsius) => with_unit(words, told.celsius, (celsius, 1)),
-        None => told.not_measured.to_owned(),
+        Some(celsius) => with_unit(words, texts.celsius, celsius, 1),
+        None => texts.not_measured.to_owned(),
     };
     let mut rows = vec![
         alarm(
-            told.charge,
+            texts.charge,
             percent_text(words, battery.charge),
             battery.charge < 0.15,
         ),
-        alarm(told.state, state, battery.state == "fault"),
-        row(told.voltage, with_unit(words, told.volts, (battery.voltage_v, 2))),
+        alarm(texts.state, state, battery.state == "fault"),
+        row(texts.voltage, with_unit(words, texts.volts, battery.voltage_v, 2)),
         row(
-            told.current,
-            with_unit(words, told.amperes, (battery.current_a, 2)),
+            texts.current,
+            with_unit(words, texts.amperes, battery.current_a, 2),
         ),
-        alarm(told.temperature, temperature, battery.temperature_c.is_none()),
+        alarm(texts.temperature, temperature, battery.temperature_c.is_none()),
     ];
     if let Some(charger) = &battery.charger {
         let code = |code: &str| reading_text(words, code).to_owned();
-        rows.push(row(told.charger, code(&charger.phase)));
-        rows.extend(charger.end.iter().map(|end| row(told.charge_end, code(end))));
+        rows.push(row(texts.charger, code(&charger.phase)));
+        rows.extend(charger.end.iter().map(|end| row(texts.charge_end, code(end))));
         let faults = charger.fault.iter();
-        rows.extend(faults.map(|fault| alarm(told.charger_fault, code(fault), true)));
+        rows.extend(faults.map(|fault| alarm(texts.charger_fault, code(fault), true)));
     }
     rows
 }
 
 fn link(words: &Words, table: &DeviceTable) -> Vec<Row> {
-    let told = &words.device;
+    let texts = &words.device;
     let LinkReading {
         up,
         age_ms,
@@ -128,68 +128,75 @@ fn link(words: &Words, table: &DeviceTable) -> Vec<Row> {
         reconnects,
         binary,
     } = &table.link;
-    let bandwidth = |bytes_per_s: f64| with_unit(words, told.kilobytes_per_s, (bytes_per_s / 1000.0, 2));
-    let mut rows = vec![alarm(told.connection, if *up { told.up } else { told.lost }, !up)];
+    let bandwidth = |bytes_per_s: f64| with_unit(words, texts.kilobytes_per_s, bytes_per_s / 1000.0, 2);
+    let mut rows = vec![alarm(
+        texts.connection,
+        if *up { texts.up } else { texts.lost },
+        !up,
+    )];
     if let Some(frequency) = table.main_loop_hz {
-        rows.push(row(told.main_loop, told.hertz.fill([&frequency])));
+        rows.push(row(texts.main_loop, texts.hertz.fill([&frequency])));
     }
-    rows.push(row(told.to_robot, bandwidth(table.bytes_out_per_s)));
-    rows.push(row(told.from_robot, bandwidth(table.bytes_in_per_s)));
+    rows.push(row(texts.to_robot, bandwidth(table.bytes_out_per_s)));
+    rows.push(row(texts.from_robot, bandwidth(table.bytes_in_per_s)));
     rows.push(alarm(
-        told.bad_packets,
-        with_unit(words, words.unit.percent, (bad_share * 100.0, 2)),
+        texts.bad_packets,
+        with_unit(words, words.unit.percent, bad_share * 100.0, 2),
         *bad_share > 0.02,
     ));
     if let Some(round_trip) = round_trip_ms {
         rows.push(row(
-            told.round_trip,
-            with_unit(words, told.milliseconds, (*round_trip, 1)),
+            texts.round_trip,
+            with_unit(words, texts.milliseconds, *round_trip, 1),
         ));
     }
-    rows.push(row(told.age, told.milliseconds.fill([age_ms])));
-    rows.push(row(told.telemetry, if *binary { told.binary } else { told.text }));
+    rows.push(row(texts.age, texts.milliseconds.fill([age_ms])));
+    rows.push(row(
+        texts.telemetry,
+        if *binary { texts.binary } else { texts.text },
+    ));
     let resets_text = match reset_cause {
-        Some(cause) => told.resets_last.fill([resets, &reading_text(words, cause)]),
+        Some(cause) => texts.resets_last.fill([resets, &reading_text(words, cause)]),
         None => resets.to_string(),
     };
-    rows.push(row(told.resets, resets_text));
-    rows.push(row(told.reconnects, reconnects.to_string()));
+    rows.push(row(texts.resets, resets_text));
+    rows.push(row(texts.reconnects, reconnects.to_string()));
     rows
 }
 
 fn motion(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<Row> {
-    let told = &words.device;
+    let texts = &words.device;
     let has = |part: &str| robot.is_some_and(|robot| robot.parts.iter().any(|known| known == part));
     let current = |index: usize| table.currents_a.and_then(|currents| currents.get(index).copied());
     let with_current = |text: String, index: usize| match current(index) {
-        Some(current) => told.with_current.fill([&text, &words.number(current.into(), 2)]),
+        Some(current) => texts.with_current.fill([&text, &words.number(current.into(), 2)]),
         None => text,
     };
-    let speed = |m_per_s: f64| with_unit(words, told.metres_per_s, (m_per_s, 2));
+    let speed = |m_per_s: f64| with_unit(words, texts.metres_per_s, m_per_s, 2);
     let [main, sides, suction] = table
         .cleaners
-        .map(|runs| if runs { told.running } else { told.off });
+        .map(|runs| if runs { texts.running } else { texts.off });
     let mut rows = vec![
-        row(told.left_wheel, with_current(speed(table.wheel_left_m_per_s), 0)),
+        row(texts.left_wheel, with_current(speed(table.wheel_left_m_per_s), 0)),
         row(
-            told.right_wheel,
+            texts.right_wheel,
             with_current(speed(table.wheel_right_m_per_s), 1),
         ),
     ];
     if has("brush-main") {
-        rows.push(row(told.main_brush, with_current(main.to_owned(), 2)));
+        rows.push(row(texts.main_brush, with_current(main.to_owned(), 2)));
     }
     if has("brush-sides") {
-        rows.push(row(told.side_brushes, sides));
+        rows.push(row(texts.side_brushes, sides));
     }
     if has("vacuum") {
-        rows.push(row(told.suction, suction));
+        rows.push(row(texts.suction, suction));
         rows.push(alarm(
-            told.dust_box,
+            texts.dust_box,
             if table.dust_box {
-                told.in_place
+                texts.in_place
             } else {
-                told.missing
+                texts.missing
             },
             !table.dust_box,
         ));
@@ -198,7 +205,7 @@ fn motion(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) 
 }
 
 fn sensors(words: &Words, table: &DeviceTable) -> Vec<Row> {
-    let told = &words.device;
+    let texts = &words.device;
     let list = |names: &[&str], states: &[bool], none: &str| {
         let active: Vec<&str> = names
             .iter()
@@ -213,39 +220,39 @@ fn sensors(words: &Words, table: &DeviceTable) -> Vec<Row> {
         }
     };
     let any = |states: &[bool]| states.contains(&true);
-    let sides = [told.left, told.right];
+    let sides = [texts.left, texts.right];
     vec![
         alarm(
-            told.bumper,
-            list(&sides, &table.bumpers, told.free),
+            texts.bumper,
+            list(&sides, &table.bumpers, texts.free),
             any(&table.bumpers),
         ),
         alarm(
-            told.cliff_sensors,
+            texts.cliff_sensors,
             list(
-                &[told.left, told.middle, told.right],
+                &[texts.left, texts.middle, texts.right],
                 &table.cliffs,
-                told.no_cliff,
+                texts.no_cliff,
             ),
             any(&table.cliffs),
         ),
         alarm(
-            told.hanging,
-            list(&sides, &table.wheel_drops, told.none_hangs),
+            texts.hanging,
+            list(&sides, &table.wheel_drops, texts.none_hangs),
             any(&table.wheel_drops),
         ),
-        row(told.dock, if table.docked { told.closed } else { told.open }),
+        row(texts.dock, if table.docked { texts.closed } else { texts.open }),
     ]
 }
 
 fn versions(words: &Words, versions: &Versions, robot: Option<&RobotDescription>) -> Vec<Row> {
-    let told = &words.device;
+    let texts = &words.device;
     let mut rows = Vec::new();
     if let Some(robot) = robot {
-        rows.push(row(told.robot, robot.device.clone()));
+        rows.push(row(texts.robot, robot.device.clone()));
     }
     let optional = [
-        (told.firmware, &versions.firmware),
+        (texts.firmware, &versions.firmware),
         ("cordlib", &versions.cordlib),
     ];
     for (label, version) in optional {
@@ -254,11 +261,11 @@ fn versions(words: &Words, versions: &Versions, robot: Option<&RobotDescription>
         }
     }
     if let Some(protocol) = versions.protocol {
-        rows.push(row(told.protocol, protocol.to_string()));
+        rows.push(row(texts.protocol, protocol.to_string()));
     }
     rows.push(row("vthal", versions.vthal.clone()));
-    rows.push(row(told.brain, versions.brain.clone()));
-    rows.push(row(told.panel, env!("CARGO_PKG_VERSION")));
+    rows.push(row(texts.brain, versions.brain.clone()));
+    rows.push(row(texts.panel, env!("CARGO_PKG_VERSION")));
     rows
 }
 

@@ -2,6 +2,7 @@
 
 use rvac_api::HomeView;
 
+use crate::point::MapPoint;
 use crate::words::Words;
 
 /// Pose of a robot on the dock: x and y in metres, heading in radians towards the dock's back.
@@ -12,8 +13,9 @@ const SAME: f64 = 0.005;
 
 /// Pose of a robot on the dock that was drawn by two places: the robot's place, and a place that it faces.
 #[must_use]
-pub fn dock_pose((x, y): (f64, f64), (far_x, far_y): (f64, f64)) -> DockPose {
-    [x, y, (far_y - y).atan2(far_x - x)]
+pub fn dock_pose(robot: MapPoint, faces: MapPoint) -> DockPose {
+    let heading = (faces.y - robot.y).atan2(faces.x - robot.x);
+    [robot.x, robot.y, heading]
 }
 
 /// The pose on the dock that the robot reported.
@@ -53,13 +55,14 @@ pub fn dock_text(words: &Words, home: &HomeView) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::{dock_border, dock_pose, dock_text, is_same_dock};
+    use crate::MapPoint;
     use crate::words::Language;
     use core::f64::consts::{FRAC_PI_2, PI};
     use rvac_api::{HomeView, Pose};
 
     #[test]
     fn the_second_place_is_what_the_robot_looks_at() {
-        let [x, y, heading] = dock_pose((1.0, 2.0), (1.0, 3.5));
+        let [x, y, heading] = dock_pose(MapPoint::new(1.0, 2.0), MapPoint::new(1.0, 3.5));
         assert_eq!((x, y), (1.0, 2.0));
         assert!((heading - FRAC_PI_2).abs() < 1e-9);
     }
@@ -82,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dock_of_which_a_person_has_told_is_said_to_be_that() {
+    fn a_dock_that_a_person_has_reported_is_shown_as_such() {
         let words = Language::English.words();
         let mut home = HomeView::default();
         assert_eq!(dock_text(words, &home), None);

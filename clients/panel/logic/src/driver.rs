@@ -516,7 +516,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tilt_of_which_nothing_more_is_told_stops_the_wheels() {
+    fn a_tilt_of_which_nothing_more_is_reported_stops_the_wheels() {
         let mut page = Page::new();
         page.turn_by("tilt-left");
         page.driver.set_tilt(page.now_us, [0.0, 0.0]);

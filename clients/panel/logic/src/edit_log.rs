@@ -46,6 +46,13 @@ pub enum Step {
     Redo,
 }
 
+/// An edit that the robot has not answered yet.
+#[derive(Clone, Debug, PartialEq)]
+struct Asked {
+    course: Course,
+    edit: Edit,
+}
+
 /// The direction of an edit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Course {
@@ -59,7 +66,7 @@ enum Course {
 pub struct EditLog {
     done: Vec<Change>,
     undone: Vec<Change>,
-    asked: Vec<(u32, Course, Edit)>,
+    asked: Vec<(u32, Asked)>,
     /// What a person asked for meanwhile.
     put_off: VecDeque<Step>,
     /// Revision of the home when the robot confirmed the last edit.
@@ -119,7 +126,13 @@ impl EditLog {
     /// When there is nothing that it could change.
     pub fn begin(&mut self, edit: Edit, home: &HomeView) -> Result<Request, EditError> {
         let body = edit.request(home)?;
-        Ok(self.ask((Course::Anew, edit), body))
+        Ok(self.ask(
+            Asked {
+                course: Course::Anew,
+                edit,
+            },
+            body,
+        ))
     }
 
     /// Something else was chosen: `before` in place of what is chosen now.
@@ -173,46 +186,54 @@ impl EditLog {
     pub fn undo(&mut self, home: &HomeView) -> Option<Result<Request, EditError>> {
         let edit = pop_edit(&mut self.done)?;
         let request = edit.inverse().request(home);
-        Some(self.go(Course::Back, edit, (request, home.revision)))
+        let asked = Asked {
+            course: Course::Back,
+            edit,
+        };
+        Some(self.go(asked, request, home.revision))
     }
 
     /// Asks to do again what was taken back last; none when that was no edit of the map.
     pub fn redo(&mut self, home: &HomeView) -> Option<Result<Request, EditError>> {
         let edit = pop_edit(&mut self.undone)?;
         let request = edit.request(home);
-        Some(self.go(Course::Again, edit, (request, home.revision)))
+        let asked = Asked {
+            course: Course::Again,
+            edit,
+        };
+        Some(self.go(asked, request, home.revision))
     }
 
     fn go(
         &mut self,
-        course: Course,
-        edit: Edit,
-        (body, revision): (Result<RequestBody, EditError>, u32),
+        asked: Asked,
+        body: Result<RequestBody, EditError>,
+        revision: u32,
     ) -> Result<Request, EditError> {
         match body {
-            Ok(body) => Ok(self.ask((course, edit), body)),
+            Ok(body) => Ok(self.ask(asked, body)),
             Err(EditError::ChangedMeanwhile) if self.confirmed_at == Some(revision) => {
-                self.put_back(course, edit);
+                self.put_back(asked);
                 Err(EditError::NotReportedYet)
             }
             Err(error) => Err(error),
         }
     }
 
-    fn ask(&mut self, (course, edit): (Course, Edit), body: RequestBody) -> Request {
+    fn ask(&mut self, asked: Asked, body: RequestBody) -> Request {
         let id = FIRST_ID + self.count % (LAST_ID - FIRST_ID + 1);
         self.count = self.count.wrapping_add(1);
-        self.asked.push((id, course, edit));
+        self.asked.push((id, asked));
         Request { id: Some(id), body }
     }
 
-    fn take_asked(&mut self, id: u32) -> Option<(Course, Edit)> {
-        let place = self.asked.iter().position(|(asked, ..)| *asked == id)?;
-        let (_, course, edit) = self.asked.remove(place);
-        Some((course, edit))
+    fn take_asked(&mut self, id: u32) -> Option<Asked> {
+        let place = self.asked.iter().position(|(number, _)| *number == id)?;
+        let (_, asked) = self.asked.remove(place);
+        Some(asked)
     }
 
-    fn put_back(&mut self, course: Course, edit: Edit) {
+    fn put_back(&mut self, Asked { course, edit }: Asked) {
         match course {
             Course::Anew => {}
             Course::Back => self.done.push(Change::Home(edit)),
@@ -222,7 +243,7 @@ impl EditLog {
 
     /// The robot has done what was asked under this number; `revision` is that of the last received home.
     pub fn on_done(&mut self, id: u32, revision: u32) {
-        let Some((course, edit)) = self.take_asked(id) else {
+        let Some(Asked { course, edit }) = self.take_asked(id) else {
             return;
         };
         self.confirmed_at = Some(revision);
@@ -237,13 +258,13 @@ impl EditLog {
     /// The robot has refused it, for this reason: nothing has changed. What does not exist any more never will again, and must not
     /// come before what can still be taken back.
     pub fn on_failed(&mut self, id: u32, reason: &str) {
-        let Some((course, edit)) = self.take_asked(id) else {
+        let Some(Asked { course, edit }) = self.take_asked(id) else {
             return;
         };
         // What was pressed meanwhile was meant for that edit.
         self.put_off.clear();
         if !reason.starts_with("no-such-") {
-            self.put_back(course, edit);
+            self.put_back(Asked { course, edit });
         }
     }
 }
@@ -282,17 +303,18 @@ mod tests {
         })
     }
 
-    fn home(revision: u32, walls: &[(u16, f64)], name: Option<&str>) -> HomeView {
+    fn at(number: u16, x: f64) -> NoGoView {
+        NoGoView {
+            number,
+            shape: wall(x),
+            name: None,
+        }
+    }
+
+    fn home(revision: u32, walls: &[NoGoView], name: Option<&str>) -> HomeView {
         HomeView {
             revision,
-            no_go: walls
-                .iter()
-                .map(|(number, x)| NoGoView {
-                    number: *number,
-                    shape: wall(*x),
-                    name: None,
-                })
-                .collect(),
+            no_go: walls.to_vec(),
             rooms: vec![RoomView {
                 id: 3,
                 area_m2: 9.0,
@@ -315,22 +337,25 @@ mod tests {
         assert!(!log.puts_off(Step::Undo), "nothing is on its way");
         let first = log.begin(forbid(1.0), &home(1, &[], None)).unwrap();
         log.on_done(number(&first), 1);
-        let second = log.begin(forbid(2.0), &home(2, &[(6, 1.0)], None)).unwrap();
+        let second = log.begin(forbid(2.0), &home(2, &[at(6, 1.0)], None)).unwrap();
         assert!(log.puts_off(Step::Undo), "the first wall is not meant");
         assert_eq!(log.take_put_off(), None);
         log.on_done(number(&second), 2);
         assert_eq!(log.take_put_off(), Some(Step::Undo));
         // The answer came before the news: that wall is not in the home yet.
-        let asked = log.undo(&home(2, &[(6, 1.0)], None)).unwrap();
+        let asked = log.undo(&home(2, &[at(6, 1.0)], None)).unwrap();
         assert_eq!(asked, Err(EditError::NotReportedYet));
         log.put_off_again(Step::Undo);
         assert_eq!(log.take_put_off(), Some(Step::Undo));
-        let asked = log.undo(&home(3, &[(6, 1.0), (7, 2.0)], None)).unwrap().unwrap();
+        let asked = log
+            .undo(&home(3, &[at(6, 1.0), at(7, 2.0)], None))
+            .unwrap()
+            .unwrap();
         assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 7 });
         assert!(log.puts_off(Step::Undo));
         log.on_failed(503, "disk-busy");
         assert_eq!(log.take_put_off(), None, "it was meant for what was refused");
-        log.begin(forbid(3.0), &home(3, &[(6, 1.0), (7, 2.0)], None))
+        log.begin(forbid(3.0), &home(3, &[at(6, 1.0), at(7, 2.0)], None))
             .unwrap();
         assert!(log.puts_off(Step::Redo));
         log.on_lost();
@@ -344,18 +369,21 @@ mod tests {
         let asked = log.begin(forbid(1.0), &home(1, &[], None)).unwrap();
         assert_eq!(log.last(), None, "nothing counts before it is confirmed");
         log.on_done(number(&asked), 1);
-        let kept = home(2, &[(6, 4.0), (7, 1.001)], None);
+        let kept = home(2, &[at(6, 4.0), at(7, 1.001)], None);
         let asked = log.undo(&kept).unwrap().unwrap();
         assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 7 });
         log.on_done(number(&asked), 2);
-        let asked = log.redo(&home(3, &[(6, 4.0)], None)).unwrap().unwrap();
+        let asked = log.redo(&home(3, &[at(6, 4.0)], None)).unwrap().unwrap();
         let again = RequestBody::AddNoGo {
             shape: wall(1.0),
             name: None,
         };
         assert_eq!(asked.body, again);
         log.on_done(number(&asked), 3);
-        let asked = log.undo(&home(4, &[(6, 4.0), (8, 1.0)], None)).unwrap().unwrap();
+        let asked = log
+            .undo(&home(4, &[at(6, 4.0), at(8, 1.0)], None))
+            .unwrap()
+            .unwrap();
         assert_eq!(asked.body, RequestBody::RemoveNoGo { number: 8 });
     }
 
@@ -363,7 +391,7 @@ mod tests {
     fn a_name_of_forbidden_floor_goes_back_and_comes_with_what_is_brought_back() {
         let mut log = EditLog::default();
         let named = |revision, name: Option<&str>| {
-            let mut home = home(revision, &[(7, 1.0)], None);
+            let mut home = home(revision, &[at(7, 1.0)], None);
             home.no_go[0].name = name.map(str::to_owned);
             home
         };
@@ -454,7 +482,7 @@ mod tests {
         assert!(log.undo(&empty).is_none());
         let asked = log.begin(forbid(2.0), &empty).unwrap();
         log.on_done(number(&asked), 1);
-        let asked = log.undo(&home(2, &[(1, 2.0)], None)).unwrap().unwrap();
+        let asked = log.undo(&home(2, &[at(1, 2.0)], None)).unwrap().unwrap();
         log.on_failed(number(&asked), "no-floor-there");
         assert_eq!(log.last(), Some(&Change::Home(forbid(2.0))));
         assert_eq!(log.next(), None);
@@ -482,14 +510,17 @@ mod tests {
         assert_eq!(log.redo(&changed), None, "it is dropped");
     }
 
-    fn home_with(revision: u32, changes: &[(u16, [u16; 2], Option<f64>)]) -> HomeView {
-        let view = |(number, rooms, x): &(u16, [u16; 2], Option<f64>)| RoomChangeView {
-            number: *number,
-            rooms: *rooms,
+    fn change(number: u16, rooms: [u16; 2], x: Option<f64>) -> RoomChangeView {
+        RoomChangeView {
+            number,
+            rooms,
             line: x.map(|x| [[x, 0.0], [x, 3.0]]),
-        };
+        }
+    }
+
+    fn home_with(revision: u32, changes: &[RoomChangeView]) -> HomeView {
         HomeView {
-            room_changes: changes.iter().map(view).collect(),
+            room_changes: changes.to_vec(),
             ..home(revision, &[], None)
         }
     }
@@ -500,16 +531,16 @@ mod tests {
         let line = [[1.0, 0.0], [1.0, 3.0]];
         let asked = log.begin(Edit::Split(line), &home_with(1, &[])).unwrap();
         log.on_done(number(&asked), 1);
-        let cut = (4, [3, 5], Some(1.001));
+        let cut = change(4, [3, 5], Some(1.001));
         let asked = log.begin(Edit::Join([5, 2]), &home_with(2, &[cut])).unwrap();
         assert_eq!(asked.body, RequestBody::JoinRooms { rooms: [5, 2] });
         log.on_done(number(&asked), 2);
-        let both = home_with(3, &[(2, [2, 5], Some(7.0)), cut, (6, [2, 5], None)]);
+        let both = home_with(3, &[change(2, [2, 5], Some(7.0)), cut, change(6, [2, 5], None)]);
         let asked = log.undo(&both).unwrap().unwrap();
         assert_eq!(asked.body, RequestBody::UndoRoomChange { number: 6 });
         log.on_done(number(&asked), 3);
         assert_eq!(
-            log.undo(&home_with(4, &[(2, [2, 5], Some(7.0))])),
+            log.undo(&home_with(4, &[change(2, [2, 5], Some(7.0))])),
             Some(Err(EditError::ChangedMeanwhile)),
             "somebody else has taken the split back"
         );
@@ -559,18 +590,18 @@ mod tests {
             before: wall(1.0),
             after: wall(2.0),
         };
-        let asked = log.begin(reshape, &home(1, &[(7, 1.0)], None)).unwrap();
+        let asked = log.begin(reshape, &home(1, &[at(7, 1.0)], None)).unwrap();
         let reshaped = |x| RequestBody::ReshapeNoGo {
             number: 7,
             shape: wall(x),
         };
         assert_eq!(asked.body, reshaped(2.0));
         log.on_done(number(&asked), 1);
-        let asked = log.undo(&home(2, &[(7, 2.001)], None)).unwrap().unwrap();
+        let asked = log.undo(&home(2, &[at(7, 2.001)], None)).unwrap().unwrap();
         assert_eq!(asked.body, reshaped(1.0));
         log.on_done(number(&asked), 2);
         assert_eq!(
-            log.redo(&home(3, &[(7, 5.0)], None)),
+            log.redo(&home(3, &[at(7, 5.0)], None)),
             Some(Err(EditError::ChangedMeanwhile))
         );
         let spot = |y| PlaceShape::Spot([1.0, y]);
@@ -656,7 +687,7 @@ mod tests {
         assert_eq!(log.undo_choice(), Some(chosen(&[3])));
         log.forget_choices();
         assert_eq!((log.last(), log.next()), (Some(&Change::Home(forbid(1.0))), None));
-        let asked = log.undo(&home(2, &[(1, 1.0)], None)).unwrap().unwrap();
+        let asked = log.undo(&home(2, &[at(1, 1.0)], None)).unwrap().unwrap();
         log.on_done(number(&asked), 2);
         assert_eq!(log.undo_choice(), None);
     }
@@ -667,7 +698,7 @@ mod tests {
         let none = home(1, &[], None);
         let asked = log.begin(forbid(1.0), &none).unwrap();
         log.on_done(number(&asked), 1);
-        let asked = log.undo(&home(2, &[(1, 1.0)], None)).unwrap().unwrap();
+        let asked = log.undo(&home(2, &[at(1, 1.0)], None)).unwrap().unwrap();
         log.on_done(number(&asked), 2);
         let asked = log.begin(forbid(5.0), &none).unwrap();
         log.on_done(number(&asked), 3);

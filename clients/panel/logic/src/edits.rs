@@ -183,30 +183,30 @@ impl Edit {
     /// What a person changed.
     #[must_use]
     pub const fn what(&self, words: &Words) -> &'static str {
-        let told = &words.map;
+        let texts = &words.map;
         match self {
             Self::Forbid(forbidden) => match forbidden.shape {
-                NoGoShape::Wall(_) => told.edit_wall,
-                NoGoShape::Zone(_) => told.edit_zone,
+                NoGoShape::Wall(_) => texts.edit_wall,
+                NoGoShape::Zone(_) => texts.edit_zone,
             },
             Self::Allow(forbidden) => match forbidden.shape {
-                NoGoShape::Wall(_) => told.edit_no_wall,
-                NoGoShape::Zone(_) => told.edit_no_zone,
+                NoGoShape::Wall(_) => texts.edit_no_wall,
+                NoGoShape::Zone(_) => texts.edit_no_zone,
             },
-            Self::NameForbidden { .. } => told.edit_no_go_name,
-            Self::ReshapeForbidden { .. } => told.edit_no_go_shape,
-            Self::ReshapePlace { .. } => told.edit_place_shape,
-            Self::TakeUp { .. } => told.edit_take_up,
-            Self::Keep(_) => told.edit_keep,
-            Self::Forget(_) => told.edit_forget,
-            Self::NamePlace { .. } => told.edit_place_name,
-            Self::Name { .. } => told.edit_name,
-            Self::Settings { .. } => told.edit_settings,
-            Self::Split(_) => told.edit_split,
-            Self::Unsplit(_) => told.edit_unsplit,
-            Self::Join(_) => told.edit_join,
-            Self::Unjoin(_) => told.edit_unjoin,
-            Self::Dock { .. } => told.edit_dock,
+            Self::NameForbidden { .. } => texts.edit_no_go_name,
+            Self::ReshapeForbidden { .. } => texts.edit_no_go_shape,
+            Self::ReshapePlace { .. } => texts.edit_place_shape,
+            Self::TakeUp { .. } => texts.edit_take_up,
+            Self::Keep(_) => texts.edit_keep,
+            Self::Forget(_) => texts.edit_forget,
+            Self::NamePlace { .. } => texts.edit_place_name,
+            Self::Name { .. } => texts.edit_name,
+            Self::Settings { .. } => texts.edit_settings,
+            Self::Split(_) => texts.edit_split,
+            Self::Unsplit(_) => texts.edit_unsplit,
+            Self::Join(_) => texts.edit_join,
+            Self::Unjoin(_) => texts.edit_unjoin,
+            Self::Dock { .. } => texts.edit_dock,
         }
     }
 

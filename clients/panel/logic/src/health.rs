@@ -24,7 +24,7 @@ pub fn part_rows(words: &Words, parts: &[ComponentHealth]) -> Vec<PartRow> {
 }
 
 fn row(words: &Words, part: &ComponentHealth) -> PartRow {
-    let (told, device) = (&words.health, &words.device);
+    let (texts, device) = (&words.health, &words.device);
     let name = match part.component.as_str() {
         "brush-main" => device.main_brush,
         "wheel-left" => device.left_wheel,
@@ -35,12 +35,12 @@ fn row(words: &Words, part: &ComponentHealth) -> PartRow {
     let is_brush = part.component.starts_with("brush");
     let percent = words.number(part.share.unwrap_or(1.0) * 100.0, 0);
     let (state, remedy) = match part.verdict.as_str() {
-        "fine" => (told.fine.fill([&percent]), ""),
-        "hard" if is_brush => (told.hard.fill([&percent]), told.brush_hard),
-        "hard" => (told.hard.fill([&percent]), told.wheel_hard),
-        "light" if is_brush => (told.light.fill([&percent]), told.brush_light),
-        "light" => (told.light.fill([&percent]), told.wheel_light),
-        _ => (told.learning.fill([&part.minutes]), ""),
+        "fine" => (texts.fine.fill([&percent]), ""),
+        "hard" if is_brush => (texts.hard.fill([&percent]), texts.brush_hard),
+        "hard" => (texts.hard.fill([&percent]), texts.wheel_hard),
+        "light" if is_brush => (texts.light.fill([&percent]), texts.brush_light),
+        "light" => (texts.light.fill([&percent]), texts.wheel_light),
+        _ => (texts.learning.fill([&part.minutes]), ""),
     };
     PartRow {
         component: part.component.clone(),

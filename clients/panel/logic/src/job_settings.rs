@@ -113,7 +113,7 @@ impl JobSettings {
 
     /// What it says, in few words each.
     #[must_use]
-    pub fn told(&self, words: &Words) -> Vec<String> {
+    pub fn texts(&self, words: &Words) -> Vec<String> {
         let told = |choice: SettingChoice| {
             let is_said = choice.is_chosen && choice.code != AS_ROOMS;
             is_said.then(|| choice.text.to_lowercase())
@@ -149,10 +149,10 @@ mod tests {
     const ENGLISH: &Words = Language::English.words();
 
     #[test]
-    fn what_is_chosen_stands_in_the_order_and_is_told() {
+    fn what_is_chosen_stands_in_the_order_and_is_shown() {
         let mut settings = JobSettings::default();
         assert_eq!(settings.said_by(JobOrder::default()), JobOrder::default());
-        assert!(settings.told(ENGLISH).is_empty());
+        assert!(settings.texts(ENGLISH).is_empty());
         settings.choose_power("quiet");
         settings.choose_pattern("contour");
         let order = settings.said_by(JobOrder::default());
@@ -160,7 +160,7 @@ mod tests {
             (order.power, order.pattern),
             (Some(CleaningPower::QUIET), Some(CleaningPattern::Contour))
         );
-        assert_eq!(settings.told(ENGLISH), ["quiet", "along the walls"]);
+        assert_eq!(settings.texts(ENGLISH), ["quiet", "along the walls"]);
         assert_eq!(JobSettings::of(&order), settings);
         settings.choose_power("");
         settings.choose_pattern("");

@@ -44,7 +44,7 @@ mod tests {
     use crate::words::Language;
 
     #[test]
-    fn each_place_is_told_with_what_it_is() {
+    fn each_place_is_shown_with_what_it_is() {
         let place = |number, name: &str, shape| PlaceView {
             number,
             name: name.to_owned(),

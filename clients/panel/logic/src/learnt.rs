@@ -39,18 +39,18 @@ pub fn learnt_robots(words: &Words, devices: &[LearntView]) -> Vec<LearntRobot> 
 }
 
 fn robot(words: &Words, view: &LearntView) -> LearntRobot {
-    let told = &words.learnt;
+    let texts = &words.learnt;
     let gyro = view.gyro.as_ref().map(|gyro| LearntRow {
         part: LearntPart::Gyro,
-        name: told.gyro,
+        name: texts.gyro,
         words: gyro_text(words, gyro),
-        question: told.ask_gyro,
+        question: texts.ask_gyro,
     });
     let pack = view.energy.as_ref().map(|energy| LearntRow {
         part: LearntPart::Energy,
-        name: told.pack,
+        name: texts.pack,
         words: energy_text(words, energy),
-        question: told.ask_pack,
+        question: texts.ask_pack,
     });
     LearntRobot {
         device: view.device.clone(),
@@ -61,16 +61,16 @@ fn robot(words: &Words, view: &LearntView) -> LearntRobot {
 }
 
 fn gyro_text(words: &Words, gyro: &GyroLearnt) -> String {
-    let told = &words.learnt;
+    let texts = &words.learnt;
     let scale = if gyro.scale < 0.0 {
-        told.too_much
+        texts.too_much
     } else {
-        told.too_little
+        texts.too_little
     };
     let percent = |share: f64| words.number(100.0 * share.abs(), 2);
     let scale = scale.fill([&percent(gyro.scale), &percent(gyro.scale_sigma)]);
     let bias_deg_per_min = 60.0 * gyro.bias_rad_per_s.to_degrees();
-    let bias = told.bias.fill([&words.number(bias_deg_per_min, 1)]);
+    let bias = texts.bias.fill([&words.number(bias_deg_per_min, 1)]);
     format!("{scale}; {bias}")
 }
 

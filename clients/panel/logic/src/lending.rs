@@ -127,14 +127,14 @@ pub fn lent_name(words: &Words, text: &str) -> Result<Name, String> {
 /// Whether it is lent, and to whom.
 #[must_use]
 pub fn lending_text(words: &Words, passed_on: &[String], driver: Option<&str>) -> String {
-    let told = &words.drive;
+    let texts = &words.drive;
     if passed_on.is_empty() {
-        return told.lend_waits.to_owned();
+        return texts.lend_waits.to_owned();
     }
     let inputs = passed_on.join(", ");
     match driver {
-        Some(driver) => told.lent_to.fill([&driver, &inputs]),
-        None => told.lent_to_nobody.fill([&inputs]),
+        Some(driver) => texts.lent_to.fill([&driver, &inputs]),
+        None => texts.lent_to_nobody.fill([&inputs]),
     }
 }
 
@@ -171,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn what_changes_is_told_at_once_and_the_rest_before_the_lease_ends() {
+    fn what_changes_is_sent_at_once_and_the_rest_before_the_lease_ends() {
         let mut lending = lending();
         assert_eq!(Lending::default().step(0, &touched(1.0)), None, "nothing is lent");
         assert_eq!(values(lending.step(0, &touched(0.0))).len(), 2);
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lost_pad_is_told_no_more_and_the_stick_is() {
+    fn a_lost_pad_is_sent_no_more_and_the_stick_is() {
         let mut lending = lending();
         let pad = PadReading {
             axes: vec![0.25, -2.0, f64::NAN, 0.0, 0.0],
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_told_to_whom_it_is_lent() {
+    fn it_is_shown_to_whom_it_is_lent() {
         let mut lending = lending();
         let input = |name: &str| ClientInput {
             name: name.to_owned(),

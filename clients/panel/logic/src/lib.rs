@@ -35,6 +35,7 @@ mod offers;
 mod orbit;
 mod plan;
 mod playout;
+mod point;
 mod qr;
 mod reshape;
 mod room_changes;
@@ -88,6 +89,7 @@ pub use offers::{Offer, Offers, PauseKind, Wait};
 pub use orbit::{Orbit, Projection};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;
+pub use point::{MapPoint, Pixel};
 pub use qr::QrPicture;
 pub use reshape::{HANDLE_FINE_STEP_M, HANDLE_STEP_M, Handle, Outline, Reshape, Reshaped, Target};
 pub use room_changes::{RoomChangeRow, joinable, room_change_rows};
@@ -95,7 +97,8 @@ pub use room_choice::{DrawnPart, PASSES_MAX, RoomChoice, job_estimate_text, room
 pub use room_settings::{PowerPart, pattern_text, room_settings_text};
 pub use schedule_form::ScheduleForm;
 pub use schedule_rows::{
-    ScheduleRow, day_text, floor_elsewhere, floor_title, next_rows, past_rows, schedule_rows, zone_text,
+    HomeRows, ScheduleRow, day_text, floor_elsewhere, floor_title, next_rows, past_rows, schedule_rows,
+    zone_text,
 };
 pub use sketch::{Drawn, NoGoRow, Sketch, Tool, no_go_rows, no_go_strokes, spot_border, zone_strokes};
 pub use swept_grid::{DirtyRows, SweptGrid};

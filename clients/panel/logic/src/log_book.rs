@@ -64,7 +64,7 @@ impl LogBook {
 
     /// The newest `most` entries that fit the filter, newest first.
     #[must_use]
-    pub fn find(&self, words: &Words, (filter, most): (&LogFilter, usize)) -> Vec<&LogEntry> {
+    pub fn find(&self, words: &Words, filter: &LogFilter, most: usize) -> Vec<&LogEntry> {
         let wanted = filter.search.trim().to_lowercase();
         let fits = |entry: &&LogEntry| {
             entry.level >= filter.level_min
@@ -98,7 +98,7 @@ mod tests {
             level_min,
             search: search.to_owned(),
         };
-        book.find(Language::English.words(), (&filter, 100))
+        book.find(Language::English.words(), &filter, 100)
             .iter()
             .map(|entry| entry.number)
             .collect()

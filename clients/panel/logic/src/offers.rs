@@ -42,17 +42,17 @@ impl Wait {
     /// For people.
     #[must_use]
     pub const fn text(self, words: &Words) -> &'static str {
-        let told = &words.offer;
+        let texts = &words.offer;
         match self {
-            Self::Away => told.away,
-            Self::Fault => told.fault,
-            Self::Paused => told.paused,
-            Self::ByHand => told.by_hand,
-            Self::Runs => told.runs,
-            Self::NoJob => told.no_job,
-            Self::Docking => told.docking,
-            Self::Docked => told.docked,
-            Self::NotAllowed => told.not_allowed,
+            Self::Away => texts.away,
+            Self::Fault => texts.fault,
+            Self::Paused => texts.paused,
+            Self::ByHand => texts.by_hand,
+            Self::Runs => texts.runs,
+            Self::NoJob => texts.no_job,
+            Self::Docking => texts.docking,
+            Self::Docked => texts.docked,
+            Self::NotAllowed => texts.not_allowed,
         }
     }
 }
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn a_device_that_may_only_look_is_told_so_and_still_stops_the_robot() {
+    fn a_device_that_may_only_look_is_informed_and_still_stops_the_robot() {
         const NOT_ALLOWED: Offer = Offer::NotNow(Wait::NotAllowed);
         for state in STATES {
             let looking = offers(state, &["beeper"]).within(|verb| verb == "stop");

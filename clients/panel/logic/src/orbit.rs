@@ -4,6 +4,7 @@
 //! that a change between the two changes no size.
 
 use crate::camera::View;
+use crate::point::{MapPoint, Pixel};
 
 /// Half of the angle that the picture spans from top to bottom: as a lens that does not distort much.
 const HALF_ANGLE_RAD: f64 = 0.3;
@@ -68,7 +69,7 @@ impl Orbit {
 #[derive(Clone, Copy, Debug)]
 pub struct Projection {
     view: View,
-    middle: (f64, f64),
+    middle: MapPoint,
     /// On the floor, towards the right of the screen.
     right: [f64; 2],
     /// Sine and cosine of the pitch.
@@ -80,7 +81,7 @@ pub struct Projection {
 }
 
 impl Projection {
-    pub(crate) fn of(view: View, middle: (f64, f64), scale: f64, orbit: Option<Orbit>) -> Self {
+    pub(crate) fn of(view: View, middle: MapPoint, scale: f64, orbit: Option<Orbit>) -> Self {
         let Some(orbit) = orbit else {
             return Self {
                 view,
@@ -110,7 +111,7 @@ impl Projection {
 
     /// Right, up and depth of a point as the eye sees it.
     fn seen(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let (dx, dy) = (x - self.middle.0, y - self.middle.1);
+        let (dx, dy) = (x - self.middle.x, y - self.middle.y);
         let ([right_x, right_y], [sin, cos]) = (self.right, self.tilt);
         let (aside, ahead) = (dx * right_x + dy * right_y, dy * right_x - dx * right_y);
         let depth = if self.is_flat() {
@@ -123,13 +124,13 @@ impl Projection {
 
     /// The pixel that shows a point.
     #[must_use]
-    pub fn pixel_of(&self, point: [f64; 3]) -> (f64, f64) {
+    pub fn pixel_of(&self, point: [f64; 3]) -> Pixel {
         let [aside, up, depth] = self.seen(point);
         if depth <= NEAR * self.distance_m {
-            return (NOWHERE_PX, NOWHERE_PX);
+            return Pixel::new(NOWHERE_PX, NOWHERE_PX);
         }
         let size = self.focal_px / depth;
-        (
+        Pixel::new(
             self.view.width / 2.0 + aside * size,
             self.view.height / 2.0 - up * size,
         )
@@ -137,10 +138,10 @@ impl Projection {
 
     /// The point of the floor under a pixel.
     #[must_use]
-    pub fn floor_under(&self, (px, py): (f64, f64)) -> (f64, f64) {
+    pub fn floor_under(&self, pixel: Pixel) -> MapPoint {
         let (aside, up) = (
-            (px - self.view.width / 2.0) / self.focal_px,
-            (self.view.height / 2.0 - py) / self.focal_px,
+            (pixel.x - self.view.width / 2.0) / self.focal_px,
+            (self.view.height / 2.0 - pixel.y) / self.focal_px,
         );
         let [sin, cos] = self.tilt;
         if self.is_flat() {
@@ -151,11 +152,11 @@ impl Projection {
         self.floor_at(aside * self.distance_m * sin / fall, up * self.distance_m / fall)
     }
 
-    fn floor_at(&self, aside: f64, ahead: f64) -> (f64, f64) {
+    fn floor_at(&self, aside: f64, ahead: f64) -> MapPoint {
         let [right_x, right_y] = self.right;
-        (
-            self.middle.0 + aside * right_x - ahead * right_y,
-            self.middle.1 + aside * right_y + ahead * right_x,
+        MapPoint::new(
+            self.middle.x + aside * right_x - ahead * right_y,
+            self.middle.y + aside * right_y + ahead * right_x,
         )
     }
 
@@ -167,8 +168,8 @@ impl Projection {
             self.focal_px / self.distance_m
         };
         let [sin, _] = self.tilt;
-        let (x, y) = self.floor_at(dx / scale, -dy / scale / sin);
-        (x - self.middle.0, y - self.middle.1)
+        let MapPoint { x, y } = self.floor_at(dx / scale, -dy / scale / sin);
+        (x - self.middle.x, y - self.middle.y)
     }
 
     /// The matrix that makes clip coordinates of points, column by column.
@@ -230,7 +231,7 @@ impl Projection {
             self.view.height / 2.0 / self.focal_px,
         );
         let ([right_x, right_y], [sin, cos]) = (self.right, self.tilt);
-        let (x, y) = self.middle;
+        let MapPoint { x, y } = self.middle;
         let (reach, fall, slope) = if self.is_flat() {
             (1.0, 1.0, 0.0)
         } else {
@@ -254,7 +255,7 @@ impl Projection {
 #[cfg(test)]
 mod tests {
     use super::{Orbit, Projection};
-    use crate::View;
+    use crate::{MapPoint, Pixel, View};
 
     const VIEW: View = View {
         width: 900.0,
@@ -270,7 +271,7 @@ mod tests {
         ];
         orbits
             .into_iter()
-            .map(|orbit| Projection::of(VIEW, (3.0, -2.0), 70.0, orbit))
+            .map(|orbit| Projection::of(VIEW, MapPoint::new(3.0, -2.0), 70.0, orbit))
     }
 
     fn by_matrix(projection: &Projection, [x, y, z]: [f64; 3]) -> [f64; 4] {
@@ -285,10 +286,10 @@ mod tests {
     fn the_floor_under_the_pixel_of_a_place_is_that_place() {
         for projection in views() {
             for (x, y) in [(3.0, -2.0), (4.5, -1.0), (1.0, -3.5), (6.0, 0.0)] {
-                let (back_x, back_y) = projection.floor_under(projection.pixel_of([x, y, 0.0]));
-                assert!((back_x - x).abs() < 1e-9 && (back_y - y).abs() < 1e-9);
+                let back = projection.floor_under(projection.pixel_of([x, y, 0.0]));
+                assert!((back.x - x).abs() < 1e-9 && (back.y - y).abs() < 1e-9);
             }
-            assert_eq!(projection.pixel_of([3.0, -2.0, 0.0]), (450.0, 300.0));
+            assert_eq!(projection.pixel_of([3.0, -2.0, 0.0]), Pixel::new(450.0, 300.0));
         }
     }
 
@@ -297,7 +298,7 @@ mod tests {
         for projection in views() {
             for point in [[3.5, -2.2, 0.0], [1.0, 0.5, 0.4], [5.0, -4.0, 0.1]] {
                 let [x, y, _, w] = by_matrix(&projection, point);
-                let (px, py) = projection.pixel_of(point);
+                let Pixel { x: px, y: py } = projection.pixel_of(point);
                 let clip_x = px / VIEW.width * 2.0 - 1.0;
                 let clip_y = 1.0 - py / VIEW.height * 2.0;
                 assert!((x / w - clip_x).abs() < 1e-5, "{x} {w} {clip_x}");
@@ -310,12 +311,12 @@ mod tests {
                     + clip_y * f64::from(floor[3 + row])
                     + f64::from(floor[6 + row])
             });
-            let pixel = (
+            let pixel = Pixel::new(
                 (clip_x + 1.0) / 2.0 * VIEW.width,
                 (1.0 - clip_y) / 2.0 * VIEW.height,
             );
-            let (map_x, map_y) = projection.floor_under(pixel);
-            assert!((x / w - map_x).abs() < 1e-4 && (y / w - map_y).abs() < 1e-4);
+            let floor = projection.floor_under(pixel);
+            assert!((x / w - floor.x).abs() < 1e-4 && (y / w - floor.y).abs() < 1e-4);
         }
     }
 

@@ -252,8 +252,8 @@ pub enum Reshaped {
 impl Reshape {
     /// Takes it in hand; none if it is not there.
     #[must_use]
-    pub fn begin(target: Target, (home, choice): (&HomeView, &RoomChoice), words: &Words) -> Option<Self> {
-        let (name, before) = found(target, (home, choice), words)?;
+    pub fn begin(target: Target, home: &HomeView, choice: &RoomChoice, words: &Words) -> Option<Self> {
+        let (name, before) = found(target, home, choice, words)?;
         Some(Self {
             target,
             name,
@@ -344,11 +344,7 @@ impl Reshape {
 }
 
 /// What is reshaped: its name and where it is.
-fn found(
-    target: Target,
-    (home, choice): (&HomeView, &RoomChoice),
-    words: &Words,
-) -> Option<(String, Outline)> {
+fn found(target: Target, home: &HomeView, choice: &RoomChoice, words: &Words) -> Option<(String, Outline)> {
     match target {
         Target::NoGo(number) => {
             let row = no_go_rows(words, home)
@@ -468,7 +464,7 @@ mod tests {
     #[test]
     fn what_is_in_the_map_becomes_an_edit() {
         let (home, choice) = (home(), RoomChoice::default());
-        let begin = |target| Reshape::begin(target, (&home, &choice), ENGLISH);
+        let begin = |target| Reshape::begin(target, &home, &choice, ENGLISH);
         let mut zone = begin(Target::NoGo(4)).expect("is there");
         assert_eq!(
             (zone.name(), zone.clone().finish(&choice)),
@@ -506,7 +502,7 @@ mod tests {
         choice.toggle(3);
         choice.add_zone(square());
         choice.keep_out_of(NoGoShape::Wall([[0.0, 0.0], [1.0, 0.0]]));
-        let begin = |target| Reshape::begin(target, (&home, &choice), ENGLISH);
+        let begin = |target| Reshape::begin(target, &home, &choice, ENGLISH);
         assert_eq!(begin(Target::Part(1)), None, "a room has its own shape");
         let mut zone = begin(Target::Part(2)).expect("is there");
         zone.move_to(Handle::Middle, [5.0, 0.5]);

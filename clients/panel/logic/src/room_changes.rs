@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn each_change_is_told_and_the_one_on_which_none_builds_can_be_taken_back() {
+    fn each_change_is_shown_and_the_one_on_which_none_builds_can_be_taken_back() {
         let rows = room_change_rows(Language::English.words(), &home());
         let told: Vec<(u16, &str, bool)> = rows
             .iter()

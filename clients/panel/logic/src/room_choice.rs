@@ -6,6 +6,7 @@ use crate::figures::{area_text, percent_text};
 use crate::home::RoomRow;
 use crate::job_settings::JobSettings;
 use crate::kept_places::shape_text;
+use crate::point::MapPoint;
 use crate::reshape::Outline;
 use crate::sketch::{extent, spot_border};
 use crate::words::Words;
@@ -84,8 +85,8 @@ impl RoomChoice {
     }
 
     /// Takes out the spot that was chosen last of those that cover a place of the map. `false` when none does.
-    pub fn take_spot_out_at(&mut self, (x, y): (f64, f64)) -> bool {
-        let is_under = |part: &JobPart| matches!(part, JobPart::Spot(at) if (at[0] - x).hypot(at[1] - y) <= SPOT_RADIUS_M);
+    pub fn take_spot_out_at(&mut self, place: MapPoint) -> bool {
+        let is_under = |part: &JobPart| matches!(part, JobPart::Spot(at) if (at[0] - place.x).hypot(at[1] - place.y) <= SPOT_RADIUS_M);
         let found = self.parts.iter().rposition(is_under);
         if let Some(index) = found {
             self.parts.remove(index);
@@ -245,29 +246,29 @@ impl RoomChoice {
     /// `Kitchen, zone of 1.5 x 0.8 m, 2 spots, with 2 no-go areas`
     #[must_use]
     pub fn text(&self, words: &Words, rows: &[RoomRow]) -> String {
-        let told = &words.map;
+        let texts = &words.map;
         let word = |part: &JobPart| match part {
             JobPart::Room(id) => rows.iter().find(|row| row.id == *id).map(|row| row.name.clone()),
-            JobPart::Zone(corners) => Some(told.zone_of.fill([&extent(words, corners)])),
+            JobPart::Zone(corners) => Some(texts.zone_of.fill([&extent(words, corners)])),
             JobPart::Place(number) => self.kept(*number).map(|place| place.name.clone()),
             JobPart::Spot(_) => None,
         };
         let is_spot = |part: &&JobPart| matches!(part, JobPart::Spot(_));
         let spots = match self.parts.iter().filter(is_spot).count() {
             0 => None,
-            1 => Some(told.spot.to_owned()),
-            count => Some(told.spots.fill([&count])),
+            1 => Some(texts.spot.to_owned()),
+            count => Some(texts.spots.fill([&count])),
         };
         let parts: Vec<String> = self.parts.iter().filter_map(word).chain(spots).collect();
         let parts = if self.parts.is_empty() {
-            told.whole_home.to_owned()
+            texts.whole_home.to_owned()
         } else {
             parts.join(", ")
         };
         match self.avoid.len() {
             0 => parts,
-            1 => told.out_of_one.fill([&parts]),
-            count => told.out_of_many.fill([&parts, &count]),
+            1 => texts.out_of_one.fill([&parts]),
+            count => texts.out_of_many.fill([&parts, &count]),
         }
     }
 
@@ -301,7 +302,7 @@ impl RoomChoice {
     /// How often and how each part is cleaned: `2x, quiet, along the walls`.
     #[must_use]
     pub fn manner_text(&self, words: &Words) -> String {
-        let settings = self.settings.told(words);
+        let settings = self.settings.texts(words);
         let manner = if settings.is_empty() {
             words.home.as_rooms.to_lowercase()
         } else {
@@ -369,9 +370,9 @@ pub fn job_estimate_text(words: &Words, estimate: &JobEstimate) -> String {
 
 /// The room under a place of the map.
 #[must_use]
-pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
+pub fn room_at(home: &HomeView, place: MapPoint) -> Option<u16> {
     let cell = |metres: f64, origin: i32| (metres / home.cell_m).floor() - f64::from(origin);
-    let (column, row) = (cell(x_m, home.x), cell(y_m, home.y));
+    let (column, row) = (cell(place.x, home.x), cell(place.y, home.y));
     // Written so that NaN is nowhere.
     let is_inside =
         (0.0..f64::from(home.width)).contains(&column) && (0.0..f64::from(home.height)).contains(&row);
@@ -392,6 +393,7 @@ pub fn room_at(home: &HomeView, (x_m, y_m): (f64, f64)) -> Option<u16> {
 #[cfg(test)]
 mod tests {
     use super::{JobSettings, RoomChoice, job_estimate_text, room_at};
+    use crate::MapPoint;
     use crate::words::{Language, Words};
     use rvac_api::{CleaningPower, HomeView, JobEstimate, JobPart, NoGoShape, PlaceShape, PlaceView};
 
@@ -456,8 +458,11 @@ mod tests {
             .collect();
         assert_eq!(places, [(2, [1.0, 2.0]), (3, [1.0, 0.5]), (4, [1.3, 2.0])]);
         assert!(choice.text(ENGLISH, &[]).ends_with(", 2 spots"));
-        assert!(!choice.take_spot_out_at((0.2, 2.0)));
-        assert!(choice.take_spot_out_at((1.1, 2.1)), "the one that lies above");
+        assert!(!choice.take_spot_out_at(MapPoint::new(0.2, 2.0)));
+        assert!(
+            choice.take_spot_out_at(MapPoint::new(1.1, 2.1)),
+            "the one that lies above"
+        );
         choice.take_out(3);
         choice.take_out(9);
         choice.take_out(0);
@@ -535,7 +540,7 @@ mod tests {
             room_cells: vec![1, 2, 0, 1, 2, 3],
             ..HomeView::default()
         };
-        for (place, room) in [
+        for ((x, y), room) in [
             ((-0.9, 2.1), Some(1)),
             ((-0.1, 2.1), Some(1)),
             ((0.1, 2.4), None),
@@ -544,9 +549,9 @@ mod tests {
             ((0.6, 2.1), None),
             ((f64::NAN, 2.1), None),
         ] {
-            assert_eq!(room_at(&home, place), room, "{place:?}");
+            assert_eq!(room_at(&home, MapPoint::new(x, y)), room, "{x} {y}");
         }
-        assert_eq!(room_at(&HomeView::default(), (0.0, 0.0)), None);
+        assert_eq!(room_at(&HomeView::default(), MapPoint::default()), None);
     }
 
     #[test]

@@ -107,7 +107,7 @@ mod tests {
     use rvac_api::{CleaningPattern, RobotDescription, RoomSettings};
 
     #[test]
-    fn what_is_not_as_usual_is_told() {
+    fn what_is_not_as_usual_is_shown() {
         let words = Language::English.words();
         let mut settings = RoomSettings::default();
         assert_eq!(room_settings_text(words, &settings), "");

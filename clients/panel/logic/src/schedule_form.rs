@@ -137,18 +137,18 @@ impl ScheduleForm {
     }
 
     fn entry(&self, words: &Words) -> Result<ScheduleEntry, &'static str> {
-        let told = &words.schedule;
+        let texts = &words.schedule;
         if self.name.trim().is_empty() {
-            return Err(told.need_name);
+            return Err(texts.need_name);
         }
         if self.at.is_empty() {
-            return Err(told.need_time);
+            return Err(texts.need_time);
         }
         // Browsers add seconds to a time that was typed with them.
         let at: String = self.at.chars().take(5).collect();
         let when = match (self.is_once, self.date.is_empty(), self.days.is_empty()) {
-            (true, true, _) => return Err(told.need_date),
-            (false, _, true) => return Err(told.need_days),
+            (true, true, _) => return Err(texts.need_date),
+            (false, _, true) => return Err(texts.need_days),
             (true, ..) => ScheduleTime::Once {
                 date: self.date.clone(),
                 at,

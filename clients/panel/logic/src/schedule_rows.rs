@@ -30,13 +30,20 @@ pub struct ScheduleRow {
     pub skips: bool,
 }
 
+/// What is known of the home: rooms and places of the floor on which the robot is, and all floors.
+#[derive(Clone, Copy, Debug)]
+pub struct HomeRows<'a> {
+    /// Rooms of this floor.
+    pub rooms: &'a [RoomRow],
+    /// Kept places of this floor.
+    pub places: &'a [PlaceRow],
+    /// The floors.
+    pub floors: &'a FloorsView,
+}
+
 /// The schedules, by their numbers.
 #[must_use]
-pub fn schedule_rows(
-    words: &Words,
-    schedules: &Schedules,
-    home: (&[RoomRow], &[PlaceRow], &FloorsView),
-) -> Vec<ScheduleRow> {
+pub fn schedule_rows(words: &Words, schedules: &Schedules, home: HomeRows<'_>) -> Vec<ScheduleRow> {
     let row = |view| row(words, view, home);
     schedules.entries.iter().map(row).collect()
 }
@@ -59,27 +66,23 @@ pub fn floor_elsewhere(words: &Words, floor: Option<u16>, floors: &FloorsView) -
     ))
 }
 
-fn row(
-    words: &Words,
-    view: &ScheduleView,
-    (rooms, places, floors): (&[RoomRow], &[PlaceRow], &FloorsView),
-) -> ScheduleRow {
-    let (told, entry) = (&words.schedule, &view.entry);
-    let elsewhere = floor_elsewhere(words, entry.floor, floors);
+fn row(words: &Words, view: &ScheduleView, home: HomeRows<'_>) -> ScheduleRow {
+    let (texts, entry) = (&words.schedule, &view.entry);
+    let elsewhere = floor_elsewhere(words, entry.floor, home.floors);
     // The rooms and places that are known are those of the floor on which the robot is.
     let job = match &elsewhere {
-        Some(title) => told
+        Some(title) => texts
             .on_floor
-            .fill([&job_text(words, &entry.job, (&[], &[])), title]),
-        None => job_text(words, &entry.job, (rooms, places)),
+            .fill([&job_text(words, &entry.job, &[], &[]), title]),
+        None => job_text(words, &entry.job, home.rooms, home.places),
     };
     let next = match view.next.first() {
-        Some(run) => told.next.fill([&planned_text(words, run)]),
-        None if entry.enabled => told.no_run.to_owned(),
-        None => told.off.to_owned(),
+        Some(run) => texts.next.fill([&planned_text(words, run)]),
+        None if entry.enabled => texts.no_run.to_owned(),
+        None => texts.off.to_owned(),
     };
     let refused = view.refused_now.as_deref().filter(|_| entry.enabled);
-    let now = refused.map(|reason| told.would_not.fill([&what_of(words, reason)]));
+    let now = refused.map(|reason| texts.would_not.fill([&what_of(words, reason)]));
     ScheduleRow {
         number: view.number,
         name: entry.name.clone(),
@@ -97,9 +100,9 @@ fn row(
 
 /// What becomes of a run whose time finds the robot off or in its quiet hours, as far as it is not just left out.
 fn missed_text(words: &Words, entry: &ScheduleEntry) -> Vec<String> {
-    let told = &words.schedule;
-    let late = (entry.late_min > 0).then(|| told.may_be_late.fill([&entry.late_min]));
-    let waits = (entry.in_quiet == InQuiet::Wait).then(|| told.may_wait.to_owned());
+    let texts = &words.schedule;
+    let late = (entry.late_min > 0).then(|| texts.may_be_late.fill([&entry.late_min]));
+    let waits = (entry.in_quiet == InQuiet::Wait).then(|| texts.may_wait.to_owned());
     late.into_iter().chain(waits).collect()
 }
 
@@ -135,66 +138,68 @@ pub fn past_rows(words: &Words, schedules: &Schedules) -> Vec<String> {
 /// In which zone times are shown, and what its clocks show.
 #[must_use]
 pub fn zone_text(words: &Words, schedules: &Schedules) -> String {
-    let told = &words.schedule;
+    let texts = &words.schedule;
     schedules.clock.as_ref().map_or_else(
-        || told.no_clock.to_owned(),
-        |clock| told.zone.fill([&schedules.zone, &instant_text(words, clock)]),
+        || texts.no_clock.to_owned(),
+        |clock| texts.zone.fill([&schedules.zone, &instant_text(words, clock)]),
     )
 }
 
 fn planned_text(words: &Words, run: &PlannedRun) -> String {
-    let (told, at) = (&words.schedule, instant_text(words, &run.at));
+    let (texts, at) = (&words.schedule, instant_text(words, &run.at));
     match (run.kept_by.as_deref(), run.held_by.as_deref()) {
-        (Some("skipped"), _) => told.skipped.fill([&at]),
-        (Some("quiet-hours"), _) => told.blocked_by_quiet.fill([&at]),
-        (Some(reason), _) => told.kept.fill([&at, &what_of(words, reason)]),
-        (None, Some("quiet-hours")) => told.after_quiet.fill([&at]),
-        (None, Some(_)) => told.when_answers.fill([&at]),
+        (Some("skipped"), _) => texts.skipped.fill([&at]),
+        (Some("quiet-hours"), _) => texts.blocked_by_quiet.fill([&at]),
+        (Some(reason), _) => texts.kept.fill([&at, &what_of(words, reason)]),
+        (None, Some("quiet-hours")) => texts.after_quiet.fill([&at]),
+        (None, Some(_)) => texts.when_answers.fill([&at]),
         (None, None) => at,
     }
 }
 
 fn time_text(words: &Words, when: &ScheduleTime) -> String {
-    let told = &words.schedule;
+    let texts = &words.schedule;
     match when {
-        ScheduleTime::Weekly { days, at } if days.len() == Weekday::ALL.len() => told.daily.fill([at]),
+        ScheduleTime::Weekly { days, at } if days.len() == Weekday::ALL.len() => texts.daily.fill([at]),
         ScheduleTime::Weekly { days, at } => {
             let names: Vec<&str> = days.iter().map(|day| day_text(words, *day)).collect();
-            told.weekly.fill([&names.join(", "), at])
+            texts.weekly.fill([&names.join(", "), at])
         }
-        ScheduleTime::Once { date, at } => told.once_at.fill([&instant_text(words, &format!("{date}T{at}"))]),
+        ScheduleTime::Once { date, at } => texts
+            .once_at
+            .fill([&instant_text(words, &format!("{date}T{at}"))]),
     }
 }
 
-fn job_text(words: &Words, job: &ScheduledJob, (rooms, places): (&[RoomRow], &[PlaceRow])) -> String {
-    let told = &words.schedule;
+fn job_text(words: &Words, job: &ScheduledJob, rooms: &[RoomRow], places: &[PlaceRow]) -> String {
+    let texts = &words.schedule;
     let order = match job {
-        ScheduledJob::Start { strategy: None } => return told.whole_home.to_owned(),
+        ScheduledJob::Start { strategy: None } => return texts.whole_home.to_owned(),
         ScheduledJob::Start {
             strategy: Some(strategy),
-        } => return told.whole_home_by.fill([&strategy_title(words, strategy)]),
+        } => return texts.whole_home_by.fill([&strategy_title(words, strategy)]),
         ScheduledJob::Clean(order) => order,
     };
     let part = |part: &JobPart| match part {
         JobPart::Room(id) => {
             let known = rooms.iter().find(|row| row.id == *id);
-            known.map_or_else(|| told.room.fill([id]), |row| row.name.clone())
+            known.map_or_else(|| texts.room.fill([id]), |row| row.name.clone())
         }
         JobPart::Place(number) => {
             let known = places.iter().find(|row| row.number == *number);
-            known.map_or_else(|| told.place.fill([number]), |row| row.name.clone())
+            known.map_or_else(|| texts.place.fill([number]), |row| row.name.clone())
         }
-        JobPart::Zone(_) => told.a_zone.to_owned(),
-        JobPart::Spot(_) => told.a_spot.to_owned(),
+        JobPart::Zone(_) => texts.a_zone.to_owned(),
+        JobPart::Spot(_) => texts.a_spot.to_owned(),
     };
     let mut parts: Vec<String> = order.parts.iter().map(part).collect();
     if parts.is_empty() {
-        parts.push(told.whole_home.to_owned());
+        parts.push(texts.whole_home.to_owned());
     }
     if order.passes > 1 {
-        parts.push(told.times.fill([&order.passes]));
+        parts.push(texts.times.fill([&order.passes]));
     }
-    parts.extend(JobSettings::of(order).told(words));
+    parts.extend(JobSettings::of(order).texts(words));
     parts.join(", ")
 }
 
@@ -240,7 +245,7 @@ mod tests {
         ScheduleTime, ScheduleView, ScheduledJob, Schedules, Weekday,
     };
 
-    use super::{instant_text, next_rows, past_rows, schedule_rows, zone_text};
+    use super::{HomeRows, instant_text, next_rows, past_rows, schedule_rows, zone_text};
     use crate::home::RoomRow;
     use crate::words::{Language, Words};
 
@@ -292,7 +297,7 @@ mod tests {
     }
 
     #[test]
-    fn schedules_are_told_with_rooms_days_and_reasons() {
+    fn schedules_are_shown_with_rooms_days_and_reasons() {
         let kitchen = RoomRow {
             id: 4,
             name: "Kitchen".to_owned(),
@@ -302,7 +307,12 @@ mod tests {
             here: Some(1),
             ..FloorsView::default()
         };
-        let rows = schedule_rows(ENGLISH, &told(), (&[kitchen], &[], &here));
+        let home = HomeRows {
+            rooms: &[kitchen],
+            places: &[],
+            floors: &here,
+        };
+        let rows = schedule_rows(ENGLISH, &told(), home);
         assert_eq!(
             rows[0].words,
             "Mon, Fri at 07:30, Kitchen, room 9, 2 times, up to 45 minutes late, waits for the end of the quiet hours"
@@ -338,13 +348,12 @@ mod tests {
             ..FloorsView::default()
         };
         let words = |here| {
-            schedule_rows(
-                ENGLISH,
-                &upstairs,
-                (std::slice::from_ref(&kitchen), &[], &floors(here)),
-            )[0]
-            .words
-            .clone()
+            let home = HomeRows {
+                rooms: std::slice::from_ref(&kitchen),
+                places: &[],
+                floors: &floors(here),
+            };
+            schedule_rows(ENGLISH, &upstairs, home)[0].words.clone()
         };
         assert_eq!(
             words(1),
@@ -357,7 +366,7 @@ mod tests {
     }
 
     #[test]
-    fn instants_are_told_with_their_day_and_nonsense_as_it_is() {
+    fn instants_are_shown_with_their_day_and_nonsense_as_it_is() {
         assert_eq!(instant_text(ENGLISH, "2024-02-29T23:59:00Z"), "Thu 29 Feb, 23:59");
         assert_eq!(instant_text(ENGLISH, "2000-01-01T00:00"), "Sat 1 Jan, 00:00");
         let estonian = Language::Estonian.words();

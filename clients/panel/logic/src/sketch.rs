@@ -3,6 +3,7 @@
 use rvac_api::{HomeView, NoGoShape, SPOT_RADIUS_M};
 
 use crate::dock_place::{DockPose, dock_pose};
+use crate::point::MapPoint;
 use crate::words::Words;
 
 /// Corners nearer to each other than this are one place that was tapped twice, metres.
@@ -64,7 +65,7 @@ pub enum Drawn {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sketch {
     tool: Tool,
-    first: Option<(f64, f64)>,
+    first: Option<MapPoint>,
     /// The last place that was pointed at would have made it too small.
     is_too_small: bool,
 }
@@ -98,12 +99,12 @@ impl Sketch {
 
     /// Where it was begun, if it was.
     #[must_use]
-    pub fn first(self) -> Option<(f64, f64)> {
+    pub fn first(self) -> Option<MapPoint> {
         self.first
     }
 
     /// A place of the map was pointed at; the second one finishes the drawing and lays the tool down. A spot has only one.
-    pub fn point(&mut self, place: (f64, f64)) -> Option<Drawn> {
+    pub fn point(&mut self, place: MapPoint) -> Option<Drawn> {
         if self.is_place() {
             self.take(Tool::Choose);
             return Some(Drawn::Spot(place.into()));
@@ -121,7 +122,8 @@ impl Sketch {
         shape
     }
 
-    fn shape_to(self, (x, y): (f64, f64), (far_x, far_y): (f64, f64)) -> Option<Drawn> {
+    fn shape_to(self, first: MapPoint, last: MapPoint) -> Option<Drawn> {
+        let (MapPoint { x, y }, MapPoint { x: far_x, y: far_y }) = (first, last);
         let (wide, high) = ((far_x - x).abs(), (far_y - y).abs());
         let corners = || vec![[x, y], [far_x, y], [far_x, far_y], [x, far_y]];
         let drawn = match self.tool {
@@ -136,7 +138,7 @@ impl Sketch {
                 return (wide.hypot(high) >= APART_MIN_M).then_some(drawn);
             }
             Tool::Dock => {
-                let drawn = Drawn::Dock(dock_pose((x, y), (far_x, far_y)));
+                let drawn = Drawn::Dock(dock_pose(first, last));
                 return (wide.hypot(high) >= APART_MIN_M).then_some(drawn);
             }
             Tool::Zone => Drawn::Forbidden(NoGoShape::Zone(corners())),
@@ -155,24 +157,26 @@ impl Sketch {
     /// What to do next, for people; nothing while nothing is drawn.
     #[must_use]
     pub fn hint(self, words: &Words) -> Option<&'static str> {
-        let told = &words.map;
+        let texts = &words.map;
         if self.is_too_small {
             return Some(match self.tool {
-                Tool::Wall | Tool::Cut | Tool::Dock => told.too_short,
-                Tool::Choose | Tool::Spot | Tool::Zone | Tool::CleanZone | Tool::AvoidZone => told.too_narrow,
+                Tool::Wall | Tool::Cut | Tool::Dock => texts.too_short,
+                Tool::Choose | Tool::Spot | Tool::Zone | Tool::CleanZone | Tool::AvoidZone => {
+                    texts.too_narrow
+                }
             });
         }
         match (self.tool, self.first) {
             (Tool::Choose, _) => None,
-            (Tool::Spot, _) => Some(told.spot_place),
-            (Tool::Wall, None) => Some(told.wall_first),
-            (Tool::Wall, Some(_)) => Some(told.wall_second),
-            (Tool::Dock, None) => Some(told.dock_first),
-            (Tool::Dock, Some(_)) => Some(told.dock_second),
-            (Tool::Cut, None) => Some(told.cut_first),
-            (Tool::Cut, Some(_)) => Some(told.cut_second),
-            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => Some(told.zone_first),
-            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some(told.zone_second),
+            (Tool::Spot, _) => Some(texts.spot_place),
+            (Tool::Wall, None) => Some(texts.wall_first),
+            (Tool::Wall, Some(_)) => Some(texts.wall_second),
+            (Tool::Dock, None) => Some(texts.dock_first),
+            (Tool::Dock, Some(_)) => Some(texts.dock_second),
+            (Tool::Cut, None) => Some(texts.cut_first),
+            (Tool::Cut, Some(_)) => Some(texts.cut_second),
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, None) => Some(texts.zone_first),
+            (Tool::Zone | Tool::CleanZone | Tool::AvoidZone, Some(_)) => Some(texts.zone_second),
         }
     }
 }
@@ -262,6 +266,7 @@ pub(crate) fn extent(words: &Words, corners: &[[f64; 2]]) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Drawn, Sketch, Tool, no_go_rows, no_go_strokes, spot_border};
+    use crate::MapPoint;
     use crate::words::{Language, Words};
     use rvac_api::{HomeView, NoGoShape, NoGoView};
 
@@ -270,15 +275,23 @@ mod tests {
     #[test]
     fn two_places_make_a_wall_and_the_tool_is_laid_down() {
         let mut sketch = Sketch::default();
-        assert_eq!(sketch.point((1.0, 1.0)), None);
+        assert_eq!(sketch.point(MapPoint::new(1.0, 1.0)), None);
         assert_eq!(sketch, Sketch::default(), "without a tool nothing is drawn");
         sketch.take(Tool::Wall);
-        assert_eq!(sketch.point((1.0, 1.0)), None);
+        assert_eq!(sketch.point(MapPoint::new(1.0, 1.0)), None);
         assert!(!sketch.is_too_small());
-        assert_eq!(sketch.point((1.0, 1.01)), None, "the same place again");
+        assert_eq!(
+            sketch.point(MapPoint::new(1.0, 1.01)),
+            None,
+            "the same place again"
+        );
         assert!(sketch.is_too_small() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("5 cm")));
-        assert_eq!(sketch.first(), Some((1.0, 1.0)), "what was begun stays");
-        let wall = sketch.point((1.0, 2.0));
+        assert_eq!(
+            sketch.first(),
+            Some(MapPoint::new(1.0, 1.0)),
+            "what was begun stays"
+        );
+        let wall = sketch.point(MapPoint::new(1.0, 2.0));
         let drawn = NoGoShape::Wall([[1.0, 1.0], [1.0, 2.0]]);
         assert_eq!(no_go_strokes(&drawn), [1.0, 1.0, 1.0, 2.0]);
         assert_eq!(wall, Some(Drawn::Forbidden(drawn)));
@@ -290,7 +303,10 @@ mod tests {
         let mut sketch = Sketch::default();
         sketch.take(Tool::Spot);
         assert!(sketch.is_place() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("spot")));
-        assert_eq!(sketch.point((1.0, 2.0)), Some(Drawn::Spot([1.0, 2.0])));
+        assert_eq!(
+            sketch.point(MapPoint::new(1.0, 2.0)),
+            Some(Drawn::Spot([1.0, 2.0]))
+        );
         assert_eq!(sketch, Sketch::default());
         for [x, y] in spot_border([1.0, 2.0]) {
             assert!(((x - 1.0).hypot(y - 2.0) - 0.5).abs() < 1e-9);
@@ -302,9 +318,9 @@ mod tests {
         let mut sketch = Sketch::default();
         sketch.take(Tool::Cut);
         assert!(sketch.is_line() && sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("split")));
-        sketch.point((1.0, 1.0));
+        sketch.point(MapPoint::new(1.0, 1.0));
         assert_eq!(
-            sketch.point((1.0, 4.0)),
+            sketch.point(MapPoint::new(1.0, 4.0)),
             Some(Drawn::Cut([[1.0, 1.0], [1.0, 4.0]]))
         );
         assert_eq!(sketch, Sketch::default());
@@ -315,9 +331,12 @@ mod tests {
         let mut sketch = Sketch::default();
         sketch.take(Tool::Dock);
         assert!(sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("dock")));
-        assert_eq!(sketch.point((1.0, 1.0)), None);
-        assert_eq!(sketch.point((1.01, 1.0)), None, "it looks nowhere");
-        assert_eq!(sketch.point((2.0, 1.0)), Some(Drawn::Dock([1.0, 1.0, 0.0])));
+        assert_eq!(sketch.point(MapPoint::new(1.0, 1.0)), None);
+        assert_eq!(sketch.point(MapPoint::new(1.01, 1.0)), None, "it looks nowhere");
+        assert_eq!(
+            sketch.point(MapPoint::new(2.0, 1.0)),
+            Some(Drawn::Dock([1.0, 1.0, 0.0]))
+        );
         assert_eq!(sketch, Sketch::default());
     }
 
@@ -326,15 +345,15 @@ mod tests {
         let mut sketch = Sketch::default();
         sketch.take(Tool::Zone);
         assert!(sketch.hint(ENGLISH).is_some_and(|hint| hint.contains("corner")));
-        sketch.point((2.0, 3.0));
-        assert_eq!(sketch.first(), Some((2.0, 3.0)));
-        assert_eq!(sketch.point((0.0, 3.01)), None);
+        sketch.point(MapPoint::new(2.0, 3.0));
+        assert_eq!(sketch.first(), Some(MapPoint::new(2.0, 3.0)));
+        assert_eq!(sketch.point(MapPoint::new(0.0, 3.01)), None);
         let told = sketch.hint(ENGLISH).expect("it says why");
         assert!(
             told.contains("narrow") && told.contains("opposite corner"),
             "{told}"
         );
-        let zone = sketch.point((0.0, 1.0));
+        let zone = sketch.point(MapPoint::new(0.0, 1.0));
         let corners = vec![[2.0, 3.0], [0.0, 3.0], [0.0, 1.0], [2.0, 1.0]];
         assert_eq!(no_go_strokes(&NoGoShape::Zone(corners.clone())).len(), 16);
         assert_eq!(zone, Some(Drawn::Forbidden(NoGoShape::Zone(corners.clone()))));
@@ -343,8 +362,8 @@ mod tests {
             (Tool::AvoidZone, Drawn::Avoid(NoGoShape::Zone(corners.clone()))),
         ] {
             sketch.take(tool);
-            sketch.point((2.0, 3.0));
-            assert_eq!(sketch.point((0.0, 1.0)), Some(drawn));
+            sketch.point(MapPoint::new(2.0, 3.0));
+            assert_eq!(sketch.point(MapPoint::new(0.0, 1.0)), Some(drawn));
         }
     }
 

@@ -49,7 +49,7 @@ pub(crate) fn chances(levels: Levels<'_>, cell_m: f64) -> Vec<u8> {
             .iter()
             .map(|cell| f32::from(u8::from(*cell == level)))
             .collect();
-        let blurred = blur((mask, levels.width), half_width(level, cell_m));
+        let blurred = blur(mask, levels.width, half_width(level, cell_m));
         for (total, share) in sum.iter_mut().zip(blurred) {
             *total += share;
         }
@@ -59,7 +59,7 @@ pub(crate) fn chances(levels: Levels<'_>, cell_m: f64) -> Vec<u8> {
         .collect()
 }
 
-fn blur((cells, width): (Vec<f32>, usize), half: usize) -> Vec<f32> {
+fn blur(cells: Vec<f32>, width: usize, half: usize) -> Vec<f32> {
     if half == 0 || width == 0 {
         return cells;
     }

@@ -41,7 +41,7 @@ struct Span {
 }
 
 impl Span {
-    fn with(self, (ix, iy): (i32, i32)) -> Self {
+    fn with(self, ix: i32, iy: i32) -> Self {
         Self {
             low: (self.low.0.min(ix), self.low.1.min(iy)),
             high: (self.high.0.max(ix), self.high.1.max(iy)),
@@ -103,13 +103,13 @@ impl SweptGrid {
         let mut changed: Option<Span> = None;
         for (cell, level) in cells.chunks_exact(2).zip(levels) {
             if let &[ix, iy] = cell
-                && self.mark((ix, iy), level)
+                && self.mark(ix, iy, level)
             {
                 let point = Span {
                     low: (ix, iy),
                     high: (ix, iy),
                 };
-                changed = Some(changed.map_or(point, |span| span.with((ix, iy))));
+                changed = Some(changed.map_or(point, |span| span.with(ix, iy)));
                 self.reach = self.reach.max(reach(level, cell_m));
             }
         }
@@ -126,7 +126,7 @@ impl SweptGrid {
         let width = (source.high.0 - source.low.0 + 1) as usize;
         let cells: Vec<u8> = (source.low.1..=source.high.1)
             .flat_map(|iy| {
-                let from = self.index((source.low.0, iy));
+                let from = self.index(source.low.0, iy);
                 self.levels.get(from..from + width).unwrap_or_default()
             })
             .copied()
@@ -136,7 +136,7 @@ impl SweptGrid {
         let target_width = (target.high.0 - target.low.0 + 1) as usize;
         for iy in target.low.1..=target.high.1 {
             let row = (iy - source.low.1) as usize * width + (target.low.0 - source.low.0) as usize;
-            let to = self.index((target.low.0, iy));
+            let to = self.index(target.low.0, iy);
             let fresh = chances.get(row..row + target_width);
             if let (Some(fresh), Some(old)) = (fresh, self.bytes.get_mut(to..to + target_width)) {
                 old.copy_from_slice(fresh);
@@ -162,7 +162,7 @@ impl SweptGrid {
         }
     }
 
-    const fn index(&self, (ix, iy): (i32, i32)) -> usize {
+    const fn index(&self, ix: i32, iy: i32) -> usize {
         (iy - self.y0) as usize * self.width as usize + (ix - self.x0) as usize
     }
 
@@ -190,11 +190,11 @@ impl SweptGrid {
     }
 
     /// `false` for a cell that is too far away.
-    fn mark(&mut self, (ix, iy): (i32, i32), level: u8) -> bool {
+    fn mark(&mut self, ix: i32, iy: i32, level: u8) -> bool {
         if !self.holds(ix, iy) && !self.grow_to(ix, iy) {
             return false;
         }
-        let index = self.index((ix, iy));
+        let index = self.index(ix, iy);
         if let Some(known) = self.levels.get_mut(index) {
             *known = level;
         }
@@ -221,11 +221,11 @@ impl SweptGrid {
         if x1 - x0 > SIDE_MAX || y1 - y0 > SIDE_MAX {
             return false;
         }
-        self.move_into(x0, y0, (x1 - x0, y1 - y0));
+        self.move_into([x0, y0], [x1 - x0, y1 - y0]);
         true
     }
 
-    fn move_into(&mut self, x0: i32, y0: i32, (width, height): (i32, i32)) {
+    fn move_into(&mut self, [x0, y0]: [i32; 2], [width, height]: [i32; 2]) {
         let moved = |cells: &[u8]| {
             let mut larger = vec![0; width as usize * height as usize];
             for (row, old) in cells.chunks_exact((self.width as usize).max(1)).enumerate() {
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_swept_by_an_unsure_robot_is_paler_and_wider_and_grows_as_if_told_at_once() {
+    fn what_was_swept_by_an_unsure_robot_is_paler_and_wider_and_grows_as_if_received_at_once() {
         let cells: Vec<i32> = (0..400).flat_map(|index| [index % 20, index / 20]).collect();
         let mut at_once = SweptGrid::default();
         at_once.mark_all(&cells, &[400, 12], CELL_M);
@@ -281,7 +281,7 @@ mod tests {
     }
 
     #[test]
-    fn deviations_belong_to_their_cells_and_what_is_not_told_is_sure() {
+    fn deviations_belong_to_their_cells_and_what_is_not_reported_is_sure() {
         let mut grid = SweptGrid::default();
         grid.mark_all(&[0, 0, 100, 0, 200, 0], &[1, 0, 1, 25], CELL_M);
         assert_eq!((byte(&grid, 0, 0), byte(&grid, 200, 0)), (255, 255));
@@ -312,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn changes_are_told_once() {
+    fn changes_are_reported_once() {
         let mut grid = SweptGrid::default();
         grid.mark_all(&[3, 5], &[], CELL_M);
         assert!(grid.take_resized());

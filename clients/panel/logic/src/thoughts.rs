@@ -64,21 +64,21 @@ pub fn place_text(words: &Words, estimate: &Estimate) -> String {
 /// The robot's estimates of position and coverage, a sentence each.
 #[must_use]
 pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
-    let told = &words.status;
+    let texts = &words.status;
     let mut sentences = vec![if estimate.lost {
-        told.is_lost.to_owned()
+        texts.is_lost.to_owned()
     } else {
         let heading = words.number(estimate.sigma_rad.to_degrees().max(1.0), 0);
-        told.believes.fill([&place_text(words, estimate), &heading])
+        texts.believes.fill([&place_text(words, estimate), &heading])
     }];
     if let Some(agreement) = estimate.agreement {
-        sentences.push(told.agreement.fill([&percent_text(words, agreement)]));
+        sentences.push(texts.agreement.fill([&percent_text(words, agreement)]));
     }
     if let Some(covered) = estimate.covered {
         let covered = percent_text(words, covered);
         sentences.push(match estimate.covered_low {
-            Some(low) => told.covered_at_least.fill([&covered, &percent_text(words, low)]),
-            None => told.covered.fill([&covered]),
+            Some(low) => texts.covered_at_least.fill([&covered, &percent_text(words, low)]),
+            None => texts.covered.fill([&covered]),
         });
     }
     sentences
@@ -86,8 +86,8 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
 
 /// The planned path as dashes `[x0,y0,x1,y1,...]` in metres, each `dash_m` long with as much between them.
 #[must_use]
-pub fn path_dashes(way: &PlannedPath, dash_m: f64) -> Vec<f32> {
-    let corners: Vec<[f64; 2]> = way
+pub fn path_dashes(path: &PlannedPath, dash_m: f64) -> Vec<f32> {
+    let corners: Vec<[f64; 2]> = path
         .points_mm
         .chunks_exact(2)
         .take(CORNERS_MAX)
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_known_is_told() {
+    fn only_what_is_known_is_shown() {
         let sure = Estimate {
             sigma_m: 0.043,
             sigma_rad: 0.02,
@@ -209,10 +209,10 @@ mod tests {
 
     #[test]
     fn a_way_becomes_dashes_that_go_on_round_corners() {
-        let way = PlannedPath {
+        let path = PlannedPath {
             points_mm: vec![0, 0, 1500, 0, 1500, 1500],
         };
-        let dashes = path_dashes(&way, 1.0);
+        let dashes = path_dashes(&path, 1.0);
         assert_eq!(
             dashes,
             [0.0, 0.0, 1.0, 0.0, 1.5, 0.5, 1.5, 1.5].map(|metres: f64| metres as f32)

@@ -111,13 +111,13 @@ pub(crate) fn DevicesView(entrance: Entrance) -> impl IntoView {
 fn to_scan(invitation: &OpenedHere) -> Option<impl IntoView + use<>> {
     let address = invitation.to_scan()?;
     let QrPicture { size, path } = QrPicture::of(address)?;
-    let told = words().access.scan.fill([&address]);
+    let texts = words().access.scan.fill([&address]);
     Some(view! {
         <figure class="qr" id="pairing-qr">
             <svg role="img" aria-label=words().access.qr_code viewBox=format!("0 0 {size} {size}")>
                 <path d=path />
             </svg>
-            <figcaption class="remark">{told}</figcaption>
+            <figcaption class="remark">{texts}</figcaption>
         </figure>
     })
 }
@@ -157,10 +157,10 @@ fn line(entrance: Entrance, devices: Devices, row: ClientRow) -> impl IntoView {
 
 /// What a role may, in few words.
 pub(super) fn may(role: Role) -> &'static str {
-    let told = &words().access;
+    let texts = &words().access;
     match role {
-        Role::View => told.may_view,
-        Role::Drive => told.may_drive,
-        Role::Admin => told.may_admin,
+        Role::View => texts.may_view,
+        Role::Drive => texts.may_drive,
+        Role::Admin => texts.may_admin,
     }
 }

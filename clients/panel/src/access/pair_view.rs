@@ -81,12 +81,12 @@ impl PairForm {
     }
 
     fn button_text(self) -> &'static str {
-        let told = &words().access;
+        let texts = &words().access;
         match (self.by_presses.get(), self.works.get()) {
-            (true, true) => told.waiting,
-            (true, false) => told.show_presses,
-            (false, true) => told.pairing,
-            (false, false) => told.pair,
+            (true, true) => texts.waiting,
+            (true, false) => texts.show_presses,
+            (false, true) => texts.pairing,
+            (false, false) => texts.pair,
         }
     }
 }
@@ -155,11 +155,11 @@ pub(crate) fn PairView(store: Store) -> impl IntoView {
 }
 
 fn forgotten_text(why: Forgotten) -> &'static str {
-    let told = &words().access;
+    let texts = &words().access;
     match why {
-        Forgotten::Buttons => told.forgotten_buttons,
-        Forgotten::File => told.forgotten_file,
-        Forgotten::Console => told.forgotten_console,
+        Forgotten::Buttons => texts.forgotten_buttons,
+        Forgotten::File => texts.forgotten_file,
+        Forgotten::Console => texts.forgotten_console,
     }
 }
 

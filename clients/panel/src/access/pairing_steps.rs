@@ -88,11 +88,11 @@ async fn pause(ms: i32) {
 }
 
 fn name_problem(error: NameError) -> String {
-    let told = &words().access;
+    let texts = &words().access;
     match error {
-        NameError::Empty => told.name_empty,
-        NameError::Long => told.name_long,
-        NameError::Control => told.name_control,
+        NameError::Empty => texts.name_empty,
+        NameError::Long => texts.name_long,
+        NameError::Control => texts.name_control,
     }
     .to_owned()
 }

@@ -17,6 +17,14 @@ const RADIUS_M: f64 = 0.17;
 /// How many times as fast as it was.
 const SPEEDS: [(&str, f64); 4] = [("1", 1.0), ("8", 8.0), ("32", 32.0), ("128", 128.0)];
 
+/// How far a replay has come.
+#[derive(Clone, Copy, Debug)]
+struct PlayTime {
+    now_s: RwSignal<f64>,
+    /// Of the run.
+    end_s: f64,
+}
+
 #[component]
 pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSignal<f64>) -> impl IntoView {
     let desk = store.history;
@@ -28,6 +36,7 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
     let end_s = record.with_value(|record| record.run.duration_s.max(1.0));
     // At first the whole run is seen.
     time.set(end_s);
+    let play = PlayTime { now_s: time, end_s };
     let (plays, speed) = (RwSignal::new(false), RwSignal::new(32.0_f64));
     let step = move || {
         if plays.get_untracked() {
@@ -53,7 +62,7 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
         }
     };
     view! {
-        {picture(store, (record, end_s), (replay, time))}
+        {picture(store, record, replay, play)}
         <Show
             when=move || replay.with(Option::is_some)
             fallback=|| view! { <p class="hint">{words().history.no_replay}</p> }
@@ -79,7 +88,7 @@ pub(crate) fn Player(store: Store, record: StoredValue<RunRecord>, time: RwSigna
         </Show>
         {move || {
             let plots = desk.track.with(|track| track.as_ref().map(|track| plots(words(), track, end_s)));
-            plots.unwrap_or_default().into_iter().map(|plot| plot_view(plot, (time, end_s))).collect_view()
+            plots.unwrap_or_default().into_iter().map(|plot| plot_view(plot, play)).collect_view()
         }}
     }
 }
@@ -100,9 +109,11 @@ fn speed_choice(speed: RwSignal<f64>) -> impl IntoView {
 
 fn picture(
     store: Store,
-    (record, end_s): (StoredValue<RunRecord>, f64),
-    (replay, time): (Memo<Option<Replay>>, RwSignal<f64>),
+    record: StoredValue<RunRecord>,
+    replay: Memo<Option<Replay>>,
+    play: PlayTime,
 ) -> impl IntoView {
+    let time = play.now_s;
     let drawing = record.with_value(|record| record.picture.as_ref().map(run_drawing).unwrap_or_default());
     let [left, top, width, height] = drawing.view_box;
     let (swath_m, radius_m) = store.robot.with_untracked(|robot| {
@@ -110,15 +121,14 @@ fn picture(
             .as_ref()
             .map_or((SWATH_M, RADIUS_M), |robot| (robot.swath_m, robot.radius_m))
     });
-    let swept_is_whole = move || time.get() >= end_s || replay.with(Option::is_none);
+    let swept_is_whole = move || time.get() >= play.end_s || replay.with(Option::is_none);
     let sweeps = record.with_value(|record| {
         record
             .picture
             .as_ref()
             .is_some_and(|picture| !picture.swept_rows.is_empty())
     });
-    let (swept, way) = (drawing.swept, drawing.way);
-    let whole_way = way.clone();
+    let (swept, path) = (drawing.swept, drawing.path);
     let driven = move || {
         replay.with(|replay| {
             replay
@@ -153,7 +163,7 @@ fn picture(
                 stroke-width=100.0 * swath_m
                 d=move || if swept_is_whole() || !sweeps { String::new() } else { driven() }
             />
-            <path class="way" d=move || if swept_is_whole() { whole_way.clone() } else { driven() } />
+            <path class="way" d=move || if swept_is_whole() { path.clone() } else { driven() } />
             <g class="robot" id="replay-robot" transform=move || robot().unwrap_or_default() hidden=move || robot().is_none()>
                 <circle r=radius_cm />
                 <path d=format!("M0 0H{radius_cm:.0}") />
@@ -183,7 +193,7 @@ fn marks(record: StoredValue<RunRecord>) -> impl IntoView {
     places.into_iter().enumerate().map(mark).collect_view()
 }
 
-fn plot_view(plot: Plot, (time, end_s): (RwSignal<f64>, f64)) -> impl IntoView {
+fn plot_view(plot: Plot, play: PlayTime) -> impl IntoView {
     let names = plot
         .lines
         .iter()
@@ -195,7 +205,7 @@ fn plot_view(plot: Plot, (time, end_s): (RwSignal<f64>, f64)) -> impl IntoView {
         .plot
         .fill([&plot.title, &names, &plot.low, &plot.high]);
     let is_alone = plot.lines.len() == 1;
-    let at = move || format!("{:.1}", 300.0 * (time.get() / end_s).clamp(0.0, 1.0));
+    let at = move || format!("{:.1}", 300.0 * (play.now_s.get() / play.end_s).clamp(0.0, 1.0));
     let line = |(index, (_, path)): (usize, &(&'static str, String))| {
         view! { <path class=format!("line line-{index}") d=path.clone() vector-effect="non-scaling-stroke" /> }
     };

@@ -3,7 +3,7 @@
 use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
 use leptos::html;
 use leptos::prelude::*;
-use panel_logic::{Orbit, Tool, View};
+use panel_logic::{MapPoint, Orbit, Pixel, Tool, View};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 use web_sys::ResizeObserver;
@@ -59,6 +59,15 @@ fn turn(scene: &mut Scene, dx: f64, dy: f64) {
     scene.refit();
 }
 
+/// What a drag does that does not move the picture: it turns it, where there is an orbit to turn on.
+fn turn_or_pan(scene: &mut Scene, dx: f64, dy: f64) {
+    if scene.camera.orbit().is_some() {
+        turn(scene, dx, dy);
+    } else {
+        pan(scene, dx, dy);
+    }
+}
+
 pub(super) fn apply(store: Store, mode: RwSignal<CameraMode>, change: impl FnOnce(&mut Scene)) {
     store.map.with_value(|map| {
         map.change(change);
@@ -96,7 +105,8 @@ pub(super) fn MapCanvas(
         } else {
             // The second button, or Shift, moves the picture where the first one turns it.
             let pans = event.shift_key() || event.buttons() & 1 == 0;
-            move_camera(store, mode, (movement, pans));
+            let drag = if pans { pan } else { turn_or_pan };
+            move_camera(store, mode, movement, drag);
         }
     };
     let on_up = move |event: PointerEvent| {
@@ -135,7 +145,7 @@ fn on_wheel(store: Store, mode: RwSignal<CameraMode>, event: &WheelEvent) {
     } else {
         event.delta_y() * 16.0
     };
-    let at = (f64::from(event.offset_x()), f64::from(event.offset_y()));
+    let at = Pixel::new(f64::from(event.offset_x()), f64::from(event.offset_y()));
     apply(store, mode, |scene| {
         scene
             .camera
@@ -146,14 +156,14 @@ fn on_wheel(store: Store, mode: RwSignal<CameraMode>, event: &WheelEvent) {
     });
 }
 
-fn place(event: &PointerEvent) -> (f64, f64) {
-    (f64::from(event.offset_x()), f64::from(event.offset_y()))
+fn place(event: &PointerEvent) -> Pixel {
+    Pixel::new(f64::from(event.offset_x()), f64::from(event.offset_y()))
 }
 
 /// A finger that is down and may become a tap, or the second corner of a drawing.
 #[derive(Clone, Copy, Debug)]
 struct Press {
-    at: (f64, f64),
+    at: Pixel,
     /// This press has set the first corner.
     has_begun: bool,
 }
@@ -168,10 +178,10 @@ fn draws(store: Store) -> bool {
         .with_untracked(|sketch| sketch.tool() != Tool::Choose)
 }
 
-fn map_place(store: Store, (x, y): (f64, f64)) -> (f64, f64) {
+fn map_place(store: Store, pixel: Pixel) -> MapPoint {
     store
         .map
-        .with_value(|map| map.with(|scene| scene.camera.map_from_screen(x, y)))
+        .with_value(|map| map.with(|scene| scene.camera.map_from_screen(pixel)))
 }
 
 /// A second finger zooms: what the first one began is dropped.
@@ -193,28 +203,23 @@ fn begin_press(store: Store, gestures: StoredValue<Gestures>, event: &PointerEve
 }
 
 /// Two taps draw, and so does one drag. A spot lies where the finger leaves the map.
-fn end_press(store: Store, press: Press, (x, y): (f64, f64)) {
-    let is_tap = (x - press.at.0).hypot(y - press.at.1) < TAP_PX;
+fn end_press(store: Store, press: Press, at: Pixel) {
+    let is_tap = (at.x - press.at.x).hypot(at.y - press.at.y) < TAP_PX;
     let points = if draws(store) {
         !(press.has_begun && is_tap)
     } else {
         is_tap
     };
     if points {
-        store.point_at(map_place(store, (x, y)));
+        store.point_at(map_place(store, at));
     }
 }
 
-fn move_camera(store: Store, mode: RwSignal<CameraMode>, (movement, pans): (Movement, bool)) {
+/// `drag` says what one finger does to the picture.
+fn move_camera(store: Store, mode: RwSignal<CameraMode>, movement: Movement, drag: fn(&mut Scene, f64, f64)) {
     match movement {
         Movement::Nothing => {}
-        Movement::Drag { dx, dy } => apply(store, mode, |scene| {
-            if scene.camera.orbit().is_some() && !pans {
-                turn(scene, dx, dy);
-            } else {
-                pan(scene, dx, dy);
-            }
-        }),
+        Movement::Drag { dx, dy } => apply(store, mode, |scene| drag(scene, dx, dy)),
         Movement::Pinch {
             at,
             factor,
@@ -274,7 +279,7 @@ fn on_key(store: Store, mode: RwSignal<CameraMode>, event: &KeyboardEvent) {
 }
 
 /// The place in the middle of the map.
-fn middle(store: Store) -> (f64, f64) {
+fn middle(store: Store) -> MapPoint {
     store
         .map
         .with_value(|map| map.with(|scene| scene.camera.middle()))

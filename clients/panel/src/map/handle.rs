@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 
 use leptos::prelude::{RwSignal, Track, Update, request_animation_frame, window};
-use panel_logic::{FrameMeter, RoomChoice};
+use panel_logic::{FrameMeter, MapPoint, RoomChoice};
 use rvac_api::{
     Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, RobotDescription, SimulatedPlan,
 };
@@ -137,13 +137,13 @@ impl MapHandle {
     }
 
     /// Marks where the robot waits for help, if it does.
-    pub(crate) fn mark_stop(&self, place: Option<(f64, f64)>) {
+    pub(crate) fn mark_stop(&self, place: Option<MapPoint>) {
         self.shared.labels.borrow_mut().mark_stop(place);
         self.change(|_| {});
     }
 
-    pub(crate) fn on_way(&self, way: &PlannedPath) {
-        self.change(|scene| scene.on_way(way));
+    pub(crate) fn on_planned_path(&self, path: &PlannedPath) {
+        self.change(|scene| scene.on_planned_path(path));
     }
 
     pub(crate) fn on_estimate(&self, estimate: &Estimate) {
@@ -228,7 +228,7 @@ impl MapHandle {
         set("data-ground", self.with(|scene| format!("{:?}", scene.ground())));
         set(
             "data-way-dashes",
-            self.with(|scene| (scene.way.len() / 4).to_string()),
+            self.with(|scene| (scene.planned_path.len() / 4).to_string()),
         );
         if let Some(rate) = self.frames_per_second() {
             set("data-frames-per-second", format!("{rate:.1}"));

@@ -2,7 +2,7 @@
 //! them as lists on the page, so these are hidden from screen readers.
 
 use leptos::prelude::document;
-use panel_logic::{DrawnPart, ITEMS_MAX, room_name};
+use panel_logic::{DrawnPart, ITEMS_MAX, MapPoint, Pixel, room_name};
 use rvac_api::RoomView;
 use wasm_bindgen::JsCast;
 use web_sys::HtmlElement;
@@ -27,7 +27,7 @@ pub(crate) struct Labels {
 #[derive(Clone, Debug)]
 struct Label {
     text: String,
-    at: (f64, f64),
+    at: MapPoint,
     /// Area of the room whose name it is.
     room_m2: Option<f64>,
     class: &'static str,
@@ -53,7 +53,7 @@ impl Labels {
     pub(crate) fn name(&mut self, rooms: &[RoomView]) {
         let label = |room: &RoomView| Label {
             text: room_name(words(), room),
-            at: (room.x, room.y),
+            at: MapPoint::new(room.x, room.y),
             room_m2: Some(room.area_m2),
             class: "",
         };
@@ -74,7 +74,7 @@ impl Labels {
     }
 
     /// Takes where the robot waits for help.
-    pub(crate) fn mark_stop(&mut self, at: Option<(f64, f64)>) {
+    pub(crate) fn mark_stop(&mut self, at: Option<MapPoint>) {
         self.stop = at.map(|at| Label {
             text: "!".to_owned(),
             at,
@@ -113,7 +113,7 @@ impl Labels {
     /// Moves the labels to the screen positions of what they name.
     pub(crate) fn place(&self, scene: &Scene) {
         for (element, label) in self.elements.iter().zip(self.labels()) {
-            let (x, y) = scene.camera.screen_from_map(label.at.0, label.at.1);
+            let Pixel { x, y } = scene.camera.screen_from_map(label.at);
             let style = element.style();
             // Neither property can be refused.
             style

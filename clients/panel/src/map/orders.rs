@@ -2,8 +2,9 @@
 
 use leptos::prelude::*;
 use panel_logic::{
-    Drawn, Edit, Forbidden, NoGoRow, PlaceRow, Reshape, RoomChangeRow, RoomChoice, Sketch, Tool, dock_text,
-    job_estimate_text, joinable, known_dock, no_go_rows, place_rows, refusal_text, room_change_rows,
+    Drawn, Edit, Forbidden, MapPoint, NoGoRow, PlaceRow, Reshape, RoomChangeRow, RoomChoice, Sketch, Tool,
+    dock_text, job_estimate_text, joinable, known_dock, no_go_rows, place_rows, refusal_text,
+    room_change_rows,
 };
 use rvac_api::{Failure, HomeView, JobEstimate, RequestBody};
 
@@ -29,7 +30,7 @@ pub(crate) struct Orders {
     /// What is being reshaped.
     pub(crate) reshape: RwSignal<Option<Reshape>>,
     /// Where the pointer is while something is drawn, in the map.
-    pub(crate) pointer: RwSignal<Option<(f64, f64)>>,
+    pub(crate) pointer: RwSignal<Option<MapPoint>>,
     /// What is forbidden.
     pub(crate) no_go: RwSignal<Vec<NoGoRow>>,
     /// Zones and spots that are kept.
@@ -136,7 +137,7 @@ impl Store {
     }
 
     /// A person pointed at a place of the map.
-    pub(crate) fn point_at(self, place: (f64, f64)) {
+    pub(crate) fn point_at(self, place: MapPoint) {
         // A finger that misses a dot of what is reshaped chooses nothing.
         if self.orders.reshape.with_untracked(Option::is_some) {
             return;
@@ -173,7 +174,7 @@ impl Store {
     }
 
     /// Takes a chosen spot out that was pointed at; `false` when there is none.
-    fn take_spot_out_at(self, place: (f64, f64)) -> bool {
+    fn take_spot_out_at(self, place: MapPoint) -> bool {
         let mut is_one = false;
         self.choose(|choice| is_one = choice.take_spot_out_at(place));
         is_one

@@ -1,7 +1,7 @@
 //! Draws the scene without WebGL: the flat map only, with what every browser can do. Slower, but a map.
 
 use leptos::prelude::document;
-use panel_logic::{MapPalette, Rgb, plan_pixels};
+use panel_logic::{MapPalette, MapPoint, Pixel, Rgb, plan_pixels};
 use rvac_api::Pose;
 use wasm_bindgen::{Clamped, JsCast};
 use web_sys::{CanvasRenderingContext2d, HtmlCanvasElement, ImageData};
@@ -17,6 +17,13 @@ const BORDER_PX: f64 = 3.0;
 /// How much of the floor shows through what is swept, and through where the robot may be.
 const SWEPT: f64 = 0.6;
 const SPREAD: f64 = 0.16;
+
+/// Where cells lie on the map: the corner of the first, and their size.
+#[derive(Clone, Copy, Debug)]
+struct Grid {
+    origin: Pose,
+    cell_m: f64,
+}
 
 /// A picture of cells, drawn larger.
 #[derive(Debug)]
@@ -117,32 +124,39 @@ impl PlainRenderer {
     }
 
     /// The device pixel of a place.
-    fn pixel(&self, scene: &Scene, (x, y): (f64, f64)) -> (f64, f64) {
-        let (px, py) = scene.camera.screen_from_map(x, y);
+    fn pixel(&self, scene: &Scene, place: MapPoint) -> Pixel {
+        let pixel = scene.camera.screen_from_map(place);
         let ratio = self.ratio(scene);
-        (px * ratio, py * ratio)
+        Pixel::new(pixel.x * ratio, pixel.y * ratio)
     }
 
     fn draw_pictures(&self, scene: &Scene) {
         self.context.set_image_smoothing_enabled(false);
         if let Some(plan) = scene.plan() {
-            self.draw_cells(scene, &self.plan, (plan.origin, plan.cell_m));
+            let grid = Grid {
+                origin: plan.origin,
+                cell_m: plan.cell_m,
+            };
+            self.draw_cells(scene, &self.plan, grid);
         }
         let (x0, y0) = scene.swept.origin();
-        let corner = Pose {
-            x: f64::from(x0) * scene.cell_m,
-            y: f64::from(y0) * scene.cell_m,
-            ..Pose::default()
+        let grid = Grid {
+            origin: Pose {
+                x: f64::from(x0) * scene.cell_m,
+                y: f64::from(y0) * scene.cell_m,
+                ..Pose::default()
+            },
+            cell_m: scene.cell_m,
         };
         if scene.swept_cells > 0 {
-            self.draw_cells(scene, &self.swept, (corner, scene.cell_m));
+            self.draw_cells(scene, &self.swept, grid);
         }
     }
 
-    fn draw_cells(&self, scene: &Scene, cells: &Cells, (origin, cell_m): (Pose, f64)) {
-        let size = scene.camera.scale() * self.ratio(scene) * cell_m;
-        let (sin, cos) = origin.heading.sin_cos();
-        let (x, y) = self.pixel(scene, (origin.x, origin.y));
+    fn draw_cells(&self, scene: &Scene, cells: &Cells, grid: Grid) {
+        let size = scene.camera.scale() * self.ratio(scene) * grid.cell_m;
+        let (sin, cos) = grid.origin.heading.sin_cos();
+        let Pixel { x, y } = self.pixel(scene, MapPoint::of(&grid.origin));
         let placed = self
             .context
             .set_transform(size * cos, -size * sin, -size * sin, -size * cos, x, y);
@@ -154,7 +168,7 @@ impl PlainRenderer {
     }
 
     fn draw_lines(&self, scene: &mut Scene, palette: &MapPalette) {
-        let way: Vec<f32> = scene
+        let driven: Vec<f32> = scene
             .path
             .chunks_exact(2)
             .zip(scene.path.chunks_exact(2).skip(1))
@@ -167,8 +181,8 @@ impl PlainRenderer {
         };
         for (strokes, (width_px, colour)) in [
             (walls, (LINE_PX, palette.wall)),
-            (&way, (LINE_PX, palette.path)),
-            (&scene.way, (LINE_PX, palette.thought)),
+            (&driven, (LINE_PX, palette.path)),
+            (&scene.planned_path, (LINE_PX, palette.thought)),
             (&scene.forbidden, (BORDER_PX, palette.forbidden)),
             (&scene.avoided, (BORDER_PX, palette.forbidden)),
             (&scene.wanted, (BORDER_PX, palette.wanted)),
@@ -176,10 +190,10 @@ impl PlainRenderer {
             self.context.begin_path();
             for stroke in strokes.chunks_exact(4) {
                 if let &[x, y, far_x, far_y] = stroke {
-                    let (x, y) = self.pixel(scene, (x.into(), y.into()));
-                    let (far_x, far_y) = self.pixel(scene, (far_x.into(), far_y.into()));
-                    self.context.move_to(x, y);
-                    self.context.line_to(far_x, far_y);
+                    let from = self.pixel(scene, MapPoint::new(x.into(), y.into()));
+                    let to = self.pixel(scene, MapPoint::new(far_x.into(), far_y.into()));
+                    self.context.move_to(from.x, from.y);
+                    self.context.line_to(to.x, to.y);
                 }
             }
             self.context.set_line_width(width_px * self.ratio(scene));
@@ -192,23 +206,32 @@ impl PlainRenderer {
         let ratio = self.ratio(scene);
         let size = |metres: f64| metres * scene.camera.scale() * ratio;
         for bump in &scene.bumps {
-            self.disc(scene, ((bump.x, bump.y), BUMP_PX * ratio), css(palette.mark, 1.0));
+            self.disc(
+                self.pixel(scene, MapPoint::new(bump.x, bump.y)),
+                BUMP_PX * ratio,
+                css(palette.mark, 1.0),
+            );
         }
         let radius = size(scene.body_radius_m());
         if let Some(dock) = scene.plan().and_then(|plan| plan.dock) {
-            self.disc(scene, ((dock.x, dock.y), radius * 0.6), css(palette.front, 1.0));
+            self.disc(
+                self.pixel(scene, MapPoint::of(&dock)),
+                radius * 0.6,
+                css(palette.front, 1.0),
+            );
         }
         if let Some(pose) = places.believed {
             let spread = size(scene.uncertainty_m());
-            self.disc(scene, ((pose.x, pose.y), spread), css(palette.thought, SPREAD));
-            self.disc(scene, ((pose.x, pose.y), radius), css(palette.body, 1.0));
+            let at = self.pixel(scene, MapPoint::of(&pose));
+            self.disc(at, spread, css(palette.thought, SPREAD));
+            self.disc(at, radius, css(palette.body, 1.0));
             let ahead = scene.body_radius_m() * 0.6;
             let (sin, cos) = pose.heading.sin_cos();
-            let nose = (pose.x + ahead * cos, pose.y + ahead * sin);
-            self.disc(scene, (nose, radius * 0.3), css(palette.front, 1.0));
+            let nose = MapPoint::new(pose.x + ahead * cos, pose.y + ahead * sin);
+            self.disc(self.pixel(scene, nose), radius * 0.3, css(palette.front, 1.0));
         }
         if let Some(pose) = places.truth {
-            let (x, y) = self.pixel(scene, (pose.x, pose.y));
+            let Pixel { x, y } = self.pixel(scene, MapPoint::of(&pose));
             self.context.begin_path();
             self.context.arc(x, y, radius, 0.0, core::f64::consts::TAU).ok(); // No radius is negative.
             self.context.set_line_width(LINE_PX * ratio);
@@ -217,8 +240,7 @@ impl PlainRenderer {
         }
     }
 
-    fn disc(&self, scene: &Scene, (place, radius): ((f64, f64), f64), colour: String) {
-        let (x, y) = self.pixel(scene, place);
+    fn disc(&self, Pixel { x, y }: Pixel, radius: f64, colour: String) {
         self.context.begin_path();
         self.context.arc(x, y, radius, 0.0, core::f64::consts::TAU).ok(); // No radius is negative.
         self.context.set_fill_style_str(&colour);

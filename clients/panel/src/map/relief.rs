@@ -8,6 +8,7 @@ use super::gl::{GlError, GrowingBuffer, Program, layout};
 use super::relief_shaders::{
     BLOCK_CORNERS, BLOCK_FRAGMENT, BLOCK_VERTEX, DRUM_CORNERS, DRUM_FRAGMENT, DRUM_VERTEX,
 };
+use super::renderer::Frame;
 use super::scene::{Ground, Scene};
 
 /// Walls are cut off here, metres: high enough to be walls, low enough to see what is behind them.
@@ -21,6 +22,14 @@ const DOCK_PARTS: [([f32; 4], f32); 2] = [
 ];
 /// Between the body of a docked robot and the tower, metres.
 const DOCK_GAP_M: f64 = 0.01;
+
+/// Robots as marks on the floor, and how high they stand.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RobotMarks<'a> {
+    pub(super) layout: &'a WebGlVertexArrayObject,
+    pub(super) count: i32,
+    pub(super) height_m: f64,
+}
 
 /// Blocks and bodies in graphics memory.
 #[derive(Debug)]
@@ -135,23 +144,18 @@ impl Relief {
         self.block.set("side_colour", &paint.side);
     }
 
-    /// Draws the side of the robot among these marks.
-    pub(super) fn draw_robot(
-        &self,
-        (marks, count): (&WebGlVertexArrayObject, i32),
-        palette: &MapPalette,
-        (eye, height): (&[f32; 16], f64),
-    ) {
+    /// Draws the sides of these robots.
+    pub(super) fn draw_robot(&self, marks: RobotMarks<'_>, Frame { palette, eye }: Frame<'_>) {
         let gl = &self.gl;
         gl.depth_mask(true);
         gl.enable(Gl::CULL_FACE);
         self.drum.select();
-        self.drum.set_matrix("eye", eye);
-        self.drum.set("height", &[height as f32]);
+        self.drum.set_matrix("eye", &eye.clip);
+        self.drum.set("height", &[marks.height_m as f32]);
         self.drum.set("body_colour", &palette.body);
         self.drum.set("front_colour", &palette.front);
-        gl.bind_vertex_array(Some(marks));
-        gl.draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, DRUM_CORNERS, count);
+        gl.bind_vertex_array(Some(marks.layout));
+        gl.draw_arrays_instanced(Gl::TRIANGLE_STRIP, 0, DRUM_CORNERS, marks.count);
         gl.depth_mask(false);
         gl.disable(Gl::CULL_FACE);
     }

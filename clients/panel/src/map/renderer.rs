@@ -8,7 +8,7 @@ use web_sys::{HtmlCanvasElement, WebGl2RenderingContext as Gl, WebGlTexture, Web
 use super::canvas_size::fit_canvas;
 use super::gl::{GlError, GrowingBuffer, Look, Program, layout, texture};
 use super::marks::{MARK_NUMBERS, bump_marks, floor_marks, robot_marks};
-use super::relief::{ROBOT_M, Relief};
+use super::relief::{ROBOT_M, Relief, RobotMarks};
 use super::scene::{Ground, Places, Redraw, Scene};
 use super::shaders;
 
@@ -29,7 +29,7 @@ pub(crate) struct Renderer {
     pub(super) swept: WebGlTexture,
     path: Layer,
     walls: Layer,
-    way: Layer,
+    planned_path: Layer,
     wanted: Layer,
     forbidden: Layer,
     bumps: Layer,
@@ -68,10 +68,17 @@ impl Layer {
     }
 }
 
+/// With what a frame is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Frame<'a> {
+    pub(super) palette: &'a MapPalette,
+    pub(super) eye: &'a Eye,
+}
+
 /// The camera in the form for the shaders.
 #[derive(Clone, Copy, Debug)]
-struct Eye {
-    clip: [f32; 16],
+pub(super) struct Eye {
+    pub(super) clip: [f32; 16],
     floor: [f32; 9],
     pixel: [f32; 2],
     ratio: f64,
@@ -134,7 +141,7 @@ impl Renderer {
             swept: texture(gl, Look::Smooth)?,
             path: Layer::new(gl)?,
             walls: Layer::new(gl)?,
-            way: Layer::new(gl)?,
+            planned_path: Layer::new(gl)?,
             wanted: Layer::new(gl)?,
             forbidden: Layer::new(gl)?,
             bumps: Layer::new(gl)?,
@@ -156,7 +163,8 @@ impl Renderer {
             gl.vertex_attrib_pointer_with_i32(place, size, Gl::FLOAT, false, stride, offset);
             gl.vertex_attrib_divisor(place, 1);
         };
-        let strokes = [&self.walls, &self.way, &self.wanted, &self.forbidden].map(|layer| (layer, 16));
+        let strokes =
+            [&self.walls, &self.planned_path, &self.wanted, &self.forbidden].map(|layer| (layer, 16));
         for (layer, stride) in strokes.into_iter().chain([(&self.path, 8)]) {
             gl.bind_vertex_array(Some(&layer.layout));
             layer.buffer.bind();
@@ -196,7 +204,11 @@ impl Renderer {
         }
         self.gl.disable(Gl::DEPTH_TEST);
         self.gl.disable(Gl::BLEND);
-        self.draw_ground(scene, (&palette, &eye));
+        let frame = Frame {
+            palette: &palette,
+            eye: &eye,
+        };
+        self.draw_ground(scene, frame);
         if let Some(relief) = self.relief.as_mut().filter(|_| eye.in_relief) {
             self.gl.depth_mask(true);
             self.gl.clear(Gl::DEPTH_BUFFER_BIT);
@@ -204,8 +216,8 @@ impl Renderer {
         }
         self.gl.enable(Gl::BLEND);
         self.gl.blend_func(Gl::ONE, Gl::ONE_MINUS_SRC_ALPHA);
-        self.draw_lines(scene, (&palette, &eye));
-        self.draw_marks(scene, places, (&palette, &eye));
+        self.draw_lines(scene, frame);
+        self.draw_marks(scene, places, frame);
         self.gl.bind_vertex_array(None);
     }
 
@@ -243,7 +255,7 @@ impl Renderer {
         );
     }
 
-    fn draw_ground(&self, scene: &Scene, (palette, eye): (&MapPalette, &Eye)) {
+    fn draw_ground(&self, scene: &Scene, Frame { palette, eye }: Frame<'_>) {
         let program = &self.ground;
         program.select();
         self.gl.active_texture(Gl::TEXTURE1);
@@ -284,14 +296,14 @@ impl Renderer {
         self.gl.draw_arrays(Gl::TRIANGLE_STRIP, 0, 4);
     }
 
-    fn draw_lines(&mut self, scene: &mut Scene, (palette, eye): (&MapPalette, &Eye)) {
+    fn draw_lines(&mut self, scene: &mut Scene, Frame { palette, eye }: Frame<'_>) {
         if std::mem::take(&mut scene.path_restarted) {
             self.path.buffer.restart();
         }
         self.path.buffer.catch_up(&scene.path);
         if std::mem::take(&mut scene.strokes_changed) {
             self.walls.replace(&scene.walls);
-            self.way.replace(&scene.way);
+            self.planned_path.replace(&scene.planned_path);
             self.wanted.replace(&scene.wanted);
             self.forbidden
                 .replace(&[scene.forbidden.as_slice(), &scene.avoided].concat());
@@ -307,7 +319,11 @@ impl Renderer {
         for (layer, segments, (half_width_px, colour)) in [
             (&self.walls, walls, (1.0, &palette.wall)),
             (&self.path, segments, (0.8, &palette.path)),
-            (&self.way, scene.way.len() / 4, (1.0, &palette.thought)),
+            (
+                &self.planned_path,
+                scene.planned_path.len() / 4,
+                (1.0, &palette.thought),
+            ),
             (&self.forbidden, forbidden, (1.5, &palette.forbidden)),
             (&self.wanted, scene.wanted.len() / 4, (1.5, &palette.wanted)),
         ] {
@@ -317,7 +333,8 @@ impl Renderer {
         }
     }
 
-    fn draw_marks(&mut self, scene: &Scene, places: Places, (palette, eye): (&MapPalette, &Eye)) {
+    fn draw_marks(&mut self, scene: &Scene, places: Places, frame: Frame<'_>) {
+        let eye = frame.eye;
         let bumps = bump_marks(scene, eye.ratio);
         let lying = floor_marks(scene, places, eye.in_relief);
         let robot = robot_marks(scene, places);
@@ -332,7 +349,7 @@ impl Renderer {
         // A robot that is enlarged to be visible is as much higher.
         let height_m = ROBOT_M * scene.body_radius_m() / scene.radius_m;
         let lift_m = if eye.in_relief { height_m } else { 0.0 };
-        self.begin_marks((palette, eye), lift_m);
+        self.begin_marks(frame, lift_m);
         // What touches the robot is seen before all else; in the flat picture bumps lie below it.
         if !eye.in_relief {
             self.bumps.draw(&self.gl, instances(&bumps));
@@ -344,8 +361,12 @@ impl Renderer {
             self.robot.draw(&self.gl, instances(&robot));
             self.bumps.draw(&self.gl, instances(&bumps));
             self.gl.enable(Gl::DEPTH_TEST);
-            let marks = (&self.robot.layout, instances(&robot) as i32);
-            relief.draw_robot(marks, palette, (&eye.clip, height_m));
+            let marks = RobotMarks {
+                layout: &self.robot.layout,
+                count: instances(&robot) as i32,
+                height_m,
+            };
+            relief.draw_robot(marks, frame);
             self.mark.select();
             self.mark.set("fade", &[1.0]);
             self.bumps.draw(&self.gl, instances(&bumps));
@@ -353,7 +374,7 @@ impl Renderer {
         self.robot.draw(&self.gl, instances(&robot));
     }
 
-    fn begin_marks(&self, (palette, eye): (&MapPalette, &Eye), lift_m: f64) {
+    fn begin_marks(&self, Frame { palette, eye }: Frame<'_>, lift_m: f64) {
         let mark = &self.mark;
         mark.select();
         mark.set_matrix("eye", &eye.clip);

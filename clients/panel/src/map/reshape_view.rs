@@ -3,7 +3,7 @@
 use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::html;
 use leptos::prelude::*;
-use panel_logic::{HANDLE_FINE_STEP_M, HANDLE_STEP_M, Handle, Reshape, Reshaped, RoomChoice, Target};
+use panel_logic::{HANDLE_FINE_STEP_M, HANDLE_STEP_M, Handle, Pixel, Reshape, Reshaped, RoomChoice, Target};
 
 use crate::access::EDITS_HOME;
 use crate::focus::focus_soon_on;
@@ -23,7 +23,7 @@ impl Store {
         let (home, choice) = (self.known_home(), self.orders.choice.get_untracked());
         self.orders
             .reshape
-            .set(Reshape::begin(target, (&home, &choice), words()));
+            .set(Reshape::begin(target, &home, &choice, words()));
         self.refusal.set(None);
         self.show_known_home();
     }
@@ -57,16 +57,16 @@ impl Store {
     }
 
     /// Where a place of the map is on the screen. Follows the camera.
-    fn on_screen(self, [x, y]: [f64; 2]) -> (f64, f64) {
+    fn on_screen(self, place: [f64; 2]) -> Pixel {
         self.map.with_value(|map| {
             map.follow_camera();
-            map.with(|scene| scene.camera.screen_from_map(x, y))
+            map.with(|scene| scene.camera.screen_from_map(place.into()))
         })
     }
 
-    fn place_under(self, (x, y): (f64, f64)) -> [f64; 2] {
+    fn place_under(self, pixel: Pixel) -> [f64; 2] {
         self.map
-            .with_value(|map| map.with(|scene| scene.camera.map_from_screen(x, y)))
+            .with_value(|map| map.with(|scene| scene.camera.map_from_screen(pixel)))
             .into()
     }
 
@@ -78,15 +78,16 @@ impl Store {
         });
     }
 
-    /// A step of the handle in the direction that an arrow key has on the screen.
-    fn step_handle(self, handle: Handle, (right, down, step_m): (f64, f64, f64)) {
+    /// A step of the handle in the direction that an arrow key has on the screen, to the right and down.
+    fn step_handle(self, handle: Handle, ahead: [f64; 2], step_m: f64) {
         let at = self
             .orders
             .reshape
             .with_untracked(|reshape| reshape.as_ref()?.outline().at(handle));
         let Some([x, y]) = at else { return };
-        let (px, py) = untrack(|| self.on_screen([x, y]));
-        let [ahead_x, ahead_y] = self.place_under((px + AHEAD_PX * right, py + AHEAD_PX * down));
+        let pixel = untrack(|| self.on_screen([x, y]));
+        let [right, down] = ahead.map(|share| AHEAD_PX * share);
+        let [ahead_x, ahead_y] = self.place_under(Pixel::new(pixel.x + right, pixel.y + down));
         let length_m = (ahead_x - x).hypot(ahead_y - y);
         if length_m > 0.0 {
             let share = step_m / length_m;
@@ -113,8 +114,8 @@ pub(crate) fn ReshapeView(store: Store) -> impl IntoView {
             .unwrap_or_default()
             .into_iter()
             .map(|place| {
-                let (x, y) = store.on_screen(place);
-                format!("{x:.1} {y:.1}")
+                let pixel = store.on_screen(place);
+                format!("{:.1} {:.1}", pixel.x, pixel.y)
             })
             .collect();
         format!("M{}", places.join("L"))
@@ -147,12 +148,12 @@ pub(crate) fn ReshapeView(store: Store) -> impl IntoView {
 #[derive(Clone, Copy, Debug)]
 struct HandleDrag {
     pointer: i32,
-    down: (f64, f64),
-    handle: (f64, f64),
+    down: Pixel,
+    handle: Pixel,
 }
 
-fn client(event: &PointerEvent) -> (f64, f64) {
-    (f64::from(event.client_x()), f64::from(event.client_y()))
+fn client(event: &PointerEvent) -> Pixel {
+    Pixel::new(f64::from(event.client_x()), f64::from(event.client_y()))
 }
 
 #[component]
@@ -178,8 +179,11 @@ fn HandleView(store: Store, handle: Handle) -> impl IntoView {
     };
     let on_move = move |event: PointerEvent| {
         if let Some(grip) = grip.get_value().filter(|grip| grip.pointer == event.pointer_id()) {
-            let (x, y) = client(&event);
-            let to = (grip.handle.0 + x - grip.down.0, grip.handle.1 + y - grip.down.1);
+            let at = client(&event);
+            let to = Pixel::new(
+                grip.handle.x + at.x - grip.down.x,
+                grip.handle.y + at.y - grip.down.y,
+            );
             store.move_handle(handle, store.place_under(to));
         }
     };
@@ -211,7 +215,7 @@ fn HandleView(store: Store, handle: Handle) -> impl IntoView {
             class:middle=handle == Handle::Middle
             aria-label=label.clone()
             title=label
-            style:transform=move || at.get().map(|(x, y)| format!("translate({x:.1}px, {y:.1}px)"))
+            style:transform=move || at.get().map(|Pixel { x, y }| format!("translate({x:.1}px, {y:.1}px)"))
             on:pointerdown=on_down
             on:pointermove=on_move
             on:pointerup=move |_| grip.set_value(None)
@@ -225,11 +229,11 @@ fn on_key(store: Store, handle: Handle, event: &KeyboardEvent) {
     if event.ctrl_key() || event.alt_key() || event.meta_key() {
         return;
     }
-    let (right, down) = match event.key().as_str() {
-        "ArrowLeft" => (-1.0, 0.0),
-        "ArrowRight" => (1.0, 0.0),
-        "ArrowUp" => (0.0, -1.0),
-        "ArrowDown" => (0.0, 1.0),
+    let ahead = match event.key().as_str() {
+        "ArrowLeft" => [-1.0, 0.0],
+        "ArrowRight" => [1.0, 0.0],
+        "ArrowUp" => [0.0, -1.0],
+        "ArrowDown" => [0.0, 1.0],
         "Enter" => {
             event.prevent_default();
             return store.save_reshape();
@@ -243,7 +247,7 @@ fn on_key(store: Store, handle: Handle, event: &KeyboardEvent) {
     } else {
         HANDLE_STEP_M
     };
-    store.step_handle(handle, (right, down, step_m));
+    store.step_handle(handle, ahead, step_m);
 }
 
 /// What is in hand, how large it is, and the buttons that keep it or leave it as it was.

@@ -1,8 +1,8 @@
 //! What is to be seen on the map.
 
 use panel_logic::{
-    Bounds, Camera, ITEMS_MAX, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan, no_go_strokes,
-    outlined, path_dashes, plan_bounds, room_at, wall_strokes, zone_strokes,
+    Bounds, Camera, ITEMS_MAX, MapPoint, Orbit, Playout, RoomChoice, SweptGrid, View, home_plan,
+    no_go_strokes, outlined, path_dashes, plan_bounds, room_at, wall_strokes, zone_strokes,
 };
 use rvac_api::{
     BumpMark, DoorView, Estimate, HomeView, MapDelta, MapSnapshot, PlannedPath, Pose, SimulatedPlan,
@@ -79,7 +79,7 @@ pub(crate) struct Scene {
     doors: Vec<DoorView>,
     /// Walls as strokes, and the planned path as dashes.
     pub(crate) walls: Vec<f32>,
-    pub(crate) way: Vec<f32>,
+    pub(crate) planned_path: Vec<f32>,
     /// Borders of zones and spots that are to be cleaned, of what is forbidden for the next job, and of what is for good.
     pub(crate) wanted: Vec<f32>,
     pub(crate) avoided: Vec<f32>,
@@ -117,7 +117,7 @@ impl Default for Scene {
             chosen: Vec::new(),
             doors: Vec::new(),
             walls: Vec::new(),
-            way: Vec::new(),
+            planned_path: Vec::new(),
             wanted: Vec::new(),
             avoided: Vec::new(),
             forbidden: Vec::new(),
@@ -189,7 +189,7 @@ impl Scene {
     }
 
     /// The room under a place of the map.
-    pub(crate) fn room_at(&self, place: (f64, f64)) -> Option<u16> {
+    pub(crate) fn room_at(&self, place: MapPoint) -> Option<u16> {
         room_at(self.home.as_ref()?, place)
     }
 
@@ -198,8 +198,8 @@ impl Scene {
     }
 
     /// Takes where the robot means to drive.
-    pub(crate) fn on_way(&mut self, way: &PlannedPath) {
-        self.way = path_dashes(way, DASH_M);
+    pub(crate) fn on_planned_path(&mut self, path: &PlannedPath) {
+        self.planned_path = path_dashes(path, DASH_M);
         self.strokes_changed = true;
     }
 
@@ -399,10 +399,10 @@ impl Scene {
         };
         if let (CameraMode::Following, Some(pose)) = (self.mode, places.believed) {
             let before = self.camera.middle();
-            self.camera.follow((pose.x, pose.y), elapsed_s);
-            let (x, y) = self.camera.middle();
+            self.camera.follow(MapPoint::of(&pose), elapsed_s);
+            let MapPoint { x, y } = self.camera.middle();
             // A hundredth of a pixel cannot be seen.
-            if (x - before.0).hypot(y - before.1) * self.camera.scale() > 0.01 {
+            if (x - before.x).hypot(y - before.y) * self.camera.scale() > 0.01 {
                 self.redraw = Redraw::All;
             }
         }

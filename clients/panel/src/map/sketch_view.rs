@@ -2,29 +2,30 @@
 //! the middle of the map for those who draw with keys.
 
 use leptos::prelude::*;
-use panel_logic::{Sketch, Tool, dock_border, dock_pose, spot_border};
+use panel_logic::{MapPoint, Sketch, Tool, dock_border, dock_pose, spot_border};
 
 use crate::store::Store;
 
 /// Corners of what would be drawn if the pointer's place were the last one, for a robot of this radius.
-fn corners(sketch: Sketch, pointer: Option<(f64, f64)>, radius_m: f64) -> Vec<(f64, f64)> {
+fn corners(sketch: Sketch, pointer: Option<MapPoint>, radius_m: f64) -> Vec<MapPoint> {
     if sketch.is_place() {
         let border = pointer.map(|place| spot_border(place.into())).unwrap_or_default();
         let again = border.first().copied();
         return border.into_iter().chain(again).map(Into::into).collect();
     }
-    let Some((x, y)) = sketch.first() else {
+    let Some(first) = sketch.first() else {
         return Vec::new();
     };
-    let (far_x, far_y) = pointer.unwrap_or((x, y));
+    let last = pointer.unwrap_or(first);
     if sketch.tool() == Tool::Dock {
-        let border = dock_border(dock_pose((x, y), (far_x, far_y)), radius_m);
+        let border = dock_border(dock_pose(first, last), radius_m);
         return border.into_iter().map(Into::into).collect();
     }
     if sketch.is_line() {
-        vec![(x, y), (far_x, far_y)]
+        vec![first, last]
     } else {
-        vec![(x, y), (far_x, y), (far_x, far_y), (x, far_y), (x, y)]
+        let (beside, above) = (MapPoint::new(last.x, first.y), MapPoint::new(first.x, last.y));
+        vec![first, beside, last, above, first]
     }
 }
 
@@ -40,11 +41,11 @@ pub(crate) fn SketchView(store: Store) -> impl IntoView {
         if corners.is_empty() {
             return String::new();
         }
-        let on_screen = |(x, y): (f64, f64)| {
-            let (px, py) = store
+        let on_screen = |corner: MapPoint| {
+            let pixel = store
                 .map
-                .with_value(|map| map.with(|scene| scene.camera.screen_from_map(x, y)));
-            format!("{px:.1} {py:.1}")
+                .with_value(|map| map.with(|scene| scene.camera.screen_from_map(corner)));
+            format!("{:.1} {:.1}", pixel.x, pixel.y)
         };
         store.map.with_value(super::MapHandle::follow_camera);
         let places: Vec<String> = corners.into_iter().map(on_screen).collect();

@@ -234,7 +234,7 @@ fn refresh(store: Store, (mode, ground, orbit): Shown, footer: RwSignal<Footer>)
                 unsure: map.with(|scene| scene.ground() == Ground::Known && scene.plan().is_some()),
                 carpet: map
                     .with(|scene| scene.ground() == Ground::Known && scene.plan().is_some_and(has_carpet)),
-                plans: map.with(|scene| !scene.way.is_empty()),
+                plans: map.with(|scene| !scene.planned_path.is_empty()),
                 has_doors: map.with(|scene| scene.doors().next().is_some()),
                 relief_failure: map.with(|scene| scene.relief_failure().map(str::to_owned)),
             };

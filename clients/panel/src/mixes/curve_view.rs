@@ -9,7 +9,7 @@ use crate::language::words;
 
 #[component]
 pub(super) fn Curve(bench: Bench, output: usize, line: usize) -> impl IntoView {
-    let curve = Memo::new(move |_| bench.of_draft(|draft| LineCurve::of(draft.profile(), (output, line))));
+    let curve = Memo::new(move |_| bench.of_draft(|draft| LineCurve::of(draft.profile(), output, line)));
     let input = Memo::new(move |_| {
         bench.of_draft(|draft| {
             let outputs = &draft.profile().outputs;

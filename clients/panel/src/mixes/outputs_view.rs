@@ -49,19 +49,19 @@ pub(super) fn Outputs(store: Store) -> impl IntoView {
 
 /// The name of an output as people write it.
 fn output_text(name: OutputName) -> &'static str {
-    let told = &words().mix;
+    let texts = &words().mix;
     match name {
-        OutputName::Forward => told.forward,
-        OutputName::Turn => told.turn,
-        OutputName::LeftWheel => told.left_wheel,
-        OutputName::RightWheel => told.right_wheel,
-        OutputName::Suction => told.suction,
-        OutputName::MainBrush => told.main_brush,
-        OutputName::SideBrushes => told.side_brushes,
-        OutputName::Start => told.start,
-        OutputName::Stop => told.stop,
-        OutputName::Spot => told.spot,
-        OutputName::Dock => told.dock,
+        OutputName::Forward => texts.forward,
+        OutputName::Turn => texts.turn,
+        OutputName::LeftWheel => texts.left_wheel,
+        OutputName::RightWheel => texts.right_wheel,
+        OutputName::Suction => texts.suction,
+        OutputName::MainBrush => texts.main_brush,
+        OutputName::SideBrushes => texts.side_brushes,
+        OutputName::Start => texts.start,
+        OutputName::Stop => texts.stop,
+        OutputName::Spot => texts.spot,
+        OutputName::Dock => texts.dock,
     }
 }
 

@@ -156,10 +156,10 @@ fn Rooms(store: Store) -> impl IntoView {
             {move || hint().map(|text| view! { <p class="hint">{text}</p> })}
             <Show when=move || elsewhere.with(Option::is_none)>
                 <For each=move || store.rooms.get() key=|row| (row.id, row.name.clone()) let:row>
-                    {choice(form, (format!("schedule-room-{}", row.id), row.name), JobPart::Room(row.id))}
+                    {choice(form, format!("schedule-room-{}", row.id), row.name, JobPart::Room(row.id))}
                 </For>
                 <For each=move || store.orders.places.get() key=|row| (row.number, row.name.clone()) let:row>
-                    {choice(form, (format!("schedule-place-{}", row.number), row.name), JobPart::Place(row.number))}
+                    {choice(form, format!("schedule-place-{}", row.number), row.name, JobPart::Place(row.number))}
                 </For>
             </Show>
             <Drawn form />
@@ -167,7 +167,7 @@ fn Rooms(store: Store) -> impl IntoView {
     }
 }
 
-fn choice(form: Form, (id, name): (String, String), part: JobPart) -> impl IntoView {
+fn choice(form: Form, id: String, name: String, part: JobPart) -> impl IntoView {
     let chosen = part.clone();
     let is_chosen = move || form.with(|form| form.as_ref().is_some_and(|form| form.parts.contains(&chosen)));
     view! {

@@ -6,7 +6,8 @@ mod zone;
 
 use leptos::prelude::*;
 use panel_logic::{
-    ScheduleForm, ScheduleRow, Template, next_rows, past_rows, refusal_text, schedule_rows, zone_text,
+    HomeRows, ScheduleForm, ScheduleRow, Template, next_rows, past_rows, refusal_text, schedule_rows,
+    zone_text,
 };
 use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 
@@ -80,7 +81,12 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
     let rows = Memo::new(move |_| {
         let places = store.orders.places.get();
         let rows_of = |rooms: &Vec<_>, floors: &_| {
-            desk.with(|known| schedule_rows(words(), known, (rooms, &places, floors)))
+            let home = HomeRows {
+                rooms,
+                places: &places,
+                floors,
+            };
+            desk.with(|known| schedule_rows(words(), known, home))
         };
         store
             .rooms
@@ -117,15 +123,17 @@ pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
                 <QuietView store />
                 <ZoneView store />
             </Needs>
-            {list(("next-runs", words().schedule.next_runs, words().schedule.no_next), move || desk.with(|known| next_rows(words(), known)))}
-            {list(("past-runs", words().schedule.past_runs, words().schedule.no_past), move || desk.with(|known| past_rows(words(), known)))}
+            {list("next-runs", words().schedule.next_runs, words().schedule.no_next, move || desk.with(|known| next_rows(words(), known)))}
+            {list("past-runs", words().schedule.past_runs, words().schedule.no_past, move || desk.with(|known| past_rows(words(), known)))}
         </div>
     }
 }
 
 /// A list of sentences under a title, or what is said when there are none.
 fn list(
-    (id, title, none): (&'static str, &'static str, &'static str),
+    id: &'static str,
+    title: &'static str,
+    none: &'static str,
     rows: impl Fn() -> Vec<String> + Copy + Send + Sync + 'static,
 ) -> impl IntoView {
     view! {

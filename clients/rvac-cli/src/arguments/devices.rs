@@ -31,7 +31,7 @@ pub(crate) struct PairOptions {
     /// Pair this computer with that robot, by a code that it shows.
     #[arg(long, value_name = "https://NAME[:PORT]", conflicts_with = "role")]
     pub(crate) robot: Option<Address>,
-    /// How this computer is called in the robot's list; its host name otherwise.
+    /// Name of this computer in the robot's list; its host name when not given.
     #[arg(long, value_parser = DeviceName::new, requires = "robot")]
     pub(crate) name: Option<DeviceName>,
 }
@@ -46,19 +46,19 @@ pub(crate) struct ClientsJob {
 
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum ClientsVerb {
-    /// Shut a device out.
+    /// Remove a device.
     Revoke {
         /// Its number.
         id: TokenId,
     },
-    /// Say that the person who uses a device is beside the robot: for five minutes it may send raw packets, if it is an administrator.
+    /// Confirm that the person who uses a device is beside the robot: for five minutes it may send raw packets, if it is an administrator.
     Vouch {
         /// Its number.
         id: TokenId,
     },
-    /// Forget all devices: each must be let in anew. Maps and schedules stay.
+    /// Remove all devices: each must be paired again. Maps and schedules stay.
     ForgetAll {
-        /// Make a new identity too: whatever trusts the robot's certificate must trust the new one.
+        /// Create a new identity as well: whatever trusts the robot's certificate must trust the new one.
         #[arg(long)]
         identity: bool,
     },
@@ -69,12 +69,12 @@ pub(crate) enum ClientsVerb {
         /// view, drive or admin.
         role: Role,
     },
-    /// Let a program in, and print the token that it shows as `Authorization: Bearer TOKEN`.
+    /// Add a program, and print the token that it sends as `Authorization: Bearer TOKEN`.
     Add {
-        /// How it is called in the list.
+        /// Name of the program in the list.
         #[arg(value_parser = DeviceName::new)]
         name: DeviceName,
-        /// What it may do: view, drive or admin.
+        /// What the program may do: view, drive or admin.
         #[arg(long, default_value_t = Role::View)]
         role: Role,
     },

@@ -19,24 +19,24 @@ pub(crate) struct FloorJob {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum FloorVerb {
-    /// Say on which floor the robot is.
+    /// Set the floor that the robot is on.
     Choose {
         /// Its number or name.
         floor: String,
     },
-    /// Say that the robot is on a floor of which nothing is kept yet; what it has drawn since it lost its way is the map of it.
+    /// Report that the robot is on a new floor; the map that it has drawn since it was lost becomes the map of that floor.
     New {
-        /// What to call it.
+        /// Name of the floor.
         name: Option<String>,
     },
     /// Name a floor.
     Name {
         /// Its number or name.
         floor: String,
-        /// What to call it.
+        /// Name of the floor.
         name: String,
     },
-    /// Take the name of a floor away.
+    /// Remove the name of a floor.
     Unname {
         /// Its number or name.
         floor: String,
@@ -46,20 +46,20 @@ pub(crate) enum FloorVerb {
         /// Its number or name.
         floor: String,
     },
-    /// Bring a removed floor back, with all versions of its map.
+    /// Restore a removed floor, with all versions of its map.
     Restore {
         /// Its number or name.
         floor: String,
     },
-    /// Write the floors with their newest maps, names and no-go zones into a file that another robot, or this one, takes.
+    /// Export the floors with their newest maps, names and no-go zones to a file that this or another robot can import.
     Export {
-        /// Where to; nothing that is there is written over.
+        /// The file, which must not exist yet.
         file: PathBuf,
-        /// Only this one: its number or name.
+        /// Export only this floor: its number or name.
         #[arg(long)]
         floor: Option<String>,
     },
-    /// Take the floors of such a file, beside those that there are.
+    /// Add the floors of such a file to the floors of the robot.
     Import {
         /// The file.
         file: PathBuf,

@@ -17,7 +17,7 @@ pub(crate) struct HealthJob {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum HealthVerb {
-    /// Say that a part was cleaned or changed: its load is learnt anew.
+    /// Report that a part was cleaned or replaced: the robot learns its load again.
     Reset {
         /// brush-main, wheel-left or wheel-right.
         component: String,

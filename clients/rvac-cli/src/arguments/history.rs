@@ -15,7 +15,7 @@ pub(crate) struct HistoryJob {
     /// Print the daemon's own JSON.
     #[arg(long, global = true)]
     pub(crate) json: bool,
-    /// List at most so many.
+    /// Largest number of runs to list.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u8).range(1..=50))]
     pub(crate) count: u8,
     /// List only runs with lower numbers.
@@ -25,18 +25,18 @@ pub(crate) struct HistoryJob {
 
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum HistoryVerb {
-    /// All that is kept of one, with its stops.
+    /// Show everything about one run, with its stops.
     Show {
         /// Its number.
         number: u64,
     },
-    /// Save its recordings as one file, for a bug report.
+    /// Save the recordings of a run as one file, for a bug report.
     Save {
         /// Its number.
         number: u64,
-        /// The file, which must not be there yet.
+        /// The file, which must not exist yet.
         file: PathBuf,
-        /// Only one of them, if the daemon began anew during the run; 1 is the first.
+        /// Save only one of them, if the daemon restarted during the run; 1 is the first.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
         recording: Option<u32>,
     },

@@ -18,11 +18,11 @@ pub(crate) struct LearntJob {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum LearntVerb {
-    /// Have a robot learn anew: its gyro or its pack was changed. It must be at rest.
+    /// Forget it, after the gyro or the battery pack was replaced: the robot learns again. It must be at rest.
     Forget {
         /// The robot's name.
         device: String,
-        /// Only this; without it all.
+        /// Forget only this; everything when not given.
         #[arg(long, value_enum)]
         part: Option<PartChoice>,
     },
@@ -30,9 +30,9 @@ pub(crate) enum LearntVerb {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum PartChoice {
-    /// What is wrong with its gyro.
+    /// The errors of its gyro.
     Gyro,
-    /// What driving takes from its pack.
+    /// The energy that driving and cleaning take.
     Energy,
 }
 

@@ -18,16 +18,16 @@ pub(crate) struct OrderOptions {
 /// What of the home a job cleans.
 #[derive(Debug, Args)]
 pub(crate) struct OrderParts {
-    /// A room by its name or number, as `rvac rooms` tells them; may be given several times, rooms are cleaned in this order.
+    /// A room by its name or number, as `rvac rooms` shows them; may be given several times, rooms are cleaned in this order.
     #[arg(long, value_name = "ROOM")]
     pub(crate) room: Vec<String>,
-    /// A rectangle between two opposite corners, metres in the map; may be given several times, zones come after rooms.
+    /// A rectangle between two opposite corners, in metres of the map; may be given several times, zones come after rooms.
     #[arg(long, value_names = ["X,Y", "X,Y"], num_args = 2, allow_hyphen_values = true)]
     pub(crate) zone: Vec<Place>,
-    /// A place, metres in the map: the metre around it is cleaned; may be given several times, spots come after zones.
+    /// A place in metres of the map: a disc of one metre around it is cleaned; may be given several times, spots come after zones.
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub(crate) spot: Vec<Place>,
-    /// A kept zone or spot by its name or number, as `rvac places` tells them; may be given several times, they come last.
+    /// A saved zone or spot by its name or number, as `rvac places` shows them; may be given several times, they come last.
     #[arg(long, value_name = "PLACE")]
     pub(crate) place: Vec<String>,
     /// A rectangle between two opposite corners, metres in the map, that the robot keeps out of until the next job begins; may be
@@ -37,10 +37,10 @@ pub(crate) struct OrderParts {
     /// How often each room, zone and spot is cleaned before the next, 1 to 3.
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) passes: u8,
-    /// How hard brushes and suction run in this job; without it as is set for each room.
+    /// Power of brushes and suction in this job; when not given, the setting of each room.
     #[arg(long, value_enum)]
     pub(crate) power: Option<PowerChoice>,
-    /// In which way this job sweeps; without it as is set for each room.
+    /// Cleaning pattern of this job; when not given, the setting of each room.
     #[arg(long, value_enum)]
     pub(crate) pattern: Option<PatternChoice>,
 }
@@ -52,7 +52,7 @@ pub(crate) enum PowerChoice {
     Quiet,
     /// Suction at 70 %, brushes at 80 %.
     Normal,
-    /// As hard as they can.
+    /// Full power.
     Full,
 }
 
@@ -105,63 +105,63 @@ pub(crate) struct RoomsJob {
 pub(crate) enum RoomsVerb {
     /// Name a room.
     Name {
-        /// Its number, or the name it has.
+        /// Its number or its present name.
         room: String,
         /// One line of 1 to 40 characters.
         name: String,
     },
-    /// Take a room's name away.
+    /// Remove the name of a room.
     Unname {
         /// Its name or number.
         room: String,
     },
-    /// Say how a room is cleaned; what is left out stays as it is.
+    /// Set how a room is cleaned; what is not given stays.
     #[command(group = ArgGroup::new("settings").required(true).multiple(true))]
     Set {
         /// Its name or number.
         room: String,
-        /// How often at least, 1 to 3, whenever a job names the room.
+        /// Least number of passes, 1 to 3, whenever a job names the room.
         #[arg(long, group = "settings", value_name = "N")]
         passes: Option<u8>,
-        /// How hard suction runs in it, percent.
+        /// Power of the suction, percent.
         #[arg(long, group = "settings", value_name = "PERCENT")]
         suction: Option<u8>,
-        /// The same for the main brush.
+        /// Power of the main brush, percent.
         #[arg(long, group = "settings", value_name = "PERCENT")]
         main_brush: Option<u8>,
-        /// The same for the side brushes.
+        /// Power of the side brushes, percent.
         #[arg(long, group = "settings", value_name = "PERCENT")]
         side_brushes: Option<u8>,
-        /// In which way it is swept.
+        /// Cleaning pattern.
         #[arg(long, group = "settings", value_enum)]
         pattern: Option<PatternChoice>,
     },
-    /// Let a room be cleaned as any other: once, at full power, in lines.
+    /// Reset a room to the defaults: one pass, full power, lines.
     Unset {
         /// Its name or number.
         room: String,
     },
-    /// Cut a room in two along a line; the larger part keeps number and name.
+    /// Split a room along a line; the larger part keeps number and name.
     Split {
         /// Its name or number.
         room: String,
-        /// One end of the line, metres in the map, at a wall of the room.
+        /// One end of the line, in metres of the map, at a wall of the room.
         #[arg(value_name = "X,Y", allow_hyphen_values = true)]
         from: Place,
         /// The other end, at another wall.
         #[arg(value_name = "X,Y", allow_hyphen_values = true)]
         to: Place,
     },
-    /// Make two rooms that lie beside each other one; it keeps the number of the one with a name, else of the larger one.
+    /// Join two neighbouring rooms; the result keeps the number of the named one, else of the larger one.
     Join {
-        /// The name or number of one.
+        /// Name or number of one room.
         room: String,
-        /// The name or number of the other.
+        /// Name or number of the other room.
         other: String,
     },
-    /// Tell how the rooms were split and joined, or take such a change back.
+    /// List how the rooms were split and joined, or undo such a change.
     Undo {
-        /// Its number; without one, all changes are listed.
+        /// Number of the change to undo; without it, all changes are listed.
         number: Option<u16>,
     },
 }
@@ -187,11 +187,11 @@ pub(crate) enum ZoneVerb {
         /// The third corner of a polygon; again for each further one.
         #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
         corner: Vec<Place>,
-        /// What it is called, in one line of 1 to 40 characters.
+        /// Its name, one line of 1 to 40 characters.
         #[arg(long)]
         name: Option<String>,
     },
-    /// Draw a wall that the robot shall see where there is none.
+    /// Add a virtual wall.
     Wall {
         /// One end, metres in the map.
         #[arg(value_name = "X,Y", allow_hyphen_values = true)]
@@ -199,23 +199,23 @@ pub(crate) enum ZoneVerb {
         /// The other end.
         #[arg(value_name = "X,Y", allow_hyphen_values = true)]
         to: Place,
-        /// What it is called, in one line of 1 to 40 characters.
+        /// Its name, one line of 1 to 40 characters.
         #[arg(long)]
         name: Option<String>,
     },
     /// Name a zone or wall.
     Name {
-        /// Its number, as `rvac zone` tells it, or the name it has.
+        /// Its number, as `rvac zone` shows it, or its present name.
         zone: String,
         /// One line of 1 to 40 characters.
         name: String,
     },
-    /// Take the name of a zone or wall away.
+    /// Remove the name of a zone or wall.
     Unname {
         /// Its name or number.
         zone: String,
     },
-    /// Let a zone or wall forbid other floor, under its number and name.
+    /// Move or reshape a zone or wall; its number and name stay.
     Reshape {
         /// Its name or number.
         zone: String,
@@ -229,7 +229,7 @@ pub(crate) enum ZoneVerb {
         #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
         corner: Vec<Place>,
     },
-    /// Allow again what a zone or wall forbids.
+    /// Remove a zone or wall.
     Remove {
         /// Its name or number.
         zone: String,
@@ -246,7 +246,7 @@ pub(crate) struct PlacesJob {
 
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum PlacesVerb {
-    /// Keep a zone or spot under a name.
+    /// Save a zone or spot under a name.
     #[command(group = ArgGroup::new("shape").required(true))]
     Keep {
         /// One line of 1 to 40 characters.
@@ -261,14 +261,14 @@ pub(crate) enum PlacesVerb {
         #[arg(long, group = "shape", value_name = "X,Y", allow_hyphen_values = true)]
         spot: Option<Place>,
     },
-    /// Give a place another name.
+    /// Rename a saved place.
     Name {
-        /// Its number, or the name it has.
+        /// Its number or its present name.
         place: String,
         /// One line of 1 to 40 characters.
         name: String,
     },
-    /// Let a place be elsewhere, under its number and name.
+    /// Move or reshape a saved place; its number and name stay.
     #[command(group = ArgGroup::new("where").required(true))]
     Reshape {
         /// Its name or number.
@@ -283,7 +283,7 @@ pub(crate) enum PlacesVerb {
         #[arg(long, group = "where", value_name = "X,Y", allow_hyphen_values = true)]
         spot: Option<Place>,
     },
-    /// Keep a place no longer.
+    /// Remove a saved place.
     Forget {
         /// Its name or number.
         place: String,

@@ -20,18 +20,18 @@ pub(crate) struct ScheduleJob {
 
 #[derive(Debug, clap::Subcommand)]
 pub(crate) enum ScheduleVerb {
-    /// The next ten runs, and what would keep them.
+    /// The next ten runs, and what would prevent them.
     Next,
-    /// What came of the last runs, newest last.
+    /// Results of the last runs, newest last.
     Past,
-    /// Add one: a name, a time, and days or a date; without rooms, zones and spots it cleans all.
+    /// Add a schedule: a name, a time, and days or a date; without rooms, zones and spots it cleans the whole home.
     Add {
         /// Its name.
         name: String,
         #[command(flatten)]
         options: ScheduleOptions,
     },
-    /// Change one; what is not given stays.
+    /// Change a schedule; what is not given stays.
     Change {
         /// Its number.
         number: u32,
@@ -41,30 +41,30 @@ pub(crate) enum ScheduleVerb {
         #[command(flatten)]
         options: ScheduleOptions,
     },
-    /// Remove one.
+    /// Remove a schedule.
     Remove {
         /// Its number.
         number: u32,
     },
-    /// Let one start by itself.
+    /// Enable a schedule.
     Enable {
         /// Its number.
         number: u32,
     },
-    /// Let one start no longer.
+    /// Disable a schedule.
     Disable {
         /// Its number.
         number: u32,
     },
-    /// Leave out the next run of one.
+    /// Skip the next run of a schedule.
     SkipNext {
         /// Its number.
         number: u32,
-        /// Do not leave it out after all.
+        /// Undo the skipping.
         #[arg(long)]
         undo: bool,
     },
-    /// Start now what one would start.
+    /// Start the job of a schedule now.
     RunNow {
         /// Its number.
         number: u32,
@@ -76,9 +76,9 @@ pub(crate) enum ScheduleVerb {
         /// When they end.
         to: Option<String>,
     },
-    /// The time zone of all times.
+    /// Set the time zone of all times.
     Zone {
-        /// Its name, for example Europe/Tallinn; `system` for that of the robot's board.
+        /// Name of the zone, for example Europe/Tallinn; `system` for that of the robot's board.
         name: String,
     },
 }
@@ -96,19 +96,19 @@ pub(crate) struct ScheduleOptions {
     pub(crate) at: Option<String>,
     #[command(flatten)]
     pub(crate) parts: OrderParts,
-    /// Clean all, by this strategy.
+    /// Clean the whole home, by this strategy.
     #[arg(long, conflicts_with_all = ["room", "zone", "spot", "place", "avoid", "power", "pattern"])]
     pub(crate) strategy: Option<String>,
-    /// Clean all, not what it cleaned before.
+    /// Clean the whole home instead of what was chosen before.
     #[arg(long, conflicts_with_all = ["room", "zone", "spot", "place", "avoid"])]
     pub(crate) all: bool,
     /// Start on this floor only: its number or name; rooms and kept places of a floor where the robot is not are named by their numbers.
     #[arg(long, value_name = "FLOOR")]
     pub(crate) floor: Option<String>,
-    /// Start on any floor, where all is cleaned.
+    /// Start on any floor, and clean all of it.
     #[arg(long, conflicts_with_all = ["floor", "room", "zone", "spot", "place", "avoid"])]
     pub(crate) any_floor: bool,
-    /// Start up to so many minutes late when the daemon did not run, or had no robot, at its time.
+    /// Start up to so many minutes late, if the daemon was off or had no robot at the time.
     #[arg(long, value_name = "MINUTES")]
     pub(crate) late: Option<u16>,
     /// What happens in the quiet hours.

@@ -60,20 +60,27 @@ pub(crate) enum NoValue {
     Empty,
 }
 
+/// A figure of each driven wheel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Wheels<T> {
+    pub(crate) left: T,
+    pub(crate) right: T,
+}
+
 /// Change of both totals, across their wrap.
-pub(crate) fn travelled(before: (i32, i32), after: (i32, i32)) -> (i64, i64) {
-    (
-        i64::from(after.0.wrapping_sub(before.0)),
-        i64::from(after.1.wrapping_sub(before.1)),
-    )
+pub(crate) fn travelled(before: Wheels<i32>, after: Wheels<i32>) -> Wheels<i64> {
+    Wheels {
+        left: i64::from(after.left.wrapping_sub(before.left)),
+        right: i64::from(after.right.wrapping_sub(before.right)),
+    }
 }
 
 /// Distance of one count in nm after a push of `distance_mm`. Signs of the wheels do not matter yet.
-pub(crate) fn distance_per_count_nm((left, right): (i64, i64), distance_mm: i64) -> Result<i64, NoValue> {
+pub(crate) fn distance_per_count_nm(counts: Wheels<i64>, distance_mm: i64) -> Result<i64, NoValue> {
     if !PUSHED_MM.contains(&distance_mm) {
         return Err(NoValue::Distance(distance_mm));
     }
-    let (left, right) = (left.abs(), right.abs());
+    let (left, right) = (counts.left.abs(), counts.right.abs());
     let sum = left + right;
     if left.min(right) < 10 {
         return Err(NoValue::Still(
@@ -91,12 +98,8 @@ pub(crate) fn distance_per_count_nm((left, right): (i64, i64), distance_mm: i64)
 }
 
 /// Track in µm after `turns` on the spot: the rims go in opposite directions on a circle of the track's diameter.
-pub(crate) fn track_um(
-    (left, right): (i64, i64),
-    turns: i64,
-    distance_per_count_nm: i64,
-) -> Result<i64, NoValue> {
-    let (left, right) = (left.abs(), right.abs());
+pub(crate) fn track_um(counts: Wheels<i64>, turns: i64, distance_per_count_nm: i64) -> Result<i64, NoValue> {
+    let (left, right) = (counts.left.abs(), counts.right.abs());
     if left.min(right) < 10 {
         return Err(NoValue::Still(
             "turn the robot about its middle, with both wheels on the floor",
@@ -172,14 +175,24 @@ pub(crate) fn brightest(readings: &[i64]) -> Result<i64, NoValue> {
     Ok(top.get(top.len() / 2).ok_or(NoValue::Empty)? - dark)
 }
 
-/// Least rise and greatest rise of three levels between two moments.
-pub(crate) fn rises(before: [i64; 3], after: [i64; 3]) -> (i64, i64) {
+/// How much levels rose.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rises {
+    pub(crate) least: i64,
+    pub(crate) greatest: i64,
+}
+
+/// How much three levels rose between two moments.
+pub(crate) fn rises(before: [i64; 3], after: [i64; 3]) -> Rises {
     let [left, middle, right] = [0, 1, 2].map(|sensor: usize| after[sensor] - before[sensor]);
-    (left.min(middle).min(right), left.max(middle).max(right))
+    Rises {
+        least: left.min(middle).min(right),
+        greatest: left.max(middle).max(right),
+    }
 }
 
 /// Whether a line lights three sensors: 1 if all of them see it, 0 if none does.
-pub(crate) fn follows((least, greatest): (i64, i64)) -> Result<i64, NoValue> {
+pub(crate) fn follows(Rises { least, greatest }: Rises) -> Result<i64, NoValue> {
     /// A lit floor is far above this, noise far below.
     const SEEN: i64 = 30;
     if least >= SEEN {
@@ -237,28 +250,32 @@ pub(crate) fn speed_mm_per_s(distance_nm: i64, elapsed_ms: i64) -> Result<i64, N
 #[cfg(test)]
 mod tests {
     use super::{
-        NoValue, at_nominal, between, brightest, current_scale_ua, distance_per_count_nm, follows,
+        NoValue, Wheels, at_nominal, between, brightest, current_scale_ua, distance_per_count_nm, follows,
         line_order, mean, mean_milli, rate_per_s, rises, scale_uv, speed_mm_per_s, steady_mean, track_um,
         travelled,
     };
 
+    fn wheels<T>(left: T, right: T) -> Wheels<T> {
+        Wheels { left, right }
+    }
+
     #[test]
     fn a_push_along_a_measure_gives_the_way_of_a_count() {
-        assert_eq!(distance_per_count_nm((2000, -2000), 1000), Ok(500_000));
-        assert_eq!(distance_per_count_nm((1990, 2010), 1000), Ok(500_000));
-        assert_eq!(distance_per_count_nm((6100, 6100), 3050), Ok(500_000));
+        assert_eq!(distance_per_count_nm(wheels(2000, -2000), 1000), Ok(500_000));
+        assert_eq!(distance_per_count_nm(wheels(1990, 2010), 1000), Ok(500_000));
+        assert_eq!(distance_per_count_nm(wheels(6100, 6100), 3050), Ok(500_000));
         for distance_mm in [-1000, 0, 3, 499, 20_001, 999_999_999] {
             assert_eq!(
-                distance_per_count_nm((2000, 2000), distance_mm),
+                distance_per_count_nm(wheels(2000, 2000), distance_mm),
                 Err(NoValue::Distance(distance_mm))
             );
         }
         assert!(matches!(
-            distance_per_count_nm((0, 2000), 1000),
+            distance_per_count_nm(wheels(0, 2000), 1000),
             Err(NoValue::Still(_))
         ));
         assert!(matches!(
-            distance_per_count_nm((1000, 2000), 1000),
+            distance_per_count_nm(wheels(1000, 2000), 1000),
             Err(NoValue::Unequal {
                 left: 1000,
                 right: 2000,
@@ -270,17 +287,23 @@ mod tests {
     #[test]
     fn ten_turns_give_the_track() {
         // 0.23 m between the wheels: each rim goes 10 pi 0.23 m = 7.2257 m, which is 14,451 counts of 0.5 mm.
-        let track = track_um((-14_451, 14_451), 10, 500_000).expect("turned");
+        let track = track_um(wheels(-14_451, 14_451), 10, 500_000).expect("turned");
         assert!((track - 230_000).abs() < 20, "{track}");
-        assert!(matches!(track_um((3, 4), 10, 500_000), Err(NoValue::Still(_))));
+        assert!(matches!(
+            track_um(wheels(3, 4), 10, 500_000),
+            Err(NoValue::Still(_))
+        ));
     }
 
     #[test]
     fn totals_may_wrap_while_a_wheel_turns() {
-        let moved = travelled((i32::MAX - 1, i32::MIN + 1), (i32::MIN + 8, i32::MAX - 9));
-        assert_eq!(moved, (10, -11));
-        assert_eq!(line_order(moved.0), Ok(0));
-        assert_eq!(line_order(moved.1), Ok(1));
+        let moved = travelled(
+            wheels(i32::MAX - 1, i32::MIN + 1),
+            wheels(i32::MIN + 8, i32::MAX - 9),
+        );
+        assert_eq!(moved, wheels(10, -11));
+        assert_eq!(line_order(moved.left), Ok(0));
+        assert_eq!(line_order(moved.right), Ok(1));
         assert!(line_order(3).is_err());
     }
 

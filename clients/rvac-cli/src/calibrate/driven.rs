@@ -6,10 +6,12 @@ use anyhow::{Context as _, bail};
 use rvac_protocol::message::{EncoderProbe, Motor, ProbeTarget, Probed, ProbedContent};
 use rvac_units::Throttle;
 
-use super::arithmetic::{at_nominal, current_scale_ua, mean_milli, rate_per_s, speed_mm_per_s, travelled};
+use super::arithmetic::{
+    Wheels, at_nominal, current_scale_ua, mean_milli, rate_per_s, speed_mm_per_s, travelled,
+};
 use super::dialog::Dialog;
 use super::procedure::{Bench, READINGS, level};
-use crate::robot::Watch;
+use crate::robot::{OpenLoop, Watch};
 
 /// Step of a duty that is raised until the motor turns, and then step of a second pass from two steps below.
 const COARSE_PERMILLE: i32 = 50;
@@ -89,7 +91,10 @@ impl Bench<'_> {
             "Hold the left wheel fast. After Enter it pulls; read the ammeter, type the mA, and Enter stops it.",
         )?;
         self.robot.arm()?;
-        let motors = [(Motor::WheelLeft, duty(HELD_PERMILLE))];
+        let motors = [OpenLoop {
+            motor: Motor::WheelLeft,
+            throttle: duty(HELD_PERMILLE),
+        }];
         let watched = self
             .robot
             .watch(ProbeTarget::Analog, &motors, Watch::UntilTyped(HELD_MAX))?;
@@ -127,7 +132,13 @@ impl Bench<'_> {
     /// Runs these motors for `span` and counts in the second half of it, when they have come to speed.
     fn count(&mut self, motors: &[Motor], permille: i32, span: Duration) -> anyhow::Result<Counted> {
         self.robot.arm()?;
-        let motors: Vec<_> = motors.iter().map(|motor| (*motor, duty(permille))).collect();
+        let motors: Vec<_> = motors
+            .iter()
+            .map(|motor| OpenLoop {
+                motor: *motor,
+                throttle: duty(permille),
+            })
+            .collect();
         let watched = self
             .robot
             .watch(ProbeTarget::Encoders, &motors, Watch::For(span))?;
@@ -135,7 +146,11 @@ impl Bench<'_> {
         let ends = settled.first().zip(settled.last());
         let (first, last) = ends.context("no reading came while the motors ran")?;
         let (from, to) = (totals(first)?, totals(last)?);
-        let (left, right) = travelled((from.left, from.right), (to.left, to.right));
+        let wheels = |probe: &EncoderProbe| Wheels {
+            left: probe.left,
+            right: probe.right,
+        };
+        let Wheels { left, right } = travelled(wheels(&from), wheels(&to));
         Ok(Counted {
             left,
             right,

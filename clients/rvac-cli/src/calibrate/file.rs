@@ -94,11 +94,11 @@ impl Measurements {
 mod tests {
     use super::Measurements;
     use crate::calibrate::catalog::Catalog;
+    use crate::folder::Folder;
 
     #[test]
     fn values_come_back_and_a_strange_file_is_left_alone() {
-        let folder = std::env::temp_dir().join(format!("rvac-calibration-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).expect("writable");
+        let folder = Folder::new();
         let path = folder.join("mine.toml");
         let catalog = Catalog::of("sr8730").expect("known");
         let mut measured = Measurements::open(&path, &catalog).expect("not there yet");
@@ -125,6 +125,5 @@ mod tests {
             assert!(said.contains(wanted), "{said}");
             assert_eq!(std::fs::read_to_string(&path).expect("there"), text);
         }
-        std::fs::remove_dir_all(&folder).ok();
     }
 }

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use anyhow::bail;
 
-use super::arithmetic::{between, brightest, follows, rises};
+use super::arithmetic::{Rises, between, brightest, follows, rises};
 use super::dialog::Dialog;
 use super::procedure::Bench;
 
@@ -53,7 +53,7 @@ impl Bench<'_> {
         )?;
         let drop = self.cliffs(on);
         self.robot.light(UNKNOWN_SUPPLY, false)?;
-        let (least, greatest) = rises(drop?, floor);
+        let Rises { least, greatest } = rises(drop?, floor);
         Dialog::say(&format!(
             "  the floor stands {least} to {greatest} counts above the drop"
         ))?;
@@ -69,7 +69,7 @@ impl Bench<'_> {
         let on = self.needed("cliff-emitter-line")? == 1;
         let drop = self.cliffs(on);
         self.robot.light(UNKNOWN_SUPPLY, false)?;
-        let (_, greatest) = rises([0; 3], drop?);
+        let greatest = rises([0; 3], drop?).greatest;
         Ok(greatest)
     }
 

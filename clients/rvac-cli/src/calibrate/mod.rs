@@ -79,7 +79,7 @@ fn walk(robot: &mut Robot, device: &str, options: &CalibrateOptions) -> anyhow::
             Dialog::say("  not needed: cliff-emitter-line is 1")?;
             continue;
         }
-        if let Some(value) = settle(robot, (&catalog, &measured), item)? {
+        if let Some(value) = settle(robot, &catalog, &measured, item)? {
             measured.keep(&catalog, &item.name, value)?;
             Dialog::say(&format!("  kept: {} = {}", item.name, item.shown(value)))?;
         }
@@ -96,7 +96,8 @@ fn is_idle(measured: &Measurements, name: &str) -> bool {
 /// Measures one value until the person is content with it; `None` if it is left out.
 fn settle(
     robot: &mut Robot,
-    (catalog, measured): (&Catalog, &Measurements),
+    catalog: &Catalog,
+    measured: &Measurements,
     item: &Item,
 ) -> anyhow::Result<Option<i64>> {
     if let Some(warning) = Procedure::of(&item.name).warning() {

@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
 
 use super::arithmetic::{
-    distance_per_count_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um, travelled,
+    Wheels, distance_per_count_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um, travelled,
 };
 use super::catalog::{Catalog, Item};
 use super::dialog::Dialog;
@@ -141,8 +141,8 @@ impl Bench<'_> {
             Procedure::Order(side) => {
                 let moved = self.moved_by_hand("Turn the wheel forward by half a turn, then press Enter.")?;
                 Ok(line_order(match side {
-                    Side::Left => moved.0,
-                    Side::Right => moved.1,
+                    Side::Left => moved.left,
+                    Side::Right => moved.right,
                 })?)
             }
             Procedure::LeastDuty => self.least_duty(),
@@ -200,9 +200,9 @@ impl Bench<'_> {
         Ok(readings)
     }
 
-    fn totals(&mut self) -> anyhow::Result<(i32, i32)> {
+    fn totals(&mut self) -> anyhow::Result<Wheels<i32>> {
         match self.robot.probe(ProbeTarget::Encoders)? {
-            ProbedContent::Encoders(EncoderProbe { left, right, .. }) => Ok((left, right)),
+            ProbedContent::Encoders(EncoderProbe { left, right, .. }) => Ok(Wheels { left, right }),
             other => bail!("the robot answered with something else: {other:?}"),
         }
     }
@@ -218,7 +218,7 @@ impl Bench<'_> {
         }
     }
 
-    fn moved_by_hand(&mut self, wish: &str) -> anyhow::Result<(i64, i64)> {
+    fn moved_by_hand(&mut self, wish: &str) -> anyhow::Result<Wheels<i64>> {
         let before = self.totals()?;
         Dialog::enter(self.robot, wish)?;
         Ok(travelled(before, self.totals()?))

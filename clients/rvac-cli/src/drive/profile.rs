@@ -36,8 +36,8 @@ pub(crate) fn read(path: &std::path::Path) -> anyhow::Result<Profile> {
 
 /// The profiles that the daemon keeps.
 pub(crate) fn kept(connection: &mut Connection) -> anyhow::Result<Vec<Profile>> {
-    let request = (RequestBody::Mixes, control::ANSWER);
-    let mixes = control::answer(connection, request, |update, _| match update {
+    let request = RequestBody::Mixes;
+    let mixes = control::answer(connection, request, control::ANSWER, |update, _| match update {
         Update::Mixes { mixes } => Some(mixes),
         _ => None,
     })?;
@@ -49,7 +49,7 @@ pub(super) fn robot(connection: &mut Connection) -> anyhow::Result<RobotDescript
     let hello = RequestBody::Hello {
         name: "rvac drive".to_owned(),
     };
-    let robot = control::answer(connection, (hello, control::ANSWER), |update, _| match update {
+    let robot = control::answer(connection, hello, control::ANSWER, |update, _| match update {
         Update::Hello { robot, .. } => Some(robot),
         _ => None,
     })?;

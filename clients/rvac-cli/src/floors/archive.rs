@@ -35,8 +35,8 @@ fn fetch(connection: &mut Connection, floor: Option<u16>) -> anyhow::Result<Vec<
     let mut begun = None;
     loop {
         let from = archive.len() as u64;
-        let request = (RequestBody::ExportFloors { floor, from }, ANSWER);
-        let (size, check, data) = control::answer(connection, request, |update, _| match update {
+        let request = RequestBody::ExportFloors { floor, from };
+        let (size, check, data) = control::answer(connection, request, ANSWER, |update, _| match update {
             Update::FloorArchive {
                 size, check, data, ..
             } => Some((size, check, data)),

@@ -27,7 +27,7 @@ pub(crate) fn run(job: &HistoryJob) -> anyhow::Result<ExitCode> {
             number,
             file,
             recording,
-        }) => save((*number, recording.map(|place| place - 1)), file, &mut connection),
+        }) => save(*number, recording.map(|place| place - 1), file, &mut connection),
     }
 }
 
@@ -36,7 +36,7 @@ fn list(job: &HistoryJob, connection: &mut Connection) -> anyhow::Result<ExitCod
         before: job.before,
         count: Some(job.count),
     };
-    let (runs, more, text) = control::answer(connection, (body, ANSWER), |update, text| match update {
+    let (runs, more, text) = control::answer(connection, body, ANSWER, |update, text| match update {
         Update::Runs { runs, more } => Some((runs, more, text)),
         _ => None,
     })?;
@@ -50,7 +50,7 @@ fn list(job: &HistoryJob, connection: &mut Connection) -> anyhow::Result<ExitCod
 
 fn show(job: &HistoryJob, number: u64, connection: &mut Connection) -> anyhow::Result<ExitCode> {
     let body = RequestBody::Run { number };
-    let (record, text) = control::answer(connection, (body, ANSWER), |update, text| match update {
+    let (record, text) = control::answer(connection, body, ANSWER, |update, text| match update {
         Update::Run(record) => Some((record, text)),
         _ => None,
     })?;
@@ -64,7 +64,8 @@ fn show(job: &HistoryJob, number: u64, connection: &mut Connection) -> anyhow::R
 
 /// Saves a recording, or all of them as one file, piece by piece, never over something that is there.
 fn save(
-    (number, recording): (u64, Option<u32>),
+    number: u64,
+    recording: Option<u32>,
     path: &Path,
     connection: &mut Connection,
 ) -> anyhow::Result<ExitCode> {
@@ -74,7 +75,7 @@ fn save(
             recording,
             from,
         };
-        control::answer(connection, (body, ANSWER), |update, _| match update {
+        control::answer(connection, body, ANSWER, |update, _| match update {
             Update::RunFile { data, size, name, .. } => Some((data, size, name)),
             _ => None,
         })

@@ -204,7 +204,7 @@ mod tests {
     }
 
     #[test]
-    fn a_run_is_told_in_words() {
+    fn a_run_is_shown_in_words() {
         assert_eq!(
             record(&kept()),
             "run 7: Gave up: its wheels slip.\nbegan     clock not set\nended     clock not set\n\

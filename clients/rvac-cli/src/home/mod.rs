@@ -205,11 +205,16 @@ fn doors_of(home: &HomeView, room: u16) -> String {
 fn list(daemon: &Daemon, floor: Option<&str>) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(daemon)?;
     let floor = floor_meant(&mut connection, floor)?;
-    let request = (RequestBody::Maps { floor }, control::ANSWER);
-    let maps = control::answer(&mut connection, request, |update, _| match update {
-        Update::Maps { maps, .. } => Some(maps),
-        _ => None,
-    })?;
+    let request = RequestBody::Maps { floor };
+    let maps = control::answer(
+        &mut connection,
+        request,
+        control::ANSWER,
+        |update, _| match update {
+            Update::Maps { maps, .. } => Some(maps),
+            _ => None,
+        },
+    )?;
     write!(stdout(), "{}", table(&maps, now_s()))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -252,7 +257,7 @@ mod tests {
     use rvac_api::{DoorView, HomeView, SurenessView};
 
     #[test]
-    fn ages_are_told_roughly() {
+    fn ages_are_shown_roughly() {
         for (seconds, words) in [
             (5, "just now"),
             (3_599, "59 min ago"),
@@ -281,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn a_map_says_how_sure_it_is_where_that_is_told() {
+    fn a_map_says_how_sure_it_is_where_that_is_shown() {
         let home = HomeView {
             sureness: vec![
                 SurenessView::default(),

@@ -34,7 +34,7 @@ pub(super) fn picture(home: &HomeView, pose: Option<Pose>) -> String {
     let columns = width.div_ceil(scale.across) as usize;
     let lines = height.div_ceil(scale.up) as usize;
     let mut letters = vec![b' '; columns * lines];
-    draw_cells(home, scale, (columns, &mut letters));
+    draw_cells(home, scale, columns, &mut letters);
     let mut put = |x_m: f64, y_m: f64, letter: u8| {
         let column = (x_m / home.cell_m - f64::from(home.x)) / scale.across as f64;
         let line = (y_m / home.cell_m - f64::from(home.y)) / scale.up as f64;
@@ -68,7 +68,7 @@ pub(super) fn picture(home: &HomeView, pose: Option<Pose>) -> String {
     text
 }
 
-fn draw_cells(home: &HomeView, scale: Scale, (columns, letters): (usize, &mut [u8])) {
+fn draw_cells(home: &HomeView, scale: Scale, columns: usize, letters: &mut [u8]) {
     let (width, total) = (
         u64::from(home.width),
         u64::from(home.width) * u64::from(home.height),

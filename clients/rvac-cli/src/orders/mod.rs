@@ -34,11 +34,12 @@ pub(crate) fn clean(order: &OrderOptions) -> anyhow::Result<ExitCode> {
 pub(crate) fn estimate(options: &EstimateOptions) -> anyhow::Result<ExitCode> {
     let mut connection = Connection::open(&options.order.daemon)?;
     let order = to_order(&options.order.parts, &mut connection)?;
-    let request = (RequestBody::Estimate(order), PATIENCE);
-    let (estimate, text) = control::answer(&mut connection, request, |update, text| match update {
-        Update::JobEstimate(estimate) => Some((estimate, text)),
-        _ => None,
-    })?;
+    let request = RequestBody::Estimate(order);
+    let (estimate, text) =
+        control::answer(&mut connection, request, PATIENCE, |update, text| match update {
+            Update::JobEstimate(estimate) => Some((estimate, text)),
+            _ => None,
+        })?;
     if options.json {
         writeln!(stdout(), "{text}")?;
     } else {

@@ -50,7 +50,7 @@ pub(crate) fn zones(job: &ZoneJob) -> anyhow::Result<ExitCode> {
             corner,
         }) => {
             let corners = [from, to].into_iter().chain(corner).map(pair).collect();
-            reshaped(&known::ask(&mut connection)?.home, (zone, corners))?
+            reshaped(&known::ask(&mut connection)?.home, zone, corners)?
         }
         Some(ZoneVerb::Remove { zone }) => RequestBody::RemoveNoGo {
             number: match zone.trim().parse() {
@@ -77,7 +77,7 @@ fn find(home: &HomeView, wanted: &str) -> anyhow::Result<u16> {
 }
 
 /// What makes the wall or zone of this name lie between these corners.
-fn reshaped(home: &HomeView, (wanted, corners): (&str, Vec<[f64; 2]>)) -> anyhow::Result<RequestBody> {
+fn reshaped(home: &HomeView, wanted: &str, corners: Vec<[f64; 2]>) -> anyhow::Result<RequestBody> {
     let number = find(home, wanted)?;
     let known = home.no_go.iter().find(|no_go| no_go.number == number);
     let is_wall = known.is_some_and(|known| matches!(known.shape, NoGoShape::Wall(_)));
@@ -143,12 +143,12 @@ mod tests {
             ("3", 3, NoGoShape::Wall(ends)),
             ("4", 4, NoGoShape::Zone(outline(ends.to_vec()))),
         ] {
-            let body = reshaped(&home, (wanted, ends.to_vec())).expect("is there");
+            let body = reshaped(&home, wanted, ends.to_vec()).expect("is there");
             assert_eq!(body, RequestBody::ReshapeNoGo { number, shape });
         }
         let three = vec![[0.0, 1.0], [2.0, 3.0], [0.0, 3.0]];
-        assert!(reshaped(&home, ("3", three.clone())).is_err());
-        assert!(reshaped(&home, ("4", three)).is_ok());
+        assert!(reshaped(&home, "3", three.clone()).is_err());
+        assert!(reshaped(&home, "4", three).is_ok());
     }
 
     #[test]

@@ -23,11 +23,7 @@ const TRY_AGAIN: Duration = Duration::from_millis(100);
 const MESSAGE_BYTES_MAX: usize = 64 << 20;
 
 /// Opens the WebSocket; gives the near end.
-pub(super) fn build(
-    line: Line,
-    address: &Address,
-    (token, nonce): (&str, &str),
-) -> anyhow::Result<UnixStream> {
+pub(super) fn build(line: Line, address: &Address, token: &str, nonce: &str) -> anyhow::Result<UnixStream> {
     let mut request = format!("wss://{}/api/ws", address.authority()).into_client_request()?;
     let headers = request.headers_mut();
     headers.insert("origin", address.origin().parse()?);

@@ -95,28 +95,24 @@ impl Line {
     /// Reads an address.
     pub(super) fn get(self, address: &Address, path: &str, token: Option<&str>) -> anyhow::Result<Answer> {
         let token = token.map(|token| format!("Authorization: Bearer {token}\r\n"));
-        self.ask(address, &format!("GET {path}"), (&token.unwrap_or_default(), b""))
+        let head = format!("GET {path} HTTP/1.1\r\n{}", token.unwrap_or_default());
+        self.ask(address, &head, b"")
     }
 
     /// Changes something.
     pub(super) fn post(self, address: &Address, path: &str, body: &impl Serialize) -> anyhow::Result<Answer> {
         let body = serde_json::to_vec(body)?;
-        let headers = format!(
-            "Origin: {}\r\nContent-Type: application/json\r\nX-Rvac: 1\r\nContent-Length: {}\r\n",
+        let head = format!(
+            "POST {path} HTTP/1.1\r\nOrigin: {}\r\nContent-Type: application/json\r\nX-Rvac: 1\r\nContent-Length: {}\r\n",
             address.origin(),
             body.len()
         );
-        self.ask(address, &format!("POST {path}"), (&headers, &body))
+        self.ask(address, &head, &body)
     }
 
-    fn ask(
-        mut self,
-        address: &Address,
-        what: &str,
-        (headers, body): (&str, &[u8]),
-    ) -> anyhow::Result<Answer> {
-        let host = address.authority();
-        let head = format!("{what} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n{headers}\r\n");
+    /// `head` is the first line and the headers that differ from one request to another.
+    fn ask(mut self, address: &Address, head: &str, body: &[u8]) -> anyhow::Result<Answer> {
+        let head = format!("{head}Host: {}\r\nConnection: close\r\n\r\n", address.authority());
         self.0.write_all(head.as_bytes())?;
         self.0.write_all(body)?;
         self.0.flush()?;

@@ -32,5 +32,5 @@ pub(crate) fn connect(address: &Address) -> anyhow::Result<UnixStream> {
         .nonce
         .context("the robot gave no word for the connection")?;
     let line = Line::trusting(address, &kept.authority()?)?;
-    bridge::build(line, address, (&kept.token, &nonce))
+    bridge::build(line, address, &kept.token, &nonce)
 }

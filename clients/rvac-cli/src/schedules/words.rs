@@ -173,7 +173,7 @@ mod tests {
     }
 
     #[test]
-    fn schedules_are_told_in_words() {
+    fn schedules_are_shown_in_words() {
         assert_eq!(
             list(&told()),
             "time zone Europe/Tallinn (the system's), 2026-11-22 16:00 there\nquiet hours 22:00 to 07:00\n\
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn a_clock_that_is_not_set_is_told() {
+    fn a_clock_that_is_not_set_is_shown() {
         let told = rvac_api::Schedules {
             zone: "UTC".to_owned(),
             ..rvac_api::Schedules::default()

@@ -210,7 +210,7 @@ impl<'a> Terminal<'a> {
             return self.transmit(&bytes);
         };
         let mut buffer = PacketBuffer::new();
-        let sent = match to_command(line, session.robot_tick()) {
+        let sent = match to_command(line, session.robot_tick().map(|(tick, _)| tick)) {
             Some(command) => session.send(command, now, &mut buffer).map(drop),
             None => Err(SendError::Reserved),
         };
@@ -243,7 +243,7 @@ impl<'a> Terminal<'a> {
 
 /// The typed packet as a command whose number and tick the session fills in. `None` if the person wrote either, or if it is
 /// not a command that this program understands: then it is sent unchanged.
-fn to_command(line: &str, robot_tick: Option<(Tick, Tick)>) -> Option<Command> {
+fn to_command(line: &str, robot_tick: Option<Tick>) -> Option<Command> {
     if is_stop(line.as_bytes()) {
         return Some(Command::Stop);
     }
@@ -251,7 +251,7 @@ fn to_command(line: &str, robot_tick: Option<(Tick, Tick)>) -> Option<Command> {
     if object.contains_key("n") || object.contains_key("t") {
         return None;
     }
-    let now = robot_tick.map_or(Tick(0), |(tick, _)| tick);
+    let now = robot_tick.unwrap_or(Tick(0));
     read_command(line.as_bytes(), Form::Hand { now }).ok()
 }
 

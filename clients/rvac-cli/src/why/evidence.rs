@@ -12,11 +12,12 @@ use crate::socket::Connection;
 
 /// Prints the recent sensor readings and attempts.
 pub(super) fn print_evidence(mut connection: Connection, json: bool) -> anyhow::Result<()> {
-    let request = (RequestBody::Evidence, PATIENCE);
-    let (evidence, text) = control::answer(&mut connection, request, |update, text| match update {
-        Update::Evidence { evidence, .. } => Some((evidence, text)),
-        _ => None,
-    })?;
+    let request = RequestBody::Evidence;
+    let (evidence, text) =
+        control::answer(&mut connection, request, PATIENCE, |update, text| match update {
+            Update::Evidence { evidence, .. } => Some((evidence, text)),
+            _ => None,
+        })?;
     if json {
         writeln!(stdout(), "{text}")?;
     } else if evidence.is_empty() {
@@ -115,7 +116,7 @@ mod tests {
     use super::{in_words, table};
 
     #[test]
-    fn a_stop_is_told_with_what_to_do() {
+    fn a_stop_is_shown_with_what_to_do() {
         let mut told = Standstill {
             number: 1,
             t: 60.0,

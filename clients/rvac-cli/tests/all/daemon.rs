@@ -1,10 +1,10 @@
 //! Requests to a daemon, and what `rvac` makes of its answers.
 
+use crate::folder::Folder;
 use crate::program;
 use std::ffi::OsStr;
 use std::io::{Read as _, Write as _};
 use std::os::unix::net::{UnixListener, UnixStream};
-use std::path::PathBuf;
 use std::process::Output;
 use std::thread::JoinHandle;
 
@@ -20,29 +20,28 @@ use rvac_api::{
 
 /// A daemon that answers one client by a function until that client leaves, and returns what it was asked.
 struct Daemon {
-    socket: PathBuf,
+    folder: Folder,
     thread: JoinHandle<Vec<Request>>,
 }
 
 impl Daemon {
-    fn start(name: &str, answer: fn(&Request) -> Vec<Update>) -> Self {
-        let socket = std::env::temp_dir().join(format!("rvac-test-{}-{name}.sock", std::process::id()));
-        std::fs::remove_file(&socket).ok();
-        let listener = UnixListener::bind(&socket).expect("a socket");
+    fn start(answer: fn(&Request) -> Vec<Update>) -> Self {
+        let folder = Folder::new();
+        let listener = UnixListener::bind(folder.join("vthal.sock")).expect("a socket");
         let thread = std::thread::spawn(move || {
             let (stream, _) = listener.accept().expect("a client");
             serve(stream, answer)
         });
-        Self { socket, thread }
+        Self { folder, thread }
     }
 
     /// Runs `rvac` with the arguments and gives its output and what the daemon was asked.
     fn rvac(self, arguments: &[&str], typed: &str) -> (Output, Vec<Request>) {
-        let socket = [OsStr::new("--socket"), self.socket.as_os_str()];
+        let socket = self.folder.join("vthal.sock");
+        let socket = [OsStr::new("--socket"), socket.as_os_str()];
         let arguments = arguments.iter().map(OsStr::new).chain(socket);
         let output = program::rvac(arguments, typed.as_bytes());
         let asked = self.thread.join().expect("the daemon lives");
-        std::fs::remove_file(&self.socket).ok();
         (output, asked)
     }
 }
@@ -165,7 +164,7 @@ fn every_request_goes_out_under_its_name_and_done_is_success() {
         ("locate", &["locate"], RequestBody::Locate),
     ];
     for (name, arguments, body) in cases {
-        let (output, asked) = Daemon::start(name, obedient).rvac(arguments, "");
+        let (output, asked) = Daemon::start(obedient).rvac(arguments, "");
         assert!(output.status.success(), "{name}: {output:?}");
         assert_eq!(
             asked[0].body,
@@ -178,8 +177,8 @@ fn every_request_goes_out_under_its_name_and_done_is_success() {
 }
 
 #[test]
-fn a_refusal_is_told_with_its_reason_and_fails() {
-    let (output, _) = Daemon::start("refused", busy).rvac(&["start"], "");
+fn a_refusal_is_shown_with_its_reason_and_fails() {
+    let (output, _) = Daemon::start(busy).rvac(&["start"], "");
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(
         text(&output.stderr),
@@ -188,8 +187,8 @@ fn a_refusal_is_told_with_its_reason_and_fails() {
 }
 
 #[test]
-fn status_is_told_in_words_or_as_json() {
-    let (output, _) = Daemon::start("status", talkative).rvac(&["status"], "");
+fn status_is_shown_in_words_or_as_json() {
+    let (output, _) = Daemon::start(talkative).rvac(&["status"], "");
     let words = text(&output.stdout);
     assert!(
         words.contains("cleaning (command), pattern bounce, 1.5 min, 4.2 m2 cleaned"),
@@ -206,7 +205,7 @@ fn status_is_told_in_words_or_as_json() {
         words.contains("link up") && words.contains("on the dock"),
         "{words}"
     );
-    let (output, _) = Daemon::start("json", talkative).rvac(&["status", "--json"], "");
+    let (output, _) = Daemon::start(talkative).rvac(&["status", "--json"], "");
     let lines = text(&output.stdout);
     assert!(
         lines
@@ -218,7 +217,7 @@ fn status_is_told_in_words_or_as_json() {
 
 #[test]
 fn watch_tells_what_happens_line_by_line() {
-    let (output, _) = Daemon::start("watch", talkative).rvac(&["watch", "--lines", "4"], "");
+    let (output, _) = Daemon::start(talkative).rvac(&["watch", "--lines", "4"], "");
     let lines = text(&output.stdout);
     assert!(
         lines.contains("x 1.50 m, y -0.25 m") && lines.contains("Warn link: two bad packets"),
@@ -347,7 +346,7 @@ fn orders_for_rooms_and_zones_go_out_under_their_names() {
         ),
         (&["zone", "remove", "4"], RequestBody::RemoveNoGo { number: 4 }),
     ];
-    go_out("zone", cases);
+    go_out(cases);
 }
 
 #[test]
@@ -380,13 +379,13 @@ fn kept_places_go_out_under_their_numbers() {
         ),
         (&["places", "forget", "4"], RequestBody::ForgetPlace { number: 4 }),
     ];
-    go_out("places", cases);
+    go_out(cases);
 }
 
 /// Each command ends well, and its request is the last that the daemon receives.
-fn go_out<'a>(name: &str, cases: impl IntoIterator<Item = (&'a [&'a str], RequestBody)>) {
-    for (place, (arguments, body)) in cases.into_iter().enumerate() {
-        let (output, asked) = Daemon::start(&format!("{name}-{place}"), at_home).rvac(arguments, "");
+fn go_out<'a>(cases: impl IntoIterator<Item = (&'a [&'a str], RequestBody)>) {
+    for (arguments, body) in cases {
+        let (output, asked) = Daemon::start(at_home).rvac(arguments, "");
         assert!(output.status.success(), "{arguments:?}: {output:?}");
         let last = asked.last().expect("asks");
         assert_eq!(last, &Request { id: Some(1), body }, "{arguments:?}");
@@ -457,7 +456,7 @@ fn changes_of_rooms_go_out_under_their_names() {
         ),
         (&["rooms", "undo", "3"], RequestBody::UndoRoomChange { number: 3 }),
     ];
-    go_out("room", cases);
+    go_out(cases);
 }
 
 /// A daemon with an archive of 50,000 bytes, that takes only archives which begin with an S.
@@ -493,20 +492,20 @@ fn with_archive(request: &Request) -> Vec<Update> {
 
 #[test]
 fn floors_are_written_into_a_file_and_read_from_one() {
-    let file = std::env::temp_dir().join(format!("rvac-test-{}-floors", std::process::id()));
-    std::fs::remove_file(&file).ok();
+    let folder = Folder::new();
+    let file = folder.join("floors");
     let path = file.to_str().expect("plain");
-    let ask = |name: &str, verb: &str| {
-        let (output, asked) = Daemon::start(name, with_archive).rvac(&["floor", verb, path], "");
+    let ask = |verb: &str| {
+        let (output, asked) = Daemon::start(with_archive).rvac(&["floor", verb, path], "");
         (output.status.success(), text(&output.stderr), asked)
     };
-    let (is_good, told, _) = ask("archive-0", "import");
+    let (is_good, told, _) = ask("import");
     assert!(!is_good && told.contains("cannot read"), "{told}");
-    assert!(ask("archive-1", "export").0);
+    assert!(ask("export").0);
     assert_eq!(std::fs::read(&file).expect("is there"), vec![b'S'; 50_000]);
-    let (is_good, told, _) = ask("archive-2", "export");
+    let (is_good, told, _) = ask("export");
     assert!(!is_good && told.contains("is it there already"), "{told}");
-    let (is_good, told, asked) = ask("archive-3", "import");
+    let (is_good, told, asked) = ask("import");
     assert!(is_good, "{told}");
     let handed: Vec<u8> = asked
         .iter()
@@ -518,12 +517,11 @@ fn floors_are_written_into_a_file_and_read_from_one() {
         .collect();
     assert_eq!(handed, vec![b'S'; 50_000]);
     std::fs::write(&file, "garbage").expect("writes");
-    let (is_good, told, _) = ask("archive-4", "import");
+    let (is_good, told, _) = ask("import");
     assert!(!is_good && told.contains("no-archive"), "{told}");
     std::fs::write(&file, "").expect("writes");
-    let (is_good, told, _) = ask("archive-5", "import");
+    let (is_good, told, _) = ask("import");
     assert!(!is_good && told.contains("it has 0 bytes"), "{told}");
-    std::fs::remove_file(&file).expect("cleans up");
 }
 
 /// A daemon that keeps one run with two recordings, of which the second has 50,000 bytes, and both together 70,000.
@@ -562,35 +560,31 @@ fn with_history(request: &Request) -> Vec<Update> {
 
 #[test]
 fn a_recording_is_saved_whole_and_over_nothing() {
-    let file = std::env::temp_dir().join(format!("rvac-test-{}-saved.mcap", std::process::id()));
-    std::fs::remove_file(&file).ok();
+    let folder = Folder::new();
+    let file = folder.join("saved.mcap");
     let path = file.to_str().expect("plain");
-    let save = |name: &str, said: &[&str]| {
+    let save = |said: &[&str]| {
         let words = [&["history", "save"], said, &[path]].concat();
-        let (output, _) = Daemon::start(name, with_history).rvac(&words, "");
+        let (output, _) = Daemon::start(with_history).rvac(&words, "");
         output
     };
-    for (name, said) in [
-        ("history-0", &["8"][..]),
-        ("history-3", &["7", "--recording", "1"]),
-    ] {
-        let missing = save(name, said);
+    for said in [&["8"][..], &["7", "--recording", "1"]] {
+        let missing = save(said);
         assert!(!missing.status.success() && !file.exists(), "{missing:?}");
     }
-    let part = save("history-4", &["7", "--recording", "2"]);
+    let part = save(&["7", "--recording", "2"]);
     assert!(part.status.success(), "{part:?}");
     assert_eq!(std::fs::read(&file).expect("is there"), vec![7; 50_000]);
     std::fs::remove_file(&file).expect("cleans up");
-    let saved = save("history-1", &["7"]);
+    let saved = save(&["7"]);
     assert!(saved.status.success(), "{saved:?}");
     assert_eq!(std::fs::read(&file).expect("is there"), vec![7; 70_000]);
-    let again = save("history-2", &["7"]);
+    let again = save(&["7"]);
     let told = String::from_utf8_lossy(&again.stderr).into_owned();
     assert!(
         !again.status.success() && told.contains("is it there already"),
         "{told}"
     );
-    std::fs::remove_file(&file).expect("cleans up");
 }
 
 /// A daemon in that home with one schedule.
@@ -673,8 +667,8 @@ fn schedules_are_asked_for_under_their_names() {
             RequestBody::SetZone { zone: None },
         ),
     ];
-    for (place, (arguments, body)) in cases.into_iter().enumerate() {
-        let (output, asked) = Daemon::start(&format!("schedule-{place}"), punctual).rvac(arguments, "");
+    for (arguments, body) in cases {
+        let (output, asked) = Daemon::start(punctual).rvac(arguments, "");
         assert!(output.status.success(), "{arguments:?}: {output:?}");
         let wanted = Request { id: Some(1), body };
         assert!(asked.contains(&wanted), "{arguments:?}: {asked:?}");
@@ -687,8 +681,8 @@ fn schedules_are_asked_for_under_their_names() {
         ),
         (&["schedule", "quiet", "22:00"], "have a beginning and an end"),
     ];
-    for (place, (arguments, sentence)) in wrong.into_iter().enumerate() {
-        let (output, asked) = Daemon::start(&format!("no-schedule-{place}"), punctual).rvac(arguments, "");
+    for (arguments, sentence) in wrong {
+        let (output, asked) = Daemon::start(punctual).rvac(arguments, "");
         assert_eq!(output.status.code(), Some(1));
         assert!(text(&output.stderr).contains(sentence), "{output:?}");
         assert!(asked.iter().all(|request| request.id.is_none()), "{asked:?}");
@@ -696,7 +690,7 @@ fn schedules_are_asked_for_under_their_names() {
 }
 
 #[test]
-fn a_schedule_is_told_how_its_runs_clean_and_what_they_clean_stays() {
+fn a_schedule_takes_how_its_runs_clean_and_keeps_what_they_clean() {
     let job = |parts, passes| JobOrder {
         parts,
         passes,
@@ -716,9 +710,9 @@ fn a_schedule_is_told_how_its_runs_clean_and_what_they_clean_stays() {
         ),
         (&["--all", "--power", "quiet"], job(vec![], 1)),
     ];
-    for (place, (options, order)) in cases.into_iter().enumerate() {
+    for (options, order) in cases {
         let arguments = [&["schedule", "change", "3"], options].concat();
-        let (output, asked) = Daemon::start(&format!("loud-{place}"), punctual).rvac(&arguments, "");
+        let (output, asked) = Daemon::start(punctual).rvac(&arguments, "");
         assert!(output.status.success(), "{arguments:?}: {output:?}");
         let entry = ScheduleEntry {
             job: ScheduledJob::Clean(order),
@@ -779,9 +773,9 @@ fn a_schedule_is_for_the_floor_that_is_named() {
         (&["--floor", "Attic", "--all"], all(Some(2))),
         (&["--any-floor", "--all"], all(None)),
     ];
-    for (place, (options, entry)) in cases.into_iter().enumerate() {
+    for (options, entry) in cases {
         let arguments = [&["schedule", "change", "3"], options].concat();
-        let (output, asked) = Daemon::start(&format!("floor-{place}"), on_the_ground).rvac(&arguments, "");
+        let (output, asked) = Daemon::start(on_the_ground).rvac(&arguments, "");
         assert!(output.status.success(), "{arguments:?}: {output:?}");
         let body = RequestBody::ChangeSchedule { number: 3, entry };
         assert!(
@@ -800,9 +794,9 @@ fn a_schedule_is_for_the_floor_that_is_named() {
         ),
         (&["--any-floor"], "give --all besides"),
     ];
-    for (place, (options, sentence)) in wrong.into_iter().enumerate() {
+    for (options, sentence) in wrong {
         let arguments = [&["schedule", "change", "3"], options].concat();
-        let (output, asked) = Daemon::start(&format!("no-floor-{place}"), on_the_ground).rvac(&arguments, "");
+        let (output, asked) = Daemon::start(on_the_ground).rvac(&arguments, "");
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");
         assert!(text(&output.stderr).contains(sentence), "{output:?}");
         assert!(asked.iter().all(|request| request.id.is_none()), "{asked:?}");
@@ -832,21 +826,21 @@ fn learned(request: &Request) -> Vec<Update> {
 }
 
 #[test]
-fn what_was_learnt_is_told_and_forgotten_in_parts() {
-    let (output, _) = Daemon::start("learnt", learned).rvac(&["learnt"], "");
+fn what_was_learnt_is_shown_and_forgotten_in_parts() {
+    let (output, _) = Daemon::start(learned).rvac(&["learnt"], "");
     let words = text(&output.stdout);
     assert!(
         words.starts_with("sr8730, attached, last calibrated 2027-01-1"),
         "{words}"
     );
     assert!(words.contains("\n  gyro    counts +1.00 %"), "{words}");
-    for (name, options, part) in [
-        ("forget-0", &[][..], None),
-        ("forget-1", &["--part", "gyro"], Some(LearntPart::Gyro)),
-        ("forget-2", &["--part", "energy"], Some(LearntPart::Energy)),
+    for (options, part) in [
+        (&[][..], None),
+        (&["--part", "gyro"], Some(LearntPart::Gyro)),
+        (&["--part", "energy"], Some(LearntPart::Energy)),
     ] {
         let arguments = [&["learnt", "forget", "sr8730"], options].concat();
-        let (output, asked) = Daemon::start(name, learned).rvac(&arguments, "");
+        let (output, asked) = Daemon::start(learned).rvac(&arguments, "");
         assert!(output.status.success(), "{output:?}");
         let device = "sr8730".to_owned();
         let body = RequestBody::ForgetLearnt { device, part };
@@ -855,14 +849,14 @@ fn what_was_learnt_is_told_and_forgotten_in_parts() {
 }
 
 #[test]
-fn an_estimate_is_told_and_an_unknown_room_is_named() {
-    let (output, _) = Daemon::start("estimate", at_home).rvac(&["estimate", "--room", "Hall"], "");
+fn an_estimate_is_shown_and_an_unknown_room_is_named() {
+    let (output, _) = Daemon::start(at_home).rvac(&["estimate", "--room", "Hall"], "");
     let words = text(&output.stdout);
     assert!(
         words.contains("4.0 m2") && words.contains("about 5 min"),
         "{words}"
     );
-    let (output, asked) = Daemon::start("attic", at_home).rvac(&["clean", "--room", "Attic"], "");
+    let (output, asked) = Daemon::start(at_home).rvac(&["clean", "--room", "Attic"], "");
     assert_eq!(output.status.code(), Some(1));
     assert!(text(&output.stderr).contains("no room is called \"Attic\": the map has 1 (Hall)"));
     assert!(
@@ -873,8 +867,8 @@ fn an_estimate_is_told_and_an_unknown_room_is_named() {
 }
 
 #[test]
-fn the_home_is_told_with_its_rooms_and_a_picture() {
-    let (output, _) = Daemon::start("home", at_home).rvac(&["map"], "");
+fn the_home_is_shown_with_its_rooms_and_a_picture() {
+    let (output, _) = Daemon::start(at_home).rvac(&["map"], "");
     let words = text(&output.stdout);
     assert!(
         words.contains("4.0 m2 of free floor, 1 room, 0 doors, 0 walls"),
@@ -888,11 +882,11 @@ fn the_home_is_told_with_its_rooms_and_a_picture() {
 
 #[test]
 fn kept_maps_are_listed_and_one_is_asked_back() {
-    let (output, _) = Daemon::start("maps", at_home).rvac(&["map", "list"], "");
+    let (output, _) = Daemon::start(at_home).rvac(&["map", "list"], "");
     let words = text(&output.stdout);
     let row = words.lines().nth(1).expect("a row");
     assert!(row.starts_with("12 ") && row.ends_with("12  newest"), "{words}");
-    let (output, asked) = Daemon::start("restore", at_home).rvac(&["map", "restore", "11"], "");
+    let (output, asked) = Daemon::start(at_home).rvac(&["map", "restore", "11"], "");
     assert!(output.status.success(), "{output:?}");
     assert_eq!(
         asked[1].body,
@@ -904,17 +898,17 @@ fn kept_maps_are_listed_and_one_is_asked_back() {
 }
 
 #[test]
-fn a_dock_that_was_moved_is_told_by_where_the_robot_stands_and_looks() {
+fn a_dock_that_was_moved_is_shown_by_where_the_robot_stands_and_looks() {
     let moved = RequestBody::MoveDock {
         x: -1.0,
         y: 0.5,
         heading: std::f64::consts::PI,
     };
     let arguments: &[&str] = &["map", "dock", "-1,0.5", "-3,0.5"];
-    let (output, asked) = Daemon::start("dock", at_home).rvac(arguments, "");
+    let (output, asked) = Daemon::start(at_home).rvac(arguments, "");
     assert!(output.status.success(), "{output:?}");
     assert_eq!(asked.last().map(|request| &request.body), Some(&moved));
-    let (output, _) = Daemon::start("no-dock", at_home).rvac(&["map", "dock", "1,1", "1,1"], "");
+    let (output, _) = Daemon::start(at_home).rvac(&["map", "dock", "1,1", "1,1"], "");
     assert!(
         text(&output.stderr).contains("both places are the same"),
         "{output:?}"
@@ -923,7 +917,7 @@ fn a_dock_that_was_moved_is_told_by_where_the_robot_stands_and_looks() {
 
 #[test]
 fn why_tells_the_newest_decisions_last() {
-    let (output, _) = Daemon::start("why", at_home).rvac(&["why", "--lines", "1"], "");
+    let (output, _) = Daemon::start(at_home).rvac(&["why", "--lines", "1"], "");
     let words = text(&output.stdout);
     assert_eq!(
         words.trim(),
@@ -934,7 +928,7 @@ fn why_tells_the_newest_decisions_last() {
 #[test]
 fn a_terminal_through_the_daemon_relays_packets_and_refusals() {
     let typed = "{\"c\":\"info\"}\n";
-    let (output, asked) = Daemon::start("relay", talkative).rvac(&["term", "--linger", "200"], typed);
+    let (output, asked) = Daemon::start(talkative).rvac(&["term", "--linger", "200"], typed);
     assert!(output.status.success(), "{output:?}");
     assert!(asked.iter().any(|request| request.body
         == RequestBody::Raw {
@@ -945,7 +939,7 @@ fn a_terminal_through_the_daemon_relays_packets_and_refusals() {
         "{}",
         text(&output.stdout)
     );
-    let (output, _) = Daemon::start("expert", busy).rvac(&["term", "--linger", "200"], typed);
+    let (output, _) = Daemon::start(busy).rvac(&["term", "--linger", "200"], typed);
     assert!(
         text(&output.stdout).contains("# vthal refuses (wheel-drop)"),
         "{}",

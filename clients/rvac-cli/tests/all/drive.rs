@@ -13,6 +13,7 @@ use std::process::{Child, ChildStdin, ChildStdout, Command, Output, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
+use crate::folder::Folder;
 use mixer::{Line, Name, OutputName, Profile, Source, standard_profile};
 use robot::Observer;
 use teller::Teller;
@@ -36,22 +37,16 @@ impl Drop for Process {
     }
 }
 
-/// A robot in the middle of a room, and its daemon.
+/// A robot in the middle of a room, and its daemon. The folder goes last.
 struct World {
-    folder: PathBuf,
     _simulator: Process,
     _daemon: Process,
-}
-
-impl Drop for World {
-    fn drop(&mut self) {
-        std::fs::remove_dir_all(&self.folder).ok(); // A leftover in the temporary folder hurts nobody.
-    }
+    folder: Folder,
 }
 
 impl World {
-    fn start(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("rvac-drive-{name}-{}", std::process::id()));
+    fn start() -> Self {
+        let folder = Folder::new();
         std::fs::create_dir_all(folder.join("state")).unwrap();
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let mut simulator = Command::new(binary("rvac-sim"));
@@ -220,7 +215,7 @@ fn stands_soon(witness: &Observer, since: Instant, what: &str) {
 
 #[test]
 fn a_pad_drives_and_whatever_is_lost_stops_the_wheels() {
-    let world = World::start("pad");
+    let world = World::start();
     let witness = world.witness();
     let mut drive = Drive::start(&world, &[]);
     drive.read("pad-0-axis-0 0");
@@ -345,7 +340,7 @@ fn push_from_afar(teller: &Teller, witness: &Observer) {
 
 #[test]
 fn another_client_drives_by_a_mix_and_its_loss_stops_the_wheels() {
-    let world = World::start("client");
+    let world = World::start();
     let witness = world.witness();
     let file = world.folder.join("mix.json");
     std::fs::write(&file, steered_from_afar().to_pretty_json()).unwrap();
@@ -373,7 +368,8 @@ fn another_client_drives_by_a_mix_and_its_loss_stops_the_wheels() {
 
 #[test]
 fn a_mix_that_is_wrong_is_told_with_its_place() {
-    let file = std::env::temp_dir().join(format!("rvac-wrong-mix-{}.json", std::process::id()));
+    let folder = Folder::new();
+    let file = folder.join("wrong-mix.json");
     std::fs::write(
         &file,
         standard_profile()
@@ -390,9 +386,6 @@ fn a_mix_that_is_wrong_is_told_with_its_place() {
         .arg(file.with_extension("sock"));
     let said = text(&command.output().unwrap().stderr);
     drop(listener);
-    for leftover in [&file, &file.with_extension("sock")] {
-        std::fs::remove_file(leftover).unwrap();
-    }
     assert!(
         said.contains("output forward, line 4 (W), weight is 7: write a number from -2 to 2"),
         "{said}"

@@ -2,6 +2,8 @@
 
 mod daemon;
 mod drive;
+#[path = "../../../panel-server/tests/folder/mod.rs"]
+mod folder;
 mod packet;
 mod program;
 mod term;

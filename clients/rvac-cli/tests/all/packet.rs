@@ -71,7 +71,7 @@ fn what_is_sealed_checks_in_its_own_session_only() {
 }
 
 #[test]
-fn meaning_and_refusals_are_told_by_name() {
+fn meaning_and_refusals_are_shown_by_name() {
     let decode = |packet: &str| stdout(&rvac(["packet", "decode", packet], b""));
     assert!(decode(r#"{"c":"drive","v":0.2,"w":0}"#).contains("meaning: Drive("));
     assert!(decode(r#"{"c":"drive","v":99,"w":0}"#).contains("refused: range"));

@@ -33,28 +33,13 @@ pub(super) struct Furnisher<'a> {
     /// What people move from day to day is drawn with this.
     pub(super) moved: &'a mut Draw,
     pub(super) things: &'a mut Things,
-    solid: Vec<Rect>,
-    clear: Vec<Rect>,
+    /// Where things stand already.
+    pub(super) solid: Vec<Rect>,
+    /// What must stay clear.
+    pub(super) clear: Vec<Rect>,
 }
 
-impl<'a> Furnisher<'a> {
-    /// A room with places that must stay clear, and the things already placed in it.
-    pub(super) fn new(
-        room: Rect,
-        (draw, moved): (&'a mut Draw, &'a mut Draw),
-        things: &'a mut Things,
-        (clear, solid): (Vec<Rect>, Vec<Rect>),
-    ) -> Self {
-        Self {
-            room,
-            draw,
-            moved,
-            things,
-            solid,
-            clear,
-        }
-    }
-
+impl Furnisher<'_> {
     /// A place for a piece of this size with so much free floor in front. The frame's origin is the piece's corner at
     /// the wall; the piece and the floor in front are taken from now on.
     pub(super) fn at_wall(

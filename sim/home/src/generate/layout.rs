@@ -184,22 +184,35 @@ fn fill(draw: &mut Draw, row: &RoomRow, [first_x, end_x, doors_end_x]: [f64; 3],
             kind: *kind,
             rect: Rect::new([x, row.low_y], [end, row.high_y]),
         });
-        row_door(draw, (*kind, row.door_y), [x, end.min(doors_end_x)], things);
+        let wall = DoorWall {
+            y: row.door_y,
+            low_x: x,
+            high_x: end.min(doors_end_x),
+        };
+        row_door(draw, *kind, wall, things);
         x = end + WALL_M;
     }
 }
 
-fn row_door(draw: &mut Draw, (kind, y): (RoomKind, f64), [low_x, high_x]: [f64; 2], things: &mut Things) {
+/// The wall of a room in which its door is.
+#[derive(Clone, Copy, Debug)]
+struct DoorWall {
+    y: f64,
+    low_x: f64,
+    high_x: f64,
+}
+
+fn row_door(draw: &mut Draw, kind: RoomKind, wall: DoorWall, things: &mut Things) {
     let (narrow, wide) = match kind {
         RoomKind::Living => (1.0, 1.6),
         RoomKind::Toilet | RoomKind::Storage | RoomKind::Bath => (0.7, 0.8),
         _ => (0.78, 0.92),
     };
     let width = draw.length(narrow, wide);
-    let start = draw.length(low_x + JAMB_M, high_x - JAMB_M - width);
+    let start = draw.length(wall.low_x + JAMB_M, wall.high_x - JAMB_M - width);
     let wet = matches!(kind, RoomKind::Bath | RoomKind::Toilet | RoomKind::Kitchen);
     things.doors.push(PlacedDoor {
-        ends: [[start, y], [start + width, y]],
+        ends: [[start, wall.y], [start + width, wall.y]],
         open: kind != RoomKind::Storage || draw.chance(0.5),
         threshold_m: if wet {
             draw.pick(&[0.0, 0.006, 0.01, 0.012])

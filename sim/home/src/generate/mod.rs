@@ -284,7 +284,14 @@ fn furnish(draw: &mut Draw, moved: &mut Draw, things: &mut Things, dock_clear: O
             .chain(standing.iter().copied())
             .chain(things.stairs.iter().copied());
         let solid = solid.collect();
-        let mut furnisher = Furnisher::new(room.rect, (draw, moved), things, (clear, solid));
+        let mut furnisher = Furnisher {
+            room: room.rect,
+            draw,
+            moved,
+            things,
+            solid,
+            clear,
+        };
         recipes::furnish(&mut furnisher, room.kind);
     }
 }

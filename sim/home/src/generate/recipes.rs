@@ -35,11 +35,11 @@ fn living(room: &mut Furnisher<'_>) {
         dining(room);
     }
     if room.draw.chance(0.6) {
-        boxy(room, ("Armchair", ARMCHAIR), 0.4, Where::Wall);
+        boxy(room, Boxy::new("Armchair", ARMCHAIR), 0.4, Where::Wall);
     }
-    boxy(room, ("Shelf", SHELF), DRAWERS_M, Where::Wall);
+    boxy(room, Boxy::new("Shelf", SHELF), DRAWERS_M, Where::Wall);
     if room.draw.chance(0.5) {
-        boxy(room, ("Sideboard", DRESSER), DRAWERS_M, Where::Wall);
+        boxy(room, Boxy::new("Sideboard", DRESSER), DRAWERS_M, Where::Wall);
     }
     plant(room);
     lamp(room);
@@ -52,18 +52,18 @@ fn studio(room: &mut Furnisher<'_>) {
     let side = sofa_group(room);
     television(room, side.map(RoomSide::opposite));
     dining(room);
-    boxy(room, ("Wardrobe", DRESSER), DRAWERS_M, Where::Corner);
+    boxy(room, Boxy::new("Wardrobe", DRESSER), DRAWERS_M, Where::Corner);
     lamp(room);
     clutter(room, 1);
 }
 
 fn kitchen(room: &mut Furnisher<'_>) {
     counter(room, 2.0);
-    boxy(room, ("Fridge", FRIDGE), DRAWERS_M, Where::Corner);
+    boxy(room, Boxy::new("Fridge", FRIDGE), DRAWERS_M, Where::Corner);
     if room.room.area_m2() > 8.5 {
         dining(room);
     }
-    boxy(room, ("Dustbin", GARBAGE_CAN), 0.0, Where::Wall);
+    boxy(room, Boxy::new("Dustbin", GARBAGE_CAN), 0.0, Where::Wall);
 }
 
 fn bedroom(room: &mut Furnisher<'_>) {
@@ -73,7 +73,12 @@ fn bedroom(room: &mut Furnisher<'_>) {
         room.things.mirrors.push(line);
     }
     if room.draw.chance(0.6) {
-        boxy(room, ("Chest of drawers", DRESSER), DRAWERS_M, Where::Wall);
+        boxy(
+            room,
+            Boxy::new("Chest of drawers", DRESSER),
+            DRAWERS_M,
+            Where::Wall,
+        );
     }
     if room.draw.chance(0.5) {
         single_chair(room);
@@ -84,17 +89,17 @@ fn bedroom(room: &mut Furnisher<'_>) {
 fn child(room: &mut Furnisher<'_>) {
     bed(room, BED_NARROW);
     desk(room);
-    boxy(room, ("Shelf", SHELF), DRAWERS_M, Where::Wall);
+    boxy(room, Boxy::new("Shelf", SHELF), DRAWERS_M, Where::Wall);
     loose_rug(room, (1.4, 1.0));
     clutter(room, 3);
 }
 
 fn office(room: &mut Furnisher<'_>) {
     desk(room);
-    boxy(room, ("Shelf", SHELF), DRAWERS_M, Where::Wall);
-    boxy(room, ("Shelf", SHELF), DRAWERS_M, Where::Wall);
+    boxy(room, Boxy::new("Shelf", SHELF), DRAWERS_M, Where::Wall);
+    boxy(room, Boxy::new("Shelf", SHELF), DRAWERS_M, Where::Wall);
     if room.draw.chance(0.4) {
-        boxy(room, ("Armchair", ARMCHAIR), 0.4, Where::Corner);
+        boxy(room, Boxy::new("Armchair", ARMCHAIR), 0.4, Where::Corner);
     }
     plant(room);
     clutter(room, 1);
@@ -113,10 +118,15 @@ fn bath(room: &mut Furnisher<'_>) {
     pedestal(room);
     basin(room);
     if room.draw.chance(0.5) {
-        boxy(room, ("Washing machine", WASHING_MACHINE), 0.4, Where::Corner);
+        boxy(
+            room,
+            Boxy::new("Washing machine", WASHING_MACHINE),
+            0.4,
+            Where::Corner,
+        );
     }
     if room.draw.chance(0.5) {
-        boxy(room, ("Hamper", HAMPER), 0.0, Where::Wall);
+        boxy(room, Boxy::new("Hamper", HAMPER), 0.0, Where::Wall);
     }
     loose_rug(room, (0.8, 0.5));
 }
@@ -130,7 +140,7 @@ fn corridor(room: &mut Furnisher<'_>) {
     if width > 1.3 {
         boxy(
             room,
-            ("Shoe cabinet", &[(0.8, 0.24), (1.1, 0.24), (0.6, 0.3)]),
+            Boxy::new("Shoe cabinet", &[(0.8, 0.24), (1.1, 0.24), (0.6, 0.3)]),
             0.6,
             Where::Wall,
         );
@@ -160,8 +170,8 @@ fn corridor(room: &mut Furnisher<'_>) {
 }
 
 fn storage(room: &mut Furnisher<'_>) {
-    boxy(room, ("Shelf", SHELF), 0.4, Where::Corner);
-    boxy(room, ("Shelf", SHELF), 0.4, Where::Wall);
+    boxy(room, Boxy::new("Shelf", SHELF), 0.4, Where::Corner);
+    boxy(room, Boxy::new("Shelf", SHELF), 0.4, Where::Wall);
     clutter(room, 2);
 }
 
@@ -362,11 +372,24 @@ fn basin(room: &mut Furnisher<'_>) {
     }
 }
 
-fn boxy(room: &mut Furnisher<'_>, (name, sizes): (&'static str, &[Size]), front_m: f64, place: Where) {
-    let size = room.draw.pick(sizes);
+/// A piece that is a box, and its usual sizes.
+#[derive(Clone, Copy, Debug)]
+struct Boxy {
+    name: &'static str,
+    sizes: &'static [Size],
+}
+
+impl Boxy {
+    const fn new(name: &'static str, sizes: &'static [Size]) -> Self {
+        Self { name, sizes }
+    }
+}
+
+fn boxy(room: &mut Furnisher<'_>, piece: Boxy, front_m: f64, place: Where) {
+    let size = room.draw.pick(piece.sizes);
     if let Some((frame, _)) = room.at_wall(size, front_m, place) {
         let rect = frame.rect([0.0, 0.0], [size.0, size.1]);
-        room.solid(name, &rect);
+        room.solid(piece.name, &rect);
     }
 }
 

@@ -50,11 +50,11 @@ pub(super) fn write(name: &str, things: &Things, turn: Turn) -> String {
         write_rug(&mut text, rug, turn);
     }
     for wall in &things.walls {
-        strip(&mut text, "wall", (wall.ends, turn));
+        strip(&mut text, "wall", wall.ends, turn);
         line(&mut text, "thickness-m", &format!("{:.2}", wall.thickness_m));
     }
     for door in &things.doors {
-        strip(&mut text, "door", (door.ends, turn));
+        strip(&mut text, "door", door.ends, turn);
         line(&mut text, "thickness-m", "0.16");
         line(
             &mut text,
@@ -66,7 +66,7 @@ pub(super) fn write(name: &str, things: &Things, turn: Turn) -> String {
         write_piece(&mut text, piece, turn);
     }
     for door in things.doors.iter().filter(|door| door.threshold_m > 0.0) {
-        strip(&mut text, "threshold", (door.ends, turn));
+        strip(&mut text, "threshold", door.ends, turn);
         line(&mut text, "width-m", "0.08");
         line(&mut text, "height-m", &format!("{:.3}", door.threshold_m));
     }
@@ -74,7 +74,7 @@ pub(super) fn write(name: &str, things: &Things, turn: Turn) -> String {
         write_cable(&mut text, cable, turn);
     }
     for mirror in &things.mirrors {
-        strip(&mut text, "mirror", (mirror.ends, turn));
+        strip(&mut text, "mirror", mirror.ends, turn);
         line(&mut text, "thickness-m", &format!("{:.2}", mirror.thickness_m));
     }
     for visitor in &things.visitors {
@@ -114,7 +114,7 @@ fn named(text: &mut String, table: &str, name: &str) {
     writeln!(text, "\n[[{table}]]\nname = \"{name}\"").ok();
 }
 
-fn strip(text: &mut String, table: &str, (ends, turn): ([Point; 2], Turn)) {
+fn strip(text: &mut String, table: &str, ends: [Point; 2], turn: Turn) {
     writeln!(text, "\n[[{table}]]").ok();
     line(text, "from", &turn.point(ends[0]));
     line(text, "to", &turn.point(ends[1]));
@@ -145,7 +145,7 @@ fn write_piece(text: &mut String, piece: &Piece, turn: Turn) {
 /// A cable is a low, slippery edge.
 fn write_cable(text: &mut String, cable: &PlacedLine, turn: Turn) {
     text.push_str("\n# a cable");
-    strip(text, "threshold", (cable.ends, turn));
+    strip(text, "threshold", cable.ends, turn);
     line(text, "width-m", &format!("{:.3}", cable.thickness_m));
     line(text, "height-m", "0.006");
 }

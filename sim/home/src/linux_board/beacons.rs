@@ -43,6 +43,13 @@ enum RadioKind {
     Strengths(Air),
 }
 
+/// A beacon and its place in the plan frame, metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beacon {
+    pub(super) number: u16,
+    pub(super) place: (f64, f64),
+}
+
 /// Beacons and radio. The same seed and the same poses give the same measurements.
 #[derive(Clone, Debug)]
 pub struct Beacons {
@@ -114,16 +121,18 @@ impl Beacons {
         let turn = (self.steps / TURN_MS) as usize % self.places.len();
         let place = *self.places.get(turn)?;
         let number = u16::try_from(turn).ok()?;
+        let beacon = Beacon { number, place };
         let measured = match self.kind {
-            RadioKind::Ranges => Measured::Range(self.measure(home, pose, (number, place))?),
+            RadioKind::Ranges => Measured::Range(self.measure(home, pose, beacon)?),
             RadioKind::Strengths(air) => {
-                Measured::Strength(air.receive((home, pose), (number, place), &mut self.random)?)
+                let mean_dbm = air.mean_dbm(home, pose, beacon);
+                Measured::Strength(Air::receive(mean_dbm, &mut self.random)?)
             }
         };
         Some((number, measured))
     }
 
-    fn measure(&mut self, home: &Home, pose: Pose, (number, place): (u16, (f64, f64))) -> Option<f64> {
+    fn measure(&mut self, home: &Home, pose: Pose, Beacon { number, place }: Beacon) -> Option<f64> {
         let away_m = libm::hypot(place.0 - pose.x_m, place.1 - pose.y_m);
         let behind = is_behind(home, (pose.x_m, pose.y_m), place);
         let lost = if behind { LOST_BEHIND } else { LOST_IN_SIGHT };

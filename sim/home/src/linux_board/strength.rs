@@ -5,6 +5,7 @@
 //! packet fades by itself. Figures: exponent and shadowing of Recommendation ITU-R P.1238 for homes, walls of COST 231
 //! (light walls 3.4 dB, heavy ones 6.9 dB), power in one metre of usual tags.
 
+use super::beacons::Beacon;
 use crate::{Home, Pcg, Pose};
 
 /// Received power in one metre, dBm, and its deviation from beacon to beacon.
@@ -43,23 +44,19 @@ impl Air {
     }
 
     /// Received power of a packet in whole dBm, as radios report it, if it is received.
-    pub(super) fn receive(
-        self,
-        (home, pose): (&Home, Pose),
-        (number, place): (u16, (f64, f64)),
-        random: &mut Pcg,
-    ) -> Option<f64> {
-        let dbm = self.mean_dbm(home, pose, (number, place)) + FADING_DB * random.normal();
+    pub(super) fn receive(mean_dbm: f64, random: &mut Pcg) -> Option<f64> {
+        let dbm = mean_dbm + FADING_DB * random.normal();
         (dbm >= WEAKEST_DBM).then(|| libm::round(dbm))
     }
 
-    fn mean_dbm(self, home: &Home, pose: Pose, (number, place): (u16, (f64, f64))) -> f64 {
+    /// Power of a beacon before the fading of a packet.
+    pub(super) fn mean_dbm(self, home: &Home, pose: Pose, Beacon { number, place }: Beacon) -> f64 {
         let (dx, dy) = (place.0 - pose.x_m, place.1 - pose.y_m);
         let away_m = libm::hypot(dx, dy).max(NEAREST_M);
         let walls = obstacles_between(home, (pose.x_m, pose.y_m), place);
         let obstacle_loss_db = (OBSTACLE_DB * f64::from(walls)).min(OBSTACLES_MAX_DB);
         let aside_rad = libm::atan2(dy, dx) - pose.heading_rad;
-        AT_1_M_DBM + BEACON_SIGMA_DB * self.drawn(number, (i64::MAX, i64::MAX))
+        AT_1_M_DBM + BEACON_SIGMA_DB * self.drawn(number, [i64::MAX, i64::MAX])
             - 10.0 * EXPONENT * libm::log10(away_m)
             - obstacle_loss_db
             + SHADOW_DB * self.shadow(number, pose)
@@ -70,7 +67,7 @@ impl Air {
     fn shadow(self, number: u16, pose: Pose) -> f64 {
         let (x, y) = (pose.x_m / SHADOW_M, pose.y_m / SHADOW_M);
         let (left, below) = (libm::floor(x), libm::floor(y));
-        let at = |right: i64, above: i64| self.drawn(number, (left as i64 + right, below as i64 + above));
+        let at = |right: i64, above: i64| self.drawn(number, [left as i64 + right, below as i64 + above]);
         let (right, above) = (x - left, y - below);
         let lower = (1.0 - right) * at(0, 0) + right * at(1, 0);
         let upper = (1.0 - right) * at(0, 1) + right * at(1, 1);
@@ -78,10 +75,10 @@ impl Air {
     }
 
     /// A normal number that belongs to a beacon and a place.
-    fn drawn(self, number: u16, place: (i64, i64)) -> f64 {
+    fn drawn(self, number: u16, patch: [i64; 2]) -> f64 {
         let mut hash = self.seed ^ u64::from(number).wrapping_mul(0xd6e8_feb8_6659_fd93);
-        hash ^= (place.0 as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        hash ^= (place.1 as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
+        hash ^= (patch[0] as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        hash ^= (patch[1] as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
         Pcg::new(hash, u64::from(number)).normal()
     }
 }
@@ -105,16 +102,16 @@ fn obstacles_between(home: &Home, from: (f64, f64), to: (f64, f64)) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::Air;
+    use super::{Air, Beacon};
     use crate::{Home, Pcg, Pose, RobotModel};
 
     const PLAN: &str = "format = \"librervac-home\"\nversion = 1\n\
         [[room]]\npolygon = [[0, 0], [4, 0], [4, 4], [0, 4]]\n";
 
-    fn mean_dbm(air: Air, home: &Home, (at, beacon): (Pose, (f64, f64))) -> f64 {
+    fn mean_dbm(air: Air, home: &Home, at: Pose, place: (f64, f64)) -> f64 {
         let mut random = Pcg::new(1, 1);
         let heard: Vec<f64> = (0..400)
-            .filter_map(|_| air.receive((home, at), (0, beacon), &mut random))
+            .filter_map(|_| Air::receive(air.mean_dbm(home, at, Beacon { number: 0, place }), &mut random))
             .collect();
         heard.iter().sum::<f64>() / heard.len() as f64
     }
@@ -126,7 +123,7 @@ mod tests {
         let (mut fall_db, mut spread_db) = (Vec::new(), Vec::new());
         for seed in 0..60 {
             let air = Air::new(seed);
-            let dbm = |away_m: f64| mean_dbm(air, &home, (Pose::new(0.3 + away_m, 2.0, 0.0), (0.3, 2.0)));
+            let dbm = |away_m: f64| mean_dbm(air, &home, Pose::new(0.3 + away_m, 2.0, 0.0), (0.3, 2.0));
             let (near, far) = (dbm(0.4), dbm(3.2));
             assert!((dbm(3.2) - far).abs() < 1e-9, "the place decides");
             fall_db.push(near - far);

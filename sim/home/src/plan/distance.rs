@@ -18,13 +18,13 @@ const NOWHERE: f64 = 1e7;
 
 impl DistanceField {
     /// Field of the cells for which `is_kind` holds. The grid needs at least 2 x 2 cells.
-    pub(crate) fn new(cell_m: f64, (width, height): (usize, usize), is_kind: impl Fn(usize) -> bool) -> Self {
+    pub(crate) fn new(cell_m: f64, width: usize, height: usize, is_kind: impl Fn(usize) -> bool) -> Self {
         debug_assert!(
             width >= 2 && height >= 2,
             "interpolation needs two rows and columns"
         );
-        let outward = squared_distances((width, height), &is_kind);
-        let inward = squared_distances((width, height), |index| !is_kind(index));
+        let outward = squared_distances(width, height, &is_kind);
+        let inward = squared_distances(width, height, |index| !is_kind(index));
         let half = 0.5 * cell_m;
         let values = outward
             .iter()
@@ -89,11 +89,8 @@ impl DistanceField {
 }
 
 /// Squared distance in cells from each cell's centre to the centre of the nearest source cell.
-pub(crate) fn squared_distances(
-    (width, height): (usize, usize),
-    is_source: impl Fn(usize) -> bool,
-) -> Vec<f32> {
-    let mut squared = column_distances((width, height), is_source);
+pub(crate) fn squared_distances(width: usize, height: usize, is_source: impl Fn(usize) -> bool) -> Vec<f32> {
+    let mut squared = column_distances(width, height, is_source);
     let mut row = vec![0.0; width];
     let mut envelope = ParabolaEnvelope::with_capacity(width);
     for cells in squared.chunks_exact_mut(width) {
@@ -106,7 +103,7 @@ pub(crate) fn squared_distances(
 }
 
 /// Distance in cells to the nearest source cell of the same column.
-fn column_distances((width, height): (usize, usize), is_source: impl Fn(usize) -> bool) -> Vec<f32> {
+fn column_distances(width: usize, height: usize, is_source: impl Fn(usize) -> bool) -> Vec<f32> {
     let mut distances = vec![NOWHERE as f32; width * height];
     for index in 0..width * height {
         let above = if index >= width {
@@ -189,7 +186,7 @@ mod tests {
         for density in [2, 20, 200] {
             let (width, height) = (23, 17);
             let sources: Vec<bool> = (0..width * height).map(|_| random.below(density) == 0).collect();
-            let fast = squared_distances((width, height), |index| sources[index]);
+            let fast = squared_distances(width, height, |index| sources[index]);
             for (index, found) in fast.iter().enumerate() {
                 let (x, y) = ((index % width) as f32, (index / width) as f32);
                 let brute = sources
@@ -211,7 +208,7 @@ mod tests {
 
     #[test]
     fn field_is_zero_on_the_border_of_a_wall_and_points_away_from_it() {
-        let field = DistanceField::new(0.02, (50, 50), |index| index % 50 < 10);
+        let field = DistanceField::new(0.02, 50, 50, |index| index % 50 < 10);
         assert!(field.at(0.20, 0.5).abs() < 1e-6);
         assert!((field.at(0.33, 0.5) - 0.13).abs() < 1e-6);
         assert!((field.at(0.15, 0.5) + 0.05).abs() < 1e-6);

@@ -85,7 +85,7 @@ impl Regions {
     /// Floor cells that a disc of `swath_m` sweeps when its centre visits every cell of the region.
     pub(crate) fn swept_from(&self, region: u32, grid: &Grid, swath_m: f64) -> Vec<bool> {
         let limit = (0.5 * swath_m / grid.cell_m) * (0.5 * swath_m / grid.cell_m);
-        squared_distances((grid.width, grid.height), |index| self.labels[index] == region)
+        squared_distances(grid.width, grid.height, |index| self.labels[index] == region)
             .iter()
             .zip(&grid.cells)
             .map(|(squared, cell)| cell.is_floor() && f64::from(*squared) <= limit)
@@ -95,14 +95,14 @@ impl Regions {
 
 /// Distance to the nearest cell that the body must not overlap: solid or a drop.
 pub(crate) fn blocked_field(grid: &Grid) -> DistanceField {
-    DistanceField::new(grid.cell_m, (grid.width, grid.height), |index| {
+    DistanceField::new(grid.cell_m, grid.width, grid.height, |index| {
         !grid.cells[index].is_floor()
     })
 }
 
 /// Distance to the nearest solid cell, which stops bumpers and beams.
 pub(crate) fn solid_field(grid: &Grid) -> DistanceField {
-    DistanceField::new(grid.cell_m, (grid.width, grid.height), |index| {
+    DistanceField::new(grid.cell_m, grid.width, grid.height, |index| {
         grid.cells[index].is_solid()
     })
 }
@@ -110,7 +110,7 @@ pub(crate) fn solid_field(grid: &Grid) -> DistanceField {
 /// Distance to the nearest drop, if the home has any.
 pub(crate) fn cliff_field(grid: &Grid) -> Option<DistanceField> {
     grid.cells.contains(&Cell::Cliff).then(|| {
-        DistanceField::new(grid.cell_m, (grid.width, grid.height), |index| {
+        DistanceField::new(grid.cell_m, grid.width, grid.height, |index| {
             grid.cells[index] == Cell::Cliff
         })
     })

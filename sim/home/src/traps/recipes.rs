@@ -144,7 +144,7 @@ fn cables(sketch: &mut Sketch) {
     for (number, knot) in knots.iter().enumerate() {
         let next = knots.get((number + 1) % knots.len()).copied().unwrap_or(*knot);
         let height_m = sketch.number(0.006, 0.013);
-        sketch.threshold([*knot, next], (0.02, height_m));
+        sketch.threshold([*knot, next], 0.02, height_m);
     }
     let heading_deg = any_heading(sketch);
     sketch.start(middle, heading_deg);
@@ -265,7 +265,7 @@ fn rug_edge(sketch: &mut Sketch) {
     for (number, corner) in edges.iter().enumerate() {
         let next = edges.get((number + 1) % edges.len()).copied().unwrap_or(*corner);
         let height_m = sketch.number(0.010, 0.0145);
-        sketch.threshold([*corner, next], (0.04, height_m));
+        sketch.threshold([*corner, next], 0.04, height_m);
     }
     let heading_deg = any_heading(sketch);
     sketch.start([1.0, 1.2], heading_deg);
@@ -354,7 +354,7 @@ fn threshold(sketch: &mut Sketch) {
     sketch.wall([[east, 0.0], [east, start]]);
     sketch.wall([[east, start + door_m], [east, north]]);
     let height_m = sketch.number(0.011, 0.0148);
-    sketch.threshold([[east, start], [east, start + door_m]], (0.08, height_m));
+    sketch.threshold([[east, start], [east, start + door_m]], 0.08, height_m);
     let heading_deg = any_heading(sketch);
     sketch.start([0.4 * east, 0.5 * north], heading_deg);
     sketch.end_at([0.0, 0.0], [east + 0.2, north + 0.1]);

@@ -91,7 +91,7 @@ impl Sketch {
         }
     }
 
-    pub(super) fn threshold(&mut self, ends: [Point; 2], (width_m, height_m): (f64, f64)) {
+    pub(super) fn threshold(&mut self, ends: [Point; 2], width_m: f64, height_m: f64) {
         self.strip("threshold", ends);
         self.line(&format!("width-m = {width_m:.3}\nheight-m = {height_m:.4}"));
     }

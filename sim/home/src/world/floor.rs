@@ -85,10 +85,10 @@ impl Underneath {
     /// Samples the surface under the centre, and that under the brush.
     pub(crate) fn sample_surface(&mut self, home: &Home, body: &Body) {
         if !home.surfaces.is_hard() {
-            self.surface = surface(home, (body.x_m, body.y_m));
+            self.surface = surface(home, body.x_m, body.y_m);
             let loads = BRUSH_SHARES.map(|share| {
-                let place = body.point(0.0, share * self.half_swath_m);
-                surface(home, place).brush_load
+                let (x_m, y_m) = body.point(0.0, share * self.half_swath_m);
+                surface(home, x_m, y_m).brush_load
             });
             self.brush_load = loads.iter().sum::<f64>() / loads.len() as f64;
         }
@@ -109,7 +109,8 @@ impl Underneath {
                 }
             };
             let floor = if has_black && floor > 0.0 {
-                floor * shade(home, body.point(mount.x_m, mount.y_m))
+                let (x_m, y_m) = body.point(mount.x_m, mount.y_m);
+                floor * shade(home, x_m, y_m)
             } else {
                 floor
             };
@@ -130,13 +131,13 @@ impl Underneath {
     }
 }
 
-fn surface(home: &Home, (x_m, y_m): (f64, f64)) -> Surface {
+fn surface(home: &Home, x_m: f64, y_m: f64) -> Surface {
     let index = home.grid().index(x_m, y_m);
     index.map(|index| home.surfaces.at(index)).unwrap_or_default()
 }
 
 /// Share of the light that the floor at a place gives back.
-fn shade(home: &Home, (x_m, y_m): (f64, f64)) -> f64 {
+fn shade(home: &Home, x_m: f64, y_m: f64) -> f64 {
     let index = home.grid().index(x_m, y_m);
     if index.is_some_and(|index| home.surfaces.at(index).black) {
         BLACK_SHARE

@@ -1,6 +1,7 @@
 //! A turning lidar.
 
 use super::body::Body;
+use super::proximity::Beam;
 use super::sensors::LidarScan;
 use super::wheel::STEP_S;
 use crate::plan::Solid;
@@ -50,7 +51,13 @@ impl Lidar {
     fn measure(&mut self, solid: Solid<'_>, body: &Body, random: &mut Pcg) {
         let share = self.next as f64 / self.growing.len() as f64;
         let (sin, cos) = libm::sincos(body.heading_rad + core::f64::consts::TAU * share);
-        let distance_m = self.march(solid, (body.x_m, body.y_m), (cos, sin));
+        let beam = Beam {
+            x_m: body.x_m,
+            y_m: body.y_m,
+            dx: cos,
+            dy: sin,
+        };
+        let distance_m = self.march(solid, &beam);
         if let Some(range) = self.growing.get_mut(self.next) {
             *range = (distance_m * (1.0 + self.part.noise * random.normal())) as f32;
         }
@@ -63,10 +70,11 @@ impl Lidar {
     }
 
     /// Distance to what the beam hits; 0 when nothing is within range.
-    fn march(&self, solid: Solid<'_>, (x_m, y_m): (f64, f64), (dx, dy): (f64, f64)) -> f64 {
+    fn march(&self, solid: Solid<'_>, beam: &Beam) -> f64 {
         let mut distance_m = 0.0;
         for _ in 0..MARCH_MAX {
-            let clear_m = solid.at(x_m + dx * distance_m, y_m + dy * distance_m);
+            let (x_m, y_m) = beam.at(distance_m);
+            let clear_m = solid.at(x_m, y_m);
             if clear_m < HIT_M {
                 return distance_m;
             }

@@ -16,18 +16,26 @@ const PATCH_M: f64 = 0.4;
 /// A mirror gives light back within this cosine of its normal (10 degrees).
 const MIRROR_COS: f64 = 0.985;
 
-/// The middle of a sensor's cone: where it starts and its direction.
-struct Beam {
-    x_m: f64,
-    y_m: f64,
-    dx: f64,
-    dy: f64,
+/// The middle of a sensor's cone, or a ray of the lidar: where it starts and its direction.
+pub(super) struct Beam {
+    pub(super) x_m: f64,
+    pub(super) y_m: f64,
+    pub(super) dx: f64,
+    pub(super) dy: f64,
 }
 
 impl Beam {
-    fn at(&self, distance_m: f64) -> (f64, f64) {
+    #[inline]
+    pub(super) fn at(&self, distance_m: f64) -> (f64, f64) {
         (self.x_m + self.dx * distance_m, self.y_m + self.dy * distance_m)
     }
+}
+
+/// What the sensors look at: the home as it was drawn, and what stands in it at this moment.
+#[derive(Clone, Copy)]
+pub(crate) struct Surroundings<'a> {
+    pub(crate) home: &'a Home,
+    pub(crate) solid: Solid<'a>,
 }
 
 /// All proximity sensors of the robot.
@@ -81,7 +89,7 @@ impl Proximity {
     }
 
     /// Samples the next sensor in turn.
-    pub(crate) fn sample_next(&mut self, (home, solid): (&Home, Solid<'_>), body: &Body, random: &mut Pcg) {
+    pub(crate) fn sample_next(&mut self, around: Surroundings<'_>, body: &Body, random: &mut Pcg) {
         let sensor = self.next;
         self.next += 1;
         if self.next >= self.directions.len() {
@@ -100,22 +108,23 @@ impl Proximity {
                 dx,
                 dy,
             };
-            self.sample((home, solid), &beam, random)
+            self.sample(around, &beam, random)
         };
         if let Some(shown) = self.levels.get_mut(sensor) {
             *shown = level;
         }
     }
 
-    fn sample(&self, (home, solid): (&Home, Solid<'_>), beam: &Beam, random: &mut Pcg) -> u8 {
+    fn sample(&self, Surroundings { home, solid }: Surroundings<'_>, beam: &Beam, random: &mut Pcg) -> u8 {
         let Some(distance_m) = self.march(solid, beam) else {
             return 0;
         };
         if random.unit() < self.dropout || deflected(home, beam, distance_m) {
             return 0;
         }
+        let (x_m, y_m) = beam.at(distance_m);
         let white = light(distance_m - self.skin_m, self.half_level_m);
-        let seen = self.reflection(beam.at(distance_m)) * white * (1.0 + self.noise * random.normal());
+        let seen = self.reflection(x_m, y_m) * white * (1.0 + self.noise * random.normal());
         match self.near_light {
             Some(near_light) if seen >= near_light => u8::MAX,
             Some(_) => 0,
@@ -141,7 +150,7 @@ impl Proximity {
     }
 
     /// Reflection of the patch around a place, 1 on average.
-    fn reflection(&self, (x_m, y_m): (f64, f64)) -> f64 {
+    fn reflection(&self, x_m: f64, y_m: f64) -> f64 {
         let (column, row) = ((x_m / PATCH_M) as i64, (y_m / PATCH_M) as i64);
         let mut hash = self.patches ^ (column as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         hash ^= (row as u64).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);

@@ -6,6 +6,7 @@ use rvac_units::{Current, Temperature, Voltage};
 
 use super::body::RIGID;
 use super::gyro::{DRIFT_STEPS, WALK_STEPS};
+use super::proximity::Surroundings;
 use super::slip::DRAW_STEPS;
 use super::walkers::{RobotDisc, WALK_MS};
 use super::wheel::STEP_S;
@@ -149,7 +150,11 @@ impl World {
         if now_ms.is_multiple_of(PROXIMITY_MS)
             && let Some(proximity) = &mut self.proximity
         {
-            proximity.sample_next((&self.home, solid!(self)), &self.body, &mut self.random);
+            let around = Surroundings {
+                home: &self.home,
+                solid: solid!(self),
+            };
+            proximity.sample_next(around, &self.body, &mut self.random);
         }
         if now_ms % CLIFF_MS == 1 {
             self.sample_cliffs();

@@ -83,7 +83,7 @@ const WALKER: &str =
     "[[walker]]\nkind = \"person\"\ngoals = [[0.5, 2.0], [3.5, 2.0]]\nrest-s = 1\nfrom-s = 1\nuntil-s = 60\n";
 
 /// A robot with this duty of its wheels, and a walker.
-fn among_walkers(walker: &str, pose: Pose, (duty, ms): (f64, u64)) -> World {
+fn among_walkers(walker: &str, pose: Pose, duty: f64, ms: u64) -> World {
     let mut world = standing(home(walker), Some(pose), 0);
     let wheel = home::Bridge {
         pwm: duty,
@@ -103,7 +103,7 @@ fn among_walkers(walker: &str, pose: Pose, (duty, ms): (f64, u64)) -> World {
 #[test]
 fn nobody_steps_onto_a_robot_that_stands_in_the_way() {
     for x_m in [1.0, 1.5, 2.1, 2.2, 2.3] {
-        let world = among_walkers(WALKER, Pose::new(x_m, 2.06, 0.0), (0.0, 60_000));
+        let world = among_walkers(WALKER, Pose::new(x_m, 2.06, 0.0), 0.0, 60_000);
         assert_eq!(world.truth().foot_contacts, 0, "{x_m}");
         assert_eq!(world.truth().contacts, 0, "{x_m}");
     }
@@ -112,7 +112,7 @@ fn nobody_steps_onto_a_robot_that_stands_in_the_way() {
 #[test]
 fn a_robot_without_reflexes_runs_into_feet() {
     // Along the path, so that sooner or later a foot is ahead.
-    let world = among_walkers(WALKER, Pose::new(0.6, 2.06, 0.0), (0.25, 30_000));
+    let world = among_walkers(WALKER, Pose::new(0.6, 2.06, 0.0), 0.25, 30_000);
     assert!(world.truth().foot_contacts > 0 && world.truth().foot_pushed_max_ms > 0);
 }
 

@@ -408,7 +408,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_for_something_else_is_told_as_such() {
+    fn a_program_for_something_else_is_reported_as_such() {
         assert_eq!(changed(0, b'#'), Err(ImageError::NotElf));
         assert_eq!(changed(4, 2), Err(ImageError::WrongClass(2)));
         assert_eq!(changed(5, 2), Err(ImageError::WrongEndianness(2)));
@@ -462,7 +462,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_file_is_told_as_truncated() {
+    fn a_cut_file_is_reported_as_truncated() {
         let file = program(&SEGMENTS, super::PART);
         for length in 4..file.len() {
             let Err(ImageError::Truncated {

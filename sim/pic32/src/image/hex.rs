@@ -137,7 +137,7 @@ mod tests {
     }
 
     #[test]
-    fn each_fault_is_told_with_its_line() {
+    fn each_fault_is_reported_with_its_line() {
         let hex = |line, fault| Err(ImageError::Hex { line, fault });
         let cases = [
             ("0400100001020304E2", hex(1, HexFault::NoColon)),

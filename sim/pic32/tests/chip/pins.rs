@@ -218,7 +218,7 @@ fn external_interrupts_see_the_edge_that_they_are_set_to() {
 }
 
 #[test]
-fn unknown_registers_read_zero_and_are_told_with_their_place() {
+fn unknown_registers_read_zero_and_are_reported_with_their_place() {
     use crate::program::{FOREVER, T0, T1, li, lw, sw};
     let code = [
         li(T0, 0xBF80_6800).as_slice(),

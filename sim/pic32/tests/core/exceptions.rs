@@ -107,7 +107,7 @@ fn raised(bench: &mut Bench) -> Exception {
 }
 
 #[test]
-fn each_cause_is_told() {
+fn each_cause_is_reported() {
     for (name, word, code, accessed, unit) in cases() {
         let mut bench = prepared(&[NOP, word]);
         let address = FLASH + 4;
@@ -135,7 +135,7 @@ fn each_cause_is_told() {
 }
 
 #[test]
-fn in_a_delay_slot_the_branch_is_told() {
+fn in_a_delay_slot_the_branch_is_reported() {
     // Taken, not taken, likely, linking: all of them have a slot.
     for branch in [
         BRANCH,
@@ -187,7 +187,7 @@ fn a_second_exception_keeps_the_first_return_address() {
 }
 
 #[test]
-fn fetches_from_nowhere_are_told() {
+fn fetches_from_nowhere_are_reported() {
     let cases = [
         (0x9D04_0000, BusFetch),
         (0xBFC0_3000, BusFetch),
@@ -218,7 +218,7 @@ fn fetches_from_nowhere_are_told() {
 }
 
 #[test]
-fn running_and_branching_over_an_end_of_flash_is_told() {
+fn running_and_branching_over_an_end_of_flash_is_reported() {
     let last = 0x9D03_FFFC;
     let fell = raised(&mut Bench::at(last, &[NOP]));
     assert_eq!((fell.code, fell.address), (BusFetch, 0x9D04_0000));

@@ -7,7 +7,7 @@ const TI: u32 = 1 << 30;
 const DC: u32 = 1 << 27;
 
 #[test]
-fn a_match_is_told_once_and_stays_pending_until_compare_is_written() {
+fn a_match_is_reported_once_and_stays_pending_until_compare_is_written() {
     let mut bench = Bench::new(&[mtc0(COUNT, 0), mtc0(COMPARE, 2), WAIT, mtc0(COMPARE, 2), NOP]);
     bench.cpu.set_register(2, 40_000);
     assert_eq!(bench.run(200_000), Exit::CoreTimer);

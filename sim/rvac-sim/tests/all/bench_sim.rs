@@ -7,7 +7,7 @@ use serde_json::Value;
 /// The bench itself checks that the copies of world and brain behave as the originals, and fails otherwise.
 #[test]
 #[ignore = "campaign: whole runs; cargo xtask test --all"]
-fn the_time_of_each_case_is_told_by_parts() {
+fn the_time_of_each_case_is_reported_by_parts() {
     let output = Command::new(env!("CARGO_BIN_EXE_bench-sim"))
         .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
         .args(["--minutes", "2", "--parts", "--json"])

@@ -8,6 +8,7 @@ mod bench_sim;
 mod docking;
 mod echo;
 mod flat;
+mod folder;
 mod lifted;
 mod moved_dock;
 mod run;

@@ -1,6 +1,7 @@
 //! The batch commands as processes.
 
 use crate::echo;
+use crate::folder::Folder;
 use std::borrow::Cow;
 use std::process::{Command, Output};
 
@@ -25,7 +26,7 @@ fn parsed(output: &Output) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-fn told(output: &Output) -> Cow<'_, str> {
+fn printed(output: &Output) -> Cow<'_, str> {
     String::from_utf8_lossy(&output.stderr)
 }
 
@@ -42,8 +43,8 @@ fn it_tells_what_the_robot_decided_and_why() {
     let silent = rvac_sim(&words);
     let explained = rvac_sim(&[words.as_slice(), &["--explain"]].concat());
     let starts = "brain    state-cleaning (command)";
-    assert!(told(&explained).contains(starts), "{}", told(&explained));
-    assert!(!told(&silent).contains(starts));
+    assert!(printed(&explained).contains(starts), "{}", printed(&explained));
+    assert!(!printed(&silent).contains(starts));
     let figures = |output| {
         let mut figures = parsed(output);
         figures["wall_seconds"].take();
@@ -123,7 +124,7 @@ fn a_report_has_all_keys_and_repeats_itself() {
 }
 
 #[test]
-fn what_the_host_took_of_the_processor_is_told_on_demand() {
+fn what_the_host_took_of_the_processor_is_reported_on_demand() {
     let home = "homes/two-room-flat.toml";
     let output = rvac_sim(&["run", "--home", home, "--minutes", "1", "--host-cost", "--json"]);
     let report = parsed(&output);
@@ -132,8 +133,9 @@ fn what_the_host_took_of_the_processor_is_told_on_demand() {
 }
 
 #[test]
-fn an_image_that_is_no_robot_is_told_so() {
-    let image = std::env::temp_dir().join(format!("rvac-sim-echo-{}.hex", std::process::id()));
+fn an_image_that_is_no_robot_is_reported() {
+    let folder = Folder::new("echo");
+    let image = folder.join("echo.hex");
     std::fs::write(&image, echo::image()).unwrap();
     let home = "homes/two-room-flat.toml";
     let image_name = image.to_str().unwrap();
@@ -142,12 +144,12 @@ fn an_image_that_is_no_robot_is_told_so() {
     assert_eq!(output.status.code(), Some(2), "{text}");
     assert!(text.contains("did not answer within 5 s"), "{text}");
     assert_eq!(output.stdout, b"");
-    std::fs::remove_file(image).unwrap();
 }
 
 #[test]
 fn kept_runs_become_one_page_without_foreign_parts() {
-    let folder = std::env::temp_dir().join(format!("rvac-sim-page-{}", std::process::id()));
+    let files = Folder::new("page");
+    let folder = files.join("runs");
     let name = folder.to_str().unwrap();
     let empty = rvac_sim(&["report", name]);
     assert_eq!(empty.status.code(), Some(2), "there is no such folder yet");
@@ -178,13 +180,13 @@ fn kept_runs_become_one_page_without_foreign_parts() {
     for foreign in ["<script", "http:", "https:", "src=", "NaN", "inf"] {
         assert!(!page.contains(foreign), "{foreign}");
     }
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
 #[ignore = "campaign: whole runs for a page; cargo xtask test --all"]
 fn a_page_shows_bounce_beside_a_run_that_came_without() {
-    let folder = std::env::temp_dir().join(format!("rvac-sim-bounce-{}", std::process::id()));
+    let files = Folder::new("bounce");
+    let folder = files.join("runs");
     let name = folder.to_str().unwrap();
     let home = "homes/furnished-room.toml";
     let run = [
@@ -213,7 +215,6 @@ fn a_page_shows_bounce_beside_a_run_that_came_without() {
     assert_eq!(page(&["--with-bounce"]), both, "it is there already");
     let kept = std::fs::read_dir(&folder).unwrap().count();
     assert_eq!(kept, 3, "two runs and the page");
-    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]
@@ -277,7 +278,8 @@ fn a_relax_without_gyro_keeps_no_map_and_with_beacons_it_knows_its_place() {
 #[test]
 fn bad_input_names_itself() {
     let flat = "homes/two-room-flat.toml";
-    let cut = std::env::temp_dir().join(format!("rvac-sim-cut-{}.elf", std::process::id()));
+    let folder = Folder::new("cut");
+    let cut = folder.join("cut.elf");
     std::fs::write(&cut, b"\x7fELF\x01\x01\x01\0").unwrap();
     let cut = cut.to_str().unwrap();
     let cases: [(&[&str], &str); 10] = [
@@ -299,5 +301,4 @@ fn bad_input_names_itself() {
         assert!(text.contains(named), "{text}");
         assert_eq!(output.stdout, b"");
     }
-    std::fs::remove_file(cut).unwrap();
 }

@@ -1,6 +1,7 @@
 //! The server as a process: terminal, socket, signals, bad input.
 
 use crate::echo;
+use crate::folder::Folder;
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::Shutdown;
@@ -16,29 +17,12 @@ use serde_json::Value;
 const PATIENCE: Duration = Duration::from_secs(20);
 const SEPARATOR: u8 = 0x1F;
 
-/// A folder that goes with the value.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("rvac-sim-test-{}-{name}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
-    }
-
-    fn link(&self) -> PathBuf {
-        self.0.join("robot")
-    }
-
-    fn socket(&self) -> PathBuf {
-        self.0.join("sim.sock")
-    }
+fn link(folder: &Folder) -> PathBuf {
+    folder.join("robot")
 }
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        fs::remove_dir_all(&self.0).ok();
-    }
+fn socket(folder: &Folder) -> PathBuf {
+    folder.join("sim.sock")
 }
 
 fn home(name: &str) -> PathBuf {
@@ -52,9 +36,9 @@ fn command(folder: &Folder, home: &Path) -> Command {
     command.arg("serve").arg("--home").arg(home);
     command
         .arg("--link")
-        .arg(folder.link())
+        .arg(link(folder))
         .arg("--socket")
-        .arg(folder.socket());
+        .arg(socket(folder));
     command
 }
 
@@ -84,21 +68,20 @@ impl Server {
         OpenOptions::new()
             .read(true)
             .write(true)
-            .open(self.folder.link())
+            .open(link(&self.folder))
             .unwrap()
     }
 
     fn client(&self) -> Client {
-        let stream = UnixStream::connect(self.folder.socket()).unwrap();
+        let stream = UnixStream::connect(socket(&self.folder)).unwrap();
         stream.set_read_timeout(Some(PATIENCE)).unwrap();
         Client(BufReader::new(stream))
     }
 
-    fn terminate(mut self) -> Folder {
+    fn terminate(&mut self) {
         let pid = Pid::from_child(&self.child);
         kill_process(pid, Signal::TERM).unwrap();
         assert!(self.child.wait().unwrap().success());
-        std::mem::replace(&mut self.folder, Folder(PathBuf::from("/nonexistent")))
     }
 }
 
@@ -153,21 +136,24 @@ fn read_until(terminal: &mut File, text: &str) -> String {
 
 #[test]
 fn a_person_at_the_terminal_talks_to_the_robot_again_and_again() {
-    let server = Server::start("terminal", &["--baud", "38400"]);
+    let mut server = Server::start("terminal", &["--baud", "38400"]);
     for _ in 0..3 {
         let mut terminal = server.terminal();
         terminal.write_all(b"U\x1f{\"c\":\"info\"}\x1f").unwrap();
         read_until(&mut terminal, "cordlib-version");
     }
-    let folder = server.terminate();
-    assert!(fs::symlink_metadata(folder.link()).is_err(), "the link is gone");
-    assert!(!folder.socket().exists(), "the socket is gone");
+    server.terminate();
+    assert!(
+        fs::symlink_metadata(link(&server.folder)).is_err(),
+        "the link is gone"
+    );
+    assert!(!socket(&server.folder).exists(), "the socket is gone");
 }
 
 #[test]
 fn a_firmware_image_runs_behind_the_terminal() {
     let files = Folder::new("firmware");
-    let image = files.0.join("echo.hex");
+    let image = files.join("echo.hex");
     fs::write(&image, echo::image()).unwrap();
     let server = Server::start(
         "emulated",
@@ -242,7 +228,7 @@ fn who_has_asked_all_still_gets_the_answer() {
 #[test]
 fn a_client_that_never_reads_holds_nobody_up() {
     let server = Server::start("stalled", &["--speed", "20"]);
-    let stalled = UnixStream::connect(server.folder.socket()).unwrap();
+    let stalled = UnixStream::connect(socket(&server.folder)).unwrap();
     let mut client = server.client();
     let mut dead = server.client();
     dead.say(r#"{"c":"report"}"#);
@@ -273,9 +259,9 @@ fn refused(mut command: Command) -> String {
 #[test]
 fn bad_input_gets_one_sentence_and_leaves_nothing_behind() {
     let folder = Folder::new("bad");
-    let cut = folder.0.join("cut.json");
+    let cut = folder.join("cut.json");
     fs::write(&cut, r#"{"__class":"ValetudoMap","metaData":{"version":2"#).unwrap();
-    let wrong = folder.0.join("wrong.toml");
+    let wrong = folder.join("wrong.toml");
     fs::write(
         &wrong,
         "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = 7\n",
@@ -283,7 +269,7 @@ fn bad_input_gets_one_sentence_and_leaves_nothing_behind() {
     .unwrap();
     let known = home("two-room-flat.toml");
     let cases = [
-        (folder.0.join("none.toml"), vec![], "none.toml"),
+        (folder.join("none.toml"), vec![], "none.toml"),
         (cut.clone(), vec![], "cut.json"),
         (wrong.clone(), vec![], "line 4"),
         (known.clone(), vec!["--robot", "r2d2"], "r2d2"),
@@ -302,7 +288,7 @@ fn bad_input_gets_one_sentence_and_leaves_nothing_behind() {
     for (home, extra, named) in cases {
         let mut command = Command::new(env!("CARGO_BIN_EXE_rvac-sim"));
         command.arg("serve").arg("--home").arg(&home).args(&extra);
-        for (flag, path) in [("--link", folder.link()), ("--socket", folder.socket())] {
+        for (flag, path) in [("--link", link(&folder)), ("--socket", socket(&folder))] {
             if !extra.contains(&flag) {
                 command.arg(flag).arg(path);
             }
@@ -310,12 +296,12 @@ fn bad_input_gets_one_sentence_and_leaves_nothing_behind() {
         let text = refused(command);
         assert!(text.contains(named), "{text} does not name {named}");
         assert!(
-            fs::symlink_metadata(folder.link()).is_err() && !folder.socket().exists(),
+            fs::symlink_metadata(link(&folder)).is_err() && !socket(&folder).exists(),
             "{text}"
         );
     }
-    fs::write(folder.link(), "precious").unwrap();
+    fs::write(link(&folder), "precious").unwrap();
     assert!(refused(command(&folder, &home("two-room-flat.toml"))).contains("robot"));
-    assert_eq!(fs::read_to_string(folder.link()).unwrap(), "precious");
-    assert!(!folder.socket().exists());
+    assert_eq!(fs::read_to_string(link(&folder)).unwrap(), "precious");
+    assert!(!socket(&folder).exists());
 }

@@ -134,7 +134,7 @@ impl Core {
             | Topic::Device
             | Topic::Home
             | Topic::Estimate
-            | Topic::Way
+            | Topic::PlannedPath
             | Topic::Floors
             | Topic::Packets
             | Topic::Runs

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn start_held_for_five_seconds_is_told_once_however_long_it_is_stuck() {
+    fn start_held_for_five_seconds_is_reported_once_however_long_it_is_stuck() {
         let mut robot = Robot::default();
         robot.hold(START, 3600 * SECOND);
         assert_eq!(robot.gestures, [(5 * SECOND, Gesture::PairingHold)]);

@@ -161,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_told_replaces_what_was_and_ends_with_its_lease() {
+    fn what_is_reported_replaces_what_was_and_ends_with_its_lease() {
         let mut inputs = ClientInputs::default();
         let both = values([("steer", 0.5), ("go", -1.0)]);
         assert_eq!(inputs.set(0, ANNA, (both, 300)), Ok(true));

@@ -16,7 +16,7 @@ const fn bit(topic: Topic) -> u16 {
         Topic::Packets => 32,
         Topic::Home => 64,
         Topic::Estimate => 128,
-        Topic::Way => 256,
+        Topic::PlannedPath => 256,
         Topic::Decisions => 512,
         Topic::Schedules => 1024,
         Topic::Runs => 2048,
@@ -133,8 +133,11 @@ mod tests {
             [ClientId(3), ClientId(7)]
         );
         assert_eq!(
-            clients.watch(ClientId(7), &[Topic::Log, Topic::Way, Topic::Pose, Topic::Way]),
-            [Topic::Way, Topic::Pose],
+            clients.watch(
+                ClientId(7),
+                &[Topic::Log, Topic::PlannedPath, Topic::Pose, Topic::PlannedPath]
+            ),
+            [Topic::PlannedPath, Topic::Pose],
             "each once, in the order in which it was asked for"
         );
         assert!(!clients.any(Topic::Map) && clients.any(Topic::Pose));

@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_contact_of_one_report_is_not_lost_and_what_just_came_is_told_at_once() {
+    fn a_contact_of_one_report_is_not_lost_and_what_just_came_is_reported_at_once() {
         let mut evidence = Sensations::default();
         let touch = |observation: &mut Observation| {
             let touches = matches!(observation.time_us, 2_020_000 | 4_040_000);
@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_is_told_by_the_gyro_or_else_by_the_wheels() {
+    fn a_turn_is_noticed_by_the_gyro_or_else_by_the_wheels() {
         let turned = |gyro: bool| {
             let mut evidence = Sensations::default();
             for step in 0..30_u64 {

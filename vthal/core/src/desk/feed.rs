@@ -29,7 +29,7 @@ const SHARE_US: u64 = 5_000_000;
 /// Changes of an estimate that are too small to see: metres or radians, and shares.
 const UNSEEN: f64 = 0.002;
 /// Planned paths are sent at most this often.
-const WAY_US: u64 = 2_000_000;
+const PLANNED_PATH_US: u64 = 2_000_000;
 
 /// When each kind of update last went out.
 #[derive(Debug, Default)]
@@ -54,8 +54,8 @@ pub(crate) struct Feed {
     share_us: u64,
     share: Option<SweptShare>,
     floors: Option<FloorsView>,
-    way_us: u64,
-    way: PlannedPath,
+    planned_path_us: u64,
+    planned_path: PlannedPath,
     state_changed_us: Option<u64>,
 }
 
@@ -104,10 +104,10 @@ impl Feed {
             self.swept_us = now_us;
             self.note_swept(sources.brain_session);
         }
-        self.feed_home_and_way(sources, teller);
+        self.feed_home_and_path(sources, teller);
     }
 
-    fn feed_home_and_way(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
+    fn feed_home_and_path(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
         let now_us = teller.now_us;
         if teller.has_followers(Topic::Map) && now_us >= self.map_us + MAP_US {
             self.map_us = now_us;
@@ -121,9 +121,9 @@ impl Feed {
             self.estimate_us = now_us;
             self.feed_estimate(sources.brain_session, teller);
         }
-        if teller.has_followers(Topic::Way) && now_us >= self.way_us + WAY_US {
-            self.way_us = now_us;
-            self.feed_way(sources.brain_session, teller);
+        if teller.has_followers(Topic::PlannedPath) && now_us >= self.planned_path_us + PLANNED_PATH_US {
+            self.planned_path_us = now_us;
+            self.feed_planned_path(sources.brain_session, teller);
         }
         if teller.has_followers(Topic::Floors) {
             self.feed_floors(sources, teller);
@@ -156,14 +156,14 @@ impl Feed {
         }
     }
 
-    fn feed_way(&mut self, brain_session: Option<&BrainSession>, teller: &mut Teller<'_>) {
+    fn feed_planned_path(&mut self, brain_session: Option<&BrainSession>, teller: &mut Teller<'_>) {
         let Some(brain_session) = brain_session else {
             return;
         };
-        let way = to_api::way(brain_session.brain());
-        if way != self.way {
-            self.way = way.clone();
-            teller.tell(Topic::Way, Update::Way(way));
+        let path = to_api::planned_path(brain_session.brain());
+        if path != self.planned_path {
+            self.planned_path = path.clone();
+            teller.tell(Topic::PlannedPath, Update::PlannedPath(path));
         }
     }
 

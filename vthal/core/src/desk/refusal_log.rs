@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_refusal_is_told_once_in_a_while() {
+    fn the_same_refusal_is_reported_once_in_a_while() {
         let mut log = RefusalLog::default();
         let busy = failure("driver-busy");
         let logged: Vec<bool> = (0..200)

@@ -85,7 +85,7 @@ impl Scheduler {
 
     /// All that clients receive.
     pub(super) fn view(&self, keeping: &impl Keeping) -> Schedules {
-        view(&self.book, (self.zone(), self.now_s), keeping)
+        view(&self.book, self.zone(), self.now_s, keeping)
     }
 
     /// What the clock shows, if it was ever set.
@@ -121,7 +121,7 @@ impl Scheduler {
         }
         let (asker, edit) = self.waiting.pop_front()?;
         let mut book = self.book.clone();
-        Some(match book.edit(edit, (self.zone(), self.now_s.unwrap_or(0))) {
+        Some(match book.edit(edit, self.zone().at(self.now_s.unwrap_or(0))) {
             Ok(()) => self.keep(book, Then::Answer(asker)),
             Err(error) => Task::Refused(asker, error),
         })
@@ -136,13 +136,13 @@ impl Scheduler {
         let now_s = self
             .now_s
             .filter(|now_s| *now_s >= CLOCK_IS_SET_FROM_S.max(self.retry_s))?;
-        verdict(&self.book, (self.zone(), now_s), ready)
+        verdict(&self.book, self.zone().at(now_s), ready)
     }
 
     /// Takes a decision to the disk.
     pub(super) fn decide(&mut self, verdict: Verdict) -> Task {
         let mut book = self.book.clone();
-        book.note(verdict.clone(), (self.zone(), self.now_s.unwrap_or(0)));
+        book.note(verdict.clone(), self.zone().at(self.now_s.unwrap_or(0)));
         self.keep(book, Then::Decided(verdict))
     }
 
@@ -175,7 +175,7 @@ impl Scheduler {
             ..verdict.clone()
         };
         let zone = self.zone().clone();
-        self.book.note(verdict, (&zone, self.now_s.unwrap_or(0)));
+        self.book.note(verdict, zone.at(self.now_s.unwrap_or(0)));
         self.keep(self.book.clone(), Then::Nothing)
     }
 

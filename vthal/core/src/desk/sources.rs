@@ -79,9 +79,9 @@ impl Sources<'_> {
                 let brain = brain_session.brain();
                 Update::Estimate(to_api::estimate(brain, brain.swept_share()))
             }),
-            Topic::Way => self
+            Topic::PlannedPath => self
                 .brain_session
-                .map(|brain_session| Update::Way(to_api::way(brain_session.brain()))),
+                .map(|brain_session| Update::PlannedPath(to_api::planned_path(brain_session.brain()))),
             Topic::Map
             | Topic::Log
             | Topic::Decisions

@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use jiff::civil::Date;
 
 use super::marks::{Mark, Marks};
-use super::{CLOCK_IS_SET_FROM_S, Entry, Outcome, Plan, Quiet, Verdict, When, Zone};
+use super::{CLOCK_IS_SET_FROM_S, Entry, Outcome, Plan, Quiet, Verdict, WallClock, When, Zone};
 
 /// Most entries: some for each room and each person.
 const ENTRIES_MAX: usize = 32;
@@ -145,10 +145,11 @@ impl Book {
     ///
     /// # Errors
     /// See [`EditError`]; then nothing is changed.
-    pub fn edit(&mut self, edit: ScheduleEdit, (zone, now_s): (&Zone, i64)) -> Result<(), EditError> {
+    pub fn edit(&mut self, edit: ScheduleEdit, clock: WallClock<'_>) -> Result<(), EditError> {
+        let now_s = clock.now_s;
         match edit {
-            ScheduleEdit::Add(plan) => self.add(plan, (zone, now_s)),
-            ScheduleEdit::Change(number, plan) => self.change(number, plan, (zone, now_s)),
+            ScheduleEdit::Add(plan) => self.add(plan, clock),
+            ScheduleEdit::Change(number, plan) => self.change(number, plan, clock),
             ScheduleEdit::Remove(number) => {
                 self.entry(number)?;
                 self.entries.retain(|entry| entry.number != number);
@@ -178,34 +179,34 @@ impl Book {
         }
     }
 
-    fn add(&mut self, plan: Plan, (zone, now_s): (&Zone, i64)) -> Result<(), EditError> {
+    fn add(&mut self, plan: Plan, clock: WallClock<'_>) -> Result<(), EditError> {
         if self.entries.len() >= ENTRIES_MAX {
             return Err(EditError::Full);
         }
-        check_date(&plan, (zone, now_s))?;
+        check_date(&plan, clock)?;
         self.last_number += 1;
         self.entries.push(Entry {
             number: self.last_number,
             plan,
             skip_next: false,
-            since_s: now_s,
+            since_s: clock.now_s,
             marks: Marks::default(),
         });
         Ok(())
     }
 
-    fn change(&mut self, number: u32, plan: Plan, (zone, now_s): (&Zone, i64)) -> Result<(), EditError> {
+    fn change(&mut self, number: u32, plan: Plan, clock: WallClock<'_>) -> Result<(), EditError> {
         let entry = self.entry(number)?;
         if entry.plan.when == plan.when {
             let was_enabled = entry.plan.enabled;
             let entry = self.entry_mut(number)?;
             if plan.enabled && !was_enabled {
-                entry.since_s = now_s;
+                entry.since_s = clock.now_s;
             }
             entry.plan = plan;
             return Ok(());
         }
-        check_date(&plan, (zone, now_s))?;
+        check_date(&plan, clock)?;
         if let When::Once { date, .. } = plan.when
             && entry.marks.get(date) == Some(Mark::Closed)
         {
@@ -213,7 +214,7 @@ impl Book {
         }
         let entry = self.entry_mut(number)?;
         entry.plan = plan;
-        entry.since_s = now_s;
+        entry.since_s = clock.now_s;
         entry.skip_next = false;
         Ok(())
     }
@@ -233,7 +234,7 @@ impl Book {
     }
 
     /// Notes what was decided of a run, or what became of it later.
-    pub fn note(&mut self, verdict: Verdict, (zone, now_s): (&Zone, i64)) {
+    pub fn note(&mut self, verdict: Verdict, clock: WallClock<'_>) {
         let Ok(entry) = self.entry_mut(verdict.entry) else {
             return;
         };
@@ -249,7 +250,7 @@ impl Book {
         self.decisions.push_back(Decision {
             verdict,
             name,
-            at: zone.format_local(now_s),
+            at: clock.zone.format_local(clock.now_s),
         });
         while self.decisions.len() > DECISIONS_MAX {
             self.decisions.pop_front();
@@ -281,7 +282,7 @@ impl Book {
 }
 
 /// A single run must lie in the future, if the clock is set.
-fn check_date(plan: &Plan, (zone, now_s): (&Zone, i64)) -> Result<(), EditError> {
+fn check_date(plan: &Plan, WallClock { zone, now_s }: WallClock<'_>) -> Result<(), EditError> {
     let When::Once { date, at } = plan.when else {
         return Ok(());
     };

@@ -29,7 +29,7 @@ pub use stored::{StoredBook, StoredError};
 pub(crate) use to_api::{Keeping, view};
 pub use verdict::{GRACE_S, NO_ROBOT, Outcome, Verdict, verdict};
 pub use when::{Days, When};
-pub use zone::Zone;
+pub use zone::{WallClock, Zone};
 
 /// Before 2024 no clock of a robot is right: a board without a battery for its clock begins in 1970, or when its system was
 /// made.

@@ -4,8 +4,8 @@ use jiff::civil::Date;
 use rvac_api::InQuiet;
 
 use super::marks::Mark;
-use super::verdict::{DueRun, late_max_s, open_runs, put_off};
-use super::{Book, Entry, Zone};
+use super::verdict::{DueRun, late_max_s, open_runs, put_off_s};
+use super::{Book, Entry, WallClock};
 
 /// Runs foretold of each entry.
 const RUNS_MAX: usize = 10;
@@ -48,12 +48,12 @@ pub enum Held {
 }
 
 /// The next runs of an entry, the first one first; none of one that is not enabled.
-pub fn planned(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<Planned> {
+pub fn planned(book: &Book, entry: &Entry, clock: WallClock<'_>) -> Vec<Planned> {
     if !entry.plan.enabled {
         return Vec::new();
     }
-    let mut runs = waiting(book, entry, (zone, now_s));
-    runs.extend(to_come(book, entry, (zone, now_s)).take(RUNS_MAX - runs.len().min(RUNS_MAX)));
+    let mut runs = waiting(book, entry, clock);
+    runs.extend(to_come(book, entry, clock).take(RUNS_MAX - runs.len().min(RUNS_MAX)));
     if entry.skip_next
         && let Some(first) = runs.first_mut()
     {
@@ -65,8 +65,9 @@ pub fn planned(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<P
 }
 
 /// Runs that were due and may still start.
-fn waiting(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<Planned> {
-    let open = open_runs(book, entry, (zone, now_s)).into_iter();
+fn waiting(book: &Book, entry: &Entry, clock: WallClock<'_>) -> Vec<Planned> {
+    let now_s = clock.now_s;
+    let open = open_runs(book, entry, clock).into_iter();
     let in_time = open.filter(|run| {
         now_s - run.start_s <= late_max_s(entry) && entry.marks.get(run.date) != Some(Mark::Missed)
     });
@@ -90,7 +91,7 @@ fn waiting(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<Plann
 fn to_come<'a>(
     book: &'a Book,
     entry: &'a Entry,
-    (zone, now_s): (&'a Zone, i64),
+    WallClock { zone, now_s }: WallClock<'a>,
 ) -> impl Iterator<Item = Planned> + 'a {
     let today = zone.local(now_s).map(|local| local.date());
     let mut next = first_date(entry, today);
@@ -104,14 +105,14 @@ fn to_come<'a>(
         if entry.marks.get(date) == Some(Mark::Closed) {
             return None;
         }
-        let run = put_off(book, entry, (date, due_s, zone));
+        let start_s = put_off_s(book, entry, due_s, zone);
         let quiet = book.quiet().is_some_and(|quiet| quiet.covers(due_s, zone));
         Some(Planned {
             entry: entry.number,
             due_s,
-            start_s: run.start_s,
+            start_s,
             kept: (quiet && entry.plan.in_quiet == InQuiet::Refuse).then_some(Blocker::QuietHours),
-            held: (run.start_s != due_s).then_some(Held::QuietHours),
+            held: (start_s != due_s).then_some(Held::QuietHours),
         })
     })
 }

@@ -39,11 +39,11 @@ pub(crate) trait Keeping {
 }
 
 /// Everything that clients receive. `now_s` is `None` while the clock is not set.
-pub(crate) fn view(book: &Book, (zone, now_s): (&Zone, Option<i64>), keeping: &impl Keeping) -> Schedules {
+pub(crate) fn view(book: &Book, zone: &Zone, now_s: Option<i64>, keeping: &impl Keeping) -> Schedules {
     let now_s = now_s.filter(|now_s| *now_s >= CLOCK_IS_SET_FROM_S);
     let foretell = |entry: &Entry| {
         let elsewhere = keeping.on_floor(entry).err();
-        let runs = now_s.map_or_else(Vec::new, |now_s| planned(book, entry, (zone, now_s)));
+        let runs = now_s.map_or_else(Vec::new, |now_s| planned(book, entry, zone.at(now_s)));
         let kept = |run: Planned| Planned {
             kept: run.kept.or(elsewhere.map(Blocker::Elsewhere)),
             ..run

@@ -5,7 +5,7 @@ use jiff::civil::Date;
 use rvac_api::InQuiet;
 
 use super::marks::Mark;
-use super::{Book, Entry, Zone};
+use super::{Book, Entry, WallClock, Zone};
 
 /// So many seconds after its time a run is still on time: the daemon reads its clock every second, and systems stall.
 pub const GRACE_S: i64 = 120;
@@ -86,13 +86,19 @@ pub(super) struct DueRun {
 /// this moment.
 pub fn verdict(
     book: &Book,
-    (zone, now_s): (&Zone, i64),
+    clock: WallClock<'_>,
     ready: impl Fn(&Entry) -> Result<(), &'static str>,
 ) -> Option<Verdict> {
+    let WallClock { zone, now_s } = clock;
+    let quiet = book.quiet();
+    let present = Present {
+        now_s,
+        is_quiet: quiet.is_some_and(|quiet| quiet.covers(now_s, zone)),
+    };
     let verdicts = book.entries().filter_map(|entry| {
-        let runs = open_runs(book, entry, (zone, now_s)).into_iter();
+        let runs = open_runs(book, entry, clock).into_iter();
         let mut decided = runs.filter_map(|run| {
-            let outcome = judge(book, entry, (run, zone, now_s), &ready)?;
+            let outcome = judge(entry, run, present, &ready)?;
             let verdict = Verdict {
                 entry: entry.number,
                 date: run.date,
@@ -109,7 +115,7 @@ pub fn verdict(
 
 /// The runs of an entry that were due and are not decided, the oldest first. Quiet hours and being late last less than a day
 /// each, so runs of the day before yesterday are the oldest that matter.
-pub(super) fn open_runs(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64)) -> Vec<DueRun> {
+pub(super) fn open_runs(book: &Book, entry: &Entry, WallClock { zone, now_s }: WallClock<'_>) -> Vec<DueRun> {
     let Some(today) = zone
         .local(now_s)
         .map(|local| local.date())
@@ -123,19 +129,19 @@ pub(super) fn open_runs(book: &Book, entry: &Entry, (zone, now_s): (&Zone, i64))
     let run = |date: Date| {
         let due_s = entry.plan.when.due_s(date, zone)?;
         let open = due_s <= now_s && due_s >= entry.since_s && entry.marks.get(date) != Some(Mark::Closed);
-        open.then(|| put_off(book, entry, (date, due_s, zone)))
+        open.then(|| DueRun {
+            date,
+            due_s,
+            start_s: put_off_s(book, entry, due_s, zone),
+        })
     };
     dates.filter_map(run).collect()
 }
 
-/// The run of a date, moved out of the quiet hours if it shall wait for their end.
-pub(super) fn put_off(book: &Book, entry: &Entry, (date, due_s, zone): (Date, i64, &Zone)) -> DueRun {
+/// When a run that is due then starts: after the quiet hours if it waits for their end.
+pub(super) fn put_off_s(book: &Book, entry: &Entry, due_s: i64, zone: &Zone) -> i64 {
     let quiet = book.quiet().filter(|_| entry.plan.in_quiet == InQuiet::Wait);
-    DueRun {
-        date,
-        due_s,
-        start_s: quiet.map_or(due_s, |quiet| quiet.over_s(due_s, zone)),
-    }
+    quiet.map_or(due_s, |quiet| quiet.over_s(due_s, zone))
 }
 
 /// How late, in seconds, an entry may start.
@@ -143,14 +149,21 @@ pub(super) fn late_max_s(entry: &Entry) -> i64 {
     GRACE_S + 60 * i64::from(entry.plan.late_min)
 }
 
+/// What decides about all runs that are due.
+#[derive(Clone, Copy, Debug)]
+struct Present {
+    now_s: i64,
+    is_quiet: bool,
+}
+
 fn judge(
-    book: &Book,
     entry: &Entry,
-    (run, zone, now_s): (DueRun, &Zone, i64),
+    run: DueRun,
+    present: Present,
     ready: impl Fn(&Entry) -> Result<(), &'static str>,
 ) -> Option<Outcome> {
     // What is left out is left out at its time.
-    let late_s = now_s - if entry.skip_next { run.due_s } else { run.start_s };
+    let late_s = present.now_s - if entry.skip_next { run.due_s } else { run.start_s };
     let was_missed = entry.marks.get(run.date) == Some(Mark::Missed);
     if late_s < 0 || (was_missed && late_s > GRACE_S) {
         return None;
@@ -161,7 +174,7 @@ fn judge(
     if entry.skip_next {
         return Some(Outcome::Skipped);
     }
-    if book.quiet().is_some_and(|quiet| quiet.covers(now_s, zone)) {
+    if present.is_quiet {
         return (entry.plan.in_quiet == InQuiet::Refuse).then_some(Outcome::QuietHours);
     }
     match ready(entry) {

@@ -11,7 +11,22 @@ pub struct Zone {
     rules: TimeZone,
 }
 
+/// What a wall clock shows: a moment, and the zone in which people read it.
+#[derive(Clone, Copy, Debug)]
+pub struct WallClock<'a> {
+    /// Its zone.
+    pub zone: &'a Zone,
+    /// Seconds since 1970.
+    pub now_s: i64,
+}
+
 impl Zone {
+    /// A clock of this zone.
+    #[must_use]
+    pub const fn at(&self, now_s: i64) -> WallClock<'_> {
+        WallClock { zone: self, now_s }
+    }
+
     /// The zone with this name, for example `Europe/Tallinn`, in any case.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {

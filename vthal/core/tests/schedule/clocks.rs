@@ -31,11 +31,11 @@ struct Daemon {
 impl Daemon {
     fn pass(&mut self, now_s: i64, draw: &mut Draw) {
         self.book.meet(now_s);
-        while let Some(found) = verdict(&self.book, (&self.zone, now_s), |_| Ok(())) {
+        while let Some(found) = verdict(&self.book, self.zone.at(now_s), |_| Ok(())) {
             if draw.below(8) == 0 {
                 return self.die();
             }
-            self.book.note(found.clone(), (&self.zone, now_s));
+            self.book.note(found.clone(), self.zone.at(now_s));
             self.disk = StoredBook::from(&self.book);
             if draw.below(8) == 0 {
                 return self.die();
@@ -47,7 +47,7 @@ impl Daemon {
                         outcome: Outcome::Fired,
                         ..found
                     },
-                    (&self.zone, now_s),
+                    self.zone.at(now_s),
                 );
             }
         }
@@ -63,7 +63,7 @@ impl Daemon {
     }
 
     fn edit(&mut self, edit: ScheduleEdit, now_s: i64) {
-        if self.book.edit(edit, (&self.zone, now_s)).is_ok() {
+        if self.book.edit(edit, self.zone.at(now_s)).is_ok() {
             self.disk = StoredBook::from(&self.book);
             self.zone = self.book.zone().unwrap_or(&self.zone).clone();
         }

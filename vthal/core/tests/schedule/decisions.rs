@@ -34,7 +34,7 @@ fn at_eight(plan: Plan) -> (Book, Zone, i64) {
 
 fn night(book: &mut Book, zone: &Zone, (from, to): (i8, i8)) {
     let quiet = Quiet::new(time(from, 0, 0, 0), time(to, 0, 0, 0));
-    book.edit(ScheduleEdit::Quiet(quiet), (zone, 0))
+    book.edit(ScheduleEdit::Quiet(quiet), zone.at(0))
         .expect("quiet hours");
 }
 
@@ -58,7 +58,7 @@ fn a_run_that_nobody_was_there_for_is_missed_or_late() {
     let woken = |minutes: i64, late_min| {
         let mut book = restarted(&book);
         let late = Plan { late_min, ..daily(8) };
-        book.edit(ScheduleEdit::Change(1, late), (&zone, eight - HOUR_S))
+        book.edit(ScheduleEdit::Change(1, late), zone.at(eight - HOUR_S))
             .expect("changes");
         decide(&mut book, &zone, eight + 60 * minutes)
             .first()
@@ -81,15 +81,15 @@ fn what_was_due_before_it_was_wanted_does_not_start() {
     let mut made = book(core::slice::from_ref(&late), &zone, nine);
     assert!(decide(&mut made, &zone, nine + 1).is_empty());
     // Enabled again after its time, and moved to a zone in which its time was before.
-    made.edit(ScheduleEdit::Enable(1, false), (&zone, nine))
+    made.edit(ScheduleEdit::Enable(1, false), zone.at(nine))
         .expect("disables");
-    made.edit(ScheduleEdit::Enable(1, true), (&zone, nine + 10))
+    made.edit(ScheduleEdit::Enable(1, true), zone.at(nine + 10))
         .expect("enables");
     assert!(decide(&mut made, &zone, nine + 11).is_empty());
     let east = Zone::named("Asia/Yekaterinburg").expect("known");
     let mut moved = book(&[late], &zone, nine - 3 * HOUR_S);
     moved
-        .edit(ScheduleEdit::Zone(Some(east.clone())), (&zone, nine - 2 * HOUR_S))
+        .edit(ScheduleEdit::Zone(Some(east.clone())), zone.at(nine - 2 * HOUR_S))
         .expect("moves");
     assert!(decide(&mut moved, &east, nine - 2 * HOUR_S + 1).is_empty());
     // A clock that was wrong when the entry was made does not keep it for years.
@@ -104,7 +104,7 @@ fn what_was_due_before_it_was_wanted_does_not_start() {
 #[test]
 fn the_next_run_is_skipped_once() {
     let (mut book, zone, eight) = at_eight(daily(8));
-    book.edit(ScheduleEdit::SkipNext(1, true), (&zone, eight - 1))
+    book.edit(ScheduleEdit::SkipNext(1, true), zone.at(eight - 1))
         .expect("skips");
     let mut book = restarted(&book);
     assert_eq!(outcomes(&decide(&mut book, &zone, eight)), [&Outcome::Skipped]);
@@ -130,7 +130,7 @@ fn quiet_hours_refuse_or_put_off() {
     let (mut waiting, zone, eight) = at_eight(waits);
     night(&mut waiting, &zone, (22, 10));
     let entry = waiting.entry(1).expect("is there").clone();
-    let foretold = planned(&waiting, &entry, (&zone, eight + 60));
+    let foretold = planned(&waiting, &entry, zone.at(eight + 60));
     assert_eq!(
         (foretold[0].start_s, foretold[0].held),
         (eight + 2 * HOUR_S, Some(Held::QuietHours))
@@ -151,7 +151,7 @@ fn what_keeps_the_robot_has_its_name_and_a_robot_that_is_not_there_is_waited_for
         ..daily(8)
     });
     let ask = |book: &Book, now_s, reason| {
-        verdict(book, (&zone, now_s), |_| Err(reason)).map(|verdict| verdict.outcome)
+        verdict(book, zone.at(now_s), |_| Err(reason)).map(|verdict| verdict.outcome)
     };
     assert_eq!(
         ask(&book, eight, "wheel-drop"),
@@ -163,7 +163,7 @@ fn what_keeps_the_robot_has_its_name_and_a_robot_that_is_not_there_is_waited_for
     }
     let entry = book.entry(1).expect("is there").clone();
     assert_eq!(
-        planned(&book, &entry, (&zone, eight + 60))[0].held,
+        planned(&book, &entry, zone.at(eight + 60))[0].held,
         Some(Held::NoRobot)
     );
     for reason in gone {
@@ -200,12 +200,12 @@ fn the_preview_is_what_then_happens() {
     });
     let mut book = book(&[daily(3), waits, once, daily(23)], &zone, start);
     night(&mut book, &zone, (22, 4));
-    book.edit(ScheduleEdit::SkipNext(2, true), (&zone, start))
+    book.edit(ScheduleEdit::SkipNext(2, true), zone.at(start))
         .expect("skips");
     let mut foretold: Vec<(i64, u32, Outcome)> = Vec::new();
     let entries: Vec<_> = book.entries().cloned().collect();
     for entry in &entries {
-        foretold.extend(planned(&book, entry, (&zone, start)).into_iter().map(|run| {
+        foretold.extend(planned(&book, entry, zone.at(start)).into_iter().map(|run| {
             let outcome = match run.kept {
                 None => Outcome::Starting,
                 Some(Blocker::Skipped) => Outcome::Skipped,
@@ -243,7 +243,7 @@ fn wrong_changes_are_refused_and_change_nothing() {
         })
     };
     let mut refused = |edit| {
-        let error = book.edit(edit, (&zone, eight + 1)).expect_err("is wrong");
+        let error = book.edit(edit, zone.at(eight + 1)).expect_err("is wrong");
         assert_eq!(book, before);
         error
     };
@@ -255,16 +255,16 @@ fn wrong_changes_are_refused_and_change_nothing() {
     let absent = refused(ScheduleEdit::Remove(7));
     assert_eq!(absent.to_string(), "There is no schedule 7: there are 1.");
     for _ in 1..32 {
-        book.edit(ScheduleEdit::Add(daily(9)), (&zone, eight))
+        book.edit(ScheduleEdit::Add(daily(9)), zone.at(eight))
             .expect("has room");
     }
     assert_eq!(
-        book.edit(ScheduleEdit::Add(daily(9)), (&zone, eight)),
+        book.edit(ScheduleEdit::Add(daily(9)), zone.at(eight)),
         Err(EditError::Full)
     );
-    book.edit(ScheduleEdit::Remove(32), (&zone, eight))
+    book.edit(ScheduleEdit::Remove(32), zone.at(eight))
         .expect("removes");
-    book.edit(ScheduleEdit::Add(daily(9)), (&zone, eight))
+    book.edit(ScheduleEdit::Add(daily(9)), zone.at(eight))
         .expect("has room");
     assert!(
         book.entry(32).is_err() && book.entry(33).is_ok(),

@@ -28,7 +28,7 @@ fn plan(when: When) -> Plan {
 fn book(plans: &[Plan], zone: &Zone, now_s: i64) -> Book {
     let mut book = Book::default();
     for plan in plans {
-        book.edit(ScheduleEdit::Add(plan.clone()), (zone, now_s))
+        book.edit(ScheduleEdit::Add(plan.clone()), zone.at(now_s))
             .expect("is a plan");
     }
     book
@@ -38,8 +38,8 @@ fn book(plans: &[Plan], zone: &Zone, now_s: i64) -> Book {
 fn decide(book: &mut Book, zone: &Zone, now_s: i64) -> Vec<Verdict> {
     book.meet(now_s);
     let mut all = Vec::new();
-    while let Some(verdict) = verdict(book, (zone, now_s), |_| Ok(())) {
-        book.note(verdict.clone(), (zone, now_s));
+    while let Some(verdict) = verdict(book, zone.at(now_s), |_| Ok(())) {
+        book.note(verdict.clone(), zone.at(now_s));
         all.push(verdict);
     }
     all

@@ -146,7 +146,7 @@ fn try_case(change: &Change, kind: RuleKind, distance_min: i64) {
     let mut book = vthal_core::schedule::Book::default();
     let added = book.edit(
         vthal_core::schedule::ScheduleEdit::Add(plan(when)),
-        (&zone, start_s),
+        zone.at(start_s),
     );
     if let Err(EditError::NoSuchDate(date)) = added {
         assert!(walk.iter().all(|(_, shown)| shown.date() != date), "{case}");

@@ -153,7 +153,11 @@ impl BrainState {
                 .iter()
                 .map(|&(x_mm, y_mm)| PathPoint { x_mm, y_mm })
                 .collect(),
-            hazards: self.marks.iter().map(|&mark| to_mark(mark)).collect(),
+            hazards: self
+                .marks
+                .iter()
+                .map(|&(x_m, y_m, contact)| to_mark(x_m, y_m, contact))
+                .collect(),
             home,
             tracking: self
                 .tracking
@@ -207,7 +211,7 @@ fn from_hex(text: &str) -> Option<Vec<u8>> {
         .collect()
 }
 
-fn to_mark((x_m, y_m, contact): (f64, f64, bool)) -> Hazard {
+fn to_mark(x_m: f64, y_m: f64, contact: bool) -> Hazard {
     let kind = if contact {
         HazardKind::Contact
     } else {

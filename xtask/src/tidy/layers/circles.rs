@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn each_group_is_told_once_with_its_shortest_circle() {
+    fn each_group_is_reported_once_with_its_shortest_circle() {
         let pairs = [
             ("a", "b"),
             ("b", "c"),

@@ -176,18 +176,18 @@ pub fn run_text(words: &Words, run: &Run) -> String {
     if words.language == Language::English {
         return run.text.clone();
     }
-    let told = &words.history;
+    let texts = &words.history;
     let with_cause = |text: crate::words::Template<1>| {
         cause(words, &run.reason).map_or_else(|| run.text.clone(), |cause| text.fill([&cause]))
     };
     match (run.result, run.reason.as_str()) {
-        (RunResult::Finished, "finished" | "docked") => told.finished.to_owned(),
-        (RunResult::Finished, _) => with_cause(told.finished_as),
-        (RunResult::Stopped, _) => told.stopped.to_owned(),
-        (RunResult::GaveUp, _) => with_cause(told.gave_up),
-        (RunResult::DaemonEnded, _) => told.daemon_ended.to_owned(),
-        (RunResult::CutShort, _) => told.cut_short.to_owned(),
-        (RunResult::OtherRobot, _) => told.other_robot.to_owned(),
+        (RunResult::Finished, "finished" | "docked") => texts.finished.to_owned(),
+        (RunResult::Finished, _) => with_cause(texts.finished_as),
+        (RunResult::Stopped, _) => texts.stopped.to_owned(),
+        (RunResult::GaveUp, _) => with_cause(texts.gave_up),
+        (RunResult::DaemonEnded, _) => texts.daemon_ended.to_owned(),
+        (RunResult::CutShort, _) => texts.cut_short.to_owned(),
+        (RunResult::OtherRobot, _) => texts.other_robot.to_owned(),
     }
 }
 
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn every_decision_of_the_brain_is_told_in_estonian() {
+    fn every_decision_of_the_brain_is_shown_in_estonian() {
         let missing = |kind: &brain::DecisionKind| find(super::diary::DEEDS, kind.name()).is_none();
         let missing: Vec<_> = brain::DecisionKind::all().filter(missing).collect();
         assert!(missing.is_empty(), "{missing:?}");
@@ -253,7 +253,7 @@ mod tests {
 
     /// The book names every code with which a request is refused.
     #[test]
-    fn every_refusal_of_the_book_is_told_in_estonian() {
+    fn every_refusal_of_the_book_is_shown_in_estonian() {
         let page = include_str!("../../../../../docs/book/src/socket-api.md");
         let requests: Vec<&str> = quoted(page, r#"{"c":""#, '"').collect();
         // A sentence about refusals begins with that word and ends with the row or the line.
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn decisions_are_told_by_their_codes_and_unknown_ones_in_the_words_of_the_robot() {
+    fn decisions_are_shown_by_their_codes_and_unknown_ones_in_the_words_of_the_robot() {
         let decision = |what: &str, reason: &str| Decision {
             number: 1,
             t: 0.0,

@@ -23,7 +23,7 @@ pub struct RunDrawing {
     /// Swept floor.
     pub swept: String,
     /// The path.
-    pub way: String,
+    pub path: String,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -51,13 +51,13 @@ pub fn run_drawing(picture: &RunPicture) -> RunDrawing {
         .as_ref()
         .map_or_else(Default::default, |home| home_paths(home, &mut extent));
     let swept = swept_path(picture, &mut extent);
-    let way = way_path(&picture.path_mm, &mut extent);
+    let path = driven_path(&picture.path_mm, &mut extent);
     RunDrawing {
         view_box: view_box(extent),
         floor,
         walls,
         swept,
-        way,
+        path,
     }
 }
 
@@ -78,10 +78,18 @@ fn view_box(extent: Extent) -> [i32; 4] {
     [left, top, width, height]
 }
 
-/// Adds a rectangle that spans `from` to `to` metres and is one cell high.
-fn add_row(path: &mut String, (from_m, to_m, low_m): (f64, f64, f64), cell_m: f64, extent: &mut Extent) {
-    let (left, right) = (cm(from_m), cm(to_m));
-    let (top, bottom) = (cm(-(low_m + cell_m)), cm(-low_m));
+/// A row of cells in metres.
+#[derive(Clone, Copy, Debug)]
+struct CellRow {
+    from_m: f64,
+    to_m: f64,
+    low_m: f64,
+}
+
+/// Adds the rectangle of a row, which is one cell high.
+fn add_row(path: &mut String, row: CellRow, cell_m: f64, extent: &mut Extent) {
+    let (left, right) = (cm(row.from_m), cm(row.to_m));
+    let (top, bottom) = (cm(-(row.low_m + cell_m)), cm(-row.low_m));
     extent.hold(left, top);
     extent.hold(right, bottom);
     // Writing to a string does not fail.
@@ -108,7 +116,12 @@ fn home_paths(home: &HomeView, extent: &mut Extent) -> (String, String) {
                 let x = |cell: u64| (f64::from(home.x) + cell as f64) * home.cell_m;
                 let low_m = (f64::from(home.y) + (from / width) as f64) * home.cell_m;
                 let left = from % width;
-                add_row(path, (x(left), x(left + to - from), low_m), home.cell_m, extent);
+                let row = CellRow {
+                    from_m: x(left),
+                    to_m: x(left + to - from),
+                    low_m,
+                };
+                add_row(path, row, home.cell_m, extent);
                 from = to;
             }
         }
@@ -123,17 +136,17 @@ fn swept_path(picture: &RunPicture, extent: &mut Extent) -> String {
         let &[x, y, length] = row else { continue };
         let metres = |cells: f64| cells * picture.cell_m;
         let from = f64::from(x);
-        let span = (
-            metres(from),
-            metres(from + f64::from(length)),
-            metres(f64::from(y)),
-        );
+        let span = CellRow {
+            from_m: metres(from),
+            to_m: metres(from + f64::from(length)),
+            low_m: metres(f64::from(y)),
+        };
         add_row(&mut path, span, picture.cell_m, extent);
     }
     path
 }
 
-fn way_path(path_mm: &[i32], extent: &mut Extent) -> String {
+fn driven_path(path_mm: &[i32], extent: &mut Extent) -> String {
     let mut path = String::new();
     for point in path_mm.chunks_exact(2) {
         let &[x_mm, y_mm] = point else { continue };
@@ -176,7 +189,7 @@ mod tests {
         };
         let drawing = run_drawing(&picture);
         assert_eq!(drawing.swept, "M0 -15H20V-10H0Z");
-        assert_eq!(drawing.way, "M0 0L100 -50");
+        assert_eq!(drawing.path, "M0 0L100 -50");
         assert_eq!(drawing.walls, "M-10 -10H0V0H-10Z");
         assert_eq!(drawing.floor, "M0 -10H20V0H0ZM-10 -20H10V-10H-10Z");
         assert_eq!(drawing.view_box, [-55, -125, 200, 200]);

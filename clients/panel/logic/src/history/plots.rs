@@ -23,56 +23,97 @@ pub struct Plot {
     pub high: String,
 }
 
+/// From the least value to the greatest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct ValueRange {
+    low: f64,
+    high: f64,
+}
+
+impl ValueRange {
+    /// Of no value.
+    const NONE: Self = Self {
+        low: f64::INFINITY,
+        high: f64::NEG_INFINITY,
+    };
+
+    fn with(self, value: f64) -> Self {
+        Self {
+            low: self.low.min(value),
+            high: self.high.max(value),
+        }
+    }
+}
+
 /// What a measured value can be.
-const PERCENT: (f64, f64) = (0.0, 100.0);
-const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+const PERCENT: ValueRange = ValueRange {
+    low: 0.0,
+    high: 100.0,
+};
+const ANY: ValueRange = ValueRange {
+    low: f64::NEG_INFINITY,
+    high: f64::INFINITY,
+};
+
+/// What a plot shows.
+#[derive(Clone, Copy, Debug)]
+struct Subject<'a> {
+    title: &'static str,
+    lines: &'a [(&'static str, Reading)],
+    possible: ValueRange,
+}
 
 type Reading = fn(&TrackReading) -> Option<f32>;
 
 /// The plots of a run that lasted `end_s`; only of what was measured.
 #[must_use]
 pub fn plots(words: &Words, track: &RunTrack, end_s: f64) -> Vec<Plot> {
-    let told = &words.history;
-    let battery: [(&str, Reading); 1] =
-        [(told.charge, |reading| reading.charge.map(|charge| 100.0 * charge))];
-    let battery_a: [(&str, Reading); 1] = [(told.battery, |reading| reading.battery_a)];
+    let texts = &words.history;
+    let battery: [(&str, Reading); 1] = [(texts.charge, |reading| {
+        reading.charge.map(|charge| 100.0 * charge)
+    })];
+    let battery_a: [(&str, Reading); 1] = [(texts.battery, |reading| reading.battery_a)];
     let motors: [(&str, Reading); 3] = [
-        (told.left_wheel, |reading| {
+        (texts.left_wheel, |reading| {
             reading.motors_a.map(|[left, _, _]| left)
         }),
-        (told.right_wheel, |reading| {
+        (texts.right_wheel, |reading| {
             reading.motors_a.map(|[_, right, _]| right)
         }),
-        (told.main_brush, |reading| {
+        (texts.main_brush, |reading| {
             reading.motors_a.map(|[_, _, brush]| brush)
         }),
     ];
-    let link: [(&str, Reading); 1] = [(told.bad_packets, |reading| Some(100.0 * reading.bad_share))];
+    let link: [(&str, Reading); 1] = [(texts.bad_packets, |reading| Some(100.0 * reading.bad_share))];
+    let subject = |title, lines, possible| Subject {
+        title,
+        lines,
+        possible,
+    };
     [
-        plot(words, (told.plot_charge, &battery, PERCENT), (track, end_s)),
-        plot(words, (told.plot_battery, &battery_a, ANY), (track, end_s)),
-        plot(words, (told.plot_motors, &motors, ANY), (track, end_s)),
-        plot(words, (told.plot_link, &link, PERCENT), (track, end_s)),
+        subject(texts.plot_charge, &battery[..], PERCENT),
+        subject(texts.plot_battery, &battery_a[..], ANY),
+        subject(texts.plot_motors, &motors[..], ANY),
+        subject(texts.plot_link, &link[..], PERCENT),
     ]
     .into_iter()
-    .flatten()
+    .filter_map(|subject| plot(words, subject, track, end_s))
     .collect()
 }
 
 /// The values at the edges of a plot from those that it shows: a line that hardly moves is drawn as one, not as its last
 /// digits, and no edge is a value that cannot be.
-fn edges((low, high): (f64, f64), (least, most): (f64, f64)) -> (f64, f64) {
-    let middle = 0.5 * (low + high);
-    let half = (0.5 * (high - low)).max(0.5);
-    let inwards = (least - (middle - half)).max(0.0) - (middle + half - most).max(0.0);
-    (middle - half + inwards, middle + half + inwards)
+fn edges(shown: ValueRange, possible: ValueRange) -> ValueRange {
+    let middle = 0.5 * (shown.low + shown.high);
+    let half = (0.5 * (shown.high - shown.low)).max(0.5);
+    let inwards = (possible.low - (middle - half)).max(0.0) - (middle + half - possible.high).max(0.0);
+    ValueRange {
+        low: middle - half + inwards,
+        high: middle + half + inwards,
+    }
 }
 
-fn plot(
-    words: &Words,
-    (title, lines, range): (&'static str, &[(&'static str, Reading)], (f64, f64)),
-    (track, end_s): (&RunTrack, f64),
-) -> Option<Plot> {
+fn plot(words: &Words, subject: Subject<'_>, track: &RunTrack, end_s: f64) -> Option<Plot> {
     let values = |reading: Reading| {
         let points = track
             .readings
@@ -80,17 +121,16 @@ fn plot(
             .filter_map(move |entry| Some((entry.t, reading(entry)?)));
         points.filter(|(t, value)| t.is_finite() && value.is_finite())
     };
-    let all = lines
+    let all = subject
+        .lines
         .iter()
         .flat_map(|(_, reading)| values(*reading))
         .map(|(_, value)| f64::from(value));
-    let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (low.min(value), high.max(value))
-    });
-    if low > high {
+    let shown = all.fold(ValueRange::NONE, ValueRange::with);
+    if shown.low > shown.high {
         return None;
     }
-    let (low, high) = edges((low, high), range);
+    let ValueRange { low, high } = edges(shown, subject.possible);
     let place = |(t, value): (f32, f32)| {
         let x = WIDTH * (f64::from(t) / end_s.max(1.0)).clamp(0.0, 1.0);
         (x, HEIGHT * (high - f64::from(value)) / (high - low))
@@ -105,8 +145,9 @@ fn plot(
         path
     };
     Some(Plot {
-        title,
-        lines: lines
+        title: subject.title,
+        lines: subject
+            .lines
             .iter()
             .map(|(name, reading)| (*name, path(*reading)))
             .collect(),
@@ -151,9 +192,13 @@ mod tests {
 
     #[test]
     fn no_edge_is_a_share_that_cannot_be() {
-        assert_eq!(super::edges((0.0, 0.0), super::PERCENT), (0.0, 1.0));
-        assert_eq!(super::edges((99.75, 100.0), super::PERCENT), (99.0, 100.0));
-        assert_eq!(super::edges((0.0, 100.0), super::PERCENT), (0.0, 100.0));
-        assert_eq!(super::edges((0.0, 0.0), super::ANY), (-0.5, 0.5));
+        let range = |low, high| super::ValueRange { low, high };
+        assert_eq!(super::edges(range(0.0, 0.0), super::PERCENT), range(0.0, 1.0));
+        assert_eq!(
+            super::edges(range(99.75, 100.0), super::PERCENT),
+            range(99.0, 100.0)
+        );
+        assert_eq!(super::edges(range(0.0, 100.0), super::PERCENT), range(0.0, 100.0));
+        assert_eq!(super::edges(range(0.0, 0.0), super::ANY), range(-0.5, 0.5));
     }
 }

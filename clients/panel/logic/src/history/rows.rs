@@ -46,7 +46,7 @@ fn row(words: &Words, run: &Run) -> RunRow {
 }
 
 fn job_text(words: &Words, job: &RunJob) -> String {
-    let told = &words.history;
+    let texts = &words.history;
     let (rooms, zones, spots, passes) = match job {
         RunJob::Clean {
             rooms,
@@ -55,28 +55,28 @@ fn job_text(words: &Words, job: &RunJob) -> String {
             passes,
             ..
         } => (rooms, zones, spots, passes),
-        RunJob::Spot => return told.spot.to_owned(),
-        RunJob::Dock => return told.to_dock.to_owned(),
+        RunJob::Spot => return texts.spot.to_owned(),
+        RunJob::Dock => return texts.to_dock.to_owned(),
     };
     let mut parts: Vec<String> = rooms.iter().map(|room| room_here_text(words, room)).collect();
     match zones {
         0 => {}
-        1 => parts.push(told.a_zone.to_owned()),
-        count => parts.push(told.zones.fill([count])),
+        1 => parts.push(texts.a_zone.to_owned()),
+        count => parts.push(texts.zones.fill([count])),
     }
     match spots {
         0 => {}
-        1 => parts.push(told.a_spot.to_owned()),
-        count => parts.push(told.spots.fill([count])),
+        1 => parts.push(texts.a_spot.to_owned()),
+        count => parts.push(texts.spots.fill([count])),
     }
     let place = if parts.is_empty() {
-        told.everything.to_owned()
+        texts.everything.to_owned()
     } else {
         parts.join(", ")
     };
     match passes {
         1 => place,
-        times => told.times.fill([&place, times]),
+        times => texts.times.fill([&place, times]),
     }
 }
 
@@ -90,12 +90,12 @@ pub fn room_here_text(words: &Words, room: &RoomHere) -> String {
 
 /// Who asked for something.
 fn asker_text(words: &Words, asker: &RunAsker) -> String {
-    let told = &words.history;
+    let texts = &words.history;
     match asker {
         RunAsker::Client(name) => name.clone(),
-        RunAsker::Button => told.by_button.to_owned(),
-        RunAsker::Schedule { name, .. } => told.by_schedule.fill([name]),
-        RunAsker::Robot => told.by_robot.to_owned(),
+        RunAsker::Button => texts.by_button.to_owned(),
+        RunAsker::Schedule { name, .. } => texts.by_schedule.fill([name]),
+        RunAsker::Robot => texts.by_robot.to_owned(),
     }
 }
 
@@ -109,27 +109,27 @@ fn uncapitalized(text: &str) -> String {
 /// All figures of a run: what they are and what they say.
 #[must_use]
 pub fn run_figures(words: &Words, run: &Run) -> Vec<(&'static str, String)> {
-    let told = &words.history;
+    let texts = &words.history;
     let asker = asker_text(words, &run.by);
     let share = run.share.map_or_else(String::new, |share| {
-        told.of_floor.fill([&percent_text(words, share)])
+        texts.of_floor.fill([&percent_text(words, share)])
     });
     let swept = area_text(words, run.swept_m2);
     let mut figures = vec![
-        (told.order, job_text(words, &run.job)),
-        (told.asked_by, asker),
-        (told.duration, clock_text(run.duration_s)),
-        (told.in_motion, clock_text(run.moving_s)),
-        (told.swept, format!("{swept}{share}")),
-        (told.distance, distance_text(words, run.path_m)),
-        (told.bumps, run.bumps.to_string()),
+        (texts.order, job_text(words, &run.job)),
+        (texts.asked_by, asker),
+        (texts.duration, clock_text(run.duration_s)),
+        (texts.in_motion, clock_text(run.moving_s)),
+        (texts.swept, format!("{swept}{share}")),
+        (texts.distance, distance_text(words, run.path_m)),
+        (texts.bumps, run.bumps.to_string()),
     ];
     if let (Some(start), Some(end)) = (run.charge_start, run.charge_end) {
         let (start, end) = (percent_text(words, start), percent_text(words, end));
-        figures.push((told.battery, told.from_to.fill([&start, &end])));
+        figures.push((texts.battery, texts.from_to.fill([&start, &end])));
     }
     if let Some(map) = run.map {
-        figures.push((told.map, told.version.fill([&map])));
+        figures.push((texts.map, texts.version.fill([&map])));
     }
     figures
 }
@@ -160,10 +160,10 @@ pub fn stop_rows(words: &Words, record: &RunRecord) -> Vec<StopRow> {
 }
 
 fn stop_text(words: &Words, stop: &RunStop) -> String {
-    let told = &words.history;
+    let texts = &words.history;
     let lasted = match stop.lasted_s {
-        Some(lasted_s) => told.lasted.fill([&clock_text(lasted_s)]),
-        None => told.until_end.to_owned(),
+        Some(lasted_s) => texts.lasted.fill([&clock_text(lasted_s)]),
+        None => texts.until_end.to_owned(),
     };
     // Older records have the robot's own English words only.
     let asker = stop.asker.as_ref().map(|asker| match asker {
@@ -171,9 +171,9 @@ fn stop_text(words: &Words, stop: &RunStop) -> String {
         other => uncapitalized(&asker_text(words, other)),
     });
     let asker = asker.or_else(|| stop.by.clone());
-    let by = asker.map_or_else(String::new, |by| told.by.fill([&by]));
+    let by = asker.map_or_else(String::new, |by| texts.by.fill([&by]));
     let (cause, at) = (stop_cause_text(words, stop), clock_text(stop.at_s));
-    told.stop.fill([&cause, &by, &at, &lasted])
+    texts.stop.fill([&cause, &by, &at, &lasted])
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ impl LineCurve {
     /// The curve of a line; none for a line whose input has nothing between off and on, and for one with which something is
     /// wrong.
     #[must_use]
-    pub fn of(profile: &Profile, (output, line): (usize, usize)) -> Option<Self> {
+    pub fn of(profile: &Profile, output: usize, line: usize) -> Option<Self> {
         profile.check().ok()?;
         let line = profile.outputs.get(output)?.lines.get(line)?;
         let low = lowest(&line.input)?;
@@ -130,7 +130,7 @@ mod tests {
     }
 
     fn curve(change: impl FnOnce(&mut Line)) -> Option<LineCurve> {
-        LineCurve::of(&profile(change), (0, 0))
+        LineCurve::of(&profile(change), 0, 0)
     }
 
     fn close([one, other]: [[f64; 2]; 2]) -> bool {
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn it_is_told_in_words() {
+    fn it_is_shown_in_words() {
         let made = curve(|line| line.expo = 1.0).unwrap();
         let told = made.text(Language::English.words());
         // (0.5 - 0.2) / 0.8 = 0.375, and 0.375³ = 0.053.
@@ -210,6 +210,6 @@ mod tests {
             None,
             "what is wrong is told at its field"
         );
-        assert_eq!(LineCurve::of(&profile(|_| ()), (0, 1)), None);
+        assert_eq!(LineCurve::of(&profile(|_| ()), 0, 1), None);
     }
 }

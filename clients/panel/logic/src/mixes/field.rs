@@ -54,32 +54,34 @@ impl Field {
     /// What people read.
     #[must_use]
     pub const fn label(self, words: &Words) -> &'static str {
-        let told = &words.mix;
+        let texts = &words.mix;
         match self {
-            Self::MixName | Self::Line(_, _, LinePart::Name) | Self::Switch(_, SwitchPart::Name) => told.name,
+            Self::MixName | Self::Line(_, _, LinePart::Name) | Self::Switch(_, SwitchPart::Name) => {
+                texts.name
+            }
             Self::Line(_, _, LinePart::Input)
             | Self::Switch(_, SwitchPart::Input)
-            | Self::Input(_, InputPart::Input) => told.input,
-            Self::Line(_, _, LinePart::Invert) => told.inverted,
-            Self::Line(_, _, LinePart::Weight) => told.weight,
-            Self::Line(_, _, LinePart::Offset) => told.offset,
-            Self::Line(_, _, LinePart::Expo) => told.expo,
-            Self::Line(_, _, LinePart::Curve) => told.curve,
-            Self::Line(_, _, LinePart::Mix) => told.joins_by,
-            Self::Line(_, _, LinePart::When) => told.only_while,
-            Self::Line(_, _, LinePart::DelayMs) => told.delay,
-            Self::Line(_, _, LinePart::SlowUp) => told.slow_up,
-            Self::Line(_, _, LinePart::SlowDown) => told.slow_down,
-            Self::Output(_, OutputPart::Low) | Self::Input(_, InputPart::Low) => told.low,
-            Self::Output(_, OutputPart::Centre) | Self::Input(_, InputPart::Centre) => told.centre,
-            Self::Output(_, OutputPart::High) | Self::Input(_, InputPart::High) => told.high,
-            Self::Output(_, OutputPart::Failsafe) => told.failsafe,
-            Self::Output(_, OutputPart::Reverse) => told.reversed,
-            Self::Switch(_, SwitchPart::Kind) => told.on_when,
-            Self::Switch(_, SwitchPart::Level) => told.level,
-            Self::Switch(_, SwitchPart::Others) => told.others,
-            Self::Switch(_, SwitchPart::HoldMs) => told.how_long,
-            Self::Input(_, InputPart::DeadBand) => told.dead_band,
+            | Self::Input(_, InputPart::Input) => texts.input,
+            Self::Line(_, _, LinePart::Invert) => texts.inverted,
+            Self::Line(_, _, LinePart::Weight) => texts.weight,
+            Self::Line(_, _, LinePart::Offset) => texts.offset,
+            Self::Line(_, _, LinePart::Expo) => texts.expo,
+            Self::Line(_, _, LinePart::Curve) => texts.curve,
+            Self::Line(_, _, LinePart::Mix) => texts.joins_by,
+            Self::Line(_, _, LinePart::When) => texts.only_while,
+            Self::Line(_, _, LinePart::DelayMs) => texts.delay,
+            Self::Line(_, _, LinePart::SlowUp) => texts.slow_up,
+            Self::Line(_, _, LinePart::SlowDown) => texts.slow_down,
+            Self::Output(_, OutputPart::Low) | Self::Input(_, InputPart::Low) => texts.low,
+            Self::Output(_, OutputPart::Centre) | Self::Input(_, InputPart::Centre) => texts.centre,
+            Self::Output(_, OutputPart::High) | Self::Input(_, InputPart::High) => texts.high,
+            Self::Output(_, OutputPart::Failsafe) => texts.failsafe,
+            Self::Output(_, OutputPart::Reverse) => texts.reversed,
+            Self::Switch(_, SwitchPart::Kind) => texts.on_when,
+            Self::Switch(_, SwitchPart::Level) => texts.level,
+            Self::Switch(_, SwitchPart::Others) => texts.others,
+            Self::Switch(_, SwitchPart::HoldMs) => texts.how_long,
+            Self::Input(_, InputPart::DeadBand) => texts.dead_band,
         }
     }
 
@@ -99,7 +101,7 @@ impl Field {
     /// How it is entered.
     #[must_use]
     pub fn kind(self, words: &Words, profile: &Profile) -> FieldKind {
-        let told = &words.mix;
+        let texts = &words.mix;
         let choice = |value: &str, words: &str| (value.to_owned(), words.to_owned());
         match self {
             Self::Line(_, _, LinePart::Input)
@@ -107,14 +109,14 @@ impl Field {
             | Self::Input(_, InputPart::Input) => FieldKind::Source,
             Self::Line(_, _, LinePart::Invert) | Self::Output(_, OutputPart::Reverse) => FieldKind::Check,
             Self::Line(_, _, LinePart::Mix) => FieldKind::Choice(vec![
-                choice("add", told.adding),
-                choice("multiply", told.multiplying),
-                choice("replace", told.replacing),
+                choice("add", texts.adding),
+                choice("multiply", texts.multiplying),
+                choice("replace", texts.replacing),
             ]),
             Self::Line(_, _, LinePart::When) => {
                 let names = profile.switches.iter().map(|switch| switch.name.to_string());
-                let names = names.map(|name| (name.clone(), told.switch.fill([&name])));
-                FieldKind::Choice([choice("", told.always)].into_iter().chain(names).collect())
+                let names = names.map(|name| (name.clone(), texts.switch.fill([&name])));
+                FieldKind::Choice([choice("", texts.always)].into_iter().chain(names).collect())
             }
             Self::Switch(place, SwitchPart::Kind) => {
                 let needs_others = |kind: &str| !matches!(kind, "above" | "below");
@@ -179,7 +181,7 @@ impl Field {
                     part.set(line, text)?;
                 }
             }
-            Self::Switch(switch, part) => set_switch(profile, switch, (part, text))?,
+            Self::Switch(switch, part) => set_switch(profile, switch, part, text)?,
             Self::Input(input, part) => {
                 if let Some(input) = profile.inputs.get_mut(input) {
                     part.set(input, text)?;
@@ -191,11 +193,7 @@ impl Field {
 }
 
 /// A switch that becomes one that refers to another refers to the one before it.
-fn set_switch(
-    profile: &mut Profile,
-    place: usize,
-    (part, text): (SwitchPart, &str),
-) -> Result<(), FieldError> {
+fn set_switch(profile: &mut Profile, place: usize, part: SwitchPart, text: &str) -> Result<(), FieldError> {
     let place = place.min(profile.switches.len());
     let (earlier, rest) = profile.switches.split_at_mut(place);
     let Some(switch) = rest.first_mut() else {

@@ -45,24 +45,24 @@ impl FieldError {
     /// For people.
     #[must_use]
     pub fn text(&self, words: &Words) -> String {
-        let told = &words.mix;
+        let texts = &words.mix;
         match self {
-            Self::Name(error) => told.no_name.fill([&error.0]),
+            Self::Name(error) => texts.no_name.fill([&error.0]),
             Self::Source(error) => source_problem_text(words, error),
-            Self::Milliseconds(text) => told.no_time.fill([text]),
-            Self::Point(text) => told.no_point.fill([text]),
-            Self::OneSwitch(text) => told.one_switch.fill([text]),
-            Self::TwoSwitches(text) => told.two_switches.fill([text]),
+            Self::Milliseconds(text) => texts.no_time.fill([text]),
+            Self::Point(text) => texts.no_point.fill([text]),
+            Self::OneSwitch(text) => texts.one_switch.fill([text]),
+            Self::TwoSwitches(text) => texts.two_switches.fill([text]),
         }
     }
 }
 
 fn source_problem_text(words: &Words, error: &SourceError) -> String {
-    let told = &words.mix;
+    let texts = &words.mix;
     match error {
-        SourceError::Unknown(text) => told.no_input.fill([text]),
-        SourceError::Number { text, found, below } => told.number_high.fill([text, found, below]),
-        SourceError::Name(error) => told.no_name.fill([&error.0]),
+        SourceError::Unknown(text) => texts.no_input.fill([text]),
+        SourceError::Number { text, found, below } => texts.number_high.fill([text, found, below]),
+        SourceError::Name(error) => texts.no_name.fill([&error.0]),
     }
 }
 
@@ -72,24 +72,24 @@ pub fn profile_problem_text(words: &Words, error: &ProfileError) -> String {
     if words.language == Language::English {
         return error.to_string();
     }
-    let told = &words.mix;
+    let texts = &words.mix;
     match error {
-        ProfileError::TooLarge { bytes } => told.too_large.fill([bytes, &PROFILE_BYTES_MAX]),
-        ProfileError::Syntax { line, column, what } => told.syntax.fill([line, column, what]),
-        ProfileError::Version { found } => told.other_version.fill([found, &VERSION]),
+        ProfileError::TooLarge { bytes } => texts.too_large.fill([bytes, &PROFILE_BYTES_MAX]),
+        ProfileError::Syntax { line, column, what } => texts.syntax.fill([line, column, what]),
+        ProfileError::Version { found } => texts.other_version.fill([found, &VERSION]),
         ProfileError::Range {
             place,
             found,
             low,
             high,
-        } => told.range.fill([place, found, low, high]),
-        ProfileError::Order { place } => told.rising.fill([place]),
-        ProfileError::Failsafe { place, found } => told.must_rest.fill([place, found]),
-        ProfileError::Slow { place, found } => told.slow.fill([place, found]),
-        ProfileError::Curve { place } => told.points.fill([place, &POINTS_MAX]),
-        ProfileError::TooMany { place, found, most } => told.too_many.fill([place, found, most]),
-        ProfileError::Twice { place } => told.twice.fill([place]),
-        ProfileError::NoSwitch { place, name } => told.no_switch.fill([place, name]),
-        ProfileError::JoinsNone { place } => told.joins_none.fill([place]),
+        } => texts.range.fill([place, found, low, high]),
+        ProfileError::Order { place } => texts.rising.fill([place]),
+        ProfileError::Failsafe { place, found } => texts.must_rest.fill([place, found]),
+        ProfileError::Slow { place, found } => texts.slow.fill([place, found]),
+        ProfileError::Curve { place } => texts.points.fill([place, &POINTS_MAX]),
+        ProfileError::TooMany { place, found, most } => texts.too_many.fill([place, found, most]),
+        ProfileError::Twice { place } => texts.twice.fill([place]),
+        ProfileError::NoSwitch { place, name } => texts.no_switch.fill([place, name]),
+        ProfileError::JoinsNone { place } => texts.joins_none.fill([place]),
     }
 }

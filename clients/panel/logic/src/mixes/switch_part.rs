@@ -25,16 +25,16 @@ pub enum SwitchPart {
 
 /// Conditions by their words in profiles, with what people read.
 pub(super) const fn conditions(words: &Words) -> [(&'static str, &'static str); 8] {
-    let told = &words.mix;
+    let texts = &words.mix;
     [
-        ("above", told.above),
-        ("below", told.below),
-        ("all", told.all_of),
-        ("any", told.any_of),
-        ("not", told.not_of),
-        ("toggle", told.toggle),
-        ("sticky", told.sticky),
-        ("edge", told.edge),
+        ("above", texts.above),
+        ("below", texts.below),
+        ("all", texts.all_of),
+        ("any", texts.any_of),
+        ("not", texts.not_of),
+        ("toggle", texts.toggle),
+        ("sticky", texts.sticky),
+        ("edge", texts.edge),
     ]
 }
 

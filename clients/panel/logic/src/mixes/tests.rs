@@ -46,7 +46,7 @@ fn every_field_gives_back_what_it_shows() {
 }
 
 #[test]
-fn what_is_wrong_is_told_beside_its_field_and_reverted() {
+fn what_is_wrong_is_shown_beside_its_field_and_reverted() {
     for (field, text, words) in [
         (Field::MixName, "a/b", "is no name"),
         (Field::Line(0, 1, LinePart::Weight), "3", "from -2 to 2"),
@@ -84,7 +84,7 @@ fn what_is_wrong_is_told_beside_its_field_and_reverted() {
 }
 
 #[test]
-fn what_is_wrong_as_a_whole_is_told_at_its_group() {
+fn what_is_wrong_as_a_whole_is_shown_at_its_group() {
     let mut draft = draft();
     draft.set(Field::Output(2, OutputPart::Low), "1");
     assert!(
@@ -272,7 +272,7 @@ fn what_new_things_are_called_is_a_name_in_every_language() {
 }
 
 #[test]
-fn a_file_that_is_no_mix_is_told_in_both_languages() {
+fn a_file_that_is_no_mix_is_shown_in_both_languages() {
     let error = ProfileError::Version { found: 9 };
     let told = |language: Language| super::profile_problem_text(language.words(), &error);
     assert_eq!(told(Language::English), error.to_string());

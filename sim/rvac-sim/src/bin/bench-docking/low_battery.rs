@@ -62,7 +62,7 @@ impl JobOutcome {
         world.begin_stretch();
         start_cleaning(&mut household, StrategyName::Systematic);
         let job = Self::finish(&mut household, seed, |swept| progress(0.5 * swept));
-        let again = again_without_break(scene, (seed, job.swept_before), |swept| {
+        let again = again_without_break(scene, seed, job.swept_before, |swept| {
             progress(0.5 + 0.5 * swept);
         });
         Self {
@@ -106,7 +106,7 @@ impl JobOutcome {
     }
 }
 
-fn again_without_break(scene: &Scene, (seed, from_share): (u64, f64), mut progress: impl FnMut(f64)) -> f64 {
+fn again_without_break(scene: &Scene, seed: u64, from_share: f64, mut progress: impl FnMut(f64)) -> f64 {
     let settings = RobotSettings {
         seed,
         ..RobotSettings::default()

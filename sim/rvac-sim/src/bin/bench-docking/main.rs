@@ -78,7 +78,7 @@ fn main() -> anyhow::Result<()> {
     let output = if arguments.low_battery {
         low_batteries(&arguments, homes.len(), scene_of)?
     } else {
-        trips_home(&arguments, homes.len(), (obstacle, &scene_of))?
+        trips_home(&arguments, homes.len(), obstacle, &scene_of)?
     };
     writeln!(io::stdout(), "{output}").context("cannot write to standard output")
 }
@@ -115,7 +115,8 @@ impl Arguments {
 fn trips_home(
     arguments: &Arguments,
     homes: usize,
-    (obstacle, scene_of): (Obstacle, &dyn Fn(usize) -> anyhow::Result<Scene>),
+    obstacle: Obstacle,
+    scene_of: &dyn Fn(usize) -> anyhow::Result<Scene>,
 ) -> anyhow::Result<String> {
     let situations = DockingStart::list(&arguments.situations)?;
     let progress = Progress::new("docking");
@@ -125,7 +126,7 @@ fn trips_home(
         let scene = scene_of(number)?;
         for seed in arguments.seeds(number, homes) {
             for situation in &situations {
-                let run = DockingRun::of(&scene, (*situation, seed), obstacle);
+                let run = DockingRun::of(&scene, *situation, seed, obstacle);
                 if arguments.explain && !run.docked {
                     run.explain()?;
                 }

@@ -17,14 +17,14 @@ pub(crate) fn draw(home: &Home, radius_m: f64, random: &mut Pcg) -> Pose {
             break;
         };
         let (x_m, y_m) = home.grid().centre(*index);
-        if home.clearance_m(x_m, y_m) > radius_m + ROOM_M && !is_by_a_drop(home, (x_m, y_m), radius_m) {
+        if home.clearance_m(x_m, y_m) > radius_m + ROOM_M && !is_by_a_drop(home, x_m, y_m, radius_m) {
             return Pose::new(x_m, y_m, std::f64::consts::PI * random.symmetric());
         }
     }
     home.start()
 }
 
-fn is_by_a_drop(home: &Home, (x_m, y_m): (f64, f64), radius_m: f64) -> bool {
+fn is_by_a_drop(home: &Home, x_m: f64, y_m: f64, radius_m: f64) -> bool {
     (0..16).any(|step| {
         let (sin, cos) = (f64::from(step) * std::f64::consts::TAU / 16.0).sin_cos();
         let reach_m = radius_m + ROOM_M;

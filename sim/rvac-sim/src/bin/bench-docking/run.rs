@@ -97,7 +97,7 @@ impl Obstacle {
 }
 
 impl DockingRun {
-    pub(crate) fn of(scene: &Scene, (situation, seed): (DockingStart, u64), obstacle: Obstacle) -> Self {
+    pub(crate) fn of(scene: &Scene, situation: DockingStart, seed: u64, obstacle: Obstacle) -> Self {
         let mut random = Pcg::new(seed, STREAM);
         let radius_m = 0.175;
         let there = place::draw(scene.home(), radius_m, &mut random);
@@ -125,10 +125,10 @@ impl DockingRun {
         } else {
             household.pass_ms(3_000);
         }
-        Self::home(&mut household, (situation, seed))
+        Self::home(&mut household, situation, seed)
     }
 
-    fn home(household: &mut Household, (situation, seed): (DockingStart, u64)) -> Self {
+    fn home(household: &mut Household, situation: DockingStart, seed: u64) -> Self {
         let from = household.robot().world().truth().pose;
         let dock = household.robot().world().docked_pose().unwrap_or(from);
         let begun_ms = household.robot().now_ms();

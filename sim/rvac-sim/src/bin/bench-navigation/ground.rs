@@ -8,7 +8,7 @@ use rvac_sim::run::core_config;
 use rvac_sim::{Host, Household, PoseSource, Scene};
 use vthal_core::CoreConfig;
 
-use crate::mode::CleaningMode;
+use crate::mode::{CleaningMode, SeededMode};
 
 /// What all runs have in common.
 #[derive(Clone, Debug)]
@@ -44,13 +44,14 @@ impl HomeWithHistory {
     }
 
     /// A robot and a host for a mode.
-    pub(crate) fn household(&self, setup: &Setup, (mode, seed): (CleaningMode, u64)) -> Household {
+    pub(crate) fn household(&self, setup: &Setup, way: SeededMode) -> Household {
+        let SeededMode { mode, seed } = way;
         let settings = RobotSettings {
             seed,
             ..RobotSettings::default()
         };
         let robot = self.scene.robot(seed, &settings);
-        let household = Household::new(robot, Host::start(0, self.config((mode, seed))));
+        let household = Household::new(robot, Host::start(0, self.config(way)));
         let household = match setup.board_gyro {
             GyroFitting::Absent => household,
             GyroFitting::Fitted => household.with_board_gyro(self.scene.board_gyro(seed)),
@@ -63,7 +64,7 @@ impl HomeWithHistory {
         }
     }
 
-    fn config(&self, (mode, seed): (CleaningMode, u64)) -> CoreConfig {
+    fn config(&self, SeededMode { mode, seed }: SeededMode) -> CoreConfig {
         CoreConfig {
             task_budget_s: BUDGET_S,
             ..core_config(&self.scene, seed, mode.strategy())
@@ -80,7 +81,7 @@ mod tests {
     use vthal_core::CoreConfig;
 
     use super::{BUDGET_S, GyroFitting, HomeWithHistory, Setup};
-    use crate::mode::CleaningMode;
+    use crate::mode::{CleaningMode, SeededMode};
 
     const PLAN: &str =
         "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0, 0], [2, 0], [2, 2], [0, 2]]\n";
@@ -102,7 +103,10 @@ mod tests {
                 task_budget_s: BUDGET_S,
                 ..single
             };
-            let told = ground.config((CleaningMode::FirstRun, 3));
+            let told = ground.config(SeededMode {
+                mode: CleaningMode::FirstRun,
+                seed: 3,
+            });
             assert_eq!(format!("{told:?}"), format!("{wanted:?}"), "{name}");
         }
     }

@@ -25,8 +25,8 @@ use home::traps::{Trap, TrapKind};
 use crew::{SharedProgress, in_order};
 use ground::{GyroFitting, HomeWithHistory, Setup};
 use homes::NavigationHome;
-use mode::CleaningMode;
-use run::{Length, NavigationRun, rounds};
+use mode::{CleaningMode, SeededMode};
+use run::{Ground, Length, NavigationRun, rounds};
 use table::NavigationTable;
 use traps::{TrapRun, TrapTable};
 
@@ -105,10 +105,10 @@ impl Arguments {
     }
 
     /// What each thing is measured with: modes and seeds, in the order of the output.
-    fn ways(&self, modes: &[CleaningMode]) -> Vec<(CleaningMode, u64)> {
+    fn ways(&self, modes: &[CleaningMode]) -> Vec<SeededMode> {
         let seeds = |mode: &CleaningMode| {
             let mode = *mode;
-            (1..=self.seeds).map(move |seed| (mode, seed))
+            (1..=self.seeds).map(move |seed| SeededMode { mode, seed })
         };
         modes.iter().flat_map(seeds).collect()
     }
@@ -122,8 +122,8 @@ fn main() -> anyhow::Result<()> {
         return measure_traps(&arguments, &setup, &modes);
     }
     let places = NavigationHome::list(&arguments.homes)?;
-    let runs = runs_in(&places, (&arguments, &setup), &arguments.ways(&modes))?;
-    print(&arguments, (&places, &modes), &runs)
+    let runs = runs_in(&places, &arguments, &setup, &arguments.ways(&modes))?;
+    print(&arguments, &places, &modes, &runs)
 }
 
 /// What a thread has before it: the home that it was in last, with its number.
@@ -131,8 +131,9 @@ type WorkerHome = Option<(usize, HomeWithHistory)>;
 
 fn runs_in(
     places: &[NavigationHome],
-    (arguments, setup): (&Arguments, &Setup),
-    ways: &[(CleaningMode, u64)],
+    arguments: &Arguments,
+    setup: &Setup,
+    ways: &[SeededMode],
 ) -> anyhow::Result<Vec<NavigationRun>> {
     let count = places.len() * ways.len();
     let progress = SharedProgress::new("navigation", count);
@@ -141,9 +142,10 @@ fn runs_in(
         if desk.as_ref().is_none_or(|(other, _)| *other != place) {
             *desk = Some((place, places[place].ground(setup)?));
         }
-        let (_, ground) = desk.as_ref().context("a home was put there")?;
+        let (_, home) = desk.as_ref().context("a home was put there")?;
+        let ground = Ground { home, setup };
         let piece = progress.piece();
-        Ok(rounds((ground, setup), ways[way], arguments.length(), piece))
+        Ok(rounds(&ground, ways[way], arguments.length(), piece))
     });
     progress.clear();
     Ok(runs?.concat())
@@ -151,7 +153,8 @@ fn runs_in(
 
 fn print(
     arguments: &Arguments,
-    (places, modes): (&[NavigationHome], &[CleaningMode]),
+    places: &[NavigationHome],
+    modes: &[CleaningMode],
     runs: &[NavigationRun],
 ) -> anyhow::Result<()> {
     let table = NavigationTable::of(runs, modes);
@@ -196,7 +199,7 @@ fn measure_traps(arguments: &Arguments, setup: &Setup, modes: &[CleaningMode]) -
     let count = TrapKind::ALL.len() * ways.len();
     let progress = SharedProgress::new("traps", count);
     let runs = in_order(count, arguments.threads(), |_: &mut (), number| {
-        let (mode, seed) = ways[number % ways.len()];
+        let SeededMode { mode, seed } = ways[number % ways.len()];
         let trap = Trap {
             kind: TrapKind::ALL[number / ways.len()],
             seed: u32::try_from(seed)?,

@@ -16,6 +16,13 @@ pub(crate) enum CleaningMode {
     PerfectPose,
 }
 
+/// A mode, and the seed of all that is random in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeededMode {
+    pub(crate) mode: CleaningMode,
+    pub(crate) seed: u64,
+}
+
 impl CleaningMode {
     const ALL: [Self; 6] = [
         Self::Bounce,

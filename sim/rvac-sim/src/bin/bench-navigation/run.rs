@@ -9,7 +9,7 @@ use rvac_sim::{Figures, Host, HostCost, Household, RunReport};
 use serde::Serialize;
 
 use crate::ground::{HomeWithHistory, Setup};
-use crate::mode::CleaningMode;
+use crate::mode::{CleaningMode, SeededMode};
 
 /// The figures of a run.
 #[derive(Clone, Debug, Serialize)]
@@ -48,23 +48,31 @@ const REFILL_MS: u64 = 300_000;
 /// A run may take so much more than its length: for the drive home, or until work begins.
 const SPARE_MS: u64 = 1_200_000;
 
+/// Where robots run: a home, and what they run with.
+#[derive(Debug)]
+pub(crate) struct Ground<'a> {
+    pub(crate) home: &'a HomeWithHistory,
+    pub(crate) setup: &'a Setup,
+}
+
 /// All runs of a mode in a home with a seed, one after the other.
 pub(crate) fn rounds(
-    (ground, setup): (&HomeWithHistory, &Setup),
-    (mode, seed): (CleaningMode, u64),
+    ground: &Ground<'_>,
+    way: SeededMode,
     length: Length,
     mut progress: impl FnMut(f64),
 ) -> Vec<NavigationRun> {
     let mut map: Option<StoredMap> = None;
     let mut runs = Vec::new();
-    for round in 1..=mode.rounds() {
-        let mut household = ground.household(setup, (mode, seed));
+    let rounds = way.mode.rounds();
+    for round in 1..=rounds {
+        let mut household = ground.home.household(ground.setup, way);
         if let Some(map) = map {
             household = household.with_map(map);
         }
         let before = f64::from(round - 1);
-        let run = one(&mut household, (mode, seed), length, |share| {
-            progress((before + share) / f64::from(mode.rounds()));
+        let run = one(&mut household, way, length, |share| {
+            progress((before + share) / f64::from(rounds));
         });
         runs.push(NavigationRun { round, ..run });
         let brain = household.host().and_then(Host::brain);
@@ -75,7 +83,7 @@ pub(crate) fn rounds(
 
 fn one(
     household: &mut Household,
-    (mode, seed): (CleaningMode, u64),
+    SeededMode { mode, seed }: SeededMode,
     length: Length,
     progress: impl FnMut(f64),
 ) -> NavigationRun {
@@ -86,10 +94,10 @@ fn one(
     start_cleaning(household, mode.strategy());
     let (first, jobs) = match length {
         Length::OneJob { longest_over_t0 } => {
-            one_job(household, (mode, longest_over_t0), progress);
+            one_job(household, mode, longest_over_t0, progress);
             (None, 1)
         }
-        Length::Work { minutes } => work(household, (mode.strategy(), minutes), progress),
+        Length::Work { minutes } => work(household, mode.strategy(), minutes, progress),
     };
     let last = household.report();
     let figures = figures(first.as_ref().unwrap_or(&last), &last);
@@ -115,7 +123,8 @@ fn one(
 
 fn one_job(
     household: &mut Household,
-    (mode, longest_over_t0): (CleaningMode, f64),
+    mode: CleaningMode,
+    longest_over_t0: f64,
     mut progress: impl FnMut(f64),
 ) {
     let t0_s = household.robot().world().home().t0_s();
@@ -130,7 +139,8 @@ fn one_job(
 /// Gives what was reported at the end of the first job, if that came, and the number of jobs.
 fn work(
     household: &mut Household,
-    (strategy, minutes): (StrategyName, f64),
+    strategy: StrategyName,
+    minutes: f64,
     mut progress: impl FnMut(f64),
 ) -> (Option<RunReport>, u32) {
     let length_s = 60.0 * minutes;

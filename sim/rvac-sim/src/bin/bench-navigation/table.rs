@@ -108,7 +108,7 @@ impl NavigationTable {
     pub(crate) fn of(runs: &[NavigationRun], modes: &[CleaningMode]) -> Self {
         let columns = modes
             .iter()
-            .flat_map(|mode| (1..=mode.rounds()).map(|round| Column::of(runs, (*mode, round))));
+            .flat_map(|mode| (1..=mode.rounds()).map(|round| Column::of(runs, *mode, round)));
         Self {
             columns: columns.collect(),
         }
@@ -116,7 +116,7 @@ impl NavigationTable {
 }
 
 impl Column {
-    fn of(runs: &[NavigationRun], (mode, round): (CleaningMode, u32)) -> Self {
+    fn of(runs: &[NavigationRun], mode: CleaningMode, round: u32) -> Self {
         let runs: Vec<&NavigationRun> = runs
             .iter()
             .filter(|run| (run.mode, run.round) == (mode, round))

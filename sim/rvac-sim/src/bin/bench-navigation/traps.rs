@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use crate::ground::Setup;
 use crate::homes::NavigationHome;
-use crate::mode::CleaningMode;
+use crate::mode::{CleaningMode, SeededMode};
 
 /// Nobody waits longer for an end.
 const LONGEST_S: u64 = 2_400;
@@ -40,7 +40,13 @@ pub(crate) struct TrapRun {
 impl TrapRun {
     pub(crate) fn of(trap: Trap, setup: &Setup, mode: CleaningMode) -> anyhow::Result<Self> {
         let ground = NavigationHome::Trap(trap).ground(setup)?;
-        let mut household = ground.household(setup, (mode, u64::from(trap.seed)));
+        let mut household = ground.household(
+            setup,
+            SeededMode {
+                mode,
+                seed: u64::from(trap.seed),
+            },
+        );
         anyhow::ensure!(
             start_cleaning(&mut household, mode.strategy()),
             "the robot does not answer"

@@ -109,7 +109,7 @@ impl HouseholdCopies {
     }
 
     /// What each part took of a run that took `all_s`, and its host `host_s`.
-    pub(crate) fn shares(&self, state_hash: u64, (all_s, host_s): (f64, f64)) -> anyhow::Result<Shares> {
+    pub(crate) fn shares(&self, state_hash: u64, all_s: f64, host_s: f64) -> anyhow::Result<Shares> {
         let robot = self.household.robot();
         ensure!(
             robot.state_hash() == state_hash,

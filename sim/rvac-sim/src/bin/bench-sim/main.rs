@@ -76,7 +76,7 @@ impl Case {
     }
 
     /// A household that was asked to clean.
-    fn household(self, scene: &Scene, (seed, recording): (u64, Recording)) -> Household {
+    fn household(self, scene: &Scene, seed: u64, recording: Recording) -> Household {
         let settings = RobotSettings {
             seed,
             ..RobotSettings::default()
@@ -110,7 +110,7 @@ fn main() -> anyhow::Result<()> {
     let progress = Progress::new("simulator");
     let mut figures = Vec::new();
     for (number, case) in Case::ALL.into_iter().enumerate() {
-        figures.push(measure(&scene, (case, &arguments), |share| {
+        figures.push(measure(&scene, case, &arguments, |share| {
             progress.show((number as f64 + share) / Case::ALL.len() as f64);
         })?);
     }
@@ -137,22 +137,26 @@ fn main() -> anyhow::Result<()> {
 
 fn measure(
     scene: &Scene,
-    (case, arguments): (Case, &Arguments),
+    case: Case,
+    arguments: &Arguments,
     mut progress: impl FnMut(f64),
 ) -> anyhow::Result<CaseFigures> {
     let passes = if arguments.parts { 3.0 } else { 1.0 };
-    let work = (case, 60 * arguments.minutes);
-    let mut household = case.household(scene, (arguments.seed, Recording::Off));
+    let work = Work {
+        case,
+        seconds: 60 * arguments.minutes,
+    };
+    let mut household = case.household(scene, arguments.seed, Recording::Off);
     let (began, began_s) = (Instant::now(), thread_processor_s());
     run(&mut household, work, |share| progress(share / passes));
     let (wall_seconds, processor_s) = (began.elapsed().as_secs_f64(), thread_processor_s() - began_s);
     let hash = household.robot().state_hash();
     let parts = arguments.parts.then(|| {
-        let mut again = case.household(scene, (arguments.seed, Recording::Off));
+        let mut again = case.household(scene, arguments.seed, Recording::Off);
         let host_s = host_s(&mut again, work, |share| progress((1.0 + share) / passes));
-        let recorded = case.household(scene, (arguments.seed, Recording::On));
+        let recorded = case.household(scene, arguments.seed, Recording::On);
         let parts = taken_apart(recorded, work, |share| progress((2.0 + share) / passes));
-        parts.shares(hash, (processor_s, host_s))
+        parts.shares(hash, processor_s, host_s)
     });
     let sim_seconds = household.robot().now_ms() as f64 / 1000.0;
     Ok(CaseFigures {
@@ -165,8 +169,15 @@ fn measure(
     })
 }
 
-/// Works for so many seconds.
-fn run(household: &mut Household, (case, seconds): (Case, u64), mut progress: impl FnMut(f64)) {
+/// So many seconds of a case.
+#[derive(Clone, Copy, Debug)]
+struct Work {
+    case: Case,
+    seconds: u64,
+}
+
+/// Does the work.
+fn run(household: &mut Household, Work { case, seconds }: Work, mut progress: impl FnMut(f64)) {
     start_cleaning(household, case.strategy());
     for second in 0..seconds {
         household.pass_ms(1_000);
@@ -176,7 +187,7 @@ fn run(household: &mut Household, (case, seconds): (Case, u64), mut progress: im
 }
 
 /// Processor time of the host's core.
-fn host_s(household: &mut Household, work: (Case, u64), progress: impl FnMut(f64)) -> f64 {
+fn host_s(household: &mut Household, work: Work, progress: impl FnMut(f64)) -> f64 {
     if let Some(host) = household.host_mut() {
         host.measure_cost();
     }
@@ -187,7 +198,7 @@ fn host_s(household: &mut Household, work: (Case, u64), progress: impl FnMut(f64
 
 fn taken_apart(
     household: Household,
-    (case, seconds): (Case, u64),
+    Work { case, seconds }: Work,
     mut progress: impl FnMut(f64),
 ) -> HouseholdCopies {
     let mut parts = HouseholdCopies::begin(household, case.strategy());
