@@ -8,8 +8,7 @@ use std::collections::BTreeMap;
 use brain::command::StrategyName;
 use home::{Pcg, Pose};
 use rvac_api::RequestBody;
-use rvac_protocol::message::ResetCause;
-use rvac_sim::{Host, Household};
+use rvac_sim::{Host, Household, ResetCause};
 use scenarios::{cleaning, scene};
 use vthal_core::{ClientId, Input, LinkLoss};
 

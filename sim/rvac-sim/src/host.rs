@@ -208,16 +208,10 @@ impl Host {
         if let Some(kept) = self.outputs.home.take() {
             self.floors.keep(kept);
         }
-        let refusals = self
-            .outputs
-            .deliveries
-            .iter()
-            .filter_map(|delivery| match &delivery.update {
-                Update::Failed(failure) => Some(&failure.reason),
-                _ => None,
-            });
-        if let Some(reason) = refusals.last() {
-            self.refusal = Some(reason.clone());
+        for delivery in &self.outputs.deliveries {
+            if let Update::Failed(failure) = &delivery.update {
+                self.refusal = Some(failure.reason.clone());
+            }
         }
         self.outputs.clear();
         if let Some(record) = run {

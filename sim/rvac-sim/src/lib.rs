@@ -41,5 +41,6 @@ pub use household::{Household, PoseSource, TICK_US};
 pub use pic32::board::{CalibrationChoice, GyroFitted};
 pub use report::{RunReport, StuckWatch};
 pub use robot::Robot;
+pub use rvac_protocol::message::ResetCause;
 pub use scene::{Scene, SceneError, SceneSettings};
 pub use sensors::sensor_layout;

@@ -182,7 +182,8 @@ mod tests {
 
     #[test]
     fn only_a_stick_in_its_centre_takes_the_empty_seat_however_it_became_empty() {
-        let ends: [(&str, fn(&mut Arbiter)); 4] = [
+        type Empties = fn(&mut Arbiter);
+        let ends: [(&str, Empties); 4] = [
             ("nobody ever drove", |arbiter| *arbiter = Arbiter::default()),
             ("silence", |arbiter| {
                 assert_eq!(arbiter.expire(399_999), None);
