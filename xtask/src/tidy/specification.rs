@@ -75,17 +75,17 @@ fn variants(source: &str, set: &str) -> Vec<String> {
         .split_once(&format!("pub enum {set} {{"))
         .map_or("", |(_, after)| after);
     let body = body.split_once("\n}").map_or(body, |(body, _)| body);
-    let lines = body.lines().filter_map(|line| line.strip_prefix("    "));
-    let names = lines.filter(|line| line.starts_with(|letter: char| letter.is_ascii_uppercase()));
-    names
-        .map(|line| {
-            kebab(
-                line.split(|letter: char| !letter.is_ascii_alphanumeric())
-                    .next()
-                    .unwrap_or_default(),
-            )
-        })
-        .collect()
+    let mut renamed = None;
+    let mut found = Vec::new();
+    for line in body.lines().filter_map(|line| line.strip_prefix("    ")) {
+        if let Some(word) = line.strip_prefix("#[serde(rename = \"") {
+            renamed = word.split('"').next().map(str::to_owned);
+        } else if line.starts_with(|letter: char| letter.is_ascii_uppercase()) {
+            let name = line.split(|letter: char| !letter.is_ascii_alphanumeric()).next();
+            found.push(renamed.take().unwrap_or_else(|| kebab(name.unwrap_or_default())));
+        }
+    }
+    found
 }
 
 /// `MapDelta` becomes `map-delta`.
@@ -106,9 +106,9 @@ mod tests {
 
     #[test]
     fn variants_and_words_are_found() {
-        let source = "pub enum Command {\n    /// Doc.\n    Hello(HostHello),\n    Stop,\n    ArmNow {\n        undock: bool,\n    },\n}\n\
+        let source = "pub enum Command {\n    /// Doc.\n    Hello(HostHello),\n    #[serde(rename = \"halt\")]\n    Stop,\n    ArmNow {\n        undock: bool,\n    },\n}\n\
                       match self {\n    Self::A => \"wheel left\",\n}";
-        assert_eq!(variants(source, "Command"), ["hello", "stop", "arm-now"]);
+        assert_eq!(variants(source, "Command"), ["hello", "halt", "arm-now"]);
         assert_eq!(words(source).collect::<Vec<_>>(), ["wheel left"]);
     }
 }
