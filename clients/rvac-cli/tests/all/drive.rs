@@ -274,7 +274,7 @@ const SILENT: Duration = Duration::from_secs(2);
 /// A gamepad without power keeps its last position in the kernel, and says nothing.
 #[test]
 fn a_pushed_pad_that_says_nothing_more_stops_the_wheels() {
-    let world = World::start("silent");
+    let world = World::start();
     let witness = world.witness();
     let mut drive = Drive::start(&world, &[]);
     drive.read("pad-0-axis-0 0");
