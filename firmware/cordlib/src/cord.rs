@@ -25,6 +25,7 @@ use crate::permit::{MotionPermit, ReverseBound};
 use crate::probing::Probing;
 use crate::reflex::Reflexes;
 use crate::report::Reporter;
+use crate::rules::session::MOVE_SILENCE_MS;
 use crate::senses::Senses;
 use crate::sound::Sound;
 use crate::timing::{HoldTimer, LongClock};
@@ -34,8 +35,6 @@ use crate::watch::{Supervisor, Watch};
 /// Most bytes taken from the link in one pass, so that a flood cannot delay the reflexes. At 230,400 baud 23 bytes arrive
 /// in a millisecond.
 const BYTES_PER_PASS: usize = 64;
-/// A `move` under a session ends when no packet has come for this long (S1).
-const MOVE_SILENCE_MS: u32 = 1_000;
 
 /// The firmware of one robot: everything between the board's parts and the wire.
 #[derive(Debug)]

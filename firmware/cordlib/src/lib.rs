@@ -30,6 +30,7 @@ mod rate;
 mod react;
 mod reflex;
 mod report;
+mod rules;
 mod senses;
 mod sound;
 mod timing;

@@ -5,11 +5,13 @@ use rvac_units::{Ratio, Tick};
 
 use crate::board::{ChargeDrive, ChargerReadings, DockRequest};
 use crate::parameters::PackParameters;
+use crate::rules::charge_guard::AGE_MAX_MS;
+use crate::rules::charge_phase::SUPPLIED_MS;
 
 use super::current_offset::CurrentOffset;
 use super::faults::FaultWatch;
 use super::gauge::{Gauge, PackLoad};
-use super::guard::{AGE_MAX_MS, ChargeConditions, Guard};
+use super::guard::{ChargeConditions, Guard};
 use super::history::History;
 use super::meter::{Averages, AveragingWindow, CompletedWindows, Meter};
 use super::phases::{ChargeRecord, MaintenancePulse, Rest};
@@ -18,8 +20,6 @@ use super::scale::PackLimits;
 use super::stops::{AllStops, Detectors, Stops};
 use super::thermometer::Thermometer;
 
-/// The supply must be there this long before current flows.
-const SUPPLIED_MS: u32 = 1_000;
 /// The dock is asked this long before current flows, so that it has received the request.
 const ASKED_MS: u32 = 2_000;
 

@@ -2,18 +2,9 @@
 //! independently and knows nothing of phases and stops, so that no error there can keep the switch on.
 
 use crate::board::ChargeDrive;
+use crate::rules::charge_guard::{AGE_MAX_MS, COLDEST_CC, FLOW_MAX_MS, HOTTEST_CC, REST_MS};
 
 use super::regulate::DUTY_MAX;
-
-/// Readings older than this are no readings.
-pub(super) const AGE_MAX_MS: u32 = 200;
-/// No current flows beyond these temperatures, in hundredths of a degree: 1 °C outside the limits of the controller.
-const COLDEST_CC: i32 = -100;
-const HOTTEST_CC: i32 = 5_100;
-/// Longest time of current without a rest, a little less than 3.6 hours.
-const FLOW_MAX_MS: u32 = 12_900_000;
-/// A rest that resets this time: 31 minutes.
-pub(super) const REST_MS: u32 = 1_860_000;
 
 /// The readings that the guard checks.
 #[derive(Clone, Copy, Debug)]

@@ -3,34 +3,21 @@
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
 use super::controller::{ChargeContext, ChargeController};
-use super::faults::OFFSET_FAULT_MA;
-use super::guard;
 use super::meter::{Averages, AveragingWindow, CompletedWindows};
 use super::scale::PackLimits;
-use super::stops::{ChargeProgress, Detectors, Stops, TIME_MS};
+use super::stops::{ChargeProgress, Detectors, Stops};
+use crate::rules::charge_fault::OFFSET_FAULT_MA;
+use crate::rules::charge_guard::REST_MS;
+use crate::rules::charge_phase::{
+    COLDEST_CC, COOL_CC, DOCKED_MS, HYSTERESIS_CC, LONG_REST_MS, PRECHARGE_MS, TOP_OFF_MAX_CC, TOP_OFF_MS,
+    UNDOCKED_MS, WARMEST_CC,
+};
+use crate::rules::charge_stop::TIME_MS;
 
-/// The contacts must be closed this long before a charge begins.
-const DOCKED_MS: u32 = 1_000;
-/// Contacts that are open for this long end the rest after a charge.
-const UNDOCKED_MS: u32 = 1_000;
-/// Window of temperatures in which a charge begins, in hundredths of a degree. Below the second only slow current flows.
-const COLDEST_CC: i32 = 0;
-const COOL_CC: i32 = 500;
-const WARMEST_CC: i32 = 4_000;
-/// Hysteresis of the window, so that current does not come and go at its limit.
-const HYSTERESIS_CC: i32 = 100;
-const PRECHARGE_MS: u32 = 3_600_000;
-const TOP_OFF_MS: u32 = 1_800_000;
-/// Temperature at which a full pack gets no more current.
-const TOP_OFF_MAX_CC: i32 = 4_500;
 /// A charge that was interrupted for longer is over, and its counts are reset.
-const AWAY_MS: u32 = guard::REST_MS;
+const AWAY_MS: u32 = REST_MS;
 /// An interruption of the current that restarts the detectors.
 const PAUSE_MS: u32 = 10_000;
-/// Rest after a charge before the voltage shows the state of charge, and before the guard allows another charge.
-const REST_MS: u32 = guard::REST_MS;
-/// Rest after a charge that ran out of time.
-const LONG_REST_MS: u32 = 3_600_000;
 /// A full pack is not charged again before this time, which doubles whenever the pack turns out to be still full.
 const RECHARGE_MS: u32 = 2 * 3_600_000;
 const RECHARGE_MAX_MS: u32 = 16 * 3_600_000;

@@ -1,16 +1,9 @@
 //! The pack's temperature and its plausibility.
 
 use crate::board::ThermistorFault;
+use crate::rules::thermometer::{JUMP_CC, JUMP_MS, LEAST_CC, MOST_CC};
 
 use super::meter::Averages;
-
-/// Plausible range of a pack in a home, in hundredths of a degree.
-const LEAST_CC: i32 = -2_000;
-const MOST_CC: i32 = 8_000;
-/// Most that a pack can change in a second.
-const JUMP_CC: i32 = 500;
-/// How long a jump is remembered.
-const JUMP_MS: u32 = 10_000;
 
 /// The temperature and what is wrong with it.
 #[derive(Clone, Copy, Debug, Default)]
