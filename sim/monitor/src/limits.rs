@@ -32,6 +32,8 @@ pub(crate) const BUTTON_MS: u64 = 50;
 pub(crate) const ESCAPE_WARNING_MS: u64 = 2_000;
 /// S18.leak.
 pub(crate) const LEAK_MA: i32 = 150;
+/// S18.off-dock.
+pub(crate) const OFF_DOCK_MS: u32 = 20_000;
 /// S18.flow.
 pub(crate) const CHARGE_TIME_MS: u32 = 12_960_000;
 /// S18.over-current, and the monitor's mean of 20 ms, and the switch's own envelope.

@@ -3,6 +3,9 @@
 use rvac_protocol::message::ResetCause;
 
 use super::causes::{CauseTimes, Drives};
+use super::limits::{
+    DOCKED_MS, FRESH_MS, HAND_LEASE_MS, HAND_QUIET_MS, LEAVING_MS, RESET_WINDOW_MS, SILENCE_MS,
+};
 use super::said::{Heard, Said, read_heard, read_said};
 use super::wire::Splitter;
 
@@ -12,18 +15,6 @@ const LEASE_GRACE_MS: u64 = 50;
 const STOP_GRACE_MS: u64 = 20;
 /// The firmware's clock may begin any of the longer times this much later.
 const CLOCK_GRACE_MS: u64 = 200;
-/// S19: an arrival at the dock ends every permission.
-const ARRIVAL_MS: u32 = 50;
-/// What a person who types without a session may do ends so long after the last packet that arms or moves.
-const HAND_QUIET_MS: u64 = 10_000;
-/// Leaving the dock ends on its contacts, so long after the `arm`.
-const LEAVING_MS: u64 = 20_000;
-/// S3: the host's view may be this old, with the length of a packet on the line.
-const FRESH_MS: i32 = 400 + 20;
-/// A session ends after this silence, and hand mode begins.
-const SILENCE_MS: u64 = 2_000;
-/// The longest lease in hand mode.
-const HAND_LEASE_MS: u64 = 500;
 /// A button counts as pressed when it is down for this long: shorter is noise.
 const BUTTON_HELD_MS: u32 = 20;
 /// Being off the dock for this long ends what an undock command allowed.
@@ -31,8 +22,6 @@ const UNDOCKED_MS: u32 = 3_000;
 /// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after
 /// 65,536.
 const ANSWER_MS: u64 = 1_000;
-/// S4: three resets within this time latch.
-const RESET_WINDOW_MS: u64 = 60_000;
 
 /// Whether motion is armed, and what revokes that (SPEC.md section 4).
 #[derive(Clone, Copy, Debug, Default)]
@@ -288,7 +277,7 @@ impl HostPermission {
         let at_dock = if undock {
             standing.docked_ms > 0 && now_ms > since_ms + LEAVING_MS + CLOCK_GRACE_MS
         } else {
-            standing.docked_ms > ARRIVAL_MS
+            standing.docked_ms > DOCKED_MS
         };
         now_ms > heard_ms || at_dock
     }
