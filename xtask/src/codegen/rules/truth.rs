@@ -41,7 +41,7 @@ pub(super) fn check(
         book.rules.iter().flat_map(|rule| rule.monitor.clone()).collect(),
     ));
     let catalog = catalog(&root.join(TRIALS))?;
-    //TEMP wrong.extend(trials(book, measured, &catalog));
+    wrong.extend(trials(book, measured, &catalog));
     wrong.extend(evidence(book));
     match wrong.as_slice() {
         [] => Ok(inhibits),
