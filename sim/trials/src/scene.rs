@@ -22,7 +22,7 @@ const STEP_DC: i32 = 2;
 const STEP_MS: u64 = 100;
 /// What a person types to arm, and to drive slowly.
 const TYPED_ARM: &str = r#"{"c":"arm"}"#;
-const TYPED_DRIVE: &str = r#"{"c":"drive","v":0.05,"w":0,"ttl":2000}"#;
+const TYPED_DRIVE: &str = r#"{"c":"drive","v":0.05,"w":0,"ttl":1000}"#;
 
 /// What the robot is doing when the event happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

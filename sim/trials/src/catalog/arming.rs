@@ -58,7 +58,7 @@ pub(super) fn trials() -> Vec<Trial> {
         .watched_for(500),
         Trial::new(
             "hand-stops-typing",
-            "a person drives by typing with leases of 2 s, and stops",
+            "a person drives by typing with leases of 1 s, and stops",
             ByHand,
             stop_typing,
         )
