@@ -22,6 +22,8 @@ const UNDOCKED_MS: u32 = 3_000;
 /// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after
 /// 65,536.
 const ANSWER_MS: u64 = 1_000;
+/// So many `arm`s may be on their way at once; a host that sends more is not understood.
+const UNANSWERED_MAX: usize = 8;
 
 /// Whether motion is armed, and what revokes that (SPEC.md section 4).
 #[derive(Clone, Copy, Debug, Default)]
@@ -41,6 +43,10 @@ struct Arming {
 }
 
 impl Arming {
+    fn lasts(&self, now_ms: u64) -> bool {
+        self.armed && self.off_ms.is_none_or(|until| now_ms <= until)
+    }
+
     /// Motors must be off from this time on, or from an earlier one that is known already.
     fn end(&mut self, off_ms: u64) {
         self.off_ms = Some(self.off_ms.map_or(off_ms, |known| known.min(off_ms)));
@@ -61,8 +67,8 @@ pub(crate) struct HostPermission {
     /// The firmware's clock began to count between the reset and this.
     clock_ms: u64,
     arming: Arming,
-    /// State to which a refused `arm` returns.
-    before: Arming,
+    /// States to which refused `arm`s return, the oldest first: more than one may be on its way.
+    before: Vec<Arming>,
     newest_motion: Option<u16>,
     /// Ends of the leases of left and right wheel.
     wheels_until_ms: [u64; 2],
@@ -163,7 +169,10 @@ impl HostPermission {
         if !arming.typed && arming.number == self.arming.number {
             return;
         }
-        self.before = self.arming;
+        if self.before.len() == UNANSWERED_MAX {
+            self.before.remove(0);
+        }
+        self.before.push(self.arming);
         self.arming = Arming {
             armed: true,
             since_ms: now_ms,
@@ -210,9 +219,12 @@ impl HostPermission {
             {
                 self.arming = Arming {
                     number: Some(number),
-                    ..self.before
+                    ..self.before.pop().unwrap_or_default()
                 };
             }
+            Some(Said::Refused(number)) => self
+                .before
+                .retain(|arming| arming.number != Some(number) || now_ms > arming.since_ms + ANSWER_MS),
             _ => {}
         }
     }
@@ -223,7 +235,7 @@ impl HostPermission {
         self.reset_ms = now_ms;
         self.clock_ms = now_ms;
         self.arming = Arming::default();
-        self.before = Arming::default();
+        self.before.clear();
         self.newest_motion = None;
         self.wheels_until_ms = [0; 2];
         self.cleaners_until_ms = [0; 3];
@@ -252,7 +264,8 @@ impl HostPermission {
                 self.arming.button_ms = Some(pressed_ms);
             }
         }
-        if standing.undocked_ms > UNDOCKED_MS {
+        // A robot that was told to leave though it stood elsewhere has left after the same time.
+        if standing.undocked_ms > UNDOCKED_MS && now_ms > self.arming.since_ms + u64::from(UNDOCKED_MS) {
             self.arming.undock = false;
         }
         if self.has_run_out(now_ms, standing) {
@@ -283,7 +296,14 @@ impl HostPermission {
     }
 
     pub(crate) fn armed(&self, now_ms: u64) -> bool {
-        self.arming.armed && self.arming.off_ms.is_none_or(|until| now_ms <= until)
+        self.in_force(now_ms).any(|arming| arming.lasts(now_ms))
+    }
+
+    /// The newest `arm`, and while the robot may not have read it yet, the one before.
+    fn in_force(&self, now_ms: u64) -> impl Iterator<Item = &Arming> {
+        let is_fresh = now_ms <= self.arming.since_ms + STOP_GRACE_MS;
+        let earlier = self.before.last().filter(|_| is_fresh);
+        core::iter::once(&self.arming).chain(earlier)
     }
 
     /// How long ago a button stopped the robot, if nobody has armed since.
@@ -294,7 +314,8 @@ impl HostPermission {
     }
 
     pub(crate) fn may_undock(&self, now_ms: u64) -> bool {
-        self.arming.undock && self.armed(now_ms)
+        self.in_force(now_ms)
+            .any(|arming| arming.undock && arming.lasts(now_ms))
     }
 
     /// Whether a lease covers each wheel that is driven.

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -80,6 +80,9 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
             "rule", "trial", "worst ms", "mean ms", "limit"
         )?;
     }
+    if let (Some(printed), Some(measured)) = (&arguments.tests, &arguments.write) {
+        take_over(printed, measured)?;
+    }
     let mut report = SafetyReport {
         phases: arguments.phases,
         broken: 0,
@@ -94,9 +97,9 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
         }
         report.broken += summary.broken;
         report.violations += summary.violations;
+        keep(arguments, &summary, &mut report.worse)?;
         report.trials.push(summary);
     }
-    keep(arguments, &mut report)?;
     if arguments.json {
         serde_json::to_writer(&mut out, &report).map_err(io::Error::from)?;
         writeln!(out)?;
@@ -108,24 +111,25 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     Ok(kept && report.worse.is_empty())
 }
 
-/// Compares with the figures of the last long run, or writes them.
-fn keep(arguments: &Arguments, report: &mut SafetyReport) -> Result<(), CampaignError> {
+/// Compares with the figures of the last long run, or writes them: after each trial, so that a run that is interrupted was
+/// not in vain.
+fn keep(arguments: &Arguments, summary: &TrialSummary, worse: &mut Vec<String>) -> Result<(), CampaignError> {
     if let Some(path) = &arguments.check {
-        let known = Measured::read(path)?;
-        let complaints = report.trials.iter().filter_map(|trial| known.complaint(trial));
-        report.worse = complaints.collect();
+        worse.extend(Measured::read(path)?.complaint(summary));
     }
     if let Some(path) = &arguments.write {
         let mut known = Measured::read(path)?;
-        for summary in &report.trials {
-            known.renew(summary);
-        }
-        if let Some(printed) = &arguments.tests {
-            known.tests = printed_by_tests(&std::fs::read_to_string(printed)?);
-        }
+        known.renew(summary);
         known.write(path)?;
     }
     Ok(())
+}
+
+/// Takes over what cordlib's tests printed.
+fn take_over(printed: &Path, measured: &Path) -> Result<(), CampaignError> {
+    let mut known = Measured::read(measured)?;
+    known.tests = printed_by_tests(&std::fs::read_to_string(printed)?);
+    Ok(known.write(measured)?)
 }
 
 /// The worst of each figure in lines like `worst S6.stop 1 ms, limit 20 ms`.

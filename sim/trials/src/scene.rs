@@ -8,18 +8,14 @@ use crate::testbed::{Fixture, Testbed, TestbedError};
 
 /// Time in an operating state before the first event, in which the wheels reach their speed.
 const SETTLE_MS: u64 = 1_200;
-/// A charge begins within this time on the dock, and is at its full current after it.
+/// A charge begins within this time on the dock.
 const BEGINS_MS: u64 = 60_000;
-const RAMP_MS: u64 = 20_000;
 /// A session that is silent is over after this, and a person may type.
 const SILENCE_MS: u64 = 2_300;
 const PACKS: u64 = 0x0D0C;
-/// Tenths of a degree: the pack at the start, below the two limits of heat, and how fast it warms up to them.
-const COOL_DC: i32 = 250;
+/// Tenths of a degree: the pack below the two limits of heat.
 const WARM_DC: i32 = 535;
 const HOT_DC: i32 = 580;
-const STEP_DC: i32 = 2;
-const STEP_MS: u64 = 100;
 /// What a person types to arm, and to drive slowly.
 const TYPED_ARM: &str = r#"{"c":"arm"}"#;
 const TYPED_DRIVE: &str = r#"{"c":"drive","v":0.05,"w":0,"ttl":1000}"#;
@@ -37,7 +33,7 @@ pub enum OperatingState {
     Cleaning,
     /// The same with a pack just below 55 °C.
     WarmCleaning,
-    /// It stands, armed, with a pack just below 60 °C.
+    /// It stands with a pack just below 60 °C.
     HotStanding,
     /// It turns on the spot.
     Turning,
@@ -74,8 +70,11 @@ impl OperatingState {
             _ => Bridges::Sound,
         };
         let mut testbed = fixture.testbed(seed, bridges, late_cycles)?;
-        if self == Self::Charging {
-            put_on_dock(&mut testbed, seed);
+        match self {
+            Self::Charging => put_on_dock(&mut testbed, seed),
+            Self::WarmCleaning => show_temperature(&mut testbed, WARM_DC),
+            Self::HotStanding => show_temperature(&mut testbed, HOT_DC),
+            _ => {}
         }
         testbed.connect()?;
         self.begin(&mut testbed)?;
@@ -88,23 +87,16 @@ impl OperatingState {
     fn begin(self, testbed: &mut Testbed) -> Result<(), TestbedError> {
         let ahead = (Speed(150_000), AngularSpeed(0));
         match self {
-            Self::Locked => {}
+            Self::Locked | Self::HotStanding => {}
             Self::Standing => arm(testbed),
             Self::Driving | Self::DeafBridges => {
                 arm(testbed);
                 testbed.drive(Some(ahead));
             }
             Self::Cleaning | Self::WarmCleaning => {
-                if self == Self::WarmCleaning {
-                    warm_to(testbed, WARM_DC);
-                }
                 arm(testbed);
                 testbed.drive(Some(ahead));
                 testbed.clean(Throttle::saturating_from_millionths(800_000));
-            }
-            Self::HotStanding => {
-                warm_to(testbed, HOT_DC);
-                arm(testbed);
             }
             Self::Turning => {
                 arm(testbed);
@@ -149,16 +141,6 @@ pub(crate) fn show_temperature(testbed: &mut Testbed, temperature_dc: i32) {
         .set_fault(SensorId::BatteryTemperature, Some(shown));
 }
 
-/// Warms the pack slowly: a fast change would be no temperature but a broken sensor.
-fn warm_to(testbed: &mut Testbed, end_dc: i32) {
-    let mut shown_dc = COOL_DC;
-    while shown_dc < end_dc {
-        shown_dc = (shown_dc + STEP_DC).min(end_dc);
-        show_temperature(testbed, shown_dc);
-        testbed.run(STEP_MS);
-    }
-}
-
 fn put_on_dock(testbed: &mut Testbed, seed: u64) {
     let mut random = Pcg::new(seed, PACKS);
     let make = PackMake::sound(&mut random);
@@ -180,6 +162,5 @@ fn wait_for_charge(testbed: &mut Testbed) -> Result<(), TestbedError> {
     if !begun {
         return Err(TestbedError::OperatingState("it does not charge"));
     }
-    testbed.run(RAMP_MS);
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! The battery in the whole firmware: S16, S17, S18 and S19 on the rig, and what the host is told.
 
 use crate::rig;
+use crate::rig::limits;
 use crate::rig::{Rig, clear, drive, motor, worst_reaction};
 use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, HardwareFault, ThermistorFault};
 use rvac_protocol::message::{
@@ -95,9 +96,9 @@ fn reported(rig: &Rig) -> rvac_protocol::message::Battery {
 fn s16_each_level_of_a_falling_voltage_has_its_time_and_its_effect() {
     let fall = |pack_mv: i32| move |rig: &mut Rig| show(rig, ChargerReadings { pack_mv, ..PACK });
     let low = |rig: &Rig| rig.has(Inhibit::BatteryLow);
-    worst_reaction(10_000, cleaning, fall(13_100), low);
-    worst_reaction(2_000, cleaning, fall(11_900), Rig::cleaners_off);
-    worst_reaction(500, cleaning, fall(10_700), |rig| {
+    worst_reaction(limits::S16_LOW, cleaning, fall(13_100), low);
+    worst_reaction(limits::S16_WEAK, cleaning, fall(11_900), Rig::cleaners_off);
+    worst_reaction(limits::S16_EMPTY, cleaning, fall(10_700), |rig| {
         rig.wheels_off() && rig.cleaners_off()
     });
 }
@@ -198,7 +199,7 @@ fn cool_down(rig: &mut Rig, from: i16) {
 #[test]
 fn s17_a_hot_pack_stops_motors_within_a_second_until_it_has_cooled() {
     let off = |rig: &Rig| rig.wheels_off() && rig.cleaners_off();
-    worst_reaction(1_000, warm, |rig| warm_to(rig, 556), off);
+    worst_reaction(limits::S17_HOT, warm, |rig| warm_to(rig, 556), off);
     let mut rig = warm(0);
     warm_to(&mut rig, 556);
     rig.run(2_000);
@@ -231,7 +232,7 @@ fn s17_a_temperature_that_cannot_be_measured_is_latched_within_two_seconds() {
             temperature: Err(fault),
             ..PACK
         };
-        worst_reaction(2_000, cleaning, |rig| show(rig, broken), off);
+        worst_reaction(limits::S17_UNMEASURED, cleaning, |rig| show(rig, broken), off);
     }
     // A converter that stands still shows the same reading for ever.
     let mut rig = cleaning(0);

@@ -27,10 +27,10 @@ const FLASH: u32 = 0x1D00_0000;
 const FLASH_BYTES: usize = 256 * 1024;
 /// `di`, `ehb`, `b .`, `nop`.
 const DEAF_LOOP: [u32; 4] = [0x4160_6000, 0x0000_00C0, 0x1000_FFFF, 0];
-/// Between two resets of a loop: the robot has started, and more.
-const UP_MS: u64 = 4_000;
+/// Between two resets of a loop: the robot has started.
+const UP_MS: u64 = 1_000;
 /// A robot that was reset has been found again.
-const RESTART_MS: u64 = 5_000;
+const RESTART_MS: u64 = 3_000;
 
 fn reset(testbed: &mut Testbed, cause: ResetCause) -> u64 {
     let at = testbed.robot().cycle();
