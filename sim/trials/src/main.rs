@@ -40,8 +40,8 @@ struct Arguments {
     /// Write the figures there.
     #[arg(long, conflicts_with = "check")]
     write: Option<PathBuf>,
-    /// A file with what cordlib's tests printed, to be written along with the figures.
-    #[arg(long, requires = "write")]
+    /// A file with what cordlib's tests printed, to be compared or written like the figures.
+    #[arg(long)]
     tests: Option<PathBuf>,
 }
 
@@ -80,9 +80,6 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
             "rule", "trial", "worst ms", "mean ms", "limit"
         )?;
     }
-    if let (Some(printed), Some(measured)) = (&arguments.tests, &arguments.write) {
-        take_over(printed, measured)?;
-    }
     let mut report = SafetyReport {
         phases: arguments.phases,
         broken: 0,
@@ -99,6 +96,9 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
         report.violations += summary.violations;
         keep(arguments, &summary, &mut report.worse)?;
         report.trials.push(summary);
+    }
+    if let Some(printed) = &arguments.tests {
+        report.worse.extend(take_over(printed, arguments)?);
     }
     if arguments.json {
         serde_json::to_writer(&mut out, &report).map_err(io::Error::from)?;
@@ -125,11 +125,23 @@ fn keep(arguments: &Arguments, summary: &TrialSummary, worse: &mut Vec<String>) 
     Ok(())
 }
 
-/// Takes over what cordlib's tests printed.
-fn take_over(printed: &Path, measured: &Path) -> Result<(), CampaignError> {
-    let mut known = Measured::read(measured)?;
-    known.tests = printed_by_tests(&std::fs::read_to_string(printed)?);
-    Ok(known.write(measured)?)
+/// Compares what cordlib's tests printed, or writes it; returns what got worse.
+fn take_over(printed: &Path, arguments: &Arguments) -> Result<Vec<String>, CampaignError> {
+    let figures = printed_by_tests(&std::fs::read_to_string(printed)?);
+    if let Some(path) = &arguments.write {
+        let mut known = Measured::read(path)?;
+        known.tests = figures;
+        known.write(path)?;
+        return Ok(Vec::new());
+    }
+    let Some(path) = &arguments.check else {
+        return Ok(Vec::new());
+    };
+    let known = Measured::read(path)?;
+    let complaints = figures
+        .iter()
+        .filter_map(|(name, ms)| known.complaint_of_tests(name, *ms));
+    Ok(complaints.collect())
 }
 
 /// The worst of each figure in lines like `worst S6.stop 1 ms, limit 20 ms`.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::TrialSummary;
+use crate::catalog::trials;
 
 /// A figure may be worse than what is printed by so much of it, but by so many milliseconds at least: other phases are
 /// drawn when a firmware changes.
@@ -128,24 +129,37 @@ impl Measured {
             Some(known) => *known = renewed,
             None => self.trials.push(renewed),
         }
+        let order: Vec<&str> = trials().iter().map(|trial| trial.name).collect();
+        self.trials
+            .sort_by_key(|known| order.iter().position(|name| *name == known.name));
+        self.trials.retain(|known| order.contains(&known.name.as_str()));
     }
 
     /// What is worse than it was by more than chance explains.
     #[must_use]
     pub fn complaint(&self, summary: &TrialSummary) -> Option<String> {
-        let (name, now) = (summary.name, summary.worst_ms);
-        let Some(known) = self.trials.iter().find(|known| known.name == name) else {
-            return Some(format!("{name} was never measured"));
-        };
-        let bound = known.worst_ms + (known.worst_ms * WORSE_SHARE).max(WORSE_MS);
-        match now {
-            Some(now) if now <= bound => None,
-            Some(now) => Some(format!(
-                "{name} took {now:.1} ms, {:.1} ms are printed",
-                known.worst_ms
-            )),
-            None => Some(format!("{name} had no reaction")),
-        }
+        let known = self.trials.iter().find(|known| known.name == summary.name);
+        worse(summary.name, known.map(|known| known.worst_ms), summary.worst_ms)
+    }
+
+    /// The same of a figure that cordlib's tests print.
+    #[must_use]
+    pub fn complaint_of_tests(&self, limit: &str, worst_ms: f64) -> Option<String> {
+        worse(limit, self.tests.get(limit).copied(), Some(worst_ms))
+    }
+}
+
+fn worse(name: &str, known_ms: Option<f64>, now_ms: Option<f64>) -> Option<String> {
+    let Some(known_ms) = known_ms else {
+        return Some(format!("{name} was never measured"));
+    };
+    let bound_ms = known_ms + (known_ms * WORSE_SHARE).max(WORSE_MS);
+    match now_ms {
+        Some(now_ms) if now_ms <= bound_ms => None,
+        Some(now_ms) => Some(format!(
+            "{name} took {now_ms:.1} ms, {known_ms:.1} ms are printed"
+        )),
+        None => Some(format!("{name} had no reaction")),
     }
 }
 

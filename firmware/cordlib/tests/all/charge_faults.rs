@@ -131,6 +131,7 @@ fn a_shorted_switch_is_found_within_a_second_whatever_the_phase() {
         let took_ms = reaction_ms(&mut dock, 1_101, |dock| {
             dock.fault() == Some(ChargeFault::Shorted)
         });
+        keep(limits::S18_SHORTED, took_ms);
         assert!(took_ms >= 900, "{took_ms} ms");
     }
     // While it charges the switch is noticed when it is to open.

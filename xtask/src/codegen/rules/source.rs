@@ -153,10 +153,12 @@ fn latches_in_c(out: &mut String, book: &RuleBook) -> anyhow::Result<()> {
 fn define(out: &mut String, name: &str, (value, unit): (i64, Unit)) -> anyhow::Result<()> {
     let (ending, _) = unit.in_code();
     let name = format!("CORD_{name}{ending}");
-    Ok(match value {
-        ..0 => writeln!(out, "#define {name} ({value})")?,
-        _ => writeln!(out, "#define {name} {value}")?,
-    })
+    let value = if value < 0 {
+        format!("({value})")
+    } else {
+        value.to_string()
+    };
+    Ok(writeln!(out, "#define {name} {value}")?)
 }
 
 fn declare(out: &mut String, why: &str, made: &Constant) -> anyhow::Result<()> {
