@@ -2,6 +2,8 @@
 //! `tests/`; here is what they share.
 #![forbid(unsafe_code)]
 
+mod draws;
+mod phase;
 mod table;
 mod watched;
 
@@ -9,9 +11,11 @@ use std::path::PathBuf;
 
 use brain::command::StrategyName;
 use home::Pose;
-use rvac_sim::run::{RunSettings, household, start_cleaning};
+use rvac_sim::run::{RunSettings, start_cleaning};
 use rvac_sim::{CalibrationChoice, GyroFitted, Household, Scene, SceneSettings};
 
+pub use draws::{Bounds, Draws};
+pub use phase::{household, in_phase};
 pub use table::Table;
 pub use watched::{JOB_S, Watched, free_place, is_home, recorded, usual};
 

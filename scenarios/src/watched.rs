@@ -10,6 +10,8 @@ use rvac_sim::run::{RunEnd, core_config};
 use rvac_sim::{Host, Household, Scene};
 use vthal_core::{CoreConfig, Record, Recording};
 
+use crate::in_phase;
+
 /// A job that nobody ends may take so long, seconds.
 pub const JOB_S: u64 = 30 * 60;
 /// A host knows its robot after so many seconds.
@@ -252,7 +254,7 @@ fn household(scene: &Scene, (seed, place): (u64, Option<Pose>), config: CoreConf
         ..RobotSettings::default()
     };
     let robot = scene.robot_at(place, seed, &settings);
-    Household::new(robot, Host::start(0, recorded(config)))
+    in_phase(Household::new(robot, Host::start(0, recorded(config))))
 }
 
 /// A place of the home where the robot can stand, and a direction.

@@ -2,21 +2,18 @@
 //! apart after somebody has carried it, and how strongly it receives beacons can. And a robot that has no gyro keeps its place by
 //! how far beacons are.
 
+use core::ops::RangeInclusive;
 use std::sync::Arc;
 
 use brain::PoseEstimate;
 use brain::command::StrategyName;
 use home::{Home, Noise, Pose, RobotModel};
-use robot::RobotSettings;
 use rvac_api::RequestBody;
-use rvac_sim::run::{core_config, start_cleaning};
+use rvac_sim::run::{RunSettings, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
-use scenarios::{cleaning, relax};
+use scenarios::{Bounds, Draws, cleaning, household, relax, settings};
 
-const SEED: u64 = 6;
 const MINUTE_MS: u64 = 60_000;
-/// Longest wait for a robot to know its place, seconds.
-const WAIT_S: u64 = 300;
 /// Beacons at the edges of the flat.
 const BEACONS: usize = 4;
 /// Two rooms of 3 m by 3.4 m with a door in the middle of the wall between them.
@@ -32,20 +29,26 @@ fn twins() -> Scene {
     Scene::new(Arc::new(home), model, Noise::nominal())
 }
 
-fn household(scene: &Scene) -> Household {
-    let settings = RobotSettings {
-        seed: SEED,
-        ..RobotSettings::default()
+/// A robot that knows the flat.
+fn in_twins(scene: &Scene, seed: u64) -> Household {
+    let settings = RunSettings {
+        strategy: StrategyName::Systematic,
+        ..settings(seed, 0)
     };
-    let config = core_config(scene, SEED, StrategyName::Systematic);
-    Household::new(scene.robot(SEED, &settings), Host::start(0, config)).with_known_map()
+    household(scene, &settings).with_known_map()
 }
 
-/// Lets it clean both rooms, carries it to a place of the second one, and waits until it says that it knows its place; gives by how
-/// much that is wrong, metres.
-fn off_after_lifting_m(scene: &Scene, mut household: Household) -> Option<f64> {
+/// It cleans in both rooms for so long.
+const CLEANED_MS: u64 = 3 * MINUTE_MS;
+/// A robot that was carried may look for its place for so long, seconds. Of twelve with beacons the slowest took 80 s, and of twelve without
+/// the first one thought after 123 s that it knew.
+const SOUGHT_S: u64 = 100;
+
+/// Lets it clean, carries it to a place of the second room, and waits until it says that it knows its place; gives by how much that is wrong,
+/// metres, or infinity when it does not know in time.
+fn off_after_lifting_m(scene: &Scene, mut household: Household) -> f64 {
     start_cleaning(&mut household, StrategyName::Systematic);
-    household.pass_ms(6 * MINUTE_MS);
+    household.pass_ms(CLEANED_MS);
     household.robot_mut().world_mut().lift();
     household.pass_ms(3_000);
     household
@@ -55,8 +58,8 @@ fn off_after_lifting_m(scene: &Scene, mut household: Household) -> Option<f64> {
     household.pass_ms(3_000);
     household.ask(RequestBody::Resume);
     household.pass_ms(1_000);
-    household.pass_until(WAIT_S, |household| !estimate(household).lost)?;
-    Some(off_m(scene, &household))
+    let knows = household.pass_until(SOUGHT_S, |household| !estimate(household).lost);
+    knows.map_or(f64::INFINITY, |_| off_m(scene, &household))
 }
 
 fn estimate(household: &Household) -> PoseEstimate {
@@ -72,26 +75,42 @@ fn off_m(scene: &Scene, household: &Household) -> f64 {
     Pose::new(pose.x_m, pose.y_m, pose.heading_rad).distance_m(in_map)
 }
 
+/// Nearer than this it knows its place, metres: between the rooms are three.
+const NEAR_M: f64 = 0.25;
+/// Robots that were carried, each by a seed of its own.
+const CARRIED: RangeInclusive<u64> = 1..=6;
+
+/// With strengths 24 of 24 knew their place; by sight alone one of 24 thought so in that time, and was wrong.
 #[test]
 fn strengths_of_beacons_tell_rooms_apart_that_look_the_same() {
     let scene = twins();
-    let by_sight = off_after_lifting_m(&scene, household(&scene));
+    let by_sight = Draws::of(CARRIED, |seed| {
+        off_after_lifting_m(&scene, in_twins(&scene, seed))
+    });
+    let by_strength = Draws::of(CARRIED, |seed| {
+        let beacons = scene.beacons(seed, BEACONS).by_strength();
+        off_after_lifting_m(&scene, in_twins(&scene, seed).with_beacons(beacons))
+    });
     assert!(
-        by_sight.is_none_or(|off_m| off_m > 1.0),
-        "it may not have known: {by_sight:?}"
+        by_sight.below(NEAR_M) <= 2,
+        "they may not have known: {by_sight:?}"
     );
-    let beacons = scene.beacons(SEED, BEACONS).by_strength();
-    let by_strength = off_after_lifting_m(&scene, household(&scene).with_beacons(beacons));
-    assert!(by_strength.is_some_and(|off_m| off_m < 0.25), "{by_strength:?}");
+    assert!(by_strength.below(NEAR_M) >= 5, "{by_strength:?}");
 }
 
 /// Drivings by chance, and how long each takes.
-const DRIVINGS: [u64; 4] = [1, 2, 3, 4];
+const DRIVINGS: RangeInclusive<u64> = 1..=8;
 const DRIVEN_MS: u64 = 6 * MINUTE_MS;
 /// How often its place is compared with the true one.
 const LOOK_MS: u64 = 1_000;
-/// Metres by which a place by beacons is off in the last minute, at most; by wheels alone it is off by more in one of these drivings.
-const OFF_MAX_M: f64 = 1.0;
+/// Metres by which a place by beacons is off in the last minute: in 16 drivings (four seeds, four phases) 0.31 in
+/// the middle and 1.24 at most.
+const HEARD_M: Bounds = Bounds {
+    median: 0.7,
+    worst: 2.0,
+};
+/// In the middle it is off by no more than this share of what it is by wheels alone, which was 0.87 m in 16 drivings.
+const HEARD_SHARE: f64 = 0.75;
 
 /// By how much a Relax that bounces about is wrong about its place, metres: the median of the last minute.
 fn off_in_the_last_minute_m(scene: &Scene, seed: u64, beacons: usize) -> f64 {
@@ -110,13 +129,11 @@ fn off_in_the_last_minute_m(scene: &Scene, seed: u64, beacons: usize) -> f64 {
 #[test]
 fn a_relax_without_gyro_keeps_its_place_by_how_far_beacons_are() {
     let scene = relax("two-room-flat");
-    let worst_m = |beacons| {
-        let all_off_m = DRIVINGS.map(|seed| off_in_the_last_minute_m(&scene, seed, beacons));
-        all_off_m.into_iter().fold(0.0, f64::max)
-    };
-    let (heard_m, alone_m) = (worst_m(BEACONS), worst_m(0));
+    let off = |beacons| Draws::of(DRIVINGS, |seed| off_in_the_last_minute_m(&scene, seed, beacons));
+    let (heard, alone) = (off(BEACONS), off(0));
+    heard.assert_within("metres off with beacons", HEARD_M);
     assert!(
-        heard_m < OFF_MAX_M && alone_m > OFF_MAX_M,
-        "{heard_m} m off, {alone_m} m without beacons"
+        heard.median() < HEARD_SHARE * alone.median(),
+        "{heard:?}, without beacons {alone:?}"
     );
 }

@@ -2,9 +2,9 @@
 
 use brain::command::StrategyName;
 use brain::mapping::SurfaceKind;
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household, Scene};
-use scenarios::{relax, scene, settings};
+use scenarios::{household, relax, scene, settings};
 
 const MINUTE_MS: u64 = 60_000;
 /// Least share of the rug that is found, and of what is found that lies on it. They were 0.87 and 0.89 when this was written.

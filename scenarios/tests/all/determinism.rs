@@ -3,9 +3,9 @@
 use brain::command::StrategyName;
 use monitor::Bridges;
 use rvac_sim::faults::{FaultCampaign, TrialSettings};
-use rvac_sim::run::{RunSettings, household, run};
+use rvac_sim::run::{RunSettings, run};
 use rvac_sim::{Firmware, Host, Household};
-use scenarios::{generated, scene, settings};
+use scenarios::{generated, household, scene, settings};
 
 fn hash_of(seed: u64) -> (u64, String) {
     let scene = scene("two-room-flat", "nominal");

@@ -1,8 +1,8 @@
 //! A robot among stairs that nobody has told it of, on a virtual clock.
 
 use brain::command::StrategyName;
-use rvac_sim::run::{household, start_cleaning};
-use scenarios::{generated, settings};
+use rvac_sim::run::start_cleaning;
+use scenarios::{generated, household, settings};
 
 /// The lap along the walls of this home leads into a corner between stairs. Three edges in five seconds latch the firmware (S8), and
 /// then a person must come: with these seeds it did within ten minutes before every job knew of that rule.

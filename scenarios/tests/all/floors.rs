@@ -6,9 +6,9 @@ use brain::command::StrategyName;
 use home::Pose;
 use robot::RobotSettings;
 use rvac_api::{FloorsView, RequestBody};
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{off_the_dock, scene, settings};
+use scenarios::{household, in_phase, off_the_dock, scene, settings};
 use vthal_core::{CoreConfig, KeptFloor};
 
 /// The floors 1 and 2.
@@ -36,7 +36,7 @@ fn put_down(name: &str, place: Option<Pose>) -> Household {
         floors: floors.collect(),
         ..Host::config(5, StrategyName::Systematic)
     };
-    Household::new(robot, Host::start(0, config))
+    in_phase(Household::new(robot, Host::start(0, config)))
 }
 
 fn floors(household: &Household) -> FloorsView {

@@ -3,9 +3,8 @@
 use brain::command::StrategyName;
 use brain::{Brain, Point2};
 use rvac_api::{NoGoShape, RequestBody};
-use rvac_sim::run::household;
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{household, scene, settings};
 
 /// Half the side of the forbidden square, metres.
 const HALF_M: f64 = 0.25;

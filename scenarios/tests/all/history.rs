@@ -1,9 +1,8 @@
 //! Records of runs of a whole system on a virtual clock: what people are told afterwards is what happened.
 
 use rvac_api::{RequestBody, RunAsker, RunJob, RunRecord, RunResult, RunStop};
-use rvac_sim::run::household;
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{household, scene, settings};
 use vthal_core::{Checkpoints, CoreConfig, cut_short};
 
 /// Monday 2026-11-23, midnight UTC.

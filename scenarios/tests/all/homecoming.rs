@@ -3,9 +3,9 @@
 use brain::BehaviorState;
 use brain::command::StrategyName;
 use home::BeamStrengths;
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{off_the_dock, scene, settings};
+use scenarios::{household, off_the_dock, scene, settings};
 
 /// Longest job and way home, seconds.
 const DONE_S: u64 = 60 * 60;

@@ -1,10 +1,12 @@
 //! What a robot has learnt of itself outlives the daemon, on a virtual clock.
 
+use core::ops::RangeInclusive;
+
 use brain::command::StrategyName;
 use brain::{GyroLearnt, Learnt};
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{generated_with, scene, settings};
+use scenarios::{Bounds, Draws, generated_with, household, scene, settings};
 use vthal_core::CoreConfig;
 use vthal_core::learnt::{Learnings, RobotRecord};
 
@@ -71,23 +73,44 @@ fn the_daemon_after_this_one_begins_with_the_scale_that_was_learnt() {
     assert!((in_run.scale - gyro.scale).abs() < 1e-9, "{in_run:?}");
 }
 
-/// Without the turns the first of these four knows it to 0.4 % after so long, and the second nothing worth keeping.
+/// Robots that are new to a home, each by a seed of its own, and the homes, one after the other.
+const NEW: RangeInclusive<u64> = 1..=8;
+const NEW_HOMES: [u32; 4] = [1, 7, 11, 25];
+const TURNS_MS: u64 = 4 * MINUTE_MS;
+/// By how much the scale is off, how well the robot says to know it, and the one by the other. In 60 runs the middle was 1.1e-3, 1.4e-3 and 0.9,
+/// that of eight runs 2.0e-3, 1.6e-3 and 1.3 at most, and the worst 5.1e-3, 2.3e-3 and 4.8.
+const OFF: Bounds = Bounds {
+    median: 3e-3,
+    worst: 10e-3,
+};
+const SIGMA: Bounds = Bounds {
+    median: 2e-3,
+    worst: 4e-3,
+};
+const OFF_PER_SIGMA: Bounds = Bounds {
+    median: 2.0,
+    worst: 7.0,
+};
+
+/// What a robot on its first run knows of its gyro after some minutes, and the true error of the scale.
+fn learnt_by_turns(seed: u64) -> Option<(GyroLearnt, f64)> {
+    let home = NEW_HOMES[(seed - 1) as usize % NEW_HOMES.len()];
+    let mut household = household(&generated_with(home, "bad"), &settings(seed, 0));
+    assert!(start_cleaning(&mut household, StrategyName::Systematic));
+    household.pass_ms(TURNS_MS);
+    let error = household.robot().world().gyro_scale_error().expect("a gyro");
+    learnt(&household).gyro.map(|gyro| (gyro, error))
+}
+
 #[test]
 fn whole_turns_beside_a_wall_tell_a_new_robot_its_gyros_scale_within_minutes() {
-    for (home, seed) in [(1, 1), (7, 2), (11, 3), (25, 4)] {
-        let mut household = household(&generated_with(home, "bad"), &settings(seed, 0));
-        assert!(start_cleaning(&mut household, StrategyName::Systematic));
-        household.pass_ms(4 * MINUTE_MS);
-        let error = household.robot().world().gyro_scale_error().expect("a gyro");
-        let gyro = learnt(&household).gyro.expect("the turns have told it");
-        let off = (gyro.scale - error).abs();
-        assert!(gyro.scale_sigma < 2e-3, "home {home}: {gyro:?}");
-        assert!(off < 4e-3, "home {home}: {gyro:?}, in truth {error}");
-        assert!(
-            off < 4.0 * gyro.scale_sigma,
-            "home {home}: {gyro:?}, in truth {error}"
-        );
-    }
+    let told = Draws::of(NEW, learnt_by_turns);
+    let off = |(gyro, error): &(GyroLearnt, f64)| (gyro.scale - error).abs();
+    let figure =
+        |of: &dyn Fn(&(GyroLearnt, f64)) -> f64| told.map(|told| told.as_ref().map_or(f64::INFINITY, of));
+    figure(&off).assert_within("off", OFF);
+    figure(&|told| told.0.scale_sigma).assert_within("deviation", SIGMA);
+    figure(&|told| off(told) / told.0.scale_sigma).assert_within("off by deviations", OFF_PER_SIGMA);
 }
 
 #[test]

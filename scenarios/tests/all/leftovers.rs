@@ -1,9 +1,9 @@
 //! What of a job is left when the pack is low, on a virtual clock.
 
 use brain::command::StrategyName;
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{generated, settings};
+use scenarios::{generated, household, settings};
 
 /// A job in a known home, up to when it believes to have swept this share.
 fn swept(share: f64) -> Household {

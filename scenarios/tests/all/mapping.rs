@@ -2,9 +2,9 @@
 //! alone is judged.
 
 use brain::{CELL_M, CellKnowledge};
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Household, PoseSource};
-use scenarios::{scene, settings};
+use scenarios::{household, scene, settings};
 
 const MINUTES: u64 = 25;
 

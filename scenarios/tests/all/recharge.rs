@@ -3,9 +3,9 @@
 
 use brain::command::StrategyName;
 use brain::{BehaviorState, Brain};
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{generated, settings};
+use scenarios::{generated, household, settings};
 
 /// Longest charge, seconds.
 const CHARGE_S: u64 = 4 * 60 * 60;

@@ -5,9 +5,8 @@ use std::collections::BTreeSet;
 use brain::command::StrategyName;
 use brain::{Cell, Map};
 use rvac_api::{JobOrder, JobPart, RequestBody, RoomSplitting};
-use rvac_sim::run::household;
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{household, scene, settings};
 use vthal_core::stored_map;
 
 const HOME: &str = "two-room-flat";
@@ -104,7 +103,7 @@ fn a_split_room_stays_split_while_one_half_is_cleaned_the_home_mapped_on_and_the
         .map(|brain| stored_map::encode(&brain.map().stored()))
         .expect("a brain");
     let kept = stored_map::decode(&kept).expect("a good map");
-    let mut household = rvac_sim::run::household(&scene, &settings(2, 0)).with_map(kept);
+    let mut household = scenarios::household(&scene, &settings(2, 0)).with_map(kept);
     household.pass_ms(3_000);
     assert_eq!(ids(&household), split, "in another host's hands");
     let again = cells_of(&household, part);

@@ -6,9 +6,8 @@ use rvac_api::{
     InQuiet, JobOrder, JobPart, QuietHours, RequestBody, ScheduleDecision, ScheduleEntry, ScheduleTime,
     ScheduledJob, Weekday,
 };
-use rvac_sim::run::household;
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{household, in_phase, scene, settings};
 use vthal_core::{CoreConfig, KeptFloor};
 
 /// Monday 2026-11-23, midnight UTC.
@@ -228,7 +227,7 @@ fn at_home_with_two_floors() -> Household {
         ..Host::config(5, brain::StrategyName::Systematic)
     };
     let robot = scene.robot_at(None, 5, &RobotSettings::default());
-    let mut household = Household::new(robot, Host::start(0, config));
+    let mut household = in_phase(Household::new(robot, Host::start(0, config)));
     household.pass_ms(CONNECT_MS);
     set_clock(&mut household, 0);
     household.pass_ms(2_000);

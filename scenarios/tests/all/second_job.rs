@@ -5,9 +5,9 @@ use brain::BehaviorState;
 use brain::command::StrategyName;
 use home::Pose;
 use rvac_api::RequestBody;
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{scene, settings};
+use scenarios::{household, scene, settings};
 
 const HOME: &str = "furnished-room";
 const MINUTE_MS: u64 = 60_000;
@@ -91,8 +91,8 @@ fn shares(household: &Household) -> Option<(f64, f64, f64)> {
 
 /// How far a share may be from the truth: the edges of furniture and what lies behind legs differ between map and home, and in a
 /// first run the robot does not know yet how much floor there is: after a lap that does not close it hopes for more than there is until it
-/// has looked. It may say that it has swept less than it has, but hardly more.
-const SHARE_OFF: f64 = 0.04;
+/// has looked. It may say that it has swept less than it has, but hardly more. In a known home it was 0.030 at most in three phases.
+const SHARE_OFF: f64 = 0.05;
 const FIRST_SHARE_SHORT: f64 = 0.2;
 
 /// Compares what the robot says with the truth twice a minute; gives how often it said something.

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use brain::command::StrategyName;
 use rvac_sim::Household;
-use rvac_sim::run::{household, start_cleaning};
-use scenarios::{scene_in, settings};
+use rvac_sim::run::start_cleaning;
+use scenarios::{household, scene_in, settings};
 
 /// Longest job, seconds.
 const JOB_S: u64 = 30 * 60;

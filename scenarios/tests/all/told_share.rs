@@ -2,8 +2,8 @@
 
 use brain::command::StrategyName;
 use rvac_sim::Household;
-use rvac_sim::run::{household, start_cleaning};
-use scenarios::{generated, settings};
+use rvac_sim::run::start_cleaning;
+use scenarios::{generated, household, settings};
 
 /// Longest job, seconds.
 const JOB_S: u64 = 60 * 60;

@@ -2,9 +2,9 @@
 
 use brain::BehaviorState;
 use brain::command::StrategyName;
-use rvac_sim::run::{household, start_cleaning};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
-use scenarios::{peopled, settings};
+use scenarios::{household, peopled, settings};
 
 /// A home whose people stand in a door for minutes: a fifth of it lies behind.
 const HOME: u32 = 4;

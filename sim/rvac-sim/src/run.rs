@@ -1,6 +1,6 @@
 //! One run of a whole household at full speed.
 
-use brain::command::StrategyName;
+use brain::command::{JobCommand, StrategyName};
 use robot::RobotSettings;
 use rvac_api::{CleaningPattern, JobOrder, RequestBody};
 use vthal_core::CoreConfig;
@@ -99,7 +99,7 @@ pub fn start_cleaning(household: &mut Household, strategy: StrategyName) -> bool
     let start = RequestBody::Start {
         strategy: Some(strategy.name().to_owned()),
     };
-    start_job(household, start)
+    start_job(household, strategy, start)
 }
 
 /// A robot whose job is over is asked for the next one so often, milliseconds.
@@ -115,18 +115,32 @@ pub fn keep_working(household: &mut Household, strategy: StrategyName) {
     }
 }
 
-fn start_job(household: &mut Household, job: RequestBody) -> bool {
-    for _ in 0..CONNECT_MS {
+/// A robot that has just described itself may not have reported yet: what it measures is unknown, and a job that needs it is refused. It
+/// gets so long, milliseconds.
+const FIRST_REPORT_MS: u64 = 200;
+
+fn start_job(household: &mut Household, strategy: StrategyName, job: RequestBody) -> bool {
+    let is_connected = (0..CONNECT_MS).any(|_| {
         household.tick();
-        if household
-            .host()
-            .is_some_and(|host| host.status().state != "disconnected")
-        {
-            household.ask(job);
-            return true;
-        }
+        let host = household.host();
+        host.is_some_and(|host| host.status().state != "disconnected")
+    });
+    if !is_connected {
+        return false;
     }
-    false
+    for _ in 0..FIRST_REPORT_MS {
+        if admits(household, strategy) {
+            break;
+        }
+        household.tick();
+    }
+    household.ask(job);
+    true
+}
+
+fn admits(household: &Household, strategy: StrategyName) -> bool {
+    let brain = household.host().and_then(Host::brain);
+    brain.is_some_and(|brain| brain.admit(&JobCommand::Clean { strategy }).is_ok())
 }
 
 /// Cleans until the time is over. After each simulated second `progress` is called with the share of the time that has passed.
@@ -156,6 +170,7 @@ pub fn run_until(
     let is_answered = match settings.pattern {
         Some(_) => start_job(
             household,
+            settings.strategy,
             RequestBody::Clean(JobOrder {
                 pattern: settings.pattern,
                 ..JobOrder::default()

@@ -1,7 +1,7 @@
 //! How well `bounce` cleans each home under each noise.
 
-use rvac_sim::run::{household, run};
-use scenarios::{HOMES, Table, scene, settings};
+use rvac_sim::run::run;
+use scenarios::{HOMES, Table, household, scene, settings};
 
 const MINUTES: u64 = 5;
 
