@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// The whole file.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Measured {
+pub(super) struct MeasuredFigures {
     /// Worst figures that cordlib's tests print, by limit, ms.
     #[serde(default)]
     pub(super) tests: BTreeMap<String, f64>,
@@ -29,7 +29,7 @@ pub(super) struct MeasuredTrial {
     pub(super) worst_ms: f64,
 }
 
-impl Measured {
+impl MeasuredFigures {
     /// Reads the text of measured.toml.
     pub(super) fn parse(text: &str) -> anyhow::Result<Self> {
         toml::from_str(text).context("protocol/measured.toml")

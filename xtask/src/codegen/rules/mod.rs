@@ -9,7 +9,7 @@ mod unit;
 
 use super::{Generated, formatted};
 use anyhow::Context;
-use measured::Measured;
+use measured::MeasuredFigures;
 use model::RuleBook;
 use std::path::Path;
 
@@ -21,7 +21,7 @@ pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
     let read =
         |path: &str| std::fs::read_to_string(root.join(path)).with_context(|| format!("cannot read {path}"));
     let book = RuleBook::parse(&read("protocol/rules.toml")?)?;
-    let measured = Measured::parse(&read("protocol/measured.toml")?)?;
+    let measured = MeasuredFigures::parse(&read("protocol/measured.toml")?)?;
     let inhibits = truth::check(root, &book, &measured)?;
     let figures: Vec<String> = book
         .shown

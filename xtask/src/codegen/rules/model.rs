@@ -12,7 +12,7 @@ pub(super) struct RuleBook {
     #[serde(rename = "allowance")]
     pub(super) allowances: Vec<Limit>,
     #[serde(rename = "rule")]
-    pub(super) rules: Vec<Rule>,
+    pub(super) rules: Vec<SafetyRule>,
     #[serde(rename = "latch")]
     pub(super) latches: Vec<Latch>,
     #[serde(rename = "judge")]
@@ -33,7 +33,7 @@ pub(super) enum RulePlace {
 /// One rule.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Rule {
+pub(super) struct SafetyRule {
     pub(super) id: String,
     pub(super) fault: String,
     pub(super) effect: String,
@@ -162,7 +162,7 @@ impl RuleBook {
     }
 }
 
-impl Rule {
+impl SafetyRule {
     pub(super) fn limit(&self, name: &str) -> Option<&Limit> {
         self.limits.iter().find(|limit| limit.name == name)
     }
@@ -185,7 +185,7 @@ impl Rule {
 
 impl Setting {
     /// The constant that it becomes.
-    pub(super) fn constant(&self, rule: &Rule) -> anyhow::Result<Constant> {
+    pub(super) fn constant(&self, rule: &SafetyRule) -> anyhow::Result<Constant> {
         let (value, unit) = match (&self.limit, self.value, self.unit) {
             (Some(name), None, None) => {
                 let limit = rule

@@ -1,7 +1,7 @@
 //! The tables of SAFETY.md, each between two marks.
 
-use super::measured::{Measured, MeasuredTrial};
-use super::model::{Evidence, Forbidden, Latch, Rule, RuleBook, RulePlace};
+use super::measured::{MeasuredFigures, MeasuredTrial};
+use super::model::{Evidence, Forbidden, Latch, SafetyRule, RuleBook, RulePlace};
 use super::unit::grouped;
 use anyhow::Context;
 use std::fmt::Write;
@@ -10,7 +10,7 @@ use std::fmt::Write;
 const CORDLIB: &str = "firmware/cordlib/src/";
 
 /// The page with fresh tables.
-pub(super) fn renewed(page: &str, book: &RuleBook, measured: &Measured) -> anyhow::Result<String> {
+pub(super) fn renewed(page: &str, book: &RuleBook, measured: &MeasuredFigures) -> anyhow::Result<String> {
     let page = replaced(page, "rules", &rules(book)?)?;
     let page = replaced(&page, "latches", &latches(book)?)?;
     let page = replaced(&page, "how each rule is shown", &evidence(book, measured)?)?;
@@ -44,7 +44,7 @@ fn rules(book: &RuleBook) -> anyhow::Result<String> {
     Ok(out)
 }
 
-fn place(rule: &Rule) -> String {
+fn place(rule: &SafetyRule) -> String {
     let names = rule.place.iter().map(|place| match place {
         RulePlace::Mcu => "mcu",
         RulePlace::Daemon => "daemon",
@@ -85,7 +85,7 @@ fn joined(words: impl Iterator<Item = String>) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-fn evidence(book: &RuleBook, measured: &Measured) -> anyhow::Result<String> {
+fn evidence(book: &RuleBook, measured: &MeasuredFigures) -> anyhow::Result<String> {
     let mut out = String::from("| rule | test | worst / limit |\n| --- | --- | --- |\n");
     for Evidence {
         rules,
@@ -112,7 +112,7 @@ fn evidence(book: &RuleBook, measured: &Measured) -> anyhow::Result<String> {
     Ok(out)
 }
 
-fn trials(book: &RuleBook, measured: &Measured) -> anyhow::Result<String> {
+fn trials(book: &RuleBook, measured: &MeasuredFigures) -> anyhow::Result<String> {
     let mut out = String::from("| rule | fault | moments | worst / limit |\n| --- | --- | --- | --- |\n");
     for trial in &measured.trials {
         let MeasuredTrial {

@@ -1,6 +1,6 @@
 //! What rules.toml says of the rest of the project must be so.
 
-use super::measured::Measured;
+use super::measured::MeasuredFigures;
 use super::model::RuleBook;
 use anyhow::{Context, bail};
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ const VERDICTS: &str = "sim/monitor/src/verdict.rs";
 pub(super) fn check(
     root: &Path,
     book: &RuleBook,
-    measured: &Measured,
+    measured: &MeasuredFigures,
 ) -> anyhow::Result<BTreeMap<String, String>> {
     let read =
         |path: &str| std::fs::read_to_string(root.join(path)).with_context(|| format!("cannot read {path}"));
@@ -97,7 +97,7 @@ fn catalog(folder: &Path) -> anyhow::Result<String> {
 }
 
 /// Trials that a rule names and nobody makes, or that were measured and no rule names.
-fn trials(book: &RuleBook, measured: &Measured, catalog: &str) -> Vec<String> {
+fn trials(book: &RuleBook, measured: &MeasuredFigures, catalog: &str) -> Vec<String> {
     let named: BTreeSet<&String> = book.rules.iter().flat_map(|rule| &rule.trials).collect();
     let lost = named
         .iter()
