@@ -10,6 +10,7 @@ use crate::logic::gyro_frame::FrameKind;
 use crate::logic::ladder::Ladder;
 use crate::logic::proximity::ProximityScale;
 use crate::logic::quadrature::PhaseOrder;
+use crate::logic::thermistor::MeasuredPoints;
 
 /// Bytes of a record: header, values, check value.
 pub const RECORD_BYTES: usize = 8 + 4 * COUNT + 4;
@@ -187,6 +188,26 @@ impl Calibration {
         self.measured(Calibrated::ChargeStageChecked) == Some(1)
             && self.measured(Calibrated::BatteryScale).is_some()
             && self.measured(Calibrated::BatteryCapacity).is_some()
+    }
+
+    /// Two points of the thermistor's curve, if a third one agreed with them.
+    #[must_use]
+    pub fn thermistor(&self) -> Option<MeasuredPoints> {
+        self.measured(Calibrated::ThermistorChecked)
+            .filter(|checked| *checked == 1)?;
+        Some(MeasuredPoints {
+            ice: self.measured(Calibrated::ThermistorIce)?,
+            warm: self.measured(Calibrated::ThermistorWarm)?,
+            warm_dc: self.measured(Calibrated::ThermistorWarmTemperature)?,
+        })
+    }
+
+    /// Current above which a wheel stands still, in mA: three quarters of what a held wheel draws from a full pack, which
+    /// an empty one still reaches.
+    #[must_use]
+    pub fn wheel_current_max_ma(&self) -> i32 {
+        let stall_ma = self.known(Calibrated::WheelStallCurrent).unwrap_or_default();
+        stall_ma / 4 * 3
     }
 
     /// The code for the dock.

@@ -32,6 +32,9 @@ pub enum MotorActivity {
     Running,
 }
 
+/// A temperature that may be wrong by more than this is not told: 3 degrees, in hundredths.
+const DOUBT_CC: i32 = 300;
+
 /// How the robot stands to the dock. The contacts are debounced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Docking {
@@ -262,7 +265,7 @@ impl<S: Stops> ChargeController<S> {
             supplied: context.is_docked() && self.meter.adapter(),
             motors_idle: context.motors == MotorActivity::Idle,
             age_ms: self.meter.age_ms(),
-            temperature_cc: self.thermometer.cc(),
+            temperature: self.thermometer.temperature(),
             pack_mv: self.tenth.map(|averages| averages.pack_mv),
             pack_range_mv: (
                 self.scale.deep_mv(),
@@ -317,10 +320,13 @@ impl<S: Stops> ChargeController<S> {
             .map(|averages| (averages.pack_mv, averages.current_ma))
     }
 
-    /// Temperature of the pack in hundredths of a degree, averaged over 100 ms; `None` without a plausible reading.
+    /// Temperature of the pack in hundredths of a degree, averaged over 100 ms; `None` without a plausible reading, and where
+    /// it is not known to 3 degrees.
     #[must_use]
-    pub const fn temperature_cc(&self) -> Option<i32> {
-        self.thermometer.cc()
+    pub fn temperature_cc(&self) -> Option<i32> {
+        let range = self.thermometer.temperature()?;
+        let width_cc = range.warmest_cc.saturating_sub(range.coldest_cc);
+        (width_cc <= 2 * DOUBT_CC).then(|| range.coldest_cc.saturating_add(width_cc / 2))
     }
 
     pub(crate) const fn thermometer(&self) -> &Thermometer {

@@ -3,7 +3,7 @@
 use crate::rig;
 use crate::rig::{Rig, drive, motor, movement};
 use cordlib::Cord;
-use cordlib::board::{Board, ChargeDrive, ChargerReadings};
+use cordlib::board::{Board, ChargeDrive, ChargerReadings, TemperatureRange};
 use rvac_protocol::message::{
     Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, Refusal, Report,
 };
@@ -198,7 +198,7 @@ fn a_charger_that_was_not_checked_never_switches_on_and_still_measures() {
         pack_mv: 14_000,
         input_mv: 14_000,
         current_ma: 0,
-        temperature: Ok(Temperature(250)),
+        temperature: Ok(TemperatureRange::exact(Temperature(250))),
         age_ms: 0,
         adapter: true,
     });
@@ -223,7 +223,7 @@ fn a_pack_that_nobody_measured_has_no_charge_to_tell() {
             pack_mv: 16_800,
             input_mv: 16_800,
             current_ma: 0,
-            temperature: Ok(Temperature(250)),
+            temperature: Ok(TemperatureRange::exact(Temperature(250))),
             age_ms: 0,
             adapter: false,
         });

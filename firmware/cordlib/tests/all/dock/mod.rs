@@ -6,7 +6,7 @@
 )]
 
 use cordlib::PackParameters;
-use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, ThermistorFault};
+use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, TemperatureRange, ThermistorFault};
 use cordlib::charge::{ChargeContext, ChargeController, ChargeMemory, ChargeOutput, Docking, MotorActivity};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use rvac_units::{Temperature, Tick};
@@ -104,7 +104,9 @@ impl Dock {
             pack_mv: self.pack_mv + 5 * noise,
             input_mv: self.input_mv.unwrap_or(self.pack_mv + self.current_ma() * 3 / 10),
             current_ma: self.shown_ma.unwrap_or(self.current_ma() + 10 * noise),
-            temperature: self.temperature.map(|tenths| Temperature(tenths + noise as i16)),
+            temperature: self
+                .temperature
+                .map(|tenths| TemperatureRange::exact(Temperature(tenths + noise as i16))),
             age_ms: self.age_ms,
             adapter: self.adapter,
         };
