@@ -206,6 +206,7 @@ impl Sums {
         self.fault = smaller.fault.or(self.fault);
     }
 
+    #[inline(never)]
     fn averages(&self) -> Option<Averages> {
         if self.count == 0 {
             return None;
