@@ -162,7 +162,7 @@ pub extern "C" fn cord_event_battery(voltage: f64, current: f64, temperature: f6
         pack_mv: Voltage::from_v(voltage).0,
         input_mv: Voltage::from_v(voltage).0,
         current_ma: Current::from_a(current).0,
-        temperature: Ok(Temperature::from_celsius(temperature)),
+        temperature: Ok(TemperatureRange::exact(Temperature::from_celsius(temperature))),
         age_ms: 0,
         adapter,
     });

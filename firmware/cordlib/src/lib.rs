@@ -32,6 +32,7 @@ mod reflex;
 mod report;
 mod senses;
 mod sound;
+pub mod thermistor;
 mod timing;
 mod transmitter;
 mod watch;

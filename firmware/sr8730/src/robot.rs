@@ -145,8 +145,7 @@ pub fn parameters(calibration: &Calibration) -> Parameters {
     if let Some(capacity) = capacity.and_then(|capacity| u16::try_from(capacity).ok()) {
         parameters.pack.capacity_mah = capacity;
     }
-    parameters.pack.measured =
-        capacity.is_some() && calibration.measured(Calibrated::BatteryScale).is_some();
+    parameters.pack.measured = capacity.is_some() && calibration.measured(Calibrated::BatteryScale).is_some();
     parameters.fitted = Some(fitted(calibration));
     parameters
 }

@@ -5,14 +5,6 @@
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use cordlib::board::{
-    ChargeDrive, Charger, ChargerReadings, DockRequest, TemperatureRange, ThermistorFault,
-};
-use pic32mx3_hal::gpio::{Output, Pin};
-use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
-use pic32mx3_hal::pwm::{self, PwmChannel};
-use pic32mx3_hal::timer::{SlowPrescaler, Timer};
-use pic32mx3_hal::{cpu, interrupt};
 use super::{contacts, converter, interlock, off, tick};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
@@ -22,7 +14,14 @@ use crate::logic::envelope::{Envelope, pulses_for};
 use crate::logic::guarded::Guarded;
 use crate::logic::pack::PackScale;
 use crate::logic::renewal::Renewal;
-use crate::logic::thermistor::{Implausible, ThermistorCurve};
+use crate::logic::thermistor::{self, temperature};
+use cordlib::board::{ChargeDrive, Charger, ChargerReadings, DockRequest};
+use cordlib::thermistor::ThermistorCurve;
+use pic32mx3_hal::gpio::{Output, Pin};
+use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
+use pic32mx3_hal::pwm::{self, PwmChannel};
+use pic32mx3_hal::timer::{SlowPrescaler, Timer};
+use pic32mx3_hal::{cpu, interrupt};
 
 /// Output compare of the charger.
 const COMPARE: u8 = 3;
@@ -156,7 +155,7 @@ impl PackCharger {
                 known(Calibrated::BatteryScale),
                 known(Calibrated::ChargeCurrentZero),
             ),
-            curve: ThermistorCurve::new(calibration.thermistor()),
+            curve: ThermistorCurve::new(thermistor::DIVIDER, calibration.thermistor()),
             allowed: calibration.allows_charging(),
             drive: ChargeDrive::Off,
             renewal: Renewal::default(),
@@ -190,15 +189,6 @@ impl PackCharger {
         cpu::with_level(Priority::Level3, || PULSES.set(0));
         shut();
         self.drive = ChargeDrive::Off;
-    }
-
-    fn temperature(&self, reading: u16) -> Result<TemperatureRange, ThermistorFault> {
-        self.curve
-            .temperature(reading)
-            .map_err(|implausible| match implausible {
-                Implausible::Open(_) => ThermistorFault::Open,
-                Implausible::Short(_) => ThermistorFault::Shorted,
-            })
     }
 
     /// Sends the code five times a second while current is requested. The emitter is shared with the proximity sensors.
@@ -245,7 +235,7 @@ impl Charger for PackCharger {
             pack_mv: reading.pack_mv,
             input_mv: reading.input_mv,
             current_ma: reading.current_ma,
-            temperature: self.temperature(thermistor),
+            temperature: temperature(&self.curve, thermistor),
             age_ms,
             adapter: contacts::adapter_is_live(),
         })
@@ -273,4 +263,3 @@ impl Charger for PackCharger {
         self.request = request;
     }
 }
-
