@@ -93,7 +93,8 @@ pub enum DockRequest {
 pub trait Charger {
     /// Whether the battery is measured.
     const PRESENT: bool;
-    /// Whether this firmware controls the charger.
+    /// Whether this firmware controls the charger. Where it does not, a current into the pack is the other controller's, and no
+    /// fault of charging is looked for.
     const CHARGES: bool;
 
     /// The newest readings, or `None` when there never were any. Called once a pass.

@@ -24,7 +24,7 @@ const LEAK_MS: u32 = 900;
 /// by a whole count of 108 mA.
 pub(super) const OFFSET_FAULT_MA: i32 = 120;
 /// Less than this is no current.
-const NO_CURRENT_MA: i32 = 50;
+pub(super) const NO_CURRENT_MA: i32 = 50;
 const NO_CURRENT_MS: u32 = 5_000;
 const NO_CURRENT_TRIES: u8 = 3;
 const NO_CURRENT_PAUSE_MS: u32 = 300_000;

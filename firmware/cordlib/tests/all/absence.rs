@@ -5,7 +5,7 @@ use crate::rig::{Rig, drive, motor, movement};
 use cordlib::Cord;
 use cordlib::board::{Board, ChargeDrive, ChargerReadings, TemperatureRange};
 use rvac_protocol::message::{
-    Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, Refusal, Report,
+    Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, MotorSet, Refusal, Report,
 };
 use rvac_units::{Current, Temperature};
 
@@ -253,8 +253,13 @@ fn motors_without_stall_detection_are_told_when_a_session_opens() {
         let mut rig = Rig::switched_on_as(0, |parameters| parameters.fitted = Some(fitted));
         rig.cord.board_mut().brush_main.pulses = pulses;
         rig.connect();
-        rig.run(500);
-        assert!(told(&rig, "side brushes") && told(&rig, "suction"));
-        assert_eq!(!told(&rig, "main brush"), guarded, "{currents} {pulses:?}");
+        rig.run(1_000);
+        assert!(told(&rig, "brush-sides") && told(&rig, "vacuum") && !told(&rig, "wheels"));
+        assert_eq!(!told(&rig, "brush-main"), guarded, "{currents} {pulses:?}");
+        let gaps = rig.described.expect("a description").motors;
+        assert!(gaps.unguarded.brush_sides && gaps.unguarded.vacuum && !gaps.unguarded.wheels);
+        // The board of this test gets its pulses after it was switched on.
+        assert_eq!(gaps.unguarded.brush_main, !currents);
+        assert_eq!(gaps.unmeasured, MotorSet::default());
     }
 }
