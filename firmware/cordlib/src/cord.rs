@@ -1,16 +1,16 @@
 //! The main loop.
 
 use rvac_protocol::message::{
-    ArmingState, BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd,
-    Name,
+    ArmingState, BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MotorGaps,
+    MotorSet, MoveEnd, Name,
 };
 use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{Throttle, Tick};
 
 use crate::arming::ArmingFacts;
 use crate::board::{
-    Board, BumperSwitches, CleaningMotor, Clock, CurrentSense, Encoders, HardwareChecks, HardwareFault, Link,
-    Parts, Received, ResetRecord, Watchdog, WheelDrive, WheelDropSwitches, WheelMotors,
+    Board, BumperSwitches, Charger, CleaningMotor, Clock, CurrentSense, Encoders, HardwareChecks,
+    HardwareFault, Link, Parts, Received, ResetRecord, Watchdog, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
@@ -87,7 +87,11 @@ impl<P: Parts> Cord<P> {
         let floor = FloorWatch::new(&mut board.cliffs, now, floor_level_min);
         let kept = KeptRecord::load(&mut board.kept);
         let mut reflexes = Reflexes::new(&mut board.reset, fitted.encoders, now);
-        let mut charger = ChargeController::new(parameters.pack);
+        let mut charger = if P::Charger::CHARGES {
+            ChargeController::new(parameters.pack)
+        } else {
+            ChargeController::observing(parameters.pack)
+        };
         if let Some(record) = &kept {
             reflexes = reflexes.taking_up(record.latched, record.battery);
             charger = charger.taking_up(&record.charge, CLOCKS_MS);
@@ -163,25 +167,12 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Whether a blocked main brush is noticed (S11): by its pulses or by its current.
-    fn notices_blocked_brush(&mut self) -> bool {
-        let has_current = self.fitted.currents && P::Currents::BRUSH_MAIN;
-        has_current || self.board.brush_main.pulses().is_some()
-    }
-
     /// Says which motors nothing guards against a stall (S11), so that nobody relies on it.
     pub(crate) fn tell_unguarded_motors(&mut self) {
-        if self.fitted.brush_main && !self.notices_blocked_brush() {
-            self.journal
-                .note(LogLevel::Warn, "no stall detection:", "main brush");
-        }
-        if self.fitted.brush_sides {
-            self.journal
-                .note(LogLevel::Info, "no stall detection:", "side brushes");
-        }
-        if self.fitted.vacuum {
-            self.journal
-                .note(LogLevel::Info, "no stall detection:", "suction");
+        for (name, is_unguarded) in gaps(&mut self.board, &self.fitted).unguarded.named() {
+            if is_unguarded {
+                self.journal.note(LogLevel::Info, "no stall detection:", name);
+            }
         }
     }
 
@@ -470,6 +461,26 @@ fn fitted<P: Parts>(parameters: &Parameters) -> Capabilities {
     }
 }
 
+/// The motors whose stall nothing notices (S11). A wheel without a calibrated encoder is guarded by its current only, a main
+/// brush by its pulses or its current; side brushes and suction have neither.
+#[inline(never)]
+fn gaps<P: Parts>(board: &mut Board<P>, fitted: &Capabilities) -> MotorGaps {
+    let has_brush_current = fitted.currents && P::Currents::BRUSH_MAIN;
+    let is_unmeasured = fitted.brush_main && !has_brush_current;
+    MotorGaps {
+        unguarded: MotorSet {
+            wheels: !fitted.encoders && !fitted.currents,
+            brush_main: is_unmeasured && board.brush_main.pulses().is_none(),
+            brush_sides: fitted.brush_sides,
+            vacuum: fitted.vacuum,
+        },
+        unmeasured: MotorSet {
+            brush_main: is_unmeasured && fitted.currents,
+            ..MotorSet::default()
+        },
+    }
+}
+
 fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters, fitted: Capabilities) -> RobotIdentity {
     let boot_count = board.reset.boot_count();
     let moment = board.clock.tick().0 ^ u32::from(board.clock.microseconds()).rotate_left(16);
@@ -486,6 +497,7 @@ fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters, fitted: Cap
         description: Description {
             capabilities: fitted,
             limits: parameters.limits,
+            motors: gaps(board, &fitted),
         },
     }
 }

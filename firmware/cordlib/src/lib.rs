@@ -33,6 +33,7 @@ mod report;
 mod rules;
 mod senses;
 mod sound;
+pub mod thermistor;
 mod timing;
 mod transmitter;
 mod watch;
