@@ -17,6 +17,7 @@ mod dispatch;
 mod dock_escape;
 mod floor;
 mod guarded;
+mod identity;
 mod journal;
 mod kept;
 mod lights;
