@@ -148,6 +148,7 @@ impl<P: Parts> Cord<P> {
             ChargePhase::Fault if docked => ChargeState::Fault,
             ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff => ChargeState::Charging,
             ChargePhase::Maintain => ChargeState::Full,
+            ChargePhase::Idle if self.charger.charges() => ChargeState::Charging,
             ChargePhase::Idle if docked && self.charger.is_full() => ChargeState::Full,
             ChargePhase::Idle | ChargePhase::Fault => ChargeState::Discharging,
         }

@@ -118,8 +118,8 @@ pub(crate) mod charge_frozen {
 pub(crate) mod charge_guard {
     /// S18. Readings older than this are no readings.
     pub(crate) const AGE_MAX_MS: u32 = 200;
-    /// S18. No current flows beyond these temperatures: 1 °C outside the limits of the controller.
-    pub(crate) const COLDEST_CC: i32 = -100;
+    /// S18. No current flows beyond these temperatures: frost as for the controller, heat 1 °C above its limit.
+    pub(crate) const COLDEST_CC: i32 = 0;
     /// S18. As above.
     pub(crate) const HOTTEST_CC: i32 = 5_100;
     /// S18. Longest time of current without a rest.

@@ -8,6 +8,7 @@ use brain::command::StrategyName;
 use clap::{Args, Parser, Subcommand};
 use rvac_api::CleaningPattern;
 use rvac_sim::baseline::{Origin, title};
+use rvac_sim::faults::Calibration;
 use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::{RadioSettings, ServeSettings};
 use rvac_sim::{CalibrationChoice, GyroFitted, PoseSource, SceneSettings};
@@ -305,12 +306,23 @@ pub(crate) struct FaultArguments {
     /// Firmware image for the robot's chip (ELF or HEX), which is emulated then; without it the built-in firmware runs.
     #[arg(long)]
     pub(crate) firmware: Option<PathBuf>,
+    /// Each seed has a robot of its own: other wheels, motors, pack and sensors than firmware and host believe.
+    #[arg(long)]
+    pub(crate) miscalibrated: bool,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 impl FaultArguments {
+    pub(crate) const fn calibration(&self) -> Calibration {
+        if self.miscalibrated {
+            Calibration::Wrong
+        } else {
+            Calibration::True
+        }
+    }
+
     pub(crate) fn duration_ms(&self) -> u64 {
         (self.minutes * 60_000.0) as u64
     }

@@ -137,7 +137,7 @@ impl<S: Stops> ChargeController<S> {
         } else if self
             .watch
             .frozen_sensor
-            .is_frozen(averages.temperature_cc, averages.elapsed_ms)
+            .is_frozen(averages.warmest_cc(), averages.elapsed_ms)
         {
             return Some(ChargeFault::ThermistorFrozen);
         }
@@ -154,7 +154,7 @@ impl<S: Stops> ChargeController<S> {
     fn find_in_second(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
         let averages = self.current_offset.correct(windows.of(AveragingWindow::Second)?);
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
-        if at_work && averages.temperature_cc.is_some_and(|cc| cc >= TOO_HOT_CC) {
+        if at_work && averages.warmest_cc().is_some_and(|cc| cc >= TOO_HOT_CC) {
             return Some(ChargeFault::TooHot);
         }
         let flows = self.charge.flows();
@@ -252,11 +252,11 @@ impl<S: Stops> ChargeController<S> {
         let supplied = self.supplied_ms > 0;
         let pack = self.pack();
         match fault {
-            ChargeFault::TooHot => self.thermometer.cc().is_none_or(|cc| cc >= COOLED_CC),
+            ChargeFault::TooHot => self.thermometer.warmest_cc().is_none_or(|cc| cc >= COOLED_CC),
             ChargeFault::ThermistorOpen
             | ChargeFault::ThermistorShorted
             | ChargeFault::ThermistorRange
-            | ChargeFault::ThermistorJump => self.thermometer.cc().is_none(),
+            | ChargeFault::ThermistorJump => self.thermometer.temperature().is_none(),
             ChargeFault::Stale => pack.is_none(),
             ChargeFault::Shorted => supplied && pack.is_none_or(|(_, current_ma)| current_ma > LEAK_MA),
             ChargeFault::Adapter => {

@@ -4,6 +4,7 @@
 use crate::board::ChargeDrive;
 use crate::rules::charge_guard::{AGE_MAX_MS, COLDEST_CC, FLOW_MAX_MS, HOTTEST_CC, REST_MS};
 
+use super::meter::PackTemperature;
 use super::regulate::DUTY_MAX;
 
 /// The readings that the guard checks.
@@ -14,7 +15,7 @@ pub(super) struct ChargeConditions {
     /// No motor is driven and no wheel turns.
     pub(super) motors_idle: bool,
     pub(super) age_ms: u32,
-    pub(super) temperature_cc: Option<i32>,
+    pub(super) temperature: Option<PackTemperature>,
     pub(super) pack_mv: Option<i32>,
     /// Least and most voltage at which the pack may get current.
     pub(super) pack_range_mv: (i32, i32),
@@ -73,8 +74,8 @@ impl Guard {
             && view.motors_idle
             && view.age_ms <= AGE_MAX_MS
             && view
-                .temperature_cc
-                .is_some_and(|cc| (COLDEST_CC..=HOTTEST_CC).contains(&cc))
+                .temperature
+                .is_some_and(|range| range.coldest_cc >= COLDEST_CC && range.warmest_cc <= HOTTEST_CC)
             && view.pack_mv.is_some_and(|mv| (least_mv..=most_mv).contains(&mv))
             && self.flow_ms <= FLOW_MAX_MS
     }
@@ -94,7 +95,7 @@ impl Guard {
 
 #[cfg(test)]
 mod tests {
-    use super::{ChargeConditions, FLOW_MAX_MS, Guard};
+    use super::{ChargeConditions, FLOW_MAX_MS, Guard, PackTemperature};
     use crate::board::ChargeDrive;
     use rvac_units::Ratio;
 
@@ -102,10 +103,17 @@ mod tests {
         supplied: true,
         motors_idle: true,
         age_ms: 20,
-        temperature_cc: Some(2_500),
+        temperature: between(2_400, 2_600),
         pack_mv: Some(16_000),
         pack_range_mv: (9_000, 20_600),
     };
+
+    const fn between(coldest_cc: i32, warmest_cc: i32) -> Option<PackTemperature> {
+        Some(PackTemperature {
+            coldest_cc,
+            warmest_cc,
+        })
+    }
 
     fn duty(millionths: i32) -> ChargeDrive {
         ChargeDrive::Duty(Ratio::from_millionths(millionths).unwrap())
@@ -126,15 +134,15 @@ mod tests {
             },
             ChargeConditions { age_ms: 201, ..GOOD },
             ChargeConditions {
-                temperature_cc: None,
+                temperature: None,
                 ..GOOD
             },
             ChargeConditions {
-                temperature_cc: Some(5_101),
+                temperature: between(4_300, 5_101),
                 ..GOOD
             },
             ChargeConditions {
-                temperature_cc: Some(-101),
+                temperature: between(-1, 900),
                 ..GOOD
             },
             ChargeConditions {

@@ -43,7 +43,7 @@ pub(super) struct ChargeProgress {
     pub(super) flowed_ms: u32,
     /// Charge that went in, in mA s.
     pub(super) charged_mas: u32,
-    /// Temperature when the charge began.
+    /// Temperature when the charge began, the most that it could be.
     pub(super) start_cc: i32,
     /// The full current flows, so that 0dV is meaningful.
     pub(super) full_rate: bool,
@@ -74,8 +74,8 @@ impl Detectors {
         progress: &ChargeProgress,
         stops: &impl Stops,
     ) -> Option<ChargeEnd> {
-        let temperature_cc = averages.temperature_cc;
-        let at_least = |limit_cc: i32| temperature_cc.is_some_and(|cc| cc >= limit_cc);
+        let warmest_cc = averages.warmest_cc();
+        let at_least = |limit_cc: i32| warmest_cc.is_some_and(|cc| cc >= limit_cc);
         let found = [
             (ChargeEnd::Hot, at_least(HOT_CC)),
             (
@@ -119,7 +119,7 @@ impl Detectors {
     }
 
     fn is_temperature_slope(&mut self, averages: &Averages, progress: &ChargeProgress) -> bool {
-        let Some(newest_cc) = averages.temperature_cc else {
+        let Some(newest_cc) = averages.warmest_cc() else {
             self.temperatures_cc.clear();
             return false;
         };

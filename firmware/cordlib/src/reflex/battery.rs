@@ -63,7 +63,7 @@ impl BatteryRule {
                 level.recover(view.supplied && above_mv >= CHARGED_MV, cell_mv, now);
             }
         }
-        let cc = view.thermometer.cc();
+        let cc = view.thermometer.warmest_cc();
         let above = |limit_cc: i32| cc.is_some_and(|cc| cc > limit_cc);
         self.hot |= self.hot_for.for_at_least(above(HOT_CC), now, HOT_MS);
         let cooled = cc.is_some_and(|cc| cc < COOLED_CC);

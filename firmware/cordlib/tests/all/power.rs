@@ -3,7 +3,9 @@
 use crate::rig;
 use crate::rig::limits;
 use crate::rig::{Rig, clear, drive, motor, worst_reaction};
-use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, HardwareFault, ThermistorFault};
+use cordlib::board::{
+    ChargeDrive, ChargerReadings, DockRequest, HardwareFault, TemperatureRange, ThermistorFault,
+};
 use rvac_protocol::message::{
     ChargeFault, ChargePhase, ChargeState, Command, Inhibit, Motor, Refusal, Report, ResetCause, Sequence,
 };
@@ -13,7 +15,7 @@ pub(crate) const PACK: ChargerReadings = ChargerReadings {
     pack_mv: 15_000,
     input_mv: 15_000,
     current_ma: 0,
-    temperature: Ok(Temperature(250)),
+    temperature: Ok(TemperatureRange::exact(Temperature(250))),
     age_ms: 0,
     adapter: false,
 };
@@ -178,13 +180,13 @@ fn s16_a_dip_of_the_voltage_is_nothing() {
 }
 
 fn warm_to(rig: &mut Rig, tenths: i16) {
-    let temperature = Ok(Temperature(tenths));
+    let temperature = Ok(TemperatureRange::exact(Temperature(tenths)));
     show(rig, ChargerReadings { temperature, ..PACK });
 }
 
 /// Cleaning with a pack that is as warm as it may be.
 fn warm(start: u32) -> Rig {
-    let temperature = Ok(Temperature(530));
+    let temperature = Ok(TemperatureRange::exact(Temperature(530)));
     cleaning_with(start, ChargerReadings { temperature, ..PACK })
 }
 
