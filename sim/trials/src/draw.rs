@@ -1,5 +1,6 @@
-//! Robots as they come from a calibration bench: each value of the record a little off what the robot really is, its
-//! sensors noisy, its contacts bouncing. All is drawn from a seed.
+//! Robots as they are, drawn from a seed: sensors noisy, contacts bouncing. One with an even number has a record as it comes
+//! from a calibration bench, each value a little off. One with an odd number is another robot than the record is of: its motors,
+//! its wheels and its board differ, and nobody has measured its thermistor.
 
 use home::{Noise, Pcg};
 use pic32::board::{CalibrationValues, put_record};
@@ -27,7 +28,7 @@ enum Error {
 
 /// A careful person with a ruler, a scale and a multimeter leaves about this. What is not named is a choice, a count or a
 /// code, which is right or useless.
-const ERRORS: [(&str, Error); 15] = [
+const ERRORS: [(&str, Error); 18] = [
     ("wheel-distance-per-count", Error::Share(0.01)),
     ("wheel-track", Error::Share(0.01)),
     ("wheel-dead-band", Error::Share(0.2)),
@@ -43,6 +44,17 @@ const ERRORS: [(&str, Error); 15] = [
     ("cliff-floor-level", Error::Share(0.1)),
     ("battery-scale", Error::Share(0.005)),
     ("battery-capacity", Error::Share(0.05)),
+    ("thermistor-ice", Error::Absolute(3.0)),
+    ("thermistor-warm", Error::Absolute(3.0)),
+    ("wheel-stall-current", Error::Share(0.1)),
+];
+
+/// What nobody has measured on a robot that is not the one of the record.
+const THERMISTOR: [&str; 4] = [
+    "thermistor-ice",
+    "thermistor-warm",
+    "thermistor-warm-temperature",
+    "thermistor-checked",
 ];
 
 /// What distinguishes this robot from a perfect one.
@@ -54,6 +66,8 @@ pub(crate) struct RobotDraw {
     pub(crate) noise: Noise,
     /// Of its contacts.
     pub(crate) bounce_us: u32,
+    /// Which other robot it is.
+    pub(crate) deviation: Option<u64>,
 }
 
 impl RobotDraw {
@@ -63,13 +77,19 @@ impl RobotDraw {
     /// When the project's own description of the robot is wrong.
     pub(crate) fn new(mut image: Image, seed: u64) -> Result<Self, TestbedError> {
         let mut random = Pcg::new(seed, STREAM);
-        let record = CalibrationValues::parse(&measured(&mut random)?)?.record();
+        let values = CalibrationValues::parse(&measured(&mut random)?)?;
+        let deviation = (!seed.is_multiple_of(2)).then_some(seed);
+        let record = match deviation {
+            Some(_) => values.record_without(&THERMISTOR),
+            None => values.record(),
+        };
         put_record(&mut image, &record).map_err(TestbedError::Record)?;
         let (least, most) = NOISE;
         Ok(Self {
             image,
             noise: Noise::NOMINAL.scaled(least + (most - least) * random.unit()),
             bounce_us: random.below(BOUNCE_US),
+            deviation,
         })
     }
 }

@@ -64,7 +64,12 @@ impl OperatingState {
     ///
     /// # Errors
     /// When it does not reach the state.
-    pub fn set(self, fixture: &Fixture, seed: u64, late_cycles: u64) -> Result<Testbed, TestbedError> {
+    pub fn set(self, fixture: &Fixture, number: u64, late_cycles: u64) -> Result<Testbed, TestbedError> {
+        // A robot whose thermistor nobody has measured is careful: it neither works so near a limit nor charges as fast.
+        let seed = match self {
+            Self::WarmCleaning | Self::HotStanding | Self::Charging => 2 * number,
+            _ => number,
+        };
         let bridges = match self {
             Self::DeafBridges => Bridges::DeafToBrake,
             _ => Bridges::Sound,

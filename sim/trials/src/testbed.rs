@@ -149,10 +149,18 @@ impl Fixture {
         let mut robot = if self.drawn {
             let draw = RobotDraw::new(self.image.clone(), seed)?;
             settings.bounce_us = draw.bounce_us;
+            settings.miscalibration = draw.deviation;
+            let model = draw
+                .deviation
+                .map_or_else(|| self.model.clone(), |number| self.model.deviating(number));
             let blueprint = Blueprint::sr8730(draw.image, &CalibrationChoice::Complete)?;
-            EmulatedRobot::new(&blueprint, self.world(&draw.noise, seed), &settings)
+            EmulatedRobot::new(&blueprint, self.world(&model, (&draw.noise, seed)), &settings)
         } else {
-            EmulatedRobot::new(&self.blueprint, self.world(&Noise::ideal(), seed), &settings)
+            EmulatedRobot::new(
+                &self.blueprint,
+                self.world(&self.model, (&Noise::ideal(), seed)),
+                &settings,
+            )
         };
         robot
             .machine_mut()
@@ -175,8 +183,8 @@ impl Fixture {
         })
     }
 
-    fn world(&self, noise: &Noise, seed: u64) -> World {
-        World::new(Arc::clone(&self.home), &self.model, noise, seed, Some(START))
+    fn world(&self, model: &RobotModel, (noise, seed): (&Noise, u64)) -> World {
+        World::new(Arc::clone(&self.home), model, noise, seed, Some(START))
     }
 }
 

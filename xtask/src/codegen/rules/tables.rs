@@ -1,7 +1,7 @@
 //! The tables of SAFETY.md, each between two marks.
 
 use super::measured::{MeasuredFigures, MeasuredTrial};
-use super::model::{Evidence, Forbidden, Latch, SafetyRule, RuleBook, RulePlace};
+use super::model::{Evidence, Forbidden, Latch, RuleBook, RulePlace, SafetyRule};
 use super::unit::grouped;
 use anyhow::Context;
 use std::fmt::Write;
