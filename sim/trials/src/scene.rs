@@ -13,9 +13,9 @@ const BEGINS_MS: u64 = 60_000;
 /// A session that is silent is over after this, and a person may type.
 const SILENCE_MS: u64 = 2_300;
 const PACKS: u64 = 0x0D0C;
-/// Tenths of a degree: the pack below the two limits of heat.
-const WARM_DC: i32 = 535;
-const HOT_DC: i32 = 580;
+/// Tenths of a degree: the pack below the two limits of heat, by more than a measured thermistor may be wrong.
+const WARM_DC: i32 = 500;
+const HOT_DC: i32 = 555;
 /// What a person types to arm, and to drive slowly.
 const TYPED_ARM: &str = r#"{"c":"arm"}"#;
 const TYPED_DRIVE: &str = r#"{"c":"drive","v":0.05,"w":0,"ttl":1000}"#;
@@ -31,9 +31,9 @@ pub enum OperatingState {
     Driving,
     /// It drives ahead with brushes and suction on.
     Cleaning,
-    /// The same with a pack just below 55 °C.
+    /// The same with a pack of 50 °C.
     WarmCleaning,
-    /// It stands with a pack just below 60 °C.
+    /// It stands with a pack of 55.5 °C.
     HotStanding,
     /// It turns on the spot.
     Turning,
