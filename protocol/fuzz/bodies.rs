@@ -8,7 +8,7 @@ use rvac_protocol::binary::{
 };
 use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::PACKET_BYTES_MAX;
-use rvac_protocol::message::{BinaryKinds, Capabilities, Description, Limits, Name, ResetCause};
+use rvac_protocol::message::{BinaryKinds, Capabilities, Description, Limits, MotorGaps, Name, ResetCause};
 use rvac_protocol::session::{HostSession, RobotIdentity, RobotSession};
 use rvac_protocol::text::{Form, ReportPacket, read_command, read_report, write_command, write_report};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
@@ -125,6 +125,7 @@ fn identity() -> RobotIdentity {
                 radius: Length(0),
                 swath: Length(0),
             },
+            motors: MotorGaps::default(),
         },
     }
 }

@@ -87,8 +87,8 @@ pub struct MotorCurrents {
     pub wheel_left_a: f32,
     /// Of the right wheel.
     pub wheel_right_a: f32,
-    /// Of the main brush.
-    pub brush_main_a: f32,
+    /// Of the main brush; `None` where only those of the wheels are measured.
+    pub brush_main_a: Option<f32>,
 }
 
 /// State of the current from the dock into the pack.

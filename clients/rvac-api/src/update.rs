@@ -239,6 +239,13 @@ pub struct RobotDescription {
     /// Names of optional parts it has: `gyro`, `brush-main`, `brush-sides`, `vacuum`, `beeper`, `battery`, `currents`,
     /// `charger`, `dock` (receivers for the beams of a dock).
     pub parts: Vec<String>,
+    /// Motors of which nothing notices that they are held fast: `wheels`, `brush-main`, `brush-sides`, `vacuum`. Robots of older
+    /// firmware do not say.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unguarded: Vec<String>,
+    /// Motors whose current is not measured though that of others is: their place in `currents_a` means nothing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unmeasured: Vec<String>,
 }
 
 /// What the robot is doing and why.
@@ -332,7 +339,7 @@ pub struct DeviceTable {
     pub wheel_drops: [bool; 2],
     /// Proximity 0..1 from the right side counter-clockwise.
     pub proximity: Vec<f32>,
-    /// Motor currents in amperes: left wheel, right wheel, main brush.
+    /// Motor currents in amperes: left wheel, right wheel, main brush. One that the robot lists as `unmeasured` is 0.
     #[serde(default)]
     pub currents_a: Option<[f32; 3]>,
     /// Main brush, side brushes, suction run.

@@ -349,6 +349,8 @@ fn introductions_and_answers() {
         turn_max_rad_per_s: 1.5,
         proximity: 7,
         parts: vec!["gyro".to_owned(), "dock".to_owned()],
+        unguarded: Vec::new(),
+        unmeasured: Vec::new(),
     };
     let hello = Update::Hello {
         api: 1,

@@ -144,7 +144,8 @@ void cord_event_gyro(double heading, double rate);
 /* Motor currents in amperes. A NaN in any means that there are no readings. */
 void cord_event_currents(double wheel_left, double wheel_right, double brush_main);
 
-/* Battery: volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings. */
+/* Battery: volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings. Call it at least once
+ * a second: a reading older than 2 s is none, and S17 then forbids motion. */
 void cord_event_battery(double voltage, double current, double temperature);
 
 /* The clock fails, or two clocks disagree. */

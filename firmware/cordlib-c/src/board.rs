@@ -207,7 +207,8 @@ impl Charger for Foreign {
     const CHARGES: bool = false;
 
     fn readings(&mut self) -> Option<ChargerReadings> {
-        inputs().battery
+        let now = Tick(hw_get_time_ms());
+        inputs().battery(now)
     }
 
     fn drive(&mut self, _: ChargeDrive) {}

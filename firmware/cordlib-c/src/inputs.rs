@@ -3,9 +3,11 @@
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use cord::board::{ChargerReadings, CliffLevels, HardwareFault, Received, WheelCounts};
+use cord::board::{ChargerReadings, CliffLevels, HardwareFault, Received, TemperatureRange, WheelCounts};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, WheelDrops};
-use rvac_units::{Angle, AngularSpeed, Current, Temperature, Voltage};
+use rvac_units::{Angle, AngularSpeed, Current, Temperature, Tick, Voltage};
+
+use crate::time::hw_get_time_ms;
 
 /// Bytes that fit each queue of the connection.
 pub(crate) const QUEUE_BYTES: usize = 1024;
@@ -23,9 +25,27 @@ pub(crate) struct Inputs {
     pub(crate) docked: bool,
     pub(crate) gyro: Option<Gyro>,
     pub(crate) currents: Option<Currents>,
-    pub(crate) battery: Option<ChargerReadings>,
+    battery: Option<BatteryReading>,
     /// Faults whose causes stand.
     pub(crate) hardware_faults: Vec<HardwareFault>,
+}
+
+/// What the firmware said of its battery, and when.
+#[derive(Clone, Copy, Debug)]
+struct BatteryReading {
+    readings: ChargerReadings,
+    taken: Tick,
+}
+
+impl Inputs {
+    /// The newest readings of the battery, as old as they are.
+    pub(crate) fn battery(&self, now: Tick) -> Option<ChargerReadings> {
+        self.battery.map(|battery| ChargerReadings {
+            age_ms: now.since(battery.taken),
+            adapter: self.docked,
+            ..battery.readings
+        })
+    }
 }
 
 static INPUTS: Mutex<Inputs> = Mutex::new(Inputs {
@@ -150,22 +170,23 @@ pub extern "C" fn cord_event_currents(wheel_left: f64, wheel_right: f64, brush_m
     });
 }
 
-/// Battery: volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings.
+/// Battery: volts, amperes into the pack, degrees Celsius. A NaN in any means that there are no readings. Call it at least once
+/// a second: a reading older than 2 s is none, and S17 then forbids motion.
 #[unsafe(no_mangle)]
 pub extern "C" fn cord_event_battery(voltage: f64, current: f64, temperature: f64) {
     let known = [voltage, current, temperature]
         .iter()
         .all(|value| !value.is_nan());
-    let mut inputs = inputs();
-    let adapter = inputs.docked;
-    inputs.battery = known.then(|| ChargerReadings {
+    let taken = Tick(hw_get_time_ms());
+    let readings = ChargerReadings {
         pack_mv: Voltage::from_v(voltage).0,
         input_mv: Voltage::from_v(voltage).0,
         current_ma: Current::from_a(current).0,
-        temperature: Ok(Temperature::from_celsius(temperature)),
+        temperature: Ok(TemperatureRange::exact(Temperature::from_celsius(temperature))),
         age_ms: 0,
-        adapter,
-    });
+        adapter: false,
+    };
+    inputs().battery = known.then_some(BatteryReading { readings, taken });
 }
 
 /// The clock fails, or two clocks disagree.
@@ -188,5 +209,25 @@ pub extern "C" fn cord_event_hardware_fault(fault: i32, present: i32) {
     standing.retain(|other| *other != fault);
     if present != 0 {
         standing.push(fault);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{cord_event_battery, cord_event_dock, inputs};
+    use rvac_units::Tick;
+
+    #[test]
+    fn a_reading_of_the_battery_grows_old_and_the_dock_does_not() {
+        // Without a clock the reading was taken at 0.
+        cord_event_battery(15.2, -0.4, 25.0);
+        cord_event_dock(1);
+        for age_ms in [0, 1_500, 60_000] {
+            let readings = inputs().battery(Tick(age_ms)).expect("a reading");
+            assert_eq!((readings.age_ms, readings.pack_mv), (age_ms, 15_200));
+            assert!(readings.adapter);
+        }
+        cord_event_battery(15.2, f64::NAN, 25.0);
+        assert_eq!(inputs().battery(Tick(0)), None);
     }
 }

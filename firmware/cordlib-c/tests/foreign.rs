@@ -62,6 +62,27 @@ fn the_committed_header_is_that_of_the_source() {
     );
 }
 
+/// Firmware in C for a small chip includes the figures of the rules alone, with a compiler of 1990.
+#[test]
+fn the_figures_of_the_rules_compile_in_old_c() {
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join("rules.c");
+    std::fs::write(
+        &source,
+        "#include \"cordlib-rules.h\"\n#if CORD_BUMPER_STUCK_MS != CORD_LIMIT_S7_HELD_MS\n#error differs\n#endif\n\
+         long most = CORD_CHARGE_GUARD_FLOW_MAX_MS;\nlong back = CORD_DOCK_ESCAPE_SPEED_UM_PER_S;\n",
+    )
+    .expect("a file");
+    let compiled = Command::new("cc")
+        .args(["-std=c90", "-pedantic", "-Wall", "-Wextra", "-Werror", "-c", "-o"])
+        .arg(source.with_extension("o"))
+        .arg(&source)
+        .arg("-I")
+        .arg(crate_folder().join("include"))
+        .output()
+        .expect("cc runs");
+    succeed(&compiled, "compiling");
+}
+
 #[test]
 fn a_c_program_drives_a_robot() {
     let library = library_folder();

@@ -8,15 +8,8 @@
 use rvac_protocol::message::{ArmingState, Inhibit, Inhibits};
 use rvac_units::Tick;
 
+use crate::rules::arming::{LEAVING_MS, LEFT_MS, QUIET_MS};
 use crate::timing::HoldTimer;
-
-/// With the contacts open for this long the robot has left the dock; closing them again is a new arrival.
-const LEFT_MS: u32 = 1_000;
-/// A robot that is told to leave may stand on the contacts for this long. After it was switched on, our host measures the
-/// drift of its gyro for up to 16 s before the first motion; driving off takes three.
-const LEAVING_MS: u32 = 20_000;
-/// Without a session nobody gives signs of life but by motion commands. A person needs some seconds to type one.
-const QUIET_MS: u32 = 10_000;
 
 /// Codes of the states that allow something, in memory. Any two of them, and any of them and that of [`LOCKED`], differ in
 /// sixteen bits, and any other pattern counts as locked: no flip of fewer bits gives a permission (S21).

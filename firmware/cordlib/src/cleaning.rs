@@ -12,10 +12,9 @@ use crate::limit::within;
 use crate::motion::CONTROL_MS;
 use crate::permit::MotionPermit;
 use crate::reflex::{Load, StallRule};
+use crate::rules::brush::{REVERSE_MS, TRIED_MS};
 use crate::timing::Deadline;
 
-const REVERSE_MS: u32 = 500;
-const TRIED_MS: u32 = 10_000;
 /// From rest to full in 0.2 s.
 const SLEW_PER_PERIOD: i32 = 50_000;
 

@@ -1,21 +1,19 @@
 //! The main loop.
 
-use rvac_protocol::message::{
-    ArmingState, BinaryKinds, Capabilities, Cliffs, Description, Inhibits, LogLevel, MotionPhase, MoveEnd,
-    Name,
-};
-use rvac_protocol::session::{RobotIdentity, RobotSession};
+use rvac_protocol::message::{ArmingState, Capabilities, Cliffs, Inhibits, LogLevel, MotionPhase, MoveEnd};
+use rvac_protocol::session::RobotSession;
 use rvac_units::{Throttle, Tick};
 
 use crate::arming::ArmingFacts;
 use crate::board::{
-    Board, BumperSwitches, CleaningMotor, Clock, CurrentSense, Encoders, HardwareChecks, HardwareFault, Link,
+    Board, BumperSwitches, Charger, Clock, CurrentSense, Encoders, HardwareChecks, HardwareFault, Link,
     Parts, Received, ResetRecord, Watchdog, WheelDrive, WheelDropSwitches, WheelMotors,
 };
 use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
 use crate::dock_escape::DockEscape;
 use crate::floor::FloorWatch;
+use crate::identity::{fitted, gaps, identity};
 use crate::journal::Journal;
 use crate::kept::{CLOCKS_MS, Keeper, KeptRecord};
 use crate::lights::LightPatterns;
@@ -25,6 +23,7 @@ use crate::permit::{MotionPermit, ReverseBound};
 use crate::probing::Probing;
 use crate::reflex::Reflexes;
 use crate::report::Reporter;
+use crate::rules::session::MOVE_SILENCE_MS;
 use crate::senses::Senses;
 use crate::sound::Sound;
 use crate::timing::{HoldTimer, LongClock};
@@ -34,8 +33,6 @@ use crate::watch::{Supervisor, Watch};
 /// Most bytes taken from the link in one pass, so that a flood cannot delay the reflexes. At 230,400 baud 23 bytes arrive
 /// in a millisecond.
 const BYTES_PER_PASS: usize = 64;
-/// A `move` under a session ends when no packet has come for this long (S1).
-const MOVE_SILENCE_MS: u32 = 1_000;
 
 /// The firmware of one robot: everything between the board's parts and the wire.
 #[derive(Debug)]
@@ -88,7 +85,11 @@ impl<P: Parts> Cord<P> {
         let floor = FloorWatch::new(&mut board.cliffs, now, floor_level_min);
         let kept = KeptRecord::load(&mut board.kept);
         let mut reflexes = Reflexes::new(&mut board.reset, fitted.encoders, now);
-        let mut charger = ChargeController::new(parameters.pack);
+        let mut charger = if P::Charger::CHARGES {
+            ChargeController::new(parameters.pack)
+        } else {
+            ChargeController::observing(parameters.pack)
+        };
         if let Some(record) = &kept {
             reflexes = reflexes.taking_up(record.latched, record.battery);
             charger = charger.taking_up(&record.charge, CLOCKS_MS);
@@ -164,25 +165,12 @@ impl<P: Parts> Cord<P> {
         }
     }
 
-    /// Whether a blocked main brush is noticed (S11): by its pulses or by its current.
-    fn notices_blocked_brush(&mut self) -> bool {
-        let has_current = self.fitted.currents && P::Currents::BRUSH_MAIN;
-        has_current || self.board.brush_main.pulses().is_some()
-    }
-
     /// Says which motors nothing guards against a stall (S11), so that nobody relies on it.
     pub(crate) fn tell_unguarded_motors(&mut self) {
-        if self.fitted.brush_main && !self.notices_blocked_brush() {
-            self.journal
-                .note(LogLevel::Warn, "no stall detection:", "main brush");
-        }
-        if self.fitted.brush_sides {
-            self.journal
-                .note(LogLevel::Info, "no stall detection:", "side brushes");
-        }
-        if self.fitted.vacuum {
-            self.journal
-                .note(LogLevel::Info, "no stall detection:", "suction");
+        for (name, is_unguarded) in gaps(&mut self.board, &self.fitted).unguarded.named() {
+            if is_unguarded {
+                self.journal.note(LogLevel::Info, "no stall detection:", name);
+            }
         }
     }
 
@@ -442,62 +430,4 @@ impl<P: Parts> Cord<P> {
     pub const fn parameters(&self) -> &Parameters {
         &self.parameters
     }
-}
-
-/// The parts of this machine: what the parameters list, as far as the board's types support it.
-fn fitted<P: Parts>(parameters: &Parameters) -> Capabilities {
-    let can = Board::<P>::capabilities();
-    let Some(has) = parameters.fitted else {
-        return can;
-    };
-    Capabilities {
-        encoders: has.encoders && can.encoders,
-        gyro: has.gyro && can.gyro,
-        bumpers: has.bumpers.min(can.bumpers),
-        cliffs: has.cliffs.min(can.cliffs),
-        wheel_drops: has.wheel_drops.min(can.wheel_drops),
-        proximity: has.proximity.min(can.proximity),
-        dock_receivers: has.dock_receivers.min(can.dock_receivers),
-        buttons: has.buttons.min(can.buttons),
-        leds: has.leds.min(can.leds),
-        beeper: has.beeper && can.beeper,
-        brush_main: has.brush_main && can.brush_main,
-        brush_sides: has.brush_sides && can.brush_sides,
-        vacuum: has.vacuum && can.vacuum,
-        currents: has.currents && can.currents,
-        battery: has.battery && can.battery,
-        charger: has.charger && can.charger,
-        probe: has.probe && can.probe,
-    }
-}
-
-fn identity<P: Parts>(board: &mut Board<P>, parameters: &Parameters, fitted: Capabilities) -> RobotIdentity {
-    let boot_count = board.reset.boot_count();
-    let moment = board.clock.tick().0 ^ u32::from(board.clock.microseconds()).rotate_left(16);
-    RobotIdentity {
-        device: name(parameters.device),
-        firmware: name(parameters.firmware),
-        boot_count,
-        reset_cause: board.reset.cause(),
-        session_seed: boot_count.wrapping_mul(0x9E37_79B9) ^ moment,
-        binary: BinaryKinds {
-            state: true,
-            drive: true,
-        },
-        description: Description {
-            capabilities: fitted,
-            limits: parameters.limits,
-        },
-    }
-}
-
-/// As much of a name as the wire can carry.
-pub(crate) fn name(text: &str) -> Name {
-    let mut name = Name::new();
-    for letter in text.chars() {
-        if name.push(letter).is_err() {
-            break;
-        }
-    }
-    name
 }

@@ -10,20 +10,10 @@ use rvac_units::{AngularSpeed, Frequency, Ratio, Speed, Throttle, Tick};
 use crate::arming::{ArmingEvent, Holder};
 use crate::board::Parts;
 use crate::cord::Cord;
+use crate::rules::dock_escape::{
+    BLIND_DUTY, LEASE_MS, OPEN_MS, RENEW_MS, SPEED_UM_PER_S, TRIES_MAX, TRY_MS, WARNING_MS,
+};
 use crate::timing::{Deadline, HoldTimer, Periodic};
-
-const TRIES_MAX: u8 = 3;
-const WARNING_MS: u32 = 2_000;
-/// A try lasts no longer: 0.2 m. The same time passes before the next one.
-const TRY_MS: u32 = 2_000;
-const SPEED: Speed = Speed(-100_000);
-/// Without encoders the speed is not known: a duty that moves any robot, not fast.
-const BLIND_DUTY: i32 = -450_000;
-/// The motion is renewed at this period, and its lease is a little longer.
-const RENEW_MS: u32 = 100;
-const LEASE_MS: u16 = 150;
-/// The contacts must have been open for this long: the robot is then some centimetres away.
-const OPEN_MS: u32 = 400;
 
 /// Stage of the escape.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -130,7 +120,7 @@ impl<P: Parts> Cord<P> {
         if self.fitted.encoders {
             return self.carry_out(
                 &Command::Drive(Drive {
-                    speed: SPEED,
+                    speed: Speed(SPEED_UM_PER_S),
                     turn: AngularSpeed::ZERO,
                     lease_ms: LEASE_MS,
                     sequence,

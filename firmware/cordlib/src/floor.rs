@@ -8,12 +8,8 @@ use rvac_protocol::message::Cliffs;
 use rvac_units::Tick;
 
 use crate::board::{CliffLevels, CliffSensors, Emitters};
+use crate::rules::cliff_test::{SETTLE_MS, TEST_PERIOD_MS};
 use crate::timing::Deadline;
-
-/// Pause between two self-tests; with the test itself it stays below the 1 s of S9.
-const TEST_PERIOD_MS: u32 = 900;
-/// Time for a receiver to settle after the emitter has changed.
-const SETTLE_MS: u32 = 2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum EmitterPhase {

@@ -9,11 +9,7 @@ use rvac_units::Throttle;
 
 use crate::board::WheelDrive;
 use crate::parameters::WheelParameters;
-
-/// Speed limit of a rim while a cliff is seen (S8), in µm/s.
-pub(crate) const CLIFF_SPEED_MAX_UM_PER_S: i32 = 100_000;
-/// A rim that is measured this much faster is braked. The measurement ripples, and a wheel that settles overshoots.
-const CLIFF_SPEED_RIPPLE_UM_PER_S: i32 = 15_000;
+use crate::rules::cliff;
 
 /// Inhibits that forbid no motion: they inform the host (S16, S18).
 const ADVISORY: Inhibits =
@@ -75,14 +71,14 @@ pub struct ReverseBound {
 impl ReverseBound {
     /// The bound for a machine whose rims turn at these speeds, in µm/s; `None` without calibrated encoders.
     pub(crate) fn of(rims_um_per_s: Option<[i32; 2]>, wheel: &WheelParameters) -> Self {
-        const FASTEST: i32 = CLIFF_SPEED_MAX_UM_PER_S + CLIFF_SPEED_RIPPLE_UM_PER_S;
+        const FASTEST: i32 = cliff::SPEED_MAX_UM_PER_S + cliff::SPEED_RIPPLE_UM_PER_S;
         match rims_um_per_s {
             Some(rims) => Self {
                 duty_max: None,
                 too_fast: rims.map(|rim| rim < -FASTEST),
             },
             None => Self {
-                duty_max: Some(wheel.duty_at(CLIFF_SPEED_MAX_UM_PER_S)),
+                duty_max: Some(wheel.duty_at(cliff::SPEED_MAX_UM_PER_S)),
                 too_fast: [false; 2],
             },
         }

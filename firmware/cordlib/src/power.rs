@@ -1,15 +1,13 @@
 //! The battery in the main loop: inputs and outputs of the charge controller, and the reports to the host.
 
-use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, Inhibit, LogLevel};
+use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, LogLevel};
 use rvac_units::{Current, Temperature, Throttle, Tick, Voltage};
 
 use crate::board::{ChargeDrive, Charger, Parts};
 use crate::charge::{ChargeContext, ChargeOutput, Docking, MotorActivity};
 use crate::cord::Cord;
 use crate::reflex::PackView;
-
-/// Faults after which no current may flow, whatever the charge controller decides.
-const FORBIDDING: [Inhibit; 3] = [Inhibit::Clock, Inhibit::Memory, Inhibit::InternalFault];
+use crate::rules::latch;
 
 impl<P: Parts> Cord<P> {
     /// One pass of the charger and of the rules of the battery (S16, S17).
@@ -21,7 +19,8 @@ impl<P: Parts> Cord<P> {
         let context = self.charge_context();
         let before = self.charger.status();
         let mut output = self.charger.step(readings, context, now);
-        let forbidden = FORBIDDING
+        // No current may flow, whatever the charge controller decides.
+        let forbidden = latch::FORBID_ALL
             .into_iter()
             .any(|inhibit| self.reflexes.inhibits().contains(inhibit));
         if forbidden || !self.fitted.charger {
@@ -149,6 +148,7 @@ impl<P: Parts> Cord<P> {
             ChargePhase::Fault if docked => ChargeState::Fault,
             ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff => ChargeState::Charging,
             ChargePhase::Maintain => ChargeState::Full,
+            ChargePhase::Idle if self.charger.charges() => ChargeState::Charging,
             ChargePhase::Idle if docked && self.charger.is_full() => ChargeState::Full,
             ChargePhase::Idle | ChargePhase::Fault => ChargeState::Discharging,
         }

@@ -8,10 +8,7 @@ use crate::board::Parts;
 use crate::cord::Cord;
 use crate::motion::Ending;
 use crate::reflex::Findings;
-
-/// Debouncing reports a press 10 ms after the finger came down, or later if the contact bounces. Motion may have ended in
-/// that time; the press still counts as one during motion.
-const PRESS_MS: u32 = 30;
+use crate::rules::button::PRESS_MS;
 
 impl<P: Parts> Cord<P> {
     /// Acts on the findings of the contact rules.

@@ -5,7 +5,8 @@ use rvac_protocol::session::Mode;
 use rvac_units::Tick;
 
 use crate::board::{DockBeams, DustBox, Parts, ProximitySensors};
-use crate::cord::{Cord, name};
+use crate::cord::Cord;
+use crate::identity::name;
 use crate::rate::RateCounter;
 use crate::reflex::Reflexes;
 use crate::senses::shown;

@@ -41,6 +41,7 @@ pub(crate) struct HoldTimer {
 
 impl HoldTimer {
     /// Takes the condition now; returns whether it has held for `span_ms`.
+    #[inline(never)]
     pub(crate) fn for_at_least(&mut self, condition: bool, now: Tick, span_ms: u32) -> bool {
         if !condition {
             self.since = None;

@@ -2,6 +2,8 @@
 //!
 //! Values are used in groups: a part is available only if all values that it needs are known.
 
+use cordlib::thermistor::MeasuredPoints;
+
 use crate::generated::calibration::{COUNT, Calibrated, ENTRIES};
 use crate::logic::beam::BeamCodes;
 use crate::logic::calibration_record::{RecordFault, read};
@@ -189,6 +191,26 @@ impl Calibration {
             && self.measured(Calibrated::BatteryCapacity).is_some()
     }
 
+    /// Two points of the thermistor's curve, if a third one agreed with them.
+    #[must_use]
+    pub fn thermistor(&self) -> Option<MeasuredPoints> {
+        self.measured(Calibrated::ThermistorChecked)
+            .filter(|checked| *checked == 1)?;
+        Some(MeasuredPoints {
+            ice: self.measured(Calibrated::ThermistorIce)?,
+            warm: self.measured(Calibrated::ThermistorWarm)?,
+            warm_dc: self.measured(Calibrated::ThermistorWarmTemperature)?,
+        })
+    }
+
+    /// Current above which a wheel stands still, in mA: three quarters of what a held wheel draws from a full pack, which
+    /// an empty one still reaches.
+    #[must_use]
+    pub fn wheel_current_max_ma(&self) -> i32 {
+        let stall_ma = self.known(Calibrated::WheelStallCurrent).unwrap_or_default();
+        stall_ma / 4 * 3
+    }
+
     /// The code for the dock.
     #[must_use]
     pub fn dock_code(&self) -> LeadingOnes {
@@ -292,6 +314,40 @@ mod tests {
         }
         assert_eq!(missing(Calibrated::GyroRate).gyro(), None);
         assert_eq!(missing(Calibrated::DockBeamShort).beams(), None);
+    }
+
+    #[test]
+    fn points_of_the_thermistor_count_only_with_a_third_that_agrees() {
+        let checked = [
+            (Calibrated::ThermistorIce, 8_517),
+            (Calibrated::ThermistorWarm, 7_260),
+            (Calibrated::ThermistorWarmTemperature, 400),
+        ];
+        assert!(highest_but(&checked).thermistor().is_some());
+        for which in [
+            Calibrated::ThermistorIce,
+            Calibrated::ThermistorWarm,
+            Calibrated::ThermistorWarmTemperature,
+            Calibrated::ThermistorChecked,
+        ] {
+            assert_eq!(highest_but(&[(which, UNKNOWN)]).thermistor(), None, "{which:?}");
+        }
+        assert_eq!(
+            highest_but(&[(Calibrated::ThermistorChecked, 0)]).thermistor(),
+            None
+        );
+    }
+
+    #[test]
+    fn a_wheel_is_off_below_what_an_empty_pack_gives_a_held_one() {
+        assert_eq!(
+            highest_but(&[(Calibrated::WheelStallCurrent, 1_600)]).wheel_current_max_ma(),
+            1_200
+        );
+        assert_eq!(
+            Calibration::from_record(&[0xFF; 4_096]).wheel_current_max_ma(),
+            1_500
+        );
     }
 
     #[test]

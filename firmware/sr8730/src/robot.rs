@@ -5,7 +5,7 @@ use cordlib::{Cord, Parameters};
 use pic32mx3_hal::flash::DataFlash;
 use pic32mx3_hal::{Peripherals, interrupt, reset};
 use rvac_protocol::message::{Capabilities, Limits, LogLevel};
-use rvac_units::{AngularSpeed, Length, Speed, Throttle};
+use rvac_units::{AngularSpeed, Current, Length, Speed, Throttle};
 
 use crate::board::checks::StartVerdict;
 use crate::board::resets::{self, Starts};
@@ -137,6 +137,7 @@ pub fn parameters(calibration: &Calibration) -> Parameters {
         parameters.wheel.speed_at_full = Speed(known.free_speed_mm_per_s * 1_000);
         parameters.wheel.dead_band = Throttle::saturating_from_millionths(known.dead_band_permille * 1_000);
     }
+    parameters.guard.wheel_current_max = Current(calibration.wheel_current_max_ma());
     if let Some(known) = calibration.cliffs() {
         parameters.guard.floor_level_min = known.floor_level;
     }
@@ -144,8 +145,7 @@ pub fn parameters(calibration: &Calibration) -> Parameters {
     if let Some(capacity) = capacity.and_then(|capacity| u16::try_from(capacity).ok()) {
         parameters.pack.capacity_mah = capacity;
     }
-    parameters.pack.measured =
-        capacity.is_some() && calibration.measured(Calibrated::BatteryScale).is_some();
+    parameters.pack.measured = capacity.is_some() && calibration.measured(Calibrated::BatteryScale).is_some();
     parameters.fitted = Some(fitted(calibration));
     parameters
 }

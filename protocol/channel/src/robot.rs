@@ -1,6 +1,6 @@
 //! An ordinary robot at the far end of the line, for those who test a link.
 
-use rvac_protocol::message::{BinaryKinds, Capabilities, Description, Limits, Name, ResetCause};
+use rvac_protocol::message::{BinaryKinds, Capabilities, Description, Limits, MotorGaps, Name, ResetCause};
 use rvac_protocol::session::{RobotIdentity, RobotSession};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
 
@@ -25,6 +25,7 @@ pub fn switched_on(now: Tick) -> RobotSession {
                 radius: Length(175_000),
                 swath: Length(300_000),
             },
+            motors: MotorGaps::default(),
         },
     };
     RobotSession::new(identity, now)

@@ -22,6 +22,7 @@ mod pcg;
 mod plan;
 mod point;
 mod pose;
+mod thermistor;
 pub mod traps;
 mod world;
 
@@ -37,6 +38,7 @@ pub use noise::{Noise, NoiseError};
 pub use pcg::Pcg;
 pub use plan::{Cell, Grid};
 pub use pose::{Pose, wrap_angle};
+pub use thermistor::Thermistor;
 pub use world::{
     Actuation, BeamStrengths, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, OddCell,
     Pack, PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World,

@@ -1,5 +1,6 @@
 //! Causes that forbid motion, and how long they have lasted.
 
+use super::limits::{CLIFF_RIM_MM_PER_S, HARD_DRIVE, WHEEL_DROP_MS};
 use crate::charging::{ChargeTimes, Charging};
 
 /// Inputs of the firmware's pins in this millisecond, and ground truth that no pin shows.
@@ -102,14 +103,8 @@ pub(crate) struct CauseTimes {
     counts: [i32; 2],
 }
 
-/// S8: the reverse from an edge, 0.1 m/s, with what a speed control overshoots.
-const CLIFF_RIM_MM_PER_S: i32 = 125;
 /// Floor that shows for less time does not end an edge.
 const FLOOR_SURE_MS: u32 = 50;
-/// Drive above which a wheel must turn (S11).
-const HARD_DRIVE: i32 = 300_000;
-/// A wheel drop of this length must have been noticed (S10).
-const WHEEL_DROP_SURE_MS: u32 = 50;
 /// Contacts that bounce open keep a robot docked for this long (S19), so S7's ten seconds off the dock begin after it.
 const DOCK_CLEAR_MS: u32 = 300;
 /// Long enough ago for every rule.
@@ -158,7 +153,7 @@ impl CauseTimes {
         stand(&mut self.cliff_ms, pins.cliff);
         self.update_reverse(pins, drives);
         stand(&mut self.wheel_drop_ms, pins.wheel_drop);
-        self.grounded_ms = if self.wheel_drop_ms > WHEEL_DROP_SURE_MS {
+        self.grounded_ms = if self.wheel_drop_ms > WHEEL_DROP_MS {
             0
         } else {
             self.grounded_ms.saturating_add(1)

@@ -1,5 +1,6 @@
 //! Checks the charger against the true state of the pack (S18).
 
+use super::limits::{LEAK_MA, OFF_DOCK_MS, REST_MS};
 use crate::verdict;
 
 /// True state of charger and pack, without sensor faults.
@@ -43,14 +44,9 @@ const COLD_DC: i32 = -50;
 const VOLTAGE_MAX_MV: i32 = 21_000;
 /// The firmware regulates to 1 A and stops at 1.25 A; its converter sees steps of 0.1 A.
 const CURRENT_MAX_MA: i32 = 1_400;
-/// A rest of half an hour ends a charge.
-const REST_MS: u32 = 30 * 60_000;
 
-/// Current through a switch that is not driven.
-const LEAK_MA: i32 = 150;
 /// S18: after a second of it a robot may back off the dock by itself, three times with their pauses.
 const LEAK_MS: u32 = 1_000;
-const LEAVING_MS: u32 = 20_000;
 
 impl ChargeTimes {
     /// Whether a robot may leave the dock without a command: nothing else ends the current.
@@ -90,7 +86,7 @@ impl ChargeTimes {
             0
         };
         self.leaving_ms = if self.leak_ms >= LEAK_MS {
-            LEAVING_MS
+            OFF_DOCK_MS
         } else {
             self.leaving_ms.saturating_sub(elapsed_ms)
         };

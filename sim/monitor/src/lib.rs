@@ -14,6 +14,7 @@
 
 mod causes;
 mod charging;
+mod limits;
 mod permission;
 mod said;
 mod verdict;

@@ -3,6 +3,9 @@
 use rvac_protocol::message::ResetCause;
 
 use super::causes::{CauseTimes, Drives};
+use super::limits::{
+    DOCKED_MS, FRESH_MS, HAND_LEASE_MS, HAND_QUIET_MS, LEAVING_MS, RESET_WINDOW_MS, SILENCE_MS,
+};
 use super::said::{Heard, Said, read_heard, read_said};
 use super::wire::Splitter;
 
@@ -12,18 +15,6 @@ const LEASE_GRACE_MS: u64 = 50;
 const STOP_GRACE_MS: u64 = 20;
 /// The firmware's clock may begin any of the longer times this much later.
 const CLOCK_GRACE_MS: u64 = 200;
-/// S19: an arrival at the dock ends every permission.
-const ARRIVAL_MS: u32 = 50;
-/// What a person who types without a session may do ends so long after the last packet that arms or moves.
-const HAND_QUIET_MS: u64 = 10_000;
-/// Leaving the dock ends on its contacts, so long after the `arm`.
-const LEAVING_MS: u64 = 20_000;
-/// S3: the host's view may be this old, with the length of a packet on the line.
-const FRESH_MS: i32 = 400 + 20;
-/// A session ends after this silence, and hand mode begins.
-const SILENCE_MS: u64 = 2_000;
-/// The longest lease in hand mode.
-const HAND_LEASE_MS: u64 = 500;
 /// A button counts as pressed when it is down for this long: shorter is noise.
 const BUTTON_HELD_MS: u32 = 20;
 /// Being off the dock for this long ends what an undock command allowed.
@@ -31,8 +22,8 @@ const UNDOCKED_MS: u32 = 3_000;
 /// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after
 /// 65,536.
 const ANSWER_MS: u64 = 1_000;
-/// S4: three resets within this time latch.
-const RESET_WINDOW_MS: u64 = 60_000;
+/// So many `arm`s may be on their way at once; a host that sends more is not understood.
+const UNANSWERED_MAX: usize = 8;
 
 /// Whether motion is armed, and what revokes that (SPEC.md section 4).
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,6 +43,10 @@ struct Arming {
 }
 
 impl Arming {
+    fn lasts(&self, now_ms: u64) -> bool {
+        self.armed && self.off_ms.is_none_or(|until| now_ms <= until)
+    }
+
     /// Motors must be off from this time on, or from an earlier one that is known already.
     fn end(&mut self, off_ms: u64) {
         self.off_ms = Some(self.off_ms.map_or(off_ms, |known| known.min(off_ms)));
@@ -72,8 +67,8 @@ pub(crate) struct HostPermission {
     /// The firmware's clock began to count between the reset and this.
     clock_ms: u64,
     arming: Arming,
-    /// State to which a refused `arm` returns.
-    before: Arming,
+    /// States to which refused `arm`s return, the oldest first: more than one may be on its way.
+    before: Vec<Arming>,
     newest_motion: Option<u16>,
     /// Ends of the leases of left and right wheel.
     wheels_until_ms: [u64; 2],
@@ -174,7 +169,10 @@ impl HostPermission {
         if !arming.typed && arming.number == self.arming.number {
             return;
         }
-        self.before = self.arming;
+        if self.before.len() == UNANSWERED_MAX {
+            self.before.remove(0);
+        }
+        self.before.push(self.arming);
         self.arming = Arming {
             armed: true,
             since_ms: now_ms,
@@ -221,9 +219,12 @@ impl HostPermission {
             {
                 self.arming = Arming {
                     number: Some(number),
-                    ..self.before
+                    ..self.before.pop().unwrap_or_default()
                 };
             }
+            Some(Said::Refused(number)) => self
+                .before
+                .retain(|arming| arming.number != Some(number) || now_ms > arming.since_ms + ANSWER_MS),
             _ => {}
         }
     }
@@ -234,7 +235,7 @@ impl HostPermission {
         self.reset_ms = now_ms;
         self.clock_ms = now_ms;
         self.arming = Arming::default();
-        self.before = Arming::default();
+        self.before.clear();
         self.newest_motion = None;
         self.wheels_until_ms = [0; 2];
         self.cleaners_until_ms = [0; 3];
@@ -263,7 +264,8 @@ impl HostPermission {
                 self.arming.button_ms = Some(pressed_ms);
             }
         }
-        if standing.undocked_ms > UNDOCKED_MS {
+        // A robot that was told to leave though it stood elsewhere has left after the same time.
+        if standing.undocked_ms > UNDOCKED_MS && now_ms > self.arming.since_ms + u64::from(UNDOCKED_MS) {
             self.arming.undock = false;
         }
         if self.has_run_out(now_ms, standing) {
@@ -288,13 +290,20 @@ impl HostPermission {
         let at_dock = if undock {
             standing.docked_ms > 0 && now_ms > since_ms + LEAVING_MS + CLOCK_GRACE_MS
         } else {
-            standing.docked_ms > ARRIVAL_MS
+            standing.docked_ms > DOCKED_MS
         };
         now_ms > heard_ms || at_dock
     }
 
     pub(crate) fn armed(&self, now_ms: u64) -> bool {
-        self.arming.armed && self.arming.off_ms.is_none_or(|until| now_ms <= until)
+        self.in_force(now_ms).any(|arming| arming.lasts(now_ms))
+    }
+
+    /// The newest `arm`, and while the robot may not have read it yet, the one before.
+    fn in_force(&self, now_ms: u64) -> impl Iterator<Item = &Arming> {
+        let is_fresh = now_ms <= self.arming.since_ms + STOP_GRACE_MS;
+        let earlier = self.before.last().filter(|_| is_fresh);
+        core::iter::once(&self.arming).chain(earlier)
     }
 
     /// How long ago a button stopped the robot, if nobody has armed since.
@@ -305,7 +314,8 @@ impl HostPermission {
     }
 
     pub(crate) fn may_undock(&self, now_ms: u64) -> bool {
-        self.arming.undock && self.armed(now_ms)
+        self.in_force(now_ms)
+            .any(|arming| arming.undock && arming.lasts(now_ms))
     }
 
     /// Whether a lease covers each wheel that is driven.

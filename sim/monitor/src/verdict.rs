@@ -2,6 +2,11 @@
 
 use super::causes::{CauseTimes, Drives, Pins};
 use super::charging::ChargeTimes;
+use super::limits::{
+    BUMPER_BACKING_MS, BUMPER_MS, BUMPER_STUCK_MS, BUTTON_MS, CHARGE_CURRENT_MS, CHARGE_MS, CHARGE_TIME_MS,
+    CLIFF_HASTE_MS, CLIFF_MS, CLIFF_REVERSE_UM, DOCKED_MS, ESCAPE_WARNING_MS, GROUNDED_MS, STALL_MS,
+    WHEEL_DROP_MS,
+};
 use super::permission::HostPermission;
 
 /// A line of SAFETY.md that the monitor checks.
@@ -170,30 +175,12 @@ impl core::fmt::Display for Violation {
     }
 }
 
-const BUMPER_MS: u32 = 20;
-const BUMPER_STUCK_MS: u32 = 10_000;
-const BUMPER_BACKING_MS: u32 = 3_000;
-const CLIFF_MS: u32 = 20;
-/// The speed is known from some counts of the encoder only.
-const CLIFF_HASTE_MS: u32 = 100;
-/// 0.15 m, and the slip and the rounding between the rims and the body.
-const CLIFF_REVERSE_UM: u32 = 165_000;
-const WHEEL_DROP_MS: u32 = 50;
-const GROUNDED_MS: u32 = 1_000;
-const STALL_MS: u32 = 300;
-const DOCKED_MS: u32 = 20;
-const BUTTON_MS: u64 = 50;
-/// S18: a robot warns for so long before each try to back off.
-const ESCAPE_WARNING_MS: u64 = 2_000;
 /// A cause in the same millisecond as a start cannot prevent it; one that has lasted for the reaction time can.
 const START_MS: u32 = 20;
 /// A pass of the firmware's loop and the debouncing of the judge's own clock.
 const MARGIN_MS: u32 = 2;
 
-const CHARGE_MS: u32 = 100;
 const CHARGE_SLOW_MS: u32 = 2_000;
-const CHARGE_CURRENT_MS: u32 = 200;
-const CHARGE_TIME_MS: u32 = 12_960_000;
 
 fn charger_verdicts(standing: &ChargeTimes) -> [(Rule, bool); 6] {
     [

@@ -12,6 +12,7 @@ mod line;
 mod parameters;
 mod power;
 mod robot;
+mod sensor_errors;
 
 pub use board::{Outfit, Relax, Sr8730Outfit};
 pub use line::SerialLine;

@@ -3,7 +3,7 @@
 use cordlib::{LoadParameters, PackParameters, Parameters};
 use home::RobotModel;
 use rvac_protocol::message::Limits;
-use rvac_units::{AngularSpeed, Length, Speed, Throttle};
+use rvac_units::{AngularSpeed, Current, Length, Speed, Throttle};
 
 const FIRMWARE: &str = concat!("sim-", env!("CARGO_PKG_VERSION"));
 
@@ -22,8 +22,14 @@ pub fn parameters_for(device: &'static str, model: &RobotModel) -> Parameters {
     parameters.wheel.speed_at_full = Speed::from_m_per_s(model.wheel_motor.free_speed_m_per_s);
     parameters.wheel.dead_band =
         Throttle::saturating_from_millionths((model.wheel_motor.dead_band_brake * 1e6) as i32);
+    parameters.guard.wheel_current_max = stall_limit(model.wheel_motor.stall_current_a);
     parameters.pack = pack_of(model);
     parameters
+}
+
+/// Three quarters of what a held wheel draws from a full pack, so that an empty one reaches it too.
+fn stall_limit(stall_a: f64) -> Current {
+    Current::from_a(0.75 * stall_a)
 }
 
 /// The battery and its loads.

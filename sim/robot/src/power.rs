@@ -1,6 +1,6 @@
 //! The charging switch between dock and pack.
 
-use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest};
+use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, TemperatureRange};
 use home::{Supply, World};
 
 use crate::board::PackPins;
@@ -43,7 +43,7 @@ pub(crate) fn readings(charge_a: f64, world: &World) -> ChargerReadings {
         pack_mv,
         input_mv: pack_mv.saturating_add((through_a * SHUNT_OHM * 1e3) as i32),
         current_ma: (through_a * 1e3) as i32,
-        temperature: Ok(sensors.battery_temperature),
+        temperature: Ok(TemperatureRange::exact(sensors.battery_temperature)),
         age_ms: since_ms as u32,
         adapter: sensors.dock_contacts,
     }

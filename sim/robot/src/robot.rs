@@ -14,6 +14,7 @@ use crate::board::{
 use crate::line::SerialLine;
 use crate::parameters::parameters_for;
 use crate::power::{self, ChargeSwitch};
+use crate::sensor_errors::SensorErrors;
 
 /// How a simulated robot is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +25,8 @@ pub struct RobotSettings {
     pub seed: u64,
     /// What the bridges are like.
     pub bridges: Bridges,
+    /// Its sensors show what those of the robot with this number show; `None` = the truth, as far as the home's noise lets them.
+    pub miscalibration: Option<u64>,
 }
 
 impl Default for RobotSettings {
@@ -32,6 +35,7 @@ impl Default for RobotSettings {
             baud: 230_400,
             seed: 1,
             bridges: Bridges::Sound,
+            miscalibration: None,
         }
     }
 }
@@ -47,6 +51,7 @@ pub struct SimulatedRobot<O: Outfit = Sr8730Outfit> {
     to_host: SerialLine,
     monitor: Monitor,
     bridges: Bridges,
+    errors: SensorErrors,
     driven: [WheelDrive; 2],
     charge_switch: ChargeSwitch,
     /// Current that the switch lets through, ampere.
@@ -65,7 +70,7 @@ const CLIFF_SETTLE_MS: u32 = 3;
 const NO_FLOOR_LEVEL: u8 = 20;
 
 impl<O: Outfit> SimulatedRobot<O> {
-    /// Switches the robot on at its place in `world`.
+    /// Switches the robot on at its place in `world`. `model` is what its firmware believes; the world has its own.
     #[must_use]
     pub fn new(model: &RobotModel, world: World, settings: &RobotSettings) -> Self {
         Self {
@@ -80,6 +85,10 @@ impl<O: Outfit> SimulatedRobot<O> {
             to_host: SerialLine::new(settings.baud, settings.seed.wrapping_add(1)),
             monitor: Monitor::new(),
             bridges: settings.bridges,
+            errors: settings
+                .miscalibration
+                .map(SensorErrors::drawn)
+                .unwrap_or_default(),
             driven: [WheelDrive::Brake; 2],
             charge_switch: ChargeSwitch::Sound,
             charge_a: 0.0,
@@ -135,6 +144,7 @@ impl<O: Outfit> SimulatedRobot<O> {
 
     fn read_pins(&mut self) {
         let sensors = self.world.sensors();
+        let errors = &self.errors;
         let board = self.cord.board_mut();
         board.clock.tick = Tick((self.now_ms - self.reset_ms) as u32);
         let edges = [sensors.count_left, sensors.count_right];
@@ -150,22 +160,22 @@ impl<O: Outfit> SimulatedRobot<O> {
             left: sensors.bumper_left,
             right: sensors.bumper_right,
         };
-        board.cliffs.levels = cliff_levels(sensors, self.model.cliffs.len());
+        board.cliffs.levels = errors.cliffs(cliff_levels(sensors, self.model.cliffs.len()));
         board.wheel_drops.hanging = WheelDrops {
             left: sensors.wheel_drop_left,
             right: sensors.wheel_drop_right,
         };
-        board.proximity.closeness = sensors.proximity;
+        board.proximity.closeness = errors.proximity(sensors.proximity);
         board.gyro.gyro = sensors.gyro.map(|gyro| Gyro {
             heading: gyro.heading,
             rate: gyro.rate,
         });
-        board.currents.currents = Some(Currents {
+        board.currents.currents = Some(errors.currents(Currents {
             wheel_left: sensors.wheel_left_current,
             wheel_right: sensors.wheel_right_current,
             brush_main: sensors.brush_main_current,
-        });
-        board.charger.readings = Some(power::readings(self.charge_a, &self.world));
+        }));
+        board.charger.readings = Some(errors.pack(power::readings(self.charge_a, &self.world)));
         board.dock_contacts.closed = sensors.dock_contacts;
         board.dock_beams.symbols = sensors.dock_receivers;
         board.dust_box.inserted = sensors.dust_box;

@@ -8,6 +8,7 @@ use brain::command::StrategyName;
 use clap::{Args, Parser, Subcommand};
 use rvac_api::CleaningPattern;
 use rvac_sim::baseline::{Origin, title};
+use rvac_sim::faults::Calibration;
 use rvac_sim::run::{RunEnd, RunSettings};
 use rvac_sim::serve::{RadioSettings, ServeSettings};
 use rvac_sim::{CalibrationChoice, GyroFitted, PoseSource, SceneSettings};
@@ -309,12 +310,23 @@ pub(crate) struct FaultArguments {
     /// says, and how soon it goes on. With 3 seeds unless --seeds names others.
     #[arg(long, conflicts_with = "minutes")]
     pub(crate) line: bool,
+    /// Each seed has a robot of its own: other wheels, motors, pack and sensors than firmware and host believe.
+    #[arg(long)]
+    pub(crate) miscalibrated: bool,
     /// Print one JSON object.
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 impl FaultArguments {
+    pub(crate) const fn calibration(&self) -> Calibration {
+        if self.miscalibrated {
+            Calibration::Wrong
+        } else {
+            Calibration::True
+        }
+    }
+
     pub(crate) fn duration_ms(&self) -> u64 {
         (self.minutes * 60_000.0) as u64
     }

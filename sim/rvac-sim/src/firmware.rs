@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use home::World;
+use home::{RobotModel, World};
 use pic32::board::serial::HostRate;
 use pic32::board::{
     Blueprint, BlueprintError, CalibrationChoice, EmulatedRobot, EmulatedSettings, GyroFitted,
@@ -97,23 +97,20 @@ impl Firmware {
         }
     }
 
-    /// A robot with this firmware that was just switched on.
+    /// A robot with this firmware that was just switched on. The firmware believes `model`.
     #[must_use]
-    pub fn robot(&self, world: World, settings: &RobotSettings) -> Robot {
+    pub fn robot(&self, model: &RobotModel, world: World, settings: &RobotSettings) -> Robot {
         match self {
-            Self::HostBuilt => {
-                let model = world.model().clone();
-                if model.name == Relax::NAME {
-                    Robot::HostBuiltRelax(Box::new(SimulatedRobot::new(&model, world, settings)))
-                } else {
-                    Robot::HostBuilt(Box::new(SimulatedRobot::new(&model, world, settings)))
-                }
+            Self::HostBuilt if model.name == Relax::NAME => {
+                Robot::HostBuiltRelax(Box::new(SimulatedRobot::new(model, world, settings)))
             }
+            Self::HostBuilt => Robot::HostBuilt(Box::new(SimulatedRobot::new(model, world, settings))),
             Self::Image(blueprint) => {
                 let settings = EmulatedSettings {
                     rate: HostRate::exact(settings.baud),
                     seed: settings.seed,
                     bridges: settings.bridges,
+                    miscalibration: settings.miscalibration,
                     ..EmulatedSettings::default()
                 };
                 Robot::Emulated(Box::new(EmulatedRobot::new(blueprint, world, &settings)))

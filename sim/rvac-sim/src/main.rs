@@ -176,7 +176,7 @@ fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     if !firmware.suits(&model.name) {
         bail!(SceneError::NoBoard(model.name));
     }
-    let campaign = FaultCampaign::load(model, firmware)?;
+    let campaign = FaultCampaign::load(model, firmware)?.with_calibration(arguments.calibration());
     let seeds = arguments.seeds.clone();
     let count = seeds.end - seeds.start;
     let duration_ms = arguments.duration_ms();
@@ -195,9 +195,14 @@ fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     for outcome in outcomes.iter().filter(|outcome| outcome.violation_count > 0) {
         let seed = outcome.seed;
         let minutes = arguments.minutes;
+        let flag = if arguments.miscalibrated {
+            " --miscalibrated"
+        } else {
+            ""
+        };
         writeln!(
             io::stderr(),
-            "seed {seed} violated {} rules; replay it with: rvac-sim faults --seeds {seed}..{} --minutes {minutes}",
+            "seed {seed} violated {} rules; replay it with: rvac-sim faults --seeds {seed}..{} --minutes {minutes}{flag}",
             outcome.violation_count,
             seed + 1,
         )?;

@@ -80,8 +80,10 @@ impl Scene {
     /// As [`Self::robot`], at another place of the plan.
     #[must_use]
     pub fn robot_at(&self, start: Option<Pose>, seed: u64, settings: &RobotSettings) -> Robot {
-        let world = World::new(Arc::clone(&self.home), &self.model, &self.noise, seed, start);
-        self.firmware.robot(world, settings)
+        let built = settings.miscalibration.map(|seed| self.model.deviating(seed));
+        let built = built.as_ref().unwrap_or(&self.model);
+        let world = World::new(Arc::clone(&self.home), built, &self.noise, seed, start);
+        self.firmware.robot(&self.model, world, settings)
     }
 
     /// A gyro on the robot's Linux board.

@@ -5,29 +5,38 @@ use rayon::prelude::*;
 use rvac_protocol::message::Inhibit;
 use serde::Serialize;
 
+use crate::limits::period_ms;
+use crate::scene::OperatingState;
 use crate::testbed::{Fixture, Testbed, TestbedError};
-use crate::trial::{OperatingState, Trial, TrialOutcome};
+use crate::trial::{Trial, TrialOutcome};
 
-/// Robots of each operating state: each with another phase between its core and its surroundings.
-const ROBOTS_PER_STATE: u64 = 8;
-/// An event comes within this many milliseconds: more than all periods of the firmware.
-const SPREAD_MS: u64 = 100;
+/// Robots of each operating state: each with a calibration and a noise of its own, and with another phase between its core
+/// and its surroundings.
+const ROBOTS_PER_STATE: u64 = 20;
 
 /// Result of one trial at all its phases.
 #[derive(Clone, Debug, Serialize)]
 pub struct TrialSummary {
+    /// Its name in rules.toml.
+    pub name: &'static str,
     /// Rule of SAFETY.md.
     pub rule: &'static str,
     /// What happened.
     pub what: &'static str,
+    /// Name of the limit.
+    pub limit: &'static str,
+    /// What an observer adds to it.
+    pub allowance: Option<&'static str>,
     /// How often.
     pub phases: usize,
+    /// Over how many milliseconds the events were spread.
+    pub spread_ms: u32,
     /// Longest reaction, ms; `None` = at least once there was no reaction within the observed time.
     pub worst_ms: Option<f64>,
     /// Mean reaction, ms.
     pub mean_ms: f64,
     /// Limit, ms.
-    pub limit_ms: u64,
+    pub limit_ms: u32,
     /// Times that it was too late, or the robot did not report what it had to.
     pub broken: usize,
     /// Breaches that the monitor saw, in all phases together.
@@ -63,44 +72,62 @@ impl Campaign {
         })
     }
 
-    /// Runs a trial at `phases` moments chosen by `seed`.
+    /// Runs a trial at `phases` moments chosen by `seed`, spread over the longest period of its rule.
     #[must_use]
     pub fn judge(&self, trial: &Trial, phases: usize, seed: u64) -> TrialSummary {
+        let spread_ms = period_ms(trial.rule());
         let mut random = home::Pcg::new(seed, 0);
-        let testbeds = self
+        let mut moments: Vec<u64> = (0..phases)
+            .map(|_| (random.unit() * (u64::from(spread_ms) * CYCLES_PER_MS) as f64) as u64)
+            .collect();
+        let robots = self
             .robots
             .iter()
             .find(|(scene, _)| *scene == trial.scene)
             .map_or(&[][..], |(_, testbeds)| testbeds.as_slice());
-        let mut phase = || (random.unit() * (SPREAD_MS * CYCLES_PER_MS) as f64) as u64;
-        let moments: Vec<(&Testbed, u64)> = testbeds
-            .iter()
-            .cycle()
-            .take(phases)
-            .map(|testbed| (testbed, phase()))
-            .collect();
+        let share = phases.div_ceil(robots.len().max(1)).max(1);
         let outcomes: Vec<TrialOutcome> = moments
-            .into_par_iter()
-            .map(|(testbed, phase)| trial.run(testbed.clone(), phase))
+            .chunks_mut(share)
+            .zip(robots)
+            .par_bridge()
+            .flat_map_iter(|(moments, testbed)| at_all(trial, testbed, moments))
             .collect();
-        TrialSummary::of(trial, &outcomes)
+        TrialSummary::of(trial, spread_ms, &outcomes)
     }
 }
 
+/// The trial with one robot, which goes on in its state from one moment to the next.
+fn at_all(trial: &Trial, testbed: &Testbed, moments: &mut [u64]) -> Vec<TrialOutcome> {
+    moments.sort_unstable();
+    let mut testbed = testbed.clone();
+    let mut passed_ms = 0;
+    let run = |moment: &u64| {
+        let at_ms = moment / CYCLES_PER_MS;
+        testbed.run(at_ms - passed_ms);
+        passed_ms = at_ms;
+        trial.run(testbed.clone(), moment % CYCLES_PER_MS)
+    };
+    moments.iter().map(run).collect()
+}
+
 impl TrialSummary {
-    fn of(trial: &Trial, outcomes: &[TrialOutcome]) -> Self {
+    fn of(trial: &Trial, spread_ms: u32, outcomes: &[TrialOutcome]) -> Self {
         let reactions: Option<Vec<f64>> = outcomes.iter().map(|outcome| outcome.reaction_ms).collect();
         let known: Vec<f64> = outcomes
             .iter()
             .filter_map(|outcome| outcome.reaction_ms)
             .collect();
         Self {
-            rule: trial.rule,
+            name: trial.name,
+            rule: trial.rule(),
             what: trial.what,
+            limit: trial.limit.name,
+            allowance: trial.expected.allowance().map(|allowance| allowance.name),
             phases: outcomes.len(),
+            spread_ms,
             worst_ms: reactions.map(|all| all.into_iter().fold(0.0, f64::max)),
             mean_ms: known.iter().sum::<f64>() / known.len().max(1) as f64,
-            limit_ms: trial.limit_ms,
+            limit_ms: trial.limit.ms,
             broken: outcomes.iter().filter(|outcome| !trial.is_kept(outcome)).count(),
             violations: outcomes.iter().map(|outcome| outcome.violations).sum(),
             said: outcomes

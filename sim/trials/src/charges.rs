@@ -6,6 +6,7 @@ use home::{Pack, PackMake, Pcg};
 use monitor::Bridges;
 use serde::Serialize;
 
+use crate::limits;
 use crate::testbed::{Fixture, Testbed, TestbedError};
 
 const PACKS: u64 = 0xC4A6;
@@ -57,16 +58,15 @@ impl ChargeDisturbance {
     ];
 
     /// In which time the current must have ended, ms; `None` where it may flow on.
-    const fn limit_ms(self) -> Option<u64> {
+    const fn limit_ms(self) -> Option<u32> {
         match self {
             Self::None | Self::WornPack => None,
-            Self::ThermistorOpen | Self::ThermistorShorted => Some(2_000),
-            // One filtered envelope more than the 100 ms of the rule.
-            Self::Lifted => Some(120),
-            // Found within a second; then it backs off, with a pause if the first try fails.
-            Self::SwitchShorted => Some(20_000),
-            // Found after 200 ms or ended by the watchdog.
-            Self::ConverterStopped => Some(480),
+            Self::ThermistorOpen | Self::ThermistorShorted => Some(limits::S18_THERMISTOR.ms),
+            Self::Lifted => Some(limits::S18_UNSUPPLIED.ms + limits::ENVELOPE_MS),
+            // Found, and then it backs off, with a pause if the first try fails.
+            Self::SwitchShorted => Some(limits::S18_OFF_DOCK.ms),
+            // Found in time, or ended by the watchdog.
+            Self::ConverterStopped => Some(limits::S5_RESET.ms + limits::ENVELOPE_MS),
         }
     }
 
@@ -118,7 +118,7 @@ impl ChargeResult {
         let ended = match (self.disturbance.limit_ms(), self.ended_ms) {
             (None, _) => true,
             (Some(_), None) => !self.began,
-            (Some(limit_ms), Some(ended_ms)) => ended_ms <= limit_ms,
+            (Some(limit_ms), Some(ended_ms)) => ended_ms <= u64::from(limit_ms),
         };
         let began = self.began || self.disturbance == ChargeDisturbance::WornPack;
         ended && began && self.violations == 0 && self.hottest_c < 55.0
@@ -166,7 +166,7 @@ pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError
     }
     if let Some(limit_ms) = disturbance.limit_ms().filter(|_| charge.began) {
         disturbance.begin(&mut testbed, seed);
-        charge.ended_ms = time_of_end(&mut testbed, 2 * limit_ms);
+        charge.ended_ms = time_of_end(&mut testbed, 2 * u64::from(limit_ms));
     }
     charge.hottest_c = testbed.robot().world().truth().battery_hottest_c;
     charge.violations = testbed.robot().monitor().count();
@@ -174,7 +174,7 @@ pub fn charge(fixture: &Fixture, seed: u64) -> Result<ChargeResult, TestbedError
 }
 
 fn on_the_dock(fixture: &Fixture, seed: u64, pack: Pack) -> Result<Testbed, TestbedError> {
-    let mut testbed = fixture.testbed(seed, Bridges::Sound, seed * 9_973);
+    let mut testbed = fixture.testbed(seed, Bridges::Sound, seed * 9_973)?;
     let world = testbed.robot_mut().world_mut();
     let dock = world.home().start();
     world.put_down_at(dock);

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use crate::measured::MeasuredError;
 use crate::testbed::TestbedError;
 
 /// Why a campaign has no result.
@@ -11,6 +12,9 @@ pub enum CampaignError {
     /// The robot does not reach the start of the trials.
     #[error(transparent)]
     Testbed(#[from] TestbedError),
+    /// The figures of the last long run cannot be read or written.
+    #[error(transparent)]
+    Measured(#[from] MeasuredError),
     /// The result cannot be written.
     #[error("cannot write the result: {0}")]
     Output(#[from] io::Error),

@@ -4,13 +4,12 @@ use pic32::board::CYCLES_PER_MS;
 use rvac_units::{AngularSpeed, Speed};
 use serde::Serialize;
 
+use crate::limits;
+use crate::scene::OperatingState;
 use crate::testbed::{Fixture, Testbed, TestbedError};
-use crate::trial::OperatingState;
 
 /// Random bits at this rate have 750,000 edges a second.
 const BAUD: u32 = 1_500_000;
-/// S1: the host is not heard any more.
-const OFF_LIMIT_MS: u64 = 300;
 /// cordlib's reaction times need a pass every 5 ms at least; a loop that sleeps makes one in a millisecond at most.
 const STEPS_MIN_HZ: u32 = 400;
 /// The host notices, asks again, and the robot has measured its rate.
@@ -41,7 +40,7 @@ impl FloodResult {
     /// Whether it is as it must be.
     #[must_use]
     pub fn is_good(&self) -> bool {
-        self.wheels_off_ms <= OFF_LIMIT_MS
+        self.wheels_off_ms <= u64::from(limits::S1_SILENCE.ms)
             && self.resets == 0
             && self.violations == 0
             && self.steps_hz.is_some_and(|hz| hz >= STEPS_MIN_HZ)

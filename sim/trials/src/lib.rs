@@ -9,14 +9,19 @@
 mod campaign;
 mod catalog;
 pub mod charges;
+mod draw;
 mod ending;
 pub mod flips;
 pub mod flood;
+pub mod limits;
+pub mod measured;
+mod scene;
 mod testbed;
 mod trial;
 
 pub use campaign::{Campaign, TrialSummary};
 pub use catalog::trials;
 pub use ending::{CampaignError, conclude};
+pub use scene::OperatingState;
 pub use testbed::{Fixture, Testbed, TestbedError};
-pub use trial::{Expectation, OperatingState, Trial, TrialOutcome};
+pub use trial::{Allowance, Expectation, MotorGroup, Trial, TrialOutcome};

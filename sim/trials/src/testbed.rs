@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::draw::RobotDraw;
 use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use monitor::Bridges;
 use pic32::board::{
-    Blueprint, BlueprintError, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings,
+    Blueprint, BlueprintError, BoardError, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings,
 };
 use pic32::image::{Image, ImageError};
 use rvac_protocol::PacketBuffer;
@@ -22,6 +23,8 @@ const CONNECT_MS: u64 = 8_000;
 /// Life of the host's motion commands and how often they are renewed, ms: as vthal does it.
 const LEASE_MS: u16 = 120;
 const RENEW_MS: u64 = 30;
+/// Period of a terminal that repeats what a person typed, ms.
+const TYPE_MS: u64 = 100;
 
 /// A wide room with nothing in it but the dock; the robot starts far from it.
 const ROOM: &str = r#"
@@ -64,9 +67,18 @@ pub enum TestbedError {
         #[source]
         error: ImageError,
     },
+    /// The board cannot be built.
+    #[error(transparent)]
+    Blueprint(#[from] BlueprintError),
     /// The board's description is wrong.
     #[error(transparent)]
-    Board(#[from] BlueprintError),
+    Board(#[from] BoardError),
+    /// The description of the robot is wrong.
+    #[error("robot.toml: {0}")]
+    Robot(String),
+    /// The calibration record does not fit into the image.
+    #[error("calibration record: {0}")]
+    Record(#[source] ImageError),
     /// The robot's description is wrong.
     #[error(transparent)]
     Model(#[from] ModelError),
@@ -88,6 +100,7 @@ pub struct Fixture {
     blueprint: Blueprint,
     home: Arc<Home>,
     model: RobotModel,
+    drawn: bool,
 }
 
 impl Fixture {
@@ -106,7 +119,14 @@ impl Fixture {
             home: Arc::new(Home::from_floorplan("room", ROOM, &model)?),
             image,
             model,
+            drawn: false,
         })
+    }
+
+    /// From now on each robot is one of its own: miscalibrated, noisy, with contacts that bounce, as its seed says.
+    #[must_use]
+    pub fn with_drawn_robots(self) -> Self {
+        Self { drawn: true, ..self }
     }
 
     /// The image with its symbols.
@@ -117,26 +137,36 @@ impl Fixture {
 
     /// A robot that was just switched on. Its core begins `late_cycles` (below a millisecond) after its surroundings'
     /// first millisecond, so that the two run at different phases.
-    #[must_use]
-    pub fn testbed(&self, seed: u64, bridges: Bridges, late_cycles: u64) -> Testbed {
-        let world = World::new(
-            Arc::clone(&self.home),
-            &self.model,
-            &Noise::ideal(),
-            seed,
-            Some(START),
-        );
-        let settings = EmulatedSettings {
+    ///
+    /// # Errors
+    /// When the robot of the seed cannot be drawn.
+    pub fn testbed(&self, seed: u64, bridges: Bridges, late_cycles: u64) -> Result<Testbed, TestbedError> {
+        let mut settings = EmulatedSettings {
             seed,
             bridges,
             ..EmulatedSettings::default()
         };
-        let mut robot = EmulatedRobot::new(&self.blueprint, world, &settings);
+        let mut robot = if self.drawn {
+            let draw = RobotDraw::new(self.image.clone(), seed)?;
+            settings.bounce_us = draw.bounce_us;
+            settings.miscalibration = draw.deviation;
+            let model = draw
+                .deviation
+                .map_or_else(|| self.model.clone(), |number| self.model.deviating(number));
+            let blueprint = Blueprint::sr8730(draw.image, &CalibrationChoice::Complete)?;
+            EmulatedRobot::new(&blueprint, self.world(&model, (&draw.noise, seed)), &settings)
+        } else {
+            EmulatedRobot::new(
+                &self.blueprint,
+                self.world(&self.model, (&Noise::ideal(), seed)),
+                &settings,
+            )
+        };
         robot
             .machine_mut()
             .cpu_mut()
             .stall_until(late_cycles % CYCLES_PER_MS);
-        Testbed {
+        Ok(Testbed {
             robot,
             session: HostSession::new(BinaryKinds::NONE, Tick(0)),
             from_robot: Vec::new(),
@@ -149,7 +179,12 @@ impl Fixture {
             speaks: true,
             said: Vec::new(),
             steps_hz: None,
-        }
+            typed: None,
+        })
+    }
+
+    fn world(&self, model: &RobotModel, (noise, seed): (&Noise, u64)) -> World {
+        World::new(Arc::clone(&self.home), model, noise, seed, Some(START))
     }
 }
 
@@ -169,6 +204,8 @@ pub struct Testbed {
     /// The packet that the robot is sending.
     said: Vec<u8>,
     steps_hz: Option<u32>,
+    /// What a person types again and again.
+    typed: Option<&'static str>,
 }
 
 impl Testbed {
@@ -193,6 +230,9 @@ impl Testbed {
         if self.speaks {
             self.renew(now);
             self.speak(now);
+        }
+        if let Some(text) = self.typed.filter(|_| self.robot.now_ms().is_multiple_of(TYPE_MS)) {
+            self.type_in(text);
         }
         let taken = self.robot.send(&self.to_robot);
         self.to_robot.drain(..taken);
@@ -316,6 +356,11 @@ impl Testbed {
     /// A person types a packet without a CRC, whatever has become of the host.
     pub fn type_in(&mut self, text: &str) {
         self.to_robot.extend(text.bytes().chain([SEPARATOR]));
+    }
+
+    /// A person types this again and again from now on, in hand mode.
+    pub const fn keep_typing(&mut self, text: Option<&'static str>) {
+        self.typed = text;
     }
 
     /// Sets the host's motion from now on; `None` = it stops renewing.

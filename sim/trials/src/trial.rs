@@ -2,71 +2,35 @@
 
 use pic32::board::{CYCLES_PER_MS, MotorOutput};
 use rvac_protocol::message::{Inhibit, Inhibits};
-use rvac_units::{AngularSpeed, Speed, Throttle};
 
-use crate::testbed::{Fixture, Testbed, TestbedError};
-use monitor::Bridges;
+use crate::limits::{self, Limit};
+use crate::scene::OperatingState;
+use crate::testbed::Testbed;
 
-/// Time in an operating state before the event, in which the wheels reach their speed.
-const SETTLE_MS: u64 = 1_200;
 /// Observation time after the limit, so that a late reaction is measured.
 const AFTER_MS: u64 = 150;
 
-/// What the robot is doing when the event happens.
+/// Motors that must be off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OperatingState {
-    /// It stands still, armed.
-    Standing,
-    /// It drives ahead at 0.15 m/s.
-    Driving,
-    /// It drives ahead with brushes and suction on.
-    Cleaning,
-    /// It turns on the spot.
-    Turning,
-    /// It drives ahead on bridges that ignore "brake".
-    DeafBridges,
+pub enum MotorGroup {
+    /// Both wheels.
+    Wheels,
+    /// Brushes and suction.
+    Cleaners,
+    /// Every motor.
+    All,
 }
 
-impl OperatingState {
-    /// All of them.
-    pub const ALL: [Self; 5] = [
-        Self::Standing,
-        Self::Driving,
-        Self::Cleaning,
-        Self::Turning,
-        Self::DeafBridges,
-    ];
-
-    /// A robot in this state.
-    ///
-    /// # Errors
-    /// When it does not reach the state.
-    pub fn set(self, fixture: &Fixture, seed: u64, late_cycles: u64) -> Result<Testbed, TestbedError> {
-        let bridges = match self {
-            Self::DeafBridges => Bridges::DeafToBrake,
-            Self::Standing | Self::Driving | Self::Cleaning | Self::Turning => Bridges::Sound,
-        };
-        let mut testbed = fixture.testbed(seed, bridges, late_cycles);
-        testbed.connect()?;
-        testbed.arm();
-        testbed.run(100);
-        let ahead = (Speed(150_000), AngularSpeed(0));
+impl MotorGroup {
+    const fn motors(self) -> &'static [MotorOutput] {
         match self {
-            Self::Standing => {}
-            Self::Driving | Self::DeafBridges => testbed.drive(Some(ahead)),
-            Self::Cleaning => {
-                testbed.drive(Some(ahead));
-                testbed.clean(Throttle::saturating_from_millionths(800_000));
-            }
-            Self::Turning => testbed.drive(Some((Speed(0), AngularSpeed(900_000)))),
-        }
-        testbed.robot_mut().watch_motors();
-        testbed.run(SETTLE_MS);
-        let drives = testbed.robot().wheels_driven();
-        match (self, drives) {
-            (Self::Standing, true) => Err(TestbedError::OperatingState("it does not stand")),
-            (Self::Standing, false) | (_, true) => Ok(testbed),
-            (_, false) => Err(TestbedError::OperatingState("it does not drive")),
+            Self::Wheels => &[MotorOutput::WheelLeft, MotorOutput::WheelRight],
+            Self::Cleaners => &[
+                MotorOutput::BrushMain,
+                MotorOutput::BrushSides,
+                MotorOutput::Vacuum,
+            ],
+            Self::All => &MotorOutput::ALL,
         }
     }
 }
@@ -76,56 +40,88 @@ impl OperatingState {
 pub enum Expectation {
     /// Nothing in particular, as long as the monitor sees no breach.
     Lawful,
-    /// The wheels are off in time and stay off.
-    WheelsOff,
-    /// All motors are off in time and stay off.
-    AllOff,
+    /// These motors are off in time and stay off.
+    Off(MotorGroup),
+    /// The same, and at the end the robot reports this.
+    OffSaying(MotorGroup, Inhibit),
     /// The robot reports this in time.
     Says(Inhibit),
+    /// The robot reports this in time, counted from a reset.
+    SaysAfterReset(Inhibit),
     /// The machine itself is broken, so that the firmware cannot stop the motors; it reports this in time.
     SaysBroken(Inhibit),
-    /// All motors are off in time and stay off, and at the end the robot reports this.
-    AllOffSaying(Inhibit),
-    /// The wheels are off in time and stay off, and at the end the robot reports this.
-    WheelsOffSaying(Inhibit),
+    /// The robot drives off by itself.
+    DrivesOff,
+}
+
+/// What an observer adds to a limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Allowance {
+    /// Its name in rules.toml.
+    pub name: &'static str,
+    /// Milliseconds.
+    pub ms: u32,
 }
 
 impl Expectation {
     const fn motors(self) -> &'static [MotorOutput] {
         match self {
-            Self::WheelsOff | Self::WheelsOffSaying(_) => &[MotorOutput::WheelLeft, MotorOutput::WheelRight],
-            Self::AllOff | Self::AllOffSaying(_) => &MotorOutput::ALL,
-            Self::Lawful | Self::Says(_) | Self::SaysBroken(_) => &[],
+            Self::Off(group) | Self::OffSaying(group, _) => group.motors(),
+            Self::Lawful
+            | Self::Says(_)
+            | Self::SaysAfterReset(_)
+            | Self::SaysBroken(_)
+            | Self::DrivesOff => &[],
         }
     }
 
     const fn said(self) -> Option<Inhibit> {
         match self {
-            Self::Lawful | Self::WheelsOff | Self::AllOff => None,
+            Self::Lawful | Self::Off(_) | Self::DrivesOff => None,
             Self::Says(inhibit)
+            | Self::SaysAfterReset(inhibit)
             | Self::SaysBroken(inhibit)
-            | Self::AllOffSaying(inhibit)
-            | Self::WheelsOffSaying(inhibit) => Some(inhibit),
+            | Self::OffSaying(_, inhibit) => Some(inhibit),
+        }
+    }
+
+    /// What the way of looking adds to the limit.
+    #[must_use]
+    pub const fn allowance(self) -> Option<Allowance> {
+        match self {
+            Self::Says(_) | Self::SaysBroken(_) => Some(Allowance {
+                name: "report",
+                ms: limits::REPORT_MS,
+            }),
+            Self::SaysAfterReset(_) => Some(Allowance {
+                name: "reconnect",
+                ms: limits::RECONNECT_MS,
+            }),
+            Self::Lawful | Self::Off(_) | Self::OffSaying(..) | Self::DrivesOff => None,
         }
     }
 }
 
+/// Makes the fault happen at this cycle, which lies within the next millisecond, and returns the cycle from which the
+/// reaction counts. What can only happen between two milliseconds happens at once.
+pub(crate) type TrialEvent = fn(&mut Testbed, u64) -> u64;
+
 /// A fault and the expected reaction.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial {
-    /// Rule of SAFETY.md, for example `S6`.
-    pub rule: &'static str,
+    /// Its name in rules.toml.
+    pub name: &'static str,
     /// What happens.
     pub what: &'static str,
     /// The operating state.
-    pub scene: OperatingState,
-    /// Makes it happen at this cycle, which lies within the next millisecond. What can only happen between two
-    /// milliseconds happens at once.
-    pub event: fn(&mut Testbed, u64),
+    pub(crate) scene: OperatingState,
+    pub(crate) event: TrialEvent,
     /// The expected reaction.
     pub expected: Expectation,
-    /// Limit of the reaction, ms.
-    pub limit_ms: u64,
+    /// In which time.
+    pub limit: Limit,
+    /// Longer observation than the limit asks for, ms.
+    watch_ms: u64,
 }
 
 /// Outcome of a trial.
@@ -142,28 +138,75 @@ pub struct TrialOutcome {
 }
 
 impl Trial {
-    /// Runs the trial, with the event `phase_cycles` after the testbed's present millisecond.
+    pub(crate) const fn new(
+        name: &'static str,
+        what: &'static str,
+        scene: OperatingState,
+        event: TrialEvent,
+    ) -> Self {
+        Self {
+            name,
+            what,
+            scene,
+            event,
+            expected: Expectation::Lawful,
+            limit: limits::S2_NONE_ACTS,
+            watch_ms: 0,
+        }
+    }
+
+    pub(crate) const fn expects(self, expected: Expectation, limit: Limit) -> Self {
+        Self {
+            expected,
+            limit,
+            ..self
+        }
+    }
+
+    pub(crate) const fn watched_for(self, watch_ms: u64) -> Self {
+        Self { watch_ms, ..self }
+    }
+
+    /// Its rule in SAFETY.md, for example `S6`.
     #[must_use]
-    pub fn run(&self, mut testbed: Testbed, phase_cycles: u64) -> TrialOutcome {
-        testbed.run(phase_cycles / CYCLES_PER_MS);
+    pub fn rule(&self) -> &'static str {
+        self.limit.name.split('.').next().unwrap_or_default()
+    }
+
+    /// Limit with what an observer adds.
+    #[must_use]
+    pub fn bound_ms(&self) -> f64 {
+        let allowance = self.expected.allowance().map_or(0, |allowance| allowance.ms);
+        f64::from(self.limit.ms + allowance)
+    }
+
+    /// Runs the trial, with the event so many cycles (less than a millisecond) after the testbed's present millisecond.
+    #[must_use]
+    pub fn run(&self, mut testbed: Testbed, late_cycles: u64) -> TrialOutcome {
         let before = testbed.robot().monitor().count();
-        let cycle = testbed.robot().cycle() + phase_cycles % CYCLES_PER_MS;
-        (self.event)(&mut testbed, cycle);
-        let mut said_ms = None;
-        for _ in 0..self.limit_ms + AFTER_MS {
+        let at = testbed.robot().cycle() + late_cycles % CYCLES_PER_MS;
+        let cycle = (self.event)(&mut testbed, at);
+        let mut noticed_ms = None;
+        let mut left_ms = (self.bound_ms() as u64).max(self.watch_ms) + AFTER_MS;
+        while left_ms > 0 {
             testbed.tick();
-            let says = self
-                .expected
-                .said()
-                .is_some_and(|inhibit| testbed.inhibits().contains(inhibit));
-            if says && said_ms.is_none() {
-                said_ms = Some(since_ms(cycle, testbed.robot().cycle()));
+            left_ms -= 1;
+            if noticed_ms.is_none() && self.is_noticed(&testbed) {
+                noticed_ms = Some(since_ms(cycle, testbed.robot().cycle()));
+                if self.expected.motors().is_empty() {
+                    left_ms = AFTER_MS;
+                }
             }
         }
         let reaction_ms = match self.expected {
-            Expectation::Says(_) | Expectation::SaysBroken(_) => said_ms,
+            Expectation::Says(_)
+            | Expectation::SaysAfterReset(_)
+            | Expectation::SaysBroken(_)
+            | Expectation::DrivesOff => noticed_ms,
             Expectation::Lawful => Some(0.0),
-            _ => off_ms(&testbed, self.expected.motors(), cycle),
+            Expectation::Off(_) | Expectation::OffSaying(..) => {
+                off_ms(&testbed, self.expected.motors(), cycle)
+            }
         };
         TrialOutcome {
             reaction_ms,
@@ -171,8 +214,17 @@ impl Trial {
                 Expectation::SaysBroken(_) => 0,
                 _ => (testbed.robot().monitor().count() - before) as usize,
             },
-            unsaid: self.expected.said().is_some() && said_ms.is_none(),
+            unsaid: self.expected.said().is_some() && noticed_ms.is_none(),
             inhibits: testbed.inhibits(),
+        }
+    }
+
+    /// What the robot had to say, or do by itself.
+    fn is_noticed(&self, testbed: &Testbed) -> bool {
+        match (self.expected, self.expected.said()) {
+            (_, Some(inhibit)) => testbed.inhibits().contains(inhibit),
+            (Expectation::DrivesOff, None) => testbed.robot().wheels_driven(),
+            (_, None) => false,
         }
     }
 
@@ -181,7 +233,7 @@ impl Trial {
     pub fn is_kept(&self, outcome: &TrialOutcome) -> bool {
         let in_time = outcome
             .reaction_ms
-            .is_some_and(|reaction_ms| reaction_ms <= self.limit_ms as f64);
+            .is_some_and(|reaction_ms| reaction_ms <= self.bound_ms());
         in_time && outcome.violations == 0 && !outcome.unsaid
     }
 }

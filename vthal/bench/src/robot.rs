@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, Event, Inhibit, Limits, MotionPhase, Name, Report,
-    ResetCause, State,
+    BinaryKinds, Capabilities, Command, Description, Event, Inhibit, Limits, MotionPhase, MotorGaps, Name,
+    Report, ResetCause, State,
 };
 use rvac_protocol::session::{Mode, RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
@@ -195,6 +195,7 @@ fn identity(binary: BinaryKinds, boot_count: u32) -> RobotIdentity {
                 radius: Length::from_m(0.175),
                 swath: Length::from_m(0.30),
             },
+            motors: MotorGaps::default(),
         },
     }
 }

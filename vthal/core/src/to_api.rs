@@ -40,6 +40,13 @@ pub(crate) fn robot(description: &Description) -> RobotDescription {
             .chain((description.sensors.dock_receivers > 0).then_some("dock"))
             .map(str::to_owned)
             .collect(),
+        unguarded: description.unguarded.iter().copied().map(str::to_owned).collect(),
+        unmeasured: description
+            .unmeasured
+            .iter()
+            .copied()
+            .map(str::to_owned)
+            .collect(),
     }
 }
 

@@ -250,6 +250,7 @@ fn identity() -> RobotIdentity {
                 radius: Length::from_m(0.175),
                 swath: Length::from_m(0.3),
             },
+            motors: MotorGaps::default(),
         },
     }
 }

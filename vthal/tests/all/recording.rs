@@ -41,6 +41,8 @@ fn start() -> RunStart {
             turn_max_rad_per_s: 1.5,
             proximity: 5,
             parts: vec!["gyro".to_owned()],
+            unguarded: Vec::new(),
+            unmeasured: Vec::new(),
         },
     }
 }
@@ -116,7 +118,7 @@ fn records() -> Vec<Record> {
         currents: Some(MotorCurrents {
             wheel_left_a: 0.15,
             wheel_right_a: 0.125,
-            brush_main_a: 0.5,
+            brush_main_a: Some(0.5),
         }),
         beacons: vec![
             BeaconSignal::Range(BeaconRange {

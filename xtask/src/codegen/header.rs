@@ -9,7 +9,7 @@ const HEADER: &str = "firmware/cordlib-c/include/cordlib.h";
 
 /// The header as it should be. The generator writes it into its place; what stood there before is put back, so that the
 /// caller alone decides what is written.
-pub(crate) fn of_cordlib(root: &Path) -> anyhow::Result<Generated> {
+pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
     let path = root.join(HEADER);
     let before = std::fs::read(&path).with_context(|| format!("cannot read {HEADER}"))?;
     let mut generator = workspace::cargo();
@@ -25,5 +25,5 @@ pub(crate) fn of_cordlib(root: &Path) -> anyhow::Result<Generated> {
     process::run("make cordlib.h", &mut generator)?;
     let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read {HEADER}"))?;
     std::fs::write(&path, before).with_context(|| format!("cannot write {HEADER}"))?;
-    Ok(Generated { path, text })
+    Ok(vec![Generated { path, text }])
 }

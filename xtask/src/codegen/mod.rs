@@ -3,10 +3,14 @@
 pub(crate) mod board;
 mod header;
 pub(crate) mod robots;
+mod rules;
+mod rust_name;
 
 use crate::{process, workspace};
 use anyhow::{Context, bail};
-use std::path::PathBuf;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 /// Arguments of `cargo xtask codegen`.
 #[derive(Debug, clap::Args)]
@@ -25,8 +29,22 @@ pub(crate) struct Generated {
 /// Makes all generated files.
 pub(crate) fn run(arguments: &CodegenArguments) -> anyhow::Result<()> {
     let root = workspace::root();
-    let mut files = board::files(&root)?;
-    files.extend([robots::page(&root)?, header::of_cordlib(&root)?]);
+    let mut stale = Vec::new();
+    // The header of cordlib is made by a program that contains what the steps before it make.
+    for step in [rules::files, board::files, robots::files, header::files] {
+        stale.extend(renew(&root, step(&root)?, arguments)?);
+    }
+    if arguments.check && !stale.is_empty() {
+        bail!(
+            "stale: {}; run cargo xtask codegen and commit the result",
+            stale.join(", ")
+        );
+    }
+    Ok(())
+}
+
+/// Writes what differs, unless it is only to be checked, and names it.
+fn renew(root: &Path, files: Vec<Generated>, arguments: &CodegenArguments) -> anyhow::Result<Vec<String>> {
     let mut stale = Vec::new();
     for file in files {
         let present = std::fs::read_to_string(&file.path).unwrap_or_default();
@@ -35,7 +53,7 @@ pub(crate) fn run(arguments: &CodegenArguments) -> anyhow::Result<()> {
         }
         let shown = file
             .path
-            .strip_prefix(&root)
+            .strip_prefix(root)
             .unwrap_or(&file.path)
             .display()
             .to_string();
@@ -49,11 +67,25 @@ pub(crate) fn run(arguments: &CodegenArguments) -> anyhow::Result<()> {
         }
         stale.push(shown);
     }
-    if arguments.check && !stale.is_empty() {
-        bail!(
-            "stale: {}; run cargo xtask codegen and commit the result",
-            stale.join(", ")
-        );
+    Ok(stale)
+}
+
+/// The source as rustfmt writes it, so that the generated files are formatted like all others.
+fn formatted(text: &str) -> anyhow::Result<String> {
+    let mut rustfmt = Command::new("rustfmt");
+    rustfmt
+        .args(["--edition", "2024", "--config-path"])
+        .arg(workspace::root());
+    rustfmt.stdin(Stdio::piped()).stdout(Stdio::piped());
+    let mut child = rustfmt
+        .spawn()
+        .with_context(|| format!("cannot start {}", process::name(&rustfmt)))?;
+    if let Some(mut stdin) = child.stdin.take() {
+        stdin.write_all(text.as_bytes())?;
     }
-    Ok(())
+    let output = child.wait_with_output()?;
+    if !output.status.success() {
+        bail!("rustfmt does not understand what was made");
+    }
+    Ok(String::from_utf8(output.stdout)?)
 }

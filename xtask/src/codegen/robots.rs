@@ -34,7 +34,7 @@ pub(crate) fn description(robots: &Path, name: &str) -> anyhow::Result<Option<Pa
 }
 
 /// The page as it should be.
-pub(crate) fn page(root: &Path) -> anyhow::Result<Generated> {
+pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
     let mut text = String::from(HEAD);
     for (path, robot) in descriptions(&root.join("robots"))? {
         let shown = path.strip_prefix(root).unwrap_or(&path);
@@ -55,10 +55,10 @@ pub(crate) fn page(root: &Path) -> anyhow::Result<Generated> {
             }
         }
     }
-    Ok(Generated {
+    Ok(vec![Generated {
         path: root.join(PAGE),
         text,
-    })
+    }])
 }
 
 fn row(text: &mut String, name: &str, figure: &Value) -> anyhow::Result<()> {

@@ -78,7 +78,7 @@ impl SteadyDrivingDetector {
             right_m: observation.travel_right_m,
             load: Load {
                 wheels_a: 0.5 * (currents.wheel_left_a.abs() + currents.wheel_right_a.abs()),
-                brush_a: currents.brush_main_a.abs(),
+                brush_a: currents.brush_main_a.unwrap_or(0.0).abs(),
             },
         });
         while self
@@ -158,5 +158,5 @@ fn is_disturbed(observation: &Observation) -> bool {
 }
 
 fn is_finite(currents: &MotorCurrents) -> bool {
-    (currents.wheel_left_a + currents.wheel_right_a + currents.brush_main_a).is_finite()
+    (currents.wheel_left_a + currents.wheel_right_a + currents.brush_main_a.unwrap_or(0.0)).is_finite()
 }

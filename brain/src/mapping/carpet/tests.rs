@@ -67,7 +67,7 @@ impl Drive {
         self.view.currents = Some(MotorCurrents {
             wheel_left_a: self.scattered(wheel_a),
             wheel_right_a: self.scattered(wheel_a),
-            brush_main_a: self.scattered(brush_a),
+            brush_main_a: Some(self.scattered(brush_a)),
         });
         self.detector.update(&self.view, Some(self.percent))
     }

@@ -167,7 +167,12 @@ fn link(words: &Words, table: &DeviceTable) -> Vec<Row> {
 fn motion(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) -> Vec<Row> {
     let texts = &words.device;
     let has = |part: &str| robot.is_some_and(|robot| robot.parts.iter().any(|known| known == part));
-    let current = |index: usize| table.currents_a.and_then(|currents| currents.get(index).copied());
+    let unmeasured = robot.is_some_and(|robot| robot.unmeasured.iter().any(|motor| motor == "brush-main"));
+    let measured = if unmeasured { 0..2 } else { 0..3 };
+    let current = |index: usize| {
+        let currents = table.currents_a.filter(|_| measured.contains(&index));
+        currents.and_then(|currents| currents.get(index).copied())
+    };
     let with_current = |text: String, index: usize| match current(index) {
         Some(current) => texts.with_current.fill([&text, &words.number(current.into(), 2)]),
         None => text,
@@ -201,7 +206,25 @@ fn motion(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) 
             !table.dust_box,
         ));
     }
+    rows.extend(robot.and_then(|robot| stall_detection(words, robot)));
     rows
+}
+
+/// The motors of which nothing notices that they are held fast. Wheels and main brush are guarded once they are calibrated.
+fn stall_detection(words: &Words, robot: &RobotDescription) -> Option<Row> {
+    let told = &words.device;
+    let is_listed = |motor: &str| robot.unguarded.iter().any(|known| known == motor);
+    let motors: Vec<&str> = [
+        ("wheels", told.wheels),
+        ("brush-main", told.main_brush),
+        ("brush-sides", told.side_brushes),
+        ("vacuum", told.suction),
+    ]
+    .into_iter()
+    .filter_map(|(motor, name)| is_listed(motor).then_some(name))
+    .collect();
+    let is_missing = is_listed("wheels") || is_listed("brush-main");
+    (!motors.is_empty()).then(|| alarm(told.no_stall_detection, motors.join(", "), is_missing))
 }
 
 fn sensors(words: &Words, table: &DeviceTable) -> Vec<Row> {
@@ -338,6 +361,42 @@ mod tests {
                 "{label} {value}"
             );
         }
+    }
+
+    #[test]
+    fn what_the_robot_does_not_know_of_its_motors_is_told() {
+        let table = DeviceTable {
+            currents_a: Some([0.25, 0.5, 0.0]),
+            ..DeviceTable::default()
+        };
+        let mut robot = RobotDescription {
+            device: "sr8730".to_owned(),
+            radius_m: 0.175,
+            swath_m: 0.3,
+            speed_max_m_per_s: 0.35,
+            turn_max_rad_per_s: 1.5,
+            proximity: 7,
+            parts: vec!["brush-main".to_owned(), "currents".to_owned()],
+            unguarded: Vec::new(),
+            unmeasured: Vec::new(),
+        };
+        let value = |robot: &RobotDescription, label: &str| {
+            let mut rows = device_sections(ENGLISH, &table, Some(robot))
+                .into_iter()
+                .flat_map(|section| section.rows);
+            rows.find(|row| row.label == label)
+                .map(|row| (row.value, row.alarming))
+        };
+        assert_eq!(value(&robot, "Main brush"), Some(("Off, 0.00 A".to_owned(), false)));
+        assert_eq!(value(&robot, "No stall detection"), None);
+        robot.unmeasured = vec!["brush-main".to_owned()];
+        robot.unguarded = vec!["brush-sides".to_owned(), "vacuum".to_owned()];
+        assert_eq!(value(&robot, "Main brush"), Some(("Off".to_owned(), false)));
+        let told = ("Side brushes, Suction".to_owned(), false);
+        assert_eq!(value(&robot, "No stall detection"), Some(told));
+        robot.unguarded.insert(0, "brush-main".to_owned());
+        let told = ("Main brush, Side brushes, Suction".to_owned(), true);
+        assert_eq!(value(&robot, "No stall detection"), Some(told));
     }
 
     #[test]

@@ -205,6 +205,8 @@ mod tests {
             turn_max_rad_per_s: 1.5,
             proximity: 0,
             parts: parts.iter().map(|&part| part.to_owned()).collect(),
+            unguarded: Vec::new(),
+            unmeasured: Vec::new(),
         };
         Offers::of(Some(&status), Some(&robot))
     }

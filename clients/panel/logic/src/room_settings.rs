@@ -138,6 +138,8 @@ mod tests {
             turn_max_rad_per_s: 2.0,
             proximity: 7,
             parts: vec!["gyro".to_owned(), "vacuum".to_owned()],
+            unguarded: Vec::new(),
+            unmeasured: Vec::new(),
         };
         assert_eq!(PowerPart::of(Some(&robot)), [PowerPart::Suction]);
         assert_eq!(PowerPart::of(None), PowerPart::ALL);

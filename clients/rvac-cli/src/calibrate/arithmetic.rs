@@ -214,6 +214,17 @@ pub(crate) fn current_scale_ua(rise_ma: i64, rise_milli: i64) -> Result<i64, NoV
     Ok((rise_ma * 1_000_000 + rise_milli.abs() / 2 * rise_ma.signum()) / rise_milli)
 }
 
+/// mA of a held wheel at full duty when its reading rose by so much at `permille` of it.
+pub(crate) fn stall_ma(rise_milli: i64, scale_ua: i64, permille: i64) -> Result<i64, NoValue> {
+    let held_ma = rise_milli * scale_ua / 1_000_000;
+    if held_ma < 50 {
+        return Err(NoValue::Still(
+            "hold the wheel fast, so that its motor draws a current that can be seen",
+        ));
+    }
+    Ok(held_ma * 1_000 / permille)
+}
+
 /// Events a second.
 pub(crate) fn rate_per_s(events: i64, elapsed_ms: i64) -> Result<i64, NoValue> {
     if elapsed_ms < 100 || events == 0 {
@@ -251,8 +262,8 @@ pub(crate) fn speed_mm_per_s(distance_nm: i64, elapsed_ms: i64) -> Result<i64, N
 mod tests {
     use super::{
         NoValue, Wheels, at_nominal, between, brightest, current_scale_ua, distance_per_count_nm, follows,
-        line_order, mean, mean_milli, rate_per_s, rises, scale_uv, speed_mm_per_s, steady_mean, track_um,
-        travelled,
+        line_order, mean, mean_milli, rate_per_s, rises, scale_uv, speed_mm_per_s, stall_ma, steady_mean,
+        track_um, travelled,
     };
 
     fn wheels<T>(left: T, right: T) -> Wheels<T> {
@@ -372,6 +383,9 @@ mod tests {
         assert_eq!(current_scale_ua(1_600, -400_000), Ok(-4_000));
         assert!(current_scale_ua(10, 400_000).is_err());
         assert!(current_scale_ua(1_600, 500).is_err());
+        assert_eq!(stall_ma(120_000, 4_000, 300), Ok(1_600));
+        assert_eq!(stall_ma(-120_000, -4_000, 300), Ok(1_600));
+        assert!(stall_ma(1_000, 4_000, 300).is_err());
         assert_eq!(rate_per_s(100, 1_000), Ok(100));
         assert!(rate_per_s(0, 1_000).is_err());
     }

@@ -7,7 +7,7 @@ use rvac_protocol::message::{EncoderProbe, Motor, ProbeTarget, Probed, ProbedCon
 use rvac_units::Throttle;
 
 use super::arithmetic::{
-    Wheels, at_nominal, current_scale_ua, mean_milli, rate_per_s, speed_mm_per_s, travelled,
+    Wheels, at_nominal, current_scale_ua, mean_milli, rate_per_s, speed_mm_per_s, stall_ma, travelled,
 };
 use super::dialog::Dialog;
 use super::procedure::{Bench, READINGS, level};
@@ -29,6 +29,7 @@ const PULSES: i64 = 2;
 const HELD_PERMILLE: i32 = 300;
 /// A wheel that is held fast gets warm: no longer than this.
 const HELD_MAX: Duration = Duration::from_secs(20);
+const HELD_SHORT: Duration = Duration::from_secs(2);
 
 /// What was counted while motors ran.
 struct Counted {
@@ -80,36 +81,51 @@ impl Bench<'_> {
 
     /// The left wheel pulls while it is held fast; the person reads the ammeter.
     pub(super) fn current_scale(&mut self) -> anyhow::Result<i64> {
-        let channel = self.catalog.channel("wheel-left-current")?;
         let rest_ma = Dialog::number(
             self.robot,
             "What does the ammeter in the battery's line show at rest, in mA?",
         )?;
         let rest = mean_milli(&self.line("wheel-left-current", READINGS)?)?;
-        Dialog::enter(
-            self.robot,
+        let readings = self.held_wheel(
             "Hold the left wheel fast. After Enter it pulls; read the ammeter, type the mA, and Enter stops it.",
+            Watch::UntilTyped(HELD_MAX),
         )?;
+        let pulled_ma = Dialog::number(self.robot, "What did the ammeter show while it pulled, in mA?")?;
+        Ok(current_scale_ua(
+            pulled_ma - rest_ma,
+            mean_milli(&readings)? - rest,
+        )?)
+    }
+
+    /// What a held wheel would draw at full duty, which S11 does not allow: its current follows the duty.
+    pub(super) fn stall_current(&mut self) -> anyhow::Result<i64> {
+        let zero = self.needed("wheel-left-current-zero")?;
+        let scale_ua = self.needed("wheel-current-scale")?;
+        let readings = self.held_wheel(
+            "Hold the left wheel fast. After Enter it pulls for two seconds.",
+            Watch::For(HELD_SHORT),
+        )?;
+        let held_milli = mean_milli(&readings)? - zero * 1_000;
+        Ok(stall_ma(held_milli, scale_ua, i64::from(HELD_PERMILLE))?)
+    }
+
+    /// The left wheel pulls while it is held fast; the readings of its current, once they have settled.
+    fn held_wheel(&mut self, wish: &str, span: Watch) -> anyhow::Result<Vec<i64>> {
+        let channel = self.catalog.channel("wheel-left-current")?;
+        Dialog::enter(self.robot, wish)?;
         self.robot.arm()?;
         let motors = [OpenLoop {
             motor: Motor::WheelLeft,
             throttle: duty(HELD_PERMILLE),
         }];
-        let watched = self
-            .robot
-            .watch(ProbeTarget::Analog, &motors, Watch::UntilTyped(HELD_MAX))?;
-        let pulled_ma = Dialog::number(self.robot, "What did the ammeter show while it pulled, in mA?")?;
-        let readings: Vec<i64> = second_half(&watched)
-            .iter()
+        let watched = self.robot.watch(ProbeTarget::Analog, &motors, span)?;
+        let analog = second_half(&watched).iter();
+        Ok(analog
             .filter_map(|probed| match &probed.content {
                 ProbedContent::Analog(raw) => Some(level(raw, channel)),
                 _ => None,
             })
-            .collect();
-        Ok(current_scale_ua(
-            pulled_ma - rest_ma,
-            mean_milli(&readings)? - rest,
-        )?)
+            .collect())
     }
 
     /// The least duty at which `turns` is content.

@@ -7,6 +7,7 @@ mod driven;
 mod file;
 mod light;
 mod procedure;
+mod thermistor;
 
 use std::process::ExitCode;
 

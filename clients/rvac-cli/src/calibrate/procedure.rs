@@ -11,6 +11,7 @@ use super::arithmetic::{
 use super::catalog::{Catalog, Item};
 use super::dialog::Dialog;
 use super::file::Measurements;
+use super::thermistor::{TwoPoints, agrees};
 use crate::robot::Robot;
 
 /// Readings whose mean is a value.
@@ -46,6 +47,12 @@ pub(crate) enum Procedure {
     Mean(&'static str),
     /// Mean difference of two lines, in hundredths.
     Difference(&'static str, &'static str),
+    /// Mean of a line of the converter in tenths of a count.
+    Tenths(&'static str),
+    /// A third temperature against the curve through two.
+    ThirdTemperature,
+    /// What a held wheel draws at three tenths of its duty, as at full duty.
+    StallCurrent,
     /// A voltage at the multimeter against the mean of a line.
     Voltage(&'static str),
     /// Whether the light supply of unknown purpose lights the cliff sensors.
@@ -89,6 +96,9 @@ impl Procedure {
             "proximity-none" => Self::ProximityNone,
             "proximity-touching" => Self::ProximityTouching,
             "wheel-current-scale" => Self::CurrentScale,
+            "thermistor-ice" | "thermistor-warm" => Self::Tenths("battery-thermistor"),
+            "thermistor-checked" => Self::ThirdTemperature,
+            "wheel-stall-current" => Self::StallCurrent,
             "brush-main-dead-band" => Self::BrushLeastDuty,
             "brush-main-pulse-rate" => Self::BrushRate,
             _ => Self::Typed,
@@ -101,7 +111,7 @@ impl Procedure {
             Self::LeastDuty | Self::FreeSpeed => Some(
                 "The robot will MOVE: put it on the floor with a metre free before it, and stay within reach.",
             ),
-            Self::CurrentScale => Some(
+            Self::CurrentScale | Self::StallCurrent => Some(
                 "A wheel will PULL: keep fingers and hair out of it, and hold the robot so that it cannot get away.",
             ),
             Self::BrushLeastDuty | Self::BrushRate => Some(
@@ -148,6 +158,8 @@ impl Bench<'_> {
             Procedure::LeastDuty => self.least_duty(),
             Procedure::FreeSpeed => self.free_speed(),
             Procedure::CurrentScale => self.current_scale(),
+            Procedure::StallCurrent => self.stall_current(),
+            Procedure::ThirdTemperature => self.third_temperature(),
             Procedure::BrushLeastDuty => self.brush_least_duty(),
             Procedure::BrushRate => self.brush_rate(),
             Procedure::CliffLine => self.cliff_line(),
@@ -157,6 +169,7 @@ impl Bench<'_> {
             Procedure::ProximityTouching => self.proximity_touching(),
             Procedure::Button => self.button(),
             Procedure::Mean(signal) => Ok(steady_mean(&self.line(signal, READINGS)?)?),
+            Procedure::Tenths(signal) => Ok(mean_milli(&self.line(signal, READINGS_EXACT)?)? / 100),
             Procedure::Difference(more, less) => {
                 let (more, less) = (self.catalog.channel(more)?, self.catalog.channel(less)?);
                 let readings = self.readings(READINGS_EXACT, |raw| level(raw, more) - level(raw, less))?;
@@ -168,6 +181,26 @@ impl Bench<'_> {
             }
             Procedure::Typed => Dialog::number(self.robot, &item.asked()),
         }
+    }
+
+    /// Compares the room's temperature with that of the curve through ice and warm water.
+    fn third_temperature(&mut self) -> anyhow::Result<i64> {
+        let points = TwoPoints {
+            ice: self.needed("thermistor-ice")?,
+            warm: self.needed("thermistor-warm")?,
+            warm_dc: self.needed("thermistor-warm-temperature")?,
+        };
+        let reading = mean_milli(&self.line("battery-thermistor", READINGS_EXACT)?)?;
+        let room_dc = Dialog::number(
+            self.robot,
+            "What does the room's thermometer show, in tenths of a degree?",
+        )?;
+        let found_dc = agrees(points, reading, room_dc)?;
+        Dialog::say(&format!(
+            "  {:.1} degrees by the two points",
+            found_dc as f64 / 10.0
+        ))?;
+        Ok(1)
     }
 
     /// A value that another one is reckoned from.

@@ -93,7 +93,11 @@ fn row(sample: &EvidenceSample) -> String {
     let mut signs = sample.signs.join(", ");
     if let Some([left, right, brush]) = sample.currents_a {
         let between = if signs.is_empty() { "" } else { "; " };
-        let _ = write!(signs, "{between}{left:.2} A, {right:.2} A, brush {brush:.2} A");
+        let _ = write!(signs, "{between}{left:.2} A, {right:.2} A");
+        // A main brush whose current is not measured shows exactly 0.
+        if brush != 0.0 {
+            let _ = write!(signs, ", brush {brush:.2} A");
+        }
     }
     let row = format!(
         "{:>7.1} s  {:>6.2}  {:>6.2}  {echo:>5}  {signs}",
@@ -150,7 +154,7 @@ mod tests {
                 },
                 EvidenceSample {
                     signs: vec!["bumper-left".to_owned()],
-                    currents_a: Some([0.5, 0.25, 0.0]),
+                    currents_a: Some([0.5, 0.25, 0.125]),
                     ..EvidenceSample::default()
                 },
             ],
@@ -170,7 +174,7 @@ mod tests {
                 "   -2.5 s  Backed off.",
                 "              m/s   rad/s   echo  felt",
                 "   -0.2 s    0.25    0.00   0.80",
-                "    0.0 s    0.00    0.00         bumper-left; 0.50 A, 0.25 A, brush 0.00 A",
+                "    0.0 s    0.00    0.00         bumper-left; 0.50 A, 0.25 A, brush 0.12 A",
             ]
         );
     }

@@ -13,7 +13,8 @@ use std::time::{Duration, Instant};
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, Limits, Name, Refusal, Report, ResetCause, State,
+    BinaryKinds, Capabilities, Command, Description, Limits, MotorGaps, Name, Refusal, Report, ResetCause,
+    State,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};

@@ -36,7 +36,9 @@ pub use ground::{CliffLevels, CliffSensors, Emitters};
 pub use kept::{KEPT_WORDS, KeptMemory, KeptWords};
 pub use link::{Link, Received};
 pub use panel::{Beeper, Buttons, Lights};
-pub use power::{ChargeDrive, Charger, ChargerReadings, CurrentSense, DockRequest, ThermistorFault};
+pub use power::{
+    ChargeDrive, Charger, ChargerReadings, CurrentSense, DockRequest, TemperatureRange, ThermistorFault,
+};
 pub use probe::PinProbe;
 pub use ranging::{HeadingSensor, ProximitySensors};
 pub use supervision::{HardwareChecks, HardwareFault, ResetRecord, Watchdog};

@@ -24,11 +24,32 @@ pub struct ChargerReadings {
     /// Through the shunt into the pack, in mA; the board's calibrated offset is subtracted.
     pub current_ma: i32,
     /// Of the pack.
-    pub temperature: Result<Temperature, ThermistorFault>,
+    pub temperature: Result<TemperatureRange, ThermistorFault>,
     /// How long ago the converter took these, in ms.
     pub age_ms: u32,
     /// The supply is on the contacts now (not as old as the rest).
     pub adapter: bool,
+}
+
+/// What a reading says of the pack's temperature: a thermistor whose curve nobody has measured leaves room for a range. The
+/// rules against frost use the coldest, those against heat the warmest that it can be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TemperatureRange {
+    /// The pack is at least this warm.
+    pub coldest: Temperature,
+    /// The pack is at most this warm.
+    pub warmest: Temperature,
+}
+
+impl TemperatureRange {
+    /// Of a sensor that is known well enough.
+    #[must_use]
+    pub const fn exact(temperature: Temperature) -> Self {
+        Self {
+            coldest: temperature,
+            warmest: temperature,
+        }
+    }
 }
 
 /// Faults of the temperature measurement. A board reports the first two, from the raw count; cordlib detects the others.
@@ -72,7 +93,8 @@ pub enum DockRequest {
 pub trait Charger {
     /// Whether the battery is measured.
     const PRESENT: bool;
-    /// Whether this firmware controls the charger.
+    /// Whether this firmware controls the charger. Where it does not, a current into the pack is the other controller's, and no
+    /// fault of charging is looked for.
     const CHARGES: bool;
 
     /// The newest readings, or `None` when there never were any. Called once a pass.

@@ -5,11 +5,13 @@ use rvac_units::{Ratio, Tick};
 
 use crate::board::{ChargeDrive, ChargerReadings, DockRequest};
 use crate::parameters::PackParameters;
+use crate::rules::charge_guard::AGE_MAX_MS;
+use crate::rules::charge_phase::SUPPLIED_MS;
 
 use super::current_offset::CurrentOffset;
 use super::faults::FaultWatch;
 use super::gauge::{Gauge, PackLoad};
-use super::guard::{AGE_MAX_MS, ChargeConditions, Guard};
+use super::guard::{ChargeConditions, Guard};
 use super::history::History;
 use super::meter::{Averages, AveragingWindow, CompletedWindows, Meter};
 use super::phases::{ChargeRecord, MaintenancePulse, Rest};
@@ -17,11 +19,19 @@ use super::regulate::Regulator;
 use super::scale::PackLimits;
 use super::stops::{AllStops, Detectors, Stops};
 use super::thermometer::Thermometer;
+use crate::rules::charge_fault::NO_CURRENT_MA;
 
-/// The supply must be there this long before current flows.
-const SUPPLIED_MS: u32 = 1_000;
 /// The dock is asked this long before current flows, so that it has received the request.
 const ASKED_MS: u32 = 2_000;
+
+/// Who controls the charger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ChargeControl {
+    /// This firmware.
+    Ours,
+    /// Something else: the pack is only observed.
+    Foreign,
+}
 
 /// Whether anything on the robot turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,6 +41,11 @@ pub enum MotorActivity {
     /// Something is driven or turns.
     Running,
 }
+
+/// A pack that is only observed may be read as slowly as its temperature (S17).
+const OBSERVED_AGE_MAX_MS: u32 = 2_000;
+/// A temperature that may be wrong by more than this is not told: 3 degrees, in hundredths.
+const DOUBT_CC: i32 = 300;
 
 /// How the robot stands to the dock. The contacts are debounced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +88,7 @@ pub struct ChargeOutput {
 /// The charger.
 #[derive(Clone, Debug)]
 pub struct ChargeController<S = AllStops> {
+    control: ChargeControl,
     pub(super) pack: PackParameters,
     pub(super) scale: PackLimits,
     pub(super) stops: S,
@@ -110,6 +126,15 @@ impl ChargeController {
     pub fn new(pack: PackParameters) -> Self {
         Self::with_stops(pack, AllStops)
     }
+
+    /// For a board that measures its pack and does not control its charger.
+    #[must_use]
+    pub fn observing(pack: PackParameters) -> Self {
+        Self {
+            control: ChargeControl::Foreign,
+            ..Self::new(pack)
+        }
+    }
 }
 
 impl<S: Stops> ChargeController<S> {
@@ -117,6 +142,7 @@ impl<S: Stops> ChargeController<S> {
     #[must_use]
     pub fn with_stops(pack: PackParameters, stops: S) -> Self {
         Self {
+            control: ChargeControl::Ours,
             pack,
             scale: PackLimits::of(&pack),
             stops,
@@ -159,6 +185,9 @@ impl<S: Stops> ChargeController<S> {
         let windows = self.meter.take(readings, elapsed_ms, now);
         self.pass_time(context, elapsed_ms);
         self.measure(&windows, context);
+        if self.control == ChargeControl::Foreign {
+            return ChargeOutput::default();
+        }
         if let Some(fault) = self.find_fault(&windows, context) {
             self.fail(fault);
         }
@@ -197,13 +226,14 @@ impl<S: Stops> ChargeController<S> {
         if let Some(averages) = windows.of(AveragingWindow::Second) {
             self.thermometer.each_second(&averages);
             let no_supply = !self.meter.adapter() && context.docking == Docking::Away;
-            if no_supply && self.off_ms >= averages.elapsed_ms {
+            let ours = self.control == ChargeControl::Ours;
+            if ours && no_supply && self.off_ms >= averages.elapsed_ms {
                 self.current_offset.learn(&averages);
             }
             let averages = self.current_offset.correct(averages);
             let load = PackLoad {
                 load_ma: context.load_ma,
-                charging: self.is_charging(),
+                charging: self.is_charging() || self.takes_foreign_current(averages.current_ma),
             };
             self.gauge.each_second(&averages, load, &self.pack);
             if self.is_charging() || self.phase == ChargePhase::Maintain {
@@ -262,7 +292,7 @@ impl<S: Stops> ChargeController<S> {
             supplied: context.is_docked() && self.meter.adapter(),
             motors_idle: context.motors == MotorActivity::Idle,
             age_ms: self.meter.age_ms(),
-            temperature_cc: self.thermometer.cc(),
+            temperature: self.thermometer.temperature(),
             pack_mv: self.tenth.map(|averages| averages.pack_mv),
             pack_range_mv: (
                 self.scale.deep_mv(),
@@ -307,20 +337,39 @@ impl<S: Stops> ChargeController<S> {
         self.gauge.charge()
     }
 
+    /// Whether something else charges the pack.
+    fn takes_foreign_current(&self, current_ma: i32) -> bool {
+        self.control == ChargeControl::Foreign && current_ma >= NO_CURRENT_MA
+    }
+
+    /// Whether current flows into the pack, as far as that is measured.
+    #[must_use]
+    pub fn charges(&self) -> bool {
+        let current_ma = self.pack().map_or(0, |(_, current_ma)| current_ma);
+        self.is_charging() || self.takes_foreign_current(current_ma)
+    }
+
     /// Voltage of the pack in mV and current into it in mA, averaged over 100 ms; `None` without readings for longer
-    /// than 200 ms.
+    /// than 200 ms, or 2 s where they serve no charger.
     #[must_use]
     pub fn pack(&self) -> Option<(i32, i32)> {
-        let fresh = self.meter.age_ms() <= AGE_MAX_MS;
+        let age_max_ms = match self.control {
+            ChargeControl::Ours => AGE_MAX_MS,
+            ChargeControl::Foreign => OBSERVED_AGE_MAX_MS,
+        };
+        let fresh = self.meter.age_ms() <= age_max_ms;
         self.tenth
             .filter(|_| fresh)
             .map(|averages| (averages.pack_mv, averages.current_ma))
     }
 
-    /// Temperature of the pack in hundredths of a degree, averaged over 100 ms; `None` without a plausible reading.
+    /// Temperature of the pack in hundredths of a degree, averaged over 100 ms; `None` without a plausible reading, and where
+    /// it is not known to 3 degrees.
     #[must_use]
-    pub const fn temperature_cc(&self) -> Option<i32> {
-        self.thermometer.cc()
+    pub fn temperature_cc(&self) -> Option<i32> {
+        let range = self.thermometer.temperature()?;
+        let width_cc = range.warmest_cc.saturating_sub(range.coldest_cc);
+        (width_cc <= 2 * DOUBT_CC).then(|| range.coldest_cc.saturating_add(width_cc / 2))
     }
 
     pub(crate) const fn thermometer(&self) -> &Thermometer {

@@ -35,6 +35,7 @@ impl CurrentOffset {
     }
 
     /// The averages with the offset subtracted.
+    #[inline(never)]
     pub(super) fn correct(&self, averages: Averages) -> Averages {
         let scaled = if self.at_mv > 0 {
             let product = i64::from(self.offset).saturating_mul(i64::from(averages.pack_mv));

@@ -3,38 +3,17 @@
 use rvac_protocol::message::{ChargeFault, ChargePhase};
 
 use crate::board::ThermistorFault;
+use crate::rules::charge_fault::{
+    ABSENT_MS, ADAPTER_MAX_MV, COOLED_CC, FORGIVE_MS, INTERRUPTIONS_MAX, LEAK_MA, LEAK_MS, NO_CURRENT_MA,
+    NO_CURRENT_MS, NO_CURRENT_PAUSE_MS, NO_CURRENT_TRIES, OFFSET_FAULT_MA, OVER_MS, SETTLE_MS, THERMISTOR_MS,
+    TOO_HOT_CC,
+};
+use crate::rules::charge_guard::AGE_MAX_MS;
 
 use super::controller::{ChargeContext, ChargeController, Docking};
 use super::frozen_sensor::FrozenSensorDetector;
-use super::guard::AGE_MAX_MS;
 use super::meter::{Averages, AveragingWindow, CompletedWindows};
 use super::stops::Stops;
-
-const TOO_HOT_CC: i32 = 5_500;
-/// A pack that was too hot must have cooled to this before the fault can be cleared.
-const COOLED_CC: i32 = 4_500;
-/// Over-current must last for four envelopes; the fifth reports it, within 100 ms.
-const OVER_MS: u32 = 80;
-/// Current through a switch that is off: limit, time to settle after switching off, and duration, so that it is found
-/// within a second.
-const LEAK_MA: i32 = 150;
-const SETTLE_MS: u32 = 200;
-const LEAK_MS: u32 = 900;
-/// Current at rest, too small for a shorted switch: the sensor's offset is wrong. Without dither the converter may be off
-/// by a whole count of 108 mA.
-pub(super) const OFFSET_FAULT_MA: i32 = 120;
-/// Less than this is no current.
-const NO_CURRENT_MA: i32 = 50;
-const NO_CURRENT_MS: u32 = 5_000;
-const NO_CURRENT_TRIES: u8 = 3;
-const NO_CURRENT_PAUSE_MS: u32 = 300_000;
-const ADAPTER_MAX_MV: i32 = 30_000;
-const THERMISTOR_MS: u32 = 1_000;
-/// Without a battery the voltage shoots up in the first half minute.
-const ABSENT_MS: u32 = 30_000;
-/// Interruptions by the contacts; one is forgiven each minute.
-const INTERRUPTIONS_MAX: u8 = 10;
-const FORGIVE_MS: u32 = 60_000;
 
 /// How long each condition has lasted.
 #[derive(Clone, Copy, Debug, Default)]
@@ -158,7 +137,7 @@ impl<S: Stops> ChargeController<S> {
         } else if self
             .watch
             .frozen_sensor
-            .is_frozen(averages.temperature_cc, averages.elapsed_ms)
+            .is_frozen(averages.warmest_cc(), averages.elapsed_ms)
         {
             return Some(ChargeFault::ThermistorFrozen);
         }
@@ -175,7 +154,7 @@ impl<S: Stops> ChargeController<S> {
     fn find_in_second(&mut self, windows: &CompletedWindows) -> Option<ChargeFault> {
         let averages = self.current_offset.correct(windows.of(AveragingWindow::Second)?);
         let at_work = self.is_charging() || self.phase == ChargePhase::Maintain;
-        if at_work && averages.temperature_cc.is_some_and(|cc| cc >= TOO_HOT_CC) {
+        if at_work && averages.warmest_cc().is_some_and(|cc| cc >= TOO_HOT_CC) {
             return Some(ChargeFault::TooHot);
         }
         let flows = self.charge.flows();
@@ -273,11 +252,11 @@ impl<S: Stops> ChargeController<S> {
         let supplied = self.supplied_ms > 0;
         let pack = self.pack();
         match fault {
-            ChargeFault::TooHot => self.thermometer.cc().is_none_or(|cc| cc >= COOLED_CC),
+            ChargeFault::TooHot => self.thermometer.warmest_cc().is_none_or(|cc| cc >= COOLED_CC),
             ChargeFault::ThermistorOpen
             | ChargeFault::ThermistorShorted
             | ChargeFault::ThermistorRange
-            | ChargeFault::ThermistorJump => self.thermometer.cc().is_none(),
+            | ChargeFault::ThermistorJump => self.thermometer.temperature().is_none(),
             ChargeFault::Stale => pack.is_none(),
             ChargeFault::Shorted => supplied && pack.is_none_or(|(_, current_ma)| current_ma > LEAK_MA),
             ChargeFault::Adapter => {

@@ -4,15 +4,7 @@
 //! alone proves little. But a reading that never paused for more than a few seconds while the pack warmed up through
 //! several counts has enough noise to change at any temperature: if such a *noisy* reading stops changing, it is frozen.
 
-/// A reading that has not changed at all for this long is frozen, noisy or not.
-const CONSTANT_MS: u32 = 2_700_000;
-/// A noisy reading that has not changed for this long is frozen.
-const NOISY_CONSTANT_MS: u32 = 120_000;
-/// Longest pause of a noisy reading. The fastest warming that does not end the charge changes a count of a 10-bit converter
-/// less often than this.
-const PAUSE_MS: u32 = 5_000;
-/// Range of several counts, in hundredths of a degree.
-const SPAN_CC: i32 = 150;
+use crate::rules::charge_frozen::{CONSTANT_MS, NOISY_CONSTANT_MS, PAUSE_MS, SPAN_CC};
 
 /// History of the reading at full current.
 #[derive(Clone, Copy, Debug, Default)]

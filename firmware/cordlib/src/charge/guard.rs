@@ -2,18 +2,10 @@
 //! independently and knows nothing of phases and stops, so that no error there can keep the switch on.
 
 use crate::board::ChargeDrive;
+use crate::rules::charge_guard::{AGE_MAX_MS, COLDEST_CC, FLOW_MAX_MS, HOTTEST_CC, REST_MS};
 
+use super::meter::PackTemperature;
 use super::regulate::DUTY_MAX;
-
-/// Readings older than this are no readings.
-pub(super) const AGE_MAX_MS: u32 = 200;
-/// No current flows beyond these temperatures, in hundredths of a degree: 1 °C outside the limits of the controller.
-const COLDEST_CC: i32 = -100;
-const HOTTEST_CC: i32 = 5_100;
-/// Longest time of current without a rest, a little less than 3.6 hours.
-const FLOW_MAX_MS: u32 = 12_900_000;
-/// A rest that resets this time: 31 minutes.
-pub(super) const REST_MS: u32 = 1_860_000;
 
 /// The readings that the guard checks.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +15,7 @@ pub(super) struct ChargeConditions {
     /// No motor is driven and no wheel turns.
     pub(super) motors_idle: bool,
     pub(super) age_ms: u32,
-    pub(super) temperature_cc: Option<i32>,
+    pub(super) temperature: Option<PackTemperature>,
     pub(super) pack_mv: Option<i32>,
     /// Least and most voltage at which the pack may get current.
     pub(super) pack_range_mv: (i32, i32),
@@ -82,8 +74,8 @@ impl Guard {
             && view.motors_idle
             && view.age_ms <= AGE_MAX_MS
             && view
-                .temperature_cc
-                .is_some_and(|cc| (COLDEST_CC..=HOTTEST_CC).contains(&cc))
+                .temperature
+                .is_some_and(|range| range.coldest_cc >= COLDEST_CC && range.warmest_cc <= HOTTEST_CC)
             && view.pack_mv.is_some_and(|mv| (least_mv..=most_mv).contains(&mv))
             && self.flow_ms <= FLOW_MAX_MS
     }
@@ -103,7 +95,7 @@ impl Guard {
 
 #[cfg(test)]
 mod tests {
-    use super::{ChargeConditions, FLOW_MAX_MS, Guard};
+    use super::{ChargeConditions, FLOW_MAX_MS, Guard, PackTemperature};
     use crate::board::ChargeDrive;
     use rvac_units::Ratio;
 
@@ -111,10 +103,17 @@ mod tests {
         supplied: true,
         motors_idle: true,
         age_ms: 20,
-        temperature_cc: Some(2_500),
+        temperature: between(2_400, 2_600),
         pack_mv: Some(16_000),
         pack_range_mv: (9_000, 20_600),
     };
+
+    const fn between(coldest_cc: i32, warmest_cc: i32) -> Option<PackTemperature> {
+        Some(PackTemperature {
+            coldest_cc,
+            warmest_cc,
+        })
+    }
 
     fn duty(millionths: i32) -> ChargeDrive {
         ChargeDrive::Duty(Ratio::from_millionths(millionths).unwrap())
@@ -135,15 +134,15 @@ mod tests {
             },
             ChargeConditions { age_ms: 201, ..GOOD },
             ChargeConditions {
-                temperature_cc: None,
+                temperature: None,
                 ..GOOD
             },
             ChargeConditions {
-                temperature_cc: Some(5_101),
+                temperature: between(4_300, 5_101),
                 ..GOOD
             },
             ChargeConditions {
-                temperature_cc: Some(-101),
+                temperature: between(-1, 900),
                 ..GOOD
             },
             ChargeConditions {

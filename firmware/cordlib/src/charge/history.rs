@@ -1,11 +1,8 @@
 //! What outlives a charge: faults of the last day, and the time of maintenance charging this week.
 
-/// Faults within a day after which `clear` is refused.
-const FAULTS: usize = 3;
-const DAY_MS: u32 = 24 * 3_600_000;
+use crate::rules::charge_history::{DAY_MS, FAULTS, MAINTAIN_MAX_MS};
+
 const WEEK_MS: u32 = 7 * DAY_MS;
-/// NiMH packs age by current when they are full: at most 20 hours of maintenance a week.
-const MAINTAIN_MAX_MS: u32 = 20 * 3_600_000;
 
 /// Ages and sums; they stop counting long before they could wrap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

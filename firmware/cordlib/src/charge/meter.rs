@@ -23,6 +23,13 @@ pub(super) enum AveragingWindow {
     TenSeconds = 3,
 }
 
+/// The least and the most that the pack's temperature can be, in hundredths of a degree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PackTemperature {
+    pub(crate) coldest_cc: i32,
+    pub(crate) warmest_cc: i32,
+}
+
 /// Averages of one window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Averages {
@@ -32,8 +39,8 @@ pub(super) struct Averages {
     pub(super) input_mv: i32,
     /// As the board measures it, offset not subtracted.
     pub(super) current_ma: i32,
-    /// In hundredths of a degree, of the samples whose thermistor was sound.
-    pub(super) temperature_cc: Option<i32>,
+    /// Of the samples whose thermistor was sound.
+    pub(super) temperature: Option<PackTemperature>,
     /// The last fault of the thermistor that a sample showed.
     pub(super) fault: Option<ThermistorFault>,
 }
@@ -47,7 +54,8 @@ struct Sums {
     input_mv: i32,
     current_ma: i32,
     warm_count: i32,
-    temperature_dc: i32,
+    coldest_dc: i32,
+    warmest_dc: i32,
     fault: Option<ThermistorFault>,
 }
 
@@ -65,6 +73,13 @@ pub(super) struct Meter {
     adapter: bool,
     measured: bool,
     sums: [Sums; WINDOWS],
+}
+
+impl Averages {
+    /// The most that the pack's temperature can be, in hundredths of a degree.
+    pub(super) fn warmest_cc(&self) -> Option<i32> {
+        self.temperature.map(|temperature| temperature.warmest_cc)
+    }
 }
 
 impl CompletedWindows {
@@ -88,7 +103,8 @@ impl Meter {
                 input_mv: 0,
                 current_ma: 0,
                 warm_count: 0,
-                temperature_dc: 0,
+                coldest_dc: 0,
+                warmest_dc: 0,
                 fault: None,
             }; WINDOWS],
         }
@@ -171,7 +187,8 @@ impl Sums {
         match readings.temperature {
             Ok(temperature) => {
                 self.warm_count = self.warm_count.saturating_add(1);
-                self.temperature_dc = self.temperature_dc.saturating_add(temperature.0 as i32);
+                self.coldest_dc = self.coldest_dc.saturating_add(temperature.coldest.0 as i32);
+                self.warmest_dc = self.warmest_dc.saturating_add(temperature.warmest.0 as i32);
             }
             Err(fault) => self.fault = Some(fault),
         }
@@ -184,23 +201,28 @@ impl Sums {
         self.input_mv = self.input_mv.saturating_add(smaller.input_mv);
         self.current_ma = self.current_ma.saturating_add(smaller.current_ma);
         self.warm_count = self.warm_count.saturating_add(smaller.warm_count);
-        self.temperature_dc = self.temperature_dc.saturating_add(smaller.temperature_dc);
+        self.coldest_dc = self.coldest_dc.saturating_add(smaller.coldest_dc);
+        self.warmest_dc = self.warmest_dc.saturating_add(smaller.warmest_dc);
         self.fault = smaller.fault.or(self.fault);
     }
 
+    #[inline(never)]
     fn averages(&self) -> Option<Averages> {
         if self.count == 0 {
             return None;
         }
         let count = self.count.max(1);
-        let temperature_cc =
-            (self.warm_count > 0).then(|| self.temperature_dc.saturating_mul(10) / self.warm_count.max(1));
+        let mean_cc = |sum_dc: i32| sum_dc.saturating_mul(10) / self.warm_count.max(1);
+        let temperature = (self.warm_count > 0).then(|| PackTemperature {
+            coldest_cc: mean_cc(self.coldest_dc),
+            warmest_cc: mean_cc(self.warmest_dc),
+        });
         Some(Averages {
             elapsed_ms: self.elapsed_ms,
             pack_mv: self.pack_mv / count,
             input_mv: self.input_mv / count,
             current_ma: self.current_ma / count,
-            temperature_cc,
+            temperature,
             fault: self.fault,
         })
     }
@@ -209,7 +231,7 @@ impl Sums {
 #[cfg(test)]
 mod tests {
     use super::{AveragingWindow, Meter};
-    use crate::board::{ChargerReadings, ThermistorFault};
+    use crate::board::{ChargerReadings, TemperatureRange, ThermistorFault};
     use rvac_units::{Temperature, Tick};
 
     fn readings(pack_mv: i32, age_ms: u32) -> ChargerReadings {
@@ -217,7 +239,7 @@ mod tests {
             pack_mv,
             input_mv: pack_mv,
             current_ma: 0,
-            temperature: Ok(Temperature(250)),
+            temperature: Ok(TemperatureRange::exact(Temperature(250))),
             age_ms,
             adapter: true,
         }
@@ -234,7 +256,7 @@ mod tests {
             averages = windows.of(AveragingWindow::Second).or(averages);
         }
         let averages = averages.unwrap();
-        assert_eq!((averages.pack_mv, averages.temperature_cc), (16_024, Some(2_500)));
+        assert_eq!((averages.pack_mv, averages.warmest_cc()), (16_024, Some(2_500)));
     }
 
     #[test]
@@ -283,7 +305,7 @@ mod tests {
         }
         let averages = averages.unwrap();
         assert_eq!(
-            (averages.temperature_cc, averages.fault),
+            (averages.temperature, averages.fault),
             (None, Some(ThermistorFault::Open))
         );
     }

@@ -3,34 +3,21 @@
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
 use super::controller::{ChargeContext, ChargeController};
-use super::faults::OFFSET_FAULT_MA;
-use super::guard;
 use super::meter::{Averages, AveragingWindow, CompletedWindows};
 use super::scale::PackLimits;
-use super::stops::{ChargeProgress, Detectors, Stops, TIME_MS};
+use super::stops::{ChargeProgress, Detectors, Stops};
+use crate::rules::charge_fault::OFFSET_FAULT_MA;
+use crate::rules::charge_guard::REST_MS;
+use crate::rules::charge_phase::{
+    COLDEST_CC, COOL_CC, DOCKED_MS, HYSTERESIS_CC, LONG_REST_MS, PRECHARGE_MS, TOP_OFF_MAX_CC, TOP_OFF_MS,
+    UNDOCKED_MS, WARMEST_CC,
+};
+use crate::rules::charge_stop::TIME_MS;
 
-/// The contacts must be closed this long before a charge begins.
-const DOCKED_MS: u32 = 1_000;
-/// Contacts that are open for this long end the rest after a charge.
-const UNDOCKED_MS: u32 = 1_000;
-/// Window of temperatures in which a charge begins, in hundredths of a degree. Below the second only slow current flows.
-const COLDEST_CC: i32 = 0;
-const COOL_CC: i32 = 500;
-const WARMEST_CC: i32 = 4_000;
-/// Hysteresis of the window, so that current does not come and go at its limit.
-const HYSTERESIS_CC: i32 = 100;
-const PRECHARGE_MS: u32 = 3_600_000;
-const TOP_OFF_MS: u32 = 1_800_000;
-/// Temperature at which a full pack gets no more current.
-const TOP_OFF_MAX_CC: i32 = 4_500;
 /// A charge that was interrupted for longer is over, and its counts are reset.
-const AWAY_MS: u32 = guard::REST_MS;
+const AWAY_MS: u32 = REST_MS;
 /// An interruption of the current that restarts the detectors.
 const PAUSE_MS: u32 = 10_000;
-/// Rest after a charge before the voltage shows the state of charge, and before the guard allows another charge.
-const REST_MS: u32 = guard::REST_MS;
-/// Rest after a charge that ran out of time.
-const LONG_REST_MS: u32 = 3_600_000;
 /// A full pack is not charged again before this time, which doubles whenever the pack turns out to be still full.
 const RECHARGE_MS: u32 = 2 * 3_600_000;
 const RECHARGE_MAX_MS: u32 = 16 * 3_600_000;
@@ -53,8 +40,36 @@ pub(super) struct ChargeRecord {
     precharge_ms: u32,
     /// Time without current.
     paused_ms: u32,
-    slow: bool,
+    rate: ColdRate,
     flowing: bool,
+}
+
+/// The current that a pack may get by the least that its temperature can be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum ColdRate {
+    /// Below 0 °C.
+    #[default]
+    None,
+    /// Below 5 °C: a tenth of the capacity an hour.
+    Slow,
+    /// Warm enough.
+    Full,
+}
+
+impl ColdRate {
+    fn at(self, coldest_cc: i32) -> Self {
+        let reaches = |limit_cc: i32, rate: Self| {
+            let extra_cc = if self < rate { HYSTERESIS_CC } else { 0 };
+            coldest_cc >= limit_cc.saturating_add(extra_cc)
+        };
+        if reaches(COOL_CC, Self::Full) {
+            Self::Full
+        } else if reaches(COLDEST_CC, Self::Slow) {
+            Self::Slow
+        } else {
+            Self::None
+        }
+    }
 }
 
 /// The temperature of a charge that has not begun, in the kept record.
@@ -152,6 +167,7 @@ impl ChargeRecord {
         if self.start_cc.is_none() {
             *self = Self {
                 start_cc: Some(temperature_cc),
+                rate: self.rate,
                 ..Self::default()
             };
         }
@@ -180,7 +196,7 @@ impl ChargeRecord {
             flowed_ms: self.flowed_ms,
             charged_mas: self.charged_mas,
             start_cc: self.start_cc.unwrap_or(i32::MAX / 2),
-            full_rate: !self.slow,
+            full_rate: self.rate == ColdRate::Full,
             scale,
         }
     }
@@ -259,18 +275,15 @@ impl<S: Stops> ChargeController<S> {
 
     /// The full current flows, as far as the controller knows.
     pub(super) fn is_at_full_rate(&self) -> bool {
-        self.phase == ChargePhase::Fast && !self.charge.slow && self.charge.flows()
+        self.phase == ChargePhase::Fast && self.charge.rate == ColdRate::Full && self.charge.flows()
     }
 
     /// The current that is wanted now, in mA; 0 = none.
     pub(super) fn target_ma(&self) -> i32 {
-        let Some(cc) = self.thermometer.cc() else {
-            return 0;
-        };
         match self.phase {
-            ChargePhase::Precharge | ChargePhase::TopOff if cc >= COLDEST_CC => self.scale.slow_ma(),
-            ChargePhase::Fast if cc >= COLDEST_CC && self.charge.slow => self.scale.slow_ma(),
-            ChargePhase::Fast if cc >= COLDEST_CC => self.scale.full_ma(),
+            _ if self.charge.rate == ColdRate::None => 0,
+            ChargePhase::Fast if self.charge.rate == ColdRate::Full => self.scale.full_ma(),
+            ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff => self.scale.slow_ma(),
             ChargePhase::Maintain if self.pulse.on => self.scale.slow_ma(),
             _ => 0,
         }
@@ -288,6 +301,9 @@ impl<S: Stops> ChargeController<S> {
         }
         if let Some(averages) = windows.of(AveragingWindow::Second) {
             let averages = self.current_offset.correct(averages);
+            self.charge.rate = averages.temperature.map_or(ColdRate::None, |temperature| {
+                self.charge.rate.at(temperature.coldest_cc)
+            });
             match self.phase {
                 ChargePhase::Idle => self.consider(&averages),
                 ChargePhase::Precharge => self.precharge(&averages),
@@ -337,10 +353,8 @@ impl<S: Stops> ChargeController<S> {
         if averages.current_ma.saturating_abs() >= OFFSET_FAULT_MA {
             return;
         }
-        let Some(cc) = averages
-            .temperature_cc
-            .filter(|cc| (COLDEST_CC..=WARMEST_CC).contains(cc) && self.thermometer.cc().is_some())
-        else {
+        let known = self.thermometer.temperature().is_some() && self.charge.rate != ColdRate::None;
+        let Some(cc) = averages.warmest_cc().filter(|cc| known && *cc <= WARMEST_CC) else {
             return;
         };
         if let Some(fault) = self.scale.unfit(averages.pack_mv) {
@@ -350,7 +364,6 @@ impl<S: Stops> ChargeController<S> {
         self.rest.wanted = false;
         self.full = false;
         self.charge.begin(cc);
-        self.charge.slow = cc < COOL_CC;
         self.detectors.restart();
         self.phase = if averages.pack_mv < self.scale.precharge_mv() {
             ChargePhase::Precharge
@@ -372,14 +385,6 @@ impl<S: Stops> ChargeController<S> {
     }
 
     fn fast(&mut self, averages: &Averages) {
-        if let Some(cc) = averages.temperature_cc {
-            let edge_cc = if self.charge.slow {
-                COOL_CC.saturating_add(HYSTERESIS_CC)
-            } else {
-                COOL_CC.saturating_sub(HYSTERESIS_CC)
-            };
-            self.charge.slow = cc < edge_cc;
-        }
         let progress = self.charge.progress(self.scale);
         if let Some(end) = Detectors::each_second(averages, &progress, &self.stops) {
             self.finish(end);
@@ -387,7 +392,7 @@ impl<S: Stops> ChargeController<S> {
     }
 
     fn top_off(&mut self, averages: &Averages) {
-        let warm = averages.temperature_cc.is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
+        let warm = averages.warmest_cc().is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
         let over = self.charge.phase_ms >= TOP_OFF_MS || self.charge.flowed_ms >= TIME_MS;
         let high = averages.pack_mv >= self.scale.voltage_max_mv();
         if warm || over || high {
@@ -399,7 +404,10 @@ impl<S: Stops> ChargeController<S> {
     fn finish(&mut self, end: ChargeEnd) {
         self.end = Some(end);
         self.regulator.restart();
-        let warm = self.thermometer.cc().is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
+        let warm = self
+            .thermometer
+            .warmest_cc()
+            .is_none_or(|cc| cc >= TOP_OFF_MAX_CC);
         match end {
             ChargeEnd::TemperatureSlope | ChargeEnd::NegativeDeltaV if !warm => {
                 self.charge.phase_ms = 0;
@@ -459,9 +467,8 @@ impl<S: Stops> ChargeController<S> {
         }
         let drain_mas = u32::from(self.pack.drain_ma).saturating_mul(PULSE_PERIOD_MS / 1_000);
         let given_mas = self.charge.charged_mas.saturating_sub(self.pulse.from_mas);
-        let in_window = averages
-            .temperature_cc
-            .is_some_and(|cc| (COOL_CC..=WARMEST_CC).contains(&cc));
+        let in_window =
+            self.charge.rate == ColdRate::Full && averages.warmest_cc().is_some_and(|cc| cc <= WARMEST_CC);
         let over = given_mas >= drain_mas || self.pulse.ms >= PULSE_MAX_MS || !in_window;
         if self.pulse.on && over {
             self.pulse.on = false;

@@ -4,6 +4,11 @@ use heapless::Deque;
 use rvac_protocol::message::ChargeEnd;
 
 use crate::limit::within;
+use crate::rules::charge_stop::{
+    HOT_CC, NEGATIVE_DELTA_V_HOLD_OFF_MS, NEGATIVE_DELTA_V_WINDOWS, SAME_CURRENT_MA, TEMPERATURE_RISE_CC,
+    TEMPERATURE_SLOPE_CC, TEMPERATURE_SLOPE_HOLD_OFF_MS, TEMPERATURE_SLOPE_LEAST_CC,
+    TEMPERATURE_SLOPE_WINDOWS, TIME_MS, ZERO_DELTA_V_HOLD_OFF_MS, ZERO_DELTA_V_WINDOWS,
+};
 
 use super::meter::Averages;
 use super::scale::PackLimits;
@@ -24,28 +29,6 @@ impl Stops for AllStops {
     }
 }
 
-/// dT/dt: temperature rise over 3 minutes that ends a charge at full current, 0.8 °C/min. That is the lower end of what
-/// makers advise, because C/2 heats a pack slowly. A weaker supply heats it less, so the limit falls with the current, to
-/// 0.5 °C/min.
-const TEMPERATURE_SLOPE_CC: i32 = 240;
-const TEMPERATURE_SLOPE_LEAST_CC: i32 = 150;
-/// Windows of 10 s in three minutes.
-const TEMPERATURE_SLOPE_WINDOWS: usize = 18;
-/// dT/dt is meaningless in the first minutes.
-const TEMPERATURE_SLOPE_HOLD_OFF_MS: u32 = 3 * 60_000;
-/// After storage or deep discharge the voltage of an empty pack may fall at first.
-const NEGATIVE_DELTA_V_HOLD_OFF_MS: u32 = 10 * 60_000;
-/// -dV must last for this many windows of 10 s.
-const NEGATIVE_DELTA_V_WINDOWS: u8 = 6;
-/// Voltages are comparable only if the current has changed by less than this, because of the pack's resistance.
-const SAME_CURRENT_MA: i32 = 80;
-const ZERO_DELTA_V_WINDOWS: u16 = 20 * 6;
-const ZERO_DELTA_V_HOLD_OFF_MS: u32 = 90 * 60_000;
-const TEMPERATURE_RISE_CC: i32 = 1_500;
-/// A charge ends at this temperature.
-pub(super) const HOT_CC: i32 = 5_000;
-/// Longest charge, precharge and top-off included.
-pub(super) const TIME_MS: u32 = 3 * 3_600_000 + 1_800_000;
 /// Weight of a new 10 s mean in the smoothed voltage is one in this many.
 const SMOOTHING: i32 = 4;
 /// The smoothed voltage is kept in 16ths of a millivolt.
@@ -60,7 +43,7 @@ pub(super) struct ChargeProgress {
     pub(super) flowed_ms: u32,
     /// Charge that went in, in mA s.
     pub(super) charged_mas: u32,
-    /// Temperature when the charge began.
+    /// Temperature when the charge began, the most that it could be.
     pub(super) start_cc: i32,
     /// The full current flows, so that 0dV is meaningful.
     pub(super) full_rate: bool,
@@ -91,8 +74,8 @@ impl Detectors {
         progress: &ChargeProgress,
         stops: &impl Stops,
     ) -> Option<ChargeEnd> {
-        let temperature_cc = averages.temperature_cc;
-        let at_least = |limit_cc: i32| temperature_cc.is_some_and(|cc| cc >= limit_cc);
+        let warmest_cc = averages.warmest_cc();
+        let at_least = |limit_cc: i32| warmest_cc.is_some_and(|cc| cc >= limit_cc);
         let found = [
             (ChargeEnd::Hot, at_least(HOT_CC)),
             (
@@ -136,7 +119,7 @@ impl Detectors {
     }
 
     fn is_temperature_slope(&mut self, averages: &Averages, progress: &ChargeProgress) -> bool {
-        let Some(newest_cc) = averages.temperature_cc else {
+        let Some(newest_cc) = averages.warmest_cc() else {
             self.temperatures_cc.clear();
             return false;
         };

@@ -1,21 +1,14 @@
 //! The pack's temperature and its plausibility.
 
 use crate::board::ThermistorFault;
+use crate::rules::thermometer::{JUMP_CC, JUMP_MS, LEAST_CC, MOST_CC};
 
-use super::meter::Averages;
-
-/// Plausible range of a pack in a home, in hundredths of a degree.
-const LEAST_CC: i32 = -2_000;
-const MOST_CC: i32 = 8_000;
-/// Most that a pack can change in a second.
-const JUMP_CC: i32 = 500;
-/// How long a jump is remembered.
-const JUMP_MS: u32 = 10_000;
+use super::meter::{Averages, PackTemperature};
 
 /// The temperature and what is wrong with it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Thermometer {
-    cc: Option<i32>,
+    temperature: Option<PackTemperature>,
     /// Averages of the last second and of the one before: a jump in the middle of a second is shared by two.
     seconds_cc: [Option<i32>; 2],
     bad_ms: u32,
@@ -32,9 +25,9 @@ impl Thermometer {
 
     /// Takes the averages of 100 ms.
     pub(super) const fn each_tenth(&mut self, averages: &Averages) {
-        match averages.temperature_cc {
-            Some(cc) if cc >= LEAST_CC && cc <= MOST_CC => {
-                self.cc = Some(cc);
+        match averages.temperature {
+            Some(range) if range.warmest_cc >= LEAST_CC && range.coldest_cc <= MOST_CC => {
+                self.temperature = Some(range);
                 if self.jump_ms == 0 {
                     self.bad_ms = 0;
                     self.bad = None;
@@ -52,8 +45,8 @@ impl Thermometer {
     /// Takes the averages of a second.
     pub(super) fn each_second(&mut self, averages: &Averages) {
         let [last_cc, before_cc] = self.seconds_cc;
-        self.seconds_cc = [averages.temperature_cc, last_cc];
-        let is_jump = |cc: Option<i32>, limit_cc: i32| match (cc, averages.temperature_cc) {
+        self.seconds_cc = [averages.warmest_cc(), last_cc];
+        let is_jump = |cc: Option<i32>, limit_cc: i32| match (cc, averages.warmest_cc()) {
             (Some(cc), Some(now_cc)) => now_cc.saturating_sub(cc).saturating_abs() > limit_cc,
             _ => false,
         };
@@ -64,13 +57,18 @@ impl Thermometer {
     }
 
     const fn doubt(&mut self, fault: ThermistorFault) {
-        self.cc = None;
+        self.temperature = None;
         self.bad = Some(fault);
     }
 
-    /// The newest temperature, in hundredths of a degree; `None` if none is plausible.
-    pub(crate) const fn cc(&self) -> Option<i32> {
-        if self.jump_ms > 0 { None } else { self.cc }
+    /// The newest temperature; `None` if none is plausible.
+    pub(crate) const fn temperature(&self) -> Option<PackTemperature> {
+        if self.jump_ms > 0 { None } else { self.temperature }
+    }
+
+    /// The most that it can be, in hundredths of a degree.
+    pub(crate) fn warmest_cc(&self) -> Option<i32> {
+        self.temperature().map(|temperature| temperature.warmest_cc)
     }
 
     /// A fault that has lasted for at least `span_ms`. A stopped converter counts as a frozen thermistor.

@@ -4,7 +4,7 @@ use rvac_protocol::message::Drive;
 
 use crate::limit::within;
 use crate::parameters::Parameters;
-use crate::permit::CLIFF_SPEED_MAX_UM_PER_S;
+use crate::rules::cliff;
 
 /// Velocity of the base.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -60,7 +60,7 @@ impl BaseVelocity {
         let speed = i64::from(self.speed_um_per_s);
         let (left, right) = (speed.saturating_sub(swing), speed.saturating_add(swing));
         let limit = if near_cliff {
-            CLIFF_SPEED_MAX_UM_PER_S
+            cliff::SPEED_MAX_UM_PER_S
         } else {
             parameters.wheel.speed_at_full.0
         };

@@ -14,7 +14,8 @@ use rvac_units::{Throttle, Tick};
 
 use crate::board::{WheelCounts, WheelDrive};
 use crate::parameters::Parameters;
-use crate::permit::{CLIFF_SPEED_MAX_UM_PER_S, MotionPermit};
+use crate::permit::MotionPermit;
+use crate::rules::cliff;
 use crate::timing::{Deadline, Periodic};
 
 use base::BaseVelocity;
@@ -310,7 +311,7 @@ impl Motion {
     fn control_path(&mut self, mut path: Path, period: &Period<'_>) -> Option<Ending> {
         let (parameters, gyro) = (period.parameters, period.gyro);
         if period.permit.sees_cliff() {
-            path.limit_speed(CLIFF_SPEED_MAX_UM_PER_S);
+            path.limit_speed(cliff::SPEED_MAX_UM_PER_S);
         }
         let travelled_nm = (self.left.status().travelled_nm, self.right.status().travelled_nm);
         let waits = self.left.is_far_behind() || self.right.is_far_behind();
@@ -415,7 +416,7 @@ fn control_direct(wheel: &mut WheelController, duty: Throttle, period: &Period<'
         return wheel.open_loop(duty, parameters);
     }
     let limit = SpeedLimit {
-        speed_max_um_per_s: CLIFF_SPEED_MAX_UM_PER_S,
+        speed_max_um_per_s: cliff::SPEED_MAX_UM_PER_S,
         elapsed_ms: period.elapsed_ms,
     };
     wheel.closed_loop(duty, limit, parameters)

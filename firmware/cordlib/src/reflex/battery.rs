@@ -8,29 +8,18 @@ use rvac_protocol::message::{Inhibit, Inhibits};
 use rvac_units::Tick;
 
 use crate::charge::Thermometer;
+use crate::rules::battery::{
+    CHARGED_MS, CHARGED_MV, COOLED_CC, COOLED_MS, EMPTY_MS, EMPTY_MV, EXCHANGED_MS, EXCHANGED_MV, HOT_CC,
+    HOT_MS, LOW_MS, LOW_MV, OVERHEATED_CC, UNMEASURED_MS, WEAK_MS, WEAK_MV,
+};
 use crate::timing::HoldTimer;
 
-/// Voltages are averages of 100 ms. A level is seen up to two averages late, which the limits below allow for.
-const AVERAGE_MS: u32 = 200;
 /// Threshold in millivolts per cell, and how long the cell voltage must be below it.
 const LEVELS: [(Inhibit, i32, u32); 3] = [
-    (Inhibit::BatteryLow, 1_100, 10_000 - AVERAGE_MS),
-    (Inhibit::BatteryWeak, 1_000, 2_000 - AVERAGE_MS),
-    (Inhibit::BatteryEmpty, 900, 500 - AVERAGE_MS),
+    (Inhibit::BatteryLow, LOW_MV, LOW_MS),
+    (Inhibit::BatteryWeak, WEAK_MV, WEAK_MS),
+    (Inhibit::BatteryEmpty, EMPTY_MV, EMPTY_MS),
 ];
-/// On the dock a level ends this far above its threshold.
-const CHARGED_MV: i32 = 50;
-const CHARGED_MS: u32 = 10_000;
-/// Off the dock only an exchanged pack reaches this voltage.
-const EXCHANGED_MV: i32 = 1_250;
-const EXCHANGED_MS: u32 = 60_000;
-/// Hundredths of a degree.
-const HOT_CC: i32 = 5_500;
-const OVERHEATED_CC: i32 = 6_000;
-const COOLED_CC: i32 = 5_000;
-const HOT_MS: u32 = 1_000 - AVERAGE_MS;
-const COOLED_MS: u32 = 10_000;
-const UNMEASURED_MS: u32 = 2_000 - AVERAGE_MS;
 
 /// What the rule looks at.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +63,7 @@ impl BatteryRule {
                 level.recover(view.supplied && above_mv >= CHARGED_MV, cell_mv, now);
             }
         }
-        let cc = view.thermometer.cc();
+        let cc = view.thermometer.warmest_cc();
         let above = |limit_cc: i32| cc.is_some_and(|cc| cc > limit_cc);
         self.hot |= self.hot_for.for_at_least(above(HOT_CC), now, HOT_MS);
         let cooled = cc.is_some_and(|cc| cc < COOLED_CC);

@@ -6,14 +6,8 @@
 use rvac_protocol::message::Bumpers;
 use rvac_units::Tick;
 
+use crate::rules::bumper::{RELEASE_MS, STUCK_BACKING_MS, STUCK_BACKING_NM, STUCK_MS};
 use crate::timing::{Debounced, HoldTimer};
-
-/// Release must be stable this long; a press counts at once.
-const RELEASE_MS: u32 = 30;
-const STUCK_BACKING_MS: u32 = 3_000;
-const STUCK_MS: u32 = 10_000;
-/// As for a cliff (S8).
-const STUCK_BACKING_NM: i64 = 150_000_000;
 
 /// State of the bumper rules.
 #[derive(Clone, Copy, Debug, Default)]

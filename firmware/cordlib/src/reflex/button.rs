@@ -2,10 +2,8 @@
 
 use rvac_units::Tick;
 
+use crate::rules::button::STABLE_MS;
 use crate::timing::Debounced;
-
-/// A press must be stable this long, well below the 50 ms of the rule.
-const STABLE_MS: u32 = 10;
 
 /// Eight buttons, each debounced on its own: one that chatters must not hide a press of another.
 #[derive(Clone, Copy, Debug, Default)]

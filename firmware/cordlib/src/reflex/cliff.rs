@@ -4,16 +4,8 @@
 use rvac_protocol::message::Cliffs;
 use rvac_units::Tick;
 
+use crate::rules::cliff::{CLEAR_MS, ONSETS_MAX, ONSETS_WINDOW_MS, REVERSE_MAX_NM, SAME_CLIFF_MS, SET_MS};
 use crate::timing::Debounced;
-
-/// A single dark sample is noise. Three in a row stay far below the 20 ms of the rule.
-const SET_MS: u32 = 2;
-const CLEAR_MS: u32 = 50;
-const REVERSE_MAX_NM: i64 = 150_000_000;
-const ONSETS_MAX: u8 = 3;
-const ONSETS_WINDOW_MS: u32 = 5_000;
-/// Floor that is seen for a moment while the robot brakes along an edge or backs off does not make it a second cliff.
-const SAME_CLIFF_MS: u32 = 300;
 
 /// State of the cliff rule.
 #[derive(Clone, Copy, Debug, Default)]

@@ -4,11 +4,8 @@
 use rvac_units::Tick;
 
 use crate::arming::ArmingEvent;
+use crate::rules::dock::{CLEAR_MS, SET_MS};
 use crate::timing::Debounced;
-
-/// One sample is noise. While bouncing contacts open for a moment the robot counts as docked.
-const SET_MS: u32 = 10;
-const CLEAR_MS: u32 = 300;
 
 /// The dock's contacts.
 #[derive(Clone, Copy, Debug, Default)]

@@ -3,12 +3,8 @@
 use rvac_units::Tick;
 
 use crate::motion::WheelStatus;
+use crate::rules::encoder::{DISAGREEMENT_MS, SET_POINT_MIN_UM_PER_S};
 use crate::timing::HoldTimer;
-
-/// The filtered speed takes 80 ms to fall; together they stay within the 500 ms of the rule.
-const DISAGREEMENT_MS: u32 = 410;
-/// Below this set point the encoder's resolution is too coarse for the check, in µm/s.
-const SET_POINT_MIN_UM_PER_S: i32 = 50_000;
 
 /// Plausibility of one encoder.
 #[derive(Clone, Copy, Debug, Default)]

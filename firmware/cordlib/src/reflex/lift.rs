@@ -4,12 +4,8 @@
 use rvac_protocol::message::WheelDrops;
 use rvac_units::Tick;
 
+use crate::rules::lift::{CLEAR_MS, GROUNDED_MS, SET_MS};
 use crate::timing::Debounced;
-
-/// On a door threshold a wheel hangs for a moment. This is well below the 50 ms of the rule.
-const SET_MS: u32 = 15;
-const CLEAR_MS: u32 = 50;
-const GROUNDED_MS: u32 = 1_000;
 
 /// State of the lift rule.
 #[derive(Clone, Copy, Debug, Default)]

@@ -5,16 +5,12 @@
 use rvac_protocol::message::Gyro;
 use rvac_units::{Angle, Tick};
 
+use crate::rules::progress::{PROGRESS_MIN_NM, REST_MS, TURN_CHECK_URAD, WINDOW_MS};
+use crate::rules::stall::STALL_DUTY;
 use crate::timing::Deadline;
 
-use super::stall::STALL_DUTY;
-
-const WINDOW_MS: u32 = 1_980;
-const PROGRESS_MIN_NM: i64 = 20_000_000;
-const TURN_CHECK_URAD: i64 = 1_000_000;
 /// Share of a turn that the gyro must confirm.
 const CONFIRMED_SHARE: i64 = 10;
-const REST_MS: u32 = 1_000;
 
 /// Progress since the last anchor.
 #[derive(Clone, Copy, Debug, Default)]

@@ -2,11 +2,9 @@
 //! them; once the firmware has run for 60 s the count starts again.
 
 use crate::board::ResetRecord;
+use crate::rules::reset::{RESETS_MAX, SOUND_MS};
 use crate::timing::Deadline;
 use rvac_units::Tick;
-
-const RESETS_MAX: u8 = 3;
-const SOUND_MS: u32 = 60_000;
 
 /// Recent resets.
 #[derive(Clone, Copy, Debug)]

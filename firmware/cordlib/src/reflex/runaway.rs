@@ -5,12 +5,8 @@
 use rvac_units::Tick;
 
 use crate::motion::WheelStatus;
+use crate::rules::runaway::{RUNAWAY_MS, SLACK_UM_PER_S};
 use crate::timing::HoldTimer;
-
-/// Checked every 10 ms; with the filter of the speed measurement this stays within 250 ms.
-const RUNAWAY_MS: u32 = 190;
-/// Speed that a stopped wheel may have, for example from a push, in µm/s.
-const SLACK_UM_PER_S: i32 = 60_000;
 
 /// Runaway of one wheel.
 #[derive(Clone, Copy, Debug, Default)]

@@ -3,14 +3,8 @@
 
 use rvac_units::{Current, Tick};
 
+use crate::rules::stall::{OVER_CURRENT_MS, STALL_DUTY, STANDSTILL_MS};
 use crate::timing::HoldTimer;
-
-/// Duty above which a motor that does not turn is stalled, in millionths.
-pub(crate) const STALL_DUTY: i32 = 300_000;
-/// These rules run every 10 ms. An overcurrent is seen up to one period late, a standstill up to two, because the first
-/// period without a count may have begun with one.
-const OVER_CURRENT_MS: u32 = 80;
-const STANDSTILL_MS: u32 = 270;
 
 /// Overload of one motor.
 #[derive(Clone, Copy, Debug, Default)]

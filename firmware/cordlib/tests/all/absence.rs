@@ -3,9 +3,9 @@
 use crate::rig;
 use crate::rig::{Rig, drive, motor, movement};
 use cordlib::Cord;
-use cordlib::board::{Board, ChargeDrive, ChargerReadings};
+use cordlib::board::{Board, ChargeDrive, ChargerReadings, TemperatureRange};
 use rvac_protocol::message::{
-    Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, Refusal, Report,
+    Bumpers, Capabilities, Cliffs, Currents, Event, Inhibit, Motor, MotorSet, Refusal, Report,
 };
 use rvac_units::{Current, Temperature};
 
@@ -198,7 +198,7 @@ fn a_charger_that_was_not_checked_never_switches_on_and_still_measures() {
         pack_mv: 14_000,
         input_mv: 14_000,
         current_ma: 0,
-        temperature: Ok(Temperature(250)),
+        temperature: Ok(TemperatureRange::exact(Temperature(250))),
         age_ms: 0,
         adapter: true,
     });
@@ -223,7 +223,7 @@ fn a_pack_that_nobody_measured_has_no_charge_to_tell() {
             pack_mv: 16_800,
             input_mv: 16_800,
             current_ma: 0,
-            temperature: Ok(Temperature(250)),
+            temperature: Ok(TemperatureRange::exact(Temperature(250))),
             age_ms: 0,
             adapter: false,
         });
@@ -253,8 +253,13 @@ fn motors_without_stall_detection_are_told_when_a_session_opens() {
         let mut rig = Rig::switched_on_as(0, |parameters| parameters.fitted = Some(fitted));
         rig.cord.board_mut().brush_main.pulses = pulses;
         rig.connect();
-        rig.run(500);
-        assert!(told(&rig, "side brushes") && told(&rig, "suction"));
-        assert_eq!(!told(&rig, "main brush"), guarded, "{currents} {pulses:?}");
+        rig.run(1_000);
+        assert!(told(&rig, "brush-sides") && told(&rig, "vacuum") && !told(&rig, "wheels"));
+        assert_eq!(!told(&rig, "brush-main"), guarded, "{currents} {pulses:?}");
+        let gaps = rig.described.expect("a description").motors;
+        assert!(gaps.unguarded.brush_sides && gaps.unguarded.vacuum && !gaps.unguarded.wheels);
+        // The board of this test gets its pulses after it was switched on.
+        assert_eq!(gaps.unguarded.brush_main, !currents);
+        assert_eq!(gaps.unmeasured, MotorSet::default());
     }
 }

@@ -1,6 +1,7 @@
 //! What stops the charger for good: each fault by its name, how fast, and when it can be cleared.
 
 use crate::dock::Dock;
+use crate::rig::{keep, limits};
 use cordlib::board::ThermistorFault;
 use rvac_protocol::message::{ChargeFault, ChargePhase};
 
@@ -38,12 +39,19 @@ fn worst_ms(limit_ms: u32, cause: impl Fn(&mut Dock), fault: ChargeFault) -> u32
 #[test]
 fn over_current_is_cut_within_100_ms() {
     // A sensor that shows too much: the fast cut of the duty changes nothing.
-    worst_ms(100, |dock| dock.shown_ma = Some(1_300), ChargeFault::OverCurrent);
+    let shows_too_much = |dock: &mut Dock| dock.shown_ma = Some(1_300);
+    keep(
+        limits::S18_OVER_CURRENT,
+        worst_ms(100, shows_too_much, ChargeFault::OverCurrent),
+    );
 }
 
 #[test]
 fn old_readings_are_a_fault_after_200_ms() {
-    worst_ms(201, |dock| dock.age_ms = 1, ChargeFault::Stale);
+    keep(
+        limits::S18_STALE,
+        worst_ms(201, |dock| dock.age_ms = 1, ChargeFault::Stale),
+    );
 }
 
 #[test]
@@ -69,9 +77,15 @@ fn a_hot_pack_gets_no_current_after_two_seconds() {
 #[test]
 fn a_thermistor_that_breaks_cuts_the_current() {
     let open = |dock: &mut Dock| dock.temperature = Err(ThermistorFault::Open);
-    worst_ms(202, open, ChargeFault::ThermistorOpen);
+    keep(
+        limits::S18_THERMISTOR,
+        worst_ms(202, open, ChargeFault::ThermistorOpen),
+    );
     let shorted = |dock: &mut Dock| dock.temperature = Err(ThermistorFault::Shorted);
-    worst_ms(202, shorted, ChargeFault::ThermistorShorted);
+    keep(
+        limits::S18_THERMISTOR,
+        worst_ms(202, shorted, ChargeFault::ThermistorShorted),
+    );
     let jump = |dock: &mut Dock| dock.temperature = Ok(330);
     worst_ms(2_002, jump, ChargeFault::ThermistorJump);
     let mut dock = Dock::charging(0);
@@ -117,6 +131,7 @@ fn a_shorted_switch_is_found_within_a_second_whatever_the_phase() {
         let took_ms = reaction_ms(&mut dock, 1_101, |dock| {
             dock.fault() == Some(ChargeFault::Shorted)
         });
+        keep(limits::S18_SHORTED, took_ms);
         assert!(took_ms >= 900, "{took_ms} ms");
     }
     // While it charges the switch is noticed when it is to open.

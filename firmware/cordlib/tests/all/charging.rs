@@ -1,8 +1,9 @@
 //! The charger against its table: how a charge begins, what its current is, and which stop ends it when.
 
 use crate::dock::Dock;
+use cordlib::PackParameters;
 use cordlib::board::ChargeDrive;
-use cordlib::charge::MotorActivity;
+use cordlib::charge::{ChargeController, MotorActivity};
 use rvac_protocol::message::{ChargeEnd, ChargePhase};
 
 const MINUTE_S: u32 = 60;
@@ -569,4 +570,79 @@ fn fifty_days_on_the_dock_do_not_blind_it() {
     let took_s = dock.run_until(2 * HOUR_S, |_, _| {}, |dock| dock.end().is_some());
     assert_eq!(dock.end(), Some(ChargeEnd::ZeroDeltaV));
     assert!((5_330..=5_400).contains(&took_s), "{took_s} s");
+}
+
+#[test]
+fn a_doubtful_thermistor_counts_as_cold_in_the_cold_and_as_hot_in_the_heat() {
+    let charges = |tenths: i16, doubt: i16| {
+        let mut dock = Dock::at(15_000, 0);
+        dock.temperature = Ok(tenths);
+        dock.doubt = doubt;
+        dock.run_s(60.0);
+        dock.current_ma()
+    };
+    // 8 degrees, known to 2, gets the full current; known to 5 a tenth; known to 10 none.
+    assert!(charges(80, 20) > 900);
+    assert!((100..=200).contains(&charges(80, 50)), "{}", charges(80, 50));
+    assert_eq!(charges(80, 100), 0);
+    assert!(charges(350, 20) > 900);
+    assert_eq!(charges(350, 60), 0, "it may be 41 degrees");
+}
+
+#[test]
+fn full_current_ends_at_five_degrees_and_all_current_at_zero() {
+    let mut dock = Dock::charging(0);
+    dock.warm_to(55);
+    dock.run_s(20.0);
+    assert!(dock.current_ma() > 900, "{}", dock.current_ma());
+    dock.warm_to(48);
+    dock.run_s(20.0);
+    assert!((100..=200).contains(&dock.current_ma()), "{}", dock.current_ma());
+    dock.warm_to(-2);
+    dock.run_s(3.0);
+    assert_eq!(dock.current_ma(), 0);
+    // It comes back a degree above the limit, not at it.
+    dock.warm_to(5);
+    dock.run_s(20.0);
+    assert_eq!(dock.current_ma(), 0);
+    dock.warm_to(12);
+    dock.run_s(20.0);
+    assert!((100..=200).contains(&dock.current_ma()), "{}", dock.current_ma());
+}
+
+#[test]
+fn a_temperature_that_is_not_known_to_three_degrees_is_not_told() {
+    let mut dock = Dock::at(15_000, 0);
+    dock.dither = false;
+    dock.run_s(2.0);
+    assert_eq!(dock.charger.temperature_cc(), Some(2_500));
+    dock.doubt = 30;
+    dock.run_s(2.0);
+    assert_eq!(dock.charger.temperature_cc(), Some(2_500));
+    dock.doubt = 31;
+    dock.run_s(2.0);
+    assert_eq!(dock.charger.temperature_cc(), None);
+}
+
+#[test]
+fn the_current_of_another_charger_is_no_fault_and_is_told_as_charging() {
+    let mut dock = Dock::at(15_000, 0);
+    dock.charger = ChargeController::observing(PackParameters::NIMH_12);
+    dock.leak_ma = 800;
+    dock.run_s(600.0);
+    assert_eq!(dock.charger.status().fault, None);
+    assert!(dock.is_off() && dock.charger.charges());
+    assert_eq!(
+        dock.charger.pack().map(|(_, current_ma)| current_ma / 50),
+        Some(16)
+    );
+    dock.leak_ma = 0;
+    dock.run_s(2.0);
+    assert!(!dock.charger.charges());
+    // Its readings may be a second old, and no older than two.
+    dock.age_ms = 1_000;
+    dock.step();
+    assert!(dock.charger.pack().is_some());
+    dock.run_s(1.5);
+    assert_eq!(dock.charger.pack(), None);
 }

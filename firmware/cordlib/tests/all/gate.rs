@@ -1,10 +1,14 @@
 //! The global property, under a storm: whatever the host sends and the sensors show, in whatever order, a motor turns only
-//! when armed, fresh and not inhibited. The rig checks it in every pass; here it gets random lives to check.
+//! when armed, fresh and not inhibited. Not cordlib's own word counts: the monitor of the simulations reads the bytes, the pins
+//! and the motors in every pass of many random lives.
 
 use crate::rig;
 use crate::rig::{Phases, Rig, arm, clear, drive, motor, movement};
 use rvac_protocol::message::{Bumpers, Cliffs, Command, Currents, Inhibit, Motor, WheelDrops};
 use rvac_units::Current;
+
+/// A robot that is not flooded answers within this.
+const ANSWER_MS: u32 = 300;
 
 fn signed(phases: &mut Phases, limit: f64) -> f64 {
     (f64::from(phases.below(2_001)) / 1_000.0 - 1.0) * limit
@@ -56,12 +60,12 @@ fn disturb(rig: &mut Rig, phases: &mut Phases) {
 
 fn live(seed: u64) -> u32 {
     let mut phases = Phases(seed);
-    let mut rig = Rig::connected(u32::MAX - phases.below(20_000));
+    let mut rig = Rig::judged(u32::MAX - phases.below(20_000));
     let mut moving_passes = 0;
     for _ in 0..300 {
         if rig.host.is_open() {
             if !rig.cord.is_armed() || phases.below(4) == 0 {
-                send_if_room(&mut rig, arm(phases.below(2) == 0));
+                moving_passes += ask_to_arm(&mut rig, phases.below(2) == 0);
             }
             for inhibit in rig.cord.inhibits().iter().filter(|inhibit| inhibit.is_latched()) {
                 send_if_room(&mut rig, clear(inhibit));
@@ -78,6 +82,7 @@ fn live(seed: u64) -> u32 {
             moving_passes += u32::from(!rig.wheels_off());
         }
     }
+    rig.acquit();
     moving_passes
 }
 
@@ -88,6 +93,22 @@ fn send_if_room(rig: &mut Rig, command: Command) {
     if rig.host.send(command, now, &mut packet).is_ok() {
         rig.deliver(packet.as_bytes());
     }
+}
+
+/// Arms as our host does: the next `arm` follows the answer to this one. Returns the passes in which something moved.
+fn ask_to_arm(rig: &mut Rig, undock: bool) -> u32 {
+    let answers = |rig: &Rig| rig.answered + rig.refusals.len();
+    let before = answers(rig);
+    send_if_room(rig, arm(undock));
+    let mut moving_passes = 0;
+    for _ in 0..ANSWER_MS {
+        if answers(rig) > before || rig.host_dead {
+            break;
+        }
+        rig.run(1);
+        moving_passes += u32::from(!rig.wheels_off());
+    }
+    moving_passes
 }
 
 fn calm(rig: &mut Rig) {

@@ -2,7 +2,7 @@
 
 use crate::rig;
 use crate::rig::{Rig, clear, drive, motor};
-use cordlib::board::{ChargerReadings, HardwareFault, KEPT_WORDS, ThermistorFault};
+use cordlib::board::{ChargerReadings, HardwareFault, KEPT_WORDS, TemperatureRange, ThermistorFault};
 use rvac_protocol::message::{Bumpers, Cliffs, Inhibit, Motor, Refusal, ResetCause};
 use rvac_units::{Current, Temperature};
 
@@ -10,7 +10,7 @@ const PACK: ChargerReadings = ChargerReadings {
     pack_mv: 15_000,
     input_mv: 15_000,
     current_ma: 0,
-    temperature: Ok(Temperature(250)),
+    temperature: Ok(TemperatureRange::exact(Temperature(250))),
     age_ms: 0,
     adapter: false,
 };
@@ -56,7 +56,7 @@ fn sound(rig: &mut Rig) {
 }
 
 fn warm_to(rig: &mut Rig, tenths: i16) {
-    let temperature = Ok(Temperature(tenths));
+    let temperature = Ok(TemperatureRange::exact(Temperature(tenths)));
     show(rig, ChargerReadings { temperature, ..PACK });
     rig.run(2_000);
 }

@@ -16,4 +16,5 @@ mod probing;
 mod reverse;
 mod rig;
 mod stopping;
+mod thermistor;
 mod wire;

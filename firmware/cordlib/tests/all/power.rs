@@ -1,8 +1,11 @@
 //! The battery in the whole firmware: S16, S17, S18 and S19 on the rig, and what the host is told.
 
 use crate::rig;
+use crate::rig::limits;
 use crate::rig::{Rig, clear, drive, motor, worst_reaction};
-use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, HardwareFault, ThermistorFault};
+use cordlib::board::{
+    ChargeDrive, ChargerReadings, DockRequest, HardwareFault, TemperatureRange, ThermistorFault,
+};
 use rvac_protocol::message::{
     ChargeFault, ChargePhase, ChargeState, Command, Inhibit, Motor, Refusal, Report, ResetCause, Sequence,
 };
@@ -12,7 +15,7 @@ pub(crate) const PACK: ChargerReadings = ChargerReadings {
     pack_mv: 15_000,
     input_mv: 15_000,
     current_ma: 0,
-    temperature: Ok(Temperature(250)),
+    temperature: Ok(TemperatureRange::exact(Temperature(250))),
     age_ms: 0,
     adapter: false,
 };
@@ -95,9 +98,9 @@ fn reported(rig: &Rig) -> rvac_protocol::message::Battery {
 fn s16_each_level_of_a_falling_voltage_has_its_time_and_its_effect() {
     let fall = |pack_mv: i32| move |rig: &mut Rig| show(rig, ChargerReadings { pack_mv, ..PACK });
     let low = |rig: &Rig| rig.has(Inhibit::BatteryLow);
-    worst_reaction(10_000, cleaning, fall(13_100), low);
-    worst_reaction(2_000, cleaning, fall(11_900), Rig::cleaners_off);
-    worst_reaction(500, cleaning, fall(10_700), |rig| {
+    worst_reaction(limits::S16_LOW, cleaning, fall(13_100), low);
+    worst_reaction(limits::S16_WEAK, cleaning, fall(11_900), Rig::cleaners_off);
+    worst_reaction(limits::S16_EMPTY, cleaning, fall(10_700), |rig| {
         rig.wheels_off() && rig.cleaners_off()
     });
 }
@@ -177,13 +180,13 @@ fn s16_a_dip_of_the_voltage_is_nothing() {
 }
 
 fn warm_to(rig: &mut Rig, tenths: i16) {
-    let temperature = Ok(Temperature(tenths));
+    let temperature = Ok(TemperatureRange::exact(Temperature(tenths)));
     show(rig, ChargerReadings { temperature, ..PACK });
 }
 
 /// Cleaning with a pack that is as warm as it may be.
 fn warm(start: u32) -> Rig {
-    let temperature = Ok(Temperature(530));
+    let temperature = Ok(TemperatureRange::exact(Temperature(530)));
     cleaning_with(start, ChargerReadings { temperature, ..PACK })
 }
 
@@ -198,7 +201,7 @@ fn cool_down(rig: &mut Rig, from: i16) {
 #[test]
 fn s17_a_hot_pack_stops_motors_within_a_second_until_it_has_cooled() {
     let off = |rig: &Rig| rig.wheels_off() && rig.cleaners_off();
-    worst_reaction(1_000, warm, |rig| warm_to(rig, 556), off);
+    worst_reaction(limits::S17_HOT, warm, |rig| warm_to(rig, 556), off);
     let mut rig = warm(0);
     warm_to(&mut rig, 556);
     rig.run(2_000);
@@ -231,7 +234,7 @@ fn s17_a_temperature_that_cannot_be_measured_is_latched_within_two_seconds() {
             temperature: Err(fault),
             ..PACK
         };
-        worst_reaction(2_000, cleaning, |rig| show(rig, broken), off);
+        worst_reaction(limits::S17_UNMEASURED, cleaning, |rig| show(rig, broken), off);
     }
     // A converter that stands still shows the same reading for ever.
     let mut rig = cleaning(0);

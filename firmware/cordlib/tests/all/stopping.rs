@@ -1,6 +1,7 @@
 //! Rules that stop the robot, each at 200 phases of the loop, with the worst reaction against the limit of SAFETY.md.
 
 use crate::rig;
+use crate::rig::limits;
 use crate::rig::{Rig, clear, drive, motor, movement, worst_reaction};
 use rvac_protocol::message::{
     Bumpers, Cliffs, Command, Currents, Event, Inhibit, MotionPhase, Motor, MotorCommand, MoveEnd, Refusal,
@@ -49,8 +50,18 @@ fn cleaning(start: u32) -> Rig {
 
 #[test]
 fn s1_silence_stops_wheels_brushes_and_suction_in_300_ms() {
-    worst_reaction(300, Rig::driving, |rig| rig.host_dead = true, Rig::wheels_off);
-    worst_reaction(300, cleaning, |rig| rig.host_dead = true, Rig::cleaners_off);
+    worst_reaction(
+        limits::S1_SILENCE,
+        Rig::driving,
+        |rig| rig.host_dead = true,
+        Rig::wheels_off,
+    );
+    worst_reaction(
+        limits::S1_SILENCE,
+        cleaning,
+        |rig| rig.host_dead = true,
+        Rig::cleaners_off,
+    );
 }
 
 /// A command with a lease of this length.
@@ -166,7 +177,12 @@ fn s5_the_watchdog_is_fed_in_every_pass_whose_clock_moves() {
 
 #[test]
 fn s6_a_press_brakes_within_20_ms() {
-    worst_reaction(20, Rig::driving, |rig| press(rig, LEFT), Rig::wheels_off);
+    worst_reaction(
+        limits::S6_STOP,
+        Rig::driving,
+        |rig| press(rig, LEFT),
+        Rig::wheels_off,
+    );
 }
 
 #[test]
@@ -302,7 +318,12 @@ fn s7_a_robot_pushed_back_by_its_bumper_is_not_backing_off() {
 
 #[test]
 fn s8_a_cliff_stops_within_20_ms() {
-    worst_reaction(20, Rig::driving, |rig| see(rig, MIDDLE), Rig::wheels_off);
+    worst_reaction(
+        limits::S8_STOP,
+        Rig::driving,
+        |rig| see(rig, MIDDLE),
+        Rig::wheels_off,
+    );
 }
 
 #[test]
@@ -409,7 +430,7 @@ fn s8_cliffs_that_are_far_apart_are_no_trap() {
 fn s9_a_stuck_receiver_counts_as_a_cliff_within_a_second() {
     for level in [0, 300, 600, 1_023] {
         let stick = |rig: &mut Rig| rig.cord.board_mut().cliffs.stuck_left = Some(level);
-        worst_reaction(1_000, Rig::driving, stick, |rig| {
+        worst_reaction(limits::S9_BLIND, Rig::driving, stick, |rig| {
             rig.wheels_off() && rig.cord.cliffs().left
         });
     }
@@ -429,7 +450,7 @@ fn s9_a_receiver_that_sees_light_without_its_emitter_is_named_faulty() {
 #[test]
 fn s10_a_hanging_wheel_switches_everything_off_within_50_ms() {
     let off = |rig: &Rig| rig.wheels_off() && rig.cleaners_off();
-    worst_reaction(50, cleaning, |rig| hang(rig, HANGING), off);
+    worst_reaction(limits::S10_OFF, cleaning, |rig| hang(rig, HANGING), off);
 }
 
 #[test]
@@ -456,9 +477,9 @@ fn s11_over_current_and_standstill_switch_the_wheel_off() {
             ..Currents::default()
         };
     };
-    worst_reaction(100, Rig::driving, overload, Rig::wheels_off);
+    worst_reaction(limits::S11_OVER_CURRENT, Rig::driving, overload, Rig::wheels_off);
     let block = |rig: &mut Rig| rig.mechanics.blocked[0] = true;
-    worst_reaction(300, Rig::driving, block, Rig::wheels_off);
+    worst_reaction(limits::S11_STANDSTILL, Rig::driving, block, Rig::wheels_off);
     let mut rig = Rig::driving(0);
     block(&mut rig);
     rig.run(400);
@@ -491,7 +512,9 @@ fn s12_a_wheel_that_turns_by_itself_is_latched_within_250_ms() {
         rig.mechanics.stuck_duty = Some(900_000);
         rig.rims[0] = 0.4;
     };
-    worst_reaction(250, Rig::driving, short, |rig| rig.has(Inhibit::Runaway));
+    worst_reaction(limits::S12_FOUND, Rig::driving, short, |rig| {
+        rig.has(Inhibit::Runaway)
+    });
     let mut rig = Rig::driving(0);
     short(&mut rig);
     rig.run(300);
@@ -519,7 +542,7 @@ fn s13_a_swapped_encoder_is_found_within_500_ms() {
         let counts = &mut rig.cord.board_mut().encoders.0;
         (counts.left, counts.right) = (-counts.left, -counts.right);
     };
-    worst_reaction(500, Rig::driving, swap, found);
+    worst_reaction(limits::S13_FOUND, Rig::driving, swap, found);
     let mut rig = resting(0);
     rig.run_until(2_000, |rig| rig.rims[0] > 0.05);
     rig.run(600);
@@ -640,7 +663,12 @@ fn s27_the_newest_motion_rules_and_a_person_outranks_it() {
 #[test]
 fn s28_a_button_stops_within_50_ms_and_until_arming() {
     let off = |rig: &Rig| rig.wheels_off() && rig.cleaners_off();
-    worst_reaction(50, cleaning, |rig| rig.cord.board_mut().buttons.down = 4, off);
+    worst_reaction(
+        limits::S28_STOP,
+        cleaning,
+        |rig| rig.cord.board_mut().buttons.down = 4,
+        off,
+    );
     let mut rig = cleaning(0);
     rig.cord.board_mut().buttons.down = 1;
     rig.run(100);
@@ -714,7 +742,7 @@ fn s29_brushes_start_only_on_the_floor_with_a_free_bumper() {
 fn stop_is_obeyed_and_needs_arming() {
     use rvac_protocol::message::Command;
     worst_reaction(
-        30,
+        limits::STOP_OFF,
         cleaning,
         |rig| rig.send(Command::Stop),
         |rig| rig.wheels_off() && rig.cleaners_off(),

@@ -5,14 +5,6 @@
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
-use cordlib::board::{ChargeDrive, Charger, ChargerReadings, DockRequest, ThermistorFault};
-use pic32mx3_hal::gpio::{Output, Pin};
-use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
-use pic32mx3_hal::pwm::{self, PwmChannel};
-use pic32mx3_hal::timer::{SlowPrescaler, Timer};
-use pic32mx3_hal::{cpu, interrupt};
-use rvac_units::Temperature;
-
 use super::{contacts, converter, interlock, off, tick};
 use crate::calibration::Calibration;
 use crate::generated::calibration::Calibrated;
@@ -22,7 +14,14 @@ use crate::logic::envelope::{Envelope, pulses_for};
 use crate::logic::guarded::Guarded;
 use crate::logic::pack::PackScale;
 use crate::logic::renewal::Renewal;
-use crate::logic::thermistor::{Implausible, temperature};
+use crate::logic::thermistor::{self, temperature};
+use cordlib::board::{ChargeDrive, Charger, ChargerReadings, DockRequest};
+use cordlib::thermistor::ThermistorCurve;
+use pic32mx3_hal::gpio::{Output, Pin};
+use pic32mx3_hal::interrupt::{Context, HandlerCell, Priority, Source, SubPriority, Vector, vector};
+use pic32mx3_hal::pwm::{self, PwmChannel};
+use pic32mx3_hal::timer::{SlowPrescaler, Timer};
+use pic32mx3_hal::{cpu, interrupt};
 
 /// Output compare of the charger.
 const COMPARE: u8 = 3;
@@ -110,6 +109,7 @@ interrupt!(TIMER_1, on_half_period);
 #[derive(Debug)]
 pub struct PackCharger {
     scale: PackScale,
+    curve: ThermistorCurve,
     allowed: bool,
     drive: ChargeDrive,
     renewal: Renewal,
@@ -155,6 +155,7 @@ impl PackCharger {
                 known(Calibrated::BatteryScale),
                 known(Calibrated::ChargeCurrentZero),
             ),
+            curve: ThermistorCurve::new(thermistor::DIVIDER, calibration.thermistor()),
             allowed: calibration.allows_charging(),
             drive: ChargeDrive::Off,
             renewal: Renewal::default(),
@@ -234,7 +235,7 @@ impl Charger for PackCharger {
             pack_mv: reading.pack_mv,
             input_mv: reading.input_mv,
             current_ma: reading.current_ma,
-            temperature: celsius(thermistor),
+            temperature: temperature(&self.curve, thermistor),
             age_ms,
             adapter: contacts::adapter_is_live(),
         })
@@ -261,11 +262,4 @@ impl Charger for PackCharger {
     fn ask_dock(&mut self, request: DockRequest) {
         self.request = request;
     }
-}
-
-fn celsius(reading: u16) -> Result<Temperature, ThermistorFault> {
-    temperature(reading).map_err(|implausible| match implausible {
-        Implausible::Open(_) => ThermistorFault::Open,
-        Implausible::Short(_) => ThermistorFault::Shorted,
-    })
 }

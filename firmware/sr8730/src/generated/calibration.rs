@@ -1,7 +1,7 @@
 //! Calibration values and their places in the record. Made by cargo xtask codegen from robots/samsung-sr8730/robot.toml. Do not edit.
 
 /// Number of values in a record.
-pub const COUNT: usize = 31;
+pub const COUNT: usize = 36;
 
 /// A value that a person measures on the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,6 +68,16 @@ pub enum Calibrated {
     GyroRate,
     /// Gyro frame (1). Needed for gyro.
     GyroFrame,
+    /// Thermistor ice (count/10). Needed for knowing the pack's temperature to three degrees; without it the charger keeps a margin of some ten.
+    ThermistorIce,
+    /// Thermistor warm (count/10). Needed for as thermistor-ice.
+    ThermistorWarm,
+    /// Thermistor warm temperature (degree/10). Needed for as thermistor-ice.
+    ThermistorWarmTemperature,
+    /// Thermistor checked (1). Needed for as thermistor-ice.
+    ThermistorChecked,
+    /// Wheel stall current (mA). Needed for stopping a wheel by its current in time; it is switched off above three quarters of this.
+    WheelStallCurrent,
 }
 
 impl Calibrated {
@@ -278,5 +288,35 @@ pub const ENTRIES: [Entry; COUNT] = [
         low: 1,
         high: 1,
         assumed: None,
+    },
+    Entry {
+        value: Calibrated::ThermistorIce,
+        low: 8_300,
+        high: 8_800,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ThermistorWarm,
+        low: 6_500,
+        high: 7_600,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ThermistorWarmTemperature,
+        low: 350,
+        high: 450,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::ThermistorChecked,
+        low: 0,
+        high: 1,
+        assumed: None,
+    },
+    Entry {
+        value: Calibrated::WheelStallCurrent,
+        low: 300,
+        high: 4_000,
+        assumed: Some(2_000),
     },
 ];

@@ -1,6 +1,6 @@
 //! The description table: what a robot understands and has, row by row.
 
-use super::{Capabilities, Limits, Parameter};
+use super::{Capabilities, Limits, MotorGaps, Parameter};
 
 /// The name of a command, for tables and for the list of commands that a robot understands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -170,6 +170,8 @@ pub enum RowContent {
         /// Largest value.
         max: i32,
     },
+    /// What the robot does not know of its motors.
+    Motors(MotorGaps),
     /// A row of a newer robot that this version does not know.
     Unknown,
 }

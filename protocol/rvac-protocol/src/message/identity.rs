@@ -124,6 +124,41 @@ pub struct RobotHello {
     pub tick: Tick,
 }
 
+/// Some of the motors.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MotorSet {
+    /// Both wheels.
+    pub wheels: bool,
+    /// Main brush.
+    pub brush_main: bool,
+    /// Side brushes.
+    pub brush_sides: bool,
+    /// Suction.
+    pub vacuum: bool,
+}
+
+impl MotorSet {
+    /// The motors with their names on the wire.
+    #[must_use]
+    pub const fn named(self) -> [(&'static str, bool); 4] {
+        [
+            ("wheels", self.wheels),
+            ("brush-main", self.brush_main),
+            ("brush-sides", self.brush_sides),
+            ("vacuum", self.vacuum),
+        ]
+    }
+}
+
+/// What the robot does not know of its motors. A robot of an older version says nothing of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MotorGaps {
+    /// Nothing notices that these are held fast (S11).
+    pub unguarded: MotorSet,
+    /// The current of these is not measured, though that of others is.
+    pub unmeasured: MotorSet,
+}
+
 /// Parts of the board. An absent part is never simulated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Capabilities {
@@ -187,4 +222,6 @@ pub struct Description {
     pub capabilities: Capabilities,
     /// Geometry and limits.
     pub limits: Limits,
+    /// What it does not know of its motors.
+    pub motors: MotorGaps,
 }

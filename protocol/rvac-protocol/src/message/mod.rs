@@ -16,7 +16,8 @@ pub use command::{
 };
 pub use describe::{CommandName, CommandNames, DescribeRow, RowContent};
 pub use identity::{
-    BinaryKinds, Capabilities, Description, Limits, Name, ProtocolVersion, ResetCause, RobotHello,
+    BinaryKinds, Capabilities, Description, Limits, MotorGaps, MotorSet, Name, ProtocolVersion, ResetCause,
+    RobotHello,
 };
 pub use inhibit::{Inhibit, Inhibits};
 pub use probe::{

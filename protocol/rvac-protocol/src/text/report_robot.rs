@@ -8,8 +8,8 @@ use super::fields::{Fields, UnknownKeys, lists};
 use super::write::ObjectWriter;
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::message::{
-    Capabilities, CommandName, CommandNames, DescribeRow, Limits, Name, Parameter, ProtocolVersion, Refusal,
-    ResetCause, RobotHello, RowContent,
+    Capabilities, CommandName, CommandNames, DescribeRow, Limits, MotorGaps, MotorSet, Name, Parameter,
+    ProtocolVersion, Refusal, ResetCause, RobotHello, RowContent,
 };
 use crate::span;
 
@@ -77,6 +77,10 @@ pub(super) fn write_row(row: &DescribeRow, buffer: &mut PacketBuffer) -> Result<
             .name("name", parameter.name())
             .number("min", *min, span::COUNT)
             .number("max", *max, span::COUNT),
+        RowContent::Motors(gaps) => object
+            .name("of", "motors")
+            .names("unguarded", listed(gaps.unguarded))
+            .names("unmeasured", listed(gaps.unmeasured)),
         RowContent::Unknown => &mut object,
     };
     object.finish()
@@ -107,6 +111,30 @@ fn write_parts<'o, 'b>(parts: &Capabilities, object: &'o mut ObjectWriter<'b>) -
         .names("has", present)
 }
 
+fn listed(motors: MotorSet) -> impl Iterator<Item = &'static str> {
+    motors
+        .named()
+        .into_iter()
+        .filter_map(|(name, is_listed)| is_listed.then_some(name))
+}
+
+fn read_gaps(text: &[u8]) -> Result<MotorGaps, Refusal> {
+    let fields = Fields::read(text, ["unguarded", "unmeasured"], UnknownKeys::Ignore)?;
+    Ok(MotorGaps {
+        unguarded: read_motors(fields.text_or_empty(0)?),
+        unmeasured: read_motors(fields.text_or_empty(1)?),
+    })
+}
+
+fn read_motors(words: &[u8]) -> MotorSet {
+    MotorSet {
+        wheels: lists(words, "wheels"),
+        brush_main: lists(words, "brush-main"),
+        brush_sides: lists(words, "brush-sides"),
+        vacuum: lists(words, "vacuum"),
+    }
+}
+
 fn part_flags(parts: &Capabilities) -> [(&'static str, bool); 10] {
     [
         ("encoders", parts.encoders),
@@ -132,6 +160,7 @@ pub(super) fn read_row(text: &[u8]) -> Result<DescribeRow, Refusal> {
             b"parts" => read_parts(text).map(RowContent::Capabilities)?,
             b"commands" => read_commands(text).map(RowContent::Commands)?,
             b"parameter" => read_parameter(text)?,
+            b"motors" => read_gaps(text).map(RowContent::Motors)?,
             _ => RowContent::Unknown,
         },
     })

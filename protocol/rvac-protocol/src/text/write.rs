@@ -64,7 +64,13 @@ impl<'b> ObjectWriter<'b> {
     }
 
     /// Names separated by spaces.
-    pub(crate) fn names<'n>(&mut self, key: &str, names: impl Iterator<Item = &'n str>) -> &mut Self {
+    pub(crate) fn names<'n>(&mut self, key: &str, mut names: impl Iterator<Item = &'n str>) -> &mut Self {
+        self.names_of(key, &mut names)
+    }
+
+    /// The same, once for all kinds of lists: the robot's flash is small.
+    #[inline(never)]
+    fn names_of(&mut self, key: &str, names: &mut dyn Iterator<Item = &str>) -> &mut Self {
         self.key(key);
         self.raw(b"\"");
         for (index, name) in names.enumerate() {

@@ -3,8 +3,8 @@
 
 use rvac_protocol::message::{
     Acknowledgement, Battery, Capabilities, ChargeEnd, ChargeFault, ChargeState, Command, DescribeRow, Event,
-    Info, LinkCounters, LogLevel, MotionPhase, MoveEnd, ProbeTarget, ProbedContent, Report, RowContent,
-    State,
+    Info, LinkCounters, LogLevel, MotionPhase, MotorSet, MoveEnd, ProbeTarget, ProbedContent, Report,
+    RowContent, State,
 };
 use serde_json::{Value, json};
 
@@ -141,9 +141,19 @@ fn describe(row: &DescribeRow) -> Value {
         RowContent::Parameter { parameter, min, max } => {
             json!({"of": "parameter", "parameter": parameter.name(), "min": min, "max": max})
         }
+        RowContent::Motors(gaps) => {
+            json!({"of": "motors", "unguarded": motors(gaps.unguarded), "unmeasured": motors(gaps.unmeasured)})
+        }
         RowContent::Unknown => json!({"of": "unknown"}),
     };
     json!({"report": "describe", "row": row.row, "rows": row.rows, "content": content})
+}
+
+fn motors(set: MotorSet) -> Vec<&'static str> {
+    let named = set.named().into_iter();
+    named
+        .filter_map(|(name, is_listed)| is_listed.then_some(name))
+        .collect()
 }
 
 /// What was added later stands in the meaning only where it is there, so that older vectors keep theirs.

@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    BinaryKinds, Capabilities, Command, Description, Limits, Name, Report, ResetCause, Sequence, State,
+    BinaryKinds, Capabilities, Command, Description, Limits, MotorGaps, MotorSet, Name, Report, ResetCause,
+    Sequence, State,
 };
 use rvac_protocol::session::{HostEvent, HostSession, RobotEvent, RobotIdentity, RobotSession, SendError};
 use rvac_units::{AngularSpeed, Length, Speed, Tick};
@@ -31,6 +32,17 @@ pub(crate) fn identity() -> RobotIdentity {
                 count_nm: 123_456,
                 radius: Length(175_000),
                 swath: Length(300_000),
+            },
+            motors: MotorGaps {
+                unguarded: MotorSet {
+                    brush_sides: true,
+                    vacuum: true,
+                    ..MotorSet::default()
+                },
+                unmeasured: MotorSet {
+                    brush_main: true,
+                    ..MotorSet::default()
+                },
             },
         },
     }

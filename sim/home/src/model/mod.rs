@@ -1,6 +1,7 @@
 //! A robot's description for the simulator, read from `robots/<name>/robot.toml`.
 
 mod catalog;
+mod deviation;
 mod figure;
 mod parse;
 mod raw;

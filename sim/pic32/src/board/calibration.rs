@@ -1,10 +1,14 @@
 //! Calibration values of `robot.toml`, which have not been measured on a real robot: their simulated values, and the
 //! record in flash through which the firmware reads them.
 
+use home::{Pcg, Thermistor};
 use serde::Deserialize;
 
 use super::BoardError;
 use crate::image::{Image, ImageError};
+
+/// Stream of random numbers of [`Particulars::deviating`].
+const DEVIATIONS: u64 = 0xDE72;
 
 /// Physical address of the record: the last page of program flash.
 pub const RECORD_ADDRESS: u32 = 0x1D03_F000;
@@ -198,6 +202,17 @@ pub struct Particulars {
     pub gyro_uart: u8,
     /// Bits per second of the gyro module.
     pub gyro_baud: u32,
+    /// The pack's thermistor and its resistors.
+    pub thermistor: Thermistor,
+    /// What the converter multiplies with.
+    pub converter_gain: f64,
+    /// What it adds, counts.
+    pub converter_offset: f64,
+    /// Light that each cliff receiver shows, in parts of what it should.
+    pub cliff_gain: [f64; 3],
+    /// Time constant of an infrared receiver and the multiplexer behind it, seconds: usual phototransistors with their load
+    /// need 10 to 50 µs; not measured.
+    pub receiver_s: f64,
 }
 
 impl Particulars {
@@ -236,7 +251,42 @@ impl Particulars {
             beam_unit_us: value("dock-beam-short")?.unsigned_abs(),
             gyro_uart: small("gyro-uart")?,
             gyro_baud: value("gyro-rate")?.unsigned_abs(),
+            thermistor: Thermistor::NOMINAL,
+            converter_gain: 1.0,
+            converter_offset: 0.0,
+            cliff_gain: [1.0; 3],
+            receiver_s: 0.000_03,
         })
+    }
+
+    /// The board of this seed: as its owner's calibration was when it was measured, and not quite as it is now.
+    #[must_use]
+    pub fn deviating(&self, seed: u64) -> Self {
+        let random = &mut Pcg::new(seed, DEVIATIONS);
+        let thermistor = Thermistor {
+            // The converter's own errors are drawn below, for all of its inputs.
+            offset_counts: 0.0,
+            gain: 1.0,
+            ..Thermistor::drawn(random)
+        };
+        let mut about = |value: f64, share: f64| value * (1.0 + share * random.symmetric());
+        let count = |value: f64| value.round() as i32;
+        Self {
+            current_zero: self.current_zero.map(|zero| count(about(f64::from(zero), 0.3))),
+            current_scale: count(about(f64::from(self.current_scale), 0.2)),
+            brush_pulses_per_s: about(self.brush_pulses_per_s, 0.3),
+            ladder: self.ladder.map(|level| about(f64::from(level), 0.03) as u16),
+            proximity: self.proximity.map(|level| count(about(f64::from(level), 0.3))),
+            battery_scale: count(about(f64::from(self.battery_scale), 0.01)),
+            charge_zero: self.charge_zero + count(about(100.0, 1.0)) - 100,
+            thermistor,
+            // The data sheet's gain error of 4 counts, and its offset of 2.
+            converter_gain: about(1.0, 0.004),
+            converter_offset: about(2.0, 1.0) - 2.0,
+            cliff_gain: self.cliff_gain.map(|gain| about(gain, 0.3)),
+            receiver_s: about(0.000_03, 0.6),
+            ..*self
+        }
     }
 }
 

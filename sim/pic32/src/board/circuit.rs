@@ -4,7 +4,7 @@ use home::{Pcg, Sensors};
 
 use super::CYCLES_PER_S;
 use super::calibration::Particulars;
-use super::power::{ChargeCurrent, divider_counts, thermistor_counts};
+use super::power::{ChargeCurrent, divider_counts};
 use super::wiring::{Wiring, selected};
 use crate::machine::{Outputs, Surroundings};
 use crate::pins::PinDriver;
@@ -17,9 +17,6 @@ const NOISE: f64 = 0.6;
 const COUNTS_PER_LEVEL: f64 = 4.0;
 /// Light of the room on a proximity receiver, counts.
 const ROOM_LIGHT: f64 = 60.0;
-/// Time constant of an infrared receiver and the multiplexer behind it, seconds: usual phototransistors with their load
-/// need 10 to 50 µs; not measured.
-const RECEIVER_S: f64 = 0.000_03;
 /// Channels of the multiplexers with a sensor.
 const SENSORS: u8 = 7;
 
@@ -56,14 +53,14 @@ struct Follower {
 
 impl Follower {
     /// The reading at `cycle`, when the light has been `target` since `changed`.
-    fn read(&mut self, target: f64, changed: u64, cycle: u64) -> f64 {
+    fn read(&mut self, target: f64, (changed, cycle): (u64, u64), receiver_s: f64) -> f64 {
         if changed != self.changed {
             self.before = self.target;
             self.changed = changed;
         }
         self.target = target;
         let passed_s = cycle.saturating_sub(changed) as f64 / CYCLES_PER_S as f64;
-        target + (self.before - target) * (-passed_s / RECEIVER_S).exp()
+        target + (self.before - target) * (-passed_s / receiver_s).exp()
     }
 }
 
@@ -121,7 +118,8 @@ impl Circuit {
                 divider_counts(pack_v + self.charge.shunt_v(), &self.particulars) + offset
             }
             _ if channel == wiring.thermistor => {
-                thermistor_counts(f64::from(self.sensors.battery_temperature.0) / 10.0)
+                let celsius = f64::from(self.sensors.battery_temperature.0) / 10.0;
+                self.particulars.thermistor.counts(celsius)
             }
             // Nothing is connected there.
             _ => 0.0,
@@ -155,8 +153,9 @@ impl Circuit {
         } else {
             self.sensors.cliff_dark
         };
-        let target = f64::from(levels[number]) * COUNTS_PER_LEVEL;
-        self.cliffs[number].read(target, outputs.changed(emitters.pin), cycle)
+        let target = f64::from(levels[number]) * COUNTS_PER_LEVEL * self.particulars.cliff_gain[number];
+        let moments = (outputs.changed(emitters.pin), cycle);
+        self.cliffs[number].read(target, moments, self.particulars.receiver_s)
     }
 
     /// The receive multiplexer shows the sensor that is selected; the transmit multiplexer, which has the same select
@@ -174,7 +173,8 @@ impl Circuit {
         };
         let pins = select.iter().map(|line| line.pin).chain([emit.pin]);
         let changed = pins.map(|pin| outputs.changed(pin)).max().unwrap_or(0);
-        self.proximity.read(target, changed, cycle)
+        self.proximity
+            .read(target, (changed, cycle), self.particulars.receiver_s)
     }
 
     fn reflected(&self, sensor: usize) -> f64 {
@@ -189,7 +189,8 @@ impl Surroundings for Circuit {
         if let Some(counts) = self.held(channel, cycle) {
             return counts;
         }
-        let noisy = counts + NOISE * self.random.normal();
+        let read = counts * self.particulars.converter_gain + self.particulars.converter_offset;
+        let noisy = read + NOISE * self.random.normal();
         noisy.round().clamp(0.0, FULL_SCALE) as u16
     }
 }

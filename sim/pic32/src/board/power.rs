@@ -127,31 +127,9 @@ pub(super) fn divider_counts(volts: f64, particulars: &Particulars) -> f64 {
     volts * 1e6 / f64::from(particulars.battery_scale.max(1))
 }
 
-/// Resistance of the thermistor, kilo-ohm, from which the original's formula makes this temperature. Below 5 degrees,
-/// where the formula has its pole, it goes on rising as such thermistors do, 6 % a degree.
-fn thermistor_kohm(celsius: f64) -> f64 {
-    const LOWEST: f64 = 5.0;
-    let formula = |celsius: f64| {
-        (42.429_470_166_511_1 / (celsius + 0.966_249_433_923_487) - 0.307_073_187_406_113)
-            / 0.129_333_893_760_934
-    };
-    if celsius >= LOWEST {
-        formula(celsius).max(0.05)
-    } else {
-        formula(LOWEST) * (0.06 * (LOWEST - celsius)).exp()
-    }
-}
-
-/// Reading of the thermistor: parallel to 10 kilo-ohm, with 1.5 kilo-ohm to the supply.
-pub(super) fn thermistor_counts(celsius: f64) -> f64 {
-    let sensor = thermistor_kohm(celsius);
-    let lower = sensor * 10.0 / (sensor + 10.0);
-    1024.0 * lower / (1.5 + lower)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{ChargeCurrent, Feed, SLICE, SwitchUse, thermistor_counts};
+    use super::{ChargeCurrent, Feed, SLICE, SwitchUse};
 
     fn pulse(closed: u64) -> SwitchUse {
         SwitchUse {
@@ -214,25 +192,5 @@ mod tests {
         }
         let mean_a = current.take_mean_a();
         assert!((1.49..1.55).contains(&mean_a), "{mean_a}");
-    }
-
-    #[test]
-    fn readings_of_the_thermistor_follow_the_table() {
-        let table = [
-            (5, 869),
-            (10, 850),
-            (20, 811),
-            (25, 790),
-            (35, 746),
-            (45, 699),
-            (55, 648),
-            (60, 621),
-        ];
-        for (celsius, counts) in table {
-            let reading = thermistor_counts(f64::from(celsius));
-            assert!((reading - f64::from(counts)).abs() < 1.6, "{celsius}: {reading}");
-        }
-        assert!(thermistor_counts(-30.0) < 890.0, "a cold pack is no broken wire");
-        assert!(thermistor_counts(0.0) > thermistor_counts(5.0));
     }
 }

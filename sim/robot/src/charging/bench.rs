@@ -7,7 +7,7 @@ use home::{Pack, Pcg};
 use rvac_units::Tick;
 
 use super::conditions::{Conditions, InjectedFault};
-use super::converter::{Converter, thermistor_counts};
+use super::converter::Converter;
 
 /// An envelope of the switch.
 pub(crate) const STEP_MS: u32 = 20;
@@ -21,6 +21,8 @@ const EVENTS: u64 = 0xE7E;
 /// The contacts open for so long when they bounce, ms.
 const BOUNCE_MS: u32 = 60;
 const HIGH_SUPPLY_V: f64 = 33.0;
+/// Most that the air around the robot warms or cools during a charge, kelvin.
+const AMBIENT_DRIFT_MAX_K: f64 = 12.0;
 
 /// A pack on a charger.
 #[derive(Debug)]
@@ -50,19 +52,14 @@ impl<S: Stops> ChargeBench<S> {
         let mut pack = Pack::new(conditions.make, conditions.charge, conditions.ambient_c);
         pack.set_temperature(conditions.pack_c);
         let random = Pcg::new(conditions.seed, READINGS);
-        let converter = Converter::new(
-            conditions.noise_counts,
-            conditions.gain,
-            conditions.mismatch,
-            random,
-        );
+        let converter = Converter::new(conditions, random);
         let parameters = PackParameters {
             drain_ma: 15,
             ..PackParameters::NIMH_12
         };
         let mut events = Pcg::new(conditions.seed, EVENTS);
         Self {
-            thermistor: thermistor_counts(conditions.pack_c + conditions.thermistor_offset_k),
+            thermistor: conditions.thermistor.counts(conditions.pack_c),
             pack,
             converter,
             charger: ChargeController::with_stops(parameters, stops),
@@ -138,10 +135,12 @@ impl<S: Stops> ChargeBench<S> {
         self.sum_a += self.current_a;
         if self.steps.is_multiple_of(SLOW_STEPS) {
             let mean_a = self.sum_a / f64::from(SLOW_STEPS);
+            let drifted_k = self.conditions.ambient_drift_k_per_h * self.seconds() / 3_600.0;
+            let drifted_k = drifted_k.clamp(-AMBIENT_DRIFT_MAX_K, AMBIENT_DRIFT_MAX_K);
+            self.pack.set_ambient(self.conditions.ambient_c + drifted_k);
             self.pack.step(mean_a - self.conditions.drain_a, 1.0);
             self.sum_a = 0.0;
-            let shown_c = self.pack.sensor_c() + self.conditions.thermistor_offset_k;
-            self.thermistor = thermistor_counts(shown_c);
+            self.thermistor = self.conditions.thermistor.counts(self.pack.sensor_c());
         }
         let readings = self.read();
         let context = ChargeContext {

@@ -1,9 +1,11 @@
 //! The conditions of a charge, all drawn from one seed.
 
-use home::{OddCell, PackMake, Pcg, Supply};
+use home::{OddCell, PackMake, Pcg, Supply, Thermistor};
 
 /// Streams of random numbers of a seed.
 const CONDITIONS: u64 = 0xC4A1;
+const THERMISTOR: u64 = 0x47C;
+const WEATHER: u64 = 0x3A7;
 
 /// An injected fault.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,8 +96,12 @@ pub struct Conditions {
     pub drain_a: f64,
     /// The adapter in the dock.
     pub supply: Supply,
-    /// Offset of the thermistor, degrees.
-    pub thermistor_offset_k: f64,
+    /// How fast that warms, kelvin an hour; negative where it cools.
+    pub ambient_drift_k_per_h: f64,
+    /// The pack's thermistor and the circuit that reads it.
+    pub thermistor: Thermistor,
+    /// The owner has measured two points of the thermistor's curve.
+    pub calibrated: bool,
     /// Noise of a reading, counts.
     pub noise_counts: f64,
     /// Error of the pack's divider, relative.
@@ -148,7 +154,7 @@ impl Conditions {
             limit_a: between(1.2, 2.0),
             unasked_a: 0.02,
         };
-        let thermistor_offset_k = between(-3.0, 3.0);
+        let ambient_drift_k_per_h = between(-1.0, 1.0);
         let noise_counts = between(0.1, 1.5);
         let gain = between(-0.01, 0.01);
         let mismatch = between(-0.006, 0.006);
@@ -160,7 +166,9 @@ impl Conditions {
             pack_c,
             drain_a,
             supply,
-            thermistor_offset_k,
+            ambient_drift_k_per_h,
+            thermistor: Thermistor::drawn(&mut Pcg::new(seed, THERMISTOR)),
+            calibrated: (seed / 6).is_multiple_of(2),
             noise_counts,
             gain,
             mismatch,
@@ -174,15 +182,38 @@ impl Conditions {
         Self::sound(seed, &mut Pcg::new(seed, CONDITIONS))
     }
 
-    /// Whether the pack should become full: good cells, a start between 6 and 37 degrees so that charging begins with
-    /// every sensor, and no fault except those that a charger must tolerate.
+    /// A good pack without a fault anywhere between frost and heat, in air that warms or cools meanwhile.
+    #[must_use]
+    pub fn weather(seed: u64, calibrated: bool) -> Self {
+        let random = &mut Pcg::new(seed, WEATHER);
+        let ambient_c = -10.0 + 55.0 * random.unit();
+        Self {
+            ambient_c,
+            pack_c: ambient_c + 10.0 * random.symmetric(),
+            ambient_drift_k_per_h: 8.0 * random.symmetric(),
+            calibrated,
+            ..Self::healthy(seed)
+        }
+    }
+
+    /// Whether the pack should become full: good cells, a start at which the full current begins with every thermistor, and no
+    /// fault except those that a charger must tolerate.
     #[must_use]
     pub fn is_healthy(&self) -> bool {
         let sound =
             self.make.capacity_ah >= 1.6 && self.make.odd.is_none() && self.make.resistance_ohm <= 0.6;
-        let temperate =
-            self.ambient_c >= 9.0 && (9.0..=37.0).contains(&self.pack_c) && self.ambient_c <= 34.0;
-        sound && temperate && self.trouble == InjectedFault::None
+        let (least_c, most_c) = if self.calibrated {
+            (11.0, 36.0)
+        } else {
+            (22.0, 30.0)
+        };
+        let is_mild = |celsius: f64| (least_c..=most_c).contains(&celsius);
+        let drifts = self.ambient_drift_k_per_h.abs() > 1.0;
+        sound
+            && is_mild(self.ambient_c)
+            && is_mild(self.pack_c)
+            && !drifts
+            && self.trouble == InjectedFault::None
     }
 
     /// Whether a cell has failed.

@@ -1,8 +1,10 @@
-//! The converter: counts of the pack with noise, and their conversion back to units.
+//! The converter: counts of the pack with noise, and what the board's firmware makes of them.
 
-use cordlib::board::ThermistorFault;
-use home::Pcg;
-use rvac_units::Temperature;
+use cordlib::board::{TemperatureRange, ThermistorFault};
+use cordlib::thermistor::{Divider, MeasuredPoints, ThermistorCurve};
+use home::{Pcg, Thermistor};
+
+use super::conditions::Conditions;
 
 /// Millivolts of the pack for one count: 3.3 V, ten bits, a divider of 10.1.
 const MV_PER_COUNT: f64 = 3_300.0 / 1_024.0 * 10.1;
@@ -11,7 +13,13 @@ const MA_PER_COUNT: f64 = MV_PER_COUNT / 0.3;
 /// Readings beyond these are a broken wire or a short.
 const OPEN_COUNTS: i32 = 880;
 const SHORTED_COUNTS: i32 = 100;
-const COUNTS: usize = 1_024;
+/// The resistors that the board's firmware assumes.
+const DIVIDER: Divider = Divider {
+    across_ohm: 10_000,
+    supply_ohm: 1_500,
+};
+/// Stream of random numbers of the owner's measurement.
+const OWNER: u64 = 0x0E7;
 /// Conversions of an envelope that are not disturbed by the switch: a board that converts once a millisecond has up to
 /// twenty.
 const CONVERSIONS: u32 = 4;
@@ -28,22 +36,21 @@ pub(crate) struct Converter {
     /// Mismatch of the charger's divider to the pack's, relative: it shows a current where none flows.
     mismatch: f64,
     random: Pcg,
-    /// Tenths of a degree for each count, as the board's formula has it.
-    tenths: Box<[i16; COUNTS]>,
+    /// What the board's firmware knows of the thermistor.
+    curve: ThermistorCurve,
 }
 
 impl Converter {
-    pub(crate) fn new(noise_counts: f64, gain: f64, mismatch: f64, random: Pcg) -> Self {
-        let mut tenths = Box::new([0; COUNTS]);
-        for (counts, place) in tenths.iter_mut().enumerate() {
-            *place = (celsius_of(counts as f64) * 10.0).round().clamp(-500.0, 1_500.0) as i16;
-        }
+    pub(crate) fn new(conditions: &Conditions, random: Pcg) -> Self {
+        let points = conditions
+            .calibrated
+            .then(|| measured_points(&conditions.thermistor, conditions.seed));
         Self {
-            noise_counts,
-            gain,
-            mismatch,
+            noise_counts: conditions.noise_counts,
+            gain: conditions.gain,
+            mismatch: conditions.mismatch,
             random,
-            tenths,
+            curve: ThermistorCurve::new(DIVIDER, points),
         }
     }
 
@@ -80,69 +87,60 @@ impl Converter {
     }
 
     /// Temperature by the thermistor's reading.
-    pub(crate) fn temperature(&mut self, exact_counts: f64) -> Result<Temperature, ThermistorFault> {
+    pub(crate) fn temperature(&mut self, exact_counts: f64) -> Result<TemperatureRange, ThermistorFault> {
         let counts = self.counts(exact_counts) as i32;
         if counts > OPEN_COUNTS {
             Err(ThermistorFault::Open)
         } else if counts < SHORTED_COUNTS {
             Err(ThermistorFault::Shorted)
         } else {
-            let tenths = self.tenths.get(counts as usize).copied().unwrap_or_default();
-            Ok(Temperature(tenths))
+            Ok(self.curve.temperature(counts as u16))
         }
     }
 }
 
-/// Resistance of the thermistor, kilo-ohm, by the inverse of the board's formula; below 5 degrees, where that has its
-/// pole, it goes on rising by 6 % a degree as such thermistors do.
-fn thermistor_kohm(celsius: f64) -> f64 {
-    let formula = |celsius: f64| {
-        (42.429_470_166_511_1 / (celsius + 0.966_249_433_923_487) - 0.307_073_187_406_113)
-            / 0.129_333_893_760_934
+/// What an owner finds with ice, warm water and thermometers: water that is not quite as warm as its thermometer says, and the
+/// mean of many readings.
+fn measured_points(thermistor: &Thermistor, seed: u64) -> MeasuredPoints {
+    let random = &mut Pcg::new(seed, OWNER);
+    let mut read = |celsius: f64, error_k: f64| {
+        let counts = thermistor.counts(celsius + error_k * random.symmetric());
+        ((counts + 0.1 * random.symmetric()) * 10.0).round() as i32
     };
-    if celsius >= 5.0 {
-        formula(celsius).max(0.05)
-    } else {
-        formula(5.0) * (0.06 * (5.0 - celsius)).exp()
+    let (ice, warm_c) = (read(0.0, 0.4), 40.0);
+    MeasuredPoints {
+        ice,
+        warm: read(warm_c, 0.5),
+        warm_dc: (warm_c * 10.0) as i32,
     }
-}
-
-/// Reading of the thermistor, parallel to 10 kilo-ohm, with 1.5 kilo-ohm to the supply.
-pub(crate) fn thermistor_counts(celsius: f64) -> f64 {
-    let sensor = thermistor_kohm(celsius);
-    let lower = sensor * 10.0 / (sensor + 10.0);
-    1_024.0 * lower / (1.5 + lower)
-}
-
-/// The inverse, by bisection.
-fn celsius_of(counts: f64) -> f64 {
-    let (mut low, mut high) = (-50.0, 150.0);
-    for _ in 0..40 {
-        let middle = f64::midpoint(low, high);
-        if thermistor_counts(middle) > counts {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    f64::midpoint(low, high)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Converter, thermistor_counts};
-    use home::Pcg;
+    use super::Converter;
+    use crate::charging::Conditions;
+    use home::{Pcg, Thermistor};
 
     #[test]
     fn readings_come_back_as_what_they_were_within_a_count() {
-        let mut converter = Converter::new(0.0, 0.0, 0.0, Pcg::new(1, 1));
+        let conditions = Conditions {
+            noise_counts: 0.0,
+            gain: 0.0,
+            mismatch: 0.0,
+            thermistor: Thermistor::NOMINAL,
+            calibrated: true,
+            ..Conditions::healthy(1)
+        };
+        let mut converter = Converter::new(&conditions, Pcg::new(1, 1));
         for celsius in [5, 20, 35, 50, 60] {
-            let read = converter
-                .temperature(thermistor_counts(f64::from(celsius)))
+            let celsius = f64::from(celsius);
+            let range = converter
+                .temperature(Thermistor::NOMINAL.counts(celsius))
                 .unwrap();
+            let (coldest, warmest) = (range.coldest.as_celsius(), range.warmest.as_celsius());
             assert!(
-                (read.as_celsius() - f64::from(celsius)).abs() < 0.6,
-                "{celsius}: {read:?}"
+                coldest < celsius && celsius < warmest && warmest - coldest < 6.0,
+                "{celsius}: {range:?}"
             );
         }
         assert!((converter.pack_mv(16.0) - 16_000).abs() <= 33);

@@ -15,6 +15,11 @@ const WATCH_MS: u32 = 5 * 3_600_000;
 const AFTER_MS: u32 = 1_800_000;
 /// A charger that does not begin within this time is waiting, ms.
 const WAIT_MS: u32 = 600_000;
+const MINUTE_MS: u32 = 60_000;
+/// Below this the pack may get a tenth of its capacity an hour only, degrees Celsius.
+const COOL_C: f64 = 5.0;
+/// Less is what a dock gives unasked, ampere.
+const TRICKLE_A: f64 = 0.05;
 
 /// Outcome of a charge, by the true state of the pack.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,10 +38,41 @@ pub struct ChargeOutcome {
     pub hottest_c: f64,
     /// Time in which the switch was driven, hours.
     pub driven_h: f64,
+    /// Highest current while the switch was driven and the pack was below 0 degrees, ampere.
+    pub frozen_a: f64,
+    /// Highest mean of a minute while the switch was driven and the pack was below 5 degrees, ampere.
+    pub cool_a: f64,
+    /// Coldest pack when the first current of more than a trickle flowed; `None` if none did.
+    pub began_c: Option<f64>,
     /// Times it was driven against the rules.
     pub violations: u32,
     /// The firmware's estimate of the charge at the end.
     pub estimate: f64,
+}
+
+/// Mean current of the minutes in which the pack is cool.
+#[derive(Clone, Copy, Debug, Default)]
+struct CoolMinute {
+    sum_a: f64,
+    steps: u32,
+    last_a: f64,
+}
+
+impl CoolMinute {
+    /// Takes a step; gives the mean of the last whole minute.
+    fn mean_a(&mut self, is_cool: bool, current_a: f64) -> f64 {
+        if !is_cool {
+            *self = Self::default();
+            return 0.0;
+        }
+        self.sum_a += current_a;
+        self.steps += 1;
+        if self.steps * STEP_MS >= MINUTE_MS {
+            self.last_a = self.sum_a / f64::from(self.steps);
+            (self.sum_a, self.steps) = (0.0, 0);
+        }
+        self.last_a
+    }
 }
 
 /// Runs one charge with these stops.
@@ -52,11 +88,15 @@ pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> ChargeOutcome {
         charge_before: conditions.charge,
         hottest_c: conditions.pack_c,
         driven_h: 0.0,
+        frozen_a: 0.0,
+        cool_a: 0.0,
+        began_c: None,
         violations: 0,
         estimate: 0.0,
     };
     let (mut after_ms, mut begun) = (0, false);
     let mut now_ms = 0;
+    let mut cool = CoolMinute::default();
     while now_ms < WATCH_MS && after_ms < AFTER_MS {
         bench.step();
         now_ms += STEP_MS;
@@ -70,6 +110,14 @@ pub fn run<S: Stops>(conditions: &Conditions, stops: S) -> ChargeOutcome {
             temperature_dc: (hottest_c * 10.0) as i32,
         };
         monitor.judge(&charging, STEP_MS);
+        if driven {
+            let (cells_c, current_a) = (bench.pack().temperature_c(), bench.current_a());
+            outcome.began_c = outcome.began_c.or((current_a > TRICKLE_A).then_some(cells_c));
+            if cells_c < 0.0 {
+                outcome.frozen_a = outcome.frozen_a.max(current_a);
+            }
+            outcome.cool_a = outcome.cool_a.max(cool.mean_a(cells_c < COOL_C, current_a));
+        }
         begun |= driven;
         let phase = bench.charger().status().phase;
         let charging = matches!(

@@ -15,6 +15,11 @@ pub enum ChargeTrial {
     Everything,
     /// Only this stop, on sound packs without trouble: does it suffice alone?
     Only(ChargeEnd),
+    /// All stops, sound packs between frost and heat, with or without the owner's calibration of the thermistor.
+    Weather {
+        /// The owner has measured it.
+        calibrated: bool,
+    },
 }
 
 /// The one stop that applies.
@@ -28,12 +33,22 @@ impl Stops for Only {
 }
 
 impl ChargeTrial {
+    /// The conditions of one seed.
+    #[must_use]
+    pub fn conditions(self, seed: u64) -> Conditions {
+        match self {
+            Self::Everything => Conditions::drawn(seed),
+            Self::Only(_) => Conditions::healthy(seed),
+            Self::Weather { calibrated } => Conditions::weather(seed, calibrated),
+        }
+    }
+
     /// The outcome of one seed.
     #[must_use]
     pub fn run(self, seed: u64) -> ChargeOutcome {
         match self {
-            Self::Everything => run(&Conditions::drawn(seed), AllStops),
-            Self::Only(end) => run(&Conditions::healthy(seed), Only(end)),
+            Self::Only(end) => run(&self.conditions(seed), Only(end)),
+            Self::Everything | Self::Weather { .. } => run(&self.conditions(seed), AllStops),
         }
     }
 }
@@ -55,6 +70,12 @@ pub struct ChargeTally {
     pub hottest: (f64, u64),
     /// Longest time in which the switch was driven in one charge, hours, and its seed.
     pub longest: (f64, u64),
+    /// Charges with current into a pack that was truly below 0 degrees.
+    pub frozen: u32,
+    /// Highest mean current of a minute into a pack that was truly below 5 degrees, ampere, and its seed.
+    pub cool: (f64, u64),
+    /// Coldest pack in which a charge began, degrees Celsius, and its seed.
+    pub coldest_start: Option<(f64, u64)>,
     /// Breaches of the rules, and the first seed with one.
     pub violations: u32,
     /// Seed of the first breach.
@@ -93,6 +114,12 @@ impl ChargeTally {
         if outcome.driven_h > self.longest.0 {
             self.longest = (outcome.driven_h, outcome.seed);
         }
+        self.frozen += u32::from(outcome.frozen_a > 0.0);
+        if outcome.cool_a > self.cool.0 {
+            self.cool = (outcome.cool_a, outcome.seed);
+        }
+        let began = outcome.began_c.map(|celsius| (celsius, outcome.seed));
+        self.coldest_start = colder(self.coldest_start, began);
         self.violations += outcome.violations;
         if outcome.violations > 0 && self.first_violation.is_none_or(|seed| outcome.seed < seed) {
             self.first_violation = Some(outcome.seed);
@@ -114,11 +141,14 @@ impl ChargeTally {
         for (mine, theirs) in [
             (&mut self.hottest, other.hottest),
             (&mut self.longest, other.longest),
+            (&mut self.cool, other.cool),
         ] {
             if theirs.0 > mine.0 {
                 *mine = theirs;
             }
         }
+        self.frozen += other.frozen;
+        self.coldest_start = colder(self.coldest_start, other.coldest_start);
         self.violations += other.violations;
         self.first_violation = self
             .first_violation
@@ -141,5 +171,13 @@ impl ChargeTally {
     #[must_use]
     pub fn estimate_error(&self) -> f64 {
         self.estimate_error / f64::from(self.healthy.max(1))
+    }
+}
+
+/// The colder of two starts.
+fn colder(one: Option<(f64, u64)>, other: Option<(f64, u64)>) -> Option<(f64, u64)> {
+    match (one, other) {
+        (Some(one), Some(other)) => Some(if other.0 < one.0 { other } else { one }),
+        (one, other) => one.or(other),
     }
 }

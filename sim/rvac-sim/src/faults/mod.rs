@@ -28,6 +28,17 @@ pub struct FaultCampaign {
     homes: Homes,
     model: RobotModel,
     firmware: Firmware,
+    calibration: Calibration,
+}
+
+/// Whether firmware and host know the robot that they drive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Calibration {
+    /// They do.
+    #[default]
+    True,
+    /// Every trial has a robot of its own, which they take for the original.
+    Wrong,
 }
 
 impl FaultCampaign {
@@ -40,7 +51,14 @@ impl FaultCampaign {
             homes: Homes::load(&model)?,
             model,
             firmware,
+            calibration: Calibration::True,
         })
+    }
+
+    /// The same with another calibration.
+    #[must_use]
+    pub fn with_calibration(self, calibration: Calibration) -> Self {
+        Self { calibration, ..self }
     }
 
     /// Runs one seed.

@@ -9,8 +9,8 @@ use rvac_api::RequestBody;
 use rvac_protocol::message::{Inhibit, Inhibits};
 use vthal_core::{Checkpoints, CoreConfig};
 
-use super::FaultCampaign;
 use super::draw::{Fault, FaultDraw, FaultKind};
+use super::{Calibration, FaultCampaign};
 use crate::{Host, Household};
 
 /// Outcome of a seed.
@@ -85,6 +85,7 @@ pub(crate) fn run(campaign: &FaultCampaign, settings: TrialSettings) -> FaultOut
         &RobotSettings {
             seed: settings.seed,
             bridges: settings.bridges,
+            miscalibration: (campaign.calibration == Calibration::Wrong).then_some(settings.seed),
             ..RobotSettings::default()
         },
     );

@@ -37,7 +37,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
-    let fixture = Fixture::open(&arguments.firmware)?;
+    let fixture = Fixture::open(&arguments.firmware)?.with_drawn_robots();
     let mut out = io::stdout().lock();
     let mut all_good = arguments.count > 0;
     let seeds: Vec<u64> = (arguments.seed..arguments.seed + arguments.count).collect();

@@ -34,7 +34,7 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
-    let fixture = Fixture::open(&arguments.firmware)?;
+    let fixture = Fixture::open(&arguments.firmware)?.with_drawn_robots();
     let seeds: Vec<u64> = (1..=arguments.count).collect();
     let floods: Vec<FloodResult> = seeds
         .par_iter()

@@ -9,8 +9,8 @@ use rvac_protocol::message::{Command, Inhibits};
 use rvac_units::{AngularSpeed, Speed, Throttle};
 use serde::Serialize;
 
+use crate::scene::OperatingState;
 use crate::testbed::{Fixture, Testbed, TestbedError};
-use crate::trial::OperatingState;
 
 use super::place::{BitLocation, BitStorage};
 
@@ -73,7 +73,7 @@ impl Situation {
             Self::Driving => OperatingState::Driving.set(fixture, seed, late_cycles),
             Self::Cleaning => OperatingState::Cleaning.set(fixture, seed, late_cycles),
             Self::Idle => {
-                let mut testbed = fixture.testbed(seed, Bridges::Sound, late_cycles);
+                let mut testbed = fixture.testbed(seed, Bridges::Sound, late_cycles)?;
                 testbed.connect()?;
                 testbed.run(200);
                 Ok(testbed)
@@ -130,7 +130,7 @@ impl Situation {
 
 /// On the dock with a pack that is neither full nor empty.
 fn charging(fixture: &Fixture, seed: u64, late_cycles: u64) -> Result<Testbed, TestbedError> {
-    let mut testbed = fixture.testbed(seed, Bridges::Sound, late_cycles);
+    let mut testbed = fixture.testbed(seed, Bridges::Sound, late_cycles)?;
     let world = testbed.robot_mut().world_mut();
     let dock = world.home().start();
     world.put_down_at(dock);

@@ -5,16 +5,18 @@ use std::collections::HashSet;
 use monitor::Bridges;
 use pic32::image::{Image, SymbolKind};
 
-use crate::testbed::{Fixture, Testbed};
+use crate::testbed::{Fixture, Testbed, TestbedError};
 
 /// A robot starts, greets and describes itself within this time.
 const START_MS: u64 = 600;
 
 /// Physical addresses of instructions that are executed neither when a robot starts, nor when it finds its image damaged and
 /// starts again.
-#[must_use]
-pub(super) fn idle_code(fixture: &Fixture) -> HashSet<u32> {
-    let mut testbed = fixture.testbed(1, Bridges::Sound, 0);
+///
+/// # Errors
+/// When there is no robot.
+pub(super) fn idle_code(fixture: &Fixture) -> Result<HashSet<u32>, TestbedError> {
+    let mut testbed = fixture.testbed(1, Bridges::Sound, 0)?;
     let mut idle: HashSet<u32> = instructions(fixture.image()).collect();
     leave_idle(&mut idle, &mut testbed);
     // The order of a set is random, the least member is not.
@@ -24,7 +26,7 @@ pub(super) fn idle_code(fixture: &Fixture) -> HashSet<u32> {
         machine.flip_flash_bit(*address, 0).unwrap_or_default();
     }
     leave_idle(&mut idle, &mut testbed);
-    idle
+    Ok(idle)
 }
 
 /// Leaves those in the set that are not executed while the robot starts.

@@ -142,7 +142,7 @@ pub fn flip_bits(
     let mut random = Pcg::new(plan.seed, DRAWS);
     let mut tally = FlipTally::default();
     let all = plan.courses * Situation::ALL.len();
-    let idle_code = idle_code(fixture);
+    let idle_code = idle_code(fixture)?;
     for number in 0..all {
         let Some(situation) = Situation::ALL.get(number % Situation::ALL.len()) else {
             continue;

@@ -25,6 +25,10 @@ pub struct Description {
     pub sensors: SensorCounts,
     /// Optional parts that it has, in a fixed order.
     pub parts: Vec<Part>,
+    /// Motors of which nothing notices that they are held fast: `wheels`, `brush-main`, `brush-sides`, `vacuum`.
+    pub unguarded: Vec<&'static str>,
+    /// Motors whose current is not measured though that of others is.
+    pub unmeasured: Vec<&'static str>,
 }
 
 /// Who a device is.

@@ -157,7 +157,7 @@ pub(crate) fn currents_a(report: &Report) -> Option<[f32; 3]> {
         [
             currents.wheel_left_a,
             currents.wheel_right_a,
-            currents.brush_main_a,
+            currents.brush_main_a.unwrap_or(0.0),
         ]
     })
 }

@@ -160,6 +160,8 @@ fn describe(version: &str) -> Description {
             ..SensorCounts::default()
         },
         parts: Vec::new(),
+        unguarded: Vec::new(),
+        unmeasured: Vec::new(),
     }
 }
 

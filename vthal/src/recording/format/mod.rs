@@ -170,6 +170,9 @@ pub struct Seen {
     /// Left wheel, right wheel, main brush, amperes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     currents_a: Option<[f32; 3]>,
+    /// The third of them is not measured.
+    #[serde(default, skip_serializing_if = "is_false")]
+    no_brush_current: bool,
     inhibits: Vec<String>,
     link_up: bool,
     speed_share: f64,
@@ -181,6 +184,14 @@ pub struct Seen {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(with = "Vec<Vec<f64>>")]
     strengths: Vec<(u16, f64)>,
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde calls it with a reference"
+)]
+fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 impl From<&Observation> for Seen {
@@ -198,9 +209,14 @@ impl From<&Observation> for Seen {
             docked: seen.docked,
             battery: seen.battery_charge,
             charge_flow: seen.charge_flow.map(FlowName::from),
-            currents_a: seen
-                .currents
-                .map(|all| [all.wheel_left_a, all.wheel_right_a, all.brush_main_a]),
+            currents_a: seen.currents.map(|all| {
+                [
+                    all.wheel_left_a,
+                    all.wheel_right_a,
+                    all.brush_main_a.unwrap_or(0.0),
+                ]
+            }),
+            no_brush_current: seen.currents.is_some_and(|all| all.brush_main_a.is_none()),
             inhibits: seen.inhibits.names().map(str::to_owned).collect(),
             link_up: seen.link_up,
             speed_share: seen.speed_share,
@@ -236,7 +252,7 @@ impl Seen {
             currents: self.currents_a.map(|[left, right, brush]| MotorCurrents {
                 wheel_left_a: left,
                 wheel_right_a: right,
-                brush_main_a: brush,
+                brush_main_a: (!self.no_brush_current).then_some(brush),
             }),
             inhibits: Inhibits::from_names(self.inhibits.iter().map(String::as_str)),
             link_up: self.link_up,
@@ -312,7 +328,7 @@ mod tests {
             currents: Some(MotorCurrents {
                 wheel_left_a: 0.1,
                 wheel_right_a: -1.0 / 3.0,
-                brush_main_a: 0.55,
+                brush_main_a: Some(0.55),
             }),
             beacons: vec![
                 BeaconSignal::Range(BeaconRange {

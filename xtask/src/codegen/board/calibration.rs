@@ -2,7 +2,7 @@
 //!
 //! A *record* is what the firmware finds in the last page of its flash: the values in the order of that file.
 
-use super::rust_name;
+use crate::codegen::rust_name;
 use anyhow::{Context, bail};
 use serde::Deserialize;
 use std::collections::BTreeSet;

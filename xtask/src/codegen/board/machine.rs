@@ -1,6 +1,6 @@
 //! Figures of robot.toml that the firmware is built with, as whole numbers in small units.
 
-use super::rust_name;
+use crate::codegen::rust_name;
 use anyhow::{Context, bail};
 use std::fmt::Write;
 use std::path::Path;

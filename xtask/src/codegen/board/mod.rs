@@ -5,17 +5,13 @@ mod chip;
 mod machine;
 mod pinout;
 mod pins;
-mod rust_name;
 mod table;
 
-use super::Generated;
-use crate::{process, workspace};
-use anyhow::{Context, bail};
+use super::{Generated, formatted};
+use anyhow::Context;
 use calibration::Calibration;
 use pinout::Pinout;
-use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Stdio};
 
 /// A robot with firmware of ours.
 #[derive(Debug)]
@@ -71,24 +67,4 @@ pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
         });
     }
     Ok(files)
-}
-
-/// The source as rustfmt writes it, so that the generated files are formatted like all others.
-fn formatted(text: &str) -> anyhow::Result<String> {
-    let mut rustfmt = Command::new("rustfmt");
-    rustfmt
-        .args(["--edition", "2024", "--config-path"])
-        .arg(workspace::root());
-    rustfmt.stdin(Stdio::piped()).stdout(Stdio::piped());
-    let mut child = rustfmt
-        .spawn()
-        .with_context(|| format!("cannot start {}", process::name(&rustfmt)))?;
-    if let Some(mut stdin) = child.stdin.take() {
-        stdin.write_all(text.as_bytes())?;
-    }
-    let output = child.wait_with_output()?;
-    if !output.status.success() {
-        bail!("rustfmt does not understand what was made");
-    }
-    Ok(String::from_utf8(output.stdout)?)
 }

@@ -2,7 +2,7 @@
 
 use super::chip::Chip;
 use super::pinout::{Active, Kind, Level, Pinout, Pull, Signal};
-use super::rust_name;
+use crate::codegen::rust_name;
 use std::fmt::Write;
 
 const TYPES: &str = "

@@ -151,6 +151,8 @@ fn robot(parts: &[&str]) -> RobotDescription {
         turn_max_rad_per_s: 1.5,
         proximity: 0,
         parts: parts.iter().map(|&part| part.to_owned()).collect(),
+        unguarded: Vec::new(),
+        unmeasured: Vec::new(),
     }
 }
 

@@ -48,6 +48,8 @@ screen! {
         main_brush: "Main brush", "Põhihari";
         side_brushes: "Side brushes", "Külgharjad";
         suction: "Suction", "Imemine";
+        wheels: "Wheels", "Rattad";
+        no_stall_detection: "No stall detection", "Kinnijäämist ei märgata";
         dust_box: "Dust box", "Tolmukonteiner";
         in_place: "In place", "Paigas";
         missing: "Missing", "Puudub";

@@ -6,7 +6,7 @@
 )]
 
 use cordlib::PackParameters;
-use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, ThermistorFault};
+use cordlib::board::{ChargeDrive, ChargerReadings, DockRequest, TemperatureRange, ThermistorFault};
 use cordlib::charge::{ChargeContext, ChargeController, ChargeMemory, ChargeOutput, Docking, MotorActivity};
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 use rvac_units::{Temperature, Tick};
@@ -22,6 +22,8 @@ pub struct Dock {
     pub input_mv: Option<i32>,
     /// Tenths of a degree.
     pub temperature: Result<i16, ThermistorFault>,
+    /// The reading may be wrong by so many tenths of a degree.
+    pub doubt: i16,
     /// Current at full duty.
     pub full_ma: i32,
     /// Current that flows whatever the switch does.
@@ -54,6 +56,7 @@ impl Dock {
             shown_ma: None,
             input_mv: None,
             temperature: Ok(250),
+            doubt: 0,
             full_ma: 1_500,
             leak_ma: 0,
             age_ms: 0,
@@ -104,7 +107,10 @@ impl Dock {
             pack_mv: self.pack_mv + 5 * noise,
             input_mv: self.input_mv.unwrap_or(self.pack_mv + self.current_ma() * 3 / 10),
             current_ma: self.shown_ma.unwrap_or(self.current_ma() + 10 * noise),
-            temperature: self.temperature.map(|tenths| Temperature(tenths + noise as i16)),
+            temperature: self.temperature.map(|tenths| TemperatureRange {
+                coldest: Temperature(tenths + noise as i16 - self.doubt),
+                warmest: Temperature(tenths + noise as i16 + self.doubt),
+            }),
             age_ms: self.age_ms,
             adapter: self.adapter,
         };

@@ -2,7 +2,7 @@
 
 use rvac_units::Tick;
 
-use crate::message::{Capabilities, CommandNames, DescribeRow, Description, Limits, RowContent};
+use crate::message::{Capabilities, CommandNames, DescribeRow, Description, Limits, MotorGaps, RowContent};
 
 /// Pause before a row is requested again.
 pub(super) const ASK_AGAIN_MS: u32 = 250;
@@ -16,6 +16,7 @@ pub(super) struct Gathering {
     limits: Option<Limits>,
     capabilities: Option<Capabilities>,
     commands: CommandNames,
+    motors: MotorGaps,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -74,6 +75,7 @@ impl Gathering {
             RowContent::Limits(limits) => self.limits = Some(limits),
             RowContent::Capabilities(capabilities) => self.capabilities = Some(capabilities),
             RowContent::Commands(commands) => self.commands = commands,
+            RowContent::Motors(gaps) => self.motors = gaps,
             RowContent::Parameter { .. } | RowContent::Unknown => {}
         }
         if row.row.saturating_add(1) < row.rows {
@@ -88,6 +90,7 @@ impl Gathering {
         Some(Description {
             capabilities: self.capabilities?,
             limits: self.limits?,
+            motors: self.motors,
         })
     }
 

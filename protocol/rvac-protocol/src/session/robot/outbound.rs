@@ -10,7 +10,9 @@ use crate::text::write_report_with_crc;
 /// Rows of the description before the parameters.
 const FIRST_ROWS: u8 = 3;
 /// Rows of the description.
-pub(super) const ROWS: u8 = FIRST_ROWS + Parameter::ALL.len() as u8;
+pub(super) const ROWS: u8 = MOTORS_ROW + 1;
+/// It came last, so that the others keep their numbers.
+const MOTORS_ROW: u8 = FIRST_ROWS + Parameter::ALL.len() as u8;
 
 impl RobotCore {
     /// The next report that the session itself has to send.
@@ -62,6 +64,7 @@ impl RobotCore {
             0 => RowContent::Limits(description.limits),
             1 => RowContent::Capabilities(description.capabilities),
             2 => RowContent::Commands(CommandNames::ALL),
+            MOTORS_ROW => RowContent::Motors(description.motors),
             _ => parameter_row(row - FIRST_ROWS),
         };
         DescribeRow {

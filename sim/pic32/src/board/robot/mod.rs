@@ -81,7 +81,9 @@ impl EmulatedRobot {
     #[must_use]
     pub fn new(blueprint: &Blueprint, world: World, settings: &EmulatedSettings) -> Self {
         let wiring = &blueprint.wiring;
-        let particulars = &blueprint.particulars;
+        let particulars = &settings.miscalibration.map_or(blueprint.particulars, |seed| {
+            blueprint.particulars.deviating(seed)
+        });
         let seed = settings.seed;
         let encoder =
             |side: usize| Encoder::new(wiring.wheels[side].encoder, particulars.encoder_swapped[side]);

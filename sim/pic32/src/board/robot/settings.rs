@@ -33,6 +33,8 @@ pub struct EmulatedSettings {
     pub bounce_us: u32,
     /// What the wheel bridges are like.
     pub bridges: Bridges,
+    /// The board is that of this number, while its record is that of the original; `None` = they agree.
+    pub miscalibration: Option<u64>,
 }
 
 impl Default for EmulatedSettings {
@@ -42,6 +44,7 @@ impl Default for EmulatedSettings {
             seed: 1,
             bounce_us: 0,
             bridges: Bridges::Sound,
+            miscalibration: None,
         }
     }
 }

@@ -23,6 +23,7 @@ impl Cordlib {
             HostEvent::Opened(hello) => DeviceEvent::Opened(self.greeted(hello)),
             HostEvent::Described(table) => {
                 self.capabilities = table.capabilities;
+                self.unmeasured = table.motors.unmeasured;
                 let description = to_model::description(self.hello.as_ref(), &table);
                 self.encoders
                     .described(&description.identity.device, description.odometry.resolution_m);
@@ -122,7 +123,7 @@ impl Cordlib {
             Some(_) => self.encoders.take(state),
             None => self.encoders.take_unknown(state),
         };
-        to_model::report(state, self.capabilities, travel)
+        to_model::report(state, self.capabilities, self.unmeasured, travel)
     }
 }
 

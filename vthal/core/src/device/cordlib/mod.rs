@@ -10,8 +10,8 @@ mod to_model;
 use brain::Inhibit;
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
-    self, Beep, BinaryKinds, Capabilities, Command, Led, LedPattern, Motor, MotorCommand, RobotHello,
-    Sequence,
+    self, Beep, BinaryKinds, Capabilities, Command, Led, LedPattern, Motor, MotorCommand, MotorSet,
+    RobotHello, Sequence,
 };
 use rvac_protocol::session::{HostSession, SendError};
 use rvac_protocol::text::{self, Form};
@@ -57,6 +57,8 @@ struct Cordlib {
     hello: Option<RobotHello>,
     description: Option<Description>,
     capabilities: Capabilities,
+    /// Motors whose current it does not measure.
+    unmeasured: MotorSet,
     last_start: Option<LastStart>,
     encoders: Encoders,
     momentary: MomentaryLevels,
@@ -78,6 +80,7 @@ impl Cordlib {
             hello: None,
             description: None,
             capabilities: Capabilities::default(),
+            unmeasured: MotorSet::default(),
             last_start: None,
             encoders: Encoders::default(),
             momentary: MomentaryLevels::default(),
@@ -118,6 +121,7 @@ impl Device for Cordlib {
         self.hello = None;
         self.description = None;
         self.capabilities = Capabilities::default();
+        self.unmeasured = MotorSet::default();
         self.encoders.forget_speeds();
         self.momentary = MomentaryLevels::default();
         self.clock_jumps = 0;

@@ -53,7 +53,16 @@ pub(super) fn description(hello: Option<&RobotHello>, table: &message::Descripti
             leds: has.leds,
         },
         parts: parts(has),
+        unguarded: names(table.motors.unguarded),
+        unmeasured: names(table.motors.unmeasured),
     }
+}
+
+fn names(motors: message::MotorSet) -> Vec<&'static str> {
+    let named = motors.named().into_iter();
+    named
+        .filter_map(|(name, is_listed)| is_listed.then_some(name))
+        .collect()
 }
 
 fn identity(hello: Option<&RobotHello>) -> Identity {
@@ -93,7 +102,12 @@ fn parts(has: Capabilities) -> Vec<Part> {
 }
 
 /// Telemetry of a robot with these parts, whose wheels have come so far.
-pub(super) fn report(state: &State, has: Capabilities, travel: WheelTravel) -> Report {
+pub(super) fn report(
+    state: &State,
+    has: Capabilities,
+    unmeasured: message::MotorSet,
+    travel: WheelTravel,
+) -> Report {
     Report {
         uptime_ms: Some(state.tick.0),
         travel,
@@ -122,16 +136,17 @@ pub(super) fn report(state: &State, has: Capabilities, travel: WheelTravel) -> R
             vacuum: state.cleaners & 4 != 0,
         },
         buttons: state.buttons,
-        currents: has.currents.then(|| currents(state)),
+        currents: has.currents.then(|| currents(state, unmeasured)),
         inhibits: inhibits(state.inhibits),
     }
 }
 
-fn currents(state: &State) -> MotorCurrents {
+fn currents(state: &State, unmeasured: message::MotorSet) -> MotorCurrents {
+    let brush_main_a = state.currents.brush_main.as_a() as f32;
     MotorCurrents {
         wheel_left_a: state.currents.wheel_left.as_a() as f32,
         wheel_right_a: state.currents.wheel_right.as_a() as f32,
-        brush_main_a: state.currents.brush_main.as_a() as f32,
+        brush_main_a: (!unmeasured.brush_main).then_some(brush_main_a),
     }
 }
 

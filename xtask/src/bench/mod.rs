@@ -1,6 +1,8 @@
 //! `cargo xtask bench`: builds what is measured in the release profile and runs it.
 
-use crate::{firmware, process, workspace};
+mod safety;
+
+use crate::{codegen, firmware, process, workspace};
 use anyhow::Context;
 use clap::ValueEnum;
 use std::path::PathBuf;
@@ -55,6 +57,12 @@ pub(crate) struct BenchArguments {
     /// Measure longer, for the record.
     #[arg(long)]
     long: bool,
+    /// Of `safety`: write the worst figures to protocol/measured.toml, and with them the tables of SAFETY.md.
+    #[arg(long, conflicts_with = "check")]
+    write: bool,
+    /// Of `safety`: fail when a figure is worse than what protocol/measured.toml keeps.
+    #[arg(long)]
+    check: bool,
     /// Arguments for the measuring program itself, for example `--homes report --seeds 5` of `navigation`.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<String>,
@@ -99,6 +107,9 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     if arguments.long {
         command.args(longer(arguments.subject));
     }
+    if matches!(arguments.subject, Subject::Safety) {
+        command.args(safety::compared(arguments)?);
+    }
     command.args(&arguments.rest);
     process::say(&process::name(&command));
     if let (Some(firmware), true) = (&firmware, arguments.json) {
@@ -107,6 +118,9 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let status = command.status()?;
     if !status.success() {
         anyhow::bail!("the measurement ended with {status}");
+    }
+    if arguments.write {
+        codegen::run(&codegen::CodegenArguments { check: false })?;
     }
     Ok(())
 }

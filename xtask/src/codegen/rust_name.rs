@@ -1,7 +1,7 @@
 //! Names and numbers of data files as Rust writes them.
 
 /// `wheel-track` becomes `WheelTrack`.
-pub(super) fn camel(name: &str) -> String {
+pub(in crate::codegen) fn camel(name: &str) -> String {
     let mut out = String::new();
     for part in name.split('-') {
         let mut letters = part.chars();
@@ -12,12 +12,13 @@ pub(super) fn camel(name: &str) -> String {
 }
 
 /// `wheel-track` becomes `WHEEL_TRACK`.
-pub(super) fn constant(name: &str) -> String {
-    name.replace('-', "_").to_ascii_uppercase()
+pub(in crate::codegen) fn constant(name: &str) -> String {
+    name.replace(['-', '.'], "_").to_ascii_uppercase()
 }
 
 /// `500000` becomes `500_000`.
-pub(super) fn number(value: i32) -> String {
+pub(in crate::codegen) fn number(value: impl Into<i64>) -> String {
+    let value: i64 = value.into();
     let digits = value.unsigned_abs().to_string();
     let mut out = String::from(if value < 0 { "-" } else { "" });
     for (index, digit) in digits.chars().enumerate() {
@@ -38,7 +39,7 @@ mod tests {
         assert_eq!(camel("button-ladder-1"), "ButtonLadder1");
         assert_eq!(constant("button-ladder-1"), "BUTTON_LADDER_1");
         assert_eq!(
-            [0, 7, 1_023, -50_000, 1_000_000].map(number),
+            [0, 7, 1_023, -50_000, 1_000_000_i64].map(number),
             ["0", "7", "1_023", "-50_000", "1_000_000"]
         );
     }
