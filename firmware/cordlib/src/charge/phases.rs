@@ -295,8 +295,13 @@ impl<S: Stops> ChargeController<S> {
     pub(super) fn target_ma(&self) -> i32 {
         match self.phase {
             _ if self.charge.rate == ColdRate::None => 0,
-            ChargePhase::Fast if self.charge.rate == ColdRate::Full => self.scale.full_ma(),
-            ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff => self.scale.slow_ma(),
+            ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff
+                if self.charge.rate == ColdRate::Slow =>
+            {
+                self.scale.cool_ma()
+            }
+            ChargePhase::Fast => self.scale.full_ma(),
+            ChargePhase::Precharge | ChargePhase::TopOff => self.scale.slow_ma(),
             ChargePhase::Maintain if self.pulse.on => self.scale.slow_ma(),
             _ => 0,
         }
