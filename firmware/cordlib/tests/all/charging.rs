@@ -131,7 +131,7 @@ fn the_window_of_temperatures_holds_a_charge_back_and_slows_it() {
     dock.warm_to(20);
     dock.run_s(60.0);
     assert!(
-        (150..=230).contains(&dock.current_ma()),
+        (80..=130).contains(&dock.current_ma()),
         "cool: {}",
         dock.current_ma()
     );
