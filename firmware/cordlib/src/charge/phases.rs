@@ -2,6 +2,7 @@
 
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
+use super::cold_rate::ColdRate;
 use super::controller::{ChargeContext, ChargeController};
 use super::faults::OFFSET_FAULT_MA;
 use super::guard;
@@ -13,12 +14,8 @@ use super::stops::{ChargeProgress, Detectors, Stops, TIME_MS};
 const DOCKED_MS: u32 = 1_000;
 /// Contacts that are open for this long end the rest after a charge.
 const UNDOCKED_MS: u32 = 1_000;
-/// Window of temperatures in which a charge begins, in hundredths of a degree. Below the second only slow current flows.
-const COLDEST_CC: i32 = 0;
-const COOL_CC: i32 = 500;
+/// No charge begins in a pack that may be warmer, in hundredths of a degree.
 const WARMEST_CC: i32 = 4_000;
-/// A pack that was too cold for a current must be this much warmer before it gets it again.
-const HYSTERESIS_CC: i32 = 100;
 const PRECHARGE_MS: u32 = 3_600_000;
 const TOP_OFF_MS: u32 = 1_800_000;
 /// Temperature at which a full pack gets no more current.
@@ -55,34 +52,6 @@ pub(super) struct ChargeRecord {
     paused_ms: u32,
     rate: ColdRate,
     flowing: bool,
-}
-
-/// The current that a pack may get by the least that its temperature can be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum ColdRate {
-    /// Below 0 °C.
-    #[default]
-    None,
-    /// Below 5 °C: a tenth of the capacity an hour.
-    Slow,
-    /// Warm enough.
-    Full,
-}
-
-impl ColdRate {
-    fn at(self, coldest_cc: i32) -> Self {
-        let reaches = |limit_cc: i32, rate: Self| {
-            let extra_cc = if self < rate { HYSTERESIS_CC } else { 0 };
-            coldest_cc >= limit_cc.saturating_add(extra_cc)
-        };
-        if reaches(COOL_CC, Self::Full) {
-            Self::Full
-        } else if reaches(COLDEST_CC, Self::Slow) {
-            Self::Slow
-        } else {
-            Self::None
-        }
-    }
 }
 
 /// The temperature of a charge that has not begun, in the kept record.
