@@ -12,8 +12,9 @@ use crate::board::{
 use crate::charge::{ChargeController, ChargeOutput};
 use crate::cleaning::{BrushLoad, Cleaning};
 use crate::dock_escape::DockEscape;
+use crate::fitted::{fitted, gaps};
 use crate::floor::FloorWatch;
-use crate::identity::{fitted, gaps, identity};
+use crate::identity::identity;
 use crate::journal::Journal;
 use crate::kept::{CLOCKS_MS, Keeper, KeptRecord};
 use crate::lights::LightPatterns;

@@ -15,6 +15,7 @@ mod cleaning;
 mod cord;
 mod dispatch;
 mod dock_escape;
+mod fitted;
 mod floor;
 mod guarded;
 mod identity;

@@ -144,13 +144,13 @@ pub(crate) mod charge_phase {
     pub(crate) const UNDOCKED_MS: u32 = 1_000;
     /// S18. The supply must be there this long before current flows.
     pub(crate) const SUPPLIED_MS: u32 = 1_000;
-    /// S18. Window of temperatures in which a charge begins.
+    /// S18. A pack that may be colder gets no current.
     pub(crate) const COLDEST_CC: i32 = 0;
-    /// S18. Below this only slow current flows.
+    /// S18. A pack that may be colder gets slow current only.
     pub(crate) const COOL_CC: i32 = 500;
-    /// S18. End of that window.
+    /// S18. No charge begins in a pack that may be warmer.
     pub(crate) const WARMEST_CC: i32 = 4_000;
-    /// S18. Hysteresis of the window, so that current does not come and go at its limit.
+    /// S18. A pack that was too cold for a current must be this much warmer before it gets it again.
     pub(crate) const HYSTERESIS_CC: i32 = 100;
     /// S18.
     pub(crate) const PRECHARGE_MS: u32 = 3_600_000;

@@ -3,7 +3,7 @@
 //!
 //! The reciprocal of such a thermistor's absolute temperature is a straight line over the logarithm of its resistance. The line
 //! goes through two points that the owner has measured, or through 10 k at 25 °C; its slope is then known to a range only. So
-//! is every temperature: a [`TemperatureRange`], which at 0 °C is 5 degrees wide with measured points and 20 degrees without.
+//! is every temperature: a [`TemperatureRange`], which at 0 °C is 4 degrees wide with measured points and 15 degrees without.
 
 use rvac_units::Temperature;
 

@@ -539,7 +539,7 @@ const CHARGING: Charging = Charging {
 
 #[test]
 fn each_cause_against_charging_has_its_reaction_time() {
-    let cases: [(Charging, Drives, u32, Rule); 6] = [
+    let cases: [(Charging, Drives, u32, Rule); 7] = [
         (
             Charging {
                 supplied: false,
@@ -560,7 +560,18 @@ fn each_cause_against_charging_has_its_reaction_time() {
         ),
         (
             Charging {
-                temperature_dc: -51,
+                temperature_dc: -1,
+                current_ma: 100,
+                ..CHARGING
+            },
+            OFF,
+            2_000,
+            Rule::ChargeTemperature,
+        ),
+        (
+            Charging {
+                temperature_dc: 49,
+                current_ma: 251,
                 ..CHARGING
             },
             OFF,

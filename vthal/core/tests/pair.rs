@@ -8,7 +8,7 @@ use rvac_api::{
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
     BinaryKinds, Bumpers, Capabilities, Command, Description, Event, Gyro, Inhibit, Inhibits, Limits, Motor,
-    Name, Report, ResetCause, State, WheelDrops,
+    MotorGaps, Name, Report, ResetCause, State, WheelDrops,
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};

@@ -387,7 +387,10 @@ mod tests {
             rows.find(|row| row.label == label)
                 .map(|row| (row.value, row.alarming))
         };
-        assert_eq!(value(&robot, "Main brush"), Some(("Off, 0.00 A".to_owned(), false)));
+        assert_eq!(
+            value(&robot, "Main brush"),
+            Some(("Off, 0.00 A".to_owned(), false))
+        );
         assert_eq!(value(&robot, "No stall detection"), None);
         robot.unmeasured = vec!["brush-main".to_owned()];
         robot.unguarded = vec!["brush-sides".to_owned(), "vacuum".to_owned()];

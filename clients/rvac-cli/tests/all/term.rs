@@ -42,6 +42,7 @@ fn identity() -> RobotIdentity {
         description: Description {
             capabilities: Capabilities::default(),
             limits,
+            motors: MotorGaps::default(),
         },
     }
 }

@@ -9,6 +9,7 @@
 //!
 //! Time is summed up from pass to pass and never compared with a clock, so the wrap of the clock does not matter.
 
+mod cold_rate;
 mod controller;
 mod current_offset;
 mod faults;

@@ -2,6 +2,7 @@
 
 use rvac_protocol::message::{ChargeEnd, ChargeFault, ChargePhase};
 
+use super::cold_rate::ColdRate;
 use super::controller::{ChargeContext, ChargeController};
 use super::meter::{Averages, AveragingWindow, CompletedWindows};
 use super::scale::PackLimits;
@@ -9,8 +10,7 @@ use super::stops::{ChargeProgress, Detectors, Stops};
 use crate::rules::charge_fault::OFFSET_FAULT_MA;
 use crate::rules::charge_guard::REST_MS;
 use crate::rules::charge_phase::{
-    COLDEST_CC, COOL_CC, DOCKED_MS, HYSTERESIS_CC, LONG_REST_MS, PRECHARGE_MS, TOP_OFF_MAX_CC, TOP_OFF_MS,
-    UNDOCKED_MS, WARMEST_CC,
+    DOCKED_MS, LONG_REST_MS, PRECHARGE_MS, TOP_OFF_MAX_CC, TOP_OFF_MS, UNDOCKED_MS, WARMEST_CC,
 };
 use crate::rules::charge_stop::TIME_MS;
 
@@ -42,34 +42,6 @@ pub(super) struct ChargeRecord {
     paused_ms: u32,
     rate: ColdRate,
     flowing: bool,
-}
-
-/// The current that a pack may get by the least that its temperature can be.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum ColdRate {
-    /// Below 0 °C.
-    #[default]
-    None,
-    /// Below 5 °C: a tenth of the capacity an hour.
-    Slow,
-    /// Warm enough.
-    Full,
-}
-
-impl ColdRate {
-    fn at(self, coldest_cc: i32) -> Self {
-        let reaches = |limit_cc: i32, rate: Self| {
-            let extra_cc = if self < rate { HYSTERESIS_CC } else { 0 };
-            coldest_cc >= limit_cc.saturating_add(extra_cc)
-        };
-        if reaches(COOL_CC, Self::Full) {
-            Self::Full
-        } else if reaches(COLDEST_CC, Self::Slow) {
-            Self::Slow
-        } else {
-            Self::None
-        }
-    }
 }
 
 /// The temperature of a charge that has not begun, in the kept record.
@@ -282,8 +254,13 @@ impl<S: Stops> ChargeController<S> {
     pub(super) fn target_ma(&self) -> i32 {
         match self.phase {
             _ if self.charge.rate == ColdRate::None => 0,
-            ChargePhase::Fast if self.charge.rate == ColdRate::Full => self.scale.full_ma(),
-            ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff => self.scale.slow_ma(),
+            ChargePhase::Precharge | ChargePhase::Fast | ChargePhase::TopOff
+                if self.charge.rate == ColdRate::Slow =>
+            {
+                self.scale.cool_ma()
+            }
+            ChargePhase::Fast => self.scale.full_ma(),
+            ChargePhase::Precharge | ChargePhase::TopOff => self.scale.slow_ma(),
             ChargePhase::Maintain if self.pulse.on => self.scale.slow_ma(),
             _ => 0,
         }

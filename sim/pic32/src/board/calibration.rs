@@ -263,12 +263,6 @@ impl Particulars {
     #[must_use]
     pub fn deviating(&self, seed: u64) -> Self {
         let random = &mut Pcg::new(seed, DEVIATIONS);
-        let thermistor = Thermistor {
-            // The converter's own errors are drawn below, for all of its inputs.
-            offset_counts: 0.0,
-            gain: 1.0,
-            ..Thermistor::drawn(random)
-        };
         let mut about = |value: f64, share: f64| value * (1.0 + share * random.symmetric());
         let count = |value: f64| value.round() as i32;
         Self {
@@ -279,7 +273,11 @@ impl Particulars {
             proximity: self.proximity.map(|level| count(about(f64::from(level), 0.3))),
             battery_scale: count(about(f64::from(self.battery_scale), 0.01)),
             charge_zero: self.charge_zero + count(about(100.0, 1.0)) - 100,
-            thermistor,
+            thermistor: Thermistor {
+                beta_k: about(self.thermistor.beta_k, 0.01),
+                room_kohm: about(self.thermistor.room_kohm, 0.01),
+                ..self.thermistor
+            },
             // The data sheet's gain error of 4 counts, and its offset of 2.
             converter_gain: about(1.0, 0.004),
             converter_offset: about(2.0, 1.0) - 2.0,
