@@ -117,7 +117,12 @@ impl Timer {
 
     fn set(&mut self, value: u64) {
         match self.mode() {
-            Mode::Bits13 => (self.low, self.high) = (value as u8 & 0x1F, (value >> 5) as u8),
+            Mode::Bits13 => {
+                // The upper three bits of TL mean nothing. As in uCsim they stay until the other five roll over.
+                let rolls = value < self.value() || (value >> 5) as u8 != self.high;
+                let rest = if rolls { 0 } else { self.low & 0xE0 };
+                (self.low, self.high) = (rest | value as u8 & 0x1F, (value >> 5) as u8);
+            }
             Mode::Bits16 => [self.low, self.high] = (value as u16).to_le_bytes(),
             Mode::Refilled | Mode::Split => self.low = value as u8,
         }
