@@ -101,6 +101,7 @@ impl Machine {
     pub fn step(&mut self) {
         self.advance(self.cycle() + 1);
         self.chip.settle(self.cycle());
+        self.account.charge(self.cycle());
     }
 
     /// Does one thing, or runs until something else is due.
@@ -245,7 +246,7 @@ impl Machine {
         self.chip.hear(frame);
     }
 
-    /// Frames that the UART began to send since the last call.
+    /// Frames that the UART has sent since the last call, up to their stop bits. One that was cut off is not among them.
     pub fn take_sent(&mut self) -> Vec<SentFrame> {
         self.chip.take_sent()
     }

@@ -171,19 +171,20 @@ impl Chip {
             self.scheduled.pop_front();
             self.change_input(edge.pin, edge.level, cycle);
         }
-        if !self.power.is_down() {
-            self.advance(cycle);
-            if self.watchdog.next() <= cycle {
-                self.reset = Some(ResetSource::Watchdog);
-                // It barks once; the reset that follows winds it up again.
-                self.watchdog.stop(cycle);
-            }
+        self.advance(cycle);
+        if self.watchdog.next() <= cycle {
+            self.reset = Some(ResetSource::Watchdog);
+            // It barks once; the reset that follows winds it up again.
+            self.watchdog.stop(cycle);
         }
         self.plan(cycle);
     }
 
-    /// Brings timers and UART up to date.
+    /// Brings timers and UART up to date, unless they have no clock.
     fn advance(&mut self, cycle: u64) {
+        if self.power.is_down() {
+            return;
+        }
         self.timers.advance(cycle);
         self.timer2.advance(cycle);
         self.serial.advance(cycle);
@@ -331,9 +332,7 @@ impl Chip {
         if before == after {
             return;
         }
-        if !self.power.is_down() {
-            self.advance(cycle);
-        }
+        self.advance(cycle);
         for (number, pin) in EXTERNAL_PINS.into_iter().enumerate() {
             self.externals[number].see(after.level(pin).is_high());
         }

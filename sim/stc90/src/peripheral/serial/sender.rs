@@ -18,20 +18,20 @@ pub(super) struct Outgoing {
 pub(super) struct Sender {
     /// Waits for a rate.
     waiting: Option<Outgoing>,
-    /// Ends at this tick with TI.
-    ends: Option<u64>,
+    /// What is on the line, and the tick at which TI is set.
+    sending: Option<(u64, SentFrame)>,
     sent: Vec<SentFrame>,
 }
 
 impl Sender {
     /// Whether a byte written now cuts off one that is being sent.
     pub(super) fn is_busy(&self) -> bool {
-        self.waiting.is_some() || self.ends.is_some()
+        self.waiting.is_some() || self.sending.is_some()
     }
 
     /// SBUF was written.
     pub(super) fn send(&mut self, outgoing: Outgoing, rate: &Rate, cycle: u64) {
-        self.ends = None;
+        self.sending = None;
         self.waiting = Some(outgoing);
         self.begin(rate, cycle);
     }
@@ -55,32 +55,32 @@ impl Sender {
             (false, None) => 9,
             (false, Some(_)) => 10,
         };
-        self.ends = Some(start + bits * bit_ticks);
-        self.sent.push(SentFrame {
+        let frame = SentFrame {
             cycle: start.div_ceil(TICKS_PER_CYCLE),
             bit_ticks,
             byte: outgoing.byte,
             ninth: outgoing.ninth,
             line_is_free: outgoing.line_is_free,
-        });
+        };
+        self.sending = Some((start + bits * bit_ticks, frame));
     }
 
     /// The cycle in which it sets TI.
     pub(super) fn next(&self) -> u64 {
-        self.ends
-            .map_or(u64::MAX, |tick| tick.div_ceil(TICKS_PER_CYCLE))
+        self.sending
+            .map_or(u64::MAX, |(tick, _)| tick.div_ceil(TICKS_PER_CYCLE))
     }
 
     /// Says whether TI is set by now.
     pub(super) fn advance(&mut self, cycle: u64) -> bool {
         let ended = self.next() <= cycle;
         if ended {
-            self.ends = None;
+            self.sent.extend(self.sending.take().map(|(_, frame)| frame));
         }
         ended
     }
 
-    /// What was sent, or begun, since the last call.
+    /// What was sent up to its stop bit since the last call.
     pub(super) fn take(&mut self) -> Vec<SentFrame> {
         std::mem::take(&mut self.sent)
     }
@@ -88,6 +88,6 @@ impl Sender {
     /// A reset cuts off what is being sent.
     pub(super) fn reset(&mut self) {
         self.waiting = None;
-        self.ends = None;
+        self.sending = None;
     }
 }
