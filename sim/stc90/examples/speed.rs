@@ -14,8 +14,8 @@ const SECONDS: f64 = 20.0;
 const ENTRY: [u8; 3] = [0x02, 0x00, 0x40];
 /// Timer 0: PUSH ACC; PUSH PSW; reload; INC 0x30; CPL P2.7; POP; POP; RETI.
 const TIMER: [u8; 20] = [
-    0xC0, 0xE0, 0xC0, 0xD0, 0x75, 0x8A, 0x78, 0x75, 0x8C, 0xEC, 0x05, 0x30, 0xB2, 0xA7, 0xD0, 0xD0, 0xD0, 0xE0, 0x32,
-    0x00,
+    0xC0, 0xE0, 0xC0, 0xD0, 0x75, 0x8A, 0x78, 0x75, 0x8C, 0xEC, 0x05, 0x30, 0xB2, 0xA7, 0xD0, 0xD0, 0xD0,
+    0xE0, 0x32, 0x00,
 ];
 /// UART: JNB RI, over; CLR RI; MOV 0x31, SBUF; CLR TI; RETI.
 const SERIAL: [u8; 11] = [0x30, 0x98, 0x05, 0xC2, 0x98, 0x85, 0x99, 0x31, 0xC2, 0x99, 0x32];
@@ -83,10 +83,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for source in Source::ALL {
         let account = machine.account().of(source);
         if account.calls > 0 {
-            println!("{source:?}: {} calls, {} cycles at most", account.calls, account.longest_cycles);
+            println!(
+                "{source:?}: {} calls, {} cycles at most",
+                account.calls, account.longest_cycles
+            );
         }
     }
-    println!("{sent} bytes sent, {} lost, {} unheard", machine.overruns(), machine.unheard());
+    println!(
+        "{sent} bytes sent, {} lost, {} unheard",
+        machine.overruns(),
+        machine.unheard()
+    );
     println!("misuse: {:?}", machine.misuses());
     Ok(())
 }

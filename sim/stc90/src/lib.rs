@@ -17,6 +17,9 @@
 //! | MOVX beyond 0x3FF | more memory | recorded as [`peripheral::Misuse`]; reads 0xFF |
 //! | code beyond 0x7FFF | more memory | recorded as misuse; executed as instructions without effect |
 //! | stack beyond 0xFF | halts | goes on at 0, as the chip does; recorded as misuse |
+//! | PSW | a parity that was written stays until A changes; RS0 and RS1 written as bits change no bank | parity is that of A; banks change |
+//! | timer 0 in mode 3 | TR1 starts and stops timer 1 | timer 1 runs on, as documented |
+//! | DJNZ on a timer's byte | in the second cycle | in the first, as all other accesses |
 //! | AUXR, XICON, P4, WDT_CONTR, ISP registers, SADDR, 6T | plain bytes | modelled |
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

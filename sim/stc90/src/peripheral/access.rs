@@ -7,9 +7,9 @@ use super::register::{
 use super::timer2::T2OE;
 use super::{Chip, Misuse, TRANSMIT_PIN, XRAM_BYTES};
 use crate::cpu::{Bus, CoreFault, External};
-use crate::pins::{Edge, Level, Levels, Pin};
 use crate::peripheral::record::MisuseRecord;
 use crate::peripheral::serial::{LineFrame, SentFrame};
+use crate::pins::{Edge, Level, Levels, Pin};
 
 /// AUXR: MOVX goes out of the chip.
 const EXTRAM: u8 = 0x02;

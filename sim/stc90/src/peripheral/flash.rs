@@ -23,7 +23,12 @@ const WAIT: u8 = 0x07;
 const TRIGGER: [u8; 2] = [0x46, 0xB9];
 
 /// What a read, a write and an erasure take, by ISP_CONTR's waiting time.
-const CYCLES: [[u64; 3]; 4] = [[43, 240, 43_769], [22, 120, 21_885], [11, 60, 10_942], [6, 30, 5_471]];
+const CYCLES: [[u64; 3]; 4] = [
+    [43, 240, 43_769],
+    [22, 120, 21_885],
+    [11, 60, 10_942],
+    [6, 30, 5_471],
+];
 
 /// What writing a register asks of the chip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

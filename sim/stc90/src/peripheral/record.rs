@@ -59,7 +59,11 @@ pub(crate) struct Record {
 
 impl Record {
     pub(super) fn note(&mut self, misuse: Misuse, cycle: u64) {
-        if let Some(record) = self.records.iter_mut().find(|record| record.misuse.is_like(&misuse)) {
+        if let Some(record) = self
+            .records
+            .iter_mut()
+            .find(|record| record.misuse.is_like(&misuse))
+        {
             record.count += 1;
             return;
         }

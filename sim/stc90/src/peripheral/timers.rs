@@ -120,7 +120,11 @@ impl Timers {
         let mut control = 0;
         for number in 0..2 {
             control |= if self.runs[number] { RUN[number] } else { 0 };
-            control |= if self.overflowed[number] { OVERFLOW[number] } else { 0 };
+            control |= if self.overflowed[number] {
+                OVERFLOW[number]
+            } else {
+                0
+            };
         }
         control
     }

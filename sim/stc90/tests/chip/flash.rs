@@ -14,7 +14,13 @@ const START: [(u8, u8); 2] = [(TRIGGER, 0x46), (TRIGGER, 0xB9)];
 
 fn operation(command: u8, address: u16, data: u8) -> Vec<u8> {
     let [high, low] = address.to_be_bytes();
-    let mut pairs = vec![(CONTROL, 0x80), (DATA, data), (HIGH, high), (LOW, low), (COMMAND, command)];
+    let mut pairs = vec![
+        (CONTROL, 0x80),
+        (DATA, data),
+        (HIGH, high),
+        (LOW, low),
+        (COMMAND, command),
+    ];
     pairs.extend(START);
     set(&pairs)
 }
@@ -69,7 +75,13 @@ fn wrong_operations_change_nothing() {
     assert_eq!(machine.misuses()[0].misuse, Misuse::FlashNotEnabled);
     // The trigger must be written without anything in between.
     let torn = after(
-        &[(CONTROL, 0x80), (HIGH, 0x80), (COMMAND, 2), (DATA, 0), (TRIGGER, 0x46)],
+        &[
+            (CONTROL, 0x80),
+            (HIGH, 0x80),
+            (COMMAND, 2),
+            (DATA, 0),
+            (TRIGGER, 0x46),
+        ],
         &set(&[(DATA, 0), (TRIGGER, 0xB9)]),
     );
     let (machine, _) = run(&torn);

@@ -34,7 +34,10 @@ fn it_can_be_switched_off() {
     let mut machine = machine(&[(0, &program)]);
     machine.run_until(11);
     assert_eq!((machine.cpu().a(), machine.xram()[0]), (0xFF, 0));
-    assert_eq!(machine.misuses()[0].misuse, Misuse::ExternalBus(External::Long(0)));
+    assert_eq!(
+        machine.misuses()[0].misuse,
+        Misuse::ExternalBus(External::Long(0))
+    );
 }
 
 /// P2 drives motors and lamps, so it says nothing about an address.

@@ -16,14 +16,19 @@ pub(crate) fn machine(parts: &[(u16, &[u8])]) -> Machine {
 pub(crate) fn with_options(parts: &[(u16, &[u8])], options: Options) -> Machine {
     let mut image = Image::erased();
     for (address, bytes) in parts {
-        assert!(image.write(u32::from(*address), bytes), "{address:#x} is in the flash");
+        assert!(
+            image.write(u32::from(*address), bytes),
+            "{address:#x} is in the flash"
+        );
     }
     Machine::new(&image, options)
 }
 
 /// MOV direct, #constant for each pair.
 pub(crate) fn set(pairs: &[(u8, u8)]) -> Vec<u8> {
-    let moves = pairs.iter().flat_map(|(register, value)| [0x75, *register, *value]);
+    let moves = pairs
+        .iter()
+        .flat_map(|(register, value)| [0x75, *register, *value]);
     moves.collect()
 }
 

@@ -64,9 +64,7 @@ fn timer_1_makes_the_rate_of_the_reference() {
 #[test]
 fn bytes_follow_each_other_at_once() {
     // INC A; MOV SBUF, A; JNB TI, self; CLR TI; SJMP back
-    let sending = [
-        0x04, 0xF5, SBUF, 0x30, 0x99, 0xFD, 0xC2, 0x99, 0x80, 0xF6,
-    ];
+    let sending = [0x04, 0xF5, SBUF, 0x30, 0x99, 0xFD, 0xC2, 0x99, 0x80, 0xF6];
     let mut machine = machine(&[(0, &after(&SETUP, &sending))]);
     machine.run_until(200_000);
     let sent = machine.take_sent();
@@ -93,7 +91,10 @@ fn a_byte_that_is_cut_off_is_misuse() {
 #[test]
 fn nothing_is_sent_without_a_rate() {
     // The UART first, its timer 1,000 cycles later.
-    let mut program = after(&[(SCON, 0x50), (SBUF, 0x41)], &[0x7F, 0xFA, 0xDF, 0xFE, 0xDF, 0xFE]);
+    let mut program = after(
+        &[(SCON, 0x50), (SBUF, 0x41)],
+        &[0x7F, 0xFA, 0xDF, 0xFE, 0xDF, 0xFE],
+    );
     program.extend(after(&SETUP[..3], &STAY));
     let mut machine = machine(&[(0, &program)]);
     machine.run_until(1_000);

@@ -42,7 +42,13 @@ fn a_millisecond_is_5000_counts() {
 fn falling_edges_are_counted() {
     // T0 and T1 count their pins, 8 bits with reload; timer 2 counts its own.
     let program = after(
-        &[(TMOD, 0x66), (TL0, 0xFE), (TH0, 0xF0), (TCON, 0x50), (T2CON, 0x06)],
+        &[
+            (TMOD, 0x66),
+            (TL0, 0xFE),
+            (TH0, 0xF0),
+            (TCON, 0x50),
+            (T2CON, 0x06),
+        ],
         &STAY,
     );
     let mut machine = machine(&[(0, &program)]);

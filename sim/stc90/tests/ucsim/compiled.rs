@@ -67,7 +67,10 @@ fn agrees(name: &str) {
         compared.opcodes.len()
     );
     assert!(compared.instructions > 1_000, "{name} did nothing");
-    assert!(compared.instructions < u64::from(EXTENT.instructions), "{name} has no end");
+    assert!(
+        compared.instructions < u64::from(EXTENT.instructions),
+        "{name} has no end"
+    );
 }
 
 #[test]

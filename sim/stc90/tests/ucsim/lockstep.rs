@@ -103,7 +103,9 @@ pub(crate) fn compare(ucsim: &UcSim, start: &Start, extent: Extent, seed: u64) -
         let wanted = numbers.below(extent.stride) + 1;
         let mut done = 0;
         while done < wanted && is_comparable(&machine) {
-            compared.opcodes.insert(machine.cpu().code().byte(machine.cpu().pc()));
+            compared
+                .opcodes
+                .insert(machine.cpu().code().byte(machine.cpu().pc()));
             machine.step();
             done += 1;
         }
@@ -124,7 +126,10 @@ pub(crate) fn compare(ucsim: &UcSim, start: &Start, extent: Extent, seed: u64) -
         assert!(
             difference.is_empty(),
             "seed {seed}, from {before:04x} on ({:02x?}), psw {:02x}, ours first: {difference}",
-            (0..4).map(|offset| machine.cpu().code().byte(before + offset)).collect::<Vec<u8>>(), ours.registers[18],
+            (0..4)
+                .map(|offset| machine.cpu().code().byte(before + offset))
+                .collect::<Vec<u8>>(),
+            ours.registers[18],
         );
         before = ours.pc;
     }

@@ -29,7 +29,9 @@ impl Numbers {
     /// A byte, often one at which arithmetic goes wrong.
     pub(crate) fn byte(&mut self) -> u8 {
         if self.below(2) == 0 {
-            return self.pick(&[0, 1, 9, 0x0A, 0x0F, 0x10, 0x7F, 0x80, 0x99, 0x9A, 0xF0, 0xFE, 0xFF]);
+            return self.pick(&[
+                0, 1, 9, 0x0A, 0x0F, 0x10, 0x7F, 0x80, 0x99, 0x9A, 0xF0, 0xFE, 0xFF,
+            ]);
         }
         self.next() as u8
     }

@@ -26,7 +26,9 @@ const CORE_BITS: [u8; 5] = [0xE0, 0xF0, 0xD0, 0x80, 0x90];
 const TIMERS: [u8; 9] = [0x8A, 0x8B, 0x8C, 0x8D, 0xCA, 0xCB, 0xCC, 0xCD, 0x8A];
 
 /// Opcodes that [`Builder::item`] makes with more around them.
-const SPECIAL: [u8; 12] = [0x02, 0x12, 0x22, 0x32, 0x73, 0x93, 0xC0, 0xD0, 0xE0, 0xF0, 0xA5, 0x80];
+const SPECIAL: [u8; 12] = [
+    0x02, 0x12, 0x22, 0x32, 0x73, 0x93, 0xC0, 0xD0, 0xE0, 0xF0, 0xA5, 0x80,
+];
 
 /// A program that is being written.
 #[derive(Debug)]
@@ -95,7 +97,11 @@ impl Builder<'_> {
             return self.numbers.next() as u8 & 0x7F;
         }
         let bit = self.numbers.pick(&CORE_BITS) | self.numbers.next() as u8 & 7;
-        if UNCOMPARED_BITS.contains(&bit) { PSW + 1 } else { bit }
+        if UNCOMPARED_BITS.contains(&bit) {
+            PSW + 1
+        } else {
+            bit
+        }
     }
 
     fn address(&self) -> u16 {
@@ -154,6 +160,8 @@ impl Builder<'_> {
                 self.push_direct();
             }
             (0x2..=0x6 | 0x9 | 0xB | 0xE, 5) | (0xA, 6..) => self.push_source(),
+            // DJNZ: uCsim looks at a timer a cycle later than with all other instructions.
+            (0xD, 5) => self.code.push(self.numbers.next() as u8 & 0x7F),
             (_, 5) | (0x8, 6..) => self.push_direct(),
             _ => {}
         }

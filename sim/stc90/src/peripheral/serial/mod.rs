@@ -10,7 +10,7 @@ mod sender;
 
 pub use frame::{LineFrame, SentFrame};
 
-use super::register::{SMOD0, SMOD};
+use super::register::{SMOD, SMOD0};
 use super::timer2::TICKS_PER_CYCLE;
 use rate::Rate;
 use receiver::{Listening, Received, Receiver};
