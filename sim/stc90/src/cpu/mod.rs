@@ -37,6 +37,8 @@ const DPS: u8 = 0x01;
 const AUXR1_BITS: u8 = 0x09;
 /// The stack pointer after a reset.
 const SP_RESET: u8 = 0x07;
+/// Address of no instruction.
+const NO_PC: u32 = 0x1_0000;
 /// What the hardware needs to call an interrupt's handler, as long as an LCALL.
 const INTERRUPT_CYCLES: u64 = 2;
 
@@ -49,6 +51,9 @@ pub struct Cpu {
     pc: u16,
     /// Address of the instruction that is executed.
     begin: u16,
+    /// Address whose executions are counted; none is above the last one.
+    counted_pc: u32,
+    passes: u64,
     a: u8,
     b: u8,
     psw: u8,
@@ -68,6 +73,8 @@ impl Cpu {
             cycle: 0,
             pc: 0,
             begin: 0,
+            counted_pc: NO_PC,
+            passes: 0,
             a: 0,
             b: 0,
             psw: 0,
@@ -85,6 +92,8 @@ impl Cpu {
             ram: self.ram,
             cycle: self.cycle,
             sp_max: self.sp_max,
+            counted_pc: self.counted_pc,
+            passes: self.passes,
             ..Self::new(self.code.clone())
         };
     }
@@ -100,6 +109,7 @@ impl Cpu {
     #[inline]
     pub fn step<B: Bus>(&mut self, bus: &mut B) {
         self.begin = self.pc;
+        self.passes += u64::from(u32::from(self.pc) == self.counted_pc);
         let opcode = self.fetch();
         match opcode & 0x0F {
             0x0 => self.column_0(opcode >> 4, bus),
@@ -147,6 +157,18 @@ impl Cpu {
     #[must_use]
     pub fn begin(&self) -> u16 {
         self.begin
+    }
+
+    /// Counts from now on how often the instruction at an address is executed: the head of a main loop, say.
+    pub fn count_passes(&mut self, pc: u16) {
+        self.counted_pc = u32::from(pc);
+        self.passes = 0;
+    }
+
+    /// How often it was executed since then.
+    #[must_use]
+    pub fn passes(&self) -> u64 {
+        self.passes
     }
 
     /// Continues at another address.

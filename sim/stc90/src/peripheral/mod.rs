@@ -149,10 +149,7 @@ impl Chip {
         self.reset = None;
         let levels = self.ports.levels();
         self.externals = EXTERNAL_PINS.map(|pin| ExternalInput::new(levels.level(pin).is_high()));
-        for number in 0..2 {
-            let is_high = levels.level(EXTERNAL_PINS[number]).is_high();
-            self.timers.gate(number, is_high);
-        }
+        self.set_gates(levels);
         self.timer2.trigger(levels.level(T2EX).is_high());
         self.serial.line_is_high = levels.level(RECEIVE_PIN).is_high();
         self.plan(cycle);
@@ -337,10 +334,9 @@ impl Chip {
             self.externals[number].see(after.level(pin).is_high());
         }
         let falls = |pin| before.level(pin).is_high() && !after.level(pin).is_high();
-        for number in 0..2 {
-            let is_high = after.level(EXTERNAL_PINS[number]).is_high();
-            self.timers.gate(number, is_high);
-            if falls(COUNTING_PINS[number]) {
+        self.set_gates(after);
+        for (number, pin) in COUNTING_PINS.into_iter().enumerate() {
+            if falls(pin) {
                 self.timers.pulse(number);
             }
         }
@@ -352,6 +348,13 @@ impl Chip {
         }
         self.serial.line_is_high = after.level(RECEIVE_PIN).is_high();
         self.end_power_down(cycle);
+    }
+
+    /// The first two external interrupts' pins are the gates of timers 0 and 1.
+    fn set_gates(&mut self, levels: Levels) {
+        for (number, pin) in EXTERNAL_PINS.into_iter().take(2).enumerate() {
+            self.timers.gate(number, levels.level(pin).is_high());
+        }
     }
 
     /// A low pin of an enabled external interrupt starts the clock again.

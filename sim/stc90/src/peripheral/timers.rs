@@ -93,9 +93,9 @@ impl Timers {
     /// The next overflow that sets a flag which is not set yet, of the timers whose interrupt is enabled.
     pub(super) fn next(&self, enabled: [bool; 2]) -> u64 {
         let mut next = u64::MAX;
-        for number in 0..2 {
+        for (number, is_enabled) in enabled.into_iter().enumerate() {
             let sets_flag = number == 0 || !self.is_split();
-            if enabled[number] && sets_flag && !self.overflowed[number] && self.counts_cycles(number) {
+            if is_enabled && sets_flag && !self.overflowed[number] && self.counts_cycles(number) {
                 next = next.min(self.cycle + self.timers[number].left());
             }
         }

@@ -80,6 +80,15 @@ fn the_highest_stack_pointer_is_kept() {
 }
 
 #[test]
+fn passes_of_a_loop_are_counted() {
+    // INC A; NOP; SJMP back: four cycles
+    let mut machine = machine(&[(0, &[0x04, 0x00, 0x80, 0xFC])]);
+    machine.cpu_mut().count_passes(1);
+    machine.run_until(4_000);
+    assert_eq!(machine.cpu().passes(), 1_000);
+}
+
+#[test]
 fn a_second_is_five_million_cycles_in_the_relax() {
     let machine = machine(&[(0, &STAY)]);
     assert_eq!(machine.cycles_per_s(), 5e6);

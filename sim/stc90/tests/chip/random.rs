@@ -44,7 +44,7 @@ fn noise(seed: u64, cycles: u64) -> Machine {
         let number = numbers.next();
         let name = format!("P{}.{}", number % 5, number >> 8 & 7);
         let level = Level::of(number >> 16 & 1 != 0);
-        machine.schedule_input(edge(number >> 20 & 0xFFFF_FFFF_FFFF % cycles, &name, level));
+        machine.schedule_input(edge((number >> 20) % cycles, &name, level));
     }
     let mut cycle = 0;
     while cycle < cycles {
