@@ -206,7 +206,12 @@ impl Machine {
         self.chip.set_input(pin, level, self.cycle());
     }
 
-    /// The circuit will do so in a cycle to come.
+    /// The circuit does so to all pins at once.
+    pub fn set_inputs(&mut self, levels: Levels) {
+        self.chip.set_inputs(levels, self.cycle());
+    }
+
+    /// The circuit will change a pin in a cycle to come.
     pub fn schedule_input(&mut self, mut edge: Edge) {
         edge.cycle = edge.cycle.max(self.cycle());
         self.chip.schedule_input(edge);

@@ -309,6 +309,15 @@ impl Chip {
         self.plan(cycle);
     }
 
+    /// The circuit changes all pins.
+    pub(crate) fn set_inputs(&mut self, levels: Levels, cycle: u64) {
+        self.settle(cycle);
+        let before = self.ports.levels();
+        self.ports.set_inputs(levels);
+        self.notice_levels(before, cycle);
+        self.plan(cycle);
+    }
+
     /// The circuit will change a pin; edges of later cycles come later.
     pub(crate) fn schedule_input(&mut self, edge: Edge) {
         let place = self.scheduled.partition_point(|other| other.cycle <= edge.cycle);

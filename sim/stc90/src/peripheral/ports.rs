@@ -61,6 +61,11 @@ impl Ports {
         self.inputs.set(pin, level);
     }
 
+    /// The circuit does so to all pins.
+    pub(super) fn set_inputs(&mut self, levels: Levels) {
+        self.inputs = levels;
+    }
+
     /// Edges of a latch are kept from now on.
     pub(super) fn watch(&mut self, pin: Pin) {
         self.watched[pin.port()] |= pin.mask();

@@ -59,6 +59,19 @@ fn there_is_a_fifth_port() {
 }
 
 #[test]
+fn all_inputs_can_be_set_at_once() {
+    let mut machine = machine(&[(0, &after(&[(0x90, 0xF0)], &STAY))]);
+    machine.run_until(4);
+    machine.set_inputs(Levels([0xFF, 0x3C, 0, 0xFB, 0xFF]));
+    assert_eq!(machine.levels().0, [0xFF, 0x30, 0, 0xFB, 0xFF]);
+    // INT0 is low: its flag follows.
+    assert_eq!(machine.register(0x88) & 2, 2);
+    machine.set_inputs(Levels::HIGH);
+    assert_eq!(machine.levels(), machine.outputs());
+    assert_eq!(machine.register(0x88) & 2, 0);
+}
+
+#[test]
 fn inputs_change_in_their_cycle() {
     // MOV A, P0; JNZ back: leaves when P0 is low. MOV 0x30, TL0
     let program = after(

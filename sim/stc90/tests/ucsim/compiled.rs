@@ -5,12 +5,14 @@ use crate::process::{Folder, UcSim};
 use crate::state::{DUMP_XRAM, Printed};
 use stc90::image::Image;
 use stc90::machine::Machine;
+use stc90::peripheral::LineFrame;
+use stc90::pins::Level;
 use std::path::Path;
 use std::process::Command;
 
 const COMPILER: &str = "sdcc";
 /// The limits of the part.
-const OPTIONS: [&str; 8] = [
+const OPTIONS: [&str; 10] = [
     "-mmcs51",
     "--model-large",
     "--xram-size",
@@ -19,6 +21,8 @@ const OPTIONS: [&str; 8] = [
     "256",
     "--code-size",
     "32768",
+    "-I",
+    "../../firmware/relax/chip/generated",
 ];
 
 /// Where the programs leave their results in external memory.
@@ -121,4 +125,65 @@ fn interrupts_have_the_same_results() {
     assert_eq!(results[RESULTS], machine.xram()[RESULTS]);
     assert_eq!(machine.xram()[RESULTS][..10], [39, 0, 5, 0, 5, 0, 1, 0, 1, 0]);
     assert_eq!(machine.misuses(), []);
+}
+
+/// Back to back, in both directions at once.
+#[test]
+fn a_line_is_heard_and_answered_alike() {
+    let (Some(ucsim), Some(start)) = (UcSim::find(), compile("echo.c")) else {
+        return;
+    };
+    const TICKS_PER_BYTE: u64 = 10 * 784;
+    let line: Vec<u8> = (0..200_u8).map(|number| number.wrapping_mul(91) ^ 0x18).collect();
+    let mut machine = start.machine();
+    for (number, byte) in (0..).zip(&line) {
+        let cycle = 3_000 + number * TICKS_PER_BYTE / 6;
+        machine.hear(LineFrame::byte(cycle, 784, *byte));
+    }
+    run_to_end(&mut machine);
+    let sent: Vec<u8> = machine.take_sent().iter().map(|frame| frame.byte).collect();
+    let expected: Vec<u8> = line.iter().map(|byte| !byte).collect();
+    assert_eq!(sent, expected);
+    assert_eq!((machine.overruns(), machine.unheard()), (0, 0));
+    let end = machine.cpu().pc();
+    let commands = format!("fill xram 0 1023 0\nbreak {end}\nrun\n{DUMP_XRAM}");
+    let output = ucsim.run_with_line(&start.hex(), &commands, &line);
+    assert_eq!(output.sent, sent);
+    let results = Printed(&output.printed).xram();
+    assert_eq!(results[RESULTS], machine.xram()[RESULTS]);
+}
+
+/// The header that is generated from the Relax's pinout moves the pins that the pinout names.
+#[test]
+fn generated_pins_are_those_of_the_board() {
+    let Some(start) = compile("pins.c") else {
+        return;
+    };
+    let pin = |name: &str| name.parse().expect("a pin");
+    for is_pressed in [false, true] {
+        let mut machine = start.machine();
+        for name in ["P2.0", "P2.1", "P1.3", "P1.4", "P2.7"] {
+            machine.watch(pin(name));
+        }
+        // The light barriers are high when pressed; the left outer floor sensor is low where there is no floor.
+        machine.set_input(pin("P2.2"), Level::of(is_pressed));
+        machine.set_input(pin("P1.0"), Level::of(!is_pressed));
+        machine.set_input(pin("P0.7"), Level::of(!is_pressed));
+        machine.set_input(pin("P1.7"), Level::of(!is_pressed));
+        run_to_end(&mut machine);
+        let edges: Vec<String> = machine
+            .take_edges()
+            .iter()
+            .map(|edge| format!("{} {:?}", edge.pin, edge.level))
+            .collect();
+        assert_eq!(edges, ["P2.7 Low", "P2.1 Low", "P1.3 Low", "P2.1 High"]);
+        let floor = if is_pressed { 0x02 } else { 0x82 };
+        let seen = [
+            u8::from(is_pressed),
+            u8::from(!is_pressed),
+            floor,
+            u8::from(is_pressed),
+        ];
+        assert_eq!(machine.xram()[0x201..0x205], seen);
+    }
 }

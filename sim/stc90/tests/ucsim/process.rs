@@ -26,16 +26,24 @@ impl UcSim {
     /// Executes commands of its console on an 8052 with a program, and gives what it prints: each command, and what it
     /// answers.
     pub(crate) fn run(&self, hex: &str, commands: &str) -> Output {
+        self.run_with_line(hex, commands, &[])
+    }
+
+    /// The same while these bytes come in by the UART.
+    pub(crate) fn run_with_line(&self, hex: &str, commands: &str, line_in: &[u8]) -> Output {
         let folder = Folder::new();
         let (program, script) = (folder.file("program.ihx"), folder.file("commands"));
-        let line = folder.file("line");
+        let (line, heard) = (folder.file("line"), folder.file("heard"));
+        std::fs::write(&heard, line_in).expect("a temporary file");
         std::fs::write(&program, hex).expect("a temporary file");
         let load = format!("file \"{}\"\nreset\n", program.display());
         std::fs::write(&script, format!("{load}{commands}quit\n")).expect("a temporary file");
         let output = Command::new(self.0)
             .args(["-q", "-b", "-R", "1", "-t", "C52", "-X", "12M", "-C"])
             .arg(&script)
-            .args(["-S", &format!("uart=0,out={}", line.display())])
+            // Without the first, input is looked at once a second.
+            .args(["-e", "uart0_check_often=1", "-S"])
+            .arg(format!("uart=0,in={},out={}", heard.display(), line.display()))
             .stdin(Stdio::null())
             .output();
         Output {
