@@ -2,7 +2,7 @@
 //!
 //! An [`image::Image`] (Intel HEX) is executed by a [`machine::Machine`]: a [`cpu::Cpu`], which knows only the core, and
 //! the peripherals around it ([`peripheral`]), behind the trait [`cpu::Bus`]. A circuit is built around [`pins`] and whole
-//! frames of the serial line. There is no clock, no thread and no randomness: the same image and the same calls give the
+//! frames of the serial line; [`board`] is that of the Relax in a simulated home. There is no clock, no thread and no randomness: the same image and the same calls give the
 //! same bits, and every state can be cloned.
 //!
 //! # What is followed where sources differ
@@ -24,6 +24,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod board;
 pub mod cpu;
 pub mod image;
 pub mod machine;

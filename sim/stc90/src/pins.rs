@@ -122,6 +122,17 @@ impl Levels {
     }
 }
 
+/// Inputs that depend on what the chip does to one of its pins, as sensors do that see by a lamp.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SwitchedInputs {
+    /// The chip's pin.
+    pub by: Pin,
+    /// What the circuit does to the inputs while the chip pulls that pin low.
+    pub low: Levels,
+    /// And while it lets it go.
+    pub high: Levels,
+}
+
 /// A pin changes its level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {

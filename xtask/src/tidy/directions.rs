@@ -120,7 +120,7 @@ const DIRECTIONS: [Direction; 31] = [
     Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "monitor",       knows: &["rvac-protocol"],                             never: OUTSIDE },
     Direction { of: "pic32",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
-    Direction { of: "stc90",         knows: &[],                                            never: EMULATOR },
+    Direction { of: "stc90",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol"],  never: EMULATOR },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },

@@ -16,7 +16,7 @@ pub use options::{ClockMode, Options};
 use crate::cpu::Cpu;
 use crate::image::Image;
 use crate::peripheral::{Chip, LineFrame, MisuseRecord, ResetSource, SentFrame};
-use crate::pins::{Edge, Level, Levels, Pin};
+use crate::pins::{Edge, Level, Levels, Pin, SwitchedInputs};
 
 /// How many resets are kept; those after them are only counted.
 const KEPT: usize = 64;
@@ -40,6 +40,7 @@ pub struct Machine {
     options: Options,
     account: Account,
     resets: Vec<ResetEvent>,
+    unreported_resets: Vec<ResetSource>,
     reset_count: u64,
     /// The boot loader runs until this cycle.
     loader_until: u64,
@@ -55,6 +56,7 @@ impl Machine {
             options,
             account: Account::default(),
             resets: Vec::new(),
+            unreported_resets: Vec::new(),
             reset_count: 0,
             loader_until: 0,
         };
@@ -65,6 +67,9 @@ impl Machine {
     /// Resets the chip now.
     pub fn reset(&mut self, source: ResetSource) {
         self.reset_count += 1;
+        if self.unreported_resets.len() < KEPT {
+            self.unreported_resets.push(source);
+        }
         if self.resets.len() < KEPT {
             self.resets.push(ResetEvent {
                 source,
@@ -211,6 +216,12 @@ impl Machine {
         self.chip.set_inputs(levels, self.cycle());
     }
 
+    /// The circuit lets inputs depend on what the chip does to one of its pins, besides [`Self::set_inputs`]; replaces what
+    /// was set so before.
+    pub fn switch_inputs(&mut self, inputs: SwitchedInputs) {
+        self.chip.switch_inputs(inputs, self.cycle());
+    }
+
     /// The circuit will change a pin in a cycle to come.
     pub fn schedule_input(&mut self, mut edge: Edge) {
         edge.cycle = edge.cycle.max(self.cycle());
@@ -284,6 +295,11 @@ impl Machine {
     #[must_use]
     pub fn resets(&self) -> &[ResetEvent] {
         &self.resets
+    }
+
+    /// What has reset the chip since the last call, at most 64 of them.
+    pub fn take_resets(&mut self) -> Vec<ResetSource> {
+        std::mem::take(&mut self.unreported_resets)
     }
 
     /// How often the chip was reset after power-on.

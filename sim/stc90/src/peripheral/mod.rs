@@ -36,7 +36,7 @@ pub use timer2::TICKS_PER_CYCLE;
 
 pub(crate) use interrupts::SOURCES;
 
-use crate::pins::{Edge, Level, Levels, Pin};
+use crate::pins::{Edge, Level, Levels, Pin, SwitchedInputs};
 use external::ExternalInput;
 use flash::{Flash, FlashOrder};
 use interrupts::Interrupts;
@@ -314,6 +314,15 @@ impl Chip {
         self.settle(cycle);
         let before = self.ports.levels();
         self.ports.set_inputs(levels);
+        self.notice_levels(before, cycle);
+        self.plan(cycle);
+    }
+
+    /// The circuit lets inputs depend on a latch.
+    pub(crate) fn switch_inputs(&mut self, inputs: SwitchedInputs, cycle: u64) {
+        self.settle(cycle);
+        let before = self.ports.levels();
+        self.ports.switch_inputs(inputs);
         self.notice_levels(before, cycle);
         self.plan(cycle);
     }

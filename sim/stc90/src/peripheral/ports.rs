@@ -1,12 +1,13 @@
 //! The ports: latches, what the circuit does to the pins, and edges that somebody watches.
 
-use crate::pins::{Edge, Level, Levels, PORTS, Pin};
+use crate::pins::{Edge, Level, Levels, PORTS, Pin, SwitchedInputs};
 
 /// All pins.
 #[derive(Clone, Debug)]
 pub(super) struct Ports {
     latches: Levels,
     inputs: Levels,
+    switched: Option<SwitchedInputs>,
     watched: [u8; PORTS],
     edges: Vec<Edge>,
 }
@@ -16,6 +17,7 @@ impl Ports {
         Self {
             latches: Levels::HIGH,
             inputs: Levels::HIGH,
+            switched: None,
             watched: [0; PORTS],
             edges: Vec::new(),
         }
@@ -28,11 +30,21 @@ impl Ports {
 
     /// The levels of the pins.
     pub(super) fn levels(&self) -> Levels {
+        let switched = self.switched();
         let mut levels = self.latches;
-        for (level, input) in levels.0.iter_mut().zip(self.inputs.0) {
-            *level &= input;
+        for (port, level) in levels.0.iter_mut().enumerate() {
+            *level &= self.inputs.0[port] & switched.0[port];
         }
         levels
+    }
+
+    /// What the circuit does to inputs that depend on a latch, by that latch.
+    fn switched(&self) -> Levels {
+        match &self.switched {
+            None => Levels::HIGH,
+            Some(inputs) if self.latches.level(inputs.by).is_high() => inputs.high,
+            Some(inputs) => inputs.low,
+        }
     }
 
     pub(super) fn latch(&self, port: usize) -> u8 {
@@ -40,7 +52,7 @@ impl Ports {
     }
 
     pub(super) fn level(&self, port: usize) -> u8 {
-        self.latches.0[port] & self.inputs.0[port]
+        self.latches.0[port] & self.inputs.0[port] & self.switched().0[port]
     }
 
     /// The program writes a port.
@@ -64,6 +76,11 @@ impl Ports {
     /// The circuit does so to all pins.
     pub(super) fn set_inputs(&mut self, levels: Levels) {
         self.inputs = levels;
+    }
+
+    /// The circuit lets inputs depend on a latch.
+    pub(super) fn switch_inputs(&mut self, inputs: SwitchedInputs) {
+        self.switched = Some(inputs);
     }
 
     /// Edges of a latch are kept from now on.

@@ -1,5 +1,7 @@
 //! Bytes on the line, with the times at which they begin.
 
+use crate::peripheral::timer2::TICKS_PER_CYCLE;
+
 /// Levels of a frame that the chip is to hear.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LineFrame {
@@ -30,6 +32,24 @@ impl LineFrame {
             bit_ticks,
             levels: 0xFC00 | (data & 0x1FF) << 1,
         }
+    }
+
+    /// Ten levels from this cycle on, as a damaged line may carry them; nothing when all of them are high. The frame begins
+    /// with the first low one.
+    #[must_use]
+    pub const fn of_levels(cycle: u64, bit_ticks: u64, levels: u16) -> Option<Self> {
+        let levels = levels | 0xFC00;
+        let high = levels.trailing_ones();
+        if high >= 16 {
+            return None;
+        }
+        let begin = cycle + high as u64 * bit_ticks / TICKS_PER_CYCLE;
+        let levels = !(!levels >> high);
+        Some(Self {
+            cycle: begin,
+            bit_ticks,
+            levels,
+        })
     }
 
     /// The line goes low for sixteen bits.
