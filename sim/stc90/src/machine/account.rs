@@ -15,7 +15,7 @@ pub struct SourceAccount {
 
 /// A handler that was called and has not returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Active {
+struct OpenCall {
     source: usize,
     cycles: u64,
 }
@@ -24,7 +24,7 @@ struct Active {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Account {
     sources: [SourceAccount; SOURCES],
-    active: Vec<Active>,
+    active: Vec<OpenCall>,
     idle_cycles: u64,
     charged_to: u64,
 }
@@ -49,7 +49,7 @@ impl Account {
         self.charge(cycle);
         self.sources[source.number()].calls += 1;
         if self.active.len() < DEPTH_MAX {
-            self.active.push(Active {
+            self.active.push(OpenCall {
                 source: source.number(),
                 cycles: 0,
             });
@@ -58,7 +58,7 @@ impl Account {
 
     pub(super) fn leave(&mut self, cycle: u64) {
         self.charge(cycle);
-        if let Some(Active { source, cycles }) = self.active.pop() {
+        if let Some(OpenCall { source, cycles }) = self.active.pop() {
             let account = &mut self.sources[source];
             account.longest_cycles = account.longest_cycles.max(cycles);
         }
