@@ -41,6 +41,10 @@ pub(super) struct Line {
     free: u64,
     channels: [Channel; 2],
     is_faulty: bool,
+    held_until: u64,
+    cut_until: u64,
+    /// What the host's driver has not given out yet.
+    waiting: Vec<u8>,
 }
 
 /// Bytes that a perfect receiver hears in a millisecond; nothing for one with a wrong stop bit.
@@ -57,7 +61,20 @@ impl Line {
             free: 0,
             channels: [channel(seed), channel(seed.wrapping_add(1))],
             is_faulty: false,
+            held_until: 0,
+            cut_until: 0,
+            waiting: Vec::new(),
         }
+    }
+
+    /// Everything waits until `cycle`, both ways.
+    pub(super) fn hold_until(&mut self, cycle: u64) {
+        self.held_until = self.held_until.max(cycle);
+    }
+
+    /// Everything that is sent before `cycle` is lost, both ways.
+    pub(super) fn cut_until(&mut self, cycle: u64) {
+        self.cut_until = self.cut_until.max(cycle);
     }
 
     /// Sets how often what goes wrong from now on, both ways.
@@ -88,13 +105,18 @@ impl Line {
     /// Hands the frames that begin in this millisecond to the chip.
     pub(super) fn pass_ms(&mut self, from: u64, machine: &mut Machine) -> Heard {
         let mut heard = Heard::new();
+        if from < self.held_until {
+            return heard;
+        }
         let [begin, end] = [from, from + CYCLES_PER_MS].map(|cycle| cycle * TICKS_PER_CYCLE);
         self.free = self.free.max(begin);
         while self.free < end {
             let Some(levels) = self.next_frame() else {
                 break;
             };
-            if let Some(frame) = LineFrame::of_levels(self.free / TICKS_PER_CYCLE, self.bit_ticks, levels) {
+            let cycle = self.free / TICKS_PER_CYCLE;
+            let levels = if cycle < self.cut_until { REST } else { levels };
+            if let Some(frame) = LineFrame::of_levels(cycle, self.bit_ticks, levels) {
                 machine.hear(frame);
                 heard.push(byte_of(levels));
             }
@@ -116,26 +138,36 @@ impl Line {
         Some(self.frames.pop_front().unwrap_or(REST))
     }
 
-    /// What the host hears of the robot's frames: first as a perfect receiver does, then appended to `to_host` what its
-    /// driver gives out. A byte with a wrong stop bit is handed over as NUL.
-    pub(super) fn take(&mut self, sent: &[SentFrame], to_host: &mut Vec<u8>) -> Heard {
+    /// What a perfect receiver hears of the frames that the robot has sent up to `end`.
+    pub(super) fn take(&mut self, sent: &[SentFrame], end: u64) -> Heard {
         let mut heard = Heard::new();
         for frame in sent.iter().filter(|frame| frame.line_is_free) {
             let byte = self.is_heard(frame.bit_ticks).then_some(frame.byte);
             heard.push(byte);
+            if end <= self.cut_until {
+                continue;
+            }
             let mut damaged = Vec::new();
             match byte {
                 Some(byte) if self.is_faulty => self.channels[1].pass(byte, &mut damaged),
                 Some(byte) => damaged.push(ReceivedByte::Byte(byte)),
                 None => damaged.push(ReceivedByte::FramingError),
             }
-            to_host.extend(damaged.into_iter().filter_map(|received| match received {
-                ReceivedByte::Byte(byte) => Some(byte),
-                ReceivedByte::FramingError => Some(0),
-                ReceivedByte::Overrun => None,
-            }));
+            self.waiting
+                .extend(damaged.into_iter().filter_map(|received| match received {
+                    ReceivedByte::Byte(byte) => Some(byte),
+                    ReceivedByte::FramingError => Some(0),
+                    ReceivedByte::Overrun => None,
+                }));
         }
         heard
+    }
+
+    /// Appends what the host's driver gives out now. A byte with a wrong stop bit is handed over as NUL.
+    pub(super) fn give_out(&mut self, end: u64, to_host: &mut Vec<u8>) {
+        if end > self.held_until {
+            to_host.append(&mut self.waiting);
+        }
     }
 
     fn is_heard(&self, bit_ticks: u64) -> bool {

@@ -8,7 +8,7 @@ use crate::image::Image;
 use crate::machine::{Machine, Options};
 use crate::peripheral::{ResetSource, Source};
 use crate::pins::{Level, Levels, SwitchedInputs};
-use home::{Actuation, Bridge, Fnv1a, World};
+use home::{Actuation, Bridge, Fnv1a, RobotModel, World};
 use monitor::{Drives, Monitor, Pins};
 use rvac_channel::FaultRates;
 use rvac_protocol::message::ResetCause;
@@ -76,6 +76,7 @@ pub struct EmulatedRelax {
     /// Calls of the timers' handlers at the last reset, until the first one after it.
     clock_before: Option<u64>,
     now_ms: u64,
+    resets: u32,
 }
 
 impl EmulatedRelax {
@@ -96,6 +97,7 @@ impl EmulatedRelax {
             },
             clock_before: Some(0),
             now_ms: 0,
+            resets: 0,
             machine,
             wiring,
             world,
@@ -118,7 +120,7 @@ impl EmulatedRelax {
         self.machine.run_until(end);
         let edges = self.machine.take_edges();
         self.motors.take(&edges, end);
-        self.hear_robot(to_host);
+        self.hear_robot(end, to_host);
         self.actuate();
         self.notice_resets();
         let drives = self.drives();
@@ -181,12 +183,13 @@ impl EmulatedRelax {
         }
     }
 
-    fn hear_robot(&mut self, to_host: &mut Vec<u8>) {
+    fn hear_robot(&mut self, end: u64, to_host: &mut Vec<u8>) {
         let sent = self.machine.take_sent();
-        for byte in self.line.take(&sent, to_host).into_iter().flatten() {
+        for byte in self.line.take(&sent, end).into_iter().flatten() {
             self.monitor.said(self.now_ms, byte);
             self.digest.byte(byte);
         }
+        self.line.give_out(end, to_host);
     }
 
     /// What the outputs do to the home in the next millisecond. What a wheel's driver does with both lines off is not
@@ -236,6 +239,7 @@ impl EmulatedRelax {
     /// A chip that restarted forgets; the judge must know.
     fn notice_resets(&mut self) {
         for source in self.machine.take_resets() {
+            self.resets += 1;
             self.monitor.reset(self.now_ms, cause_of(source));
             self.clock_before = Some(self.clock_calls());
         }
@@ -286,10 +290,46 @@ impl EmulatedRelax {
         self.line.flush();
     }
 
-    /// Resets the microcontroller by its pin.
-    pub fn reset(&mut self) {
-        self.machine.reset(ResetSource::Pin);
+    /// Both ways of the line wait for `ms`.
+    pub fn hold_line(&mut self, ms: u32) {
+        self.line.hold_until(self.cycle() + u64::from(ms) * CYCLES_PER_MS);
+    }
+
+    /// The cable is out for `ms`.
+    pub fn cut_line(&mut self, ms: u32) {
+        self.line.cut_until(self.cycle() + u64::from(ms) * CYCLES_PER_MS);
+    }
+
+    /// Resets the microcontroller.
+    pub fn reset(&mut self, cause: ResetCause) {
+        self.machine.reset(source_of(cause));
         self.notice_resets();
+    }
+
+    /// Resets since the robot was switched on.
+    #[must_use]
+    pub const fn resets(&self) -> u32 {
+        self.resets
+    }
+
+    /// The model.
+    #[must_use]
+    pub const fn model(&self) -> &RobotModel {
+        self.world.model()
+    }
+
+    /// Cycles of the chip since power-on, at the end of the last tick.
+    #[must_use]
+    pub const fn cycle(&self) -> u64 {
+        self.now_ms * CYCLES_PER_MS
+    }
+
+    /// Whether a wheel was driven in the last millisecond.
+    #[must_use]
+    pub fn wheels_driven(&self) -> bool {
+        [Motor::WheelLeft, Motor::WheelRight]
+            .into_iter()
+            .any(|motor| self.duty(motor) != 0.0)
     }
 
     /// The home around the robot, to lift it and to break sensors: they act from the next tick on.
@@ -342,6 +382,16 @@ impl EmulatedRelax {
     #[must_use]
     pub fn state_hash(&self) -> u64 {
         self.digest.value()
+    }
+}
+
+/// The chip distinguishes fewer causes than the wire.
+const fn source_of(cause: ResetCause) -> ResetSource {
+    match cause {
+        ResetCause::PowerOn | ResetCause::BrownOut => ResetSource::PowerOn,
+        ResetCause::Watchdog => ResetSource::Watchdog,
+        ResetCause::Software => ResetSource::Program,
+        ResetCause::External | ResetCause::Unknown => ResetSource::Pin,
     }
 }
 

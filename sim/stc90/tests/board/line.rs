@@ -2,6 +2,7 @@
 
 use crate::rig::{STAY, pass_ms, program, robot, robot_with, world};
 use rvac_channel::FaultRates;
+use rvac_protocol::message::ResetCause;
 use stc90::board::{EmulatedRelax, HostRate, RelaxSettings};
 
 /// Timer 2 makes 38,265 of 38,400; the UART receives.
@@ -73,7 +74,8 @@ fn hosts_and_chips_can_die() {
     assert_eq!(robot.line_room(), 0);
     robot.host_died();
     assert_eq!(pass_ms(&mut robot, 20), b"");
-    robot.reset();
+    robot.reset(ResetCause::Watchdog);
+    assert_eq!(robot.resets(), 1);
     pass_ms(&mut robot, 2);
     assert_eq!(talk(&mut robot, b"again"), b"again");
 }
@@ -86,4 +88,17 @@ fn a_held_line_is_silent() {
         &program(&SETUP, &program(&[(0x99, 0x41)], &STAY)),
     ));
     assert_eq!(pass_ms(&mut held, 20), b"");
+}
+
+#[test]
+fn a_held_line_carries_later_and_a_cut_one_never() {
+    let mut robot = echo(RelaxSettings::default());
+    robot.hold_line(10);
+    robot.send(b"x");
+    assert_eq!(pass_ms(&mut robot, 10), b"");
+    assert_eq!(pass_ms(&mut robot, 3), b"x");
+    robot.cut_line(10);
+    robot.send(b"y");
+    assert_eq!(pass_ms(&mut robot, 13), b"");
+    assert_eq!(talk(&mut robot, b"z"), b"z");
 }

@@ -94,7 +94,7 @@ fn a_program_drives_by_its_bumpers() {
     let mut robot = robot_with(&code, world(2.0, 1.5), RelaxSettings::default());
     let (mut pressed_ms, mut longest_ms, mut bumps, mut path_m) = (0, 0, 0, 0.0);
     let mut pose = robot.world().truth().pose;
-    for _ in 0..60_000 {
+    for _ in 0..30_000 {
         pass_ms(&mut robot, 1);
         let sensors = robot.world().sensors();
         let is_pressed = sensors.bumper_left || sensors.bumper_right;
@@ -105,8 +105,8 @@ fn a_program_drives_by_its_bumpers() {
         path_m += f64::hypot(now.x_m - pose.x_m, now.y_m - pose.y_m);
         pose = now;
     }
-    assert!(bumps > 5, "{bumps} bumps");
-    assert!(path_m > 8.0, "{path_m} m");
+    assert!(bumps > 2, "{bumps} bumps");
+    assert!(path_m > 4.0, "{path_m} m");
     assert!(longest_ms < 400, "{longest_ms} ms");
 }
 
