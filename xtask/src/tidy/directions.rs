@@ -72,6 +72,7 @@ const SIMULATED: &[&str] = &[
     "robot",
     "monitor",
     "pic32",
+    "stc90",
     "home",
     "cordlib",
     "vthal-core",
