@@ -2,8 +2,8 @@
 //!
 //! An [`image::Image`] (Intel HEX) is executed by a [`machine::Machine`]: a [`cpu::Cpu`], which knows only the core, and
 //! the peripherals around it ([`peripheral`]), behind the trait [`cpu::Bus`]. A circuit is built around [`pins`] and whole
-//! frames of the serial line; [`board`] is that of the Relax in a simulated home. There is no clock, no thread and no randomness: the same image and the same calls give the
-//! same bits, and every state can be cloned.
+//! frames of the serial line; [`board`] is that of the Relax in a simulated home. There is no clock, no thread and no
+//! randomness of its own: the same image and the same calls give the same bits, and every state can be cloned.
 //!
 //! # What is followed where sources differ
 //!
@@ -16,7 +16,7 @@
 //! | MOVX with R0 or R1 | upper half of the address from P2 | first 256 bytes of the memory on the chip: P2 drives motors and lamps |
 //! | MOVX beyond 0x3FF | more memory | recorded as [`peripheral::Misuse`]; reads 0xFF |
 //! | code beyond 0x7FFF | more memory | recorded as misuse; executed as instructions without effect |
-//! | stack beyond 0xFF | halts | goes on at 0, as the chip does; recorded as misuse |
+//! | stack beyond 0xFF | stops with an error | goes on at 0, as the chip does; recorded as misuse |
 //! | PSW | a parity that was written stays until A changes; RS0 and RS1 written as bits change no bank | parity is that of A; banks change |
 //! | timer 0 in mode 3 | TR1 starts and stops timer 1 | timer 1 runs on, as documented |
 //! | DJNZ on a timer's byte | in the second cycle | in the first, as all other accesses |
