@@ -44,6 +44,8 @@ pub struct Machine {
     reset_count: u64,
     /// The boot loader runs until this cycle.
     loader_until: u64,
+    /// The core waits for data flash until this cycle.
+    stalled_until: u64,
 }
 
 impl Machine {
@@ -59,6 +61,7 @@ impl Machine {
             unreported_resets: Vec::new(),
             reset_count: 0,
             loader_until: 0,
+            stalled_until: 0,
         };
         machine.loader_until = machine.loader_cycles(ResetSource::PowerOn);
         machine
@@ -80,6 +83,7 @@ impl Machine {
         self.account.forget_active(self.cycle());
         self.cpu.reset();
         self.chip.reset(source, self.cycle());
+        self.stalled_until = 0;
         self.loader_until = self.cycle() + self.loader_cycles(source);
     }
 
@@ -101,8 +105,8 @@ impl Machine {
         self.account.charge(self.cycle());
     }
 
-    /// Executes one instruction; calls an interrupt's handler first if its turn has come. A sleeping core sleeps for a
-    /// cycle.
+    /// Executes one instruction; calls an interrupt's handler first if its turn has come. A core that sleeps or waits does so
+    /// for a cycle.
     pub fn step(&mut self) {
         self.advance(self.cycle() + 1);
         self.chip.settle(self.cycle());
@@ -121,6 +125,11 @@ impl Machine {
             self.reset(source);
             return;
         }
+        if self.stalled_until > now {
+            let next = self.chip.next_event().min(self.stalled_until).min(cycle);
+            self.cpu.wait_until(next);
+            return;
+        }
         if !self.chip.take_hold(now) {
             self.call_handler();
             if let Some(horizon) = self.chip.sleep_horizon() {
@@ -132,8 +141,7 @@ impl Machine {
             self.cpu.step(&mut self.chip);
         }
         self.chip.place_records(self.cpu.begin(), self.cycle());
-        let stall = self.chip.take_stall(self.cycle());
-        self.cpu.wait_until(self.cycle() + stall);
+        self.stalled_until = self.cycle() + self.chip.take_stall(self.cycle());
         if self.chip.took_return() {
             self.account.leave(self.cycle());
         }
@@ -168,6 +176,12 @@ impl Machine {
     #[must_use]
     pub fn is_in_loader(&self) -> bool {
         self.loader_until > self.cycle()
+    }
+
+    /// Whether the core waits for data flash.
+    #[must_use]
+    pub fn is_stalled(&self) -> bool {
+        self.stalled_until > self.cycle()
     }
 
     /// The core.

@@ -295,6 +295,11 @@ impl Chip {
         }
     }
 
+    /// The next cycle in which something happens by itself; later than all that has settled.
+    pub(crate) fn next_event(&self) -> u64 {
+        self.next
+    }
+
     /// When a sleeping core must be looked after; none while it is awake.
     pub(crate) fn sleep_horizon(&self) -> Option<u64> {
         self.power
