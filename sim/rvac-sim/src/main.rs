@@ -172,7 +172,11 @@ fn write_page(arguments: &ReportArguments) -> anyhow::Result<ExitCode> {
 
 fn run_trials(arguments: &FaultArguments) -> anyhow::Result<ExitCode> {
     let model = RobotModel::by_name(&arguments.robot)?;
-    let firmware = Firmware::load(arguments.firmware.as_deref(), &CalibrationChoice::Complete)?;
+    let firmware = Firmware::load(
+        &model.name,
+        arguments.firmware.as_deref(),
+        &CalibrationChoice::Complete,
+    )?;
     if !firmware.suits(&model.name) {
         bail!(SceneError::NoBoard(model.name));
     }

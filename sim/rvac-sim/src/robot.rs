@@ -6,6 +6,7 @@ use monitor::Monitor;
 use pic32::board::EmulatedRobot;
 use robot::{FaultRates, Relax, SimulatedRobot};
 use rvac_protocol::message::ResetCause;
+use stc90::board::EmulatedRelax;
 
 /// A robot of either make.
 #[derive(Debug)]
@@ -14,8 +15,10 @@ pub enum Robot {
     HostBuilt(Box<SimulatedRobot>),
     /// cordlib as a part of this program, on the simulated pins of a Relax.
     HostBuiltRelax(Box<SimulatedRobot<Relax>>),
-    /// A firmware image in an emulated microcontroller.
+    /// A firmware image in the SR8730's emulated microcontroller.
     Emulated(Box<EmulatedRobot>),
+    /// A firmware image in the Relax's emulated microcontroller.
+    EmulatedRelax(Box<EmulatedRelax>),
 }
 
 /// Does the same with whichever robot it is.
@@ -25,6 +28,7 @@ macro_rules! each {
             Robot::HostBuilt($inner) => $action,
             Robot::HostBuiltRelax($inner) => $action,
             Robot::Emulated($inner) => $action,
+            Robot::EmulatedRelax($inner) => $action,
         }
     };
 }

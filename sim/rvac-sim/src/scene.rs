@@ -45,8 +45,8 @@ impl Scene {
     pub fn load(settings: &SceneSettings) -> Result<Self, SceneError> {
         let model = RobotModel::by_name(&settings.robot)?;
         let noise = settings.noise.parse()?;
-        let firmware =
-            Firmware::load(settings.firmware.as_deref(), &settings.record)?.with_gyro(settings.gyro);
+        let firmware = Firmware::load(&model.name, settings.firmware.as_deref(), &settings.record)?
+            .with_gyro(settings.gyro);
         if !firmware.suits(&model.name) {
             return Err(SceneError::NoBoard(model.name));
         }
@@ -142,7 +142,7 @@ pub enum SceneError {
     #[error(transparent)]
     Firmware(#[from] FirmwareError),
     /// A robot whose chip is not emulated.
-    #[error("the chip of `{0}` is not emulated; leave out --firmware, or use --robot sr8730")]
+    #[error("the chip of `{0}` is not emulated; leave out --firmware, or use --robot sr8730 or relax")]
     NoBoard(String),
     /// No such generated home.
     #[error(

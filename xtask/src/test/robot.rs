@@ -43,14 +43,16 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 
 /// Tests that need the built firmware, its parts or other people's emulator and debugger. No package is named, so that all is
 /// built once for this stage and for the other tests.
-const BESIDE_OTHERS: [&str; 4] = ["gdb", "hal_examples", "image", "qemu"];
+const BESIDE_OTHERS: [&str; 5] = ["gdb", "hal_examples", "image", "qemu", "ucsim"];
 
-/// The emulated chip beside qemu-user, and with the programs that are written for it.
+/// The emulated chips beside qemu-user and uCsim, and with the programs that are written for them.
 pub(super) fn of_emulator(_extent: Extent) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
     let elf = firmware::usual_elf()?;
     let sampled = firmware::sampled_elf()?;
     system::need("gdb-multiarch", &["gdb-multiarch"])?;
+    system::need("sdcc", &["sdcc"])?;
+    need_ucsim()?;
     let programs = build_others(
         "the emulator's proof",
         &["--manifest-path", "sim/pic32/proof/Cargo.toml"],
@@ -76,6 +78,17 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
     let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
     let owner = tests(&mut owner(&elf));
     all([tests(&mut command), owner, pace].into_iter().chain(trials))
+}
+
+/// The 8051's simulator comes in a package of its own, and its program has another name in newer releases.
+fn need_ucsim() -> anyhow::Result<()> {
+    if ["s51", "ucsim_51"]
+        .iter()
+        .any(|program| system::find(program).is_some())
+    {
+        return Ok(());
+    }
+    system::install(&["sdcc-ucsim"])
 }
 
 /// An owner calibrates the emulated robot with `rvac`. Each robot keeps the pace of the clock on the wall, so not more at once than two cores

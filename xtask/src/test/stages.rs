@@ -57,7 +57,7 @@ pub(super) const STAGES: [Stage; 17] = [
     },
     Stage {
         name: "emulator",
-        does: "the emulated chip runs programs as other implementations do",
+        does: "the emulated chips run programs as other implementations do",
         from: Extent::All,
         wants_the_machine: false,
         run: robot::of_emulator,

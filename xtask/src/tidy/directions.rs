@@ -72,6 +72,7 @@ const SIMULATED: &[&str] = &[
     "robot",
     "monitor",
     "pic32",
+    "stc90",
     "home",
     "cordlib",
     "vthal-core",
@@ -95,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 30] = [
+const DIRECTIONS: [Direction; 31] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -120,6 +121,7 @@ const DIRECTIONS: [Direction; 30] = [
     Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "monitor",       knows: &["rvac-protocol"],                             never: OUTSIDE },
     Direction { of: "pic32",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
+    Direction { of: "stc90",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol"],  never: EMULATOR },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },

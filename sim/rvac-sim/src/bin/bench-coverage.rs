@@ -100,6 +100,9 @@ struct Comparison {
     pairs: Vec<Pair>,
 }
 
+/// The robot whose firmware and twin are compared.
+const ROBOT: &str = "sr8730";
+
 /// Student's distribution: within so many standard errors the true mean lies with 95 %, for 1, 2, ... degrees of freedom.
 const STUDENT: [f64; 15] = [
     12.71, 4.30, 3.18, 2.78, 2.57, 2.45, 2.36, 2.31, 2.26, 2.23, 2.20, 2.18, 2.16, 2.14, 2.13,
@@ -109,7 +112,7 @@ const STUDENT_MANY: f64 = 2.12;
 
 fn main() -> anyhow::Result<ExitCode> {
     let arguments = Arguments::parse();
-    let firmware = Firmware::load(Some(&arguments.firmware), &CalibrationChoice::Complete)?;
+    let firmware = Firmware::load(ROBOT, Some(&arguments.firmware), &CalibrationChoice::Complete)?;
     let mut is_close = true;
     for path in &arguments.home {
         let comparison = compare(&arguments, &firmware, path)?;
@@ -127,7 +130,7 @@ fn compare(arguments: &Arguments, firmware: &Firmware, path: &Path) -> anyhow::R
     let strategy = StrategyName::from_name(&arguments.strategy)
         .with_context(|| format!("no strategy is called {}", arguments.strategy))?;
     let noise = arguments.noise.parse()?;
-    let model = RobotModel::by_name("sr8730")?;
+    let model = RobotModel::by_name(ROBOT)?;
     let home = Arc::new(Home::load(path, &model)?);
     let built_in = Scene::new(home, model, noise);
     let emulated = built_in.clone().with_firmware(firmware.clone());

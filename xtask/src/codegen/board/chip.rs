@@ -28,18 +28,31 @@ struct Raw {
     pins: BTreeMap<String, Vec<String>>,
 }
 
-/// A pin of a port: `RB5` is bit 5 of port B.
+/// A pin of a port: `RB5` is bit 5 of port B of a PIC32, `P1.3` bit 3 of port 1 of an 8051.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PortPin {
-    /// `A` to `G`.
+    /// `A` to `G`, or `0` to `4`.
     pub(super) port: char,
     /// 0 to 15.
     pub(super) bit: u8,
 }
 
 impl PortPin {
-    /// Reads `RB5`; `None` when it is no port pin.
+    /// Reads `RB5` or `P1.3`; `None` when it is no port pin.
     pub(super) fn parse(text: &str) -> Option<Self> {
+        Self::lettered(text).or_else(|| Self::numbered(text))
+    }
+
+    fn numbered(text: &str) -> Option<Self> {
+        let mut letters = text.strip_prefix('P')?.chars();
+        let port = letters.next().filter(|port| ('0'..='4').contains(port))?;
+        let mut bits = letters.as_str().strip_prefix('.')?.chars();
+        let bit = bits.next()?.to_digit(8)?;
+        let is_whole = bits.next().is_none();
+        is_whole.then_some(Self { port, bit: bit as u8 })
+    }
+
+    fn lettered(text: &str) -> Option<Self> {
         let mut letters = text.strip_prefix('R')?.chars();
         let port = letters.next().filter(|letter| ('A'..='G').contains(letter))?;
         let digits = letters.as_str();
@@ -50,7 +63,11 @@ impl PortPin {
 
 impl fmt::Display for PortPin {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "R{}{}", self.port, self.bit)
+        if self.port.is_ascii_digit() {
+            write!(formatter, "P{}.{}", self.port, self.bit)
+        } else {
+            write!(formatter, "R{}{}", self.port, self.bit)
+        }
     }
 }
 
@@ -71,7 +88,8 @@ impl Chip {
             Err(_) => bail!("[pins]: {number:?} is no number of a package pin"),
         };
         let port = |text: &String| {
-            PortPin::parse(text).with_context(|| format!("crystal: {text:?} is no port pin such as RC12"))
+            PortPin::parse(text)
+                .with_context(|| format!("crystal: {text:?} is no port pin such as RC12 or P1.3"))
         };
         Ok(Self {
             name: raw.name,
@@ -128,6 +146,13 @@ mod tests {
             PortPin::parse("RB5").map(|pin| pin.to_string()),
             Some("RB5".to_owned())
         );
+        assert_eq!(
+            PortPin::parse("P1.3").map(|pin| (pin.port, pin.bit, pin.to_string())),
+            Some(('1', 3, "P1.3".to_owned()))
+        );
+        for wrong in ["P5.0", "P1.8", "P13", "P1.", "P1.33", "P1.+1"] {
+            assert_eq!(PortPin::parse(wrong), None, "{wrong}");
+        }
         for wrong in ["RB", "RB16", "RB05", "RH1", "B5", "RTCC", "RB-1", "RB+1"] {
             assert_eq!(PortPin::parse(wrong), None, "{wrong}");
         }

@@ -2,6 +2,7 @@
 
 pub(crate) mod calibration;
 mod chip;
+mod header;
 mod machine;
 mod pinout;
 mod pins;
@@ -34,6 +35,20 @@ pub(crate) const BOARDS: [Board; 1] = [Board {
     program: "sr8730-firmware",
 }];
 
+/// A robot whose firmware is written in C.
+struct SmallBoard {
+    /// The folder of its facts.
+    facts: &'static str,
+    /// The header with its pins.
+    header: &'static str,
+}
+
+/// All of them.
+const SMALL_BOARDS: [SmallBoard; 1] = [SmallBoard {
+    facts: "robots/vileda-relax",
+    header: "firmware/relax/chip/generated/pins.h",
+}];
+
 const MODULES: &str = "//! Facts about the board as constants. Made by cargo xtask codegen. Do not edit.\n\n\
                        pub mod calibration;\npub mod machine;\npub mod pins;\n";
 
@@ -58,13 +73,23 @@ pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
                 text: formatted(&text).with_context(|| format!("{}/src/generated/{name}", board.firmware))?,
             });
         }
-        let readme = folder.join("README.md");
-        let text =
-            std::fs::read_to_string(&readme).with_context(|| format!("cannot read {}", readme.display()))?;
+        files.push(readme(&folder, &pinout, &calibration)?);
+    }
+    for board in &SMALL_BOARDS {
+        let folder = root.join(board.facts);
+        let pinout = Pinout::load(&root.join("robots"), &folder)?;
         files.push(Generated {
-            text: table::renewed(&text, &pinout, &calibration)?,
-            path: readme,
+            path: root.join(board.header),
+            text: header::source(&pinout, &format!("{}/pinout.toml", board.facts))?,
         });
+        files.push(readme(&folder, &pinout, &Calibration::load(&folder)?)?);
     }
     Ok(files)
+}
+/// The robot's README with fresh tables.
+fn readme(folder: &Path, pinout: &Pinout, calibration: &Calibration) -> anyhow::Result<Generated> {
+    let path = folder.join("README.md");
+    let text = std::fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+    let text = table::renewed(&text, pinout, calibration)?;
+    Ok(Generated { path, text })
 }

@@ -47,7 +47,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Active {
-    /// 3.3 V.
+    /// The supply.
     High,
     /// 0 V.
     Low,
@@ -59,7 +59,7 @@ pub(super) enum Active {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Level {
-    /// 3.3 V.
+    /// The supply.
     High,
     /// 0 V.
     Low,
@@ -69,7 +69,7 @@ pub(super) enum Level {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Pull {
-    /// A resistor on the board to 3.3 V.
+    /// A resistor on the board to the supply.
     BoardUp,
     /// The chip's weak pull-up of a change notice.
     ChipUp,
@@ -164,7 +164,7 @@ impl Pinout {
         Self::parse(&text, |chip| Chip::load(robots, chip)).with_context(|| path.display().to_string())
     }
 
-    fn parse(text: &str, chip: impl FnOnce(&str) -> anyhow::Result<Chip>) -> anyhow::Result<Self> {
+    pub(super) fn parse(text: &str, chip: impl FnOnce(&str) -> anyhow::Result<Chip>) -> anyhow::Result<Self> {
         let raw: RawPinout = toml::from_str(text)?;
         let chip = chip(&raw.chip)?;
         let signals = raw
@@ -208,7 +208,7 @@ impl Pinout {
 
 fn signal(raw: RawSignal) -> anyhow::Result<Signal> {
     let Some(port) = PortPin::parse(&raw.port) else {
-        bail!("{}: {:?} is no port pin such as RB5", raw.name, raw.port);
+        bail!("{}: {:?} is no port pin such as RB5 or P1.3", raw.name, raw.port);
     };
     Ok(Signal {
         port,

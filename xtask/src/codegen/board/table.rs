@@ -22,6 +22,16 @@ pub(super) fn renewed(readme: &str, pinout: &Pinout, calibration: &Calibration) 
     for signal in &pinout.signals {
         writeln!(text, "{}", row(signal))?;
     }
+    if !calibration.items.is_empty() {
+        push_values(&mut text, calibration)?;
+    }
+    text.push('\n');
+    text.push_str(END);
+    text.push_str(after);
+    Ok(text)
+}
+
+fn push_values(text: &mut String, calibration: &Calibration) -> std::fmt::Result {
     text.push_str(
         "\n| calibration value | unit | least | greatest | assumed until measured | how to measure |\n",
     );
@@ -29,10 +39,7 @@ pub(super) fn renewed(readme: &str, pinout: &Pinout, calibration: &Calibration) 
     for item in &calibration.items {
         writeln!(text, "{}", item.row())?;
     }
-    text.push('\n');
-    text.push_str(END);
-    text.push_str(after);
-    Ok(text)
+    Ok(())
 }
 
 fn row(signal: &Signal) -> String {
