@@ -2,7 +2,7 @@
 //! start-up writes.
 
 use super::pinout::{Active, Level, Pinout, Signal};
-use super::rust_name;
+use crate::codegen::rust_name;
 use std::fmt::Write;
 
 /// Address of port 0 among the registers; each next port comes 16 later, and P4 elsewhere.
