@@ -140,7 +140,14 @@ fn records() -> Vec<Record> {
             command: CLEAN,
         },
         Record::Observation(full),
-        Record::Observation(Observation::default()),
+        Record::Observation(Observation {
+            currents: Some(MotorCurrents {
+                wheel_left_a: 0.15,
+                wheel_right_a: 0.125,
+                brush_main_a: None,
+            }),
+            ..Observation::default()
+        }),
     ];
     records.extend(answers().into_iter().map(|actions| Record::Actions {
         time_us: BEGIN_US + 1,

@@ -13,7 +13,7 @@ use rvac_protocol::message::{
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::Tick;
 
-use super::{HIGH_FOR_GOOD, OC4CON, image, pin};
+use super::{HIGH_FOR_GOOD, OC4CON, image, pin, unsaid_text};
 
 const ROOM: &str = r#"
 format = "librervac-home"
@@ -32,9 +32,6 @@ const GATE: &str = "RD2";
 const BEGINS_MS: u32 = 30_000;
 /// Current that tells of a charge, ampere.
 const CHARGING_A: f64 = 0.1;
-/// The program memory.
-const FLASH: u32 = 0x1D00_0000;
-const FLASH_BYTES: usize = 256 * 1024;
 /// The check of the image goes once around in less.
 const FOUND_MS: u32 = 15_000;
 /// From a reset to a session and its first report.
@@ -162,17 +159,10 @@ impl Docked {
         assert!(!self.charges());
     }
 
-    /// Flips a bit of a text that the program does not say here: what it does goes on, and its memory is wrong.
+    /// Flips the same bit each time.
     fn flip_image(&mut self) {
-        let place = *self.text.get_or_insert_with(|| {
-            let mut flash = vec![0; FLASH_BYTES];
-            let read = self.robot.machine().memory().read(FLASH, &mut flash);
-            read.expect("the chip has flash");
-            let text = Inhibit::ChargerShorted.name().as_bytes();
-            let place = flash.windows(text.len()).position(|bytes| bytes == text);
-            place.expect("the image names all inhibits") as u32
-        });
-        let flipped = self.robot.machine_mut().flip_flash_bit(FLASH + place, 3);
+        let place = *self.text.get_or_insert_with(|| unsaid_text(&self.robot));
+        let flipped = self.robot.machine_mut().flip_flash_bit(place, 3);
         flipped.expect("the image is in flash");
     }
 }
