@@ -95,6 +95,18 @@ const CLEAN: Command = Command::Job(JobCommand::Clean {
     strategy: StrategyName::Bounce,
 });
 
+/// Of a robot whose wheels' currents are measured and whose brush's is not.
+fn without_brush_current() -> Observation {
+    Observation {
+        currents: Some(MotorCurrents {
+            wheel_left_a: 0.15,
+            wheel_right_a: 0.125,
+            brush_main_a: None,
+        }),
+        ..Observation::default()
+    }
+}
+
 /// One record of every kind, some with every optional part and some with none.
 fn records() -> Vec<Record> {
     let status = Status {
@@ -140,14 +152,7 @@ fn records() -> Vec<Record> {
             command: CLEAN,
         },
         Record::Observation(full),
-        Record::Observation(Observation {
-            currents: Some(MotorCurrents {
-                wheel_left_a: 0.15,
-                wheel_right_a: 0.125,
-                brush_main_a: None,
-            }),
-            ..Observation::default()
-        }),
+        Record::Observation(without_brush_current()),
     ];
     records.extend(answers().into_iter().map(|actions| Record::Actions {
         time_us: BEGIN_US + 1,
