@@ -78,11 +78,11 @@ fn a_robot_leaves_a_dock_whose_current_does_not_end() {
 #[ignore = "campaign: many charges drawn at random; cargo xtask test --all"]
 fn a_sample_of_charges_over_packs_weather_and_trouble() {
     let mut tally = ChargeTally::default();
-    for seed in 0..36 {
+    for seed in 0..40 {
         let healthy = Conditions::drawn(seed).is_healthy();
         tally.add(&ChargeTrial::Everything.run(seed), healthy);
     }
-    assert!(tally.healthy >= 15);
+    assert!(tally.healthy >= 15, "{tally:?}");
     assert_eq!(
         (tally.healthy_short, tally.too_hot, tally.violations),
         (0, 0, 0),

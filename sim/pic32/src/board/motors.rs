@@ -183,7 +183,7 @@ impl One {
             }
             self.level_on = on;
         }
-        if !self.level_on && end - self.last_off > PAUSE {
+        if !self.level_on && end.saturating_sub(self.last_off) > PAUSE {
             self.close();
         }
     }

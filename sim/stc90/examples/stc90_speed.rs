@@ -1,4 +1,4 @@
-//! How fast the chip runs: `cargo run --release -p stc90 --example speed [FILE.ihx] [SECONDS]`.
+//! How fast the chip runs: `cargo run --release -p stc90 --example stc90_speed [FILE.ihx] [SECONDS]`.
 //!
 //! Without a file it runs a program of its own that resembles a firmware: a check sum over 512 bytes of external memory,
 //! again and again, with a timer's interrupt each millisecond and a byte on the serial line each ten.

@@ -1,4 +1,4 @@
-//! Runs a program on the bare chip: `cargo run --release -p stc90 --example run -- FILE.ihx [--ms N] [--watch P1.3,P2.3]
+//! Runs a program on the bare chip: `cargo run --release -p stc90 --example stc90_run -- FILE.ihx [--ms N] [--watch P1.3,P2.3]
 //! [--loop ADDRESS]`.
 //!
 //! Prints what it sends, what it does to watched pins, how often it passes an address (hexadecimal, from the linker's
