@@ -2,6 +2,8 @@
 
 use super::limits::{CLIFF_RIM_MM_PER_S, HARD_DRIVE, WHEEL_DROP_MS};
 use crate::charging::{ChargeTimes, Charging};
+use crate::encoders::EncoderWatch;
+use crate::pack::PackTimes;
 
 /// Inputs of the firmware's pins in this millisecond, and ground truth that no pin shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -94,8 +96,10 @@ pub(crate) struct CauseTimes {
     pub(crate) button_ms: u32,
     /// Each wheel: driven hard while its encoder stands still.
     pub(crate) stalled_ms: [u32; 2],
+    pub(crate) encoders: EncoderWatch,
     pub(crate) fallen: bool,
     pub(crate) charge: ChargeTimes,
+    pub(crate) pack: PackTimes,
     /// Cleaners were off in the millisecond before.
     pub(crate) cleaners_start: bool,
     cleaners_were_on: bool,
@@ -127,8 +131,10 @@ impl Default for CauseTimes {
             undocked_ms: 0,
             button_ms: 0,
             stalled_ms: [0; 2],
+            encoders: EncoderWatch::default(),
             fallen: false,
             charge: ChargeTimes::default(),
+            pack: PackTimes::default(),
             cleaners_start: false,
             cleaners_were_on: false,
             counts: [0; 2],
@@ -143,6 +149,8 @@ impl CauseTimes {
         self.bumper_backing_ms = 0;
         self.stalled_ms = [0; 2];
         self.cliff_reversed_um = 0;
+        self.encoders = EncoderWatch::default();
+        self.pack = PackTimes::default();
     }
 
     pub(crate) fn update(&mut self, pins: &Pins, drives: &Drives) {
@@ -167,6 +175,8 @@ impl CauseTimes {
             stand(stalled, still && drive.abs() > HARD_DRIVE);
         }
         self.counts = pins.counts;
+        self.encoders.update(pins, drives);
+        self.pack.update(&pins.charging, drives);
         self.fallen = pins.fallen;
         self.charge.update(&pins.charging, self.motors_run, 1);
         self.cleaners_start = drives.cleaners_on() && !self.cleaners_were_on;
@@ -192,6 +202,6 @@ impl CauseTimes {
     }
 }
 
-fn stand(standing_ms: &mut u32, now: bool) {
+pub(crate) fn stand(standing_ms: &mut u32, now: bool) {
     *standing_ms = if now { standing_ms.saturating_add(1) } else { 0 };
 }

@@ -13,7 +13,7 @@ pub struct Charging {
     pub supplied: bool,
     /// Current into the pack, mA, mean of the last 20 ms.
     pub current_ma: i32,
-    /// At the pack's terminals, mV.
+    /// At the pack's terminals, mV; 0 = the robot cannot measure it.
     pub pack_mv: i32,
     /// In the pack, tenths of a degree Celsius.
     pub temperature_dc: i32,

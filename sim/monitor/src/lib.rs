@@ -14,7 +14,9 @@
 
 mod causes;
 mod charging;
+mod encoders;
 mod limits;
+mod pack;
 mod permission;
 mod said;
 mod verdict;

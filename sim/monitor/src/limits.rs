@@ -22,6 +22,14 @@ pub(crate) const GROUNDED_MS: u32 = 1_000;
 pub(crate) const STALL_MS: u32 = 300;
 /// S11.hard-drive.
 pub(crate) const HARD_DRIVE: i32 = 300_000;
+/// S13.found, and the monitor's own window.
+pub(crate) const ENCODER_MS: u32 = 600;
+/// S16.empty.
+pub(crate) const PACK_EMPTY_MS: u32 = 500;
+/// S16.weak.
+pub(crate) const PACK_WEAK_MS: u32 = 2_000;
+/// S17.hot.
+pub(crate) const PACK_HOT_MS: u32 = 1_000;
 /// S19.stop.
 pub(crate) const DOCKED_MS: u32 = 20;
 /// S19.leaving.

@@ -663,3 +663,74 @@ fn a_robot_may_back_off_a_dock_that_does_not_let_go_and_off_no_other() {
     assert_eq!(scene.pass(2_000, BACKWARD), []);
     assert_ne!(scene.pass(50, FORWARD), [], "backwards only");
 }
+
+#[test]
+fn motors_on_a_pack_that_does_not_carry_them_have_their_reaction_time() {
+    const CLEANING: Drives = Drives {
+        wheels: [0; 2],
+        cleaners: [500_000, 0, 0],
+    };
+    let sound = Charging {
+        driven: false,
+        ..CHARGING
+    };
+    let cases = [
+        (
+            Charging {
+                pack_mv: 10_500,
+                ..sound
+            },
+            500,
+            Rule::PackEmpty,
+        ),
+        (
+            Charging {
+                temperature_dc: 551,
+                ..sound
+            },
+            1_000,
+            Rule::PackHot,
+        ),
+    ];
+    for (pack, reaction_ms, rule) in cases {
+        let mut scene = Scene::armed();
+        scene.pins.charging = pack;
+        assert_eq!(scene.pass_driven(reaction_ms, FORWARD), [], "{rule:?}");
+        assert_eq!(scene.pass_driven(5, FORWARD), [rule]);
+    }
+    let mut scene = Scene::armed();
+    scene.pins.charging.pack_mv = 11_500;
+    assert_eq!(scene.pass_driven(3_000, FORWARD), [], "wheels may carry it home");
+    assert!(scene.pass(2_010, CLEANING).contains(&Rule::PackWeak));
+}
+
+/// Drives the scene forward for so long at 0.2 m/s while each encoder changes by `counted` in a millisecond.
+fn rolled(scene: &mut Scene, ms: u32, counted: i32) -> Vec<Rule> {
+    scene.pins.rims_mm_per_s = [200; 2];
+    for _ in 0..ms / 10 {
+        scene.drive();
+        for _ in 0..10 {
+            let before = scene.pins.counts;
+            scene.pins.counts = before.map(|count| count + counted - 1);
+            scene.pass(1, FORWARD);
+        }
+    }
+    scene
+        .monitor
+        .violations()
+        .iter()
+        .map(|violation| violation.rule)
+        .collect()
+}
+
+#[test]
+fn an_encoder_that_counts_against_its_rim_or_nothing_is_found() {
+    for counted in [-1, 0] {
+        let mut scene = Scene::armed();
+        let early = rolled(&mut scene, 500, counted);
+        assert!(!early.contains(&Rule::Encoder), "{counted}: {early:?}");
+        let late = rolled(&mut scene, 300, counted);
+        assert!(late.contains(&Rule::Encoder), "{counted}: {late:?}");
+    }
+    assert_eq!(rolled(&mut Scene::armed(), 2_000, 1), []);
+}

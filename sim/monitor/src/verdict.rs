@@ -4,10 +4,11 @@ use super::causes::{CauseTimes, Drives, Pins};
 use super::charging::ChargeTimes;
 use super::limits::{
     BUMPER_BACKING_MS, BUMPER_MS, BUMPER_STUCK_MS, BUTTON_MS, CHARGE_CURRENT_MS, CHARGE_MS, CHARGE_TIME_MS,
-    CLIFF_HASTE_MS, CLIFF_MS, CLIFF_REVERSE_UM, DOCKED_MS, ESCAPE_WARNING_MS, GROUNDED_MS, STALL_MS,
-    WHEEL_DROP_MS,
+    CLIFF_HASTE_MS, CLIFF_MS, CLIFF_REVERSE_UM, DOCKED_MS, ENCODER_MS, ESCAPE_WARNING_MS, GROUNDED_MS,
+    PACK_EMPTY_MS, PACK_HOT_MS, PACK_WEAK_MS, STALL_MS, WHEEL_DROP_MS,
 };
 use super::permission::HostPermission;
+use crate::pack::PackTimes;
 
 /// A line of SAFETY.md that the monitor checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -57,11 +58,19 @@ pub enum Rule {
     CliffSpeed = 20,
     /// S8: driven backward although the body is 0.15 m back with the edge still in sight.
     CliffDistance = 21,
+    /// S13: for half a second a wheel driven while its encoder counts against its rim, or stands while the rim turns.
+    Encoder = 22,
+    /// S16: for 500 ms any motor driven although the pack is really below 0.9 V a cell.
+    PackEmpty = 23,
+    /// S16: for 2 s brushes or suction driven although the pack is really below 1.0 V a cell.
+    PackWeak = 24,
+    /// S17: for a second any motor driven although the pack is really above 55 degrees.
+    PackHot = 25,
 }
 
 impl Rule {
     /// All of them.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 26] = [
         Self::WheelsWithoutLease,
         Self::CleanersWithoutLease,
         Self::NotArmed,
@@ -84,6 +93,10 @@ impl Rule {
         Self::ChargeTime,
         Self::CliffSpeed,
         Self::CliffDistance,
+        Self::Encoder,
+        Self::PackEmpty,
+        Self::PackWeak,
+        Self::PackHot,
     ];
 
     /// Rule number and a name.
@@ -112,6 +125,10 @@ impl Rule {
             Self::ChargeTime => "S18-charge-time",
             Self::CliffSpeed => "S8-cliff-speed",
             Self::CliffDistance => "S8-cliff-distance",
+            Self::Encoder => "S13-encoder",
+            Self::PackEmpty => "S16-pack-empty",
+            Self::PackWeak => "S16-pack-weak",
+            Self::PackHot => "S17-pack-hot",
         }
     }
 }
@@ -193,6 +210,14 @@ fn charger_verdicts(standing: &ChargeTimes) -> [(Rule, bool); 6] {
     ]
 }
 
+fn pack_verdicts(standing: &PackTimes) -> [(Rule, bool); 3] {
+    [
+        (Rule::PackEmpty, standing.empty_ms > PACK_EMPTY_MS + MARGIN_MS),
+        (Rule::PackWeak, standing.weak_ms > PACK_WEAK_MS + MARGIN_MS),
+        (Rule::PackHot, standing.hot_ms > PACK_HOT_MS + MARGIN_MS),
+    ]
+}
+
 /// The rules that are broken now, bit by rule.
 pub(crate) fn broken(
     now_ms: u64,
@@ -259,8 +284,16 @@ pub(crate) fn broken(
         ),
         (Rule::Button, any && stopped_by_button),
         (Rule::CleanersStart, standing.cleaners_start && blocked),
+        (
+            Rule::Encoder,
+            any && standing
+                .encoders
+                .wrong_ms
+                .into_iter()
+                .any(|wrong_ms| wrong_ms > ENCODER_MS),
+        ),
     ];
-    bits(verdicts) | broken_by_charger(&standing.charge)
+    bits(verdicts) | bits(pack_verdicts(&standing.pack)) | broken_by_charger(&standing.charge)
 }
 
 /// The rules that the charger breaks now, bit by rule.

@@ -18,6 +18,7 @@ pub mod measured;
 mod scene;
 mod testbed;
 mod trial;
+pub mod wiring;
 
 pub use campaign::{Campaign, TrialSummary};
 pub use catalog::trials;

@@ -6,8 +6,10 @@ use std::sync::Arc;
 use crate::draw::RobotDraw;
 use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use monitor::Bridges;
+use pic32::board::pinout::Pinout;
 use pic32::board::{
     Blueprint, BlueprintError, BoardError, CYCLES_PER_MS, CalibrationChoice, EmulatedRobot, EmulatedSettings,
+    Particulars,
 };
 use pic32::image::{Image, ImageError};
 use rvac_protocol::PacketBuffer;
@@ -94,7 +96,7 @@ pub enum TestbedError {
 }
 
 /// Everything that all testbeds share, read once.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Fixture {
     image: Image,
     blueprint: Blueprint,
@@ -127,6 +129,18 @@ impl Fixture {
     #[must_use]
     pub fn with_drawn_robots(self) -> Self {
         Self { drawn: true, ..self }
+    }
+
+    /// The same in another board. The robots of this fixture are not drawn.
+    ///
+    /// # Errors
+    /// When the board lacks something that the robot needs.
+    pub fn in_board(self, pinout: &Pinout, particulars: Particulars) -> Result<Self, TestbedError> {
+        Ok(Self {
+            blueprint: self.blueprint.in_board(pinout, particulars)?,
+            drawn: false,
+            ..self
+        })
     }
 
     /// The image with its symbols.

@@ -28,6 +28,8 @@ enum Subject {
     Safety,
     /// Bits that flip in the robot's firmware's memory and registers.
     Flips,
+    /// The robot's firmware in boards with one mistake each: who notices.
+    Mutants,
     /// Edges that flood the receive pin of the robot's firmware.
     Flood,
     /// The robot's firmware charging packs in the emulated chip.
@@ -84,9 +86,12 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
         _ => None,
     };
     let usual = match arguments.subject {
-        Subject::Safety | Subject::Flips | Subject::Flood | Subject::Charges | Subject::Coverage => {
-            Some(firmware::usual_elf()?)
-        }
+        Subject::Safety
+        | Subject::Flips
+        | Subject::Mutants
+        | Subject::Flood
+        | Subject::Charges
+        | Subject::Coverage => Some(firmware::usual_elf()?),
         _ => None,
     };
     let mut command = workspace::cargo();
@@ -173,6 +178,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
         Subject::Safety => &["--bin", "bench-safety"],
         Subject::Flips => &["--bin", "bench-flips"],
+        Subject::Mutants => &["--bin", "bench-mutants"],
         Subject::Flood => &["--bin", "bench-flood"],
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
@@ -195,6 +201,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Writes
         | Subject::Cordlib
         | Subject::Flips
+        | Subject::Mutants
         | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
@@ -211,6 +218,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Writes => &["--kills", "100000"],
         Subject::Safety => &["--phases", "200"],
         Subject::Flips => &["--count", "100000"],
+        Subject::Mutants => &["--phases", "10"],
         Subject::Flood => &["--count", "40", "--seconds", "10"],
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],

@@ -35,6 +35,16 @@ pub enum SignalLevel {
     Unknown,
 }
 
+impl SignalLevel {
+    const fn inverted(self) -> Self {
+        match self {
+            Self::High => Self::Low,
+            Self::Low => Self::High,
+            Self::Unknown => Self::Unknown,
+        }
+    }
+}
+
 /// Pull of a line that is not driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -193,9 +203,43 @@ impl Pinout {
             .ok_or(BoardError::NoSignal(name))
     }
 
+    /// The board after a mistake in its wiring. What the mistake does not fit, it leaves alone.
+    #[must_use]
+    pub fn miswired(&self, mistake: &Miswiring) -> Self {
+        let mut signals = self.signals.clone();
+        match mistake {
+            Miswiring::Swapped(one, other) => swap_pins(&mut signals, one, other),
+            Miswiring::Inverted(name) => {
+                for signal in signals.iter_mut().filter(|signal| signal.name == *name) {
+                    signal.active = signal.active.inverted();
+                }
+            }
+        }
+        Self { signals }
+    }
+
     /// All of them.
     pub fn signals(&self) -> impl Iterator<Item = &PinoutSignal> {
         self.signals.iter()
+    }
+}
+
+/// A mistake in the wiring of a board.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Miswiring {
+    /// The wires of these two signals are exchanged. With a spare pin as the other one, the wire is cut.
+    Swapped(&'static str, &'static str),
+    /// The signal means the opposite.
+    Inverted(&'static str),
+}
+
+fn swap_pins(signals: &mut [PinoutSignal], one: &str, other: &str) {
+    let place = |name: &str| signals.iter().position(|signal| signal.name == name);
+    if let (Some(first), Some(second)) = (place(one), place(other)) {
+        // A resistor stays at the chip's pin.
+        let (pin, pull) = (signals[first].pin, signals[first].pull);
+        (signals[first].pin, signals[first].pull) = (signals[second].pin, signals[second].pull);
+        (signals[second].pin, signals[second].pull) = (pin, pull);
     }
 }
 
@@ -219,7 +263,7 @@ fn signal(row: RawSignal) -> Result<PinoutSignal, BoardError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Pinout, SignalKind, SignalLevel};
+    use super::{Miswiring, Pinout, PinoutSignal, SignalKind, SignalLevel};
     use crate::board::BoardError;
     use crate::pins::Level;
 
@@ -275,6 +319,25 @@ mod tests {
         for signal in pinout.signals() {
             let drives = matches!(signal.kind, SignalKind::Output | SignalKind::Pwm);
             assert_eq!(signal.safe.is_some(), drives, "{}", signal.name);
+        }
+    }
+
+    #[test]
+    fn a_mistake_changes_only_what_it_names() {
+        let pinout = Pinout::sr8730().unwrap();
+        let swapped = pinout.miswired(&Miswiring::Swapped("bumper-left", "vacuum"));
+        let [bumper, vacuum] = ["bumper-left", "vacuum"].map(|name| pinout.signal(name).unwrap().pin);
+        assert_eq!(swapped.signal("bumper-left").unwrap().pin, vacuum);
+        assert_eq!(swapped.signal("vacuum").unwrap().pin, bumper);
+        let inverted = pinout.miswired(&Miswiring::Inverted("vacuum"));
+        assert_ne!(
+            inverted.signal("vacuum").unwrap().active,
+            pinout.signal("vacuum").unwrap().active
+        );
+        let others = |name: &str| !["bumper-left", "vacuum"].contains(&name);
+        for board in [swapped, inverted] {
+            let same = |(one, other): (&PinoutSignal, &PinoutSignal)| one == other || !others(&one.name);
+            assert!(board.signals().zip(pinout.signals()).all(same));
         }
     }
 }

@@ -94,6 +94,18 @@ impl Blueprint {
         })
     }
 
+    /// The same program and record in a board that is wired like this and has these particulars.
+    ///
+    /// # Errors
+    /// When the wiring lacks something that the robot needs.
+    pub fn in_board(self, pinout: &Pinout, particulars: Particulars) -> Result<Self, BlueprintError> {
+        Ok(Self {
+            wiring: Wiring::of(pinout)?,
+            particulars,
+            ..self
+        })
+    }
+
     /// The same with this gyro module.
     #[must_use]
     pub fn with_gyro(self, gyro: GyroFitted) -> Self {
