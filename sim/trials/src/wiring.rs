@@ -200,18 +200,26 @@ impl Mistake {
 pub struct Noticed {
     /// The mistake.
     pub mistake: String,
-    /// A state that the robot did not get into, or the trials that were not kept; empty = nobody.
+    /// States that the robot did not get into and trials that were not kept, of the first that noticed; empty = nobody.
     pub by: Vec<String>,
 }
 
-/// Tries a mistake at this number of moments of each trial.
+/// Trials that are tried together: when some of them notice a mistake, the rest is not asked.
+const TOGETHER: usize = 8;
+
+/// Tries a mistake at this number of moments of each trial, until somebody notices it.
 #[must_use]
 pub fn notice(fixture: &Fixture, mistake: &Mistake, trials: &[Trial], phases: usize) -> Noticed {
     let by = match mistake.made(fixture) {
         Ok(wrong) => trials
-            .par_iter()
-            .filter_map(|trial| broken(&wrong, trial, phases))
-            .collect(),
+            .chunks(TOGETHER)
+            .map(|some| {
+                some.par_iter()
+                    .filter_map(|trial| broken(&wrong, trial, phases))
+                    .collect()
+            })
+            .find(|by: &Vec<String>| !by.is_empty())
+            .unwrap_or_default(),
         Err(error) => vec![error.to_string()],
     };
     Noticed {
