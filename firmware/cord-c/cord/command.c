@@ -6,6 +6,7 @@
 #include "frame.h"
 #include "scan.h"
 #include "wire.h"
+#include "port.h"
 
 #define LEASE_DEFAULT_MS 250
 #define KEYS_MAX 6
@@ -40,8 +41,8 @@ static const uint8_t kinds[] = "\5state\5drive";
 /* What was found at the keys of the command. */
 static struct cord_piece fields[KEYS_MAX];
 /* Why the packet is refused: the first reason counts. */
-static uint8_t refusal;
-static uint8_t form;
+static CORD_NEAR uint8_t refusal;
+static CORD_NEAR uint8_t form;
 static uint32_t tick_now;
 
 static void refuse(uint8_t why) {

@@ -5,6 +5,7 @@
 #ifndef CORD_CRC_H
 #define CORD_CRC_H
 
+#include "port.h"
 #include <stdint.h>
 
 /* A running CRC, lowest byte first. */
@@ -27,24 +28,13 @@ extern const uint8_t cord_crc_table_3[256];
         (crc).b3 = cord_crc_table_3[crc_index];                        \
     } while (0)
 
+/* The CRC that the functions work on. */
+extern CORD_NEAR struct cord_crc cord_crc;
 /* Begins a CRC: direction '>' or '<', then the session. */
-#define CORD_CRC_START(crc, direction, session)              \
-    do {                                                     \
-        (crc).b0 = (crc).b1 = (crc).b2 = (crc).b3 = 0xFF;    \
-        CORD_CRC_TAKE(crc, direction);                       \
-        CORD_CRC_TAKE(crc, (uint8_t)(session));              \
-        CORD_CRC_TAKE(crc, (uint8_t)((session) >> 8));       \
-    } while (0)
-
+void cord_crc_start(uint8_t direction, uint16_t session);
+/* Takes a byte. */
+void cord_crc_take(uint8_t byte);
 /* Ends it with the number of bytes of the packet. */
-#define CORD_CRC_FINISH(crc, length)                         \
-    do {                                                     \
-        CORD_CRC_TAKE(crc, (uint8_t)(length));               \
-        CORD_CRC_TAKE(crc, (uint8_t)((length) >> 8));        \
-        (crc).b0 = (uint8_t)~(crc).b0;                       \
-        (crc).b1 = (uint8_t)~(crc).b1;                       \
-        (crc).b2 = (uint8_t)~(crc).b2;                       \
-        (crc).b3 = (uint8_t)~(crc).b3;                       \
-    } while (0)
+void cord_crc_finish(uint16_t length);
 
 #endif

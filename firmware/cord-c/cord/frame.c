@@ -5,6 +5,7 @@
  */
 #include "frame.h"
 #include "crc.h"
+#include "port.h"
 
 #define TEXT_CRC_BYTES 9 /* '*' and eight digits */
 #define BINARY_CRC_BYTES 4
@@ -13,14 +14,14 @@
 
 enum form { FORM_TEXT, FORM_BINARY, FORM_STUFFING };
 
-uint8_t cord_packet[CORD_PACKET_BYTES_MAX];
+uint8_t cord_packet[CORD_PACKET_MOST];
 uint16_t cord_packet_length;
 
-static uint16_t length;
-static uint8_t form;
+static CORD_NEAR uint16_t length;
+static CORD_NEAR uint8_t form;
 /* Why the packet is dropped, 0 if it is not. */
-static uint8_t poison;
-static struct cord_crc digest;
+static CORD_NEAR uint8_t poison;
+static CORD_NEAR struct cord_crc digest;
 static struct cord_crc start;
 /* The CRC that the last text came with. */
 static struct cord_crc found;
@@ -33,7 +34,8 @@ static void restart(void) {
 }
 
 void cord_frame_set_session(uint16_t session) {
-    CORD_CRC_START(start, '>', session);
+    cord_crc_start('>', session);
+    start = cord_crc;
     if (length == 0) {
         digest = start;
     }
@@ -54,7 +56,7 @@ void cord_frame_poison(uint8_t reason) {
 
 /* Stores a byte, and takes into the digest the one that can no longer be part of the CRC. */
 static void keep(uint8_t byte, uint8_t crc_bytes) {
-    if (length == CORD_PACKET_BYTES_MAX) {
+    if (length == CORD_PACKET_MOST) {
         cord_frame_poison(CORD_FRAMED_TOO_LONG);
         return;
     }
@@ -115,9 +117,15 @@ static uint8_t has_crc(void) {
     return is_hex;
 }
 
+/* Whether the CRC that was worked out is the one that came. */
+static uint8_t is_right(void) {
+    cord_crc_finish(cord_packet_length);
+    return cord_crc.b0 == found.b0 && cord_crc.b1 == found.b1 && cord_crc.b2 == found.b2 && cord_crc.b3 == found.b3;
+}
+
 static uint8_t matches(void) {
-    CORD_CRC_FINISH(digest, cord_packet_length);
-    return digest.b0 == found.b0 && digest.b1 == found.b1 && digest.b2 == found.b2 && digest.b3 == found.b3;
+    cord_crc = digest;
+    return is_right();
 }
 
 static uint8_t finish_text(void) {
@@ -190,13 +198,10 @@ uint8_t cord_frame_take(uint8_t byte) {
 }
 
 uint8_t cord_frame_has_crc_of_no_session(void) {
-    struct cord_crc other;
     uint16_t at;
-    CORD_CRC_START(other, '>', 0);
+    cord_crc_start('>', 0);
     for (at = 0; at < cord_packet_length; at++) {
-        uint8_t byte = cord_packet[at];
-        CORD_CRC_TAKE(other, byte);
+        cord_crc_take(cord_packet[at]);
     }
-    CORD_CRC_FINISH(other, cord_packet_length);
-    return other.b0 == found.b0 && other.b1 == found.b1 && other.b2 == found.b2 && other.b3 == found.b3;
+    return is_right();
 }

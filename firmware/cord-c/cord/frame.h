@@ -5,8 +5,14 @@
 #ifndef CORD_FRAME_H
 #define CORD_FRAME_H
 
+#include "port.h"
 #include "wire.h"
 #include <stdint.h>
+
+/* The longest command: that of the protocol, or less where memory is scarce, which `hello` tells. */
+#ifndef CORD_PACKET_MOST
+#define CORD_PACKET_MOST CORD_PACKET_BYTES_MAX
+#endif
 
 /* What a byte ended. */
 enum cord_framed {
@@ -23,7 +29,7 @@ enum cord_framed {
 };
 
 /* The packet that was ended last, until the next byte is taken; a binary one with its kind first. */
-extern uint8_t cord_packet[CORD_PACKET_BYTES_MAX];
+extern uint8_t cord_packet[CORD_PACKET_MOST];
 /* How long it is, without its CRC. */
 extern uint16_t cord_packet_length;
 

@@ -6,19 +6,20 @@
 #include "frame.h"
 #include "scan.h"
 #include "wire.h"
+#include "port.h"
 
 /* Far beyond any number of the wire, far below an overflow. */
 #define EXPONENT_MAX 10000
 /* A tenth of the largest number of 32 bits. */
 #define TENTH 429496729UL
 
-uint32_t cord_number;
+CORD_NEAR uint32_t cord_number;
 
 /* Where the digits begin, and how many stand before the point. */
 static uint16_t first;
 static int16_t before_point;
 /* Power of ten at the end of the spelling. */
-static int16_t exponent;
+static CORD_NEAR int16_t exponent;
 
 static uint8_t digit_at(uint16_t place) {
     uint8_t byte = place < cord_packet_length ? (uint8_t)(cord_packet[place] - '0') : 0xFF;
@@ -58,7 +59,7 @@ static void dissect(uint16_t place) {
     }
 }
 
-static uint16_t cursor;
+static CORD_NEAR uint16_t cursor;
 
 /* The next digit, the point skipped; 0xFF behind the last one. */
 static uint8_t next_digit(void) {

@@ -5,16 +5,17 @@
 #include "scan.h"
 #include "frame.h"
 #include "wire.h"
+#include "port.h"
 
 /* Deepest nesting of unknown values: a bit each in `nesting`. */
 #define DEPTH_MAX 32
 
-struct cord_piece cord_key;
-struct cord_piece cord_value;
+CORD_NEAR struct cord_piece cord_key;
+CORD_NEAR struct cord_piece cord_value;
 
-static uint16_t at;
+static CORD_NEAR uint16_t at;
 /* Whether a member was read already. */
-static uint8_t has_begun;
+static CORD_NEAR uint8_t has_begun;
 
 /* The byte at hand; 0, which no packet holds, at the end. */
 static uint8_t peek(void) {
@@ -190,7 +191,7 @@ static uint8_t scalar(void) {
 
 /* Innermost bracket at bit 0: 1 for an object. */
 static uint32_t nesting;
-static uint8_t depth;
+static CORD_NEAR uint8_t depth;
 
 enum step { STEP_VALUE, STEP_CLOSED, STEP_BROKEN };
 

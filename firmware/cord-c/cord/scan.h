@@ -5,6 +5,7 @@
 #ifndef CORD_SCAN_H
 #define CORD_SCAN_H
 
+#include "port.h"
 #include <stdint.h>
 
 enum cord_kind {
@@ -27,8 +28,8 @@ struct cord_piece {
 enum cord_scanned { CORD_SCAN_MEMBER, CORD_SCAN_END, CORD_SCAN_BROKEN };
 
 /* Key and value of the member that was read last. */
-extern struct cord_piece cord_key;
-extern struct cord_piece cord_value;
+extern CORD_NEAR struct cord_piece cord_key;
+extern CORD_NEAR struct cord_piece cord_value;
 
 /* Begins to read the packet, which must be UTF-8 and one object; false if it is not. */
 uint8_t cord_scan_begin(void);
@@ -36,7 +37,7 @@ uint8_t cord_scan_begin(void);
 uint8_t cord_scan_next(void);
 
 /* The number at a piece in counts of a span, rounded half away from zero, as two's complement. */
-extern uint32_t cord_number;
+extern CORD_NEAR uint32_t cord_number;
 /* Reads it; false if it is out of the span. */
 uint8_t cord_number_read(uint8_t at, uint8_t span);
 
