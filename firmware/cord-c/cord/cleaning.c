@@ -14,12 +14,15 @@
 uint8_t cord_running;
 
 static uint16_t lease_ms[CLEANERS];
+/* Whether there may be a lease. */
+static uint8_t has_lease;
 
 void cord_cleaning_forget(void) {
     uint8_t index;
     for (index = 0; index < CLEANERS; index++) {
         lease_ms[index] = 0;
     }
+    has_lease = 0;
 }
 
 static uint8_t place_of(uint8_t motor) {
@@ -51,11 +54,15 @@ uint8_t cord_cleaning_command(uint8_t motor, int32_t throttle, uint16_t lease) {
         return CORD_REFUSAL_INHIBITED;
     }
     lease_ms[place] = throttle == 0 ? 0 : lease;
+    has_lease = 1;
     return 0;
 }
 
 void cord_cleaning_expire(uint8_t elapsed_ms) {
     uint8_t index;
+    if (!has_lease) {
+        return;
+    }
     for (index = 0; index < CLEANERS; index++) {
         lease_ms[index] = (uint16_t)(lease_ms[index] > elapsed_ms ? lease_ms[index] - elapsed_ms : 0);
     }
@@ -64,6 +71,9 @@ void cord_cleaning_expire(uint8_t elapsed_ms) {
 void cord_cleaning_apply(void) {
     uint8_t running = 0;
     uint8_t index;
+    if (!has_lease && cord_running == 0) {
+        return;
+    }
     if (cord_arming_state() == CORD_ARMING_LOCKED || !cord_permits_cleaners()) {
         cord_cleaning_forget();
     }

@@ -284,12 +284,12 @@ static void tick(uint8_t elapsed_ms) {
         control_ms = (uint8_t)(control_ms >= 2 * CONTROL_MS ? 0 : control_ms - CONTROL_MS);
         cord_reflex_motors(cord_board_overloads());
         cord_motion_control();
+        cord_transmit_tick(CONTROL_MS);
     }
     cord_inhibits_renew();
     cord_motion_apply();
     cord_cleaning_apply();
     tell();
-    cord_transmit_tick(elapsed_ms);
     cord_board_feed();
 }
 

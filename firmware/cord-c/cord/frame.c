@@ -14,8 +14,11 @@
 
 enum form { FORM_TEXT, FORM_BINARY, FORM_STUFFING };
 
-uint8_t cord_packet[CORD_PACKET_MOST];
+uint8_t cord_packet[CORD_PACKET_MOST + 1];
 uint16_t cord_packet_length;
+CORD_NEAR uint8_t cord_packet_bits;
+/* The same of the packet that is coming in. */
+static CORD_NEAR uint8_t bits;
 
 static CORD_NEAR uint16_t length;
 static CORD_NEAR uint8_t form;
@@ -28,6 +31,7 @@ static struct cord_crc found;
 
 static void restart(void) {
     length = 0;
+    bits = 0;
     form = FORM_TEXT;
     poison = 0;
     digest = start;
@@ -61,6 +65,7 @@ static void keep(uint8_t byte, uint8_t crc_bytes) {
         return;
     }
     cord_packet[length] = byte;
+    bits |= byte;
     length++;
     if (length > crc_bytes) {
         uint8_t settled = cord_packet[length - 1 - crc_bytes];
@@ -133,10 +138,13 @@ static uint8_t finish_text(void) {
         return CORD_FRAMED_NOTHING;
     }
     cord_packet_length = length;
+    cord_packet_bits = bits;
+    cord_packet[length] = 0;
     if (!has_crc()) {
         return CORD_FRAMED_UNCHECKED;
     }
     cord_packet_length = length - TEXT_CRC_BYTES;
+    cord_packet[cord_packet_length] = 0;
     return matches() ? CORD_FRAMED_CHECKED : CORD_FRAMED_BAD_CRC;
 }
 

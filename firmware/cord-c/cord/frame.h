@@ -28,10 +28,12 @@ enum cord_framed {
     CORD_FRAMED_OVERRUN
 };
 
-/* The packet that was ended last, until the next byte is taken; a binary one with its kind first. */
-extern uint8_t cord_packet[CORD_PACKET_MOST];
+/* The packet that was ended last, until the next byte is taken; a binary one with its kind first, a text with a 0 behind it. */
+extern uint8_t cord_packet[CORD_PACKET_MOST + 1];
 /* How long it is, without its CRC. */
 extern uint16_t cord_packet_length;
+/* Bit 7 is set if a byte of a text is not ASCII. */
+extern CORD_NEAR uint8_t cord_packet_bits;
 
 /* Starts with an empty packet and no session. */
 void cord_frame_start(void);

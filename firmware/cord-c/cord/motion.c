@@ -50,6 +50,8 @@ static CORD_NEAR uint8_t phase;
 static uint8_t was_braked;
 static uint16_t lease_ms[2];
 static int16_t target_speed, target_turn;
+/* Rims of the target: what a permit is asked for. */
+static int16_t target_rims[2];
 static int16_t now_speed, now_turn;
 static int16_t direct[2];
 /* Duty that is asked for. */
@@ -137,20 +139,19 @@ static void set_rims(int16_t speed, int16_t turn, int16_t most) {
     }
 }
 
-static uint8_t suits_base(int16_t speed, int16_t turn) {
-    if (cord_inhibits_forward() && speed > 0) {
-        return 0;
-    }
-    set_rims(speed, turn, FULL_SPEED);
-    return cord_permits(rims[0], rims[1]);
+static uint8_t suits_base(int16_t speed, int16_t left, int16_t right) {
+    return !(cord_inhibits_forward() && speed > 0) && cord_permits(left, right);
 }
 
 uint8_t cord_motion_drive(int32_t um_per_s, int32_t urad_per_s, uint16_t lease) {
     int16_t speed = (int16_t)(um_per_s / 100);
     int16_t turn = (int16_t)(urad_per_s / 1000);
-    if (!suits_base(speed, turn)) {
+    set_rims(speed, turn, FULL_SPEED);
+    if (!suits_base(speed, rims[0], rims[1])) {
         return 0;
     }
+    target_rims[0] = rims[0];
+    target_rims[1] = rims[1];
     if (phase != CORD_PHASE_DRIVE) {
         cord_motion_halt();
         phase = CORD_PHASE_DRIVE;
@@ -306,7 +307,7 @@ void cord_motion_control(void) {
 
 static uint8_t suits(void) {
     if (phase == CORD_PHASE_DRIVE) {
-        return suits_base(target_speed, target_turn);
+        return suits_base(target_speed, target_rims[0], target_rims[1]);
     }
     return phase != CORD_PHASE_MOTOR || cord_permits(direct[0], direct[1]);
 }

@@ -180,19 +180,19 @@ static uint8_t is_trapping_onset(void) {
     return 1;
 }
 
-static void judge_cliff(uint8_t had_cliff, uint8_t elapsed_ms, int8_t travelled) {
+/* Whether an onset now belongs to the last cliff. */
+static uint8_t is_same_cliff(void) {
     uint8_t index;
-    uint8_t is_same = 0;
     for (index = 0; index < CORD_CLIFF_ONSETS_MAX; index++) {
-        add_ms(&onset_ms[index], elapsed_ms);
         if (onset_ms[index] <= CORD_CLIFF_SAME_CLIFF_MS) {
-            is_same = 1;
+            return 1;
         }
     }
-    if ((cord_contacts & CORD_CLIFFS) == 0) {
-        return;
-    }
-    if (!had_cliff && !is_same) {
+    return 0;
+}
+
+static void judge_cliff(uint8_t had_cliff, int8_t travelled) {
+    if (!had_cliff && !is_same_cliff()) {
         reversed = 0;
         if ((cord_duty[0] | cord_duty[1]) != 0 && is_trapping_onset()) {
             cord_latch(CORD_INHIBIT_CLIFF_TRAPPED);
@@ -211,20 +211,18 @@ void cord_reflex_contacts(uint8_t raw, uint8_t elapsed_ms, int8_t left, int8_t r
     uint8_t had_cliff = cord_contacts & CORD_CLIFFS;
     int8_t travelled = (int8_t)(left + right);
     settle(raw, elapsed_ms);
-    judge_bumper(elapsed_ms, travelled);
-    judge_cliff(had_cliff, elapsed_ms, travelled);
+    if (travelled > 0 || (cord_contacts & CORD_BUMPERS) || pressed_ms != 0) {
+        judge_bumper(elapsed_ms, travelled);
+    }
+    if (cord_contacts & CORD_CLIFFS) {
+        judge_cliff(had_cliff, travelled);
+    }
     if (cord_contacts & CORD_WHEEL_DROP) {
         is_lifted = 1;
         grounded_ms = 0;
     } else if (is_lifted) {
         add_ms(&grounded_ms, elapsed_ms);
         is_lifted = grounded_ms < CORD_LIFT_GROUNDED_MS;
-    }
-    if (young_ms < LONGEST_MS) {
-        add_ms(&young_ms, elapsed_ms);
-        if (young_ms >= CORD_RESET_SOUND_MS) {
-            cord_forget_resets();
-        }
     }
 }
 
@@ -290,8 +288,23 @@ static void judge_progress(void) {
     }
 }
 
+/* Times that need no better resolution than a control period. */
+static void age(void) {
+    uint8_t index;
+    for (index = 0; index < CORD_CLIFF_ONSETS_MAX; index++) {
+        add_ms(&onset_ms[index], PERIOD_MS);
+    }
+    if (young_ms < LONGEST_MS) {
+        add_ms(&young_ms, PERIOD_MS);
+        if (young_ms >= CORD_RESET_SOUND_MS) {
+            cord_forget_resets();
+        }
+    }
+}
+
 void cord_reflex_motors(uint8_t overloads) {
     uint8_t turns = magnitude(cord_speed[0]) > CORD_COUNT_UM || magnitude(cord_speed[1]) > CORD_COUNT_UM;
+    age();
     is_watched = cord_arming_state() != CORD_ARMING_LOCKED || (is_watched && turns);
     if (!is_lifted) {
         judge_overloads(overloads);

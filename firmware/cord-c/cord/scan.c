@@ -18,9 +18,7 @@ static CORD_NEAR uint16_t at;
 static CORD_NEAR uint8_t has_begun;
 
 /* The byte at hand; 0, which no packet holds, at the end. */
-static uint8_t peek(void) {
-    return at < cord_packet_length ? cord_packet[at] : 0;
-}
+#define peek() (cord_packet[at])
 
 static void skip_spaces(void) {
     while (peek() == ' ') {
@@ -72,6 +70,9 @@ static uint8_t is_hex_digit(uint8_t byte) {
 static uint8_t escape(void) {
     uint8_t digits;
     uint8_t kind = peek();
+    if (kind == 0) {
+        return 0;
+    }
     at++;
     switch (kind) {
     case '"':
@@ -253,7 +254,7 @@ static uint8_t composite(void) {
 uint8_t cord_scan_begin(void) {
     at = 0;
     has_begun = 0;
-    return is_utf8() && token() == '{';
+    return (cord_packet_bits < 0x80 || is_utf8()) && token() == '{';
 }
 
 uint8_t cord_scan_next(void) {

@@ -74,7 +74,7 @@ static void reply(uint8_t kind, uint8_t refusal, uint8_t has_number, uint16_t nu
     if (reply_count == REPLIES) {
         return;
     }
-    slot = &replies[(uint8_t)(reply_first + reply_count) % REPLIES];
+    slot = &replies[(uint8_t)(reply_first + reply_count) & (REPLIES - 1)];
     reply_count++;
     slot->kind = has_number ? CORD_REPLY_NUMBERED : kind;
     slot->refusal = refusal;
@@ -107,19 +107,24 @@ uint8_t cord_session_next_reply(void) {
         return 0;
     }
     cord_reply = replies[reply_first];
-    reply_first = (uint8_t)(reply_first + 1) % REPLIES;
+    reply_first = (uint8_t)(reply_first + 1) & (REPLIES - 1);
     reply_count--;
     return 1;
+}
+
+/* A place in the ring of events. */
+static uint8_t wrapped(uint8_t place) {
+    return (uint8_t)(place >= CORD_FACTS_MAX ? place - CORD_FACTS_MAX : place);
 }
 
 void cord_session_tell(uint8_t kind, uint32_t bits) {
     struct cord_waiting_fact *slot;
     if (fact_count == CORD_FACTS_MAX) {
-        fact_first = (uint8_t)(fact_first + 1) % CORD_FACTS_MAX;
+        fact_first = wrapped((uint8_t)(fact_first + 1));
         fact_count--;
         fact_base++;
     }
-    slot = &facts[(uint8_t)(fact_first + fact_count) % CORD_FACTS_MAX];
+    slot = &facts[wrapped((uint8_t)(fact_first + fact_count))];
     fact_count++;
     slot->kind = kind;
     slot->bits = bits;
@@ -128,7 +133,7 @@ void cord_session_tell(uint8_t kind, uint32_t bits) {
 }
 
 static void drop_fact(void) {
-    fact_first = (uint8_t)(fact_first + 1) % CORD_FACTS_MAX;
+    fact_first = wrapped((uint8_t)(fact_first + 1));
     fact_count--;
     fact_base++;
 }
@@ -138,7 +143,7 @@ uint8_t cord_session_next_fact(void) {
     /* In units of 4 ms; 0 is for those that were never sent. */
     uint8_t now = (uint8_t)((uint16_t)cord_now >> 2) | 1;
     for (index = 0; index < fact_count; index++) {
-        struct cord_waiting_fact *slot = &facts[(uint8_t)(fact_first + index) % CORD_FACTS_MAX];
+        struct cord_waiting_fact *slot = &facts[wrapped((uint8_t)(fact_first + index))];
         if (slot->sent != 0 && (index >= REPEATED || (uint8_t)(now - slot->sent) < REPEAT_MS / 4)) {
             continue;
         }

@@ -61,6 +61,8 @@ static void reads(char *rest) {
     uint8_t refusal;
     memcpy(cord_packet, bytes, count);
     cord_packet_length = (uint16_t)count;
+    cord_packet[count] = 0;
+    cord_packet_bits = 0x80;
     memset(&cord_command, 0, sizeof cord_command);
     refusal = cord_command_read(form, tick);
     printf("%u ", cord_command_is_stop());
