@@ -1,5 +1,5 @@
 /* Brush, side brush and suction. Their motors are switched on and off, and turn one way. One line serves side brush and suction:
- * it is on while one of them is wanted.
+ * it is on while both are wanted, so that nothing turns without a lease of its own.
  *
  * SPDX-License-Identifier: GPL-3.0-or-later
  */
@@ -10,6 +10,8 @@
 #include "wire.h"
 
 #define CLEANERS 3
+/* Side brushes and suction. */
+#define BOTH 6
 
 uint8_t cord_running;
 
@@ -82,8 +84,11 @@ void cord_cleaning_apply(void) {
             running |= (uint8_t)(1 << index);
         }
     }
+    if ((running & BOTH) != BOTH) {
+        running &= (uint8_t)~BOTH;
+    }
     if (running != cord_running) {
         cord_running = running;
-        cord_board_clean((uint8_t)((running & 1 ? CORD_LOAD_BRUSH : 0) | (running & 6 ? CORD_LOAD_SUCTION : 0)));
+        cord_board_clean((uint8_t)((running & 1 ? CORD_LOAD_BRUSH : 0) | (running & BOTH ? CORD_LOAD_SUCTION : 0)));
     }
 }

@@ -5,8 +5,8 @@
 #include "interrupts.h"
 #include "pins.h"
 
-/* 2 kHz: every 2,500 cycles; the timer stands still for nine of them while it is set. */
-#define PULSE_RELOAD (65536UL - 2500 + 9)
+/* 2 kHz: every 2,500 cycles; the timer stands still for seven of them while it is set. */
+#define PULSE_RELOAD (65536UL - 2500 + 7)
 /* The lamp is on for 100 us, a fifth of the time, before the sensors are read. */
 #define LIT_RELOAD (65536UL - 430)
 #define ENCODERS (ENCODER_LEFT_MASK | ENCODER_RIGHT_MASK)
@@ -55,10 +55,10 @@ void on_pulse(void) __interrupt(TF0_VECTOR) __using(1) {
     TR0 = 0;
     __asm
         mov a, _TL0
-        add a, #(65536 - 2500 + 9)
+        add a, #(65536 - 2500 + 7)
         mov _TL0, a
         mov a, _TH0
-        addc a, #((65536 - 2500 + 9) >> 8)
+        addc a, #((65536 - 2500 + 7) >> 8)
         mov _TH0, a
     __endasm;
     TR0 = 1;
