@@ -31,7 +31,14 @@ pub(crate) fn program(name: &str) -> PathBuf {
     sources.sort();
     let compiled = Command::new("gcc")
         .args(FLAGS)
-        .args(["-Icord", "-Igenerated", "-Ihost", "-I../cordlib-c/include", "-I../relax/board/generated", "-o"])
+        .args([
+            "-Icord",
+            "-Igenerated",
+            "-Ihost",
+            "-I../cordlib-c/include",
+            "-I../relax/board/generated",
+            "-o",
+        ])
         .arg(&out)
         .arg(format!("host/{name}.c"))
         .args(sources)

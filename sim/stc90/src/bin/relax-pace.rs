@@ -32,6 +32,8 @@ struct Pair {
     is_armed: bool,
     states: u64,
     refused: u64,
+    /// Bad packets when the session had just begun: one of before may be among them.
+    bad_before: u32,
     is_told: bool,
 }
 
@@ -62,7 +64,7 @@ fn main() -> Outcome<()> {
          \"violations\": {}, \"bridge_shorts\": {}, \"misuses\": {}, \"is_armed\": {}}}",
         machine.cpu().sp_max(),
         machine.overruns(),
-        pair.host.counters().bad_crc + pair.host.counters().malformed,
+        pair.bad_packets() - pair.bad_before,
         pair.states as f64 / seconds as f64,
         pair.refused,
         pair.robot.resets(),
@@ -92,8 +94,15 @@ impl Pair {
             is_armed: false,
             states: 0,
             refused: 0,
+            bad_before: 0,
             is_told,
         })
+    }
+
+    /// Packets that the host did not understand.
+    fn bad_packets(&self) -> u32 {
+        let counters = self.host.counters();
+        counters.bad_crc + counters.malformed + counters.framing
     }
 
     fn now(&self) -> Tick {
@@ -152,12 +161,11 @@ impl Pair {
                     undock: false,
                 });
                 self.is_armed = true;
+                self.bad_before = self.bad_packets();
             }
             HostEvent::Closed(_) | HostEvent::Silent => self.is_armed = false,
             HostEvent::Report(Report::State(_)) => self.states += 1,
-            HostEvent::Answered {
-                refusal: Some(_), ..
-            } => self.refused += 1,
+            HostEvent::Answered { refusal: Some(_), .. } => self.refused += 1,
             _ => {}
         }
     }
