@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
         if arguments.calibration.is_some() || !arguments.features.is_empty() {
             bail!("the firmware of relax has no features, and no calibration is put into its image");
         }
-        return sdcc::run(arguments.json, arguments.once);
+        return sdcc::run(arguments);
     }
     let board = board(&arguments.robot)?;
     let record = arguments

@@ -4,7 +4,7 @@ use crate::compiled::{answers, folder, from_hex, hex, program};
 use crate::random::Random;
 use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::{Framed, Framer, Poison};
-use rvac_protocol::message::{Command, LedPattern, ProbeTarget, Refusal};
+use rvac_protocol::message::{Command, LedPattern, Probe, ProbeTarget, Refusal};
 use rvac_protocol::text::{Form, is_stop, read_command};
 use rvac_units::Tick;
 use serde_json::Value;
@@ -81,7 +81,7 @@ fn place<T: PartialEq>(all: &[T], one: &T) -> usize {
 
 /// The program's fields of a command: what, detail, flag, value, second, lease, number, tick.
 fn fields(command: &Command) -> [i64; 8] {
-    use rvac_protocol::message::{Inhibit, Motor, Parameter};
+    use rvac_protocol::message::{Inhibit, Parameter};
     let sequence = command.sequence().map_or(0, |sequence| i64::from(sequence.0));
     let plain = |what: usize, flag: bool| [what as i64, 0, i64::from(flag), 0, 0, 0, sequence, 0];
     match command {
@@ -99,38 +99,7 @@ fn fields(command: &Command) -> [i64; 8] {
             ]
         }
         Command::Describe { row } => plain(usize::from(*row), false),
-        Command::Drive(drive) => [
-            0,
-            0,
-            0,
-            i64::from(drive.speed.0),
-            i64::from(drive.turn.0),
-            i64::from(drive.lease_ms),
-            sequence,
-            i64::from(drive.seen_tick.0),
-        ],
-        Command::Motor(motor) => [
-            place(&Motor::ALL, &motor.motor) as i64,
-            0,
-            0,
-            i64::from(motor.throttle.millionths()),
-            0,
-            i64::from(motor.lease_ms),
-            sequence,
-            i64::from(motor.seen_tick.0),
-        ],
-        Command::Move(movement) => [
-            0,
-            0,
-            0,
-            i64::from(movement.length.0),
-            movement
-                .radius
-                .map_or(i64::from(i32::MIN), |radius| i64::from(radius.0)),
-            0,
-            sequence,
-            i64::from(movement.seen_tick.0),
-        ],
+        Command::Drive(_) | Command::Motor(_) | Command::Move(_) => motion_fields(command, sequence),
         Command::Beep(beep) => {
             let volume = i64::from(beep.volume.millionths());
             [
@@ -165,20 +134,62 @@ fn fields(command: &Command) -> [i64; 8] {
         }
         Command::Seen { event } => [0, 0, 0, 0, 0, 0, i64::from(*event), 0],
         Command::Charge { wanted, .. } => plain(0, *wanted),
-        Command::Probe(probe) => {
-            let (what, port, baud) = match probe.target {
-                ProbeTarget::Analog => (0, 0, 0),
-                ProbeTarget::Encoders => (1, 0, 0),
-                ProbeTarget::Lines => (2, 0, 0),
-                ProbeTarget::Buttons => (3, 0, 0),
-                ProbeTarget::Serial { port, baud } => (4, i64::from(port), i64::from(baud)),
-            };
-            [what, port, 0, baud, 0, i64::from(probe.lease_ms), sequence, 0]
-        }
+        Command::Probe(probe) => probe_fields(probe, sequence),
         Command::Hand | Command::Info | Command::State | Command::Stop | Command::Ping { .. } => {
             plain(0, false)
         }
     }
+}
+
+/// The same of motion.
+fn motion_fields(command: &Command, sequence: i64) -> [i64; 8] {
+    match command {
+        Command::Drive(drive) => [
+            0,
+            0,
+            0,
+            i64::from(drive.speed.0),
+            i64::from(drive.turn.0),
+            i64::from(drive.lease_ms),
+            sequence,
+            i64::from(drive.seen_tick.0),
+        ],
+        Command::Motor(motor) => [
+            place(&rvac_protocol::message::Motor::ALL, &motor.motor) as i64,
+            0,
+            0,
+            i64::from(motor.throttle.millionths()),
+            0,
+            i64::from(motor.lease_ms),
+            sequence,
+            i64::from(motor.seen_tick.0),
+        ],
+        Command::Move(movement) => [
+            0,
+            0,
+            0,
+            i64::from(movement.length.0),
+            movement
+                .radius
+                .map_or(i64::from(i32::MIN), |radius| i64::from(radius.0)),
+            0,
+            sequence,
+            i64::from(movement.seen_tick.0),
+        ],
+        _ => [0; 8],
+    }
+}
+
+/// The same of a probe.
+fn probe_fields(probe: &Probe, sequence: i64) -> [i64; 8] {
+    let (what, port, baud) = match probe.target {
+        ProbeTarget::Analog => (0, 0, 0),
+        ProbeTarget::Encoders => (1, 0, 0),
+        ProbeTarget::Lines => (2, 0, 0),
+        ProbeTarget::Buttons => (3, 0, 0),
+        ProbeTarget::Serial { port, baud } => (4, i64::from(port), i64::from(baud)),
+    };
+    [what, port, 0, baud, 0, i64::from(probe.lease_ms), sequence, 0]
 }
 
 /// Rust's verdict on a text, in the program's words.

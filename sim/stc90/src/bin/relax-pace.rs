@@ -1,6 +1,9 @@
 //! How the Relax's firmware keeps up: `relax-pace FILE.ihx LOOP [--seconds N]`, LOOP being the hexadecimal address of the
 //! function that is one pass of the main loop.
 //!
+//! With `--corrupted N` the host sends so many damaged packets of motion instead, after it has armed, and none that is sound:
+//! each millisecond in which a motor is on is a wrong actuation. A sound one at the end shows that the robot was ready all along.
+//!
 //! A host connects over the serial line, arms, drives the robot to and fro and lets it clean, for so many simulated seconds.
 //! Prints one JSON object: passes a second at rest and while driving, the deepest stack, bytes lost, telemetry.
 
@@ -9,7 +12,7 @@ use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{BinaryKinds, Command, Drive, Motor, MotorCommand, Report, Sequence};
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::{AngularSpeed, Speed, Throttle, Tick};
-use stc90::board::{EmulatedRelax, RelaxBlueprint, RelaxSettings};
+use stc90::board::{EmulatedRelax, Motor as RelaxMotor, RelaxBlueprint, RelaxSettings};
 use stc90::image::Image;
 use std::sync::Arc;
 
@@ -23,6 +26,12 @@ const CLEAN_MS: u64 = 300;
 /// Ahead and back again.
 const LEG_MS: u64 = 1_500;
 const SECONDS: u64 = 20;
+/// What arming and the first motion take at most.
+const ARMING_MS: u64 = 200;
+/// And what a full line holds.
+const LINE_MS: u64 = 1_200;
+/// The driver of the host has room for so many bytes before the next damaged packet: the line stays busy, and answers in time.
+const LINE_ROOM: usize = 3_900;
 const PLAN: &str = "format = \"librervac-home\"\nversion = 1\n[[room]]\npolygon = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]\n";
 
 /// A robot and its host.
@@ -35,6 +44,9 @@ struct Pair {
     /// Bad packets when the session had just begun: one of before may be among them.
     bad_before: u32,
     is_told: bool,
+    /// It is armed, but nothing is commanded.
+    is_quiet: bool,
+    seed: u64,
 }
 
 fn main() -> Outcome<()> {
@@ -44,15 +56,20 @@ fn main() -> Outcome<()> {
     let pass = u16::from_str_radix(&pass, 16)?;
     let mut seconds = SECONDS;
     let mut is_told = false;
+    let mut corrupted = 0;
     while let Some(word) = words.next() {
         match word.as_str() {
             "--seconds" => seconds = words.next().ok_or("how many seconds?")?.parse()?,
+            "--corrupted" => corrupted = words.next().ok_or("how many packets?")?.parse()?,
             "--tell" => is_told = true,
             other => return Err(format!("{other} is unknown").into()),
         }
     }
     let mut pair = Pair::new(&file, is_told)?;
     let idle_hz = pair.rest(pass);
+    if corrupted > 0 {
+        return pair.corrupt(corrupted);
+    }
     let driving_hz = pair.drive(seconds);
     if is_told {
         eprintln!("{:?}", pair.robot.monitor().violations().first());
@@ -96,6 +113,8 @@ impl Pair {
             refused: 0,
             bad_before: 0,
             is_told,
+            is_quiet: false,
+            seed: 33,
         })
     }
 
@@ -129,6 +148,77 @@ impl Pair {
         (self.robot.machine().cpu().passes() - before) as f64 / seconds as f64
     }
 
+    /// Sends damaged packets of motion to an armed robot, and at the end a sound one.
+    fn corrupt(&mut self, packets: u64) -> Outcome<()> {
+        self.is_quiet = true;
+        while !self.is_armed {
+            self.step();
+        }
+        (0..ARMING_MS).for_each(|_| self.step());
+        let (mut wrong_ms, mut sent) = (0_u64, 0);
+        while sent < packets {
+            if self.robot.line_room() > LINE_ROOM {
+                let packet = self.damaged();
+                self.robot.send(&packet);
+                sent += 1;
+            }
+            self.step();
+            wrong_ms += u64::from(self.is_moved());
+        }
+        (0..LINE_MS).for_each(|_| self.step());
+        self.send(ahead(0.1));
+        (0..ARMING_MS).for_each(|_| self.step());
+        println!(
+            "{{\"corrupted\": {packets}, \"wrong_actuation_ms\": {wrong_ms}, \"sound_one_moves\": {}, \"resets\": {}, \
+             \"violations\": {}, \"bytes_overrun\": {}}}",
+            self.is_moved(),
+            self.robot.resets(),
+            self.robot.monitor().violations().len(),
+            self.robot.machine().overruns()
+        );
+        Ok(())
+    }
+
+    fn is_moved(&self) -> bool {
+        [
+            RelaxMotor::WheelLeft,
+            RelaxMotor::WheelRight,
+            RelaxMotor::Brush,
+            RelaxMotor::Suction,
+        ]
+        .into_iter()
+        .any(|motor| self.robot.duty(motor) != 0.0)
+    }
+
+    /// A sound packet of motion with one to eight bits flipped.
+    fn damaged(&mut self) -> Vec<u8> {
+        let command = if self.random(2) == 0 {
+            ahead(0.15)
+        } else {
+            clean(Motor::BrushMain)
+        };
+        let mut buffer = PacketBuffer::new();
+        let now = self.now();
+        self.host.send(command, now, &mut buffer).ok();
+        let sound = buffer.as_bytes().to_vec();
+        let mut packet = sound.clone();
+        while packet == sound {
+            for _ in 0..=self.random(8) {
+                let at = self.random(packet.len().max(2) - 1);
+                packet[at] ^= 1 << self.random(8);
+            }
+        }
+        packet
+    }
+
+    /// Below `bound` (xorshift).
+    fn random(&mut self, bound: usize) -> usize {
+        self.seed ^= self.seed << 13;
+        self.seed ^= self.seed >> 7;
+        self.seed ^= self.seed << 17;
+        (self.seed % bound.max(1) as u64) as usize
+    }
+
     fn step(&mut self) {
         let mut heard = Vec::new();
         self.robot.tick(&mut heard);
@@ -141,7 +231,7 @@ impl Pair {
         if let Some(event) = self.host.poll(now) {
             self.take(event);
         }
-        if self.is_armed {
+        if self.is_armed && !self.is_quiet {
             self.command();
         }
         let mut packet = PacketBuffer::new();
@@ -183,24 +273,32 @@ impl Pair {
         if ms.is_multiple_of(DRIVE_MS) {
             let is_back = ms / LEG_MS % 2 == 1;
             let speed = if is_back { -0.15 } else { 0.15 };
-            self.send(Command::Drive(Drive {
-                speed: Speed::from_m_per_s(speed),
-                turn: AngularSpeed::from_rad_per_s(0.3),
-                lease_ms: 250,
-                sequence: Sequence(0),
-                seen_tick: Tick(0),
-            }));
+            self.send(ahead(speed));
         }
         if ms.is_multiple_of(CLEAN_MS) {
             for motor in [Motor::BrushMain, Motor::BrushSides, Motor::Vacuum] {
-                self.send(Command::Motor(MotorCommand {
-                    motor,
-                    throttle: Throttle::FULL,
-                    lease_ms: 1_000,
-                    sequence: Sequence(0),
-                    seen_tick: Tick(0),
-                }));
+                self.send(clean(motor));
             }
         }
     }
+}
+
+fn ahead(speed_m_per_s: f64) -> Command {
+    Command::Drive(Drive {
+        speed: Speed::from_m_per_s(speed_m_per_s),
+        turn: AngularSpeed::from_rad_per_s(0.3),
+        lease_ms: 250,
+        sequence: Sequence(0),
+        seen_tick: Tick(0),
+    })
+}
+
+fn clean(motor: Motor) -> Command {
+    Command::Motor(MotorCommand {
+        motor,
+        throttle: Throttle::FULL,
+        lease_ms: 1_000,
+        sequence: Sequence(0),
+        seen_tick: Tick(0),
+    })
 }

@@ -5,6 +5,7 @@ mod build;
 mod memory;
 mod stack;
 
+use super::FirmwareArguments;
 use crate::workspace::{self, Profile};
 use crate::{process, system};
 use anyhow::{Context, bail};
@@ -27,7 +28,7 @@ const DRIVING_HZ_LEAST: f64 = 2_000.0;
 
 /// What the firmware takes.
 #[derive(Debug, Serialize)]
-struct Report {
+struct ChipUse {
     code_bytes: u32,
     xdata_bytes: u32,
     idata_bytes: u32,
@@ -60,14 +61,14 @@ struct Pace {
 }
 
 /// Builds, measures and prints; fails when something is too much.
-pub(super) fn run(json: bool, once: bool) -> anyhow::Result<()> {
+pub(super) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
     let built = build::build(&folder("relax"))?;
-    let reproducible = match once {
+    let reproducible = match arguments.once {
         true => None,
         false => Some(build::build(&folder("relax-elsewhere"))?.hex()? == built.hex()?),
     };
     let report = report(&built, reproducible)?;
-    if json {
+    if arguments.json {
         process::print(&serde_json::to_string(&report)?);
     } else {
         report.print();
@@ -88,7 +89,7 @@ fn folder(name: &str) -> PathBuf {
     workspace::target().join("firmware").join(name)
 }
 
-fn report(built: &Built, reproducible: Option<bool>) -> anyhow::Result<Report> {
+fn report(built: &Built, reproducible: Option<bool>) -> anyhow::Result<ChipUse> {
     let memory = MemoryUse::read(built)?;
     let stack_worst_bytes = stack::worst(&built.listings()?)?;
     let pace = pace(built)?;
@@ -102,7 +103,7 @@ fn report(built: &Built, reproducible: Option<bool>) -> anyhow::Result<Report> {
         );
     }
     let (cortex_m0_text_bytes, cortex_m0_data_bytes) = cortex_m0()?;
-    Ok(Report {
+    Ok(ChipUse {
         code_bytes: memory.code,
         xdata_bytes: memory.xdata,
         idata_bytes: memory.idata,
@@ -167,7 +168,7 @@ fn cortex_m0() -> anyhow::Result<(u32, u32)> {
     Ok((sum(0), sum(1) + sum(2)))
 }
 
-impl Report {
+impl ChipUse {
     fn print(&self) {
         let of = |what: &str, used: u32, all: u32| process::print(&format!("{what:<16}{used:>8} of {all}"));
         of("code", self.code_bytes, CODE_MAX);

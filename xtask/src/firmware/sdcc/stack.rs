@@ -4,7 +4,7 @@
 use anyhow::{Context, bail};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Functions of SDCC's library have no text here; none of those in use is deeper, its return address not counted.
+/// Routines of SDCC's library have no text here; none of those in use is deeper, its return address not counted.
 const LIBRARY_BYTES: u32 = 14;
 /// A return address.
 const ADDRESS_BYTES: u32 = 2;
@@ -13,7 +13,7 @@ const START: &str = "_main";
 
 /// What a function does to the stack.
 #[derive(Debug, Default)]
-struct Function {
+struct Routine {
     deepest: u32,
     /// Depth at each call.
     calls: BTreeMap<String, u32>,
@@ -27,13 +27,13 @@ pub(super) fn worst(listings: &[String]) -> anyhow::Result<u32> {
     for (module, listing) in listings.iter().enumerate() {
         let mut own = BTreeMap::new();
         read(listing, &mut own)?;
-        // Functions of one module hide those of the same name in others.
+        // Routines of one module hide those of the same name in others.
         for function in own.values_mut() {
             function.module = module;
         }
         functions.extend(own.into_iter().map(|(name, function)| ((name, module), function)));
     }
-    let functions = Functions(functions);
+    let functions = Routines(functions);
     let mut path = BTreeSet::new();
     // The start-up code calls main.
     let main = ADDRESS_BYTES + depth((START, 0), &functions, &mut path)?;
@@ -48,11 +48,11 @@ pub(super) fn worst(listings: &[String]) -> anyhow::Result<u32> {
 }
 
 /// All functions, by name and module.
-struct Functions(BTreeMap<(String, usize), Function>);
+struct Routines(BTreeMap<(String, usize), Routine>);
 
-impl Functions {
+impl Routines {
     /// The function that a module means by a name.
-    fn find(&self, name: &str, module: usize) -> Option<&Function> {
+    fn find(&self, name: &str, module: usize) -> Option<&Routine> {
         let own = self.0.get(&(name.to_owned(), module));
         own.or_else(|| {
             self.0
@@ -65,7 +65,7 @@ impl Functions {
 
 fn depth(
     (name, module): (&str, usize),
-    functions: &Functions,
+    functions: &Routines,
     path: &mut BTreeSet<(String, usize)>,
 ) -> anyhow::Result<u32> {
     let Some(function) = functions.find(name, module) else {
@@ -95,15 +95,15 @@ struct Walk {
     at_labels: BTreeMap<String, u32>,
 }
 
-fn read(listing: &str, functions: &mut BTreeMap<String, Function>) -> anyhow::Result<()> {
-    let mut current: Option<(String, Function)> = None;
+fn read(listing: &str, functions: &mut BTreeMap<String, Routine>) -> anyhow::Result<()> {
+    let mut current: Option<(String, Routine)> = None;
     let mut walk = Walk::default();
     for line in listing.lines() {
         let line = line.split(';').next().unwrap_or_default();
         if let Some(label) = line.strip_suffix(':') {
             if label.starts_with('_') {
                 functions.extend(current.take());
-                current = Some((label.to_owned(), Function::default()));
+                current = Some((label.to_owned(), Routine::default()));
                 walk = Walk::default();
             } else if let Some(depth) = walk.at_labels.get(label) {
                 walk.now = *depth;
@@ -118,7 +118,7 @@ fn read(listing: &str, functions: &mut BTreeMap<String, Function>) -> anyhow::Re
 }
 
 impl Walk {
-    fn step(&mut self, line: &str, function: &mut Function) -> anyhow::Result<()> {
+    fn step(&mut self, line: &str, function: &mut Routine) -> anyhow::Result<()> {
         let mut words = line.split_whitespace();
         let operation = words.next().unwrap_or_default();
         let operand: String = words.collect::<Vec<_>>().concat();
