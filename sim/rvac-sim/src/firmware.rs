@@ -147,10 +147,13 @@ impl Firmware {
                 Robot::Emulated(Box::new(EmulatedRobot::new(blueprint, world, &settings)))
             }
             Self::RelaxImage(blueprint) => {
-                let settings = RelaxSettings {
-                    rate: stc90::board::HostRate { baud: settings.baud },
-                    seed: settings.seed,
+                // This chip's UART is not faster than its own rate, which a host finds out.
+                let own = RelaxSettings::default();
+                let rate = stc90::board::HostRate {
+                    baud: settings.baud.min(own.rate.baud),
                 };
+                let seed = settings.seed;
+                let settings = RelaxSettings { rate, seed };
                 Robot::EmulatedRelax(Box::new(EmulatedRelax::new(blueprint, world, &settings)))
             }
         }

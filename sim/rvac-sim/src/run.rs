@@ -63,7 +63,7 @@ fn settle(household: &mut Household) {
 /// The robot said nothing that its host understood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the robot did not answer within {} s: the image must be a robot's whole firmware, with a link at 230,400 baud",
+    "the robot did not answer within {} s: the image must be a robot's whole firmware, with a link at 230,400 baud, or 38,400 on a Relax",
     CONNECT_MS / 1000
 )]
 pub struct NoAnswer;

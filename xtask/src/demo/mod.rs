@@ -70,6 +70,9 @@ impl DemoArguments {
         if !self.emulated {
             return Ok(None);
         }
+        if self.robot == firmware::sdcc::ROBOT {
+            return firmware::sdcc::image().map(Some);
+        }
         let board = firmware::board(&self.robot)?;
         let files = firmware::build(board, &Options::default(), self.calibration.as_deref())?;
         // The HEX file is the one that has a calibration.

@@ -35,7 +35,7 @@ pub(crate) fn arguments(arguments: &DemoArguments) -> anyhow::Result<()> {
         );
     }
     robot(&arguments.robot)?;
-    if arguments.emulated {
+    if arguments.emulated && arguments.robot != crate::firmware::sdcc::ROBOT {
         crate::firmware::board(&arguments.robot)?;
     }
     if arguments.headless {

@@ -12,6 +12,7 @@ mod record;
 mod report;
 #[cfg(test)]
 mod sample;
+pub(crate) mod sdcc;
 mod symbol_name;
 
 use crate::codegen::board::calibration::Calibration;
@@ -47,6 +48,12 @@ pub(crate) struct FirmwareArguments {
 
 /// Builds, writes both files, prints what the firmware takes, and fails when that is too much.
 pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
+    if arguments.robot == sdcc::ROBOT {
+        if arguments.calibration.is_some() || !arguments.features.is_empty() {
+            bail!("the firmware of relax has no features, and no calibration is put into its image");
+        }
+        return sdcc::run(arguments);
+    }
     let board = board(&arguments.robot)?;
     let record = arguments
         .calibration
@@ -84,7 +91,11 @@ pub(crate) fn report(elf: &Path) -> anyhow::Result<serde_json::Value> {
 /// The firmware of this robot.
 pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
     BOARDS.iter().find(|board| board.name == robot).with_context(|| {
-        let known: Vec<&str> = BOARDS.iter().map(|board| board.name).collect();
+        let known: Vec<&str> = BOARDS
+            .iter()
+            .map(|board| board.name)
+            .chain([sdcc::ROBOT])
+            .collect();
         format!(
             "there is no firmware for a robot {robot:?}; there is one for: {}",
             known.join(", ")

@@ -24,6 +24,8 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
     } else {
         vec![firmware(&["--once"])]
     };
+    let mut in_c = cargo(&["xtask", "firmware", firmware::sdcc::ROBOT]);
+    in_c.args((!extent.has_campaigns()).then_some("--once"));
     let lints = FIRMWARE
         .map(|manifest| on_this_machine("clippy", manifest, &["--all-targets", "--", "-D", "warnings"]));
     let tested =
@@ -31,7 +33,7 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
     let lints = lints.into_iter().map(|mut command| check(&mut command));
     let tested = tested.into_iter().map(|mut command| tests(&mut command));
     let builds = builds.into_iter().map(|mut command| check(&mut command));
-    all(builds.chain(lints).chain(tested))
+    all(builds.chain([check(&mut in_c)]).chain(lints).chain(tested))
 }
 
 fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {

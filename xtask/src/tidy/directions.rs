@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 31] = [
+const DIRECTIONS: [Direction; 32] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -104,6 +104,7 @@ const DIRECTIONS: [Direction; 31] = [
     Direction { of: "pic32mx3-hal",  knows: &[],                                            never: STD },
     Direction { of: "sr8730",        knows: FIRMWARE,                                       never: STD },
     Direction { of: "cordlib-c",     knows: &["cordlib", "rvac-protocol", "rvac-units"],    never: &["tokio"] },
+    Direction { of: "cord-c",        knows: &["rvac-protocol", "rvac-units"],               never: &["tokio"] },
     Direction { of: "soft-uart",     knows: &[],                                            never: STD },
     Direction { of: "brain",         knows: &["rvac-units"],                                never: BRAIN },
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
@@ -121,7 +122,7 @@ const DIRECTIONS: [Direction; 31] = [
     Direction { of: "home",          knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "monitor",       knows: &["rvac-protocol"],                             never: OUTSIDE },
     Direction { of: "pic32",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
-    Direction { of: "stc90",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol"],  never: EMULATOR },
+    Direction { of: "stc90",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },

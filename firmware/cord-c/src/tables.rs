@@ -1,0 +1,100 @@
+//! Tables: of the CRC, of names, of ranges.
+
+use crate::wire::{COUNT, SPANS};
+use rvac_protocol::message::{ArmingState, CommandName, Inhibit, Motor, Parameter, Refusal};
+use rvac_protocol::span::Span;
+use std::fmt::Write;
+
+const HEAD: &str = "/* Tables of the C cord, included once, by tables.c. Made by cargo xtask codegen from \
+                    protocol/rvac-protocol. Do not edit.\n *\n * SPDX-License-Identifier: GPL-3.0-or-later\n */\n";
+/// CRC-32C, reflected.
+const POLYNOMIAL: u32 = 0x82F6_3B78;
+
+/// The header.
+pub(crate) fn source() -> anyhow::Result<String> {
+    let mut text = HEAD.to_owned();
+    for byte in 0..4 {
+        crc_table(&mut text, byte)?;
+    }
+    names(&mut text, "command", &CommandName::ALL.map(CommandName::name))?;
+    names(&mut text, "motor", &Motor::ALL.map(Motor::name))?;
+    names(&mut text, "inhibit", &Inhibit::ALL.map(Inhibit::name))?;
+    names(&mut text, "parameter", &Parameter::ALL.map(Parameter::name))?;
+    names(&mut text, "refusal", &Refusal::ALL.map(Refusal::name))?;
+    names(&mut text, "arming", &ArmingState::ALL.map(ArmingState::name))?;
+    let spans: Vec<Span> = SPANS.iter().chain([&COUNT]).map(|(_, span)| *span).collect();
+    let decimals: Vec<i64> = spans.iter().map(|span| i64::from(span.decimals)).collect();
+    numbers(&mut text, "uint8_t cord_span_decimals", &decimals)?;
+    let below: Vec<i64> = spans.iter().map(|span| (-span.min).max(0)).collect();
+    numbers(&mut text, "uint32_t cord_span_below", &below)?;
+    let least: Vec<i64> = spans.iter().map(|span| span.min.max(0)).collect();
+    numbers(&mut text, "uint32_t cord_span_least", &least)?;
+    let most: Vec<i64> = spans.iter().map(|span| span.max).collect();
+    numbers(&mut text, "uint32_t cord_span_most", &most)?;
+    let ranges = Parameter::ALL.map(Parameter::range);
+    numbers(
+        &mut text,
+        "uint32_t cord_parameter_least",
+        &ranges.map(|(least, _)| i64::from(least)),
+    )?;
+    numbers(
+        &mut text,
+        "uint32_t cord_parameter_most",
+        &ranges.map(|(_, most)| i64::from(most)),
+    )?;
+    Ok(text)
+}
+
+fn entry(index: u32) -> u32 {
+    (0..8).fold(index, |rest, _| {
+        if rest & 1 == 1 {
+            rest >> 1 ^ POLYNOMIAL
+        } else {
+            rest >> 1
+        }
+    })
+}
+
+/// One byte of each entry of the usual table.
+fn crc_table(text: &mut String, byte: u32) -> std::fmt::Result {
+    write!(text, "\nconst uint8_t cord_crc_table_{byte}[256] = {{")?;
+    for index in 0..256 {
+        let comma = if index == 0 { "" } else { "," };
+        let space = if index % 16 == 0 { "\n    " } else { " " };
+        write!(text, "{comma}{space}0x{:02X}", entry(index) >> (8 * byte) & 0xFF)?;
+    }
+    writeln!(text, "\n}};")
+}
+
+fn names(text: &mut String, family: &str, names: &[&str]) -> std::fmt::Result {
+    write!(text, "\nconst uint8_t cord_names_{family}[] =")?;
+    for name in names {
+        write!(text, "\n    \"\\{:03o}{name}\"", name.len())?;
+    }
+    writeln!(text, ";")
+}
+
+fn numbers(text: &mut String, declaration: &str, values: &[i64]) -> std::fmt::Result {
+    let listed: Vec<String> = values.iter().map(|value| format!("{value}UL")).collect();
+    writeln!(
+        text,
+        "\nconst {declaration}[] = {{\n    {}\n}};",
+        listed.join(",\n    ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::entry;
+    use rvac_protocol::crc::crc32c;
+
+    #[test]
+    fn the_tables_are_those_of_the_protocol() {
+        let mut register = u32::MAX;
+        for byte in b"123456789" {
+            register = register >> 8 ^ entry((register ^ u32::from(*byte)) & 0xFF);
+        }
+        assert_eq!(!register, 0xE306_9283);
+        assert_eq!(register, crc32c(u32::MAX, b"123456789"));
+    }
+}
