@@ -51,11 +51,11 @@ fn the_schematic_has_what_the_board_is_for() {
     assert_eq!((net("Q2", "1"), net("Q2", "5"), net("J6", "1")), (Some("VBAT"), Some("MAIN_POWER"), Some("MAIN_POWER")));
 }
 
-/// What is said after a text was replaced wherever it stands in the schematic.
+/// What is said after the first such text of the schematic was replaced.
 fn broken(from: &str, to: &str) -> Vec<String> {
     let text = sources().0;
     assert!(text.contains(from), "{from}");
-    rules::electrical_faults(&schematic(&text.replace(from, to)))
+    rules::electrical_faults(&schematic(&text.replacen(from, to, 1)))
 }
 
 #[test]
