@@ -30,7 +30,10 @@ impl Board {
                 // Nets of the root sheet begin with a slash.
                 let net = pad.one("net").and_then(|net| net.word(2)).unwrap_or_default();
                 if !net.is_empty() {
-                    let pin = Pin { reference: reference.clone(), number };
+                    let pin = Pin {
+                        reference: reference.clone(),
+                        number,
+                    };
                     nets.insert(pin, net.trim_start_matches('/').to_owned());
                 }
             }

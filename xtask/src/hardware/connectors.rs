@@ -51,14 +51,22 @@ pub(super) fn differences(board: &Board, pinout: &str) -> anyhow::Result<Vec<Str
         let line = signal.button_board.as_ref().unwrap_or(&signal.name);
         wanted.push((BUTTON_BOARD, pin, Some(line.replace('-', "_").to_uppercase())));
     }
-    let named = wanted.iter().filter(|(connector, ..)| *connector == MAIN_BOARD).count();
+    let named = wanted
+        .iter()
+        .filter(|(connector, ..)| *connector == MAIN_BOARD)
+        .count();
     let pads = board.parts.get(MAIN_BOARD).map_or(0, |_| CONNECTOR_PINS);
     let mut faults = Vec::new();
     if named != pads {
-        faults.push(format!("the pinout names {named} pins of the connector, the board has {pads}"));
+        faults.push(format!(
+            "the pinout names {named} pins of the connector, the board has {pads}"
+        ));
     }
     for (connector, pin, net) in wanted {
-        let pad = Pin { reference: connector.to_owned(), number: pin.to_string() };
+        let pad = Pin {
+            reference: connector.to_owned(),
+            number: pin.to_string(),
+        };
         let laid = board.nets.get(&pad);
         if laid != net.as_ref() {
             faults.push(format!("{pad} should be {net:?} and is {laid:?}"));

@@ -34,7 +34,9 @@ impl Node {
                 '"' => Self::Word(quoted(&mut letters)?),
                 _ => {
                     let mut word = String::from(letter);
-                    while let Some(next) = letters.next_if(|next| !next.is_whitespace() && !"()\"".contains(*next)) {
+                    while let Some(next) =
+                        letters.next_if(|next| !next.is_whitespace() && !"()\"".contains(*next))
+                    {
                         word.push(next);
                     }
                     Self::Word(word)
@@ -96,7 +98,10 @@ impl Node {
         let number = self.word(place).and_then(|word| word.parse::<f64>().ok());
         match number {
             Some(number) if number.abs() < 10_000.0 => Ok((number * 10_000.0).round() as i64),
-            _ => bail!("({} ...) has no length at place {place}", self.word(0).unwrap_or("?")),
+            _ => bail!(
+                "({} ...) has no length at place {place}",
+                self.word(0).unwrap_or("?")
+            ),
         }
     }
 }

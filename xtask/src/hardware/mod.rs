@@ -34,7 +34,10 @@ struct Project {
     robot: &'static str,
 }
 
-const PROJECTS: [Project; 1] = [Project { name: "relax-adapter", robot: "vileda-relax" }];
+const PROJECTS: [Project; 1] = [Project {
+    name: "relax-adapter",
+    robot: "vileda-relax",
+}];
 
 impl Project {
     fn folder(&self) -> PathBuf {
@@ -50,9 +53,12 @@ impl Project {
     fn faults(&self) -> anyhow::Result<Vec<String>> {
         let schematic = schematic::Schematic::parse(&self.read("kicad_sch")?).context("the schematic")?;
         let board = board::Board::parse(&self.read("kicad_pcb")?).context("the board")?;
-        let pinout = workspace::root().join("robots").join(self.robot).join("pinout.toml");
-        let pinout = std::fs::read_to_string(&pinout)
-            .with_context(|| format!("cannot read {}", pinout.display()))?;
+        let pinout = workspace::root()
+            .join("robots")
+            .join(self.robot)
+            .join("pinout.toml");
+        let pinout =
+            std::fs::read_to_string(&pinout).with_context(|| format!("cannot read {}", pinout.display()))?;
         let mut faults = rules::electrical_faults(&schematic);
         faults.extend(rules::differences(&schematic, &board));
         faults.extend(connectors::differences(&board, &pinout)?);
@@ -93,7 +99,9 @@ fn make(project: &Project, arguments: &HardwareArguments) -> anyhow::Result<()> 
     if !faults.is_empty() {
         bail!("electrical rules: {}", faults.join("; "));
     }
-    process::say("electrical rules, schematic against board, connectors against the robot's pinout: nothing found");
+    process::say(
+        "electrical rules, schematic against board, connectors against the robot's pinout: nothing found",
+    );
     pictures(project, &folder, &made)
 }
 
@@ -104,7 +112,11 @@ fn pictures(project: &Project, folder: &Path, made: &Path) -> anyhow::Result<()>
         tool("picture.py").arg(folder).arg(project.name).arg(&drawings),
     )?;
     let svg = |name: &str| drawings.join(format!("{name}.svg"));
-    for (name, width) in [("schematic", "2800"), ("board-upper", "1600"), ("board-lower", "1600")] {
+    for (name, width) in [
+        ("schematic", "2800"),
+        ("board-upper", "1600"),
+        ("board-lower", "1600"),
+    ] {
         let mut convert = Command::new("rsvg-convert");
         convert.args(["--width", width, "--output"]);
         convert.arg(made.join(format!("{name}.png"))).arg(svg(name));

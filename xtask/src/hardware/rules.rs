@@ -37,7 +37,9 @@ fn net_faults(net: &Net, unused: &BTreeSet<Pin>) -> Vec<String> {
         }
     }
     if net.pins.len() < 2 {
-        faults.push(format!("{shown}: connected to nothing; mark it as unused if that is meant"));
+        faults.push(format!(
+            "{shown}: connected to nothing; mark it as unused if that is meant"
+        ));
     }
     let count = |kind: PinKind| net.pins.values().filter(|have| **have == kind).count();
     let drivers = count(PinKind::Output) + count(PinKind::PowerOut);
@@ -66,13 +68,24 @@ pub(super) fn differences(schematic: &Schematic, board: &Board) -> Vec<String> {
         let (drawn, laid) = (drawn.get(pin), board.nets.get(pin));
         if drawn != laid {
             let name = |net: Option<&String>| net.cloned().unwrap_or_else(|| "nothing".to_owned());
-            faults.push(format!("{pin}: {} in the schematic, {} on the board", name(drawn), name(laid)));
+            faults.push(format!(
+                "{pin}: {} in the schematic, {} on the board",
+                name(drawn),
+                name(laid)
+            ));
         }
     }
-    for reference in schematic.parts.keys().chain(board.parts.keys()).collect::<BTreeSet<_>>() {
+    for reference in schematic
+        .parts
+        .keys()
+        .chain(board.parts.keys())
+        .collect::<BTreeSet<_>>()
+    {
         let (drawn, laid) = (schematic.parts.get(reference), board.parts.get(reference));
         if drawn != laid {
-            faults.push(format!("{reference}: {drawn:?} in the schematic, {laid:?} on the board"));
+            faults.push(format!(
+                "{reference}: {drawn:?} in the schematic, {laid:?} on the board"
+            ));
         }
     }
     faults

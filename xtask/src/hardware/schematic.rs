@@ -106,7 +106,9 @@ impl Schematic {
             let reference = symbol.property("Reference").unwrap_or_default();
             let text = |key| symbol.property(key).unwrap_or_default().to_owned();
             if !reference.starts_with('#')
-                && parts.insert(reference.to_owned(), (text("Value"), text("Footprint"))).is_some()
+                && parts
+                    .insert(reference.to_owned(), (text("Value"), text("Footprint")))
+                    .is_some()
             {
                 doubled.push(reference.to_owned());
             }
@@ -118,14 +120,22 @@ impl Schematic {
             .filter(|placed| crosses.contains(&placed.at))
             .map(|placed| placed.pin.clone())
             .collect();
-        Ok(Self { nets: joints.nets(&placed), unused, parts, doubled })
+        Ok(Self {
+            nets: joints.nets(&placed),
+            unused,
+            parts,
+            doubled,
+        })
     }
 
     /// Net of each pin that has one, by the net's first name.
     pub(super) fn net_of_pins(&self) -> BTreeMap<Pin, String> {
         let pins_of = |net: &Net| {
             let name = net.names.first().cloned().unwrap_or_default();
-            net.pins.keys().map(|pin| (pin.clone(), name.clone())).collect::<Vec<_>>()
+            net.pins
+                .keys()
+                .map(|pin| (pin.clone(), name.clone()))
+                .collect::<Vec<_>>()
         };
         self.nets.iter().flat_map(pins_of).collect()
     }
@@ -155,7 +165,10 @@ fn pins(symbol: &Node, shape: &Node) -> anyhow::Result<Vec<Placed>> {
         let kind = PinKind::parse(pin.word(1).unwrap_or_default())?;
         let is_supply = shape.one("power").is_some() && kind == PinKind::PowerIn;
         found.push(Placed {
-            pin: Pin { reference: reference.to_owned(), number: number.to_owned() },
+            pin: Pin {
+                reference: reference.to_owned(),
+                number: number.to_owned(),
+            },
             kind,
             at: (left + x, top + y),
             supply: is_supply.then(|| pin.value("name").unwrap_or_default().to_owned()),
@@ -194,7 +207,11 @@ impl Joints {
         }
         let label = |label: &Node| Ok((place(label)?, label.word(1).unwrap_or_default().to_owned()));
         let labels = sheet.all("label").map(label).collect::<anyhow::Result<_>>()?;
-        Ok(Self { wires, dots: points(sheet, "junction")?, labels })
+        Ok(Self {
+            wires,
+            dots: points(sheet, "junction")?,
+            labels,
+        })
     }
 
     fn nets(&self, placed: &[Placed]) -> Vec<Net> {
@@ -211,7 +228,10 @@ impl Joints {
         for (at, name) in &self.labels {
             groups.join(Joint::At(*at), Joint::Label(name.clone()));
         }
-        for (at, supply) in placed.iter().filter_map(|placed| Some((placed.at, placed.supply.clone()?))) {
+        for (at, supply) in placed
+            .iter()
+            .filter_map(|placed| Some((placed.at, placed.supply.clone()?)))
+        {
             groups.join(Joint::At(at), Joint::Supply(supply));
         }
         let mut nets: BTreeMap<Joint, Net> = BTreeMap::new();

@@ -8,7 +8,10 @@ use std::collections::BTreeMap;
 
 fn sources() -> (String, String, String) {
     let project = &PROJECTS[0];
-    let pinout = workspace::root().join("robots").join(project.robot).join("pinout.toml");
+    let pinout = workspace::root()
+        .join("robots")
+        .join(project.robot)
+        .join("pinout.toml");
     (
         project.read("kicad_sch").expect("a schematic"),
         project.read("kicad_pcb").expect("a board"),
@@ -32,23 +35,48 @@ fn the_committed_boards_keep_all_rules() {
 fn the_schematic_has_what_the_board_is_for() {
     let nets = schematic(&sources().0).net_of_pins();
     let net = |reference: &str, number: &str| {
-        let pin = Pin { reference: reference.to_owned(), number: number.to_owned() };
+        let pin = Pin {
+            reference: reference.to_owned(),
+            number: number.to_owned(),
+        };
         nets.get(&pin).map(String::as_str)
     };
     // The header of the Linux board: pins of a Raspberry Pi.
     let header = [
-        ("2", "+5V"), ("4", "+5V"), ("1", "+3V3"), ("3", "SDA"), ("5", "SCL"), ("8", "UART_TX"), ("10", "UART_RX"),
-        ("7", "PI_BUTTON_1"), ("11", "PI_BUTTON_2"), ("13", "PI_BUTTON_3"), ("15", "PI_LED_1"), ("16", "PI_LED_2"),
-        ("18", "PI_LED_3"), ("29", "PI_LED_OK"), ("31", "PI_LED_UNKNOWN"), ("22", "MAIN_ENABLE"),
+        ("2", "+5V"),
+        ("4", "+5V"),
+        ("1", "+3V3"),
+        ("3", "SDA"),
+        ("5", "SCL"),
+        ("8", "UART_TX"),
+        ("10", "UART_RX"),
+        ("7", "PI_BUTTON_1"),
+        ("11", "PI_BUTTON_2"),
+        ("13", "PI_BUTTON_3"),
+        ("15", "PI_LED_1"),
+        ("16", "PI_LED_2"),
+        ("18", "PI_LED_3"),
+        ("29", "PI_LED_OK"),
+        ("31", "PI_LED_UNKNOWN"),
+        ("22", "MAIN_ENABLE"),
     ];
     for (pin, wanted) in header {
         assert_eq!(net("J4", pin), Some(wanted), "pin {pin}");
     }
     // The line to the microcontroller is pulled up to its own supply, and driven by an output that only pulls down.
-    assert_eq!((net("R10", "1"), net("R10", "2")), (Some("+5VP"), Some("RXD_MCU")));
-    assert_eq!((net("U2", "2"), net("U2", "4")), (Some("UART_TX"), Some("RXD_DRIVE")));
+    assert_eq!(
+        (net("R10", "1"), net("R10", "2")),
+        (Some("+5VP"), Some("RXD_MCU"))
+    );
+    assert_eq!(
+        (net("U2", "2"), net("U2", "4")),
+        (Some("UART_TX"), Some("RXD_DRIVE"))
+    );
     // What switches the main board off lies between battery and main board.
-    assert_eq!((net("Q2", "1"), net("Q2", "5"), net("J6", "1")), (Some("VBAT"), Some("MAIN_POWER"), Some("MAIN_POWER")));
+    assert_eq!(
+        (net("Q2", "1"), net("Q2", "5"), net("J6", "1")),
+        (Some("VBAT"), Some("MAIN_POWER"), Some("MAIN_POWER"))
+    );
 }
 
 /// What is said after the first such text of the schematic was replaced.
@@ -62,13 +90,24 @@ fn broken(from: &str, to: &str) -> Vec<String> {
 fn each_electrical_rule_can_be_broken() {
     let table = [
         ("(label \"SDA\"", "(label \"SCL2\"", "connected to nothing"),
-        ("(label \"TXD_CLEAN\"", "(label \"BUTTON_1_OUT\"", "several outputs"),
-        ("(property \"Reference\" \"R10\"", "(property \"Reference\" \"R11\"", "two parts"),
+        (
+            "(label \"TXD_CLEAN\"",
+            "(label \"BUTTON_1_OUT\"",
+            "several outputs",
+        ),
+        (
+            "(property \"Reference\" \"R10\"",
+            "(property \"Reference\" \"R11\"",
+            "two parts",
+        ),
         ("(pin power_out", "(pin passive", "nothing supplies"),
     ];
     for (from, to, wanted) in table {
         let faults = broken(from, to);
-        assert!(faults.iter().any(|fault| fault.contains(wanted)), "{to}: {faults:#?}");
+        assert!(
+            faults.iter().any(|fault| fault.contains(wanted)),
+            "{to}: {faults:#?}"
+        );
     }
 }
 
@@ -78,7 +117,10 @@ fn a_board_that_differs_from_its_schematic_is_found() {
     let drawn = schematic(&drawn);
     let mut board = Board::parse(&laid).expect("a board");
     assert!(rules::differences(&drawn, &board).is_empty());
-    let pad = Pin { reference: "U3".to_owned(), number: "2".to_owned() };
+    let pad = Pin {
+        reference: "U3".to_owned(),
+        number: "2".to_owned(),
+    };
     board.nets.insert(pad, "TXD_MCU".to_owned());
     board.parts.remove("C1");
     let faults = rules::differences(&drawn, &board);
@@ -93,7 +135,11 @@ fn a_connector_that_differs_from_the_pinout_is_found() {
     let faults = |pinout: &str| connectors::differences(&board, pinout).expect("a pinout");
     assert!(faults(&pinout).is_empty());
     let swapped = pinout.replace("connector = 7", "connector = 5");
-    assert!(faults(&swapped).iter().any(|fault| fault.contains("J3.5")), "{:?}", faults(&swapped));
+    assert!(
+        faults(&swapped).iter().any(|fault| fault.contains("J3.5")),
+        "{:?}",
+        faults(&swapped)
+    );
     let lost = pinout.replace("connector = 10\n", "");
     assert!(faults(&lost).iter().any(|fault| fault.contains("names 9 pins")));
 }
