@@ -6,6 +6,7 @@ use brain::StrategyName;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::board::{BUTTONS_MAX, BoardSettings, LightLines, PressedLevel};
 use crate::imu::{Axis, ImuSettings, Roots};
 use crate::radio::{BEACONS_MAX, BeaconName, RadioForm, RadioSettings};
 
@@ -34,6 +35,8 @@ pub struct Config {
     pub seed: Option<u64>,
     /// Gyro on the Linux board, if there is one.
     pub imu: Option<ImuSettings>,
+    /// Buttons and lights on the Linux board, if there are any.
+    pub board: Option<BoardSettings>,
     /// Radio on the Linux board that measures distances to beacons, if there is one.
     pub radio: Option<RadioSettings>,
     /// Log.
@@ -122,6 +125,7 @@ struct ConfigFile {
     socket: Socket,
     robot: Robot,
     imu: Imu,
+    board: Board,
     radio: Radio,
     state: StateSection,
     log: LogSection,
@@ -157,6 +161,17 @@ struct Robot {
 struct Imu {
     device: Option<Spanned<String>>,
     up: Option<Spanned<String>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Board {
+    chip: Option<PathBuf>,
+    buttons: Option<Spanned<Vec<u32>>>,
+    pressed: Option<Spanned<String>>,
+    ready: Option<Spanned<u32>>,
+    working: Option<Spanned<u32>>,
+    attention: Option<Spanned<u32>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -300,6 +315,7 @@ fn validate(file: ConfigFile, flags: Overrides, source: &ConfigText<'_>) -> Resu
         task_budget_min: source.in_range(file.robot.task_budget_min, 120, 1..=1_440)?,
         seed: flags.seed.or(file.robot.seed),
         imu: imu(file.imu, source)?,
+        board: board(file.board, source)?,
         radio: radio(file.radio, source)?,
         log: LogConfig {
             level: level(file.log.level, source)?,
@@ -329,6 +345,52 @@ fn imu(imu: Imu, source: &ConfigText<'_>) -> Result<Option<ImuSettings>, ConfigE
         device: device.into_inner(),
         axis,
         roots: Roots::default(),
+    }))
+}
+
+fn board(board: Board, source: &ConfigText<'_>) -> Result<Option<BoardSettings>, ConfigError> {
+    let pressed = match &board.pressed {
+        None => PressedLevel::Low,
+        Some(level) => match level.get_ref().as_str() {
+            "low" => PressedLevel::Low,
+            "high" => PressedLevel::High,
+            other => {
+                let what = format!("{other:?} is no level: write low or high");
+                return Err(source.invalid(level.span().start, what));
+            }
+        },
+    };
+    // Each line with the place where it is named, to say which one is named twice.
+    let mut lines: Vec<(u32, usize)> = Vec::new();
+    if let Some(buttons) = &board.buttons {
+        if buttons.get_ref().len() > BUTTONS_MAX {
+            let what = format!("these are too many: write at most {BUTTONS_MAX}");
+            return Err(source.invalid(buttons.span().start, what));
+        }
+        lines.extend(buttons.get_ref().iter().map(|line| (*line, buttons.span().start)));
+    }
+    let lights = [&board.ready, &board.working, &board.attention];
+    lines.extend(
+        lights
+            .into_iter()
+            .flatten()
+            .map(|line| (*line.get_ref(), line.span().start)),
+    );
+    for (index, (line, offset)) in lines.iter().enumerate() {
+        if lines.iter().take(index).any(|(other, _)| other == line) {
+            let what = format!("line {line} is used twice: give each button and light a line of its own");
+            return Err(source.invalid(*offset, what));
+        }
+    }
+    Ok(board.chip.map(|chip| BoardSettings {
+        chip,
+        buttons: board.buttons.map(Spanned::into_inner).unwrap_or_default(),
+        pressed,
+        lights: LightLines {
+            ready: board.ready.map(Spanned::into_inner),
+            working: board.working.map(Spanned::into_inner),
+            attention: board.attention.map(Spanned::into_inner),
+        },
     }))
 }
 
@@ -435,6 +497,9 @@ mod tests {
         assert_eq!(defaults.strategy, None, "what suits the robot");
         defaults.strategy = Some(StrategyName::Systematic);
         defaults.imu = parse("[imu]\ndevice = \"mpu6050\"").expect("valid").imu;
+        let board = "[board]\nchip = \"/dev/gpiochip0\"\nbuttons = [4, 17, 27]\nready = 5\nworking = 22\nattention = 23";
+        defaults.board = parse(board).expect("valid").board;
+        assert!(defaults.board.is_some());
         defaults.radio = parse("[radio]\ndevice = \"/dev/ttyACM0\"").expect("valid").radio;
         assert_eq!(config, defaults);
         load(Some(&example), Overrides::default()).expect("valid as it stands");
@@ -451,6 +516,12 @@ mod tests {
             "seed",
             "device",
             "up",
+            "chip",
+            "buttons",
+            "pressed",
+            "ready",
+            "working",
+            "attention",
             "form",
             "beacons",
             "sigma_m",
@@ -483,6 +554,18 @@ mod tests {
             (
                 "[imu]\nup = \"w\"",
                 "vthal.toml:2: imu.up: \"w\" is no axis: write x, y or z, with a minus sign if it points down",
+            ),
+            (
+                "[board]\npressed = \"down\"",
+                "vthal.toml:2: board.pressed: \"down\" is no level: write low or high",
+            ),
+            (
+                "[board]\nbuttons = [4, 17]\nready = 17",
+                "vthal.toml:3: board.ready: line 17 is used twice: give each button and light a line of its own",
+            ),
+            (
+                "[board]\nbuttons = [1, 2, 3, 4, 5, 6, 7, 8, 9]",
+                "vthal.toml:2: board.buttons: these are too many: write at most 8",
             ),
             (
                 "[radio]\nform = \"ble\"",

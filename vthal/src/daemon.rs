@@ -14,6 +14,7 @@ use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
 use vthal_core::{ClientId, Core, Delivery, Input, Outputs, Recipients};
 
+use crate::board::{BoardEvent, LightsHandle};
 use crate::checkpoint_thread::CheckpointHandle;
 use crate::client::{self, Client, Flushed, Incoming};
 use crate::client_stream::ClientStream;
@@ -49,6 +50,8 @@ pub(crate) struct Wiring {
     pub checkpoints: CheckpointHandle,
     /// What is kept of runs.
     pub runs: RunHandle,
+    /// Lights on the Linux board, if there are any.
+    pub lights: Option<LightsHandle>,
     /// The socket's file, removed at the end.
     pub socket: PathBuf,
     /// Clients at the same time.
@@ -139,6 +142,7 @@ impl Daemon {
             Event::Serial(SerialEvent::Closed(reason)) => self.handle(Input::LinkClosed { reason }),
             Event::Serial(SerialEvent::Absent(error)) => tracing::warn!(part = "link", "{error}"),
             Event::Imu(event) => self.take_imu(event),
+            Event::Board(event) => self.take_board(event),
             Event::Radio(event) => self.take_radio(event),
             Event::Connected(stream) => self.connect(stream),
             Event::ClientBytes(client, bytes) => self.client_bytes(client, &bytes),
@@ -172,6 +176,26 @@ impl Daemon {
                     part = "imu",
                     "no heading from the board's gyro: {text}; looking again every 2 s"
                 );
+            }
+        }
+    }
+
+    fn take_board(&mut self, event: BoardEvent) {
+        match event {
+            BoardEvent::Buttons(down) => self.handle(Input::BoardButtons { down }),
+            BoardEvent::Opened(0) => tracing::info!(part = "board", "buttons and lights are open"),
+            BoardEvent::Opened(down) => tracing::warn!(
+                part = "board",
+                "buttons are down at the start (bits {down:#b}): they count once they were released; if nobody holds \
+                 them, board.pressed is the other level"
+            ),
+            BoardEvent::Absent(text) => {
+                tracing::warn!(
+                    part = "board",
+                    "no buttons and lights: {text}; looking again every 2 s"
+                );
+                // A button that nobody can see any more is not held.
+                self.handle(Input::BoardButtons { down: 0 });
             }
         }
     }
@@ -267,6 +291,9 @@ impl Daemon {
     }
 
     fn perform(&mut self) {
+        if let Some(lights) = &mut self.wiring.lights {
+            lights.show(self.core.lights());
+        }
         if !self.outputs.link.is_empty() {
             let bytes = std::mem::take(&mut self.outputs.link);
             let congested = self.wiring.to_robot.try_send(LineOrder::Send(bytes)).is_err();

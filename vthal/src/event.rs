@@ -5,6 +5,7 @@ use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
 
 use crate::archive_desk::ArchiveAnswer;
+use crate::board::BoardEvent;
 use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
 use crate::radio::RadioEvent;
@@ -31,6 +32,8 @@ pub(crate) enum Event {
     ClientClosed(ClientId),
     /// From the gyro of the Linux board.
     Imu(ImuEvent),
+    /// From the buttons of the Linux board.
+    Board(BoardEvent),
     /// From the radio of the Linux board.
     Radio(RadioEvent),
     /// What came of an order for the kept maps.

@@ -1,11 +1,12 @@
 //! The shell of the vthal daemon: it carries out what `vthal-core` decides, and decides nothing itself.
 //!
 //! One event loop ([`daemon`]) over one closed enum ([`event`]); the serial line ([`serial`]) and each client of the socket
-//! ([`socket`], [`client`], [`outbox`]) are tasks that only turn bytes into events; a gyro on the board ([`imu`]) is read by a thread. Disks are slow, so recordings
+//! ([`socket`], [`client`], [`outbox`]) are tasks that only turn bytes into events; a gyro on the board ([`imu`]), and its buttons and lights ([`board`]), are read by threads. Disks are slow, so recordings
 //! ([`recording`]) and checkpoints ([`checkpoint_file`]) are written by threads of their own.
 #![forbid(unsafe_code)]
 
 mod archive_desk;
+pub mod board;
 pub mod checkpoint_file;
 mod checkpoint_thread;
 mod client;

@@ -28,7 +28,7 @@ use crate::schedule_file;
 use crate::serial::{self, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
-use crate::{checkpoint_thread, imu, logging, radio, run_thread};
+use crate::{board, checkpoint_thread, imu, logging, radio, run_thread};
 
 /// Make of the robot that this daemon serves.
 const MAKE: Make = cordlib::MAKE;
@@ -106,7 +106,12 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     let core_config = core_config(config, &kept)?;
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
     let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
+    let lights = match &config.board {
+        Some(settings) => Some(board::start(settings.clone(), event_sender.clone())?),
+        None => None,
+    };
     let wiring = Wiring {
+        lights,
         events,
         event_sender: event_sender.clone(),
         to_robot,

@@ -8,6 +8,7 @@ mod book_pictures;
 mod codegen;
 mod demo;
 mod firmware;
+mod hardware;
 mod panel;
 mod process;
 mod system;
@@ -35,6 +36,8 @@ enum Command {
     Test(test::TestArguments),
     /// Builds the firmware of a robot and tells what it takes.
     Firmware(firmware::FirmwareArguments),
+    /// Checks our circuit boards with KiCad 6 and makes Gerber files, drawings and pictures of them.
+    Hardware(hardware::HardwareArguments),
     /// Measures one part of the project and prints its figures: the link, the daemon, the simulator, the firmware, how the robot cleans.
     Bench(bench::BenchArguments),
     /// Checks the rules of the repository.
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
         Command::Demo(arguments) => demo::run(&arguments),
         Command::Test(arguments) => test::run(&arguments),
         Command::Firmware(arguments) => firmware::run(&arguments),
+        Command::Hardware(arguments) => hardware::run(&arguments),
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Tidy(arguments) => tidy::run_with(&arguments),
         Command::Codegen(arguments) => codegen::run(&arguments),

@@ -135,6 +135,7 @@ impl Core {
                     brain_session.observer.take_board_heading(now_us, heading_urad);
                 }
             }
+            Input::BoardButtons { down } => self.board_buttons(now_us, down, outputs),
             Input::Beacon(signal) => {
                 if let Some(brain_session) = &mut self.brain_session {
                     brain_session.observer.take_beacon(signal);

@@ -27,6 +27,11 @@ pub enum Input<'a> {
         /// Microradians counter-clockwise, wrapping.
         heading_urad: i32,
     },
+    /// Which buttons of the Linux board are down has changed.
+    BoardButtons {
+        /// Those that are down, button 0 in bit 0.
+        down: u8,
+    },
     /// A radio on the Linux board measured how far a beacon is, or how strongly it is received.
     Beacon(BeaconSignal),
     /// A client connected.

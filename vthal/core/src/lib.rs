@@ -29,6 +29,7 @@ mod history;
 mod home_view;
 mod input;
 pub mod learnt;
+mod lights;
 mod newest;
 pub mod observe;
 mod outputs;
@@ -46,6 +47,7 @@ pub use core::Core;
 pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
+pub use lights::Lights;
 pub use outputs::{
     ArchiveOrder, ArchiveTask, Delivery, Direction, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder,
     LearntOrder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunQuery,

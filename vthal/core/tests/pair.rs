@@ -13,8 +13,8 @@ use rvac_protocol::message::{
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
 use vthal_core::{
-    ClientId, Core, CoreConfig, EditedMap, FloorHome, FloorOrder, FloorTask, Input, KeptFloor, MapOrder,
-    Outputs, Record, Recording,
+    ClientId, Core, CoreConfig, EditedMap, FloorHome, FloorOrder, FloorTask, Input, KeptFloor, Lights,
+    MapOrder, Outputs, Record, Recording,
 };
 
 const ANNA: ClientId = ClientId(1);
@@ -698,6 +698,53 @@ fn the_robots_button_starts_and_stops() {
     assert_eq!(pair.core.status().state, "paused");
     hold(&mut pair, 0, 100);
     assert_eq!(pair.core.status().state, "starting", "it goes on");
+}
+
+/// Buttons of the Linux board, on a robot that reports none.
+fn press_on_board(pair: &mut Pair, down: u8, for_ms: u64) {
+    pair.handle(Input::BoardButtons { down });
+    pair.run_ms(for_ms);
+    pair.handle(Input::BoardButtons { down: 0 });
+    pair.run_ms(100);
+}
+
+#[test]
+fn a_button_of_the_linux_board_starts_and_stops_and_lights_show_it() {
+    let mut pair = Pair::new();
+    let lit = |pair: &Pair| {
+        let Lights {
+            ready,
+            working,
+            attention,
+        } = pair.core.lights();
+        [ready, working, attention]
+    };
+    pair.run_ms(100);
+    assert_eq!(lit(&pair), [true, false, false]);
+    press_on_board(&mut pair, 1, 100);
+    assert_eq!(pair.core.status().state, "starting");
+    assert_eq!(lit(&pair), [false, true, false]);
+    pair.run_ms(5000);
+    pair.handle(Input::BoardButtons { down: 1 });
+    pair.run_ms(100);
+    assert_eq!(pair.core.status().state, "paused", "while it is down still");
+    assert_eq!(lit(&pair), [true, false, false]);
+    pair.handle(Input::BoardButtons { down: 0 });
+    pair.run_ms(1000);
+    press_on_board(&mut pair, 1, 100);
+    assert_eq!(pair.core.status().state, "starting", "it goes on");
+}
+
+#[test]
+fn holds_on_the_linux_board_mean_what_they_mean_on_the_robot() {
+    let mut pair = Pair::new();
+    let topics = vec![Topic::Buttons];
+    pair.ask(BERT, RequestBody::Watch { topics });
+    press_on_board(&mut pair, 0b001, 6_000);
+    assert_eq!(gestures(&mut pair), [Gesture::PairingHold]);
+    press_on_board(&mut pair, 0b101, 16_000);
+    assert_eq!(gestures(&mut pair), [Gesture::RecoveryHold]);
+    assert_eq!(pair.core.status().state, "idle");
 }
 
 #[test]

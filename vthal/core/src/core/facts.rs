@@ -1,5 +1,6 @@
 //! What is known at this moment, for whoever holds the core and for its desks.
 
+use brain::BehaviorState;
 use rvac_api::{ComponentHealth, FloorsView, Pose, Schedules, Status};
 
 use super::Core;
@@ -9,6 +10,7 @@ use crate::desk::arbiter::Source;
 use crate::desk::audience::{Now, Teller};
 use crate::desk::readiness::{Readiness, StartFacts};
 use crate::desk::sources::Sources;
+use crate::lights::Lights;
 use crate::refusal::Refused;
 
 impl Core {
@@ -22,6 +24,16 @@ impl Core {
     #[must_use]
     pub fn status(&self) -> Status {
         self.sources().status()
+    }
+
+    /// What lights of the Linux board should show.
+    #[must_use]
+    pub fn lights(&self) -> Lights {
+        match self.brain() {
+            _ if self.ended => Lights::default(),
+            Some(brain) => Lights::of(brain.status().state),
+            None => Lights::of(BehaviorState::Disconnected),
+        }
     }
 
     /// The floors, and on which of them the robot is.

@@ -178,6 +178,20 @@ impl Core {
         }
     }
 
+    /// Buttons of the Linux board mean what those of the robot mean.
+    pub(super) fn board_buttons(&mut self, now_us: u64, down: u8, outputs: &mut Outputs) {
+        let changed = self.buttons.take_board(down);
+        for button in (0..8).filter(|button| changed & (1 << button) != 0) {
+            let pressed = down & (1 << button) != 0;
+            self.button_turned(now_us, ButtonEdge { button, pressed }, outputs);
+            if pressed {
+                let text = format!("button {button} of the Linux board was pressed");
+                self.teller(now_us, outputs)
+                    .log(LogLevel::Info, LogSource::Vthal, text);
+            }
+        }
+    }
+
     fn button_turned(&mut self, now_us: u64, edge: ButtonEdge, outputs: &mut Outputs) {
         let usual_strategy = self.start_facts().usual_strategy;
         let doing = self.brain_session.as_ref().map(|brain_session| Doing {

@@ -33,6 +33,8 @@ pub(crate) struct Doing {
 #[derive(Debug, Default)]
 pub(crate) struct ButtonDesk {
     buttons: Buttons,
+    /// Buttons of the Linux board that are down.
+    board: u8,
     /// START went down while nothing ran that it had to stop.
     start_means_more: bool,
 }
@@ -51,6 +53,13 @@ impl ButtonDesk {
     /// Keeps presses for a client for so long, or no longer with 0.
     pub(crate) fn claim(&mut self, now_us: u64, client: ClientId, ms: u32) {
         self.buttons.claim(now_us, client, ms);
+    }
+
+    /// Which buttons of the Linux board are down now; gives those that have changed.
+    pub(crate) fn take_board(&mut self, down: u8) -> u8 {
+        let changed = self.board ^ down;
+        self.board = down;
+        changed
     }
 
     /// A button went down, which stops what runs at once, or up, which starts or goes on if it was a short press. Gives what the
@@ -76,9 +85,12 @@ impl ButtonDesk {
         command
     }
 
-    /// A report says which are down.
+    /// A report says which of the robot's are down; those of the Linux board are known.
     pub(crate) fn reported(&mut self, report: &Report, teller: &mut Teller<'_>) {
-        if let Some(gesture) = self.buttons.take_report(teller.now_us, report.buttons) {
+        if let Some(gesture) = self
+            .buttons
+            .take_report(teller.now_us, report.buttons | self.board)
+        {
             held(gesture, report.uptime_ms, teller);
         }
     }

@@ -135,11 +135,14 @@ pub(super) struct Pinout {
 #[serde(deny_unknown_fields)]
 struct RawPinout {
     chip: String,
+    /// Pins of a connector that are no port pins. The check of the circuit boards reads them, as it does `connector` of a signal.
+    #[serde(rename = "connector")]
+    _connector: Option<toml::Table>,
     signal: Vec<RawSignal>,
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct RawSignal {
     name: String,
     original: Option<String>,
@@ -150,6 +153,10 @@ struct RawSignal {
     pull: Pull,
     function: Option<String>,
     safe: Option<Level>,
+    #[serde(rename = "connector")]
+    _connector: Option<u8>,
+    #[serde(rename = "button-board")]
+    _button_board: Option<String>,
     confidence: Confidence,
     source: String,
     note: Option<String>,
