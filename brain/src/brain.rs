@@ -112,6 +112,9 @@ impl Brain {
         if self.localization.knows_heading(observation.time_us) && self.localization.may_draw() {
             self.map.insert(&estimate, observation);
         }
+        if let Some(trust) = self.localization.place_trust() {
+            self.map.note_trust(trust, observation.time_us);
+        }
         self.localization
             .check_against_map(observation, advance, &self.config);
         let correction = self
@@ -397,6 +400,8 @@ impl Brain {
         if let Some(tracking) = checkpoint.tracking {
             self.track();
             self.localization.resume_tracking(tracking);
+        } else {
+            self.map.draw_afresh();
         }
         self.begin_with(Learnt {
             gyro: checkpoint.gyro,
@@ -413,6 +418,7 @@ impl Brain {
         self.localization
             .start_monte_carlo(&self.map, &self.config, self.mind.random.state());
         if self.map_agreement().is_none() {
+            self.map.draw_afresh();
             self.localization.start_line_slam(&self.config);
         }
     }

@@ -95,10 +95,15 @@ pub(super) struct SimulatedRobot<'map> {
 
 impl<'map> SimulatedRobot<'map> {
     pub(super) fn new(map: &'map Map, pose: Pose2) -> Self {
+        Self::seeded(map, pose, 11)
+    }
+
+    /// One that turns by other random angles and has other noise.
+    pub(super) fn seeded(map: &'map Map, pose: Pose2, seed: u64) -> Self {
         Self {
             map,
             pose,
-            random: Random::new(11),
+            random: Random::new(seed),
             turn_left_rad: 0.0,
             view: Observation {
                 gyro_heading_rad: Some(0.0),

@@ -20,6 +20,8 @@ mod known_storeys;
 mod lift;
 mod line_slam;
 mod localizer;
+#[cfg(test)]
+mod many_runs;
 mod map_correction;
 mod odometry;
 mod particles;

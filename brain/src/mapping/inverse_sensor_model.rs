@@ -4,6 +4,7 @@ mod parameters;
 
 use parameters::{CONTACT, OCCUPANCY, SURFACE};
 
+use super::kept_home::{Hit, KeptHome, Touched};
 use super::occupancy_grid::{Evidence, Flag, OccupancyGrid};
 use super::sighting::Sighting;
 use super::{CELL_M, Cell};
@@ -34,14 +35,14 @@ pub(super) struct InverseSensorModel {
 }
 
 impl InverseSensorModel {
-    /// Adds the evidence of a sighting to the grid.
-    pub(super) fn draw(&self, sighting: &Sighting, grid: &mut OccupancyGrid) {
+    /// Adds the evidence of a sighting to the grid. What obstacles of `kept` explain confirms these.
+    pub(super) fn draw(&self, sighting: &Sighting, kept: Option<&KeptHome>, grid: &mut OccupancyGrid) {
         self.draw_body(sighting, grid);
         for (sensor, level) in self.sensors.proximity.sensors().iter().zip(sighting.levels) {
             let sensor = *sensor;
-            self.draw_beam(sighting, ProximityReading { sensor, level }, grid);
+            self.draw_beam(sighting, ProximityReading { sensor, level }, kept, grid);
         }
-        self.draw_contacts(sighting, grid);
+        self.draw_contacts(sighting, kept, grid);
         self.draw_cliffs(sighting, grid);
         self.draw_surface(sighting, grid);
     }
@@ -88,13 +89,20 @@ impl InverseSensorModel {
                     add_occupancy(evidence, OCCUPANCY.body_step);
                     evidence.contact = evidence.contact.saturating_sub(CONTACT.located);
                     evidence.set(Flag::Body);
+                    evidence.set(Flag::Driven);
                     note_sigma(evidence, sighting);
                 });
             }
         }
     }
 
-    fn draw_beam(&self, sighting: &Sighting, reading: ProximityReading, grid: &mut OccupancyGrid) {
+    fn draw_beam(
+        &self,
+        sighting: &Sighting,
+        reading: ProximityReading,
+        kept: Option<&KeptHome>,
+        grid: &mut OccupancyGrid,
+    ) {
         let response = self.sensors.proximity.response;
         let beam = sighting.pose * reading.sensor;
         let level = f64::from(reading.level) / 255.0;
@@ -131,14 +139,19 @@ impl InverseSensorModel {
             }
             last = Some(cell);
             let share = if off_m == 0.0 { strength } else { strength / 3 };
-            grid.change(cell, |evidence| {
+            let solid = match kept.map_or(Hit::New, |kept| kept.hit(cell)) {
+                Hit::Known(solid) => solid,
+                Hit::Near => continue,
+                Hit::New => cell,
+            };
+            grid.change(solid, |evidence| {
                 add_occupancy(evidence, share);
                 note_sigma(evidence, sighting);
             });
         }
     }
 
-    fn draw_contacts(&self, sighting: &Sighting, grid: &mut OccupancyGrid) {
+    fn draw_contacts(&self, sighting: &Sighting, kept: Option<&KeptHome>, grid: &mut OccupancyGrid) {
         // A bumper that stays pressed is no new evidence, and the robot is backing off from the obstacle.
         if !sighting.switches.has_new_contact() {
             return;
@@ -174,7 +187,12 @@ impl InverseSensorModel {
                 continue;
             }
             last = Some(cell);
-            grid.change(cell, |gathered| {
+            let touched = match kept.map_or(Touched::New, |kept| kept.touched(cell)) {
+                Touched::Seen => continue,
+                Touched::Again(touched) => touched,
+                Touched::New => cell,
+            };
+            grid.change(touched, |gathered| {
                 gathered.contact = gathered.contact.saturating_add(evidence).min(CONTACT.limit);
                 note_sigma(gathered, sighting);
             });

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::cell_past::CellPast;
 use super::tile_grid::{TILE_CELLS, TileGrid, TileKey, first_cell, locate};
 use super::{Cell, SurfaceKind};
 
@@ -47,6 +48,8 @@ pub(super) struct Evidence {
     /// From the motor currents: positive for carpet, negative for hard floor. It is not part of the knowledge and does not affect
     /// navigation.
     pub(super) carpet: i8,
+    /// What earlier runs found there.
+    pub(super) past: CellPast,
 }
 
 /// A boolean property of a cell.
@@ -60,6 +63,8 @@ pub(super) enum Flag {
     Seen = 4,
     /// The robot got stuck here; forbidden until the next job.
     Pocket = 8,
+    /// The body was here in this run.
+    Driven = 16,
 }
 
 /// Evidence from which a cell counts as known.
@@ -117,6 +122,11 @@ impl Evidence {
         self.flags &= !(flag as u8);
     }
 
+    /// Forgets that something was touched.
+    pub(super) fn expire_touch(&mut self) {
+        (self.contact, self.past) = (0, CellPast::default());
+    }
+
     /// The state that the evidence supports.
     pub(super) fn knowledge(self) -> CellKnowledge {
         if self.has(Flag::NoGo) || self.has(Flag::Pocket) {
@@ -133,9 +143,19 @@ impl Evidence {
     }
 }
 
+/// Whether infrared has seen an obstacle.
+pub(super) fn is_seen_solid(evidence: Evidence) -> bool {
+    evidence.occupancy >= THRESHOLDS.occupied_min
+}
+
+/// Whether contacts have found an obstacle.
+pub(super) fn is_touched(evidence: Evidence) -> bool {
+    evidence.contact >= THRESHOLDS.contact_min
+}
+
 /// Whether the obstacle is known from contacts alone.
 pub(super) fn is_touched_only(evidence: Evidence) -> bool {
-    evidence.contact >= THRESHOLDS.contact_min && evidence.occupancy < THRESHOLDS.occupied_min
+    is_touched(evidence) && !is_seen_solid(evidence)
 }
 
 /// Cells from `low` to `high`, both included.

@@ -1,19 +1,19 @@
 //! Bytes of a stored map, for the disk and for the beginning of a recording.
 //!
 //! `RVACMAP`, a version byte, the body, and a CRC-32 (IEEE 802.3) over everything before it, low byte first. Since version
-//! 10 the body is a [`Body`] in the postcard format. Versions 1 to 9 are read by [`legacy`].
+//! 10 the body is a [`Body`] in the postcard format, and since version 11 a [`Past`] follows it. Versions 1 to 9 are read by [`legacy`].
 
 mod annotations;
 mod body;
 mod legacy;
 
-use body::Body;
+use body::{Body, Past};
 use brain::{StoredMap, StoredMapError};
 use serde::de::DeserializeOwned;
 
 const MAGIC: &[u8; 7] = b"RVACMAP";
 /// Version that is written.
-const VERSION: u8 = 10;
+const VERSION: u8 = 11;
 /// Oldest version that is read.
 const VERSION_MIN: u8 = 1;
 
@@ -82,13 +82,17 @@ pub fn decode(bytes: &[u8]) -> Result<StoredMap, DecodeError> {
         rest: whole.get(MAGIC.len() + 1..).ok_or(DecodeError::Cut)?,
     };
     let body = match version {
-        VERSION => reader.take(DecodeError::Kind)?,
+        10.. => reader.take(DecodeError::Kind)?,
         _ => legacy::body(&mut reader, version)?,
+    };
+    let past: Past = match version {
+        11.. => reader.take(DecodeError::Number)?,
+        _ => Past::new(),
     };
     if !reader.rest.is_empty() {
         return Err(DecodeError::Trailing);
     }
-    Ok(body.into_map()?)
+    Ok(body.into_map(past)?)
 }
 
 /// What is left to read.

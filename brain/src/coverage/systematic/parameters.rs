@@ -48,6 +48,8 @@ pub(super) struct EvaluationParameters {
     /// A plan that finds less than this share of the counted floor belongs to a robot that is cut off from the rest, or
     /// outside of the walls on its map.
     pub(super) elsewhere_share: f64,
+    /// Floor that is cut off since before the job counts as at most so much more than the reachable floor, as the inverse share.
+    pub(super) connected_share_min: f64,
 }
 
 pub(super) const EVALUATION: EvaluationParameters = EvaluationParameters {
@@ -60,6 +62,7 @@ pub(super) const EVALUATION: EvaluationParameters = EvaluationParameters {
     whole_share: 0.85,
     rest_share: 0.05,
     elsewhere_share: 0.5,
+    connected_share_min: 0.05,
 };
 
 /// What the robot knows of the outline of its home.

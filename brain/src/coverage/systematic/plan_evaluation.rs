@@ -92,7 +92,8 @@ impl Systematic {
             return self.bounce_out(situation, context);
         }
         let share = self.swept_share(situation.map).map_or(0.0, |swept| swept.share);
-        let is_missed = self.is_cut_off && share < EVALUATION.whole_share;
+        let is_cut_off = self.is_cut_off || situation.map.connected_share() < 1.0;
+        let is_missed = is_cut_off && share < EVALUATION.whole_share;
         if self.turns_to_next(is_missed, situation.map, context) {
             return TaskStatus::Go(Motion::Halt);
         }
@@ -130,16 +131,24 @@ impl Systematic {
         let known_m2 = match &self.outline {
             // Floor assumed far beyond the known part does not count yet.
             Some(Outline::Growing(margin)) if margin.is_far() => plan.floor_m2.min(situation.map.free_m2()),
+            // Floor that earlier runs reached and that is cut off since before the job counts as not swept.
+            Some(Outline::Known) if self.assignment.is_whole_home() => {
+                plan.floor_m2
+                    / situation
+                        .map
+                        .connected_share()
+                        .max(EVALUATION.connected_share_min)
+            }
             _ => plan.floor_m2,
         };
         let most_m2 = self.shares.know_floor(known_m2);
-        if plan.floor_m2 < EVALUATION.whole_share * most_m2 && self.shares.has_plan() {
+        let (reached_m2, floor_m2) = match &self.outline {
+            Some(Outline::Growing(_)) => (plan.floor_m2, known_m2),
+            _ => (known_m2, most_m2),
+        };
+        if reached_m2 < EVALUATION.whole_share * most_m2 && self.shares.has_plan() {
             return self.shares.pass_over();
         }
-        let floor_m2 = match &self.outline {
-            Some(Outline::Growing(_)) => known_m2,
-            _ => most_m2,
-        };
         self.shares.take(plan, floor_m2);
     }
 

@@ -9,7 +9,7 @@ use super::parameters::PLACING;
 use crate::localization::TrackingCheckpoint;
 use crate::localization::drift::Drift;
 use crate::localization::tracker::CONFIRMATION_BEAMS;
-use crate::mapping::DockLocation;
+use crate::mapping::{DockLocation, PlaceTrust};
 use crate::model::geometry::Pose2;
 
 impl Localization {
@@ -46,6 +46,20 @@ impl Localization {
                 Estimator::LineSlam(_) => true,
                 Estimator::Odometry => false,
             }
+    }
+
+    /// How sure the robot is of its place in a known home; `None` in another one.
+    #[must_use]
+    pub(crate) fn place_trust(&self) -> Option<PlaceTrust> {
+        let tracker = &self.estimator.known_map()?.tracker;
+        let is_sure = !tracker.is_lost()
+            && tracker.unconfirmed_beams() == 0
+            && tracker.explained() >= PLACING.trusted_explained;
+        Some(if is_sure {
+            PlaceTrust::Sure
+        } else {
+            PlaceTrust::Doubtful
+        })
     }
 
     /// Whether the dock's contacts closed at the last observation. A robot that wakes on its dock has not docked.

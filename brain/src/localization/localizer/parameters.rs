@@ -18,6 +18,8 @@ pub(super) struct PlacingParameters {
     pub(super) same_rad: f64,
     /// A pose with a smaller standard deviation than this may be used as a reference, metres.
     pub(super) confirmed_sigma_m: f64,
+    /// The map must explain this share of the sensor readings for what they show to be learnt: as for holding what the filter has learnt.
+    pub(super) trusted_explained: f64,
 }
 
 pub(super) const PLACING: PlacingParameters = PlacingParameters {
@@ -29,4 +31,5 @@ pub(super) const PLACING: PlacingParameters = PlacingParameters {
     same_m: 0.05,
     same_rad: 0.05,
     confirmed_sigma_m: 0.15,
+    trusted_explained: 0.75,
 };

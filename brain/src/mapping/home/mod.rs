@@ -1,14 +1,17 @@
 //! The part of the map that outlives a job.
 
 mod painting;
+mod settling;
 
 use core::task::Poll;
 
 use super::annotations::Annotations;
 use super::carpet::SurfaceObservation;
+use super::cut_off::DrivenFloor;
 use super::derived::Derived;
 use super::dock_location::DockLocation;
 use super::inverse_sensor_model::InverseSensorModel;
+use super::kept_home::KeptHome;
 use super::occupancy_grid::{CellBox, CellKnowledge, Flag, OccupancyGrid};
 use super::rooms::Rooms;
 use super::sighting::Sighting;
@@ -19,6 +22,9 @@ use crate::model::geometry::Point2;
 use crate::model::gradual::{Gradual, StepBudget, at_once};
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
+use settling::KnownHome;
+pub(crate) use settling::PlaceTrust;
+pub(super) use settling::RunSoFar;
 
 /// Interval of updating the derived rasters, microseconds.
 const REFRESH_US: u64 = 2_000_000;
@@ -47,6 +53,10 @@ pub(super) struct HomeMap {
     /// The grid before the first sighting.
     pub(super) base: OccupancyGrid,
     pub(super) sightings: Vec<Sighting>,
+    /// In a known home: what earlier runs left, and what this run will leave.
+    pub(super) known: Option<Box<KnownHome>>,
+    /// Share of the floor driven in earlier runs that the robot reaches from its dock.
+    pub(super) connected_share: f64,
     last: Option<Sighting>,
     refreshed_us: u64,
     /// Dirty tiles that the current update has still to process.
@@ -78,6 +88,8 @@ impl HomeMap {
             derived: Derived::default(),
             base: OccupancyGrid::default(),
             sightings: Vec::new(),
+            known: None,
+            connected_share: 1.0,
             last: None,
             refreshed_us: 0,
             stale_tiles: 0,
@@ -112,7 +124,8 @@ impl HomeMap {
         }
         self.last = Some(sighting);
         self.sightings.push(sighting);
-        self.sensor_model.draw(&sighting, &mut self.grid);
+        let kept = self.known.as_ref().map(|known| &*known.kept);
+        self.sensor_model.draw(&sighting, kept, &mut self.grid);
         if observation.time_us >= self.refreshed_us.saturating_add(REFRESH_US) {
             self.refreshed_us = observation.time_us;
             self.begin_refresh();
@@ -131,6 +144,9 @@ impl HomeMap {
         };
         self.base.change(cell, change);
         self.grid.change(cell, change);
+        if let Some(known) = &mut self.known {
+            known.settled.change(cell, change);
+        }
     }
 
     /// Forbids a disc of cells until [`Self::allow_pockets`].
@@ -224,6 +240,7 @@ impl HomeMap {
 
     /// Makes everything up to now final.
     pub(super) fn finalize(&mut self) {
+        self.settle_all();
         self.base = self.grid.clone();
         self.sightings.clear();
     }
@@ -297,6 +314,18 @@ impl HomeMap {
         self.annotations = stored.annotations().clone();
         self.paint_no_go();
         self.derived = Derived::compute(&mut self.grid, budget).await;
+        if let Some(dock) = self.dock.pose() {
+            let radius_m = self.sensor_model.body.radius_m;
+            let mut floor = DrivenFloor {
+                grid: &mut self.grid,
+                derived: &mut self.derived,
+                radius_m,
+            };
+            self.connected_share = floor.reconnect(dock.position(), budget).await;
+            self.base = self.grid.clone();
+        }
+        let kept = KeptHome::of(&self.grid, &self.derived.knowledge, budget).await;
+        self.known = Some(Box::new(KnownHome::begun(kept)));
         let without_no_go = self.knowledge_without_no_go();
         let knowledge = without_no_go.as_ref().unwrap_or(&self.derived.knowledge);
         let changes = self.annotations.room_changes();

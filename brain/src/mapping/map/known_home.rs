@@ -6,7 +6,8 @@ use crate::mapping::sighting::Sighting;
 use crate::mapping::wall_direction::wall_direction_rad;
 use crate::mapping::walls::walls;
 use crate::mapping::{
-    CELL_M, Cell, CellKnowledge, DistanceField, DockLocation, Raster, Rooms, SurfaceKind, WallSegment,
+    CELL_M, Cell, CellKnowledge, DistanceField, DockLocation, PlaceTrust, Raster, Rooms, SurfaceKind,
+    WallSegment,
 };
 use crate::model::geometry::{Point2, Pose2};
 use crate::model::gradual::{StepBudget, at_once};
@@ -25,6 +26,23 @@ impl Map {
         self.home.refresh_on();
         self.home.continue_segmentation();
         self.redraw_on();
+    }
+
+    /// Notes how sure the robot is of its place in a known home. What it has drawn shortly before a doubt is dropped.
+    pub(crate) fn note_trust(&mut self, trust: PlaceTrust, time_us: u64) {
+        self.home.note_trust(trust, time_us);
+    }
+
+    /// Share of the floor driven in earlier runs that the robot reaches from its dock, 0..=1. Below 1 something that infrared sees
+    /// stands in between.
+    #[must_use]
+    pub fn connected_share(&self) -> f64 {
+        self.home.connected_share
+    }
+
+    /// The map is no reference: this run draws into it what it shows.
+    pub(crate) fn draw_afresh(&mut self) {
+        self.home.known = None;
     }
 
     /// Knowledge of each cell. Up to two seconds old; [`Self::refresh`] updates it.

@@ -50,7 +50,7 @@ impl Redrawing {
         for sighting in sightings.iter().take(most) {
             let mut sighting = *sighting;
             sighting.pose = corrected(&self.keyframes, sighting.time_us, sighting.odom);
-            home.sensor_model.draw(&sighting, &mut self.grid);
+            home.sensor_model.draw(&sighting, None, &mut self.grid);
             if self.next >= job_from {
                 self.path.follow(sighting.pose.position());
                 if sighting.switches.sweeps() {

@@ -4,6 +4,7 @@
 //! the robot drives.
 
 use super::Map;
+use crate::mapping::home::RunSoFar;
 use crate::mapping::occupancy_grid::OccupancyGrid;
 use crate::mapping::rooms::Rooms;
 use crate::mapping::{Annotations, DockLocation, StoredMap};
@@ -12,6 +13,8 @@ use crate::model::gradual::{Gradual, StepBudget, at_once};
 /// A copy of what is saved. It shares its cells with the map until the map writes to them.
 struct MapCopy {
     grid: OccupancyGrid,
+    /// In a known home.
+    run: Option<RunSoFar>,
     rooms: Rooms,
     dock: DockLocation,
     annotations: Annotations,
@@ -21,6 +24,7 @@ impl MapCopy {
     fn of(map: &Map) -> Self {
         Self {
             grid: map.home.grid.clone(),
+            run: map.home.run_so_far(),
             rooms: map.home.rooms.clone(),
             dock: map.home.dock,
             annotations: map.home.annotations.clone(),
@@ -28,7 +32,11 @@ impl MapCopy {
     }
 
     async fn written(self, budget: &mut StepBudget) -> StoredMap {
-        StoredMap::of_layers(&self.grid, &self.rooms, budget)
+        let grid = match self.run {
+            Some(run) => run.left_home(budget).await,
+            None => self.grid,
+        };
+        StoredMap::of_layers(&grid, &self.rooms, budget)
             .await
             .with_dock_location(self.dock)
             .with_annotations(self.annotations)

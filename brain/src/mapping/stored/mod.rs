@@ -9,6 +9,7 @@ use std::collections::BTreeSet;
 pub use parts::{Numbered, StoredMapError, StoredMapParts};
 
 use super::annotations::Annotations;
+use super::cell_past::CellPast;
 use super::occupancy_grid::{CellBox, Evidence, Flag, OccupancyGrid, TILES_MAX};
 use super::rooms::Rooms;
 use super::tile_grid::TILE_CELLS;
@@ -29,6 +30,8 @@ pub struct StoredMap {
     cells: Vec<CellRun>,
     /// Segmented room of each cell, 0 = none; empty when the map has no rooms yet.
     rooms: Vec<CellRun>,
+    /// Packed past of each cell; empty when no earlier run is known.
+    past: Vec<CellRun>,
     /// Identity of the next new room.
     next_room: u16,
     annotations: Annotations,
@@ -61,6 +64,7 @@ impl StoredMap {
             height: knowledge.height().try_into().unwrap_or(u32::MAX),
             cells,
             rooms: Vec::new(),
+            past: Vec::new(),
             next_room: 1,
             annotations: Annotations::default(),
         }
@@ -150,18 +154,19 @@ impl StoredMap {
             };
         };
         let (width, height) = around.size();
-        let mut raster = Raster::filled(around.low, width, height, 0_u16);
+        let mut raster = Raster::filled(around.low, width, height, (0_u16, 0_u16));
         for (cell, evidence) in grid.gathered() {
             if let Some(place) = raster.get_mut(cell) {
-                *place = pack(evidence);
+                *place = (pack(evidence), evidence.past.packed());
             }
             budget.spend(CELL_WORK).await;
         }
-        let (mut cells, mut labels) = (Vec::new(), Vec::new());
-        for (index, value) in raster.values().iter().enumerate() {
+        let (mut cells, mut labels, mut pasts) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, (value, past)) in raster.values().iter().enumerate() {
             let label = rooms.found().get(raster.cell(index)).copied();
             push_value(&mut cells, *value);
             push_value(&mut labels, label.unwrap_or(0));
+            push_value(&mut pasts, *past);
             budget.spend(CELL_WORK).await;
         }
         Self {
@@ -171,6 +176,7 @@ impl StoredMap {
             height: height.try_into().unwrap_or(u32::MAX),
             cells,
             rooms: labels,
+            past: pasts,
             next_room: rooms.next_id(),
             annotations: Annotations::default(),
         }
@@ -193,6 +199,13 @@ impl StoredMap {
             if value != 0 {
                 grid.change(raster.cell(index), |evidence| *evidence = unpack(value));
                 budget.spend(CELL_WORK).await;
+            }
+            budget.spend(1).await;
+        }
+        for (index, bits) in values_of(&self.past).enumerate() {
+            if bits != 0 {
+                let past = CellPast::unpacked(bits);
+                grid.change(raster.cell(index), |evidence| evidence.past = past);
             }
             budget.spend(1).await;
         }
@@ -275,6 +288,7 @@ fn unpack(packed: u16) -> Evidence {
         sigma_cm: 5 * field(13, 3),
         flags: 0,
         carpet: 0,
+        past: CellPast::of_contact(2 * field(4, 2)),
     };
     if let Some(kind) = surface_kind(field(8, 2)) {
         evidence.add_surface(kind, SURFACE_REMEMBERED);

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use super::{CELLS_MAX, CellRun, SURFACE_BITS, StoredMap};
 use crate::mapping::annotations::{KeptPlaces, NAMES_MAX, NO_GO_MAX, PLACES_MAX};
+use crate::mapping::cell_past::CellPast;
 use crate::mapping::dock_location::MeasuredDock;
 use crate::mapping::room_changes::CHANGES_MAX;
 use crate::mapping::{Annotations, Cell, DockLocation, RoomChange, RoomChanges, RoomSplit};
@@ -30,6 +31,8 @@ pub struct StoredMapParts {
     pub cells: Vec<CellRun>,
     /// Room of each cell, 0 = none; empty when the map has no rooms yet.
     pub rooms: Vec<CellRun>,
+    /// What earlier runs found in each cell, packed; empty when nothing is known of earlier runs.
+    pub past: Vec<CellRun>,
     /// Identity of the next new room.
     pub next_room: u16,
     /// No-go zones and virtual walls.
@@ -74,6 +77,8 @@ pub enum StoredMapError {
     },
     /// Unknown surface.
     Surface,
+    /// Unknown past of a cell.
+    Past,
     /// Invalid no-go zone, or too many.
     NoGo,
     /// Invalid saved place, or too many.
@@ -99,6 +104,7 @@ impl fmt::Display for StoredMapError {
                 write!(formatter, "a layer has {found} cells instead of {expected}")
             }
             Self::Surface => formatter.write_str("it has a kind of floor that cannot be"),
+            Self::Past => formatter.write_str("it has a past of a cell that cannot be"),
             Self::NoGo => formatter.write_str("it has a no-go zone that cannot be"),
             Self::Name => formatter.write_str("it has a name of a room that cannot be"),
             Self::Place => formatter.write_str("it keeps a place that cannot be"),
@@ -123,6 +129,7 @@ impl StoredMap {
             height: self.height,
             cells: self.cells.clone(),
             rooms: self.rooms.clone(),
+            past: self.past.clone(),
             next_room: self.next_room,
             no_go: Numbered::of(words.next_no_go, &words.no_go),
             names: words.names.clone(),
@@ -165,6 +172,7 @@ impl StoredMap {
             height: parts.height,
             cells: parts.cells,
             rooms: parts.rooms,
+            past: parts.past,
             next_room: parts.next_room,
             annotations: Annotations {
                 no_go: parts.no_go.checked(NO_GO_MAX, StoredMapError::NoGo)?,
@@ -204,7 +212,7 @@ impl StoredMapParts {
         if expected > CELLS_MAX {
             return Err(StoredMapError::TooLarge { width, height });
         }
-        for layer in [&self.cells, &self.rooms] {
+        for layer in [&self.cells, &self.rooms, &self.past] {
             // Fewer than 2^32 runs of fewer than 2^32 cells.
             let found = layer.iter().map(|run| u64::from(run.length)).sum();
             if !layer.is_empty() && found != expected {
@@ -212,8 +220,12 @@ impl StoredMapParts {
             }
         }
         let has_known_floor = |run: &CellRun| run.value & SURFACE_BITS != SURFACE_BITS;
-        let is_known = self.cells.iter().all(has_known_floor);
-        is_known.then_some(()).ok_or(StoredMapError::Surface)
+        if !self.cells.iter().all(has_known_floor) {
+            return Err(StoredMapError::Surface);
+        }
+        let is_past = |run: &CellRun| run.value & !CellPast::BITS == 0;
+        let are_pasts = self.past.iter().all(is_past);
+        are_pasts.then_some(()).ok_or(StoredMapError::Past)
     }
 
     /// Each change must name two different existing rooms.

@@ -22,6 +22,9 @@ pub(super) struct Body {
     pub(super) places: Numbered<Place>,
 }
 
+/// What a version 11 adds to a body: what earlier runs found in each cell.
+pub(super) type Past = Vec<CellRun>;
+
 #[derive(Serialize, Deserialize)]
 pub(super) struct StoredDock {
     pub(super) times: u8,
@@ -47,9 +50,10 @@ pub(super) struct Layers {
 }
 
 impl Body {
-    pub(super) fn of(map: &StoredMap) -> Self {
+    pub(super) fn of(map: &StoredMap) -> (Self, Past) {
         let parts = map.parts();
-        Self {
+        let past = runs(parts.past);
+        let body = Self {
             measured_dock: parts.measured_dock.map(|dock| StoredDock {
                 times: dock.times,
                 pose: pose(dock.pose),
@@ -80,10 +84,11 @@ impl Body {
                 .map(|(room, settings)| (*room, (*settings).into()))
                 .collect(),
             places: Numbered::of(parts.places),
-        }
+        };
+        (body, past)
     }
 
-    pub(super) fn into_map(self) -> Result<StoredMap, StoredMapError> {
+    pub(super) fn into_map(self, past: Past) -> Result<StoredMap, StoredMapError> {
         let layers = self.layers;
         let taken_back = self.room_changes.taken_back.into_iter().map(RoomSplit::try_from);
         StoredMap::from_parts(StoredMapParts {
@@ -100,6 +105,7 @@ impl Body {
             height: layers.height,
             cells: to_runs(layers.cells),
             rooms: to_runs(layers.rooms),
+            past: to_runs(past),
             next_room: layers.next_room,
             no_go: self.no_go.parts()?,
             names: by_room(self.names, |name| room_name(&name))?,

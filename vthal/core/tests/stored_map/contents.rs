@@ -22,7 +22,7 @@ pub(crate) fn map() -> StoredMap {
     StoredMap::from_parts(parts()).expect("a good map")
 }
 
-/// What the file of version 9 holds.
+/// What the file of version 11 holds.
 pub(crate) fn parts() -> StoredMapParts {
     StoredMapParts {
         measured_dock: Some(MeasuredDock {
@@ -43,6 +43,7 @@ pub(crate) fn parts() -> StoredMapParts {
         height: 5,
         cells: cells(),
         rooms: [(3, 20), (0, 5), (2, 20)].map(run).to_vec(),
+        past: [(0, 12), (0b1001, 3), (0, 20), (0b10_0011, 10)].map(run).to_vec(),
         next_room: 7,
         no_go: no_go(),
         names: BTreeMap::from([(3, name("Köök"))]),
@@ -56,6 +57,9 @@ pub(crate) fn parts() -> StoredMapParts {
 /// What the file of a version holds: the less, the older it is.
 pub(crate) fn parts_of_version(version: u8) -> StoredMapParts {
     let mut parts = parts();
+    if version < 11 {
+        parts.past = Vec::new();
+    }
     if version < 9 {
         // The kind of floor.
         parts.cells.iter_mut().for_each(|run| run.value &= !0x300);

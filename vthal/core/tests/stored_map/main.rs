@@ -1,6 +1,6 @@
 //! Bytes of stored maps: what is written is read again, maps of all versions are read, and nothing that is wrong is taken.
 //!
-//! `version_1.map` to `version_9.map` hold the same map as the writers of these versions kept it.
+//! `version_1.map` to `version_10.map` hold the same map as the writers of these versions kept it.
 
 mod contents;
 mod earlier;
@@ -69,14 +69,14 @@ fn refused(change: impl Fn(&mut Vec<u8>)) -> DecodeError {
     let bytes = encode(&map());
     let mut body = bytes[8..bytes.len() - 4].to_vec();
     change(&mut body);
-    decode(&with_checksum(10, &body)).expect_err("a bad body")
+    decode(&with_checksum(11, &body)).expect_err("a bad body")
 }
 
 #[test]
 fn what_is_wrong_is_named() {
     assert_eq!(decode(b"RVACMOP"), Err(DecodeError::NotAMap));
     assert_eq!(decode(b"RVACMAP"), Err(DecodeError::Cut));
-    assert_eq!(decode(b"RVACMAP\x0B"), Err(DecodeError::Version(11)));
+    assert_eq!(decode(b"RVACMAP\x0C"), Err(DecodeError::Version(12)));
     let cut = |body: &mut Vec<u8>| body.truncate(body.len() - 1);
     assert_eq!(refused(cut), DecodeError::Cut);
     assert_eq!(refused(|body| body.push(0)), DecodeError::Trailing);
@@ -111,6 +111,8 @@ fn parts_that_fit_no_map_are_refused() {
     };
     assert_eq!(wrong(|parts| parts.cells[0].length += 1), cells);
     assert_eq!(wrong(|parts| parts.rooms[0].length += 1), cells);
+    assert_eq!(wrong(|parts| parts.past[0].length += 1), cells);
+    assert_eq!(wrong(|parts| parts.past[0].value = 0x40), StoredMapError::Past);
     assert_eq!(
         wrong(|parts| parts.cells[0].value |= 0x300),
         StoredMapError::Surface
@@ -147,7 +149,7 @@ fn parts_that_fit_no_map_are_refused() {
 proptest! {
     /// Whatever stands between a header and a checksum that fit, nothing panics, and what is taken can be kept again.
     #[test]
-    fn any_body_is_taken_or_refused(version in 1_u8..=10, body in proptest::collection::vec(prop_oneof![0_u8..4, any::<u8>()], 0..200)) {
+    fn any_body_is_taken_or_refused(version in 1_u8..=11, body in proptest::collection::vec(prop_oneof![0_u8..4, any::<u8>()], 0..200)) {
         if let Ok(map) = decode(&with_checksum(version, &body)) {
             prop_assert_eq!(decode(&encode(&map)), Ok(map));
         }
@@ -161,7 +163,7 @@ proptest! {
             let place = place.index(body.len());
             body[place] = byte;
         }
-        if let Ok(map) = decode(&with_checksum(10, &body)) {
+        if let Ok(map) = decode(&with_checksum(11, &body)) {
             prop_assert_eq!(decode(&encode(&map)), Ok(map));
         }
     }
