@@ -40,7 +40,11 @@ impl InverseSensorModel {
         self.draw_body(sighting, grid);
         for (sensor, level) in self.sensors.proximity.sensors().iter().zip(sighting.levels) {
             let sensor = *sensor;
-            self.draw_beam(sighting, ProximityReading { sensor, level }, kept, grid);
+            if let Some(hit_m) = self.clear_beam(sighting, ProximityReading { sensor, level }, grid) {
+                for hit in self.hit_cells(sighting.pose * sensor, hit_m) {
+                    draw_hit(sighting, hit, kept, grid);
+                }
+            }
         }
         self.draw_contacts(sighting, kept, grid);
         self.draw_cliffs(sighting, grid);
@@ -96,13 +100,13 @@ impl InverseSensorModel {
         }
     }
 
-    fn draw_beam(
+    /// Draws the floor up to the hit, whose distance it gives.
+    fn clear_beam(
         &self,
         sighting: &Sighting,
         reading: ProximityReading,
-        kept: Option<&KeptHome>,
         grid: &mut OccupancyGrid,
-    ) {
+    ) -> Option<f64> {
         let response = self.sensors.proximity.response;
         let beam = sighting.pose * reading.sensor;
         let level = f64::from(reading.level) / 255.0;
@@ -121,7 +125,12 @@ impl InverseSensorModel {
                 note_sigma(evidence, sighting);
             });
         });
-        let Some(hit_m) = hit_m else { return };
+        hit_m
+    }
+
+    /// The cells in which a hit at this distance lies, and how much it tells of each.
+    fn hit_cells(&self, beam: Pose2, hit_m: f64) -> impl Iterator<Item = (Cell, i8)> {
+        let response = self.sensors.proximity.response;
         let beyond_m = (hit_m - response.skin_m).max(0.0);
         let beyond = beyond_m / OCCUPANCY.hit_half_m;
         let strength = (OCCUPANCY.hit_step / (1.0 + beyond * beyond)) as i8;
@@ -129,26 +138,14 @@ impl InverseSensorModel {
         let behind_m = hit_m + 0.5 * CELL_M;
         let reach_m = behind_m * libm::tan(response.half_angle_rad);
         let mut last = None;
-        for off_m in [-reach_m, 0.0, reach_m] {
+        [-reach_m, 0.0, reach_m].into_iter().filter_map(move |off_m| {
             let cell = Cell::under(beam.transform(Point2 {
                 x_m: behind_m,
                 y_m: off_m,
             }));
-            if last == Some(cell) {
-                continue;
-            }
-            last = Some(cell);
             let share = if off_m == 0.0 { strength } else { strength / 3 };
-            let solid = match kept.map_or(Hit::New, |kept| kept.hit(cell)) {
-                Hit::Known(solid) => solid,
-                Hit::Near => continue,
-                Hit::New => cell,
-            };
-            grid.change(solid, |evidence| {
-                add_occupancy(evidence, share);
-                note_sigma(evidence, sighting);
-            });
-        }
+            (last.replace(cell) != Some(cell)).then_some((cell, share))
+        })
     }
 
     fn draw_contacts(&self, sighting: &Sighting, kept: Option<&KeptHome>, grid: &mut OccupancyGrid) {
@@ -244,6 +241,24 @@ impl InverseSensorModel {
 
 fn row_of(y_m: f64) -> i32 {
     libm::floor(y_m / CELL_M) as i32
+}
+
+/// Draws a hit where it lies, or on the obstacle of `kept` that explains it.
+fn draw_hit(
+    sighting: &Sighting,
+    (cell, share): (Cell, i8),
+    kept: Option<&KeptHome>,
+    grid: &mut OccupancyGrid,
+) {
+    let solid = match kept.map_or(Hit::New, |kept| kept.hit(cell)) {
+        Hit::Known(solid) => solid,
+        Hit::Near => return,
+        Hit::New => cell,
+    };
+    grid.change(solid, |evidence| {
+        add_occupancy(evidence, share);
+        note_sigma(evidence, sighting);
+    });
 }
 
 fn add_occupancy(evidence: &mut Evidence, step: i8) {

@@ -10,23 +10,6 @@ use super::kept_home::KeptHome;
 use super::occupancy_grid::{Evidence, Flag, OccupancyGrid, is_seen_solid, is_touched};
 use crate::model::gradual::StepBudget;
 
-/// Which known obstacle explains a reading.
-pub(super) struct AssociationParameters {
-    /// A known obstacle explains a hit up to this distance from it, metres: the error of pose and distance together. In a flat of
-    /// 26 square metres the 90th percentile of the pose's error was 13 to 22 cm.
-    pub(super) reach_m: f64,
-    /// A hit up to this distance from a known obstacle confirms it, metres.
-    pub(super) confirm_m: f64,
-    /// A known touch explains one up to so many cells beside it: the bearing of a contact is known to a quarter of the body.
-    pub(super) touch_cells: i32,
-}
-
-pub(super) const ASSOCIATION: AssociationParameters = AssociationParameters {
-    reach_m: 0.1,
-    confirm_m: 0.1,
-    touch_cells: 2,
-};
-
 /// How far one run changes what is known.
 pub(super) struct LearningParameters {
     /// Most by which a run changes occupancy.
@@ -36,7 +19,7 @@ pub(super) struct LearningParameters {
     occupancy_kept: i8,
     /// The body passed a touch when it was so near, cells: plans keep it at least a cell away.
     passed_cells: [i32; 4],
-    /// What a run shows settles after this time, microseconds: a robot that goes astray notices it later.
+    /// What a run shows settles after this time, microseconds: a robot that drifts notices it later.
     pub(super) settling_us: u64,
 }
 

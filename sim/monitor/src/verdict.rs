@@ -8,7 +8,6 @@ use super::limits::{
     PACK_EMPTY_MS, PACK_HOT_MS, PACK_WEAK_MS, STALL_MS, WHEEL_DROP_MS,
 };
 use super::permission::HostPermission;
-use crate::pack::PackTimes;
 
 /// A line of SAFETY.md that the monitor checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -210,8 +209,15 @@ fn charger_verdicts(standing: &ChargeTimes) -> [(Rule, bool); 6] {
     ]
 }
 
-fn pack_verdicts(standing: &PackTimes) -> [(Rule, bool); 3] {
+/// What the state of encoders and pack forbids; `any` = a motor is driven.
+fn state_verdicts(standing: &CauseTimes, any: bool) -> [(Rule, bool); 4] {
+    let encoders = &standing.encoders.wrong_ms;
+    let standing = &standing.pack;
     [
+        (
+            Rule::Encoder,
+            any && encoders.iter().any(|wrong_ms| *wrong_ms > ENCODER_MS),
+        ),
         (Rule::PackEmpty, standing.empty_ms > PACK_EMPTY_MS + MARGIN_MS),
         (Rule::PackWeak, standing.weak_ms > PACK_WEAK_MS + MARGIN_MS),
         (Rule::PackHot, standing.hot_ms > PACK_HOT_MS + MARGIN_MS),
@@ -284,16 +290,8 @@ pub(crate) fn broken(
         ),
         (Rule::Button, any && stopped_by_button),
         (Rule::CleanersStart, standing.cleaners_start && blocked),
-        (
-            Rule::Encoder,
-            any && standing
-                .encoders
-                .wrong_ms
-                .into_iter()
-                .any(|wrong_ms| wrong_ms > ENCODER_MS),
-        ),
     ];
-    bits(verdicts) | bits(pack_verdicts(&standing.pack)) | broken_by_charger(&standing.charge)
+    bits(verdicts) | bits(state_verdicts(standing, any)) | broken_by_charger(&standing.charge)
 }
 
 /// The rules that the charger breaks now, bit by rule.

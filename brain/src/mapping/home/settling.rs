@@ -1,6 +1,6 @@
 //! What a run in a known home leaves to the next one.
 //!
-//! *Settled*: drawn by a robot that was sure of its place, and stayed sure for a while after. A robot that goes astray notices it
+//! *Settled*: drawn by a robot that was sure of its place, and stayed sure for a while after. A robot that drifts notices it
 //! late, so newer sightings wait. When it doubts its place they are dropped, and the map is again as it was before them.
 
 use std::sync::Arc;
