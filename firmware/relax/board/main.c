@@ -20,6 +20,8 @@ uint8_t cord_byte;
 
 static uint8_t last_ms;
 static uint8_t last_edges[2];
+/* The newest sample by light. */
+static __data uint8_t lit_now;
 
 /* Called before anything else: motors off, no pulses on the unused ALE pin, the watchdog runs. */
 unsigned char _sdcc_external_startup(void) {
@@ -44,6 +46,9 @@ uint8_t cord_board_contacts(void) {
     uint8_t dark = dark_p0;
     uint8_t contacts = 0;
     uint8_t floor;
+    lit_now = lit;
+    /* A sample counts once: without new ones there is no floor. */
+    lit_p0 = 0;
     EA = 0;
     contacts = pressed;
     pressed = 0;
@@ -90,7 +95,7 @@ uint8_t cord_board_is_battery_low(void) {
 }
 
 uint8_t cord_board_wall(void) {
-    return (lit_p0 & (uint8_t)~dark_p0 & WALL_MASK) ? 0xFF : 0;
+    return (lit_now & (uint8_t)~dark_p0 & WALL_MASK) ? 0xFF : 0;
 }
 
 uint8_t cord_board_edges(uint8_t side) {

@@ -71,6 +71,9 @@ impl DemoArguments {
             return Ok(None);
         }
         if self.robot == firmware::sdcc::ROBOT {
+            if self.calibration.is_some() {
+                anyhow::bail!("no calibration is put into the image of relax: leave out --calibration");
+            }
             return firmware::sdcc::image().map(Some);
         }
         let board = firmware::board(&self.robot)?;

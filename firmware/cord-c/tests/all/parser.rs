@@ -9,8 +9,8 @@ use rvac_protocol::text::{Form, is_stop, read_command};
 use rvac_units::Tick;
 use serde_json::Value;
 
-/// Packets of the comparison: all of them with RVAC_LONG=1, as campaigns run it.
-const PACKETS: usize = 10_000;
+/// Packets of the comparison, and with `RVAC_LONG=1`.
+const PACKETS: usize = 4_000;
 const PACKETS_LONG: usize = 1_000_000;
 /// Packets that go to the program at a time.
 const BATCH: usize = 20_000;
