@@ -288,12 +288,12 @@ impl Daemon {
         let now_us = self.clock.now_us();
         self.core.handle(now_us, input, &mut self.outputs);
         self.perform();
-    }
-
-    fn perform(&mut self) {
         if let Some(lights) = &mut self.wiring.lights {
             lights.show(self.core.lights());
         }
+    }
+
+    fn perform(&mut self) {
         if !self.outputs.link.is_empty() {
             let bytes = std::mem::take(&mut self.outputs.link);
             let congested = self.wiring.to_robot.try_send(LineOrder::Send(bytes)).is_err();

@@ -137,7 +137,7 @@ pub(crate) fn start(settings: BoardSettings, events: Sender<Event>) -> io::Resul
 }
 
 /// The same with any lines.
-fn start_with<L: BoardLines>(
+fn start_with<L: BoardLines + 'static>(
     mut open: impl FnMut() -> Result<L, LinesError> + Send + 'static,
     events: Sender<Event>,
 ) -> io::Result<LightsHandle> {

@@ -7,14 +7,14 @@ use std::collections::BTreeMap;
 
 /// What of a board must agree with its schematic.
 #[derive(Debug)]
-pub(super) struct Board {
+pub(super) struct PadNets {
     /// Net of each pad; a pad without a net is missing.
     pub(super) nets: BTreeMap<Pin, String>,
     /// Value and footprint of each part.
     pub(super) parts: BTreeMap<String, (String, String)>,
 }
 
-impl Board {
+impl PadNets {
     /// Reads the text of a `.kicad_pcb`.
     pub(super) fn parse(text: &str) -> anyhow::Result<Self> {
         let board = Node::parse(text)?;

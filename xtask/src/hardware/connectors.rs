@@ -1,6 +1,6 @@
 //! Whether the adapter's connectors carry what the robot's pinout says.
 
-use super::board::Board;
+use super::board::PadNets;
 use super::schematic::Pin;
 use anyhow::Context;
 use serde::Deserialize;
@@ -11,9 +11,9 @@ const BUTTON_BOARD: &str = "J3";
 
 /// What of a pinout.toml matters here; the rest is checked by `cargo xtask codegen`.
 #[derive(Deserialize)]
-struct Pinout {
+struct RobotPinout {
     connector: Connector,
-    signal: Vec<Signal>,
+    signal: Vec<ConnectorLine>,
 }
 
 /// Pins of the connector that are no port pins.
@@ -26,7 +26,7 @@ struct Connector {
 
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case")]
-struct Signal {
+struct ConnectorLine {
     name: String,
     function: Option<String>,
     /// Pin of the connector between main board and button board.
@@ -36,8 +36,8 @@ struct Signal {
 }
 
 /// Where the board's connectors differ from the pinout.
-pub(super) fn differences(board: &Board, pinout: &str) -> anyhow::Result<Vec<String>> {
-    let pinout: Pinout = toml::from_str(pinout).context("the robot's pinout")?;
+pub(super) fn differences(board: &PadNets, pinout: &str) -> anyhow::Result<Vec<String>> {
+    let pinout: RobotPinout = toml::from_str(pinout).context("the robot's pinout")?;
     let mut wanted = Vec::new();
     for connector in [MAIN_BOARD, BUTTON_BOARD] {
         wanted.push((connector, pinout.connector.supply, Some("+5VP".to_owned())));

@@ -52,7 +52,7 @@ impl Project {
     /// Everything that is wrong with the files as they are.
     fn faults(&self) -> anyhow::Result<Vec<String>> {
         let schematic = schematic::Schematic::parse(&self.read("kicad_sch")?).context("the schematic")?;
-        let board = board::Board::parse(&self.read("kicad_pcb")?).context("the board")?;
+        let board = board::PadNets::parse(&self.read("kicad_pcb")?).context("the board")?;
         let pinout = workspace::root()
             .join("robots")
             .join(self.robot)

@@ -1,6 +1,6 @@
 //! The electrical rules: KiCad 6 has no command that checks them without a window.
 
-use super::board::Board;
+use super::board::PadNets;
 use super::schematic::{Net, Pin, PinKind, Schematic};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -57,7 +57,7 @@ fn net_faults(net: &Net, unused: &BTreeSet<Pin>) -> Vec<String> {
 }
 
 /// Where board and schematic differ.
-pub(super) fn differences(schematic: &Schematic, board: &Board) -> Vec<String> {
+pub(super) fn differences(schematic: &Schematic, board: &PadNets) -> Vec<String> {
     let drawn: BTreeMap<Pin, String> = schematic
         .net_of_pins()
         .into_iter()

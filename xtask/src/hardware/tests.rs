@@ -1,6 +1,6 @@
 //! The boards as they are committed keep every rule, and each rule can be broken.
 
-use super::board::Board;
+use super::board::PadNets;
 use super::schematic::{Pin, Schematic};
 use super::{PROJECTS, connectors, rules};
 use crate::workspace;
@@ -115,7 +115,7 @@ fn each_electrical_rule_can_be_broken() {
 fn a_board_that_differs_from_its_schematic_is_found() {
     let (drawn, laid, _) = sources();
     let drawn = schematic(&drawn);
-    let mut board = Board::parse(&laid).expect("a board");
+    let mut board = PadNets::parse(&laid).expect("a board");
     assert!(rules::differences(&drawn, &board).is_empty());
     let pad = Pin {
         reference: "U3".to_owned(),
@@ -131,7 +131,7 @@ fn a_board_that_differs_from_its_schematic_is_found() {
 #[test]
 fn a_connector_that_differs_from_the_pinout_is_found() {
     let (_, laid, pinout) = sources();
-    let board = Board::parse(&laid).expect("a board");
+    let board = PadNets::parse(&laid).expect("a board");
     let faults = |pinout: &str| connectors::differences(&board, pinout).expect("a pinout");
     assert!(faults(&pinout).is_empty());
     let swapped = pinout.replace("connector = 7", "connector = 5");
