@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 31] = [
+const DIRECTIONS: [Direction; 32] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -125,6 +125,7 @@ const DIRECTIONS: [Direction; 31] = [
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
+    Direction { of: "life",          knows: &["brain", "home", "robot", "rvac-sim", "vthal", "vthal-core"], never: &["axum"] },
     Direction { of: "content-hash",  knows: &["brain"],                                     never: OUTSIDE },
     Direction { of: "scenarios",     knows: SCENARIOS,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "xtask",         knows: &["rvac-api"],                                  never: &["tokio"] },
