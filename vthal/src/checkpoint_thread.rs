@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::io;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -10,7 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Instant;
 
 use brain::StoredMap;
-use rvac_api::{KeptMap, Run, RunRecord};
+use rvac_api::{KeptMap, RunRecord};
 use tokio::sync::mpsc::Sender;
 use vthal_core::{
     ArchiveOrder, ArchiveTask, Checkpoint, ClientId, EditedMap, FloorHome, FloorOrder, FloorTask,
@@ -22,28 +21,10 @@ use crate::checkpoint_file::{self, BootTime};
 use crate::event::Event;
 use crate::floor_folder::{FloorError, FloorFolder};
 use crate::health_file;
+use crate::kept_store::KeptPaths;
 use crate::learnt_file;
 use crate::mix_folder::{MixError, MixFolder};
-use crate::run_folder::RunFolder;
 use crate::schedule_file;
-
-/// Where to write.
-pub(crate) struct KeptPaths {
-    /// The checkpoint.
-    pub(crate) checkpoint: PathBuf,
-    /// The floors, with the versions of their maps.
-    pub(crate) floors: FloorFolder,
-    /// The control mixes.
-    pub(crate) mixes: MixFolder,
-    /// The schedules.
-    pub(crate) schedules: PathBuf,
-    /// The loads of the motors.
-    pub(crate) health: PathBuf,
-    /// What robots have learnt of themselves.
-    pub(crate) learnt: PathBuf,
-    /// The records of runs.
-    pub(crate) runs: RunFolder,
-}
 
 /// What waits for the thread, at most.
 const QUEUE_MAX: usize = 16;
@@ -317,7 +298,7 @@ fn serve(paths: &KeptPaths, queue: &Receiver<Queued>, events: &Sender<Event>) {
         }
         let kept = keep(&homes, &paths.floors);
         for record in runs {
-            let (number, result) = (record.run.number, keep_run(*record, paths));
+            let (number, result) = (record.run.number, paths.keep_run(*record));
             answer(Event::RunKept(number, result), events);
         }
         for (client, id) in waiting {
@@ -378,25 +359,6 @@ fn obey_floor(FloorOrder { client, id, task }: FloorOrder, floors: &FloorFolder)
         id,
         task,
         outcome,
-    }
-}
-
-/// Keeps the record of a run, with the version of the map that is the newest then.
-fn keep_run(mut record: RunRecord, paths: &KeptPaths) -> Result<Box<Run>, String> {
-    record.run.map = record
-        .run
-        .floor
-        .and_then(|floor| paths.floors.maps(floor).newest_number());
-    match paths.runs.keep(&record) {
-        Ok(()) => {
-            paths.runs.look_for_recordings(&mut record.run);
-            Ok(Box::new(record.run))
-        }
-        Err(error) => Err(format!(
-            "cannot write the record of run {} in {}: {error}; it is tried again every minute",
-            record.run.number,
-            paths.runs.path().display()
-        )),
     }
 }
 

@@ -20,6 +20,7 @@ mod floor_folder;
 mod health_file;
 pub mod imu;
 mod instance;
+mod kept_store;
 mod learnt_file;
 mod logging;
 mod map_folder;
@@ -40,4 +41,5 @@ mod socket;
 mod system_zone;
 
 pub use clock::Clock;
+pub use kept_store::KeptStore;
 pub use service::{ServeError, serve};

@@ -8,23 +8,16 @@ use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::mpsc;
 use tokio::task::{LocalSet, spawn_local};
 use vthal_core::device::{Make, cordlib};
-use vthal_core::{Checkpoint, Checkpoints, Core, CoreConfig, ExpertAccess, Recording, cut_short};
+use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, Recording};
 
-use crate::checkpoint_file::{self, BootTime, Found};
-use crate::checkpoint_thread::KeptPaths;
 use crate::clock::Clock;
 use crate::config::Config;
 use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
-use crate::floor_folder::FloorFolder;
-use crate::health_file;
 use crate::instance::{self, InstanceError};
-use crate::learnt_file;
-use crate::mix_folder::MixFolder;
+use crate::kept_store::{self, KeptStore};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFileError};
-use crate::run_folder::RunFolder;
-use crate::schedule_file;
 use crate::serial::{self, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
@@ -37,24 +30,6 @@ const MAKE: Make = cordlib::MAKE;
 const EVENTS_MAX: usize = 64;
 /// Batches of bytes that may wait for the serial line.
 const TO_ROBOT_MAX: usize = 64;
-
-/// Name of the file of the checkpoint in the state folder.
-const CHECKPOINT: &str = "checkpoint";
-/// Name of the folder of maps in the state folder.
-const MAPS: &str = "maps";
-/// Name of the folder of records of runs in the state folder.
-const HISTORY: &str = "history";
-/// Name of the folder of recordings in the state folder.
-const RECORDINGS: &str = "runs";
-/// Name of the folder of control mixes in the state folder.
-const MIXES: &str = "mixes";
-/// Name of the file of schedules in the state folder.
-const SCHEDULES: &str = "schedules.json";
-/// Name of the file of the motors' loads in the state folder.
-const HEALTH: &str = "health.json";
-
-/// Name of the file of what robots have learnt in the state folder.
-const LEARNT: &str = "learnt.json";
 
 /// Why the daemon did not start.
 #[derive(Debug, thiserror::Error)]
@@ -94,15 +69,7 @@ pub fn serve(config: &Config, speed: f64) -> Result<(), ServeError> {
 async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     let listener = socket::listen(&config.socket)?;
     logging::start(&config.state.join("log"), &config.log).map_err(ServeError::Log)?;
-    let kept = KeptPaths {
-        checkpoint: config.state.join(CHECKPOINT),
-        floors: FloorFolder::new(config.state.join(MAPS)),
-        mixes: MixFolder::new(config.state.join(MIXES)),
-        schedules: config.state.join(SCHEDULES),
-        health: config.state.join(HEALTH),
-        learnt: config.state.join(LEARNT),
-        runs: RunFolder::new(config.state.join(HISTORY), config.state.join(RECORDINGS)),
-    };
+    let kept = KeptStore::new(&config.state);
     let core_config = core_config(config, &kept)?;
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
     let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
@@ -116,8 +83,8 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         event_sender: event_sender.clone(),
         to_robot,
         recorder: recorder(config, &event_sender)?,
-        runs: run_thread::start(kept.runs.clone(), event_sender.clone())?,
-        checkpoints: checkpoint_thread::start(kept, event_sender.clone())?,
+        runs: run_thread::start(kept.paths().runs.clone(), event_sender.clone())?,
+        checkpoints: checkpoint_thread::start(kept.into_paths(), event_sender.clone())?,
         socket: config.socket.clone(),
         clients_max: config.clients_max,
     };
@@ -152,35 +119,14 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
 }
 
 /// Settings of the core, with what is kept in the state folder.
-fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeError> {
-    let found = schedule_file::load(&kept.schedules);
-    let (health, health_complaints) = health_file::load(&kept.health);
-    let (learnt, learnt_complaints) = learnt_file::load(&kept.learnt);
-    let (floors, floor_complaints) = kept.floors.load();
-    let complaints = [
-        found.complaints,
-        health_complaints,
-        learnt_complaints,
-        floor_complaints,
-    ]
-    .concat();
-    for complaint in &complaints {
-        tracing::error!(part = "vthal", "{complaint}");
-    }
+fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeError> {
     let sensors = match &config.description {
         Some(path) => robot_file::load(path)?,
         None => SensorLayout::default(),
     };
-    let (resume, next_run) = left_over(kept);
-    Ok(CoreConfig {
+    let core_config = kept.fill(CoreConfig {
         make: MAKE,
-        schedules: found.book,
-        health,
-        learnt,
-        schedules_distrusted: found.distrusted,
         zone: system_zone(),
-        floors,
-        complaints,
         sensors,
         seed: config.seed.unwrap_or_else(seed_from_clock),
         strategy: config.strategy,
@@ -197,39 +143,12 @@ fn core_config(config: &Config, kept: &KeptPaths) -> Result<CoreConfig, ServeErr
         checkpoints: Checkpoints::On,
         task_budget_s: config.task_budget_min * 60,
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        resume,
-        next_run,
-    })
-}
-
-/// The job that goes on, and the number of the next run. A run that is not continued is stored as cut short.
-fn left_over(kept: &KeptPaths) -> (Option<Checkpoint>, u64) {
-    let now = BootTime::now().ok();
-    let found = now.and_then(|now| checkpoint_file::newest(&kept.checkpoint, &now));
-    let run = found.as_ref().and_then(|found| found.checkpoint.run.as_ref());
-    let left = run.map_or(0, |run| run.run.number);
-    let next_run = kept.runs.newest().max(left) + 1;
-    let Some(Found { checkpoint, is_young }) = found else {
-        return (None, next_run);
-    };
-    if is_young {
-        return (Some(checkpoint), next_run);
+        ..CoreConfig::default()
+    });
+    for complaint in &core_config.complaints {
+        tracing::error!(part = "vthal", "{complaint}");
     }
-    if let Some(record) = cut_short(checkpoint).filter(|record| !kept.runs.has(record.run.number)) {
-        let number = record.run.number;
-        match kept.runs.keep(&record) {
-            Ok(()) => tracing::info!(
-                part = "vthal",
-                "run {number} was cut short: what was known of it is kept"
-            ),
-            Err(error) => tracing::error!(
-                part = "vthal",
-                "cannot write what was known of run {number} in {}: {error}",
-                kept.runs.path().display()
-            ),
-        }
-    }
-    (None, next_run)
+    Ok(core_config)
 }
 
 /// Tells whoever started the daemon that its socket is open.
@@ -246,7 +165,8 @@ fn recorder(config: &Config, events: &mpsc::Sender<Event>) -> Result<Option<Reco
         files_max: config.recording.files as usize,
         bytes_max: u64::from(config.recording.total_mib) << 20,
     };
-    let library = Library::open(&config.state.join(RECORDINGS), limits).map_err(ServeError::Recordings)?;
+    let library =
+        Library::open(&config.state.join(kept_store::RECORDINGS), limits).map_err(ServeError::Recordings)?;
     let events = events.clone();
     // A daemon that ends has no use for the name.
     let opened = move |run, name| drop(events.blocking_send(Event::RecordingOpened(run, name)));

@@ -14,6 +14,7 @@ use crate::pose::Pose;
 #[derive(Clone, Debug)]
 pub struct Home {
     name: String,
+    rooms: Option<u32>,
     grid: Grid,
     file_from_plan: Pose,
     dock: Option<Pose>,
@@ -92,6 +93,7 @@ impl Home {
             .any(|index| regions.label(index) == place.region);
         Ok(Self {
             name: draft.name,
+            rooms: draft.rooms,
             file_from_plan: draft.file_from_plan,
             dock: place.dock,
             start,
@@ -139,6 +141,12 @@ impl Home {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Rooms that its file knows; `None` = it knows of no rooms.
+    #[must_use]
+    pub const fn rooms(&self) -> Option<u32> {
+        self.rooms
     }
 
     /// The cells.

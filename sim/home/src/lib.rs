@@ -41,5 +41,5 @@ pub use pose::{Pose, wrap_angle};
 pub use thermistor::Thermistor;
 pub use world::{
     Actuation, BeamStrengths, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, OddCell,
-    Pack, PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World,
+    Pack, PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World, WorldSeeds,
 };

@@ -11,7 +11,9 @@ use rvac_api::{
 use vthal_core::health::StoredHealth;
 use vthal_core::learnt::StoredLearnings;
 use vthal_core::schedule::{Book, StoredBook};
-use vthal_core::{Checkpoint, ClientId, Core, CoreConfig, HealthOrder, Input, LearntOrder, Outputs, Record};
+use vthal_core::{
+    Checkpoint, ClientId, Core, CoreConfig, FloorHome, HealthOrder, Input, LearntOrder, Outputs, Record,
+};
 
 use crate::HostCost;
 use crate::host_floors::HostFloors;
@@ -40,6 +42,8 @@ pub struct Host {
     /// Runs that are over.
     runs: Vec<RunRecord>,
     floors: HostFloors,
+    /// What it has written since that was taken, if enabled.
+    writes: Option<Vec<KeptWrite>>,
     /// Its disk accepts writes but never confirms them.
     disk_is_mute: bool,
     /// Why the newest request was refused, if it was.
@@ -47,6 +51,19 @@ pub struct Host {
 }
 
 const CLIENT: ClientId = ClientId(1);
+
+/// Something that a daemon writes to its disk, in the order in which it does.
+#[derive(Clone, Debug)]
+pub enum KeptWrite {
+    /// The map of a floor.
+    Home(Box<FloorHome>),
+    /// What robots have learnt of themselves.
+    Learnt(Box<StoredLearnings>),
+    /// The loads of motors.
+    Health(Box<StoredHealth>),
+    /// The record of a run.
+    Run(Box<RunRecord>),
+}
 
 impl Host {
     /// Starts at `now_us` with an open link and one client. `now_us` is any clock; the core's own begins with 0.
@@ -68,6 +85,7 @@ impl Host {
             health: None,
             learnt: None,
             runs: Vec::new(),
+            writes: None,
             disk_is_mute: false,
             refusal: None,
         };
@@ -206,6 +224,7 @@ impl Host {
         let learnt = self.outputs.learnt.take();
         let floor_orders = core::mem::take(&mut self.outputs.floor_orders);
         if let Some(kept) = self.outputs.home.take() {
+            self.note_write(|| KeptWrite::Home(Box::new(kept.clone())));
             self.floors.keep(kept);
         }
         for delivery in &self.outputs.deliveries {
@@ -236,7 +255,14 @@ impl Host {
         }
     }
 
+    fn note_write(&mut self, write: impl FnOnce() -> KeptWrite) {
+        if let Some(writes) = &mut self.writes {
+            writes.push(write());
+        }
+    }
+
     fn keep_health(&mut self, now_us: u64, order: HealthOrder) {
+        self.note_write(|| KeptWrite::Health(Box::new(order.health.clone())));
         self.health = Some(order.health);
         if !self.disk_is_mute {
             let (number, result) = (order.number, Ok(()));
@@ -245,6 +271,7 @@ impl Host {
     }
 
     fn keep_learnt(&mut self, now_us: u64, order: LearntOrder) {
+        self.note_write(|| KeptWrite::Learnt(Box::new(order.learnt.clone())));
         self.learnt = Some(order.learnt);
         if !self.disk_is_mute {
             let (number, result) = (order.number, Ok(()));
@@ -253,6 +280,7 @@ impl Host {
     }
 
     fn keep_run(&mut self, now_us: u64, record: RunRecord) {
+        self.note_write(|| KeptWrite::Run(Box::new(record.clone())));
         let run = Box::new(record.run.clone());
         self.runs.push(record);
         if !self.disk_is_mute {
@@ -281,6 +309,21 @@ impl Host {
     #[must_use]
     pub const fn cost(&self) -> Option<HostCost> {
         self.cost
+    }
+
+    /// What was measured since [`Self::measure_cost`] or since the last call.
+    pub fn take_cost(&mut self) -> HostCost {
+        self.cost.as_mut().map(core::mem::take).unwrap_or_default()
+    }
+
+    /// From now on what it writes to its disk is kept in order, for a disk of files.
+    pub fn keep_writes(&mut self) {
+        self.writes.get_or_insert_default();
+    }
+
+    /// What it has written since the last call.
+    pub fn take_writes(&mut self) -> Vec<KeptWrite> {
+        self.writes.as_mut().map_or_else(Vec::new, core::mem::take)
     }
 
     /// From now on its log is kept.

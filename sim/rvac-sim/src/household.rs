@@ -6,7 +6,7 @@ use brain::mapping::StoredMap;
 use home::{Beacons, BoardGyro, Home, Pose};
 
 use crate::carpet_quality;
-use crate::figures::{Belief, Collector, MeasuredFloor};
+use crate::figures::{Belief, Collector, MeasuredFloor, Sigma};
 use crate::known_map::known_map;
 use crate::line_faults::{HostClock, Tamper};
 use crate::linux_board::LinuxBoard;
@@ -77,6 +77,7 @@ impl Household {
             reachable_m2: home.reachable_area_m2(),
             t0_s: home.t0_s(),
             cruise_m_per_s: robot.model().drive.cruise_m_per_s,
+            rooms: home.rooms(),
         };
         Self {
             robot,
@@ -292,6 +293,10 @@ impl Household {
                 pose: Pose::new(believed.x, believed.y, believed.heading),
                 state: host.state(),
                 lost: host.brain().is_some_and(|brain| brain.estimate().lost),
+                sigma: host.brain().map_or_else(Sigma::default, |brain| Sigma {
+                    place_m: brain.estimate().sigma_m,
+                    heading_rad: brain.estimate().sigma_rad,
+                }),
                 awaits_charge: host.brain().is_some_and(brain::Brain::awaits_charge),
             };
             let truth_in_map = self.map_from_plan.then(truth.pose);
@@ -364,6 +369,7 @@ impl Household {
             map_iou: quality.map(|quality| quality.placed.iou),
             map_iou_aligned: quality.map(|quality| quality.aligned.iou),
             wall_error_m: quality.and_then(|quality| quality.placed.wall_error_m),
+            map_obstacles: quality.map(|quality| quality.obstacles),
             wall_error_aligned_m: quality.and_then(|quality| quality.aligned.wall_error_m),
             carpet_recall: carpet.recall,
             carpet_precision: carpet.precision,

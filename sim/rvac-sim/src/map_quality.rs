@@ -8,6 +8,7 @@ use brain::mapping::{CELL_M, CellKnowledge, Map};
 use home::{Home, Pose};
 
 use crate::map_alignment::{aligned, wall_error_m};
+use crate::map_obstacles::{self, MapObstacles};
 
 /// Agreement of a map with the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub(crate) struct MapQuality {
     pub(crate) placed: Agreement,
     /// Aligned.
     pub(crate) aligned: Agreement,
+    /// Wrong obstacles, aligned.
+    pub(crate) obstacles: MapObstacles,
 }
 
 /// Agreement of a map with the plan for one alignment.
@@ -32,9 +35,11 @@ pub(crate) struct Agreement {
 /// Judges a map; `None` = nothing is known yet.
 pub(crate) fn judge(map: &Map, home: &Home, plan_from_map: Pose) -> Option<MapQuality> {
     let walls = walls(map);
+    let best = aligned(&walls, home, plan_from_map);
     Some(MapQuality {
         placed: agreement((map, &walls), home, plan_from_map)?,
-        aligned: agreement((map, &walls), home, aligned(&walls, home, plan_from_map))?,
+        aligned: agreement((map, &walls), home, best)?,
+        obstacles: map_obstacles::judge(map.knowledge(), home, best),
     })
 }
 
@@ -125,7 +130,7 @@ mod tests {
             Pose::new(-0.1, 0.3, -0.03),
             Pose::new(0.0, 0.0, 0.0),
         ] {
-            let MapQuality { placed, aligned } = judge(&map, &home, off).context("a map of the flat")?;
+            let MapQuality { placed, aligned, .. } = judge(&map, &home, off).context("a map of the flat")?;
             let off_m = |one: Agreement| one.wall_error_m.context("walls of the flat");
             assert!(aligned.iou > 0.985, "{aligned:?} at {off:?}");
             // The middles of the cells that border free floor lie about half a cell within what is solid.

@@ -100,6 +100,7 @@ impl std::fmt::Display for RunReport {
             writeln!(formatter, "pose error    {error_m:.3} m (root mean square)")?;
         }
         if let Some(figures) = &self.figures {
+            writeln!(formatter, "field         {}", figures.field)?;
             let spent = figures.time_spent;
             writeln!(
                 formatter,

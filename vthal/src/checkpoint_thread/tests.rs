@@ -7,24 +7,14 @@ use vthal_core::{ArchiveOrder, ArchiveTask, ClientId, MixOrder, MixTask};
 
 use super::{KeptPaths, MixOutcome, QUESTIONS_MAX, start};
 use crate::event::Event;
-use crate::floor_folder::FloorFolder;
-use crate::mix_folder::MixFolder;
-use crate::run_folder::RunFolder;
+use crate::kept_store::KeptStore;
 
 /// Far more than there is room for.
 const MANY: usize = 100;
 const CHANGER: ClientId = ClientId(2);
 
 fn paths_in(folder: &Scratch) -> KeptPaths {
-    KeptPaths {
-        checkpoint: folder.join("checkpoint.json"),
-        floors: FloorFolder::new(folder.join("maps")),
-        mixes: MixFolder::new(folder.join("mixes")),
-        schedules: folder.join("schedules.json"),
-        health: folder.join("health.json"),
-        learnt: folder.join("learnt.json"),
-        runs: RunFolder::new(folder.join("history"), folder.join("runs")),
-    }
+    KeptStore::new(&folder.join("state")).into_paths()
 }
 
 fn question(number: usize) -> ArchiveOrder {

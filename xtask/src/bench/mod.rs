@@ -38,6 +38,8 @@ enum Subject {
     Coverage,
     /// How fast and how surely the robot covers homes, against the lower bound and against bounce.
     Navigation,
+    /// Run after run in one home, each with what the daemon kept: whether the map gets better or worse.
+    Life,
     /// How surely, how fast and how exactly the robot comes home to its dock.
     Docking,
     /// How surely a robot that was put down somewhere finds out on which floor it is.
@@ -183,6 +185,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
         Subject::Navigation => &["--bin", "bench-navigation"],
+        Subject::Life => &["--bin", "bench-life"],
         Subject::Docking => &["--bin", "bench-docking"],
         Subject::Floors => &["--bin", "bench-floors"],
         Subject::Lifted => &["--bin", "bench-lifted"],
@@ -205,6 +208,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
+        | Subject::Life
         | Subject::Docking
         | Subject::Floors
         | Subject::Lifted
@@ -223,6 +227,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Navigation => &["--homes", "report", "--seeds", "20"],
+        Subject::Life => &["--homes", "report", "--seeds", "2"],
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors | Subject::Lifted => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],

@@ -19,6 +19,8 @@ use crate::pose::Pose;
 /// A plan as read from a file, before anything is derived.
 pub(crate) struct Draft {
     pub(crate) name: String,
+    /// Rooms that the file names; `None` = it knows none.
+    pub(crate) rooms: Option<u32>,
     pub(crate) grid: Grid,
     pub(crate) file_from_plan: Pose,
     pub(crate) dock: DockWish,

@@ -60,6 +60,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
     let (grid, x_m, y_m) = fit(path, &coarse)?;
     Ok(Draft {
         name: stem(path),
+        rooms: None,
         grid,
         file_from_plan: origin.then(Pose::new(x_m, y_m, 0.0)),
         dock: DockWish::Anywhere,

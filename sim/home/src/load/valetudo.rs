@@ -88,8 +88,10 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
         }
         None => DockWish::Anywhere,
     };
+    let segments = map.layers.iter().filter(|layer| layer.kind == "segment").count() as u32;
     Ok(Draft {
         name: stem(path),
+        rooms: (segments > 0).then_some(segments),
         grid,
         file_from_plan: Pose::new(
             f64::from(extent.left) * coarse.cell_m + corner_x_m,

@@ -7,6 +7,8 @@ use crate::{Pcg, Pose};
 const TAKE_256: u16 = 28;
 /// Side of the patches that share an amount of dirt, cells.
 const PATCH_CELLS: usize = 16;
+/// A cell over which the disc comes after so long is swept once more, milliseconds: longer than a turn on the spot takes.
+const AGAIN_MS: u64 = 10_000;
 
 /// The floor for a cleaner.
 #[derive(Clone, Debug)]
@@ -17,6 +19,11 @@ pub(crate) struct Dirt {
     /// Cells of the reachable floor that the disc has passed.
     pub(crate) swept: Vec<bool>,
     pub(crate) swept_cells: u32,
+    /// When the disc was over a cell last, milliseconds.
+    passed_ms: Vec<u32>,
+    /// Cells that the disc has passed again after [`AGAIN_MS`].
+    twice: Vec<bool>,
+    pub(crate) twice_cells: u32,
     /// Part of the job in which a cell was cleaned last, 0 = in none; empty while it is not counted.
     stretches: Vec<u8>,
     stretch: u8,
@@ -53,6 +60,9 @@ impl Dirt {
             last: None,
             swept: vec![false; grid.cells.len()],
             swept_cells: 0,
+            passed_ms: vec![0; grid.cells.len()],
+            twice: vec![false; grid.cells.len()],
+            twice_cells: 0,
             stretches: Vec::new(),
             stretch: 0,
             again_cells: 0,
@@ -91,7 +101,7 @@ impl Dirt {
 
     /// Sweeps at the present place if the robot has moved far enough since the last time; dirt is taken up only when
     /// `cleaning`.
-    pub(crate) fn pass(&mut self, home: &Home, pose: Pose, cleaning: bool) {
+    pub(crate) fn pass(&mut self, home: &Home, pose: Pose, (now_ms, cleaning): (u64, bool)) {
         let (x_m, y_m) = (pose.x_m, pose.y_m);
         if let Some((last_x, last_y)) = self.last {
             let (dx, dy) = (x_m - last_x, y_m - last_y);
@@ -110,7 +120,24 @@ impl Dirt {
             let left = ((x_m - half) * per_m + 0.5).max(0.0) as usize;
             let right = (((x_m + half) * per_m + 0.5).max(0.0) as usize).min(grid.width);
             if left < right {
-                self.sweep_row(home, row * grid.width + left..row * grid.width + right, cleaning);
+                let cells = row * grid.width + left..row * grid.width + right;
+                self.count_twice(home, cells.clone(), now_ms);
+                self.sweep_row(home, cells, cleaning);
+            }
+        }
+    }
+
+    /// Must come before the cells are swept.
+    fn count_twice(&mut self, home: &Home, cells: core::ops::Range<usize>, now_ms: u64) {
+        for index in cells {
+            let (Some(passed_ms), Some(twice)) = (self.passed_ms.get_mut(index), self.twice.get_mut(index))
+            else {
+                continue;
+            };
+            let before_ms = core::mem::replace(passed_ms, now_ms as u32);
+            if !*twice && self.swept[index] && now_ms.saturating_sub(u64::from(before_ms)) > AGAIN_MS {
+                *twice = true;
+                self.twice_cells += u32::from(home.reachable().get(index) == Some(&true));
             }
         }
     }

@@ -51,6 +51,11 @@ impl SimulatedGyro {
         self.rate_rad_per_s += 0.3 * (seen * (1.0 / STEP_S) - self.rate_rad_per_s);
     }
 
+    /// Draws the bias of another switch-on.
+    pub(crate) fn switch_on(&mut self, noise: &Noise, random: &mut Pcg) {
+        self.bias_rad_per_s = noise.gyro_bias_rad_per_s * random.normal();
+    }
+
     /// What its turns must be multiplied by, less 1, to be true.
     pub(crate) fn scale_error(&self) -> f64 {
         1.0 / self.scale - 1.0

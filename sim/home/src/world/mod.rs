@@ -87,19 +87,47 @@ enum Stream {
     Faults = 4,
     Dock = 5,
     Thermistor = 6,
+    SwitchOn = 7,
+}
+
+/// What a robot and its run are drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorldSeeds {
+    /// The robot as it was built (wheels, scale of its gyro) and how bright its home is.
+    pub build: u64,
+    /// What differs from run to run: slip, noise, the gyro's bias at switch-on, dirt.
+    pub run: u64,
+}
+
+impl From<u64> for WorldSeeds {
+    /// A robot of its own for each run.
+    fn from(seed: u64) -> Self {
+        Self {
+            build: seed,
+            run: seed,
+        }
+    }
 }
 
 impl World {
-    /// Puts a robot into a home: at `start` (plan frame), or where the home says. Whatever differs from run to run
-    /// (wheel errors, gyro bias, albedo, dirt) comes from `noise` and `seed`. The battery is full.
+    /// Puts a robot into a home: at `start` (plan frame), or where the home says. Whatever differs from robot to robot and
+    /// from run to run (wheel errors, gyro bias, albedo, dirt) comes from `noise` and `seeds`; a number is both seeds. The
+    /// battery is full.
     #[must_use]
     #[expect(
         clippy::too_many_arguments,
         reason = "home, robot, noise, seed and start are five different things"
     )]
-    pub fn new(home: Arc<Home>, model: &RobotModel, noise: &Noise, seed: u64, start: Option<Pose>) -> Self {
-        let mut build = Pcg::new(seed, Stream::Build as u64);
-        let random = &mut build;
+    pub fn new(
+        home: Arc<Home>,
+        model: &RobotModel,
+        noise: &Noise,
+        seeds: impl Into<WorldSeeds>,
+        start: Option<Pose>,
+    ) -> Self {
+        let WorldSeeds { build, run } = seeds.into();
+        let mut build_random = Pcg::new(build, Stream::Build as u64);
+        let random = &mut build_random;
         let pose = start.unwrap_or(home.start());
         let (slip, errors) = Slip::new(model, noise, random);
         let mut world = Self {
@@ -116,23 +144,19 @@ impl World {
                 .gyro
                 .as_ref()
                 .map(|part| SimulatedGyro::new(part, noise, random)),
-            dock: Dock::of(&home, model, Pcg::new(seed, Stream::Dock as u64)),
+            dock: Dock::of(&home, model, Pcg::new(run, Stream::Dock as u64)),
             battery: Pack::new(PackMake::of(&model.battery), 1.0, ROOM_C),
             charging_speed: 1.0,
             brush_drag: 1.0,
-            dirt: Dirt::new(
-                &home,
-                model.body.swath_m,
-                &mut Pcg::new(seed, Stream::Dirt as u64),
-            ),
+            dirt: Dirt::new(&home, model.body.swath_m, &mut Pcg::new(run, Stream::Dirt as u64)),
             lidar: model.lidar.map(Lidar::new),
-            faults: Faults::new(Pcg::new(seed, Stream::Faults as u64)),
+            faults: Faults::new(Pcg::new(run, Stream::Faults as u64)),
             doors: home.doors.iter().map(|door| door.open).collect(),
             walkers: Walkers::new(&home.walkers),
             on_foot: false,
             foot_pushed_ms: 0,
-            random: Pcg::new(seed, Stream::Run as u64),
-            thermistor_random: Pcg::new(seed, Stream::Thermistor as u64),
+            random: Pcg::new(run, Stream::Run as u64),
+            thermistor_random: Pcg::new(run, Stream::Thermistor as u64),
             actuation: Actuation::default(),
             sensors: Sensors {
                 dust_box: true,
@@ -144,6 +168,11 @@ impl World {
             noise: *noise,
             home,
         };
+        if run != build
+            && let Some(gyro) = &mut world.gyro
+        {
+            gyro.switch_on(noise, &mut Pcg::new(run, Stream::SwitchOn as u64));
+        }
         world.settle();
         world
     }
@@ -323,6 +352,13 @@ impl World {
     /// Winds hair around the main brush: its motor draws so many times the current of a clean one.
     pub fn wind_brush(&mut self, times: f64) {
         self.brush_drag = times.clamp(0.0, 10.0);
+    }
+
+    /// The bias of the robot's own gyro, if it has one, changes by so much: a part that warms up.
+    pub fn shift_gyro_bias(&mut self, rad_per_s: f64) {
+        if let Some(gyro) = &mut self.gyro {
+            gyro.shift_bias(rad_per_s);
+        }
     }
 
     /// Puts another pack in.

@@ -210,7 +210,8 @@ impl World {
     fn sweep(&mut self, actuation: &Actuation) {
         if !self.truth.hanging() {
             let cleaning = actuation.brush_main.abs() > 0.05 && actuation.vacuum;
-            self.dirt.pass(&self.home, self.body.pose(), cleaning);
+            let now_ms = self.truth.time_ms;
+            self.dirt.pass(&self.home, self.body.pose(), (now_ms, cleaning));
         }
     }
 
@@ -320,6 +321,7 @@ impl World {
         self.truth.battery_a = self.battery.current_a();
         self.truth.dirt_share = self.dirt.share();
         self.truth.swept_m2 = f64::from(self.dirt.swept_cells) * self.home.grid().cell_area_m2();
+        self.truth.swept_twice_m2 = f64::from(self.dirt.twice_cells) * self.home.grid().cell_area_m2();
         self.truth.swept_share =
             f64::from(self.dirt.swept_cells) / f64::from(self.home.reachable_cells().max(1));
     }

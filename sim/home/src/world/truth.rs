@@ -23,6 +23,8 @@ pub struct Truth {
     pub swept_share: f64,
     /// Area of the reachable floor that the swath has passed, square metres.
     pub swept_m2: f64,
+    /// Area of it that the swath has passed a second time, ten seconds or more after the first, square metres.
+    pub swept_twice_m2: f64,
     /// Share of the dirt that has been taken up, 0..1; this needs main brush and suction.
     pub dirt_share: f64,
     /// Direction of the present contact from straight ahead, radians, at most 10 ms old; `None` = the body touches
@@ -76,6 +78,7 @@ impl Truth {
             path_m: 0.0,
             swept_share: 0.0,
             swept_m2: 0.0,
+            swept_twice_m2: 0.0,
             dirt_share: 0.0,
             contact_rad: None,
             contacts: 0,

@@ -20,7 +20,7 @@ use home::{Home, RobotModel};
 use pic32::board::CalibrationChoice;
 use progress::Progress;
 use rvac_sim::run::{RunSettings, household, run};
-use rvac_sim::{Firmware, RunReport, Scene};
+use rvac_sim::{FieldMeasures, Firmware, RunReport, Scene, field_line};
 use serde::Serialize;
 
 /// Compares how well two firmwares clean.
@@ -258,6 +258,18 @@ fn print(comparison: &Comparison, json: bool) -> anyhow::Result<()> {
             figure.difference * 100.0,
             figure.uncertainty * 100.0
         )?;
+    }
+    for (name, of) in [
+        ("built in", (|pair| &pair.built_in) as fn(&Pair) -> &RunReport),
+        ("emulated", |pair| &pair.emulated),
+    ] {
+        let jobs: Vec<FieldMeasures> = comparison
+            .pairs
+            .iter()
+            .filter_map(|pair| of(pair).figures.as_ref())
+            .map(|figures| figures.field)
+            .collect();
+        writeln!(out, "{name:<12} {}", field_line(FieldMeasures::means(&jobs)))?;
     }
     let words = match comparison.verdict {
         ToleranceVerdict::Within => "within the tolerance",

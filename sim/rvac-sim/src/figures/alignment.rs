@@ -3,7 +3,9 @@
 
 use home::Pose;
 
+use super::Belief;
 use super::honesty::WRONG_M;
+use super::nees::of_place;
 
 /// Places are kept once in so long, milliseconds.
 const KEEP_MS: u64 = 1_000;
@@ -27,7 +29,15 @@ struct AlignmentSample {
     time_ms: u64,
     believed: [f64; 2],
     is: [f64; 2],
+    sigma_m: f64,
     says_lost: bool,
+}
+
+/// A distribution of errors, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ErrorSpread {
+    pub(super) median: f64,
+    pub(super) p90: f64,
 }
 
 /// What is left of the error at single moments.
@@ -37,11 +47,15 @@ pub(super) struct LeftOver {
     pub(super) max_m: f64,
     /// Seconds with a wrong pose that the robot reported as known.
     pub(super) unnoticed_s: f64,
+    /// Median and 90th percentile of the distance; `None` without samples.
+    pub(super) error: Option<ErrorSpread>,
+    /// Mean of the error squared over its reported variance, for each dimension, while the robot claims to know its pose.
+    pub(super) nees: Option<f64>,
 }
 
 impl Alignment {
-    pub(super) fn sample(&mut self, now_ms: u64, (believed, says_lost): (Pose, bool), is: Pose) {
-        let ([a, b], [x, y]) = ([believed.x_m, believed.y_m], [is.x_m, is.y_m]);
+    pub(super) fn sample(&mut self, now_ms: u64, belief: &Belief, is: Pose) {
+        let ([a, b], [x, y]) = ([belief.pose.x_m, belief.pose.y_m], [is.x_m, is.y_m]);
         self.count += 1.0;
         self.believed = [self.believed[0] + a, self.believed[1] + b];
         self.is = [self.is[0] + x, self.is[1] + y];
@@ -54,7 +68,8 @@ impl Alignment {
                 time_ms: now_ms,
                 believed: [a, b],
                 is: [x, y],
-                says_lost,
+                sigma_m: belief.sigma.place_m,
+                says_lost: belief.lost,
             });
         }
     }
@@ -92,6 +107,7 @@ impl Alignment {
         let [x, y] = self.is.map(|sum| sum / self.count);
         let mut left = LeftOver::default();
         let mut before_ms = 0;
+        let (mut errors_m, mut squares) = (Vec::with_capacity(self.kept.len()), Vec::new());
         for kept in &self.kept {
             let (from_a, from_b) = (kept.believed[0] - a, kept.believed[1] - b);
             let off_x = x + cos * from_a - sin * from_b - kept.is[0];
@@ -102,15 +118,62 @@ impl Alignment {
                 left.unnoticed_s += (kept.time_ms - before_ms) as f64 / 1000.0;
             }
             before_ms = kept.time_ms;
+            errors_m.push(off_m);
+            if !kept.says_lost {
+                squares.push(of_place(off_m, kept.sigma_m));
+            }
         }
-        left
+        LeftOver {
+            error: spread(errors_m),
+            nees: (!squares.is_empty()).then(|| squares.iter().sum::<f64>() / squares.len() as f64),
+            ..left
+        }
     }
+
+    /// Errors at single moments without any alignment.
+    pub(super) fn placed(&self) -> Option<ErrorSpread> {
+        let off_m =
+            |kept: &AlignmentSample| (kept.believed[0] - kept.is[0]).hypot(kept.believed[1] - kept.is[1]);
+        spread(self.kept.iter().map(off_m).collect())
+    }
+
+    /// Median of the reported deviation of the position.
+    pub(super) fn sigma_median_m(&self) -> Option<f64> {
+        spread(self.kept.iter().map(|kept| kept.sigma_m).collect()).map(|spread| spread.median)
+    }
+}
+
+/// Nearest rank.
+fn spread(mut values: Vec<f64>) -> Option<ErrorSpread> {
+    values.sort_by(f64::total_cmp);
+    let rank = |share: f64| {
+        let rank = (share * values.len() as f64).ceil() as usize;
+        values.get(rank.checked_sub(1)?).copied()
+    };
+    Some(ErrorSpread {
+        median: rank(0.5)?,
+        p90: rank(0.9)?,
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Alignment, LeftOver};
+    use super::super::{Belief, Sigma};
+    use super::{Alignment, ErrorSpread, LeftOver, spread};
     use home::Pose;
+
+    fn belief(pose: Pose, lost: bool) -> Belief {
+        Belief {
+            pose,
+            state: None,
+            lost,
+            sigma: Sigma {
+                place_m: 0.1,
+                heading_rad: 0.1,
+            },
+            awaits_charge: false,
+        }
+    }
 
     fn way(bend: f64, says_lost: impl Fn(u64) -> bool) -> Alignment {
         let mut alignment = Alignment::default();
@@ -120,9 +183,9 @@ mod tests {
             let turned = Pose::new(x_m * cos - y_m * sin + 5.0, x_m * sin + y_m * cos - 1.0, 0.0);
             let is = Pose::new(x_m, y_m + bend * x_m * x_m, 0.0);
             let now_ms = 2_000 * u64::from(step + 1);
-            alignment.sample(now_ms, (turned, says_lost(now_ms)), is);
+            alignment.sample(now_ms, &belief(turned, says_lost(now_ms)), is);
             // So soon after it is not kept.
-            alignment.sample(now_ms + 1, (turned, false), is);
+            alignment.sample(now_ms + 1, &belief(turned, false), is);
         }
         alignment
     }
@@ -131,13 +194,33 @@ mod tests {
     fn a_frame_that_is_turned_and_shifted_is_no_error_and_what_bends_is() {
         let straight = way(0.0, |_| false);
         assert!(straight.rmse_m().unwrap() < 1e-5, "{straight:?}");
-        let LeftOver { max_m, unnoticed_s } = straight.left_over();
+        let LeftOver {
+            max_m,
+            unnoticed_s,
+            error,
+            nees,
+        } = straight.left_over();
         assert!(max_m < 1e-5, "{max_m} m");
         assert_eq!(unnoticed_s, 0.0);
+        assert!(error.is_some_and(|error| error.p90 < 1e-5), "{error:?}");
+        assert!(nees.is_some_and(|nees| nees < 1e-5), "{nees:?}");
+        assert!(straight.placed().is_some_and(|placed| placed.median > 1.0));
+        assert_eq!(straight.sigma_median_m(), Some(0.1));
         let rmse_m = way(0.02, |_| false).rmse_m().unwrap();
         assert!(rmse_m > 0.1, "{rmse_m} m");
         assert_eq!(Alignment::default().rmse_m(), None);
         assert_eq!(Alignment::default().left_over(), LeftOver::default());
+    }
+
+    #[test]
+    fn half_of_the_errors_are_below_the_median_and_a_tenth_above_the_percentile() {
+        let errors = (1..=10).rev().map(f64::from).collect();
+        let wanted = ErrorSpread {
+            median: 5.0,
+            p90: 9.0,
+        };
+        assert_eq!(spread(errors), Some(wanted));
+        assert_eq!(spread(Vec::new()), None);
     }
 
     #[test]

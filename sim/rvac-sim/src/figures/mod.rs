@@ -5,8 +5,10 @@
 //! pose are of the whole run, because the robot needs its pose to return home too.
 
 mod alignment;
+mod field;
 mod honesty;
 mod lost;
+mod nees;
 mod pose_error;
 mod time_spent;
 
@@ -14,10 +16,15 @@ use brain::{BehaviorState, SweptShare};
 use home::{Pose, Truth};
 use serde::Serialize;
 
+use crate::map_obstacles::MapObstacles;
 use alignment::Alignment;
+use field::FieldWatch;
+pub use field::{FieldMeasures, field_line};
 use honesty::HonestyWatch;
 pub use lost::LostStretch;
 use lost::LostWatch;
+use nees::NeesWatch;
+pub(crate) use nees::Sigma;
 use pose_error::PoseError;
 pub use time_spent::TimeSpent;
 use time_spent::TimeWatch;
@@ -52,6 +59,10 @@ pub struct Figures {
     /// Largest excess of that lower bound over the true share in any minute; below 0 if there was none.
     #[serde(rename = "told_low_over_true")]
     pub reported_low_over_true: Option<f64>,
+    /// The swept share that the host reported last in its job, minus the true one at that moment.
+    pub told_minus_true: Option<f64>,
+    /// Measures that the field reports.
+    pub field: FieldMeasures,
     /// Length of the job over the lower bound; `null` = it was not over.
     pub job_over_t0: Option<f64>,
     /// Seconds of the job until the robot was a metre away from where it began: how long a trap held it; `null` = it
@@ -80,6 +91,23 @@ pub struct Figures {
     pub pose_error_max_m: f64,
     /// The same after rigid alignment of the estimated path with the true one.
     pub pose_error_max_aligned_m: f64,
+    /// Median distance between believed and true place, and the 90th percentile.
+    pub pose_error_median_m: Option<f64>,
+    /// See [`Self::pose_error_median_m`].
+    pub pose_error_p90_m: Option<f64>,
+    /// The same after rigid alignment of the estimated path with the true one.
+    pub pose_error_median_aligned_m: Option<f64>,
+    /// See [`Self::pose_error_median_aligned_m`].
+    pub pose_error_p90_aligned_m: Option<f64>,
+    /// Median of the standard deviation of its position that the robot reports.
+    pub sigma_median_m: Option<f64>,
+    /// Mean of the position's error squared over its reported variance, for each dimension, while the robot does not say that
+    /// it is lost: 1 when the reported deviation is true, more when it is too small.
+    pub nees_place: Option<f64>,
+    /// The same after rigid alignment of the estimated path with the true one.
+    pub nees_place_aligned: Option<f64>,
+    /// The same of the heading.
+    pub nees_heading: Option<f64>,
     /// Root mean square of the error of the heading, degrees.
     pub heading_rmse_deg: Option<f64>,
     /// Seconds in periods of more than a minute with a pose error of more than half a metre.
@@ -103,6 +131,8 @@ pub struct Figures {
     pub wall_error_m: Option<f64>,
     /// The same when the map is laid over the home as a whole.
     pub wall_error_aligned_m: Option<f64>,
+    /// Obstacles of the map that do not exist, and those that it lacks.
+    pub map_obstacles: Option<MapObstacles>,
     /// Share of the rug floor under the swath that the robot's map has as carpet; `null` = the swath was on no rug, or
     /// the robot does not measure what its motors draw.
     pub carpet_recall: Option<f64>,
@@ -122,6 +152,8 @@ pub(crate) struct Belief {
     pub(crate) pose: Pose,
     pub(crate) state: Option<BehaviorState>,
     pub(crate) lost: bool,
+    /// The uncertainty that it reports.
+    pub(crate) sigma: Sigma,
     /// The job goes on once the pack is charged.
     pub(crate) awaits_charge: bool,
 }
@@ -133,6 +165,15 @@ pub(crate) struct MeasuredFloor {
     pub(crate) t0_s: f64,
     /// Speed at which the robot cleans.
     pub(crate) cruise_m_per_s: f64,
+    /// Rooms of the plan, if it knows any.
+    pub(crate) rooms: Option<u32>,
+}
+
+impl MeasuredFloor {
+    /// Width of the swath.
+    pub(crate) fn swath_m(&self) -> f64 {
+        self.reachable_m2 / (self.t0_s * self.cruise_m_per_s)
+    }
 }
 
 /// Collects the data of the figures.
@@ -151,6 +192,8 @@ pub(crate) struct Collector {
     pose_error: PoseError,
     lost: LostWatch,
     honesty: HonestyWatch,
+    nees: NeesWatch,
+    field: FieldWatch,
     alignment: Alignment,
     time: TimeWatch,
     reported: ReportedShare,
@@ -162,6 +205,7 @@ pub(crate) struct Collector {
 #[derive(Clone, Copy, Debug, Default)]
 struct ReportedShare {
     last: Option<SweptShare>,
+    minus_true: Option<f64>,
     low_over_true: Option<f64>,
 }
 
@@ -225,6 +269,8 @@ impl Collector {
             pose_error: PoseError::default(),
             lost: LostWatch::default(),
             honesty: HonestyWatch::default(),
+            nees: NeesWatch::default(),
+            field: FieldWatch::default(),
             alignment: Alignment::default(),
             time: TimeWatch::new(&floor),
             reported: ReportedShare::default(),
@@ -250,6 +296,7 @@ impl Collector {
             self.turn_rad += turned_rad;
             self.contacts += bumped;
             self.note_share(job_s, truth.swept_share);
+            self.field.sample(truth, &self.floor);
             let begun_at = *self.begun_at.get_or_insert(truth.pose);
             if begun_at.distance_m(truth.pose) >= AWAY_M {
                 self.away_s.get_or_insert(job_s);
@@ -266,8 +313,10 @@ impl Collector {
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
         self.pose_error.sample(job_s, error_m, error_rad);
-        self.alignment
-            .sample(work_ms, (belief.pose, belief.lost), truth_in_map);
+        self.alignment.sample(work_ms, belief, truth_in_map);
+        if !belief.lost {
+            self.nees.sample(error_m, error_rad, belief.sigma);
+        }
         self.lost.sample(work_ms, error_m);
         self.honesty.sample(work_ms, error_m, belief.lost);
     }
@@ -277,6 +326,7 @@ impl Collector {
         let Some(share) = reported else { return };
         let over = share.share_low - swept_share;
         self.reported.last = reported;
+        self.reported.minus_true = Some(share.share - swept_share);
         self.reported.low_over_true = Some(
             self.reported
                 .low_over_true
@@ -322,6 +372,10 @@ impl Collector {
         let per_m2 = |value: f64| value / self.floor.reachable_m2;
         let [at_10, at_30, at_60, at_120] = self.pose_error.at_marks();
         let left_over = self.alignment.left_over();
+        let placed = self.alignment.placed();
+        let nees = self.nees.means();
+        let job_s = self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms));
+        let contacts = (self.contacts, job_s);
         let lost_stretches = self.lost.stretches();
         Figures {
             t80_over_t0: t80,
@@ -332,7 +386,9 @@ impl Collector {
             reported_share: self.reported.last.map(|reported| reported.share),
             reported_share_low: self.reported.last.map(|reported| reported.share_low),
             reported_low_over_true: self.reported.low_over_true,
-            job_over_t0: self.job.ended_ms.map(|ended_ms| self.job_s(ended_ms) / t0_s),
+            told_minus_true: self.reported.minus_true,
+            field: self.field.measures(now.swept_share, contacts, &self.floor),
+            job_over_t0: job_s.map(|job_s| job_s / t0_s),
             charging_s: self.job.charging_ms as f64 / 1000.0,
             away_s: self.away_s,
             time_spent: self.time.spent(),
@@ -345,6 +401,14 @@ impl Collector {
             pose_rmse_aligned_m: self.alignment.rmse_m(),
             pose_error_max_m: self.pose_error.max_m(),
             pose_error_max_aligned_m: left_over.max_m,
+            pose_error_median_m: placed.map(|placed| placed.median),
+            pose_error_p90_m: placed.map(|placed| placed.p90),
+            pose_error_median_aligned_m: left_over.error.map(|error| error.median),
+            pose_error_p90_aligned_m: left_over.error.map(|error| error.p90),
+            sigma_median_m: self.alignment.sigma_median_m(),
+            nees_place: nees.map(|(place, _)| place),
+            nees_place_aligned: left_over.nees,
+            nees_heading: nees.map(|(_, heading)| heading),
             heading_rmse_deg: self.pose_error.heading_rmse_rad().map(f64::to_degrees),
             lost_seconds: lost_stretches
                 .iter()
@@ -358,6 +422,7 @@ impl Collector {
             map_iou_aligned: None,
             wall_error_m: None,
             wall_error_aligned_m: None,
+            map_obstacles: None,
             carpet_recall: None,
             carpet_precision: None,
             estimate_error: None,
@@ -386,7 +451,7 @@ impl Collector {
 
 #[cfg(test)]
 mod tests {
-    use super::{Belief, Collector, MeasuredFloor};
+    use super::{Belief, Collector, MeasuredFloor, Sigma};
     use brain::BehaviorState;
     use home::{Home, Noise, Pose, RobotModel, Truth, World};
     use std::sync::Arc;
@@ -405,6 +470,7 @@ mod tests {
             reachable_m2: 2.0,
             t0_s: 10.0,
             cruise_m_per_s: 0.25,
+            rooms: None,
         })
     }
 
@@ -413,6 +479,7 @@ mod tests {
             pose: Pose::default(),
             state: Some(state),
             lost: false,
+            sigma: Sigma::default(),
             awaits_charge: false,
         }
     }

@@ -53,7 +53,7 @@ pub(super) struct TimeWatch {
 impl TimeWatch {
     pub(super) fn new(floor: &MeasuredFloor) -> Self {
         Self {
-            swath_m: floor.reachable_m2 / (floor.t0_s * floor.cruise_m_per_s),
+            swath_m: floor.swath_m(),
             cruise_m_per_s: floor.cruise_m_per_s,
             spent: TimeSpent::default(),
             contacts: 0,
@@ -125,6 +125,7 @@ mod tests {
             reachable_m2: 3.0,
             t0_s: 40.0,
             cruise_m_per_s: 0.25,
+            rooms: None,
         });
         let mut truth = truth();
         watch.sample(&truth, false);

@@ -54,6 +54,7 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
     let surfaces = drawing.surfaces;
     Ok(Draft {
         name: plan.name.unwrap_or_else(|| stem(path)),
+        rooms: Some(plan.rooms.len() as u32),
         grid,
         file_from_plan: Pose::new(corner.0, corner.1, 0.0),
         dock,

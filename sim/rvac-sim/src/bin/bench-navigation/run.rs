@@ -184,6 +184,7 @@ fn figures(first: &RunReport, last: &RunReport) -> Figures {
         time_spent: job.time_spent,
         turn_deg_per_m2: job.turn_deg_per_m2,
         bumps_per_m2: job.bumps_per_m2,
+        field: job.field,
         estimate_error: job.estimate_error,
         ..run
     }

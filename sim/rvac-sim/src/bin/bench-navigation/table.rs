@@ -32,7 +32,7 @@ enum Better {
     More,
 }
 
-const FIGURES: [FigureColumn; 35] = [
+const FIGURES: [FigureColumn; 38] = [
     less("t80_over_t0", |run| run.figures.t80_over_t0),
     less("t90_over_t0", |run| run.figures.t90_over_t0),
     less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -43,6 +43,9 @@ const FIGURES: [FigureColumn; 35] = [
     less("away_s", |run| run.figures.away_s),
     less("turn_deg_per_m2", |run| Some(run.figures.turn_deg_per_m2)),
     less("bumps_per_m2", |run| Some(run.figures.bumps_per_m2)),
+    less("minutes_per_room", |run| run.figures.field.minutes_per_room),
+    less("swept_twice", |run| Some(run.figures.field.swept_twice)),
+    more("path_efficiency", |run| run.figures.field.path_efficiency),
     less("pose_rmse_10_min_m", |run| run.figures.pose_rmse_10_min_m),
     less("pose_rmse_30_min_m", |run| run.figures.pose_rmse_30_min_m),
     less("pose_rmse_60_min_m", |run| run.figures.pose_rmse_60_min_m),

@@ -1,0 +1,200 @@
+//! What the daemon keeps in its state folder: where each thing lies, what a new daemon begins with, and how it is replaced.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use rvac_api::{Run, RunRecord};
+use vthal_core::health::StoredHealth;
+use vthal_core::learnt::StoredLearnings;
+use vthal_core::{Checkpoint, CoreConfig, FloorHome, cut_short};
+
+use crate::checkpoint_file::{self, BootTime, Found};
+use crate::floor_folder::FloorFolder;
+use crate::health_file;
+use crate::learnt_file;
+use crate::mix_folder::MixFolder;
+use crate::run_folder::RunFolder;
+use crate::schedule_file;
+
+/// Name of the file of the checkpoint in the state folder.
+const CHECKPOINT: &str = "checkpoint";
+/// Name of the folder of maps in the state folder.
+const MAPS: &str = "maps";
+/// Name of the folder of records of runs in the state folder.
+const HISTORY: &str = "history";
+/// Name of the folder of recordings in the state folder.
+pub(crate) const RECORDINGS: &str = "runs";
+/// Name of the folder of control mixes in the state folder.
+const MIXES: &str = "mixes";
+/// Name of the file of schedules in the state folder.
+const SCHEDULES: &str = "schedules.json";
+/// Name of the file of the motors' loads in the state folder.
+const HEALTH: &str = "health.json";
+/// Name of the file of what robots have learnt in the state folder.
+const LEARNT: &str = "learnt.json";
+
+/// Where things are kept.
+#[derive(Debug)]
+pub(crate) struct KeptPaths {
+    /// The checkpoint.
+    pub(crate) checkpoint: PathBuf,
+    /// The floors, with the versions of their maps.
+    pub(crate) floors: FloorFolder,
+    /// The control mixes.
+    pub(crate) mixes: MixFolder,
+    /// The schedules.
+    pub(crate) schedules: PathBuf,
+    /// The loads of the motors.
+    pub(crate) health: PathBuf,
+    /// What robots have learnt of themselves.
+    pub(crate) learnt: PathBuf,
+    /// The records of runs.
+    pub(crate) runs: RunFolder,
+}
+
+impl KeptPaths {
+    /// Keeps the record of a run, with the version of the map that is the newest then.
+    ///
+    /// # Errors
+    /// A sentence for the log.
+    pub(crate) fn keep_run(&self, mut record: RunRecord) -> Result<Box<Run>, String> {
+        let newest = |floor| self.floors.maps(floor).newest_number();
+        record.run.map = record.run.floor.and_then(newest);
+        match self.runs.keep(&record) {
+            Ok(()) => {
+                self.runs.look_for_recordings(&mut record.run);
+                Ok(Box::new(record.run))
+            }
+            Err(error) => Err(format!(
+                "cannot write the record of run {} in {}: {error}; it is tried again every minute",
+                record.run.number,
+                self.runs.path().display()
+            )),
+        }
+    }
+
+    /// The job that goes on, and the number of the next run. A run that is not continued is stored as cut short.
+    fn left_over(&self) -> (Option<Checkpoint>, u64) {
+        let now = BootTime::now().ok();
+        let found = now.and_then(|now| checkpoint_file::newest(&self.checkpoint, &now));
+        let run = found.as_ref().and_then(|found| found.checkpoint.run.as_ref());
+        let left = run.map_or(0, |run| run.run.number);
+        let next_run = self.runs.newest().max(left) + 1;
+        let Some(Found { checkpoint, is_young }) = found else {
+            return (None, next_run);
+        };
+        if is_young {
+            return (Some(checkpoint), next_run);
+        }
+        if let Some(record) = cut_short(checkpoint).filter(|record| !self.runs.has(record.run.number)) {
+            let number = record.run.number;
+            match self.runs.keep(&record) {
+                Ok(()) => tracing::info!(
+                    part = "vthal",
+                    "run {number} was cut short: what was known of it is kept"
+                ),
+                Err(error) => tracing::error!(
+                    part = "vthal",
+                    "cannot write what was known of run {number} in {}: {error}",
+                    self.runs.path().display()
+                ),
+            }
+        }
+        (None, next_run)
+    }
+}
+
+/// The state folder of a daemon. The daemon hands its paths to the thread that writes; a program that measures a life of many
+/// daemons writes through it directly.
+#[derive(Debug)]
+pub struct KeptStore(KeptPaths);
+
+impl KeptStore {
+    /// The state folder at `state`; nothing is made before something is kept.
+    #[must_use]
+    pub fn new(state: &Path) -> Self {
+        Self(KeptPaths {
+            checkpoint: state.join(CHECKPOINT),
+            floors: FloorFolder::new(state.join(MAPS)),
+            mixes: MixFolder::new(state.join(MIXES)),
+            schedules: state.join(SCHEDULES),
+            health: state.join(HEALTH),
+            learnt: state.join(LEARNT),
+            runs: RunFolder::new(state.join(HISTORY), state.join(RECORDINGS)),
+        })
+    }
+
+    pub(crate) const fn paths(&self) -> &KeptPaths {
+        &self.0
+    }
+
+    pub(crate) fn into_paths(self) -> KeptPaths {
+        self.0
+    }
+
+    /// Settings of a core that begins with what is kept; what is wrong with that is in its complaints.
+    #[must_use]
+    pub fn fill(&self, config: CoreConfig) -> CoreConfig {
+        let kept = &self.0;
+        let found = schedule_file::load(&kept.schedules);
+        let (health, health_complaints) = health_file::load(&kept.health);
+        let (learnt, learnt_complaints) = learnt_file::load(&kept.learnt);
+        let (floors, floor_complaints) = kept.floors.load();
+        let (resume, next_run) = kept.left_over();
+        CoreConfig {
+            schedules: found.book,
+            schedules_distrusted: found.distrusted,
+            health,
+            learnt,
+            floors,
+            complaints: [
+                found.complaints,
+                health_complaints,
+                learnt_complaints,
+                floor_complaints,
+            ]
+            .concat(),
+            resume,
+            next_run,
+            ..config
+        }
+    }
+
+    /// Keeps a map as the newest version of its floor.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn keep_home(&self, kept: &FloorHome) -> io::Result<()> {
+        self.0.floors.maps(kept.floor).save(&kept.home)
+    }
+
+    /// Keeps the loads of motors.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn keep_health(&self, health: &StoredHealth) -> io::Result<()> {
+        health_file::save(&self.0.health, health)
+    }
+
+    /// Keeps what robots have learnt of themselves.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn keep_learnt(&self, learnt: &StoredLearnings) -> io::Result<()> {
+        learnt_file::save(&self.0.learnt, learnt)
+    }
+
+    /// Keeps the record of a run; gives it as clients see it.
+    ///
+    /// # Errors
+    /// A sentence for the log.
+    pub fn keep_run(&self, record: RunRecord) -> Result<Box<Run>, String> {
+        self.0.keep_run(record)
+    }
+
+    /// Bytes of the newest map of a floor that is whole.
+    #[must_use]
+    pub fn newest_map(&self, floor: u16) -> Option<Vec<u8>> {
+        self.0.floors.maps(floor).newest_bytes()
+    }
+}
