@@ -163,7 +163,7 @@ mod tests {
             swept: 0.95,
             minutes_per_room: Some(2.0),
             collisions_per_m2: 0.5,
-            swept_twice: 0.4,
+            swept_twice: 3.8 / 9.5,
             // 9 m2 are 36 m of swath, and the way was 45 m.
             path_efficiency: Some(0.8),
         };
