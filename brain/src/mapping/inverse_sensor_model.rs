@@ -40,7 +40,7 @@ impl InverseSensorModel {
         self.draw_body(sighting, grid);
         for (sensor, level) in self.sensors.proximity.sensors().iter().zip(sighting.levels) {
             let sensor = *sensor;
-            self.draw_beam(sighting, ProximityReading { sensor, level }, kept, grid);
+            self.draw_beam(sighting, ProximityReading { sensor, level }, (kept, &mut *grid));
         }
         self.draw_contacts(sighting, kept, grid);
         self.draw_cliffs(sighting, grid);
@@ -100,8 +100,7 @@ impl InverseSensorModel {
         &self,
         sighting: &Sighting,
         reading: ProximityReading,
-        kept: Option<&KeptHome>,
-        grid: &mut OccupancyGrid,
+        (kept, grid): (Option<&KeptHome>, &mut OccupancyGrid),
     ) {
         let response = self.sensors.proximity.response;
         let beam = sighting.pose * reading.sensor;
