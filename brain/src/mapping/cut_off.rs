@@ -13,7 +13,7 @@ use crate::model::gradual::StepBudget;
 
 /// When floor counts as cut off.
 struct CutOffParameters {
-    /// Less than this share of the floor is connected. Walls that seem a cell thicker than they are cost some hundredths.
+    /// Less than this share of the floor is connected. Chosen, not measured: a room is more than a tenth of most homes.
     connected_below: f64,
 }
 
