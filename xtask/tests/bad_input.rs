@@ -84,15 +84,6 @@ fn an_unknown_robot_is_answered_with_the_known_ones() {
 }
 
 #[test]
-fn a_robot_without_firmware_cannot_be_emulated() {
-    refused(
-        "emulated",
-        &["--home", &some_home(), "--robot", "relax", "--emulated"],
-        &["no firmware", "\"relax\"", "sr8730"],
-    );
-}
-
-#[test]
 fn a_port_in_use_is_named() {
     let taken = TcpListener::bind("127.0.0.1:0").expect("a free port");
     let port = taken.local_addr().expect("an address").port().to_string();

@@ -20,6 +20,9 @@ use vthal_bench::Scratch;
 
 /// Recordings that are kept as lines.
 const LINES: [&str; 2] = ["first-run", "restart"];
+/// The one of them that was recorded in a known home when each run still drew into the kept map: where it saw floor differs a little,
+/// and with it the plan.
+const DRAWN_INTO_KEPT_MAP: &str = "restart";
 /// The one that is kept as a file.
 const FILE: &str = "relax";
 
@@ -88,7 +91,12 @@ fn replayed(name: &str) -> Replay {
 fn recordings_of_earlier_versions_give_the_decisions_that_were_recorded() {
     for name in LINES.into_iter().chain([FILE]) {
         let found = replayed(name);
-        assert_eq!(found.difference, None, "{name}");
+        match found.difference {
+            Some(ref first) if name == DRAWN_INTO_KEPT_MAP => {
+                assert!(first.recorded.contains("unswept-floor"), "{first:?}");
+            }
+            ref difference => assert_eq!(*difference, None, "{name}"),
+        }
         assert!(found.steps > 500 && !found.truncated, "{name}: {found:?}");
     }
 }
