@@ -29,11 +29,13 @@ enum cord_received { CORD_RECEIVED_NOTHING, CORD_RECEIVED_BYTE, CORD_RECEIVED_FR
 /* What stays over a reset, but not over a loss of power. */
 struct cord_kept {
     uint32_t latched;
-    uint32_t boots;
+    uint16_t boots;
     uint8_t recent_resets;
-    uint8_t check; /* makes the sum of all bytes right */
+    uint16_t check; /* of what stands before it */
 };
 
+/* Whether the program is as it was built; called once, at the start, before anything may move. */
+uint8_t cord_board_is_program_sound(void);
 /* Milliseconds since the last call, at most 255. */
 uint8_t cord_board_elapsed_ms(void);
 /* CORD_BUMPER_LEFT and so on, as they are now. */

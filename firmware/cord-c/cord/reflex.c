@@ -341,6 +341,8 @@ static uint8_t cause_remains(uint8_t inhibit) {
         return cord_board_overloads() & (CORD_LOAD_LEFT | CORD_LOAD_RIGHT);
     case CORD_INHIBIT_BRUSH_STALL:
         return cord_board_overloads() & (CORD_LOAD_BRUSH | CORD_LOAD_SUCTION);
+    case CORD_INHIBIT_MEMORY:
+        return 1; /* until the next check, after power was off */
     default:
         return 0;
     }

@@ -1,6 +1,7 @@
 //! The robot: chip, board and home together.
 
 use super::encoder::LineEncoder;
+use super::held::{Held, Signal};
 use super::line::{HostRate, Line};
 use super::motors::{Motor, Motors};
 use super::{BoardError, CYCLES_PER_MS, Wiring};
@@ -73,6 +74,9 @@ pub struct EmulatedRelax {
     monitor: Monitor,
     digest: Fnv1a,
     actuation: Actuation,
+    held: Vec<Held>,
+    /// The drivers of the wheels go on when their lines are off.
+    is_deaf: bool,
     /// Calls of the timers' handlers at the last reset, until the first one after it.
     clock_before: Option<u64>,
     now_ms: u64,
@@ -95,6 +99,8 @@ impl EmulatedRelax {
                 cliff_emitter: true,
                 ..Actuation::default()
             },
+            held: Vec::new(),
+            is_deaf: false,
             clock_before: Some(0),
             now_ms: 0,
             resets: 0,
@@ -117,6 +123,7 @@ impl EmulatedRelax {
             self.digest.byte(byte.unwrap_or_default());
         }
         let pins = self.pins();
+        self.run_to_holds((from, end));
         self.machine.run_until(end);
         let edges = self.machine.take_edges();
         self.motors.take(&edges, end);
@@ -143,8 +150,13 @@ impl EmulatedRelax {
         for encoder in &self.encoders {
             still.set(encoder.pin(), encoder.level());
         }
+        for held in self.held.iter().filter(|held| held.from <= from) {
+            if let Some(line) = held.signal.plain_line(&self.wiring) {
+                still.set(line.pin, line.level(held.is_on));
+            }
+        }
         self.machine.set_inputs(still);
-        self.machine.switch_inputs(self.lit_inputs());
+        self.machine.switch_inputs(self.lit_inputs(from));
         let mut edges = Vec::new();
         let exact = self.world.encoder_positions();
         let shown = [sensors.count_left, sensors.count_right];
@@ -156,8 +168,25 @@ impl EmulatedRelax {
         }
     }
 
+    /// Lets the chip run up to each line that something takes hold of within this millisecond.
+    fn run_to_holds(&mut self, (from, end): (u64, u64)) {
+        let begun: Vec<Held> = self
+            .held
+            .iter()
+            .filter(|held| held.from > from && held.from < end)
+            .copied()
+            .collect();
+        for held in begun {
+            self.machine.run_until(held.from);
+            match held.signal.plain_line(&self.wiring) {
+                Some(line) => self.machine.set_input(line.pin, line.level(held.is_on)),
+                None => self.machine.switch_inputs(self.lit_inputs(held.from)),
+            }
+        }
+    }
+
     /// Sensors that see by the light that the chip switches: without it bumpers are pressed and floors are missing.
-    fn lit_inputs(&self) -> SwitchedInputs {
+    fn lit_inputs(&self, at: u64) -> SwitchedInputs {
         let sensors = self.world.sensors();
         let [mut lit, mut dark] = [Levels::HIGH; 2];
         let mut put = |line: super::DigitalLine, is_on: bool, is_on_in_the_dark: bool| {
@@ -171,6 +200,13 @@ impl EmulatedRelax {
             put(line, level >= FLOOR_LEVEL, false);
         }
         put(self.wiring.wall, sensors.proximity[0] >= NEAR_LEVEL, false);
+        let held = || self.held.iter().filter(|held| held.from <= at);
+        for (line, is_on) in held().filter_map(|held| Some((held.signal.lit_line(&self.wiring)?, held.is_on))) {
+            put(line, is_on, is_on);
+        }
+        if held().any(|held| held.signal == Signal::Lamp && !held.is_on) {
+            lit = dark;
+        }
         let light = self.wiring.sensor_light;
         let [low, high] = match light.active {
             Level::Low => [lit, dark],
@@ -195,14 +231,16 @@ impl EmulatedRelax {
     /// What the outputs do to the home in the next millisecond. What a wheel's driver does with both lines off is not
     /// known; here it brakes, as the simulated Relax that runs cordlib does.
     fn actuate(&mut self) {
-        let bridge = |motor| Bridge {
-            pwm: self.motors.duty(motor),
-            brake: true,
+        let last = [self.actuation.wheel_left, self.actuation.wheel_right];
+        let bridge = |motor, last: Bridge| match self.motors.duty(motor) {
+            0.0 if self.is_deaf => last,
+            pwm => Bridge { pwm, brake: true },
         };
+        let [left, right] = last;
         let sucks = self.motors.duty(Motor::Suction) != 0.0;
         self.actuation = Actuation {
-            wheel_left: bridge(Motor::WheelLeft),
-            wheel_right: bridge(Motor::WheelRight),
+            wheel_left: bridge(Motor::WheelLeft, left),
+            wheel_right: bridge(Motor::WheelRight, right),
             brush_main: self.motors.duty(Motor::Brush),
             brush_sides: sucks,
             vacuum: sucks,
@@ -293,6 +331,28 @@ impl EmulatedRelax {
     /// Both ways of the line wait for `ms`.
     pub fn hold_line(&mut self, ms: u32) {
         self.line.hold_until(self.cycle() + u64::from(ms) * CYCLES_PER_MS);
+    }
+
+    /// From this cycle on, which is to come, something holds a line, whatever the home says. Lines are held in the order of
+    /// these calls, but a dark lamp is dark.
+    pub fn hold(&mut self, signal: Signal, is_on: bool, from: u64) {
+        self.held.push(Held { signal, is_on, from });
+    }
+
+    /// Nothing holds a line any more.
+    pub fn let_go(&mut self) {
+        self.held.clear();
+    }
+
+    /// From now on the drivers of the wheels go on as they are when their lines are off.
+    pub const fn deafen_bridges(&mut self) {
+        self.is_deaf = true;
+    }
+
+    /// The cycle up to which a motor's line was on, 0 if it never was.
+    #[must_use]
+    pub fn on_until(&self, motor: Motor) -> u64 {
+        self.motors.on_until(motor)
     }
 
     /// The cable is out for `ms`.

@@ -3,6 +3,7 @@
 
 mod build;
 mod memory;
+mod sealed;
 mod stack;
 
 use super::FirmwareArguments;
@@ -17,8 +18,8 @@ use std::process::Command;
 
 /// The robot by its name.
 pub(crate) const ROBOT: &str = "relax";
-/// What the chip has.
-const CODE_MAX: u32 = 32_768;
+/// What the chip has, without the CRC of its flash.
+const CODE_MAX: u32 = sealed::PROGRAM_BYTES as u32;
 const XDATA_MAX: u32 = 1_024;
 const IDATA_MAX: u32 = 256;
 /// What we hold ourselves to.
