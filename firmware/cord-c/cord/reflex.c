@@ -113,7 +113,7 @@ static void settle(uint8_t raw, uint8_t elapsed_ms) {
         return;
     }
     any_differs = differs;
-    for (index = 0, bit = 1; index < CONTACTS; index++, bit <<= 1) {
+    for (index = 0, bit = 1; index < CONTACTS; index++, bit = (uint8_t)(bit << 1)) {
         uint8_t span_ms;
         if ((differs & bit) == 0) {
             differs_ms[index] = 0;

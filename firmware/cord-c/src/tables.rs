@@ -1,14 +1,13 @@
 //! Tables: of the CRC, of names, of ranges.
 
 use crate::wire::{COUNT, SPANS};
+use rvac_protocol::crc::crc32c;
 use rvac_protocol::message::{ArmingState, CommandName, Inhibit, Motor, Parameter, Refusal};
 use rvac_protocol::span::Span;
 use std::fmt::Write;
 
 const HEAD: &str = "/* Tables of the C cord, included once, by tables.c. Made by cargo xtask codegen from \
                     protocol/rvac-protocol. Do not edit.\n *\n * SPDX-License-Identifier: GPL-3.0-or-later\n */\n";
-/// CRC-32C, reflected.
-const POLYNOMIAL: u32 = 0x82F6_3B78;
 
 /// The header.
 pub(crate) fn source() -> anyhow::Result<String> {
@@ -45,23 +44,13 @@ pub(crate) fn source() -> anyhow::Result<String> {
     Ok(text)
 }
 
-fn entry(index: u32) -> u32 {
-    (0..8).fold(index, |rest, _| {
-        if rest & 1 == 1 {
-            rest >> 1 ^ POLYNOMIAL
-        } else {
-            rest >> 1
-        }
-    })
-}
-
 /// One byte of each entry of the usual table.
 fn crc_table(text: &mut String, byte: u32) -> std::fmt::Result {
     write!(text, "\nconst uint8_t cord_crc_table_{byte}[256] = {{")?;
-    for index in 0..256 {
+    for index in 0..=u8::MAX {
         let comma = if index == 0 { "" } else { "," };
         let space = if index % 16 == 0 { "\n    " } else { " " };
-        write!(text, "{comma}{space}0x{:02X}", entry(index) >> (8 * byte) & 0xFF)?;
+        write!(text, "{comma}{space}0x{:02X}", crc32c(0, &[index]) >> (8 * byte) & 0xFF)?;
     }
     writeln!(text, "\n}};")
 }

@@ -1,5 +1,6 @@
-//! The C cord beside the Rust reference: golden vectors, and verdicts on valid and broken packets.
+//! The C cord beside the Rust reference: golden vectors, verdicts on valid and broken packets, damaged packets to an armed cord.
 
 mod compiled;
+mod corrupted;
 mod parser;
 mod random;

@@ -1,7 +1,8 @@
 //! Framing and commands: what the C cord says of a packet is what Rust says.
 
-use crate::compiled::{answers, folder, from_hex, hex, program};
+use crate::compiled::{answers, program};
 use crate::random::Random;
+use cord_c::host::{folder, from_hex, hex};
 use rvac_protocol::crc::{Direction, packet_crc, to_hex};
 use rvac_protocol::frame::{Framed, Framer, Poison};
 use rvac_protocol::message::{Command, LedPattern, Probe, ProbeTarget, Refusal};
