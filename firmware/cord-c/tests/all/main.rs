@@ -1,6 +1,10 @@
-//! The C cord beside the Rust reference: golden vectors, verdicts on valid and broken packets, damaged packets to an armed cord.
+//! The C cord beside the Rust reference: golden vectors, verdicts on valid and broken packets, damaged packets to an armed
+//! cord, and whole sessions.
 
+mod bench;
 mod compiled;
 mod corrupted;
 mod parser;
 mod random;
+mod reference;
+mod sessions;

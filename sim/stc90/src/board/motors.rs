@@ -90,6 +90,12 @@ impl Motors {
         }
     }
 
+    /// The chip was reset: what it did before is over.
+    pub(super) fn reset(&mut self, machine: &Machine) {
+        self.duties = [0.0; 4];
+        self.levels = machine.outputs();
+    }
+
     /// Mean drive of a motor in the last millisecond, -1..=1, forward positive.
     pub(super) fn duty(&self, motor: Motor) -> f64 {
         self.duties[motor as usize]

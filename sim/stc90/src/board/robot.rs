@@ -75,8 +75,6 @@ pub struct EmulatedRelax {
     digest: Fnv1a,
     actuation: Actuation,
     held: Vec<Held>,
-    /// The drivers of the wheels go on when their lines are off.
-    is_deaf: bool,
     /// Calls of the timers' handlers at the last reset, until the first one after it.
     clock_before: Option<u64>,
     now_ms: u64,
@@ -100,7 +98,6 @@ impl EmulatedRelax {
                 ..Actuation::default()
             },
             held: Vec::new(),
-            is_deaf: false,
             clock_before: Some(0),
             now_ms: 0,
             resets: 0,
@@ -231,16 +228,14 @@ impl EmulatedRelax {
     /// What the outputs do to the home in the next millisecond. What a wheel's driver does with both lines off is not
     /// known; here it brakes, as the simulated Relax that runs cordlib does.
     fn actuate(&mut self) {
-        let last = [self.actuation.wheel_left, self.actuation.wheel_right];
-        let bridge = |motor, last: Bridge| match self.motors.duty(motor) {
-            0.0 if self.is_deaf => last,
-            pwm => Bridge { pwm, brake: true },
+        let bridge = |motor| Bridge {
+            pwm: self.motors.duty(motor),
+            brake: true,
         };
-        let [left, right] = last;
         let sucks = self.motors.duty(Motor::Suction) != 0.0;
         self.actuation = Actuation {
-            wheel_left: bridge(Motor::WheelLeft, left),
-            wheel_right: bridge(Motor::WheelRight, right),
+            wheel_left: bridge(Motor::WheelLeft),
+            wheel_right: bridge(Motor::WheelRight),
             brush_main: self.motors.duty(Motor::Brush),
             brush_sides: sucks,
             vacuum: sucks,
@@ -278,6 +273,7 @@ impl EmulatedRelax {
     fn notice_resets(&mut self) {
         for source in self.machine.take_resets() {
             self.resets += 1;
+            self.motors.reset(&self.machine);
             self.monitor.reset(self.now_ms, cause_of(source));
             self.clock_before = Some(self.clock_calls());
         }
@@ -342,11 +338,6 @@ impl EmulatedRelax {
     /// Nothing holds a line any more.
     pub fn let_go(&mut self) {
         self.held.clear();
-    }
-
-    /// From now on the drivers of the wheels go on as they are when their lines are off.
-    pub const fn deafen_bridges(&mut self) {
-        self.is_deaf = true;
     }
 
     /// The cycle up to which a motor's line was on, 0 if it never was.
