@@ -74,14 +74,27 @@ fn numbers(text: &mut String, declaration: &str, values: &[i64]) -> std::fmt::Re
 
 #[cfg(test)]
 mod tests {
-    use super::entry;
+    use super::source;
     use rvac_protocol::crc::crc32c;
 
+    /// The bytes of a table as they stand in the header.
+    fn table(text: &str, byte: u32) -> Vec<u32> {
+        let head = format!("cord_crc_table_{byte}[256] = {{");
+        let rest = text.split_once(&head).expect("the table").1;
+        let rest = rest.split_once('}').expect("its end").0;
+        let digits = rest.split(',').map(|word| word.trim().trim_start_matches("0x"));
+        digits.map(|word| u32::from_str_radix(word, 16).expect("a byte")).collect()
+    }
+
     #[test]
-    fn the_tables_are_those_of_the_protocol() {
+    fn the_tables_make_the_crc_of_the_protocol() {
+        let text = source().expect("the header");
+        let tables: Vec<Vec<u32>> = (0..4).map(|byte| table(&text, byte)).collect();
         let mut register = u32::MAX;
         for byte in b"123456789" {
-            register = register >> 8 ^ entry((register ^ u32::from(*byte)) & 0xFF);
+            let index = ((register ^ u32::from(*byte)) & 0xFF) as usize;
+            let entry = (0..4).fold(0, |sum, byte| sum | tables[byte][index] << (8 * byte));
+            register = register >> 8 ^ entry;
         }
         assert_eq!(!register, 0xE306_9283);
         assert_eq!(register, crc32c(u32::MAX, b"123456789"));

@@ -40,17 +40,12 @@ pub(crate) struct Actuation {
 }
 
 impl Actuation {
-    /// Which motors run, and which way the wheels turn.
-    pub(crate) fn pattern(&self) -> String {
-        let sign = |duty: f64| match duty {
-            duty if duty > 0.0 => '+',
-            duty if duty < 0.0 => '-',
-            _ => '0',
-        };
-        let on = |is_on: bool| if is_on { '1' } else { '0' };
+    /// Which way each motor turns: left and right wheel, brush, suction.
+    pub(crate) fn signs(&self) -> [i8; 4] {
+        let sign = |duty: f64| i8::from(duty > 0.0) - i8::from(duty < 0.0);
         let [left, right] = self.duty.map(sign);
-        let [brush, suction] = self.cleaners.map(on);
-        [left, right, brush, suction].iter().collect()
+        let [brush, suction] = self.cleaners.map(i8::from);
+        [left, right, brush, suction]
     }
 }
 

@@ -4,6 +4,7 @@
 mod bench;
 mod compiled;
 mod corrupted;
+mod expected;
 mod parser;
 mod random;
 mod reference;

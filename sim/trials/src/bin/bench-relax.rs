@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use stc90::hosted::HostedBlueprint;
-use trials::relax::{RelaxCampaign, RelaxTrial, trials};
+use trials::relax::{RelaxCampaign, RelaxTrial, flipped_flash, trials};
 use trials::{CampaignError, TrialSummary, conclude};
 
 /// Tries the Relax's safety rules.
@@ -47,13 +47,14 @@ fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     let text = std::fs::read_to_string(&arguments.firmware)?;
     let campaign = RelaxCampaign::open(&HostedBlueprint::from_hex(&text)?)?;
-    let is_wanted = |trial: &RelaxTrial| {
-        arguments.rule.is_empty()
-            || arguments
-                .rule
-                .iter()
-                .any(|rule| rule.eq_ignore_ascii_case(trial.rule()) || rule == trial.name)
+    let is_wanted = |rule: &str, name: &str| {
+        let mut asked = arguments.rule.iter();
+        arguments.rule.is_empty() || asked.any(|asked| asked.eq_ignore_ascii_case(rule) || asked == name)
     };
+    let chosen: Vec<RelaxTrial> = trials()
+        .into_iter()
+        .filter(|trial| is_wanted(trial.rule(), trial.name))
+        .collect();
     let mut out = io::stdout().lock();
     let mut report = RelaxReport {
         phases: arguments.phases,
@@ -61,8 +62,12 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
         violations: 0,
         trials: Vec::new(),
     };
-    for trial in trials().into_iter().filter(is_wanted) {
-        let summary = campaign.judge(&trial, arguments.phases as usize, arguments.seed);
+    let judged = chosen
+        .iter()
+        .map(|trial| Ok(campaign.judge(trial, arguments.phases as usize, arguments.seed)));
+    let flash = is_wanted("S21", "image-bit-flips").then(|| flipped_flash(&text));
+    for summary in judged.chain(flash) {
+        let summary = summary?;
         if !arguments.json {
             summary.print(&mut out)?;
         }
