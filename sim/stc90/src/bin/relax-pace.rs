@@ -59,8 +59,7 @@ fn main() -> Outcome<()> {
     pair.connect()?;
     pair.arm()?;
     if wanted.corrupted > 0 {
-        corrupt(&mut pair, wanted.corrupted);
-        return Ok(());
+        return corrupt(&mut pair, wanted.corrupted);
     }
     let (states, passes) = (pair.states(), pair.robot().machine().cpu().passes());
     for _ in 0..wanted.seconds * 1_000 {
@@ -131,7 +130,7 @@ fn command(pair: &mut HostedRelax) {
 }
 
 /// Sends damaged packets of motion to an armed robot, and at the end a sound one.
-fn corrupt(pair: &mut HostedRelax, packets: u64) {
+fn corrupt(pair: &mut HostedRelax, packets: u64) -> Outcome<()> {
     let mut random = Pcg::new(SEED, STREAM);
     let (mut wrong_ms, mut sent) = (0_u64, 0);
     while sent < packets {
@@ -158,6 +157,11 @@ fn corrupt(pair: &mut HostedRelax, packets: u64) {
         pair.robot().monitor().count(),
         pair.robot().machine().overruns()
     );
+    match (wrong_ms, is_moved(pair)) {
+        (0, true) => Ok(()),
+        (0, false) => Err("a sound packet moved nothing".into()),
+        _ => Err("a damaged packet moved something".into()),
+    }
 }
 
 fn is_moved(pair: &HostedRelax) -> bool {

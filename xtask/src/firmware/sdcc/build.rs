@@ -24,7 +24,7 @@ const COMPILED: [&str; 2] = ["relax/chip", "cord-c/cord"];
 
 /// An image and what SDCC tells of it.
 #[derive(Debug)]
-pub(super) struct Built {
+pub(crate) struct Built {
     /// What is flashed.
     pub(super) image: PathBuf,
     /// What the linker wrote.
@@ -95,6 +95,11 @@ pub(super) fn sources(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
 }
 
 impl Built {
+    /// What is flashed.
+    pub(crate) fn image(&self) -> &Path {
+        &self.image
+    }
+
     /// The image as text.
     pub(super) fn hex(&self) -> anyhow::Result<String> {
         read(&self.image)
@@ -119,7 +124,7 @@ impl Built {
     }
 
     /// Where a function is, in hexadecimal digits.
-    pub(super) fn address_of(&self, name: &str) -> anyhow::Result<String> {
+    pub(crate) fn address_of(&self, name: &str) -> anyhow::Result<String> {
         let map = read(&beside(&self.linked, "map"))?;
         let address = map.lines().find_map(|line| {
             let mut words = line.split_whitespace().skip_while(|word| word.ends_with(':'));

@@ -81,9 +81,14 @@ pub(super) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
     }
 }
 
-/// The image, built if it is not there yet.
+/// The image as it is flashed.
 pub(crate) fn image() -> anyhow::Result<PathBuf> {
-    Ok(build::build(&folder("relax"))?.image)
+    Ok(built()?.image)
+}
+
+/// The image, and where its functions are.
+pub(crate) fn built() -> anyhow::Result<Built> {
+    build::build(&folder("relax"))
 }
 
 fn folder(name: &str) -> PathBuf {
