@@ -343,11 +343,11 @@ static void apply_wheel(uint8_t side, int16_t duty) {
         direction[side] = now;
     }
     cord_duty[side] = duty;
-    cord_board_drive(side, duty);
 }
 
 void cord_motion_apply(void) {
     uint8_t side;
+    uint8_t is_changed = 0;
     if (phase != CORD_PHASE_IDLE && !suits()) {
         cord_motion_halt();
         was_braked = 1;
@@ -358,6 +358,10 @@ void cord_motion_apply(void) {
     for (side = 0; side < 2; side++) {
         if (rims[side] != cord_duty[side]) {
             apply_wheel(side, rims[side]);
+            is_changed = 1;
         }
+    }
+    if (is_changed) {
+        cord_board_drive();
     }
 }

@@ -11,6 +11,7 @@
 #include "arming.h"
 #include "board.h"
 #include "cord.h"
+#include "motion.h"
 #include "session.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -67,8 +68,9 @@ uint8_t cord_board_edges(uint8_t side) {
     return count;
 }
 
-void cord_board_drive(uint8_t side, int16_t wanted) {
-    duty[side] = wanted;
+void cord_board_drive(void) {
+    duty[0] = cord_duty[0];
+    duty[1] = cord_duty[1];
 }
 
 void cord_board_clean(uint8_t motors) {

@@ -6,6 +6,7 @@
 #include "cord.h"
 #include "crc.h"
 #include "interrupts.h"
+#include "motion.h"
 #include "pins.h"
 
 /* The last bytes of the memory on the chip, outside of what start-up clears, are `cord_kept`. */
@@ -124,17 +125,16 @@ uint8_t cord_board_edges(uint8_t side) {
     return count;
 }
 
-void cord_board_drive(uint8_t side, int16_t duty) {
-    uint8_t is_backward = duty < 0;
-    uint8_t strength = (uint8_t)(is_backward ? -duty : duty);
+void cord_board_drive(void) {
+    uint8_t is_left_backward = cord_duty[0] < 0;
+    uint8_t is_right_backward = cord_duty[1] < 0;
+    uint8_t left = (uint8_t)(is_left_backward ? -cord_duty[0] : cord_duty[0]);
+    uint8_t right = (uint8_t)(is_right_backward ? -cord_duty[1] : cord_duty[1]);
     EA = 0;
-    if (side == 0) {
-        backward_left = is_backward;
-        strength_left = strength;
-    } else {
-        backward_right = is_backward;
-        strength_right = strength;
-    }
+    backward_left = is_left_backward;
+    strength_left = left;
+    backward_right = is_right_backward;
+    strength_right = right;
     EA = 1;
 }
 

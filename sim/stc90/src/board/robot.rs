@@ -18,6 +18,8 @@ use rvac_protocol::message::ResetCause;
 const FLOOR_LEVEL: u8 = 95;
 /// The home says near or far as all or nothing.
 const NEAR_LEVEL: u8 = 128;
+/// Half a hundredth of a millisecond: wheels that differ by less turn on the spot.
+const PULSE_SLACK_MILLIONTHS: i32 = 5_000;
 /// Milliseconds between two poses in the digest.
 const DIGEST_MS: u64 = 100;
 /// Timers whose interrupt can be a firmware's clock.
@@ -263,8 +265,13 @@ impl EmulatedRelax {
     fn drives(&self) -> Drives {
         let millionths = |motor| (self.motors.duty(motor) * 1e6) as i32;
         let suction = millionths(Motor::Suction);
+        let [left, mut right] = [Motor::WheelLeft, Motor::WheelRight].map(millionths);
+        // A program switches one wheel some cycles after the other.
+        if (left + right).abs() <= PULSE_SLACK_MILLIONTHS {
+            right = -left;
+        }
         Drives {
-            wheels: [Motor::WheelLeft, Motor::WheelRight].map(millionths),
+            wheels: [left, right],
             cleaners: [millionths(Motor::Brush), suction, suction],
         }
     }
