@@ -18,7 +18,7 @@
 #include <stddef.h>
 
 /* Most bytes taken from the line in one pass, so that no flood delays the reflexes. */
-#define BYTES_IN_PASS 8
+#define BYTES_IN_PASS 16
 #define CONTROL_MS 10
 /* Begins the CRC of what is kept, which is no packet. */
 #define KEPT_MARK 'k'
@@ -215,12 +215,13 @@ static void dispatch(uint8_t event) {
     }
 }
 
-static void take_bytes(void) {
+/* True when it left nothing on the line. */
+static uint8_t take_bytes(void) {
     uint8_t count;
     for (count = 0; count < BYTES_IN_PASS; count++) {
         switch (cord_board_receive()) {
         case CORD_RECEIVED_NOTHING:
-            return;
+            return 1;
         case CORD_RECEIVED_BYTE:
             cord_transmit_count_byte();
             dispatch(cord_session_take(cord_byte));
@@ -233,6 +234,7 @@ static void take_bytes(void) {
             break;
         }
     }
+    return 0;
 }
 
 /* Tells the host what has changed. */
@@ -299,6 +301,8 @@ void cord_pass(void) {
     if (elapsed_ms != 0) {
         tick(elapsed_ms);
     }
-    take_bytes();
-    cord_transmit_pass();
+    /* What comes in can be lost, what goes out waits. */
+    if (take_bytes()) {
+        cord_transmit_pass();
+    }
 }

@@ -261,7 +261,7 @@ static void judge_wheel(uint8_t side) {
     if (holds(TIMER_RUNAWAY + side, speed > most, CORD_RUNAWAY_RUNAWAY_MS / PERIOD_MS) && is_watched) {
         cord_latch(CORD_INHIBIT_RUNAWAY);
     }
-    if (holds(TIMER_ENCODER + side, is_driven && goal >= SET_POINT_LEAST && speed < goal / 5,
+    if (holds(TIMER_ENCODER + side, is_driven && goal >= SET_POINT_LEAST && speed < goal && 5 * (speed + 1) <= goal,
               CORD_ENCODER_DISAGREEMENT_MS / PERIOD_MS)) {
         cord_latch(CORD_INHIBIT_ENCODER);
     }

@@ -3,8 +3,8 @@
 use crate::host::{HostedCord, from_hex, hex};
 use anyhow::{Context, bail};
 use rvac_protocol::PacketBuffer;
-use rvac_protocol::message::{BinaryKinds, Command, Drive, Motor, MotorCommand, Sequence};
 use rvac_protocol::binary::write_drive_with_crc;
+use rvac_protocol::message::{BinaryKinds, Command, Drive, Motor, MotorCommand, Sequence};
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_protocol::text::write_command_with_crc;
 use rvac_units::{AngularSpeed, Speed, Throttle, Tick};

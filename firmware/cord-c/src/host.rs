@@ -55,7 +55,11 @@ pub fn compile(name: &str, modules: Modules, out: &Path) -> anyhow::Result<()> {
     if modules == Modules::Cord {
         for entry in std::fs::read_dir(&cord).with_context(|| format!("cannot read {}", cord.display()))? {
             let path = entry?.path();
-            sources.extend(path.extension().is_some_and(|ending| ending == "c").then_some(path));
+            sources.extend(
+                path.extension()
+                    .is_some_and(|ending| ending == "c")
+                    .then_some(path),
+            );
         }
         sources.sort();
     }
@@ -64,7 +68,11 @@ pub fn compile(name: &str, modules: Modules, out: &Path) -> anyhow::Result<()> {
     for included in INCLUDED {
         compiler.arg("-I").arg(included);
     }
-    compiler.arg("-o").arg(out).arg(format!("host/{name}.c")).args(sources);
+    compiler
+        .arg("-o")
+        .arg(out)
+        .arg(format!("host/{name}.c"))
+        .args(sources);
     let compiled = compiler.output().context("cannot start gcc")?;
     if !compiled.status.success() {
         bail!("{}", String::from_utf8_lossy(&compiled.stderr));
@@ -94,11 +102,7 @@ impl HostedCord {
             .with_context(|| format!("cannot start {}", out.display()))?;
         let input = BufWriter::new(child.stdin.take().context("no pipe to the cord")?);
         let output = BufReader::new(child.stdout.take().context("no pipe from the cord")?);
-        Ok(Self {
-            child,
-            input,
-            output,
-        })
+        Ok(Self { child, input, output })
     }
 
     /// What the cord answers to these lines, of which there are not more than a pipe holds answers to.

@@ -50,7 +50,11 @@ fn crc_table(text: &mut String, byte: u32) -> std::fmt::Result {
     for index in 0..=u8::MAX {
         let comma = if index == 0 { "" } else { "," };
         let space = if index % 16 == 0 { "\n    " } else { " " };
-        write!(text, "{comma}{space}0x{:02X}", crc32c(0, &[index]) >> (8 * byte) & 0xFF)?;
+        write!(
+            text,
+            "{comma}{space}0x{:02X}",
+            crc32c(0, &[index]) >> (8 * byte) & 0xFF
+        )?;
     }
     writeln!(text, "\n}};")
 }
@@ -83,7 +87,9 @@ mod tests {
         let rest = text.split_once(&head).expect("the table").1;
         let rest = rest.split_once('}').expect("its end").0;
         let digits = rest.split(',').map(|word| word.trim().trim_start_matches("0x"));
-        digits.map(|word| u32::from_str_radix(word, 16).expect("a byte")).collect()
+        digits
+            .map(|word| u32::from_str_radix(word, 16).expect("a byte"))
+            .collect()
     }
 
     #[test]

@@ -5,7 +5,9 @@ use crate::image::{Image, ImageError};
 use home::{Home, HomeError, ModelError, Noise, Pose, RobotModel, World};
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::frame::SEPARATOR;
-use rvac_protocol::message::{BinaryKinds, Command, Inhibits, Refusal, Report, Sequence, State};
+use rvac_protocol::message::{
+    BinaryKinds, Command, Inhibits, LinkCounters, Refusal, Report, Sequence, State,
+};
 use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::Tick;
 use std::sync::Arc;
@@ -80,7 +82,13 @@ impl HostedBlueprint {
             .file_from_plan()
             .inverse()
             .then(Pose::new(x_m, y_m, 0.0));
-        let world = World::new(Arc::clone(&self.home), &self.model, &Noise::ideal(), 1, Some(pose));
+        let world = World::new(
+            Arc::clone(&self.home),
+            &self.model,
+            &Noise::ideal(),
+            1,
+            Some(pose),
+        );
         HostedRelax {
             robot: EmulatedRelax::new(&self.board, world, &RelaxSettings::default()),
             session: HostSession::new(kinds, Tick(0)),
@@ -90,6 +98,8 @@ impl HostedBlueprint {
             state: None,
             states: 0,
             refusals: Vec::new(),
+            link_first: None,
+            link_last: None,
             bad_before: 0,
         }
     }
@@ -106,6 +116,9 @@ pub struct HostedRelax {
     state: Option<State>,
     states: u64,
     refusals: Vec<Refusal>,
+    /// What the robot told of its end of the line, when the session had just begun and last.
+    link_first: Option<LinkCounters>,
+    link_last: Option<LinkCounters>,
     /// Bad packets when the session had just begun: one of before may be among them.
     bad_before: u32,
 }
@@ -169,7 +182,11 @@ impl HostedRelax {
                 return Ok(());
             }
         }
-        let names: Vec<&str> = self.inhibits().iter().map(rvac_protocol::message::Inhibit::name).collect();
+        let names: Vec<&str> = self
+            .inhibits()
+            .iter()
+            .map(rvac_protocol::message::Inhibit::name)
+            .collect();
         Err(HostedError::NotArmed(names.join(", ")))
     }
 
@@ -214,6 +231,10 @@ impl HostedRelax {
                 self.bad_before = self.all_bad_packets();
             }
             HostEvent::Closed(_) | HostEvent::Silent => self.is_described = false,
+            HostEvent::Report(Report::Info(info)) if self.is_described => {
+                self.link_last = Some(info.link);
+                self.link_first = self.link_first.or(Some(info.link));
+            }
             HostEvent::Report(Report::State(state)) => {
                 self.states += 1;
                 self.state = Some(*state);
@@ -254,6 +275,15 @@ impl HostedRelax {
     #[must_use]
     pub fn bad_packets(&self) -> u32 {
         self.all_bad_packets() - self.bad_before
+    }
+
+    /// Bytes and packets that the robot has lost since its first `info` of the session, by its newest.
+    #[must_use]
+    pub fn lost_by_robot(&self) -> u32 {
+        let lost =
+            |link: LinkCounters| link.bad_crc + link.overrun + link.framing + link.malformed + link.resync;
+        let (first, last) = (self.link_first.map(lost), self.link_last.map(lost));
+        last.unwrap_or_default() - first.unwrap_or_default()
     }
 
     fn all_bad_packets(&self) -> u32 {

@@ -94,9 +94,12 @@ pub(super) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
 }
 
 fn has_faults(figures: &Value) -> bool {
-    FAULTS
-        .iter()
-        .any(|name| figures.get(name).and_then(Value::as_u64).is_some_and(|count| count > 0))
+    FAULTS.iter().any(|name| {
+        figures
+            .get(name)
+            .and_then(Value::as_u64)
+            .is_some_and(|count| count > 0)
+    })
 }
 
 /// Figures for people: a line each, rules as a table.

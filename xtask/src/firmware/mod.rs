@@ -70,7 +70,11 @@ impl RobotFirmware {
             Self::InRust(board) => {
                 let files = build(board, &Options::default(), calibration)?;
                 // The HEX file is the one that has a calibration.
-                Ok(if calibration.is_some() { files.hex } else { files.elf })
+                Ok(if calibration.is_some() {
+                    files.hex
+                } else {
+                    files.elf
+                })
             }
             Self::InC if calibration.is_some() => {
                 bail!("no calibration is put into the image of relax: leave out --calibration")

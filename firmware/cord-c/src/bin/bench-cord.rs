@@ -1,5 +1,5 @@
-//! Damaged packets for the C cord under sanitizers: `bench-cord [PACKETS]` prints one JSON object, and fails when one of them
-//! moved something.
+//! Damaged packets for the C cord under sanitizers: `bench-cord [PACKETS [SEED]]` prints one JSON object, and fails when one
+//! of them moved something.
 
 use anyhow::bail;
 use cord_c::corruption::corrupt;
@@ -10,10 +10,11 @@ const PACKETS: u64 = 100_000;
 const SEED: u64 = 33;
 
 fn main() -> anyhow::Result<()> {
-    let packets = std::env::args().nth(1).map_or(Ok(PACKETS), |word| word.parse())?;
+    let number = |at, usual| std::env::args().nth(at).map_or(Ok(usual), |word| word.parse());
+    let (packets, seed) = (number(1, PACKETS)?, number(2, SEED)?);
     let out = std::env::temp_dir().join(format!("bench-cord-{}", std::process::id()));
     let cord = HostedCord::start(&out);
-    let found = cord.and_then(|cord| corrupt(cord, packets, SEED));
+    let found = cord.and_then(|cord| corrupt(cord, packets, seed));
     std::fs::remove_file(&out).ok();
     let found = found?;
     writeln!(

@@ -208,7 +208,10 @@ pub(crate) enum Question {
 pub(crate) type Case = (Question, String);
 
 pub(crate) fn stream_case(stream: &[u8], session: u16) -> Case {
-    (Question::Stream(session, stream.to_vec()), framing(stream, session))
+    (
+        Question::Stream(session, stream.to_vec()),
+        framing(stream, session),
+    )
 }
 
 pub(crate) fn text_case(text: &[u8], number: usize) -> Case {

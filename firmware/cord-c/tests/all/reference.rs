@@ -237,7 +237,10 @@ impl SimulatedCord for RustCord {
         };
         self.0.step();
         let board = self.0.board_mut();
-        let duty = board.wheels.0.map(|drive| f64::from(drive.duty().millionths()) / 1e6);
+        let duty = board
+            .wheels
+            .0
+            .map(|drive| f64::from(drive.duty().millionths()) / 1e6);
         let is_on = |cleaner: &Cleaner| cleaner.0 != Throttle::ZERO;
         let actuation = Actuation {
             duty,

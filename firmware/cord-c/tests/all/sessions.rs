@@ -9,7 +9,7 @@ use rvac_protocol::message::{Command, Sequence};
 use rvac_units::{AngularSpeed, Speed};
 
 /// Sessions of a usual run, and with `RVAC_LONG=1`.
-const SESSIONS: u64 = 6;
+const SESSIONS: u64 = 3;
 const SESSIONS_LONG: u64 = 300;
 /// What each does one after the other.
 const LEGS: usize = 6;
@@ -20,7 +20,13 @@ const TOLERANCE_MS: u32 = 14;
 /// With counts of 5 mm both controllers pause now and then for some periods, each when its own counts come: no stop.
 const PAUSE_MS: u32 = 120;
 /// Motion ahead, back, on the spot and in a bend; no wheel is near rest in them.
-const MOTIONS: [(i32, i32); 5] = [(150_000, 0), (-120_000, 0), (0, 900_000), (0, -900_000), (150_000, 400_000)];
+const MOTIONS: [(i32, i32); 5] = [
+    (150_000, 0),
+    (-120_000, 0),
+    (0, 900_000),
+    (0, -900_000),
+    (150_000, 400_000),
+];
 
 /// What ends a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,7 +134,12 @@ impl<C: SimulatedCord> Recorder<C> {
     }
 
     fn note(&mut self) {
-        let names: Vec<&str> = self.bench.inhibits.iter().map(rvac_protocol::message::Inhibit::name).collect();
+        let names: Vec<&str> = self
+            .bench
+            .inhibits
+            .iter()
+            .map(rvac_protocol::message::Inhibit::name)
+            .collect();
         self.account.inhibits.push(names.join(" "));
     }
 
@@ -193,14 +204,25 @@ fn compare(in_rust: &Account, in_c: &Account, what: &str) -> u32 {
     for motor in 0..4 {
         let of = |account: &Account| -> Vec<Stretch> {
             let stretches = account.stretches.iter();
-            stretches.filter(|stretch| stretch.motor == motor).copied().collect()
+            stretches
+                .filter(|stretch| stretch.motor == motor)
+                .copied()
+                .collect()
         };
         let (rust, c) = (of(in_rust), of(in_c));
-        let signs = |stretches: &[Stretch]| -> Vec<i8> { stretches.iter().map(|stretch| stretch.sign).collect() };
+        let signs =
+            |stretches: &[Stretch]| -> Vec<i8> { stretches.iter().map(|stretch| stretch.sign).collect() };
         assert_eq!(signs(&c), signs(&rust), "motor {motor}, {}", both());
         for (rust, c) in rust.iter().zip(&c) {
-            let apart_ms = rust.from_ms.abs_diff(c.from_ms).max(rust.until_ms.abs_diff(c.until_ms));
-            assert!(apart_ms <= TOLERANCE_MS, "{apart_ms} ms, {rust:?}, {c:?}, {}", both());
+            let apart_ms = rust
+                .from_ms
+                .abs_diff(c.from_ms)
+                .max(rust.until_ms.abs_diff(c.until_ms));
+            assert!(
+                apart_ms <= TOLERANCE_MS,
+                "{apart_ms} ms, {rust:?}, {c:?}, {}",
+                both()
+            );
             worst_ms = worst_ms.max(apart_ms);
         }
     }
@@ -217,7 +239,10 @@ fn sessions_move_the_same_motors_at_the_same_times() {
     for seed in 0..sessions {
         let legs = legs(&mut Random::new(seed));
         let in_rust = account(RustCord::new(), &legs);
-        let in_c = account(HostedCord::start(&place("robot")).expect("the cord starts"), &legs);
+        let in_c = account(
+            HostedCord::start(&place("robot")).expect("the cord starts"),
+            &legs,
+        );
         worst_ms = worst_ms.max(compare(&in_rust, &in_c, &format!("seed {seed}: {legs:?}")));
         stretches += in_rust.stretches.len();
     }

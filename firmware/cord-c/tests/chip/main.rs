@@ -48,7 +48,9 @@ impl Chip {
         let text = |name: &str| std::fs::read_to_string(folder.join(name)).expect(name);
         let image = Image::from_hex(&text("relax.ihx")).expect("an image");
         let memory = text("linked.mem");
-        let stack = memory.lines().find_map(|line| line.strip_prefix("Stack starts at: 0x"));
+        let stack = memory
+            .lines()
+            .find_map(|line| line.strip_prefix("Stack starts at: 0x"));
         let stack = stack.and_then(|rest| u8::from_str_radix(&rest[..2], 16).ok());
         let mut places = HashMap::new();
         for line in text("linked.map").lines() {
@@ -68,7 +70,10 @@ impl Chip {
     }
 
     fn place(&self, name: &str) -> u16 {
-        *self.places.get(name).unwrap_or_else(|| panic!("the map has no {name}"))
+        *self
+            .places
+            .get(name)
+            .unwrap_or_else(|| panic!("the map has no {name}"))
     }
 
     /// Calls a function with a byte, and more bytes that lie on the stack; gives what it returns.
@@ -167,13 +172,18 @@ impl Chip {
 }
 
 fn number(bytes: &[u8]) -> u32 {
-    bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte))
+    bytes
+        .iter()
+        .rev()
+        .fold(0, |sum, byte| sum << 8 | u32::from(*byte))
 }
 
 /// Whether all packets fit into the chip.
 fn fits((question, _): &Case) -> bool {
     match question {
-        Question::Stream(_, bytes) => bytes.split(|byte| [0x1E, 0x1F].contains(byte)).all(|packet| packet.len() <= PACKET_MOST),
+        Question::Stream(_, bytes) => bytes
+            .split(|byte| [0x1E, 0x1F].contains(byte))
+            .all(|packet| packet.len() <= PACKET_MOST),
         Question::Text(_, bytes) => bytes.len() <= PACKET_MOST,
     }
 }
@@ -191,7 +201,10 @@ fn golden_vectors_mean_the_same_in_the_chip() {
     for (question, expected) in &cases {
         assert_eq!(chip.answer(question), *expected, "{question:?}");
     }
-    println!("{} of {all} golden cases agree in the chip, the rest is longer than {PACKET_MOST} bytes", cases.len());
+    println!(
+        "{} of {all} golden cases agree in the chip, the rest is longer than {PACKET_MOST} bytes",
+        cases.len()
+    );
     assert!(cases.len() * 100 > all * 95, "{} of {all}", cases.len());
     assert_eq!(chip.machine.misuses().len(), 0);
 }

@@ -19,8 +19,8 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 const START_MS: u64 = 1_000;
 /// Milliseconds before anybody speaks.
 const REST_MS: u64 = 1_000;
-/// A drive and the motors are renewed so often.
-const DRIVE_MS: u64 = 50;
+/// A drive and the motors are renewed so often: as vthal does it.
+const DRIVE_MS: u64 = 20;
 const CLEAN_MS: u64 = 300;
 /// Ahead and back again.
 const LEG_MS: u64 = 1_500;
@@ -35,6 +35,33 @@ const WAITING_MOST: usize = 200;
 const FLIPS_MOST: u32 = 8;
 const SEED: u64 = 33;
 const STREAM: u64 = 0x0BAD;
+
+/// How long a count stood still at most.
+struct Gap {
+    last: u64,
+    waited_ms: u64,
+    longest_ms: u64,
+}
+
+impl Gap {
+    const fn new(count: u64) -> Self {
+        Self {
+            last: count,
+            waited_ms: 0,
+            longest_ms: 0,
+        }
+    }
+
+    /// To be called each millisecond.
+    fn look(&mut self, count: u64) {
+        self.waited_ms += 1;
+        self.longest_ms = self.longest_ms.max(self.waited_ms);
+        if count != self.last {
+            self.waited_ms = 0;
+        }
+        self.last = count;
+    }
+}
 
 /// What is asked for.
 struct Wanted {
@@ -62,21 +89,28 @@ fn main() -> Outcome<()> {
         return corrupt(&mut pair, wanted.corrupted);
     }
     let (states, passes) = (pair.states(), pair.robot().machine().cpu().passes());
+    let (mut pass_gap, mut state_gap) = (Gap::new(passes), Gap::new(states));
     for _ in 0..wanted.seconds * 1_000 {
         command(&mut pair);
         pair.tick();
+        pass_gap.look(pair.robot().machine().cpu().passes());
+        state_gap.look(pair.states());
     }
     let per_s = |count: u64| count as f64 / wanted.seconds.max(1) as f64;
     let machine = pair.robot().machine();
     println!(
         "{{\"seconds\": {}, \"main_loop_idle_hz\": {idle_hz:.0}, \"main_loop_driving_hz\": {:.0}, \"stack_to\": {}, \
-         \"bytes_overrun\": {}, \"host_bad_packets\": {}, \"states_per_s\": {:.1}, \"refused\": {}, \"resets\": {}, \
+         \"bytes_overrun\": {}, \"host_bad_packets\": {}, \
+         \"robot_lost\": {}, \"longest_pass_ms\": {}, \"longest_state_gap_ms\": {}, \"states_per_s\": {:.1}, \"refused\": {}, \"resets\": {}, \
          \"violations\": {}, \"bridge_shorts\": {}, \"misuses\": {}, \"is_armed\": {}}}",
         wanted.seconds,
         per_s(machine.cpu().passes() - passes),
         machine.cpu().sp_max(),
         machine.overruns(),
         pair.bad_packets(),
+        pair.lost_by_robot(),
+        pass_gap.longest_ms,
+        state_gap.longest_ms,
         per_s(pair.states() - states),
         pair.refusals().len(),
         pair.robot().resets(),

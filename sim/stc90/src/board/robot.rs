@@ -200,7 +200,8 @@ impl EmulatedRelax {
         }
         put(self.wiring.wall, sensors.proximity[0] >= NEAR_LEVEL, false);
         let held = || self.held.iter().filter(|held| held.from <= at);
-        for (line, is_on) in held().filter_map(|held| Some((held.signal.lit_line(&self.wiring)?, held.is_on))) {
+        for (line, is_on) in held().filter_map(|held| Some((held.signal.lit_line(&self.wiring)?, held.is_on)))
+        {
             put(line, is_on, is_on);
         }
         if held().any(|held| held.signal == Signal::Lamp && !held.is_on) {

@@ -4,10 +4,10 @@
 
 use clap::Parser;
 use serde::Serialize;
+use stc90::hosted::HostedBlueprint;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use stc90::hosted::HostedBlueprint;
 use trials::relax::{RelaxCampaign, RelaxTrial, flipped_flash, trials};
 use trials::{CampaignError, TrialSummary, conclude};
 

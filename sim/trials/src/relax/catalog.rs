@@ -116,7 +116,10 @@ fn link() -> Vec<RelaxTrial> {
     let stopped = OffSaying(All, Inhibit::Stopped);
     vec![
         trial(
-            ("silence-wheels", "the host falls silent: wheels, leases of 120 ms"),
+            (
+                "silence-wheels",
+                "the host falls silent: wheels, leases of 120 ms",
+            ),
             (Driving, silent),
             OffSaying(Wheels, Inhibit::LinkLost),
             limits::S1_SILENCE,
@@ -128,33 +131,50 @@ fn link() -> Vec<RelaxTrial> {
             limits::S1_SILENCE,
         ),
         trial(
-            ("cable-cut-cleaners", "the cable is cut: brush and suction, leases of 1 s"),
+            (
+                "cable-cut-cleaners",
+                "the cable is cut: brush and suction, leases of 1 s",
+            ),
             (Cleaning, cut),
             Off(Cleaners),
             limits::S1_CLEANERS,
         ),
         trial(
-            ("bit-errors", "one bit in a hundred is wrong for half a second: no breach"),
+            (
+                "bit-errors",
+                "one bit in a hundred is wrong for half a second: no breach",
+            ),
             (Cleaning, noisy),
             Lawful,
             limits::S2_NONE_ACTS,
         )
         .watched_for(500),
         trial(
-            ("typed-after-host", "motion is typed after the host has died: it never acts"),
+            (
+                "typed-after-host",
+                "motion is typed after the host has died: it never acts",
+            ),
             (Cleaning, type_without_a_host),
             Off(All),
             limits::S2_NONE_ACTS,
         )
         .shared_by(4),
         trial(
-            ("late-commands", "0.6 s of commands arrive late, all at once: no breach"),
+            (
+                "late-commands",
+                "0.6 s of commands arrive late, all at once: no breach",
+            ),
             (Driving, late),
             Lawful,
             limits::S3_NONE_ACTS,
         )
         .watched_for(1_000),
-        trial(("stop", "the host says `stop`"), (Cleaning, say_stop), stopped, limits::STOP_OFF),
+        trial(
+            ("stop", "the host says `stop`"),
+            (Cleaning, say_stop),
+            stopped,
+            limits::STOP_OFF,
+        ),
     ]
 }
 
@@ -227,7 +247,10 @@ fn resets() -> Vec<RelaxTrial> {
             limits::S4_OFF,
         ),
         trial(
-            ("reset-then-still", "after a reset the host drives on without arming"),
+            (
+                "reset-then-still",
+                "after a reset the host drives on without arming",
+            ),
             (Driving, |testbed, _| reset(testbed, ResetCause::Watchdog)),
             still,
             limits::S4_OFF,
@@ -274,8 +297,18 @@ fn touch() -> Vec<RelaxTrial> {
         hold(testbed, (Signal::BumperRight, true), cycle)
     };
     vec![
-        trial(("bumper-left", "bumper, left"), (Driving, left), stops, limits::S6_STOP),
-        trial(("bumper-right", "bumper, right"), (Driving, right), stops, limits::S6_STOP),
+        trial(
+            ("bumper-left", "bumper, left"),
+            (Driving, left),
+            stops,
+            limits::S6_STOP,
+        ),
+        trial(
+            ("bumper-right", "bumper, right"),
+            (Driving, right),
+            stops,
+            limits::S6_STOP,
+        ),
         trial(
             ("flood-bumper", "bumper, and nonsense fills the line"),
             (Driving, flooded),
@@ -314,8 +347,18 @@ fn floor() -> Vec<RelaxTrial> {
     let blind: RelaxEvent = |testbed, cycle| hold(testbed, (Signal::Floor(1), true), cycle);
     let dark: RelaxEvent = |testbed, cycle| hold(testbed, (Signal::Lamp, false), cycle);
     vec![
-        trial(("cliff-left", "cliff, left"), (Driving, left), seen, limits::S8_STOP),
-        trial(("cliff-middle", "cliff, middle"), (Driving, middle), seen, limits::S8_STOP),
+        trial(
+            ("cliff-left", "cliff, left"),
+            (Driving, left),
+            seen,
+            limits::S8_STOP,
+        ),
+        trial(
+            ("cliff-middle", "cliff, middle"),
+            (Driving, middle),
+            seen,
+            limits::S8_STOP,
+        ),
         trial(
             ("cliff-right-turning", "cliff, right, while it turns"),
             (Turning, right),
@@ -357,7 +400,12 @@ fn lift() -> Vec<RelaxTrial> {
         testbed.cycle()
     };
     vec![
-        trial(("wheel-drop", "a wheel hangs"), (Cleaning, drop), hangs, limits::S10_OFF),
+        trial(
+            ("wheel-drop", "a wheel hangs"),
+            (Cleaning, drop),
+            hangs,
+            limits::S10_OFF,
+        ),
         trial(
             ("flood-wheel-drop", "a wheel hangs, and nonsense fills the line"),
             (Cleaning, flooded),
@@ -365,7 +413,10 @@ fn lift() -> Vec<RelaxTrial> {
             limits::S10_OFF,
         ),
         trial(
-            ("cleaners-lifted", "brush and suction are wanted while a wheel hangs"),
+            (
+                "cleaners-lifted",
+                "brush and suction are wanted while a wheel hangs",
+            ),
             (Standing, wanted),
             Off(All),
             limits::S29_NEVER_START,
@@ -459,14 +510,20 @@ fn arming() -> Vec<RelaxTrial> {
     };
     vec![
         trial(
-            ("not-armed", "a host that has not armed wants everything: it never acts"),
+            (
+                "not-armed",
+                "a host that has not armed wants everything: it never acts",
+            ),
             (Locked, want),
             Off(All),
             limits::ARMING_NONE_ACTS,
         )
         .watched_for(500),
         trial(
-            ("hand-stops-typing", "a person drives by typing with leases of 1 s, and stops"),
+            (
+                "hand-stops-typing",
+                "a person drives by typing with leases of 1 s, and stops",
+            ),
             (ByHand, stop_typing),
             Off(All),
             limits::ARMING_HAND_LEASE,
@@ -483,7 +540,10 @@ fn arming() -> Vec<RelaxTrial> {
         .watched_for(500)
         .shared_by(10),
         trial(
-            ("session-over-hand", "a host opens a session while a person drives by typing"),
+            (
+                "session-over-hand",
+                "a host opens a session while a person drives by typing",
+            ),
             (ByHand, host_comes),
             Off(All),
             limits::ARMING_SESSION,

@@ -108,12 +108,7 @@ impl RelaxTrial {
             Expectation::Off(group) | Expectation::OffSaying(group, _) => match group {
                 MotorGroup::Wheels => &[Motor::WheelLeft, Motor::WheelRight],
                 MotorGroup::Cleaners => &[Motor::Brush, Motor::Suction],
-                MotorGroup::All => &[
-                    Motor::WheelLeft,
-                    Motor::WheelRight,
-                    Motor::Brush,
-                    Motor::Suction,
-                ],
+                MotorGroup::All => &[Motor::WheelLeft, Motor::WheelRight, Motor::Brush, Motor::Suction],
             },
             _ => &[],
         }
@@ -197,7 +192,10 @@ impl RelaxTrial {
             limit_ms: self.limit.ms,
             broken: broken.len(),
             violations: outcomes.iter().map(|outcome| outcome.violations).sum(),
-            said: broken.first().map(|outcome| outcome.said.clone()).unwrap_or_default(),
+            said: broken
+                .first()
+                .map(|outcome| outcome.said.clone())
+                .unwrap_or_default(),
         }
     }
 }
