@@ -45,7 +45,7 @@ pub fn trials() -> Vec<RelaxTrial> {
     .concat()
 }
 
-/// Which rule is tried where, and by what.
+/// A fault and its name, where and how it happens, what must follow, and how soon.
 const fn trial(
     (name, what): (&'static str, &'static str),
     (scene, event): (RelaxScene, RelaxEvent),
@@ -94,6 +94,10 @@ fn fault(testbed: &mut RelaxTestbed, sensor: SensorId, fault: SensorFault) -> u6
 }
 
 fn link() -> Vec<RelaxTrial> {
+    [silence(), packets()].concat()
+}
+
+fn silence() -> Vec<RelaxTrial> {
     let silent: RelaxEvent = |testbed, cycle| {
         testbed.pair.set_speaking(false);
         cycle
@@ -102,18 +106,6 @@ fn link() -> Vec<RelaxTrial> {
         testbed.pair.robot_mut().cut_line(4_000);
         cycle
     };
-    let noisy: RelaxEvent = |testbed, cycle| {
-        testbed.pair.robot_mut().set_line_rates(FaultRates {
-            bit_error: 0.01,
-            ..FaultRates::NONE
-        });
-        cycle
-    };
-    let late: RelaxEvent = |testbed, cycle| {
-        testbed.pair.robot_mut().hold_line(600);
-        cycle
-    };
-    let stopped = OffSaying(All, Inhibit::Stopped);
     vec![
         trial(
             (
@@ -139,6 +131,23 @@ fn link() -> Vec<RelaxTrial> {
             Off(Cleaners),
             limits::S1_CLEANERS,
         ),
+    ]
+}
+
+fn packets() -> Vec<RelaxTrial> {
+    let noisy: RelaxEvent = |testbed, cycle| {
+        testbed.pair.robot_mut().set_line_rates(FaultRates {
+            bit_error: 0.01,
+            ..FaultRates::NONE
+        });
+        cycle
+    };
+    let late: RelaxEvent = |testbed, cycle| {
+        testbed.pair.robot_mut().hold_line(600);
+        cycle
+    };
+    let stopped = OffSaying(All, Inhibit::Stopped);
+    vec![
         trial(
             (
                 "bit-errors",

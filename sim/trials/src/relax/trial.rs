@@ -37,7 +37,7 @@ pub struct RelaxTrial {
     pub limit: Limit,
     /// Longer observation than the limit asks for, ms.
     pub(super) watch_ms: u64,
-    /// How far apart in time, ms, the moments lie at most; they are fewer where a trial takes long.
+    /// One in so many of the moments is tried, where a trial takes long.
     pub(super) share: usize,
 }
 
