@@ -5,7 +5,7 @@ use super::wiring::{DigitalLine, Wiring};
 
 /// A line into the chip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Signal {
+pub enum HeldLine {
     /// Left half of the bumper, on = pressed.
     BumperLeft,
     /// Right half of the bumper, on = pressed.
@@ -25,13 +25,13 @@ pub enum Signal {
 /// A line that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Held {
-    pub(super) signal: Signal,
+    pub(super) signal: HeldLine,
     pub(super) is_on: bool,
     /// From this cycle on.
     pub(super) from: u64,
 }
 
-impl Signal {
+impl HeldLine {
     /// The line, if the chip sees it without the lamp's light.
     pub(super) fn plain_line(self, wiring: &Wiring) -> Option<DigitalLine> {
         match self {

@@ -13,7 +13,7 @@ mod robot;
 mod wiring;
 
 pub use error::BoardError;
-pub use held::Signal;
+pub use held::HeldLine;
 pub use line::HostRate;
 pub use motors::Motor;
 pub use robot::{EmulatedRelax, RelaxBlueprint, RelaxSettings};

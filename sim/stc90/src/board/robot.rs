@@ -1,7 +1,7 @@
 //! The robot: chip, board and home together.
 
 use super::encoder::LineEncoder;
-use super::held::{Held, Signal};
+use super::held::{Held, HeldLine};
 use super::line::{HostRate, Line};
 use super::motors::{Motor, Motors};
 use super::{BoardError, CYCLES_PER_MS, Wiring};
@@ -204,7 +204,7 @@ impl EmulatedRelax {
         {
             put(line, is_on, is_on);
         }
-        if held().any(|held| held.signal == Signal::Lamp && !held.is_on) {
+        if held().any(|held| held.signal == HeldLine::Lamp && !held.is_on) {
             lit = dark;
         }
         let light = self.wiring.sensor_light;
@@ -339,7 +339,7 @@ impl EmulatedRelax {
 
     /// From this cycle on, which is to come, something holds a line, whatever the home says. Lines are held in the order of
     /// these calls, but a dark lamp is dark.
-    pub fn hold(&mut self, signal: Signal, is_on: bool, from: u64) {
+    pub fn hold(&mut self, signal: HeldLine, is_on: bool, from: u64) {
         self.held.push(Held { signal, is_on, from });
     }
 
