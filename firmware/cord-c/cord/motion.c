@@ -152,9 +152,16 @@ static uint8_t suits_base(int16_t speed, int16_t left, int16_t right) {
     return !(cord_inhibits_forward() && speed > 0) && cord_permits(left, right);
 }
 
+/* A value over 2^(16 + shift) / factor, rounded towards 0: a division by another name, in a fifth of its time. */
+static int16_t divided(int32_t value, uint16_t factor, uint8_t shift) {
+    uint32_t size = (uint32_t)(value < 0 ? -value : value);
+    int16_t quotient = (int16_t)((uint16_t)(size * factor >> 16) >> shift);
+    return value < 0 ? (int16_t)-quotient : quotient;
+}
+
 uint8_t cord_motion_drive(int32_t um_per_s, int32_t urad_per_s, uint16_t lease) {
-    int16_t speed = (int16_t)(um_per_s / 100);
-    int16_t turn = (int16_t)(urad_per_s / 1000);
+    int16_t speed = divided(um_per_s, 5243, 3);   /* 100 */
+    int16_t turn = divided(urad_per_s, 1049, 4); /* 1000 */
     set_rims(speed, turn, FULL_SPEED);
     if (!suits_base(speed, rims[0], rims[1])) {
         return 0;

@@ -1,8 +1,10 @@
-//! How the Relax's firmware keeps up: `relax-pace FILE.ihx LOOP [--seconds N]`, LOOP being the hexadecimal address of the
+//! How the Relax's firmware keeps up: `relax-pace FILE.ihx LOOP [--seconds N] [--full]`, LOOP being the hexadecimal address of the
 //! function that is one pass of the main loop.
 //!
 //! A host connects over the serial line, arms, drives the robot to and fro and lets it clean, for so many simulated seconds.
 //! Prints one JSON object: passes a second at rest and while driving, the deepest stack, bytes lost, telemetry.
+//!
+//! With `--full` the host fills its line, so that both ways are busy all the time.
 //!
 //! With `--corrupted N` the host sends so many damaged packets of motion instead, after it has armed, and none that is sound:
 //! each millisecond in which a motor is on is a wrong actuation. A sound one at the end shows that the robot was ready all along.
@@ -31,6 +33,8 @@ const FIRST_MS: u64 = 200;
 const LINE_MS: u64 = 1_200;
 /// The host holds so many bytes before the next damaged packet: the line stays busy, and answers in time.
 const WAITING_MOST: usize = 200;
+/// With so many bytes before it a full line has no pause.
+const LINE_LEAST: usize = 8;
 /// Flipped bits of a damaged packet, at most.
 const FLIPS_MOST: u32 = 8;
 const SEED: u64 = 33;
@@ -69,6 +73,8 @@ struct Wanted {
     pass: u16,
     seconds: u64,
     corrupted: u64,
+    /// The host leaves no pause on the line.
+    is_full: bool,
 }
 
 fn main() -> Outcome<()> {
@@ -92,6 +98,9 @@ fn main() -> Outcome<()> {
     let (mut pass_gap, mut state_gap) = (Gap::new(passes), Gap::new(states));
     for _ in 0..wanted.seconds * 1_000 {
         command(&mut pair);
+        if wanted.is_full && pair.waiting() + pair.robot().line_waiting() < LINE_LEAST {
+            pair.say(ahead(0.15));
+        }
         pair.tick();
         pass_gap.look(pair.robot().machine().cpu().passes());
         state_gap.look(pair.states());
@@ -131,11 +140,13 @@ fn wanted() -> Outcome<Wanted> {
         pass: u16::from_str_radix(&pass, 16)?,
         seconds: SECONDS,
         corrupted: 0,
+        is_full: false,
     };
     while let Some(word) = words.next() {
         match word.as_str() {
             "--seconds" => wanted.seconds = words.next().ok_or("how many seconds?")?.parse()?,
             "--corrupted" => wanted.corrupted = words.next().ok_or("how many packets?")?.parse()?,
+            "--full" => wanted.is_full = true,
             other => return Err(format!("{other} is unknown").into()),
         }
     }

@@ -322,6 +322,12 @@ impl EmulatedRelax {
         self.line.room()
     }
 
+    /// Bytes that the host's driver still holds.
+    #[must_use]
+    pub fn line_waiting(&self) -> usize {
+        self.line.waiting()
+    }
+
     /// Sets how often what goes wrong on the line, both ways.
     pub fn set_line_rates(&mut self, rates: FaultRates) {
         self.line.set_rates(rates);
