@@ -21,7 +21,7 @@ use crate::robot_file::{self, RobotFileError};
 use crate::serial::{self, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
-use crate::{board, checkpoint_thread, imu, logging, radio, run_thread};
+use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd};
 
 /// Make of the robot that this daemon serves.
 const MAKE: Make = cordlib::MAKE;
@@ -89,6 +89,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         clients_max: config.clients_max,
     };
     watch_signals(&event_sender)?;
+    systemd::watch(&event_sender);
     spawn_local(socket::serve(listener, event_sender.clone()));
     let robot = RobotLine {
         path: config.serial.clone(),
@@ -153,6 +154,7 @@ fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeErr
 
 /// Tells whoever started the daemon that its socket is open.
 fn announce() -> io::Result<()> {
+    systemd::tell_ready();
     let mut stdout = io::stdout().lock();
     writeln!(stdout, "ready").and_then(|()| stdout.flush())
 }

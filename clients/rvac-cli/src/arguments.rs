@@ -84,6 +84,17 @@ pub(crate) enum Subcommand {
     Clients(ClientsJob),
     /// The robot's certificate: its fingerprint, and files for devices that are to trust it.
     Trust(TrustOptions),
+    /// Print what a shell needs to complete rvac's commands.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Write the manual pages, for packages.
+    #[command(hide = true)]
+    Manual {
+        /// Where to.
+        folder: PathBuf,
+    },
     /// Start cleaning.
     Start {
         /// Name of the strategy; the daemon's default when not given.

@@ -17,6 +17,7 @@ mod home;
 mod learnt;
 mod lines;
 mod listen;
+mod manual;
 mod mixes;
 mod orders;
 mod packet;
@@ -66,6 +67,8 @@ fn main() -> ExitCode {
         Subcommand::Pair(options) => devices::pair(&options),
         Subcommand::Clients(job) => devices::clients(&job),
         Subcommand::Trust(options) => devices::trust(&options),
+        Subcommand::Completions { shell } => manual::completions(shell),
+        Subcommand::Manual { folder } => manual::write(&folder),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
         Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
         Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),
