@@ -152,7 +152,10 @@ fn rustc() -> Command {
 /// compiled along.
 pub(crate) fn source_cargo() -> anyhow::Result<Command> {
     let sysroot = PathBuf::from(process::capture(rustc().args(["--print", "sysroot"]))?.trim());
-    let mut command = if sysroot.join("lib/rustlib/src/rust/library/std/Cargo.toml").is_file() {
+    let mut command = if sysroot
+        .join("lib/rustlib/src/rust/library/std/Cargo.toml")
+        .is_file()
+    {
         workspace::cargo()
     } else {
         let toolchain = choose(&MIPS)?;

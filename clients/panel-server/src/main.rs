@@ -14,7 +14,11 @@ use tokio::signal::unix::{SignalKind, signal};
 
 /// Serves the panel of LibreRVAC and relays between browsers and vthal.
 #[derive(Debug, Parser)]
-#[command(version, args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+#[command(
+    version,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
 struct Arguments {
     #[command(flatten)]
     serve: Option<Serve>,

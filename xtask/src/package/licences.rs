@@ -54,7 +54,11 @@ fn of_workspace(manifest: &str, triple: &str, programs: &[&str]) -> anyhow::Resu
     let mut seen = BTreeSet::new();
     let mut open: Vec<&str> = packages
         .iter()
-        .filter(|(_, package)| package["name"].as_str().is_some_and(|name| programs.contains(&name)))
+        .filter(|(_, package)| {
+            package["name"]
+                .as_str()
+                .is_some_and(|name| programs.contains(&name))
+        })
         .map(|(id, _)| *id)
         .collect();
     while let Some(id) = open.pop() {

@@ -125,10 +125,7 @@ fn packed(machine: Machine, file: &Path) -> anyhow::Result<Packed> {
     Ok(Packed {
         machine: machine.name(),
         triple: machine.triple(),
-        file: file
-            .strip_prefix(workspace::root())
-            .unwrap_or(file)
-            .to_path_buf(),
+        file: file.strip_prefix(workspace::root()).unwrap_or(file).to_path_buf(),
         bytes: std::fs::metadata(file)?.len(),
         sha256: sha256.to_owned(),
     })

@@ -40,10 +40,7 @@ const FILES: [(&str, &str); 8] = [
 /// Folders of the repository, and where their files go.
 const FOLDERS: [(&str, &str); 2] = [
     ("robots", "usr/share/librervac/robots"),
-    (
-        "packaging/configurations",
-        "usr/share/librervac/configurations",
-    ),
+    ("packaging/configurations", "usr/share/librervac/configurations"),
 ];
 
 /// Who may do what with the files.
@@ -71,9 +68,7 @@ pub(super) fn lay(common: &Common, machine: Machine, programs: &[PathBuf]) -> an
         std::fs::remove_dir_all(&root).with_context(|| format!("cannot clear {}", root.display()))?;
     }
     for program in programs {
-        let place = root
-            .join("usr/bin")
-            .join(program.file_name().unwrap_or_default());
+        let place = root.join("usr/bin").join(program.file_name().unwrap_or_default());
         copy(program, &place, 0o755)?;
     }
     for (from, to) in FILES {
