@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
+mod board;
 mod calibrate;
 mod control;
 mod devices;
@@ -28,6 +29,7 @@ mod remote;
 mod replay;
 mod robot;
 mod schedules;
+mod setup;
 mod show;
 mod socket;
 mod status;
@@ -64,6 +66,8 @@ fn main() -> ExitCode {
         Subcommand::Probe(job) => probe::run(&job),
         Subcommand::Drive(options) => drive::run(&options),
         Subcommand::Mix(job) => mixes::run(&job),
+        Subcommand::Setup(options) => setup::run(&options),
+        Subcommand::Doctor(options) => setup::doctor(&options),
         Subcommand::Pair(options) => devices::pair(&options),
         Subcommand::Clients(job) => devices::clients(&job),
         Subcommand::Trust(options) => devices::trust(&options),
