@@ -11,8 +11,28 @@ use std::process::Command;
 /// Scripts that run when the package is installed, removed and purged.
 const SCRIPTS: [&str; 3] = ["postinst", "prerm", "postrm"];
 
+/// What distinguishes packages of one tree.
+#[derive(Debug)]
+pub(super) struct Edition {
+    pub(super) version: String,
+    /// The moment that all its files carry, seconds since 1970.
+    pub(super) epoch_s: u64,
+}
+
 /// Makes the Debian package.
 pub(super) fn debian(root: &Path, machine: Machine, epoch_s: u64) -> anyhow::Result<PathBuf> {
+    debian_of_version(
+        root,
+        machine,
+        &Edition {
+            version: version().to_owned(),
+            epoch_s,
+        },
+    )
+}
+
+/// Makes the Debian package of another version.
+pub(super) fn debian_of_version(root: &Path, machine: Machine, edition: &Edition) -> anyhow::Result<PathBuf> {
     system::need("dpkg-deb", &["dpkg"])?;
     let staged = folder().join(format!("{}.debian", machine.name()));
     if staged.exists() {
@@ -22,27 +42,30 @@ pub(super) fn debian(root: &Path, machine: Machine, epoch_s: u64) -> anyhow::Res
     let control = staged.join("DEBIAN");
     std::fs::create_dir_all(&control)?;
     std::fs::set_permissions(&control, std::fs::Permissions::from_mode(0o755))?;
-    std::fs::write(control.join("control"), fields(machine, size_kib(root)?))?;
+    std::fs::write(
+        control.join("control"),
+        fields(machine, &edition.version, size_kib(root)?),
+    )?;
     for script in SCRIPTS {
         let place = control.join(script);
         std::fs::copy(workspace::root().join("packaging/debian").join(script), &place)?;
         std::fs::set_permissions(&place, std::fs::Permissions::from_mode(0o755))?;
     }
     open_folders(&staged)?;
-    let file = folder().join(format!("{NAME}_{}_{}.deb", version(), machine.name()));
+    let file = folder().join(format!("{NAME}_{}_{}.deb", edition.version, machine.name()));
     let mut pack = Command::new("dpkg-deb");
     // xz, because the dpkg of Debian 11 knows nothing newer; one thread, because the bytes depend on their number.
     pack.args(["--build", "--root-owner-group", "-Zxz", "--uniform-compression"])
         .arg(&staged)
         .arg(&file)
         .env("DPKG_DEB_THREADS_MAX", "1")
-        .env("SOURCE_DATE_EPOCH", epoch_s.to_string());
+        .env("SOURCE_DATE_EPOCH", edition.epoch_s.to_string());
     process::run(&format!("pack for Debian on {}", machine.name()), &mut pack)?;
     Ok(file)
 }
 
 /// The package's description for dpkg.
-fn fields(machine: Machine, size_kib: u64) -> String {
+fn fields(machine: Machine, version: &str, size_kib: u64) -> String {
     format!(
         "\
 Package: {NAME}
@@ -58,7 +81,6 @@ Description: free brain and panel for robot vacuum cleaners
  The daemon on the robot's Linux board (vthal), the web panel with its server, and
  the command line rvac. Set it up with: rvac setup
 ",
-        version = version(),
         architecture = machine.debian(),
     )
 }

@@ -6,6 +6,7 @@ mod licences;
 mod machine;
 mod manuals;
 mod tree;
+pub(crate) mod trial;
 
 use crate::panel::{self, Page};
 use crate::{process, workspace};
