@@ -58,6 +58,9 @@ struct Serve {
     /// Port of a page that points to the HTTPS address, usually 80
     #[arg(long, value_name = "PORT", requires = "state")]
     page_port: Option<u16>,
+    /// Announce the robot's name on the home network, so that https://NAME.local/ is found
+    #[arg(long, requires = "state")]
+    announce: bool,
 }
 
 #[derive(Debug, clap::Subcommand)]
@@ -70,11 +73,13 @@ enum Job {
 impl From<Serve> for Settings {
     fn from(arguments: Serve) -> Self {
         let (console, card, page_port) = (arguments.console, arguments.card, arguments.page_port);
+        let announce = arguments.announce;
         let guard = arguments.state.map(|state| Guard {
             state,
             console,
             card,
             page_port,
+            announce,
             clock: unix_s,
         });
         Self {
