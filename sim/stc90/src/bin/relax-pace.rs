@@ -6,7 +6,7 @@
 //!
 //! With `--full` the host fills its line, so that both ways are busy all the time.
 //!
-//! With `--corrupted N` the host sends so many damaged packets of motion instead, after it has armed, and none that is sound:
+//! With `--corrupted N` (and `--seed`) the host sends so many damaged packets of motion instead, after it has armed, and none that is sound:
 //! each millisecond in which a motor is on is a wrong actuation. A sound one at the end shows that the robot was ready all along.
 
 use home::Pcg;
@@ -73,6 +73,8 @@ struct Wanted {
     pass: u16,
     seconds: u64,
     corrupted: u64,
+    /// Of the damage.
+    seed: u64,
     /// The host leaves no pause on the line.
     is_full: bool,
 }
@@ -92,7 +94,7 @@ fn main() -> Outcome<()> {
     pair.connect()?;
     pair.arm()?;
     if wanted.corrupted > 0 {
-        return corrupt(&mut pair, wanted.corrupted);
+        return corrupt(&mut pair, (wanted.corrupted, wanted.seed));
     }
     let (states, passes) = (pair.states(), pair.robot().machine().cpu().passes());
     let (mut pass_gap, mut state_gap) = (Gap::new(passes), Gap::new(states));
@@ -140,12 +142,14 @@ fn wanted() -> Outcome<Wanted> {
         pass: u16::from_str_radix(&pass, 16)?,
         seconds: SECONDS,
         corrupted: 0,
+        seed: SEED,
         is_full: false,
     };
     while let Some(word) = words.next() {
         match word.as_str() {
             "--seconds" => wanted.seconds = words.next().ok_or("how many seconds?")?.parse()?,
             "--corrupted" => wanted.corrupted = words.next().ok_or("how many packets?")?.parse()?,
+            "--seed" => wanted.seed = words.next().ok_or("which seed?")?.parse()?,
             "--full" => wanted.is_full = true,
             other => return Err(format!("{other} is unknown").into()),
         }
@@ -175,8 +179,8 @@ fn command(pair: &mut HostedRelax) {
 }
 
 /// Sends damaged packets of motion to an armed robot, and at the end a sound one.
-fn corrupt(pair: &mut HostedRelax, packets: u64) -> Outcome<()> {
-    let mut random = Pcg::new(SEED, STREAM);
+fn corrupt(pair: &mut HostedRelax, (packets, seed): (u64, u64)) -> Outcome<()> {
+    let mut random = Pcg::new(seed, STREAM);
     let (mut wrong_ms, mut sent) = (0_u64, 0);
     while sent < packets {
         // What the host's session sends by itself goes out in between, and sound.
