@@ -33,9 +33,10 @@ const LONG: Amounts = Amounts {
 };
 
 /// What must be 0 in what the programs say.
-const FAULTS: [&str; 9] = [
+const FAULTS: [&str; 10] = [
     "bytes_overrun",
     "host_bad_packets",
+    "robot_lost",
     "refused",
     "resets",
     "violations",
@@ -52,7 +53,7 @@ pub(super) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     let built = sdcc::built()?;
     workspace::build(&["relax-pace", "bench-relax", "bench-cord"], Profile::Release)?;
     let program = |name: &str| Command::new(workspace::program(name, Profile::Release));
-    let pace = |words: [&str; 2]| -> anyhow::Result<Command> {
+    let pace = |words: &[&str]| -> anyhow::Result<Command> {
         let mut command = program("relax-pace");
         command.arg(built.image()).arg(built.address_of("_cord_pass")?);
         command.args(words);
@@ -64,8 +65,8 @@ pub(super) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     rules.args(["--phases", amounts.phases, "--json", "--firmware"]);
     rules.arg(built.image()).args(&arguments.rest);
     let parts = [
-        ("duplex", pace(["--seconds", amounts.seconds])?),
-        ("corrupted", pace(["--corrupted", amounts.in_chip])?),
+        ("duplex", pace(&["--seconds", amounts.seconds, "--full"])?),
+        ("corrupted", pace(&["--corrupted", amounts.in_chip])?),
         ("corrupted_on_host", on_host),
         ("rules", rules),
     ];
