@@ -278,7 +278,9 @@ mod tests {
 
     #[test]
     fn inhibits_have_the_same_names_on_the_wire() {
-        let of_host = |inhibit: &Inhibit| LinkFault::from_name(inhibit.name()).is_some();
+        let of_host = |inhibit: &Inhibit| {
+            *inhibit == Inhibit::NotCalibrated || LinkFault::from_name(inhibit.name()).is_some()
+        };
         let here: Vec<_> = Inhibit::all()
             .filter(|inhibit| !of_host(inhibit))
             .map(|inhibit| (inhibit.name(), inhibit.is_latched()))
