@@ -1,10 +1,13 @@
 //! Programmers against the simulated chips: the same sequences that drive real lines drive these, on a virtual clock.
 //!
 //! [`SimulatedIcsp`] joins the lines of `pic32-icsp` to the port of the emulated PIC32, with what can happen on the way: a host that
-//! sleeps, wires that are swapped, noise, a supply that fails, a process that is killed.
+//! sleeps, wires that are swapped, noise, a supply that fails, a process that is killed. [`SimulatedLine`] does the same for
+//! `stc-isp` and the loader of the emulated STC90.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 mod icsp_pins;
+mod isp_line;
 
 pub use icsp_pins::{Interruption, LinesLost, SimulatedIcsp, WireFaults};
+pub use isp_line::{Ending, HostFaults, SimulatedLine};

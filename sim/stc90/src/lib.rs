@@ -27,6 +27,7 @@
 pub mod board;
 pub mod cpu;
 pub mod image;
+pub mod loader;
 pub mod machine;
 pub mod peripheral;
 pub mod pins;
