@@ -84,6 +84,20 @@ pub(crate) enum Subcommand {
     Clients(ClientsJob),
     /// The robot's certificate: its fingerprint, and files for devices that are to trust it.
     Trust(TrustOptions),
+    /// Back up, write, verify and restore the robot's firmware.
+    Flash {
+        #[command(flatten)]
+        job: rvac_flash::FlashJob,
+        /// Unix socket of vthal, which lends its line.
+        #[arg(
+            long,
+            value_name = "PATH",
+            env = "RVAC_SOCKET",
+            default_value = "/run/vthal/vthal.sock",
+            global = true
+        )]
+        socket: PathBuf,
+    },
     /// Start cleaning.
     Start {
         /// Name of the strategy; the daemon's default when not given.

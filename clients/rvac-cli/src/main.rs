@@ -66,6 +66,7 @@ fn main() -> ExitCode {
         Subcommand::Pair(options) => devices::pair(&options),
         Subcommand::Clients(job) => devices::clients(&job),
         Subcommand::Trust(options) => devices::trust(&options),
+        Subcommand::Flash { job, socket } => rvac_flash::run(&job, &rvac_flash::DaemonSocket(socket)),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
         Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
         Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),

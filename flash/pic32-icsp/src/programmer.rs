@@ -216,7 +216,8 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
         Ok(())
     }
 
-    /// Writes an image: program flash, then boot flash, then the configuration words, DEVCFG0 last of all. It is not verified yet.
+    /// Writes an image: program flash, then boot flash, then the configuration words, DEVCFG0 last of all. Until boot flash is
+    /// written, the chip starts nothing. It is not verified yet.
     ///
     /// # Errors
     /// See [`IcspError`]. What was written so far stays; writing again begins from anew.
@@ -224,6 +225,11 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
         if erased == ErasedFirst::Chip {
             self.erase_chip()?;
         }
+        // Without its first page the chip starts nothing: half a program must not drive motors if writing is cut off.
+        self.repeat(BOOT_START, |port| {
+            port.begin_erasure(BOOT_START)?;
+            port.finish_flash()
+        })?;
         for (done, (address, page)) in image.pages().enumerate() {
             self.report(Task::Write, done * PAGE_BYTES);
             let mut page = page.to_vec();

@@ -1,8 +1,8 @@
 //! The programmer against the emulated PIC32: the whole way there and back, and what can be wrong.
 
+use flash_trials::fixtures::{chip_with, content_of, flash_image};
 use flash_trials::{Interruption, LinesLost, SimulatedIcsp, WireFaults};
 use pic32::icsp::PortFaults;
-use pic32::image::Image;
 use pic32::machine::Machine;
 use pic32::pins::Level;
 use pic32_icsp::{ConfigurationRisk, ErasedFirst, FlashImage, IcspError, LineLevel, Programmer};
@@ -11,51 +11,14 @@ const MHZ: u64 = 1_000_000;
 /// DEVCFG0 with nothing protected.
 const OPEN: u32 = 0x7FFF_FFFF;
 
-/// Both flashes full of bytes that differ, with configuration words that protect nothing.
-fn full(seed: u32) -> FlashImage {
-    let mut image = FlashImage::erased();
-    let mut state = seed;
-    let mut bytes = |length: usize| -> Vec<u8> {
-        let next = |_| {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            (state >> 24) as u8
-        };
-        (0..length).map(next).collect()
-    };
-    assert!(image.write(0x1D00_0000, &bytes(0x4_0000)));
-    assert!(image.write(0x1FC0_0000, &bytes(0x2FF0)));
-    assert!(image.write(0x1FC0_2FF0, &configuration()));
-    image
-}
-
-fn configuration() -> Vec<u8> {
-    [0xFFFF_1234, 0xFFFF_FFFF, 0xFF74_FFD9, OPEN]
-        .into_iter()
-        .flat_map(u32::to_le_bytes)
-        .collect()
+/// Both flashes full.
+fn full(seed: u64) -> FlashImage {
+    flash_image(0x4_0000, 0x2FF0, seed)
 }
 
 /// A few pages only: quick.
-fn small(seed: u8) -> FlashImage {
-    let mut image = FlashImage::erased();
-    assert!(image.write(0x1D00_0000, &vec![seed; 0x2800]));
-    assert!(image.write(0x1FC0_0000, &[seed ^ 0x5A; 64]));
-    assert!(image.write(0x1FC0_2FF0, &configuration()));
-    image
-}
-
-fn chip_with(image: &FlashImage) -> Machine {
-    let mut content = Image::erased();
-    content.write(0x1D00_0000, image.program()).expect("flash");
-    content.write(0x1FC0_0000, image.boot()).expect("flash");
-    Machine::new(&content)
-}
-
-fn content_of(machine: &Machine) -> FlashImage {
-    let (mut program, mut boot) = (vec![0; 0x4_0000], vec![0; 0x3000]);
-    machine.memory().read(0x1D00_0000, &mut program).expect("flash");
-    machine.memory().read(0x1FC0_0000, &mut boot).expect("flash");
-    FlashImage::of(&program, &boot).expect("sizes of the part")
+fn small(seed: u64) -> FlashImage {
+    flash_image(0x2800, 64, seed)
 }
 
 fn lines(machine: Machine, port: PortFaults, wires: WireFaults) -> SimulatedIcsp {
@@ -115,7 +78,7 @@ fn what_was_written_boots() {
     let mut image = FlashImage::erased();
     let code: Vec<u8> = words.into_iter().flat_map(u32::to_le_bytes).collect();
     assert!(image.write(0x1FC0_0000, &code));
-    assert!(image.write(0x1FC0_2FF0, &configuration()));
+    assert!(image.write(0x1FC0_2FFC, &OPEN.to_le_bytes()));
     let mut lines = lines(chip_with(&small(3)), PortFaults::default(), WireFaults::default());
     let pin = "RE0".parse().expect("a pin");
     lines.run_ms(5);
@@ -270,9 +233,11 @@ fn a_line_that_is_too_noisy_is_named() {
 
 #[test]
 fn after_a_power_cut_or_a_kill_the_next_run_writes() {
+    let write =
+        |lines: &mut SimulatedIcsp| Programmer::new(lines, &mut |_| {}).write(&small(2), ErasedFirst::Pages);
     let span_us = {
         let mut lines = lines(chip_with(&small(1)), PortFaults::default(), WireFaults::default());
-        write(&mut lines, &small(2), ErasedFirst::Pages).expect("can be written");
+        write(&mut lines).expect("can be written");
         pic32_icsp::IcspPins::now_us(&lines)
     };
     for part in 0..12 {
@@ -283,14 +248,10 @@ fn after_a_power_cut_or_a_kill_the_next_run_writes() {
         ] {
             let mut lines = lines(chip_with(&small(1)), PortFaults::default(), WireFaults::default());
             lines.interrupt(interruption);
-            let cut = write(&mut lines, &small(2), ErasedFirst::Pages);
+            let cut = write(&mut lines);
             assert_eq!(cut, Err(IcspError::Pins(LinesLost)), "{interruption:?}");
             lines.start_again();
-            assert_eq!(
-                write(&mut lines, &small(2), ErasedFirst::Pages),
-                Ok(()),
-                "{interruption:?}"
-            );
+            assert_eq!(write(&mut lines), Ok(()), "{interruption:?}");
             assert_eq!(content_of(lines.machine()), small(2));
         }
     }

@@ -1,7 +1,8 @@
 //! The flasher against the simulated loader: the whole way, and what can be wrong.
 
-use flash_trials::{Ending, HostFaults, SimulatedLine};
-use stc_isp::{Entry, Flasher, IspError, Job, Model, Step};
+use flash_trials::{HostFaults, SimulatedLine, SupplyLost};
+use rvac_flash::relax::{IspLine as _, JobError};
+use stc_isp::{Entry, Flasher, IspError, Job, Model, Report};
 use stc90::image::Image;
 use stc90::loader::{BootLoader, LoaderFaults};
 use stc90::machine::{ClockMode, Options};
@@ -18,10 +19,24 @@ fn chip(faults: LoaderFaults) -> BootLoader {
     BootLoader::new(&image, Options::RELAX, faults)
 }
 
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Ending {
+    Finished(Report),
+    Failed(IspError),
+    PowerCut,
+}
+
 fn converse(loader: &mut BootLoader, host: HostFaults, (job, entry): (Job, Entry)) -> Ending {
-    let mut line = SimulatedLine::new(loader, host, 0);
-    let mut flasher = Flasher::new(job, entry, 0).expect("it fits");
-    line.converse(&mut flasher)
+    let mut line = SimulatedLine::new(loader, host);
+    let flasher = Flasher::new(job, entry, 0).expect("it fits");
+    match line.converse(flasher) {
+        Ok(report) => Ending::Finished(report),
+        Err(JobError::Chip(error)) => Ending::Failed(error),
+        Err(error) => {
+            assert_eq!(error.to_string(), format!("the serial line: {SupplyLost}"));
+            Ending::PowerCut
+        }
+    }
 }
 
 fn write(loader: &mut BootLoader, host: HostFaults, image: &[u8]) -> Ending {
@@ -189,10 +204,9 @@ fn after_a_power_cut_at_any_time_the_next_run_writes() {
     let image = program(3_000, 4);
     let span_ms = {
         let mut loader = chip(LoaderFaults::default());
-        let mut line = SimulatedLine::new(&mut loader, HostFaults::default(), 0);
-        let mut flasher = Flasher::new(Job::Write(image.clone()), Entry::PowerSwitch, 0).expect("it fits");
-        assert!(matches!(line.converse(&mut flasher), Ending::Finished(_)));
-        assert_eq!(flasher.step(), Step::Done);
+        let mut line = SimulatedLine::new(&mut loader, HostFaults::default());
+        let flasher = Flasher::new(Job::Write(image.clone()), Entry::PowerSwitch, 0).expect("it fits");
+        line.converse(flasher).expect("nothing is in its way");
         line.now_ms()
     };
     for at_ms in (0..span_ms).step_by(13) {

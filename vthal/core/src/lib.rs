@@ -50,7 +50,7 @@ pub use input::{ClientId, Input, LinkLoss};
 pub use lights::Lights;
 pub use outputs::{
     ArchiveOrder, ArchiveTask, Delivery, Direction, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder,
-    LearntOrder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunQuery,
-    RunStart, RunTask, ScheduleOrder,
+    LearntOrder, LineHolder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
+    RunQuery, RunStart, RunTask, ScheduleOrder,
 };
 pub use stored_version::OtherVersion;
