@@ -1,5 +1,6 @@
 //! The simulated loader behind a pseudo terminal, for flashers that want a serial device.
 
+use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::{self, ErrorKind, Read as _, Write as _};
@@ -75,7 +76,9 @@ impl LoaderTerminal {
 
 fn serve(mut master: File, mut loader: BootLoader, ends: &AtomicBool) -> io::Result<BootLoader> {
     let begun = Instant::now();
-    let mut program_since_ms = None;
+    let mut called_since_ms = None;
+    let mut on_the_wire = VecDeque::new();
+    let mut free_at_us = 0;
     loader.power_on(0);
     while !ends.load(Ordering::Relaxed) {
         let now_ms = u64::try_from(begun.elapsed().as_millis()).unwrap_or(u64::MAX);
@@ -87,16 +90,25 @@ fn serve(mut master: File, mut loader: BootLoader, ends: &AtomicBool) -> io::Res
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::Interrupted) => 0,
             Err(error) => return Err(error),
         };
+        // A terminal carries bytes at once; on a wire each takes its ten bits.
         for byte in buffer.iter().take(count) {
-            loader.hear(LoaderByte { byte: *byte, baud }, now_ms);
+            let byte_us = 10_000_000 / u64::from(baud.max(1));
+            free_at_us = free_at_us.max(now_ms * 1_000) + byte_us;
+            on_the_wire.push_back((free_at_us / 1_000, LoaderByte { byte: *byte, baud }));
         }
-        // Calls that the program does not answer let a person switch the robot off and on.
-        if loader.runs_program() && buffer[..count].contains(&0x7F) {
-            let since_ms = *program_since_ms.get_or_insert(now_ms);
+        while let Some((at_ms, byte)) = on_the_wire.pop_front_if(|(at_ms, _)| *at_ms <= now_ms) {
+            loader.hear(byte, at_ms);
+        }
+        // Calls that nobody answers let a person switch the robot off and on.
+        let heard = buffer.get(..count).unwrap_or_default();
+        if heard.iter().any(|byte| *byte != 0x7F) {
+            called_since_ms = None;
+        } else if !heard.is_empty() {
+            let since_ms = *called_since_ms.get_or_insert(now_ms);
             if now_ms > since_ms + POWER_CYCLE_MS {
                 loader.power_off();
                 loader.power_on(now_ms);
-                program_since_ms = None;
+                called_since_ms = None;
             }
         }
         for said in loader.say(now_ms) {
