@@ -222,7 +222,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Writes => &["--kills", "100000"],
         Subject::Safety => &["--phases", "200"],
         Subject::Flips => &["--count", "100000"],
-        Subject::Mutants => &["--phases", "10"],
+        Subject::Mutants => &["--every-trial"],
         Subject::Flood => &["--count", "40", "--seconds", "10"],
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
