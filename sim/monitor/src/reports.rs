@@ -234,9 +234,11 @@ impl ReportWatch {
         self.false_state = bit(Rule::ReportsSide, self.names_wrong_side(state, parts))
             | bit(Rule::ReportsNear, self.tells_wrong_closeness(state, parts))
             | bit(Rule::ReportsAbsent, tells_absent(state, parts));
-        self.window.told += 1;
-        for (sum, current_ma) in self.window.told_ma.iter_mut().zip(state.currents_ma) {
-            *sum += i64::from(current_ma);
+        if let Some(currents_ma) = state.currents_ma {
+            self.window.told += 1;
+            for (sum, current_ma) in self.window.told_ma.iter_mut().zip(currents_ma) {
+                *sum += i64::from(current_ma);
+            }
         }
         if self.window.begin_ms == 0 {
             self.begin_window(state);
@@ -331,7 +333,7 @@ impl ReportWatch {
             let slack_ma = CURRENT_SLACK_MA + shown_ma.abs() * CURRENT_SHARE_PERCENT / 100;
             (told_ma - shown_ma).abs() > slack_ma
         });
-        let is_measured = parts.currents && window.shown > 0;
+        let is_measured = parts.currents && window.shown > 0 && window.told > 0;
         in_a_row(&mut window.wrong_counts, parts.encoders && counts);
         in_a_row(&mut window.wrong_currents, is_measured && currents);
         self.false_window = bit(Rule::ReportsCount, window.wrong_counts >= WRONG_IN_A_ROW)
@@ -358,7 +360,7 @@ impl ReportWatch {
 fn tells_absent(state: &ToldState, parts: Declared) -> bool {
     (state.has_gyro && !parts.gyro)
         || (state.counts != [0; 2] && !parts.encoders)
-        || (state.currents_ma != [0; 2] && !parts.currents)
+        || (state.currents_ma.is_some_and(|all| all != [0; 2]) && !parts.currents)
         || (state.near != [0; 8] && parts.proximity == 0)
         || (state.buttons != 0 && parts.buttons == 0)
         || (state.has_beams && parts.dock_receivers == 0)

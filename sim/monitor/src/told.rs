@@ -37,8 +37,8 @@ pub(crate) struct ToldState {
     pub(crate) bumpers: [bool; 2],
     pub(crate) cliffs: [bool; 3],
     pub(crate) wheel_drops: [bool; 2],
-    /// Of the wheels.
-    pub(crate) currents_ma: [i32; 2],
+    /// Of the wheels; `None` = it says that it does not measure them now.
+    pub(crate) currents_ma: Option<[i32; 2]>,
     pub(crate) has_gyro: bool,
     /// Closeness at each proximity sensor.
     pub(crate) near: [u8; 8],
@@ -93,7 +93,7 @@ fn state_of(object: &Value) -> ToldState {
         bumpers: [flag('b'), flag('B')],
         cliffs: [flag('c'), flag('m'), flag('C')],
         wheel_drops: [flag('w'), flag('W')],
-        currents_ma: [milliamperes("x"), milliamperes("y")],
+        currents_ma: (!flag('n')).then(|| [milliamperes("x"), milliamperes("y")]),
         has_gyro: !object["h"].is_null() || !object["g"].is_null(),
         near: bytes_of(object["p"].as_str().unwrap_or_default()),
         has_beams: shows("d"),
@@ -114,7 +114,7 @@ fn read_binary(body: &[u8]) -> Option<Told> {
         bumpers: [flag(0), flag(1)],
         cliffs: [flag(2), flag(3), flag(4)],
         wheel_drops: [flag(5), flag(6)],
-        currents_ma: [short(36), short(38)],
+        currents_ma: (!flag(14)).then(|| [short(36), short(38)]),
         has_gyro: flag(12),
         near: [20, 21, 22, 23, 24, 25, 26, 27].map(|at: usize| body[at]),
         buttons: body[34],
