@@ -4,9 +4,12 @@ use super::{BACKWARD, Drives, FORWARD, OFF, Pins, Rule, Scene};
 use crate::{Charging, WheelLoad};
 use rvac_protocol::message::ResetCause;
 
+/// What happens to the pins.
+type Change = fn(&mut Pins);
+
 #[test]
 fn a_broken_machine_switches_everything_off_in_its_time() {
-    let table: [(fn(&mut Pins), u32, Rule); 3] = [
+    let table: [(Change, u32, Rule); 3] = [
         (|pins| pins.hardware.clock_fails = true, 12, Rule::Clock),
         (|pins| pins.hardware.pulses_damaged = true, 22, Rule::Pulses),
         (|pins| pins.hardware.image_damaged = true, 60_002, Rule::Memory),

@@ -42,9 +42,12 @@ impl Scene {
     }
 }
 
+/// What happens to the switches.
+type Touch = fn(&mut Sides);
+
 #[test]
 fn each_switch_is_told_by_its_own_name() {
-    let table: [(fn(&mut Sides), &str); 4] = [
+    let table: [(Touch, &str); 4] = [
         (|sides| sides.bumpers[0] = true, "b"),
         (|sides| sides.bumpers[1] = true, "B"),
         (|sides| sides.wheel_drops[0] = true, "w"),
