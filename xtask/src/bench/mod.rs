@@ -1,5 +1,6 @@
 //! `cargo xtask bench`: builds what is measured in the release profile and runs it.
 
+mod logic;
 mod safety;
 
 use crate::{codegen, firmware, process, workspace};
@@ -30,6 +31,8 @@ enum Subject {
     Flips,
     /// The robot's firmware in boards with one mistake each: who notices.
     Mutants,
+    /// cordlib's reflexes, charger, arming and leases with one expression changed each: which its tests notice.
+    LogicMutants,
     /// Edges that flood the receive pin of the robot's firmware.
     Flood,
     /// The robot's firmware charging packs in the emulated chip.
@@ -74,6 +77,9 @@ pub(crate) struct BenchArguments {
 
 /// Runs the measurement.
 pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
+    if matches!(arguments.subject, Subject::LogicMutants) {
+        return logic::run(arguments);
+    }
     if matches!(
         arguments.subject,
         Subject::Relay | Subject::Kill | Subject::Writes
@@ -181,6 +187,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Safety => &["--bin", "bench-safety"],
         Subject::Flips => &["--bin", "bench-flips"],
         Subject::Mutants => &["--bin", "bench-mutants"],
+        Subject::LogicMutants => &[],
         Subject::Flood => &["--bin", "bench-flood"],
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
@@ -205,6 +212,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Cordlib
         | Subject::Flips
         | Subject::Mutants
+        | Subject::LogicMutants
         | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
@@ -233,6 +241,6 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
-        Subject::Cordlib => &[],
+        Subject::Cordlib | Subject::LogicMutants => &[],
     }
 }
