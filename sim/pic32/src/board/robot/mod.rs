@@ -22,7 +22,7 @@ use crate::board::power::{Feed, SLICE, SwitchUse};
 use crate::board::serial::{BitReceiver, HostPort, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
-use crate::pins::Level;
+use crate::pins::{Level, PinDriver};
 
 /// Channel of the transmit multiplexer whose emitter the dock sees.
 const FRONT: u8 = 3;
@@ -253,19 +253,25 @@ impl EmulatedRobot {
     }
 
     fn charge(&mut self, cycles: u64) {
-        let total = self.machine.high_cycles(self.wiring.charge.pin);
+        let line = self.wiring.charge;
+        let total = self.machine.high_cycles(line.pin);
+        let high = total - self.charge_cycles;
+        self.charge_cycles = total;
+        let closed = match (line.active, self.machine.output(line.pin)) {
+            (Level::High, _) => high,
+            // A resistor opens the switch while nobody drives it.
+            (Level::Low, PinDriver::Floating) => 0,
+            (Level::Low, _) => cycles.saturating_sub(high),
+        };
         let mut switch = SwitchUse {
             cycles,
-            closed: total - self.charge_cycles,
+            closed,
             openings: 0,
         };
-        self.charge_cycles = total;
         if switch.closed != 0 {
             self.charge_driven_ms = Some(self.now_ms);
-        }
-        if switch.closed != 0 {
-            let edges = self.machine.take_edges(self.wiring.charge.pin).into_iter();
-            switch.openings = edges.filter(|(_, level)| !level.is_high()).count() as u32;
+            let edges = self.machine.take_edges(line.pin).into_iter();
+            switch.openings = edges.filter(|(_, level)| *level != line.active).count() as u32;
         }
         if self.charge_switch_shorted {
             switch = SwitchUse {
