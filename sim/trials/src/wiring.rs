@@ -183,7 +183,10 @@ const NOTICERS: [(&str, &[&str]); 22] = [
     ("button-any", &["button"]),
     ("button-ladder", &["button-named"]),
     ("wheel-left-current", &["wheel-over-current", "nothing-happens"]),
-    ("wheel-right-current", &["wheel-over-current", "nothing-happens"]),
+    (
+        "wheel-right-current",
+        &["wheel-over-current-right", "nothing-happens"],
+    ),
     (
         "encoder-",
         &["silence-wheels", "cliff-right-turning", "nothing-happens"],

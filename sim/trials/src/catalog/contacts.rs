@@ -19,6 +19,8 @@ const RIGHT: u8 = 2;
 /// Light on a receiver above a drop, of 255, and of one that is stuck in the middle of its range.
 const DROP: i32 = 8;
 const STUCK: i32 = 150;
+/// By then a report tells which sensor it is, and the monitor compares.
+const TOLD_MS: u64 = 300;
 /// A reverse slow enough to stay within S7's distance for its whole time, µm/s, and the time in which it begins.
 const SLOW_REVERSE: Speed = Speed(-40_000);
 const TURNS_BACK_MS: u64 = 500;
@@ -89,7 +91,8 @@ fn floor() -> Vec<Trial> {
         Trial::new("cliff-left", "cliff, left", Driving, |testbed, _| {
             fault(testbed, SensorId::Cliff(LEFT), SensorFault::StuckAt(DROP))
         })
-        .expects(seen, limits::S8_STOP),
+        .expects(seen, limits::S8_STOP)
+        .watched_for(TOLD_MS),
         Trial::new("cliff-middle", "cliff, middle", Driving, |testbed, _| {
             fault(testbed, SensorId::Cliff(MIDDLE), SensorFault::StuckAt(DROP))
         })

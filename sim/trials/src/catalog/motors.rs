@@ -85,6 +85,20 @@ fn load() -> Vec<Trial> {
         .expects(stalls, limits::S11_OVER_CURRENT)
         .watched_for(1_200),
         Trial::new(
+            "wheel-over-current-right",
+            "the right wheel draws too much",
+            Driving,
+            |testbed, _| {
+                fault(
+                    testbed,
+                    SensorId::WheelRightCurrent,
+                    SensorFault::StuckAt(TOO_MUCH_MA),
+                )
+            },
+        )
+        .expects(stalls, limits::S11_OVER_CURRENT)
+        .watched_for(1_200),
+        Trial::new(
             "wheel-standstill",
             "a driven wheel stands still",
             Driving,
