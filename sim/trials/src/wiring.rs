@@ -4,6 +4,8 @@
 //! counts as noticed when a robot does not get into an operating state, when a trial of a safety rule is not kept, or when the
 //! monitor sees a breach. What robots that nobody has calibrated differ by is no mistake: those deviations must be stood.
 
+use std::collections::BTreeSet;
+
 use pic32::board::pinout::{Miswiring, Pinout};
 use pic32::board::{CYCLES_PER_MS, CalibrationValues, Particulars};
 use serde::Serialize;
@@ -160,6 +162,8 @@ impl Deviation {
 /// What is wrong with a board.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Mistake {
+    /// Nothing: what the trials say of the right board.
+    Nothing,
     /// Its wiring.
     Wiring(Miswiring),
     /// A value, by this factor.
@@ -241,7 +245,8 @@ impl Mistake {
         let values = Deviation::ALL
             .iter()
             .flat_map(|value| [0.8, 1.2].map(|factor| Self::Value(*value, factor)));
-        cut(&DIGITAL, NOWHERE)
+        std::iter::once(Self::Nothing)
+            .chain(cut(&DIGITAL, NOWHERE))
             .chain(cut(&ENCODERS, NOWHERE))
             .chain(cut(&ANALOG, NOWHERE_ANALOG))
             .chain(inverted)
@@ -254,6 +259,7 @@ impl Mistake {
     #[must_use]
     pub fn name(&self) -> String {
         match self {
+            Self::Nothing => "the right board".to_owned(),
             Self::Wiring(Miswiring::Swapped(name, NOWHERE | NOWHERE_ANALOG)) => format!("{name} is cut"),
             Self::Wiring(Miswiring::Swapped(one, other)) => format!("{one} and {other} are exchanged"),
             Self::Wiring(Miswiring::Inverted(name)) => format!("{name} is inverted"),
@@ -265,7 +271,8 @@ impl Mistake {
     #[must_use]
     pub const fn demand(&self) -> Demand {
         match self {
-            Self::Value(
+            Self::Nothing
+            | Self::Value(
                 Deviation::CurrentScale
                 | Deviation::CurrentZero
                 | Deviation::CliffLight(_)
@@ -291,6 +298,10 @@ impl Mistake {
                 .collect::<Vec<_>>()
         };
         match self {
+            Self::Nothing => {
+                let all = NOTICERS.iter().flat_map(|(_, trials)| *trials).copied();
+                BTreeSet::from_iter(all).into_iter().collect()
+            }
             Self::Wiring(Miswiring::Swapped(one, NOWHERE | NOWHERE_ANALOG) | Miswiring::Inverted(one)) => {
                 of_signal(one)
             }
@@ -303,6 +314,7 @@ impl Mistake {
         let right = Pinout::sr8730()?;
         let particulars = Particulars::of(&CalibrationValues::sr8730()?)?;
         match self {
+            Self::Nothing => fixture.clone().in_board(&right, particulars),
             Self::Wiring(mistake) => fixture.clone().in_board(&right.miswired(mistake), particulars),
             Self::Value(value, factor) => fixture
                 .clone()
@@ -400,6 +412,7 @@ mod tests {
         let particulars = Particulars::of(&CalibrationValues::sr8730().unwrap()).unwrap();
         for mistake in Mistake::all() {
             match &mistake {
+                Mistake::Nothing => {}
                 Mistake::Wiring(wrong) => assert_ne!(right.miswired(wrong), right, "{}", mistake.name()),
                 Mistake::Value(value, factor) => {
                     assert_ne!(
