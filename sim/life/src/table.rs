@@ -20,7 +20,7 @@ fn obstacles(run: &LifeRun) -> Option<MapObstacles> {
     figures(run)?.map_obstacles
 }
 
-const ROWS: [RunFigure<LifeRun>; 36] = [
+const ROWS: [RunFigure<LifeRun>; 37] = [
     RunFigure::more("swept", |run| Some(run.report.covered)),
     RunFigure::less("t90_over_t0", |run| figures(run)?.t90_over_t0),
     RunFigure::less("t95_over_t0", |run| figures(run)?.t95_over_t0),
@@ -38,6 +38,9 @@ const ROWS: [RunFigure<LifeRun>; 36] = [
     RunFigure::less("sigma_median_m", |run| figures(run)?.sigma_median_m),
     RunFigure::less("nees_place", |run| figures(run)?.nees_place),
     RunFigure::less("nees_place_aligned", |run| figures(run)?.nees_place_aligned),
+    RunFigure::less("nees_place_median_aligned", |run| {
+        figures(run)?.nees_place_median_aligned
+    }),
     RunFigure::less("nees_heading", |run| figures(run)?.nees_heading),
     RunFigure::less("lost_s", |run| Some(figures(run)?.lost_seconds)),
     RunFigure::less("unnoticed_wrong_s", |run| Some(figures(run)?.lost_unnoticed_s)),

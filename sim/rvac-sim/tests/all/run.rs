@@ -107,6 +107,7 @@ const KEYS: [&str; 62] = [
     "nees_heading",
     "nees_place",
     "nees_place_aligned",
+    "nees_place_median_aligned",
     "pose_error_median_aligned_m",
     "pose_error_median_m",
     "pose_error_p90_aligned_m",
