@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, bail};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
 use vthal::config::{self, Overrides};
 use vthal::recording::replay::{Replay, replay};
 
@@ -32,6 +32,9 @@ enum Job {
         /// The recording
         file: PathBuf,
     },
+    /// Prints the manual page, for packages
+    #[command(hide = true)]
+    Manual,
 }
 
 #[derive(Args)]
@@ -63,6 +66,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.command {
         Some(Job::Replay { file }) => run_replay(&file),
+        Some(Job::Manual) => print_manual(),
         None => run_daemon(arguments.serve),
     };
     result.unwrap_or_else(|error| {
@@ -89,6 +93,11 @@ fn run_daemon(serve: Serve) -> anyhow::Result<ExitCode> {
     };
     let config = config::load(path, overrides)?;
     vthal::serve(&config, serve.speed)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn print_manual() -> anyhow::Result<ExitCode> {
+    clap_mangen::Man::new(Arguments::command()).render(&mut std::io::stdout())?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -148,6 +148,26 @@ fn rustc() -> Command {
     command
 }
 
+/// A cargo of a compiler that has the source of its standard library, without a target: the caller names it and what of the library is
+/// compiled along.
+pub(crate) fn source_cargo() -> anyhow::Result<Command> {
+    let sysroot = PathBuf::from(process::capture(rustc().args(["--print", "sysroot"]))?.trim());
+    let mut command = if sysroot
+        .join("lib/rustlib/src/rust/library/std/Cargo.toml")
+        .is_file()
+    {
+        workspace::cargo()
+    } else {
+        let toolchain = choose(&MIPS)?;
+        match toolchain.way {
+            Way::Debian => toolchain.debian_cargo(),
+            Way::Installed | Way::Source => workspace::cargo(),
+        }
+    };
+    command.env("RUSTC_BOOTSTRAP", "1");
+    Ok(command)
+}
+
 impl Toolchain {
     /// For people.
     pub(crate) fn name(&self) -> String {

@@ -1,19 +1,33 @@
 //! The binary: reads the command line, serves until a signal ends it.
 #![forbid(unsafe_code)]
 
+mod systemd;
+
 use std::io::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use panel_server::{Guard, Server, Settings, StartError, unix_s};
 use tokio::signal::unix::{SignalKind, signal};
 
 /// Serves the panel of LibreRVAC and relays between browsers and vthal.
 #[derive(Debug, Parser)]
-#[command(version)]
+#[command(
+    version,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
 struct Arguments {
+    #[command(flatten)]
+    serve: Option<Serve>,
+    #[command(subcommand)]
+    command: Option<Job>,
+}
+
+#[derive(Debug, clap::Args)]
+struct Serve {
     /// Unix socket of vthal
     #[arg(long, value_name = "SOCKET")]
     vthal: PathBuf,
@@ -46,8 +60,15 @@ struct Arguments {
     page_port: Option<u16>,
 }
 
-impl From<Arguments> for Settings {
-    fn from(arguments: Arguments) -> Self {
+#[derive(Debug, clap::Subcommand)]
+enum Job {
+    /// Prints the manual page, for packages
+    #[command(hide = true)]
+    Manual,
+}
+
+impl From<Serve> for Settings {
+    fn from(arguments: Serve) -> Self {
         let (console, card, page_port) = (arguments.console, arguments.card, arguments.page_port);
         let guard = arguments.state.map(|state| Guard {
             state,
@@ -69,8 +90,15 @@ impl From<Arguments> for Settings {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    match (arguments.command, arguments.serve) {
+        (Some(Job::Manual), _) | (None, None) => print_manual(),
+        (None, Some(serve)) => run_server(serve.into()),
+    }
+}
+
+fn run_server(settings: Settings) -> ExitCode {
     tracing_subscriber::fmt().with_writer(std::io::stderr).init();
-    match run(arguments.into()) {
+    match run(settings) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             let refused = error.downcast_ref::<StartError>().is_some();
@@ -80,16 +108,27 @@ fn main() -> ExitCode {
     }
 }
 
+fn print_manual() -> ExitCode {
+    let manual = clap_mangen::Man::new(Arguments::command());
+    match manual.render(&mut std::io::stdout()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
+}
+
 #[tokio::main(flavor = "current_thread")]
 async fn run(settings: Settings) -> anyhow::Result<()> {
     let server = Server::bind(settings).await?;
     let mut terminate = signal(SignalKind::terminate())?;
     let mut interrupt = signal(SignalKind::interrupt())?;
     writeln!(std::io::stdout(), "ready {}", server.url())?;
+    systemd::tell_ready();
     tokio::select! {
         () = server.run() => {}
+        () = systemd::show_life() => {}
         _ = terminate.recv() => {}
         _ = interrupt.recv() => {}
     }
+    systemd::tell_stopping();
     Ok(())
 }

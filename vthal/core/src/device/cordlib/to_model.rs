@@ -22,7 +22,8 @@ pub(super) fn description(hello: Option<&RobotHello>, table: &message::Descripti
     let limits = table.limits;
     Description {
         identity: identity(hello),
-        levels: &[Level::Motion],
+        // Without calibrated encoders the firmware refuses every command with a speed.
+        levels: if has.encoders { &[Level::Motion] } else { &[] },
         shape: Shape::Circle {
             radius_m: limits.radius.as_m(),
         },
