@@ -125,13 +125,14 @@ impl<'a> Chain<'a> {
             "the robot did not answer"
         );
         self.clean(&mut household, &mut timing)?;
+        timing.save_step_max_ms = step_max_ms(&mut household);
         let report = household.report();
         let now_us = household.now_us();
         if let Some(host) = household.host_mut() {
             host.shut_down(now_us);
         }
         self.write(&mut household, &mut timing)?;
-        timing.save_step_max_ms = step_max_ms(&mut household);
+        timing.shutdown_ms = step_max_ms(&mut household);
         timing.times_real_time = report.sim_seconds / began.elapsed().as_secs_f64();
         Ok(LifeRun {
             seed: self.settings.seed,

@@ -20,7 +20,7 @@ fn obstacles(run: &LifeRun) -> Option<MapObstacles> {
     figures(run)?.map_obstacles
 }
 
-const ROWS: [RunFigure<LifeRun>; 37] = [
+const ROWS: [RunFigure<LifeRun>; 38] = [
     RunFigure::more("swept", |run| Some(run.report.covered)),
     RunFigure::less("t90_over_t0", |run| figures(run)?.t90_over_t0),
     RunFigure::less("t95_over_t0", |run| figures(run)?.t95_over_t0),
@@ -68,6 +68,7 @@ const ROWS: [RunFigure<LifeRun>; 37] = [
     RunFigure::less("violations", |run| Some(f64::from(run.report.monitor_violations))),
     RunFigure::less("load_step_max_ms", |run| Some(run.timing?.load_step_max_ms)),
     RunFigure::less("save_step_max_ms", |run| Some(run.timing?.save_step_max_ms)),
+    RunFigure::less("shutdown_ms", |run| Some(run.timing?.shutdown_ms)),
     RunFigure::less("write_max_ms", |run| Some(run.timing?.write_max_ms)),
     RunFigure::more("times_real_time", |run| Some(run.timing?.times_real_time)),
 ];

@@ -7,7 +7,7 @@ use super::shape::{Point, centre, contains, distance_m, edge_m, point, points, t
 
 /// What is moved every day, by its name.
 const LOOSE: [&str; 5] = ["chair", "stool", "box", "toy", "bag"];
-/// What is moved for good; without one it is the largest piece that is no counter, bath or wardrobe at a wall.
+/// What is moved for good; without one it is the largest piece.
 const SOFAS: [&str; 3] = ["sofa", "couch", "armchair"];
 /// How far a chair is moved, metres.
 const CHAIR_M: (f64, f64) = (0.1, 1.0);
@@ -22,10 +22,12 @@ const GAP_M: f64 = 0.03;
 pub(super) fn move_chairs(plan: &mut Table, draw: &mut Draw) {
     for index in 0..tables(plan, "furniture").count() {
         if is_named(plan, index, &LOOSE) {
-            let _is_moved = (0..ATTEMPTS).any(|_| {
+            for _ in 0..ATTEMPTS {
                 let step = draw.step(CHAIR_M.0, CHAIR_M.1);
-                try_to_move(plan, index, step)
-            });
+                if try_to_move(plan, index, step) {
+                    break;
+                }
+            }
         }
     }
 }

@@ -54,7 +54,7 @@ fn it_tells_what_the_robot_decided_and_why() {
 }
 
 /// Keys of a report.
-const KEYS: [&str; 62] = [
+const KEYS: [&str; 63] = [
     "home",
     "free_area_m2",
     "reachable_area_m2",
