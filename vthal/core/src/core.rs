@@ -273,7 +273,11 @@ impl Core {
             && now_us >= self.pace.prepared_us + PREPARE_US
         {
             self.pace.prepared_us = now_us;
-            brain_session.prepare(now_us, &mut Recorder::new(self.config.recording, outputs));
+            let left = brain_session.prepare(now_us, &mut Recorder::new(self.config.recording, outputs));
+            if let Some(left) = left {
+                self.floors.note_kept(&left);
+                outputs.home = Some(left);
+            }
         }
         if self.brain_session.is_some() && now_us >= self.pace.stepped_us + STEP_MAX_US {
             self.think(now_us, outputs);
