@@ -1,6 +1,7 @@
 //! The binary: reads the command line, serves until a signal ends it.
 #![forbid(unsafe_code)]
 
+mod host_name;
 mod systemd;
 
 use std::io::Write;
@@ -44,7 +45,7 @@ struct Serve {
     #[arg(long, value_name = "DIR")]
     assets: PathBuf,
     /// Further name by which browsers may call this server, for example robot.local
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = host_name::parse)]
     host_name: Vec<String>,
     /// Folder of the robot's identity and of its paired devices: with it, HTTPS and for paired devices only
     #[arg(long, value_name = "DIR")]

@@ -28,6 +28,7 @@ pub mod board;
 pub mod cpu;
 pub mod hosted;
 pub mod image;
+pub mod loader;
 pub mod machine;
 pub mod peripheral;
 pub mod pins;

@@ -140,6 +140,54 @@ fn a_robot_may_come_late_go_and_come_back_as_another_one() {
     );
 }
 
+/// Whether somebody else could take the device now: the daemon locks it while it has it open.
+fn is_free(scratch: &Scratch) -> bool {
+    let device = fs::File::open(scratch.join("tty")).expect("the terminal is there");
+    rustix::fs::flock(&device, rustix::fs::FlockOperation::NonBlockingLockExclusive).is_ok()
+}
+
+fn borrow(desk: &Desk) -> Client {
+    let mut flasher = Client::connect(&desk.scratch.join("vthal.sock")).expect("connects");
+    flasher
+        .send(r#"{"c":"borrow-link","silent":false,"id":7}"#)
+        .expect("sends");
+    flasher
+}
+
+#[test]
+fn the_line_is_lent_to_one_client_and_taken_again_when_it_is_gone() {
+    let mut desk = Desk::idle();
+    let mut early = borrow(&desk);
+    let refused = early.wait_for(soon(), |update| matches!(update, Update::Failed(_)));
+    let Some(Update::Failed(failure)) = refused.expect("reads") else {
+        panic!("a robot off its dock keeps its daemon");
+    };
+    assert_eq!((failure.id, failure.reason.as_str()), (Some(7), "not-docked"));
+    assert!(!is_free(&desk.scratch));
+    desk.robot.dock();
+    wait_for_state(&mut desk.robot, &mut desk.client, "docked");
+    let mut flasher = borrow(&desk);
+    wait_until(&mut desk.robot, &mut desk.client, |update| {
+        has_text(update, "serial device lent")
+    });
+    let done = flasher.wait_for(soon(), |update| matches!(update, Update::Done { id: 7 }));
+    assert!(done.expect("reads").is_some());
+    assert!(is_free(&desk.scratch), "the flasher can take the device");
+    let mut other = borrow(&desk);
+    let refused = other.wait_for(soon(), |update| matches!(update, Update::Failed(_)));
+    let Some(Update::Failed(failure)) = refused.expect("reads") else {
+        panic!("one line for two");
+    };
+    assert_eq!(failure.reason, "link-lent");
+    // However the flasher ends, its connection does.
+    drop(flasher);
+    wait_until(&mut desk.robot, &mut desk.client, |update| {
+        has_text(update, "serial device open")
+    });
+    wait_for_state(&mut desk.robot, &mut desk.client, "docked");
+    assert!(!is_free(&desk.scratch));
+}
+
 #[test]
 fn sigterm_stops_the_wheels_before_it_ends() {
     let Desk {

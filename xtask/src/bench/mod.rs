@@ -1,5 +1,6 @@
 //! `cargo xtask bench`: builds what is measured in the release profile and runs it.
 
+mod logic;
 mod relax;
 mod safety;
 
@@ -33,6 +34,8 @@ enum Subject {
     Flips,
     /// The robot's firmware in boards with one mistake each: who notices.
     Mutants,
+    /// cordlib's reflexes, charger, arming and leases with one expression changed each: which its tests notice.
+    LogicMutants,
     /// Edges that flood the receive pin of the robot's firmware.
     Flood,
     /// The robot's firmware charging packs in the emulated chip.
@@ -79,6 +82,9 @@ pub(crate) struct BenchArguments {
 pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     if matches!(arguments.subject, Subject::Relax) {
         return relax::run(arguments);
+    }
+    if matches!(arguments.subject, Subject::LogicMutants) {
+        return logic::run(arguments);
     }
     if matches!(
         arguments.subject,
@@ -188,6 +194,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Relax => &["--bin", "bench-relax"],
         Subject::Flips => &["--bin", "bench-flips"],
         Subject::Mutants => &["--bin", "bench-mutants"],
+        Subject::LogicMutants => &[],
         Subject::Flood => &["--bin", "bench-flood"],
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
@@ -213,6 +220,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Relax
         | Subject::Flips
         | Subject::Mutants
+        | Subject::LogicMutants
         | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
@@ -230,7 +238,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Writes => &["--kills", "100000"],
         Subject::Safety => &["--phases", "200"],
         Subject::Flips => &["--count", "100000"],
-        Subject::Mutants => &["--phases", "10"],
+        Subject::Mutants => &["--every-trial"],
         Subject::Flood => &["--count", "40", "--seconds", "10"],
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
@@ -241,6 +249,6 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
-        Subject::Cordlib | Subject::Relax => &[],
+        Subject::Cordlib | Subject::Relax | Subject::LogicMutants => &[],
     }
 }

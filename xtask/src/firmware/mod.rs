@@ -10,6 +10,7 @@ mod image_crc;
 mod instruction;
 mod record;
 mod report;
+pub(crate) mod rp2040;
 #[cfg(test)]
 mod sample;
 pub(crate) mod sdcc;
@@ -86,6 +87,12 @@ impl RobotFirmware {
 
 /// Builds, writes what is flashed, prints what the firmware takes, and fails when that is too much.
 pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
+    if let Some(port) = rp2040::ports()?.iter().find(|port| port.name == arguments.robot) {
+        if arguments.calibration.is_some() || !arguments.features.is_empty() {
+            bail!("the firmware of {} has no features and no calibration", port.name);
+        }
+        return rp2040::run(port, arguments.json);
+    }
     match RobotFirmware::of(&arguments.robot)? {
         RobotFirmware::InRust(board) => run_in_rust(arguments, board),
         RobotFirmware::InC if arguments.calibration.is_some() || !arguments.features.is_empty() => {
@@ -132,10 +139,12 @@ pub(crate) fn report(elf: &Path) -> anyhow::Result<serde_json::Value> {
 /// The firmware in Rust of this robot.
 fn board(robot: &str) -> anyhow::Result<&'static Board> {
     BOARDS.iter().find(|board| board.name == robot).with_context(|| {
+        let ports = rp2040::ports().unwrap_or_default();
         let known: Vec<&str> = BOARDS
             .iter()
             .map(|board| board.name)
             .chain([sdcc::ROBOT])
+            .chain(ports.iter().map(|port| port.name.as_str()))
             .collect();
         format!(
             "there is no firmware for a robot {robot:?}; there is one for: {}",

@@ -1,7 +1,8 @@
 //! Stages about the robot's own chip: its firmware, and the emulator that runs it.
 
+use super::count::Count;
 use super::extent::Extent;
-use super::runner::{Result, all, cargo, check, tests};
+use super::runner::{Failed, Result, all, cargo, check, tests};
 use crate::firmware::build::build_others;
 use crate::workspace::{self, Profile, program};
 use crate::{firmware, system};
@@ -26,6 +27,11 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
     };
     let mut in_c = cargo(&["xtask", "firmware", firmware::sdcc::ROBOT]);
     in_c.args((!extent.has_campaigns()).then_some("--once"));
+    let ports = if extent.has_campaigns() {
+        ports()
+    } else {
+        Vec::new()
+    };
     let lints = FIRMWARE
         .map(|manifest| on_this_machine("clippy", manifest, &["--all-targets", "--", "-D", "warnings"]));
     let tested =
@@ -33,7 +39,26 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
     let lints = lints.into_iter().map(|mut command| check(&mut command));
     let tested = tested.into_iter().map(|mut command| tests(&mut command));
     let builds = builds.into_iter().map(|mut command| check(&mut command));
-    all(builds.chain([check(&mut in_c)]).chain(lints).chain(tested))
+    all(builds
+        .chain([check(&mut in_c)])
+        .chain(ports)
+        .chain(lints)
+        .chain(tested))
+}
+
+/// Firmware that is found by its manifest: each is built and says hello in an emulator.
+fn ports() -> Vec<Result> {
+    let found = match firmware::rp2040::ports() {
+        Ok(found) => found,
+        Err(error) => {
+            return vec![Err(Failed {
+                count: Count::default(),
+                errors: vec![error],
+            })];
+        }
+    };
+    let run = |name: &str| check(&mut cargo(&["xtask", "firmware", name]));
+    found.iter().map(|port| run(&port.name)).collect()
 }
 
 fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
