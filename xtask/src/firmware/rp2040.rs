@@ -91,7 +91,7 @@ pub(super) fn run(port: &Port, json: bool) -> anyhow::Result<()> {
             "flash {} of {FLASH_BYTES} bytes, memory {} of {RAM_BYTES} bytes without the stack",
             report.flash_bytes, report.ram_bytes
         ));
-        said.lines().for_each(|line| process::print(line));
+        said.lines().for_each(process::print);
         process::say(&file.display().to_string());
     }
     if report.flash_bytes > FLASH_BYTES || report.ram_bytes > RAM_BYTES {
