@@ -192,6 +192,16 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
         Ok(image)
     }
 
+    /// Reads one page, from a physical address that is a multiple of [`PAGE_BYTES`].
+    ///
+    /// # Errors
+    /// See [`IcspError`]; nothing was changed.
+    pub fn read_page(&mut self, address: u32) -> Result<[u8; PAGE_BYTES], IcspError<P::Error>> {
+        let mut page = [0; PAGE_BYTES];
+        self.repeat(address, |port| port.read_by_stub(KSEG1 | address, &mut page))?;
+        Ok(page)
+    }
+
     /// Compares the whole chip with an image.
     ///
     /// # Errors
