@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use brain::SensorLayout;
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::{mpsc, watch};
 use tokio::task::{LocalSet, spawn_local};
@@ -17,11 +16,11 @@ use crate::event::Event;
 use crate::instance::{self, InstanceError};
 use crate::kept_store::{self, KeptStore};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
-use crate::robot_file::{self, RobotFileError};
+use crate::robot_file::{self, RobotFacts, RobotFileError};
 use crate::serial::{self, LineOrders, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
-use crate::{board, checkpoint_thread, imu, logging, radio, run_thread};
+use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd};
 
 /// Make of the robot that this daemon serves.
 const MAKE: Make = cordlib::MAKE;
@@ -91,6 +90,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         clients_max: config.clients_max,
     };
     watch_signals(&event_sender)?;
+    systemd::watch(&event_sender);
     spawn_local(socket::serve(listener, event_sender.clone()));
     let robot = RobotLine {
         path: config.serial.clone(),
@@ -126,14 +126,15 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
 
 /// Settings of the core, with what is kept in the state folder.
 fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeError> {
-    let sensors = match &config.description {
+    let robot = match &config.description {
         Some(path) => robot_file::load(path)?,
-        None => SensorLayout::default(),
+        None => RobotFacts::default(),
     };
     let core_config = kept.fill(CoreConfig {
         make: MAKE,
         zone: system_zone(),
-        sensors,
+        sensors: robot.sensors,
+        calibration: robot.calibration,
         seed: config.seed.unwrap_or_else(seed_from_clock),
         strategy: config.strategy,
         expert: if config.expert {
@@ -159,6 +160,7 @@ fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeErr
 
 /// Tells whoever started the daemon that its socket is open.
 fn announce() -> io::Result<()> {
+    systemd::tell_ready();
     let mut stdout = io::stdout().lock();
     writeln!(stdout, "ready").and_then(|()| stdout.flush())
 }

@@ -359,6 +359,7 @@ fn introductions_and_answers() {
         parts: vec!["gyro".to_owned(), "dock".to_owned()],
         unguarded: Vec::new(),
         unmeasured: Vec::new(),
+        lacking: Vec::new(),
     };
     let hello = Update::Hello {
         api: 1,

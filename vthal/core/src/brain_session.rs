@@ -24,6 +24,7 @@ use crate::device::{Description, Part};
 use crate::edges::Edges;
 use crate::floors::Floors;
 use crate::home_view::{SurfaceSensing, home_view};
+use crate::lacking::{self, Lacking};
 use crate::observe::{LinkView, Observer};
 use crate::storey_resolver::StoreyResolver;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
@@ -60,6 +61,7 @@ pub(crate) struct BrainSession {
     hands: Hands,
     identity: (String, String),
     robot: rvac_api::RobotDescription,
+    lacking: Vec<Lacking>,
     measures_currents: bool,
 }
 
@@ -75,7 +77,7 @@ impl BrainSession {
         let seed = settings.seed;
         let mut brain = Brain::new(config, seed);
         brain.begin_with(learnt);
-        Self {
+        let mut session = Self {
             brain,
             config,
             seed,
@@ -96,9 +98,33 @@ impl BrainSession {
                 description.identity.device.clone(),
                 description.identity.firmware.clone(),
             ),
-            robot: to_api::robot(description),
+            robot: to_api::robot(description, &[]),
+            lacking: Vec::new(),
             measures_currents: description.has(Part::Currents),
-        }
+        };
+        session.describe(description, settings);
+        session
+    }
+
+    /// The robot has described itself, for the first time or once more: meanwhile its firmware may have learnt what was measured. Gives
+    /// what it lacks, if that is news.
+    pub(crate) fn describe(
+        &mut self,
+        description: &Description,
+        settings: &CoreConfig,
+    ) -> Option<&[Lacking]> {
+        let lacking = lacking::lacking(description, &settings.sensors, &settings.calibration);
+        self.robot = to_api::robot(description, &lacking);
+        let keeps = lacking.iter().any(|one| one.ability.is_needed_to_move());
+        self.observer.set_not_calibrated(keeps);
+        let is_news = lacking != self.lacking;
+        self.lacking = lacking;
+        is_news.then_some(&self.lacking)
+    }
+
+    /// What the robot lacks because values of its own were never measured.
+    pub(crate) fn lacking(&self) -> &[Lacking] {
+        &self.lacking
     }
 
     pub(crate) fn brain(&self) -> &Brain {

@@ -28,6 +28,7 @@ pub mod health;
 mod history;
 mod home_view;
 mod input;
+mod lacking;
 pub mod learnt;
 mod lights;
 mod newest;
@@ -47,6 +48,7 @@ pub use core::Core;
 pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
+pub use lacking::{Ability, CalibrationValue, Lacking};
 pub use lights::Lights;
 pub use outputs::{
     ArchiveOrder, ArchiveTask, Delivery, Direction, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder,

@@ -3,9 +3,9 @@
 use std::fs;
 use std::io::{ErrorKind, Read, Write};
 use std::os::unix::fs::{FileTypeExt, PermissionsExt};
-use std::os::unix::net::{UnixListener, UnixStream};
+use std::os::unix::net::{UnixDatagram, UnixListener, UnixStream};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use base64::Engine as _;
@@ -15,6 +15,7 @@ use rvac_api::{LogEntry, Request, RequestBody, RunResult, Schedules, Update};
 use rvac_protocol::crc::{Digest, Direction as CrcDirection};
 use rvac_protocol::message::{self, BinaryKinds};
 
+use rustix::process::{Pid, Signal, kill_process};
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
 use vthal_core::stored_map;
 
@@ -761,7 +762,11 @@ fn a_broken_configuration_is_one_sentence_and_nothing_is_written() {
         .arg(&file)
         .output()
         .expect("runs");
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(
+        output.status.code(),
+        Some(2),
+        "another start would change nothing"
+    );
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     let place = format!("vthal: {}:5: link.baud: ", file.display());
     assert!(
@@ -986,4 +991,33 @@ fn steps_that_replay(path: &Path) -> u64 {
     steps
         .and_then(|steps| steps.parse().ok())
         .unwrap_or_else(|| panic!("{text}"))
+}
+
+#[test]
+fn systemd_hears_when_it_is_ready_that_its_loop_turns_and_when_it_ends() {
+    let scratch = Scratch::new().expect("creates");
+    let notify = UnixDatagram::bind(scratch.join("notify.sock")).expect("binds");
+    notify
+        .set_read_timeout(Some(Duration::from_secs(10)))
+        .expect("a timeout");
+    let mut daemon = Command::new(vthal())
+        .args(["--serial", "/dev/null", "--socket"])
+        .arg(scratch.join("vthal.sock"))
+        .arg("--state")
+        .arg(scratch.join("state"))
+        .env("NOTIFY_SOCKET", scratch.join("notify.sock"))
+        .env("WATCHDOG_USEC", "200000")
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("starts");
+    let hear = || {
+        let mut bytes = [0; 256];
+        let count = notify.recv(&mut bytes).expect("a word in time");
+        String::from_utf8_lossy(&bytes[..count]).trim_end().to_owned()
+    };
+    let words: Vec<String> = (0..4).map(|_| hear()).collect();
+    assert_eq!(words, ["READY=1", "WATCHDOG=1", "WATCHDOG=1", "WATCHDOG=1"]);
+    kill_process(Pid::from_child(&daemon), Signal::TERM).expect("signals");
+    while hear() != "STOPPING=1" {}
+    assert!(daemon.wait().expect("ends").success());
 }

@@ -2,7 +2,7 @@
 
 use super::extent::Extent;
 use super::runner::Result;
-use super::{browser, campaigns, code, flash, programs, robot};
+use super::{browser, campaigns, code, flash, packages, programs, robot};
 
 /// One stage.
 pub(super) struct Stage {
@@ -19,7 +19,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 18] = [
+pub(super) const STAGES: [Stage; 19] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -138,6 +138,13 @@ pub(super) const STAGES: [Stage; 18] = [
         from: Extent::All,
         wants_the_machine: true,
         run: campaigns::writes,
+    },
+    Stage {
+        name: "packages",
+        does: "a package is installed, set up, used, upgraded and purged in a bare Debian; with --long those that are given out",
+        from: Extent::All,
+        wants_the_machine: true,
+        run: packages::packages,
     },
     Stage {
         name: "browser",

@@ -129,7 +129,7 @@ const DIRECTIONS: [Direction; 37] = [
     Direction { of: "flash-trials",  knows: &["home", "pic32", "pic32-icsp", "rvac-flash", "stc-isp", "stc90"], never: &["tokio", "cordlib"] },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
-    Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
+    Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units", "stc90"], never: EMULATOR },
     Direction { of: "life",          knows: &["brain", "home", "robot", "rvac-sim", "vthal", "vthal-core"], never: &["axum"] },
     Direction { of: "content-hash",  knows: &["brain"],                                     never: OUTSIDE },
     Direction { of: "scenarios",     knows: SCENARIOS,                                      never: &["vthal", "axum", "tokio"] },
