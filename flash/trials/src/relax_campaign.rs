@@ -33,7 +33,7 @@ fn chip(program: &[u8]) -> BootLoader {
 /// An image of ours, another one, and back to the first, as `rvac flash` does it.
 pub(crate) fn round_trip(report: &mut FlashReport) -> anyhow::Result<()> {
     let scratch = Scratch::new("relax")?;
-    let keeping = relax::Keeping {
+    let keeping = relax::KeptImages {
         folder: scratch.0.clone(),
         journal: Journal::new(&scratch.0),
         date: "2026-01-01T00:00:00Z".to_owned(),
