@@ -247,8 +247,12 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
                 page[PAGE_BYTES - CONFIGURATION_BYTES..].fill(0xFF);
             }
             let last = address == CONFIGURATION_PAGE;
+            // The first page of boot flash was erased at the beginning; each further try begins with an erasure.
+            let mut is_erased = address == BOOT_START;
             self.repeat(address, |port| {
-                port.begin_erasure(address)?;
+                if !std::mem::take(&mut is_erased) {
+                    port.begin_erasure(address)?;
+                }
                 for (index, row) in page.chunks(ROW_BYTES).enumerate() {
                     if row.iter().any(|byte| *byte != 0xFF) {
                         port.begin_row(address + (index * ROW_BYTES) as u32, row)?;

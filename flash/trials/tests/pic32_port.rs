@@ -45,7 +45,7 @@ fn a_chip_is_read_written_verified_and_restored() {
     let mut lines = lines(chip_with(&makers), PortFaults::default(), WireFaults::default());
     let mut progress = |_| {};
     let mut programmer = Programmer::new(&mut lines, &mut progress);
-    assert_eq!(programmer.probe().expect("a chip") & 0x0FFF_FFFF, 0x0934_053);
+    assert_eq!(programmer.probe().expect("a chip") & 0x0FFF_FFFF, 0x0093_4053);
     let backup = programmer.read().expect("can be read");
     assert_eq!(backup, makers);
     programmer

@@ -91,23 +91,17 @@ impl IcspPort {
                 };
                 machine.hold_in_reset();
             }
-            (
-                Level::High,
-                IcspState::Key {
-                    bits,
-                    register,
-                    is_short,
-                },
-            ) => {
+            (Level::High, IcspState::Key { bits, register, .. }) => {
                 catch_up(machine, cycle);
                 self.risen_at = Some(cycle);
-                self.leave_reset(bits >= 32 && register == KEY, is_short, machine);
+                self.leave_reset(bits >= 32 && register == KEY, machine);
             }
             (Level::Low, IcspState::Key { .. }) | (Level::High, _) => {}
         }
     }
 
-    fn leave_reset(&mut self, has_key: bool, is_short: bool, machine: &mut Machine) {
+    fn leave_reset(&mut self, has_key: bool, machine: &mut Machine) {
+        let is_short = matches!(self.state, IcspState::Key { is_short: true, .. });
         if has_key && !is_short {
             self.violate(PortViolation::KeyWithoutPulse);
         }
