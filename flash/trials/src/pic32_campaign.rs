@@ -153,7 +153,7 @@ fn cuts_of(change: Change<'_>, moments: u32, seed: u64) -> anyhow::Result<CutRun
     put(&mut whole, &intent)?;
     let span_us = whole.now_us();
     let block_us = (0..blocks).map(|block| span_us * u64::from(2 * block + 1) / u64::from(2 * blocks));
-    let random_us = (0..moments).map(|_| u64::from(random.next_u32()) * span_us >> 32);
+    let random_us = (0..moments).map(|_| (u64::from(random.next_u32()) * span_us) >> 32);
     let moments_us: Vec<u64> = block_us.chain(random_us).collect();
     let mut runs = CutRuns::default();
     for at_us in moments_us {

@@ -83,7 +83,7 @@ pub(crate) fn cuts((moments, seed): (u32, u64), report: &mut FlashReport) -> any
     let blocks = (CODE_BYTES / 128) as u64;
     let mut random = Pcg::new(seed, 0xC057);
     let block_ms = (0..blocks).map(|block| span_ms * (2 * block + 1) / (2 * blocks));
-    let random_ms = (0..moments).map(|_| u64::from(random.next_u32()) * span_ms >> 32);
+    let random_ms = (0..moments).map(|_| (u64::from(random.next_u32()) * span_ms) >> 32);
     let all_ms: Vec<u64> = block_ms.chain(random_ms).collect();
     for (index, at_ms) in all_ms.into_iter().enumerate() {
         let mut loader = chip(&before);

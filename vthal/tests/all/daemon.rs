@@ -157,6 +157,9 @@ fn borrow(desk: &Desk) -> Client {
 #[test]
 fn the_line_is_lent_to_one_client_and_taken_again_when_it_is_gone() {
     let mut desk = Desk::idle();
+    // Some reports, which say that it stands.
+    let reported = Instant::now() + Duration::from_millis(500);
+    desk.robot.live_until(reported, |_| false).expect("lives");
     let mut early = borrow(&desk);
     let refused = early.wait_for(soon(), |update| matches!(update, Update::Failed(_)));
     let Some(Update::Failed(failure)) = refused.expect("reads") else {
