@@ -298,6 +298,16 @@ impl Daemon {
         }
     }
 
+    /// Whose the line is, and its rate.
+    fn order_line(&mut self) {
+        if let Some(holder) = self.outputs.line_holder.take() {
+            self.wiring.line_holder.send_replace(holder);
+        }
+        if self.outputs.next_rate && self.wiring.to_robot.try_send(LineOrder::NextRate).is_err() {
+            tracing::warn!(part = "link", "the serial line is too busy to try another rate");
+        }
+    }
+
     fn perform(&mut self) {
         if !self.outputs.link.is_empty() {
             let bytes = std::mem::take(&mut self.outputs.link);
@@ -310,12 +320,7 @@ impl Daemon {
             }
             self.congested = congested;
         }
-        if let Some(holder) = self.outputs.line_holder.take() {
-            self.wiring.line_holder.send_replace(holder);
-        }
-        if self.outputs.next_rate && self.wiring.to_robot.try_send(LineOrder::NextRate).is_err() {
-            tracing::warn!(part = "link", "the serial line is too busy to try another rate");
-        }
+        self.order_line();
         for delivery in self.outputs.deliveries.drain(..) {
             deliver(&self.core, &mut self.clients, &delivery);
         }

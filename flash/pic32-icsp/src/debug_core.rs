@@ -19,6 +19,8 @@ const LOOK: u32 = 0x0004_C000;
 /// The same, and the pending access is done.
 const COMPLETE: u32 = 0x0000_C000;
 const PENDING: u32 = 1 << 18;
+/// Where words between core and probe go through.
+const WINDOW: u32 = 0xFF20_0000;
 /// How often CONTROL is looked at for a pending access.
 const POLLS: u32 = 200;
 /// How often the core is started.
@@ -38,6 +40,11 @@ const fn lui(to: CoreRegister, value: u32) -> u32 {
 
 const fn ori(to: CoreRegister, value: u32) -> u32 {
     0x3400_0000 | to.0 << 21 | to.0 << 16 | value & 0xFFFF
+}
+
+/// Load `to` from the address that is in `base`.
+const fn lw(to: CoreRegister, base: CoreRegister) -> u32 {
+    0x8C00_0000 | base.0 << 21 | to.0 << 16
 }
 
 /// Store `from` at the address that is in `base`.
@@ -97,6 +104,16 @@ impl<P: IcspPins> TestPort<'_, P> {
         self.execute(sw(A1, A0))
     }
 
+    /// Reads a word at a virtual address; none when the core does not hand it out.
+    pub(crate) fn load_word(&mut self, address: u32) -> Result<Option<u32>, IcspError<P::Error>> {
+        self.load(A0, address)?;
+        self.execute(lw(A1, A0))?;
+        self.load(A0, WINDOW)?;
+        self.execute(sw(A1, A0))?;
+        self.instruction(FAST_DATA)?;
+        self.fast(0)
+    }
+
     /// Goes on at a virtual address; from then on the core and the probe exchange words.
     pub(crate) fn jump(&mut self, address: u32) -> Result<(), IcspError<P::Error>> {
         self.load(T9, address)?;
@@ -108,7 +125,7 @@ impl<P: IcspPins> TestPort<'_, P> {
 
 #[cfg(test)]
 mod tests {
-    use super::{A0, A1, CoreRegister, T9, lui, ori, sw};
+    use super::{A0, A1, CoreRegister, T9, lui, lw, ori, sw};
 
     /// Words that stand in the reference, which assembled them with binutils.
     #[test]
@@ -117,6 +134,7 @@ mod tests {
         assert_eq!(ori(A0, 0xBF88_2000), 0x3484_2000);
         assert_eq!(lui(A1, 0x001F_0040), 0x3C05_001F);
         assert_eq!(sw(A1, A0), 0xAC85_0000);
+        assert_eq!(lw(A1, A0), 0x8C85_0000);
         assert_eq!(lui(T9, 0xA000_0800), 0x3C19_A000);
         assert_eq!(T9.0 << 21 | 8, 0x0320_0008);
         assert_eq!(lui(CoreRegister(19), 0xFF20_0000), 0x3C13_FF20);

@@ -12,58 +12,58 @@ pub struct Part {
 /// The part that this crate is for: that of the SR8730.
 const PIC32MX360F256L: Part = Part {
     name: "PIC32MX360F256L",
-    id: 0x0934_053,
+    id: 0x0093_4053,
 };
 
 /// Relatives, to say what was found.
 const RELATIVES: [Part; 12] = [
     Part {
         name: "PIC32MX360F512L",
-        id: 0x0938_053,
+        id: 0x0093_8053,
     },
     Part {
         name: "PIC32MX340F128L",
-        id: 0x092D_053,
+        id: 0x0092_D053,
     },
     Part {
         name: "PIC32MX320F128L",
-        id: 0x092A_053,
+        id: 0x0092_A053,
     },
     Part {
         name: "PIC32MX340F512H",
-        id: 0x0916_053,
+        id: 0x0091_6053,
     },
     Part {
         name: "PIC32MX340F256H",
-        id: 0x0912_053,
+        id: 0x0091_2053,
     },
     Part {
         name: "PIC32MX340F128H",
-        id: 0x090D_053,
+        id: 0x0090_D053,
     },
     Part {
         name: "PIC32MX320F128H",
-        id: 0x090A_053,
+        id: 0x0090_A053,
     },
     Part {
         name: "PIC32MX320F064H",
-        id: 0x0906_053,
+        id: 0x0090_6053,
     },
     Part {
         name: "PIC32MX320F032H",
-        id: 0x0902_053,
+        id: 0x0090_2053,
     },
     Part {
         name: "PIC32MX460F512L",
-        id: 0x0978_053,
+        id: 0x0097_8053,
     },
     Part {
         name: "PIC32MX460F256L",
-        id: 0x0974_053,
+        id: 0x0097_4053,
     },
     Part {
         name: "PIC32MX440F128L",
-        id: 0x096D_053,
+        id: 0x0096_D053,
     },
 ];
 

@@ -192,6 +192,16 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
         Ok(image)
     }
 
+    /// Reads one page, from a physical address that is a multiple of [`PAGE_BYTES`].
+    ///
+    /// # Errors
+    /// See [`IcspError`]; nothing was changed.
+    pub fn read_page(&mut self, address: u32) -> Result<[u8; PAGE_BYTES], IcspError<P::Error>> {
+        let mut page = [0; PAGE_BYTES];
+        self.repeat(address, |port| port.read_by_stub(KSEG1 | address, &mut page))?;
+        Ok(page)
+    }
+
     /// Compares the whole chip with an image.
     ///
     /// # Errors
@@ -237,8 +247,12 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
                 page[PAGE_BYTES - CONFIGURATION_BYTES..].fill(0xFF);
             }
             let last = address == CONFIGURATION_PAGE;
+            // The first page of boot flash was erased at the beginning; each further try begins with an erasure.
+            let mut is_erased = address == BOOT_START;
             self.repeat(address, |port| {
-                port.begin_erasure(address)?;
+                if !std::mem::take(&mut is_erased) {
+                    port.begin_erasure(address)?;
+                }
                 for (index, row) in page.chunks(ROW_BYTES).enumerate() {
                     if row.iter().any(|byte| *byte != 0xFF) {
                         port.begin_row(address + (index * ROW_BYTES) as u32, row)?;
@@ -267,9 +281,11 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
         for attempt in 0..ATTEMPTS {
             self.is_connected = false;
             self.identify(Allowed::OnlyUnprotected)?;
-            let outcome = self.program_words(words);
-            if let Err(error @ IcspError::Pins(_)) = outcome {
-                return Err(error);
+            match self.program_words(words) {
+                Ok(true) => return Ok(()),
+                Err(error @ IcspError::Pins(_)) => return Err(error),
+                // The stub, which sends sums along, tells what is there.
+                Ok(false) | Err(_) => {}
             }
             let mut found = [0; CONFIGURATION_BYTES];
             self.repeat(CONFIGURATION_START, |port| {
@@ -297,7 +313,8 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
         Ok(())
     }
 
-    fn program_words(&mut self, words: [u32; 4]) -> Result<(), IcspError<P::Error>> {
+    /// Programs them and looks whether they are there.
+    fn program_words(&mut self, words: [u32; 4]) -> Result<bool, IcspError<P::Error>> {
         const NVMCON: u32 = 0xBF80_F400;
         const NVMCON_CLEAR: u32 = 0xBF80_F404;
         const NVMCON_SET: u32 = 0xBF80_F408;
@@ -320,7 +337,13 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
             port.pins.pause_us(200);
             port.store(NVMCON_CLEAR, 0x4000)?;
         }
-        Ok(())
+        for (index, word) in words.into_iter().enumerate() {
+            let found = port.load_word(KSEG1 | (CONFIGURATION_START + 4 * index as u32))?;
+            if found != Some(word) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 }
 

@@ -34,7 +34,7 @@ impl<P: IcspPins> TestPort<'_, P> {
 
     /// One cycle of TCK; gives TDO after it. The chip drives the data line from the end of the third clock to the end of the
     /// fourth.
-    fn cycle(&mut self, tdi: bool, tms: bool) -> Result<bool, IcspError<P::Error>> {
+    fn cycle(&mut self, [tdi, tms]: [bool; 2]) -> Result<bool, IcspError<P::Error>> {
         self.put(tdi)?;
         self.put(tms)?;
         self.pins.release_data().map_err(IcspError::Pins)?;
@@ -48,7 +48,7 @@ impl<P: IcspPins> TestPort<'_, P> {
     fn modes(&mut self, levels: &[u8]) -> Result<bool, IcspError<P::Error>> {
         let mut tdo = false;
         for level in levels {
-            tdo = self.cycle(false, *level == 1)?;
+            tdo = self.cycle([false, *level == 1])?;
         }
         Ok(tdo)
     }
@@ -67,7 +67,7 @@ impl<P: IcspPins> TestPort<'_, P> {
     pub(crate) fn instruction(&mut self, instruction: u8) -> Result<(), IcspError<P::Error>> {
         self.modes(&[1, 1, 0, 0])?;
         for bit in 0..5 {
-            self.cycle(instruction >> bit & 1 == 1, bit == 4)?;
+            self.cycle([instruction >> bit & 1 == 1, bit == 4])?;
         }
         self.modes(&[1, 0]).map(|_| ())
     }
@@ -77,7 +77,7 @@ impl<P: IcspPins> TestPort<'_, P> {
     fn shift(&mut self, bits: u64, length: u32) -> Result<u64, IcspError<P::Error>> {
         let mut found = u64::from(self.modes(&[1, 0, 0])?);
         for bit in 0..length {
-            let tdo = self.cycle(bits >> bit & 1 == 1, bit + 1 == length)?;
+            let tdo = self.cycle([bits >> bit & 1 == 1, bit + 1 == length])?;
             if bit + 1 < length {
                 found |= u64::from(tdo) << (bit + 1);
             }

@@ -14,9 +14,14 @@
 
         lui     s3, 0xff20          # the probe's window
         lui     s4, 0xbf81          # the flash controller's registers lie below: NVMCON -0xc00, NVMKEY -0xbf0,
-                                    # NVMADDR -0xbe0, NVMSRCADDR -0xbc0; SET is 8 above, CLR 4
+                                    # NVMADDR -0xbe0, NVMSRCADDR -0xbc0; SET is 8 above
         lui     s5, 0xa000
         ori     s5, s5, 0x1000      # one of two buffers for a row, 0x1000 and 0x1200
+        ori     t5, zero, 0x4000    # WREN, once for all: the detector of low voltage wants 6 us before the first operation
+        sw      t5, -0xc00(s4)
+        ori     t5, zero, 600       # that long at up to 80 MHz
+settle: bne     t5, zero, settle
+        addiu   t5, t5, -1
 next:   lw      t0, 0(s3)           # command
         lw      a3, 0(s3)           # argument
         lw      t2, 0(s3)
@@ -57,9 +62,6 @@ operate: lw     t4, -0xc00(s4)
         andi    t5, s5, 0xffff      # the buffer's physical address
         sw      t5, -0xbc0(s4)
         sw      t7, -0xc00(s4)
-        ori     t5, zero, 600       # 6 us for the detector of low voltage, at up to 80 MHz
-settle: bne     t5, zero, settle
-        addiu   t5, t5, -1
         lui     t6, 0xaa99
         ori     t6, t6, 0x6655
         lui     t7, 0x5566
@@ -74,8 +76,7 @@ settle: bne     t5, zero, settle
 finish: lw      t4, -0xc00(s4)
         andi    t5, t4, 0x8000
         bne     t5, zero, finish
-        ori     t5, zero, 0x4000
-        sw      t5, -0xbfc(s4)      # WREN off
+        nop
         beq     zero, zero, next
         sw      t4, 0(s3)
 

@@ -58,7 +58,7 @@ pub enum Power {
 
 /// Why a job was not done.
 #[derive(Debug, thiserror::Error)]
-pub enum JobError {
+pub enum LoaderJobError {
     /// The chip.
     #[error(transparent)]
     Chip(#[from] IspError),
@@ -91,13 +91,15 @@ pub enum JobError {
 ///
 /// # Errors
 /// When a byte has no place.
-pub fn image_of(pieces: &[Piece]) -> Result<Vec<u8>, JobError> {
+pub fn image_of(pieces: &[Piece]) -> Result<Vec<u8>, LoaderJobError> {
     let mut image = vec![0xFF; CODE_BYTES];
     let mut end = 0;
     for (address, bytes) in pieces {
         let start = *address as usize;
         let past = start.saturating_add(bytes.len());
-        let place = image.get_mut(start..past).ok_or(JobError::OtherChip(*address))?;
+        let place = image
+            .get_mut(start..past)
+            .ok_or(LoaderJobError::OtherChip(*address))?;
         place.copy_from_slice(bytes);
         end = end.max(past);
     }
@@ -107,7 +109,7 @@ pub fn image_of(pieces: &[Piece]) -> Result<Vec<u8>, JobError> {
 
 /// Images that were written to this robot, by their hashes: with a chip that cannot be read they are the way back.
 #[derive(Debug)]
-pub struct Keeping {
+pub struct KeptImages {
     /// Where they are.
     pub folder: PathBuf,
     /// What was written last.
@@ -116,7 +118,7 @@ pub struct Keeping {
     pub date: String,
 }
 
-impl Keeping {
+impl KeptImages {
     fn path(&self, sha256: &str) -> PathBuf {
         self.folder.join(format!("relax-{sha256}.bin"))
     }
@@ -128,7 +130,7 @@ impl Keeping {
         (hash_of(&bytes) == sha256).then_some(bytes)
     }
 
-    fn keep(&self, image: &[u8]) -> Result<String, JobError> {
+    fn keep(&self, image: &[u8]) -> Result<String, LoaderJobError> {
         let sha256 = hash_of(image);
         let path = self.path(&sha256);
         file(&self.folder, std::fs::create_dir_all(&self.folder))?;
@@ -137,36 +139,36 @@ impl Keeping {
     }
 }
 
-fn file<T>(path: &Path, outcome: std::io::Result<T>) -> Result<T, JobError> {
-    outcome.map_err(|error| JobError::File {
+fn file<T>(path: &Path, outcome: std::io::Result<T>) -> Result<T, LoaderJobError> {
+    outcome.map_err(|error| LoaderJobError::File {
         path: path.to_owned(),
         error,
     })
 }
 
 /// How far a conversation is: the step, bytes that are confirmed, and of how many.
-type Shown<'a> = &'a mut dyn FnMut(Step, (usize, usize));
+type ShownStep<'a> = &'a mut dyn FnMut(Step, (usize, usize));
 
 /// What the chip says it is.
 ///
 /// # Errors
-/// See [`JobError`]; nothing was changed.
-pub fn probe<L: IspLine>(line: &mut L, entry: Entry, shown: Shown<'_>) -> Result<Report, JobError> {
+/// See [`LoaderJobError`]; nothing was changed.
+pub fn probe<L: IspLine>(line: &mut L, entry: Entry, shown: ShownStep<'_>) -> Result<Report, LoaderJobError> {
     converse(line, Flasher::new(Job::Probe, entry, line.now_ms())?, shown)
 }
 
 /// Writes a program; each block is verified by the sum that the chip answers.
 ///
 /// # Errors
-/// See [`JobError`]. Refusals come before anything is touched; later errors leave a chip whose loader takes the next try.
+/// See [`LoaderJobError`]. Refusals come before anything is touched; later errors leave a chip whose loader takes the next try.
 pub fn write<L: IspLine>(
     line: &mut L,
     (image, safeguards, entry): (&[u8], Safeguards, Entry),
-    keeping: &Keeping,
-    shown: Shown<'_>,
-) -> Result<Report, JobError> {
+    keeping: &KeptImages,
+    shown: ShownStep<'_>,
+) -> Result<Report, LoaderJobError> {
     if !safeguards.no_way_back && keeping.way_back().is_none() {
-        return Err(JobError::NoWayBack);
+        return Err(LoaderJobError::NoWayBack);
     }
     let flasher = Flasher::new(Job::Write(image.to_vec()), entry, line.now_ms())?;
     let sha256 = keeping.keep(image)?;
@@ -184,9 +186,9 @@ pub fn write<L: IspLine>(
 pub fn converse<L: IspLine>(
     line: &mut L,
     mut flasher: Flasher,
-    shown: Shown<'_>,
-) -> Result<Report, JobError> {
-    let lost = |error: L::Error| JobError::Line(error.to_string());
+    shown: ShownStep<'_>,
+) -> Result<Report, LoaderJobError> {
+    let lost = |error: L::Error| LoaderJobError::Line(error.to_string());
     loop {
         shown(flasher.step(), flasher.progress());
         match flasher.next_action(line.now_ms()) {

@@ -130,7 +130,7 @@ fn on_relax(
     (verb, pieces, entry): (&FlashVerb, &[hex::Piece], Entry),
     folder: &Path,
 ) -> anyhow::Result<()> {
-    let keeping = relax::Keeping {
+    let keeping = relax::KeptImages {
         folder: folder.to_owned(),
         journal: Journal::new(folder),
         date: now(),

@@ -1,6 +1,9 @@
 //! Whole jobs on the PIC32 of the SR8730, over any lines.
 
-use pic32_icsp::{ErasedFirst, FlashImage, IcspError, IcspPins, Programmer, Progress, Task};
+use pic32_icsp::{
+    ErasedFirst, FlashImage, IcspError, IcspPins, PAGE_BYTES, PROGRAM_BYTES, PROGRAM_START, Programmer,
+    Progress, Task,
+};
 
 use crate::arguments::Safeguards;
 use crate::backups::{Backup, BackupError, Backups, hash_of};
@@ -137,7 +140,7 @@ fn first_difference(first: &FlashImage, second: &FlashImage) -> Option<u32> {
         .or_else(|| differs(first.boot(), second.boot(), pic32_icsp::BOOT_START))
 }
 
-/// Writes an image and verifies it.
+/// Writes an image and verifies it. A calibration that is in the chip stays, unless the whole chip is erased.
 ///
 /// # Errors
 /// See [`JobError`]. Refusals come before anything is touched; later errors leave a chip that can be written again.
@@ -159,7 +162,11 @@ where
             outcome => outcome.map(|_| ())?,
         }
     }
-    put(pins, (image, safeguards), keeping, shown)
+    if safeguards.erase_chip {
+        return put(pins, (image, safeguards), keeping, shown);
+    }
+    let image = with_calibration(&mut Programmer::new(pins, shown), image)?;
+    put(pins, (&image, safeguards), keeping, shown)
 }
 
 /// Writes a backup back and verifies it, configuration words as they were.
@@ -186,6 +193,31 @@ where
         }
     }
     put(pins, (&backup.image, safeguards), keeping, shown)
+}
+
+/// Our firmware keeps the owner's calibration in the last page of program flash, behind this word.
+const CALIBRATION_PAGE: u32 = PROGRAM_START + (PROGRAM_BYTES - PAGE_BYTES) as u32;
+const CALIBRATION_MAGIC: u32 = 0x4C41_4352;
+
+/// The image with the calibration that is in the chip, if it has one and the image leaves its page free.
+fn with_calibration<P: IcspPins>(
+    programmer: &mut Programmer<'_, P>,
+    image: &FlashImage,
+) -> Result<FlashImage, IcspError<P::Error>> {
+    let mut image = image.clone();
+    let is_free = image
+        .program()
+        .iter()
+        .skip(PROGRAM_BYTES - PAGE_BYTES)
+        .all(|byte| *byte == 0xFF);
+    if is_free {
+        let page = programmer.read_page(CALIBRATION_PAGE)?;
+        if page.starts_with(&CALIBRATION_MAGIC.to_le_bytes()) {
+            let fits = image.write(CALIBRATION_PAGE, &page);
+            debug_assert!(fits, "it is a page of flash");
+        }
+    }
+    Ok(image)
 }
 
 fn put<P: IcspPins>(
@@ -219,7 +251,7 @@ where
         .map_err(JobError::Journal)
 }
 
-/// Compares the chip with an image.
+/// Compares the chip with an image; a calibration may be there besides.
 ///
 /// # Errors
 /// The first word that differs, or why it cannot be read.
@@ -232,7 +264,7 @@ where
     P::Error: std::fmt::Debug + std::fmt::Display,
 {
     let mut programmer = Programmer::new(pins, shown);
-    let outcome = programmer.verify(image);
+    let outcome = with_calibration(&mut programmer, image).and_then(|image| programmer.verify(&image));
     programmer.release()?;
     Ok(outcome?)
 }

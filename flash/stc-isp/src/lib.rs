@@ -12,12 +12,14 @@
 #![deny(missing_docs)]
 
 mod clock;
+mod error;
 mod flasher;
 mod frame;
 mod model;
 mod options;
 
 pub use clock::{ChipClock, HANDSHAKE_BAUD, RATES_BAUD};
-pub use flasher::{Action, Entry, Flasher, IspError, Job, Report, Step};
+pub use error::IspError;
+pub use flasher::{Action, Entry, Flasher, Job, Report, Step};
 pub use model::Model;
 pub use options::OptionByte;

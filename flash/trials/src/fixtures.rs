@@ -4,8 +4,8 @@ use pic32::image::Image;
 use pic32::machine::Machine;
 use pic32_icsp::FlashImage;
 
-/// DEVCFG3 to DEVCFG0: 80 MHz from a crystal of 8 MHz, nothing protected.
-const CONFIGURATION: [u32; 4] = [0xFFFF_1234, 0xFFF8_FFD9, 0xFF74_CEDB, 0x7FFF_FFFF];
+/// DEVCFG3 to DEVCFG0: the internal 8 MHz, nothing protected.
+const CONFIGURATION: [u32; 4] = [0xFFFF_1234, 0xFFF8_FFD9, 0xFF74_CED8, 0x7FFF_FFFF];
 
 /// Bytes that look like noise, from a seed.
 pub fn noise(length: usize, seed: u64) -> Vec<u8> {

@@ -1,6 +1,6 @@
 //! The serial line between a flasher and the simulated loader, on a virtual clock.
 
-use rvac_flash::relax::{self, IspLine, JobError, Power};
+use rvac_flash::relax::{self, IspLine, LoaderJobError, Power};
 use stc_isp::{Flasher, Report};
 use stc90::loader::{BootLoader, LoaderByte};
 
@@ -51,7 +51,7 @@ impl<'a> SimulatedLine<'a> {
     ///
     /// # Errors
     /// Why it failed.
-    pub fn converse(&mut self, flasher: Flasher) -> Result<Report, JobError> {
+    pub fn converse(&mut self, flasher: Flasher) -> Result<Report, LoaderJobError> {
         relax::converse(self, flasher, &mut |_, _| {})
     }
 

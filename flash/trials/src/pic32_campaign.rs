@@ -92,55 +92,99 @@ fn put(lines: &mut SimulatedIcsp, intent: &Intent<'_>) -> Result<(), IcspError<L
     programmer.release()
 }
 
+/// Runs that were cut off, and chips that the next run did not bring back.
+#[derive(Clone, Copy, Debug, Default)]
+struct CutRuns {
+    cut: u32,
+    bricked: u32,
+}
+
+/// From one content to another.
+#[derive(Clone, Copy, Debug)]
+struct Change<'a> {
+    before: &'a FlashImage,
+    after: &'a FlashImage,
+    erased: ErasedFirst,
+}
+
 /// A write and a restore, cut off once in each block and at random moments; then the other of the two, or the same again.
 pub(crate) fn cuts((moments, seed): (u32, u64), report: &mut FlashReport) -> anyhow::Result<()> {
     let (makers, ours) = (flash_image(0x2800, 0x300, 1), flash_image(0x1C00, 0x500, 9));
+    let write = Change {
+        before: &makers,
+        after: &ours,
+        erased: ErasedFirst::Pages,
+    };
+    let restore = Change {
+        before: &ours,
+        after: &makers,
+        erased: ErasedFirst::Chip,
+    };
+    let half = moments.div_ceil(2);
+    let outcomes = std::thread::scope(|scope| {
+        let beside = scope.spawn(|| cuts_of(write, half, seed));
+        let here = cuts_of(restore, half, seed.wrapping_add(1));
+        [
+            beside
+                .join()
+                .unwrap_or_else(|_| Err(anyhow::anyhow!("a trial panicked"))),
+            here,
+        ]
+    });
+    for outcome in outcomes {
+        let runs = outcome?;
+        report.power_cuts += runs.cut;
+        report.bricked += runs.bricked;
+    }
+    Ok(())
+}
+
+fn cuts_of(change: Change<'_>, moments: u32, seed: u64) -> anyhow::Result<CutRuns> {
     // Rows of program and boot flash, and the erasures of all pages.
     let blocks = 0x2800_u32 / 0x200 + 0x500 / 0x200 + 67;
     let mut random = Pcg::new(seed, 0xC075);
-    for (before, after, erased) in [
-        (&makers, &ours, ErasedFirst::Pages),
-        (&ours, &makers, ErasedFirst::Chip),
-    ] {
-        let intent = Intent { image: after, erased };
-        let mut whole = lines(before);
-        put(&mut whole, &intent)?;
-        let span_us = whole.now_us();
-        let block_us = (0..blocks).map(|block| span_us * u64::from(2 * block + 1) / u64::from(2 * blocks));
-        let random_us = (0..moments.div_ceil(2)).map(|_| u64::from(random.next_u32()) * span_us >> 32);
-        let moments_us: Vec<u64> = block_us.chain(random_us).collect();
-        for at_us in moments_us {
-            let seed = u64::from(random.next_u32());
-            let interruption = match seed & 1 {
-                0 => Interruption::PowerCut { at_us, seed },
-                _ => Interruption::Killed { at_us },
-            };
-            let mut lines = lines(before);
-            lines.interrupt(interruption);
-            let cut = put(&mut lines, &intent);
-            anyhow::ensure!(
-                cut == Err(IcspError::Pins(LinesLost)),
-                "{interruption:?}: not cut off, {cut:?}"
-            );
-            lines.start_again();
-            let next = match seed & 2 {
-                0 => before,
-                _ => after,
-            };
-            let intent = Intent {
-                image: next,
-                erased: ErasedFirst::Pages,
-            };
-            // Whatever a cut left in the configuration words: the whole erasure is always a way in.
-            let outcome = put(&mut lines, &intent).or_else(|_| {
-                let erased = ErasedFirst::Chip;
-                put(&mut lines, &Intent { erased, ..intent })
-            });
-            report.power_cuts += 1;
-            report.bricked += u32::from(outcome.is_err() || content_of(lines.machine()) != *next);
-        }
+    let Change {
+        before,
+        after,
+        erased,
+    } = change;
+    let intent = Intent { image: after, erased };
+    let mut whole = lines(before);
+    put(&mut whole, &intent)?;
+    let span_us = whole.now_us();
+    let block_us = (0..blocks).map(|block| span_us * u64::from(2 * block + 1) / u64::from(2 * blocks));
+    let random_us = (0..moments).map(|_| (u64::from(random.next_u32()) * span_us) >> 32);
+    let moments_us: Vec<u64> = block_us.chain(random_us).collect();
+    let mut runs = CutRuns::default();
+    for at_us in moments_us {
+        let seed = u64::from(random.next_u32());
+        let interruption = match seed & 1 {
+            0 => Interruption::PowerCut { at_us, seed },
+            _ => Interruption::Killed { at_us },
+        };
+        let mut lines = lines(before);
+        lines.interrupt(interruption);
+        let cut = put(&mut lines, &intent);
+        anyhow::ensure!(
+            cut == Err(IcspError::Pins(LinesLost)),
+            "{interruption:?}: not cut off, {cut:?}"
+        );
+        lines.start_again();
+        let next = match seed & 2 {
+            0 => before,
+            _ => after,
+        };
+        runs.cut += 1;
+        runs.bricked += u32::from(!is_brought_back(&mut lines, next));
     }
-    Ok(())
+    Ok(runs)
+}
+
+/// Whatever a cut left in the configuration words: the whole erasure is always a way in.
+fn is_brought_back(lines: &mut SimulatedIcsp, image: &FlashImage) -> bool {
+    let [pages, chip] = [ErasedFirst::Pages, ErasedFirst::Chip].map(|erased| Intent { image, erased });
+    let outcome = put(lines, &pages).or_else(|_| put(lines, &chip));
+    outcome.is_ok() && content_of(lines.machine()) == *image
 }
 
 /// The real firmware is written into a chip that held something else; then a robot with this chip is switched on and must speak.

@@ -33,7 +33,7 @@ fn chip(program: &[u8]) -> BootLoader {
 /// An image of ours, another one, and back to the first, as `rvac flash` does it.
 pub(crate) fn round_trip(report: &mut FlashReport) -> anyhow::Result<()> {
     let scratch = Scratch::new("relax")?;
-    let keeping = relax::Keeping {
+    let keeping = relax::KeptImages {
         folder: scratch.0.clone(),
         journal: Journal::new(&scratch.0),
         date: "2026-01-01T00:00:00Z".to_owned(),
@@ -83,7 +83,7 @@ pub(crate) fn cuts((moments, seed): (u32, u64), report: &mut FlashReport) -> any
     let blocks = (CODE_BYTES / 128) as u64;
     let mut random = Pcg::new(seed, 0xC057);
     let block_ms = (0..blocks).map(|block| span_ms * (2 * block + 1) / (2 * blocks));
-    let random_ms = (0..moments).map(|_| u64::from(random.next_u32()) * span_ms >> 32);
+    let random_ms = (0..moments).map(|_| (u64::from(random.next_u32()) * span_ms) >> 32);
     let all_ms: Vec<u64> = block_ms.chain(random_ms).collect();
     for (index, at_ms) in all_ms.into_iter().enumerate() {
         let mut loader = chip(&before);

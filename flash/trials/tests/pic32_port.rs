@@ -6,6 +6,8 @@ use pic32::icsp::PortFaults;
 use pic32::machine::Machine;
 use pic32::pins::Level;
 use pic32_icsp::{ConfigurationRisk, ErasedFirst, FlashImage, IcspError, LineLevel, Programmer};
+use rvac_flash::sr8730::{self, JobError, Keeping};
+use rvac_flash::{Backups, Journal, Safeguards};
 
 const MHZ: u64 = 1_000_000;
 /// DEVCFG0 with nothing protected.
@@ -43,7 +45,7 @@ fn a_chip_is_read_written_verified_and_restored() {
     let mut lines = lines(chip_with(&makers), PortFaults::default(), WireFaults::default());
     let mut progress = |_| {};
     let mut programmer = Programmer::new(&mut lines, &mut progress);
-    assert_eq!(programmer.probe().expect("a chip") & 0x0FFF_FFFF, 0x0934_053);
+    assert_eq!(programmer.probe().expect("a chip") & 0x0FFF_FFFF, 0x0093_4053);
     let backup = programmer.read().expect("can be read");
     assert_eq!(backup, makers);
     programmer
@@ -255,4 +257,32 @@ fn after_a_power_cut_or_a_kill_the_next_run_writes() {
             assert_eq!(content_of(lines.machine()), small(2));
         }
     }
+}
+
+#[test]
+fn a_calibration_outlives_a_write() {
+    let mut before = small(1);
+    let record = [&0x4C41_4352_u32.to_le_bytes()[..], &[1, 0, 2, 0, 9, 9, 9, 9]].concat();
+    assert!(before.write(0x1D03_F000, &record));
+    let mut lines = lines(chip_with(&before), PortFaults::default(), WireFaults::default());
+    let folder = std::env::temp_dir().join(format!("flash-calibration-{}", std::process::id()));
+    let keeping = Keeping {
+        backups: Backups::new(&folder),
+        journal: Journal::new(&folder),
+        date: "2026-01-01T00:00:00Z".to_owned(),
+    };
+    let careful = Safeguards::default();
+    let refused = sr8730::write(&mut lines, (&small(2), careful), &keeping, &mut |_| {});
+    assert!(matches!(refused, Err(JobError::NoWayBack)), "{refused:?}");
+    assert_eq!(content_of(lines.machine()), before);
+    let bold = Safeguards {
+        no_way_back: true,
+        ..careful
+    };
+    sr8730::write(&mut lines, (&small(2), bold), &keeping, &mut |_| {}).expect("can be written");
+    sr8730::verify(&mut lines, &small(2), &mut |_| {}).expect("it is there, with the calibration");
+    std::fs::remove_dir_all(&folder).expect("the journal was there");
+    let mut wanted = small(2);
+    assert!(wanted.write(0x1D03_F000, &record));
+    assert_eq!(content_of(lines.machine()), wanted);
 }

@@ -1,7 +1,7 @@
 //! The flasher against the simulated loader: the whole way, and what can be wrong.
 
 use flash_trials::{HostFaults, SimulatedLine, SupplyLost};
-use rvac_flash::relax::{IspLine as _, JobError};
+use rvac_flash::relax::{IspLine as _, LoaderJobError};
 use stc_isp::{Entry, Flasher, IspError, Job, Model, Report};
 use stc90::image::Image;
 use stc90::loader::{BootLoader, LoaderFaults};
@@ -31,7 +31,7 @@ fn converse(loader: &mut BootLoader, host: HostFaults, (job, entry): (Job, Entry
     let flasher = Flasher::new(job, entry, 0).expect("it fits");
     match line.converse(flasher) {
         Ok(report) => Ending::Finished(report),
-        Err(JobError::Chip(error)) => Ending::Failed(error),
+        Err(LoaderJobError::Chip(error)) => Ending::Failed(error),
         Err(error) => {
             assert_eq!(error.to_string(), format!("the serial line: {SupplyLost}"));
             Ending::PowerCut

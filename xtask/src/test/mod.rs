@@ -71,10 +71,10 @@ pub(crate) fn run(arguments: &TestArguments) -> anyhow::Result<()> {
     }
     let names: Vec<String> = arguments.stages.iter().chain(&arguments.only).cloned().collect();
     if arguments.json {
-        return match names.as_slice() {
-            [name] if name == "attacks" => programs::attacks_as_json(),
-            [name] if name == "flash" => flash::as_json(arguments.extent().max(Extent::All)),
-            [name] if name == "packages" => packages::as_json(arguments.extent()),
+        return match names.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+            ["attacks"] => programs::attacks_as_json(),
+            ["flash"] => flash::as_json(arguments.extent().max(Extent::All)),
+            ["packages"] => packages::as_json(arguments.extent()),
             _ => bail!("--json is for one stage: cargo xtask test attacks --json, or flash, or packages"),
         };
     }

@@ -166,6 +166,7 @@ fn arguments_of(verb: &str) -> &'static str {
             r#","number":1,"name":"x","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}"#
         }
         "claim-buttons" => r#","ms":0"#,
+        "borrow-link" => r#","silent":false"#,
         "set-inputs" => r#","values":{},"ttl":300"#,
         "raw" => r#","packet":"{}""#,
         _ => "",

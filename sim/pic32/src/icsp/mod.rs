@@ -25,7 +25,7 @@ const PULSE_CYCLES_MAX: u64 = 40_000;
 
 /// What the port does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum PortState {
+enum IcspState {
     /// The program runs.
     Run,
     /// The reset line is low; bits of the key come in.
@@ -41,7 +41,7 @@ enum PortState {
 /// The programming port of one chip.
 #[derive(Clone, Debug)]
 pub struct IcspPort {
-    state: PortState,
+    state: IcspState,
     clock: Level,
     /// What the host does to the data line; nothing when it has let go.
     data: Option<Level>,
@@ -56,7 +56,7 @@ impl IcspPort {
     /// The port of a chip whose program runs.
     pub fn new(faults: PortFaults) -> Self {
         Self {
-            state: PortState::Run,
+            state: IcspState::Run,
             clock: Level::Low,
             data: None,
             risen_at: None,
@@ -74,52 +74,46 @@ impl IcspPort {
 
     /// Whether programming mode is on.
     pub fn is_programming(&self) -> bool {
-        matches!(self.state, PortState::Program { .. })
+        matches!(self.state, IcspState::Program { .. })
     }
 
     /// The host pulls the reset line low, or lets it go.
     pub fn set_reset(&mut self, level: Level, cycle: u64, machine: &mut Machine) {
         match (level, self.state) {
-            (Level::Low, PortState::Run | PortState::Program { .. }) => {
+            (Level::Low, IcspState::Run | IcspState::Program { .. }) => {
                 catch_up(machine, cycle);
                 let pulse = self.risen_at.map(|risen| cycle.saturating_sub(risen));
                 let is_short = pulse.is_some_and(|cycles| cycles <= PULSE_CYCLES_MAX);
-                self.state = PortState::Key {
+                self.state = IcspState::Key {
                     bits: 0,
                     register: 0,
                     is_short,
                 };
                 machine.hold_in_reset();
             }
-            (
-                Level::High,
-                PortState::Key {
-                    bits,
-                    register,
-                    is_short,
-                },
-            ) => {
+            (Level::High, IcspState::Key { bits, register, .. }) => {
                 catch_up(machine, cycle);
                 self.risen_at = Some(cycle);
-                self.leave_reset(bits >= 32 && register == KEY, is_short, machine);
+                self.leave_reset(bits >= 32 && register == KEY, machine);
             }
-            (Level::Low, PortState::Key { .. }) | (Level::High, _) => {}
+            (Level::Low, IcspState::Key { .. }) | (Level::High, _) => {}
         }
     }
 
-    fn leave_reset(&mut self, has_key: bool, is_short: bool, machine: &mut Machine) {
+    fn leave_reset(&mut self, has_key: bool, machine: &mut Machine) {
+        let is_short = matches!(self.state, IcspState::Key { is_short: true, .. });
         if has_key && !is_short {
             self.violate(PortViolation::KeyWithoutPulse);
         }
         if has_key && is_short && !self.faults.is_deaf {
-            self.state = PortState::Program {
+            self.state = IcspState::Program {
                 phase: 0,
                 tdi: false,
                 tdo: false,
             };
             self.ports.enter(machine);
         } else {
-            self.state = PortState::Run;
+            self.state = IcspState::Run;
             machine.release_reset();
         }
     }
@@ -140,7 +134,7 @@ impl IcspPort {
     }
 
     fn rise(&mut self) {
-        if let PortState::Program { phase: 2 | 3, .. } = self.state
+        if let IcspState::Program { phase: 2 | 3, .. } = self.state
             && self.data.is_some()
         {
             self.violate(PortViolation::BothDrive);
@@ -150,29 +144,29 @@ impl IcspPort {
     fn fall(&mut self, cycle: u64, machine: &mut Machine) {
         let high = self.heard().is_high();
         self.state = match self.state {
-            PortState::Run => PortState::Run,
-            PortState::Key {
+            IcspState::Run => IcspState::Run,
+            IcspState::Key {
                 bits,
                 register,
                 is_short,
-            } => PortState::Key {
+            } => IcspState::Key {
                 bits: bits.saturating_add(1),
                 register: register << 1 | u32::from(high),
                 is_short,
             },
-            PortState::Program { phase: 0, tdo, .. } => PortState::Program {
+            IcspState::Program { phase: 0, tdo, .. } => IcspState::Program {
                 phase: 1,
                 tdi: high,
                 tdo,
             },
-            PortState::Program { phase: 1, tdi, .. } => {
+            IcspState::Program { phase: 1, tdi, .. } => {
                 let tdo = self.ports.step((tdi, high), cycle, machine);
                 if let Some(violation) = self.ports.take_violation() {
                     self.violate(violation);
                 }
-                PortState::Program { phase: 2, tdi, tdo }
+                IcspState::Program { phase: 2, tdi, tdo }
             }
-            PortState::Program { phase, tdi, tdo } => PortState::Program {
+            IcspState::Program { phase, tdi, tdo } => IcspState::Program {
                 phase: (phase + 1) & 3,
                 tdi,
                 tdo,
@@ -191,7 +185,7 @@ impl IcspPort {
             return level;
         }
         match self.state {
-            PortState::Program { phase: 3, tdo, .. } => {
+            IcspState::Program { phase: 3, tdo, .. } => {
                 let is_flipped = self.faults.flip_one_in != 0
                     && self.flips.next_u32().is_multiple_of(self.faults.flip_one_in);
                 Level::of(tdo != is_flipped)
@@ -205,15 +199,15 @@ impl IcspPort {
         catch_up(machine, cycle);
         self.ports.cut(machine, cycle, seed);
         machine.power_cut(seed);
-        let held = matches!(self.state, PortState::Key { .. });
+        let held = matches!(self.state, IcspState::Key { .. });
         self.risen_at = None;
         self.state = match held {
-            true => PortState::Key {
+            true => IcspState::Key {
                 bits: 0,
                 register: 0,
                 is_short: false,
             },
-            false => PortState::Run,
+            false => IcspState::Run,
         };
         if held {
             machine.hold_in_reset();

@@ -128,6 +128,19 @@ fn ram_is_executed_only_where_the_bus_matrix_allows() {
 }
 
 #[test]
+fn a_loop_of_two_instructions_in_ram_goes_round() {
+    // bne $2, $0, to itself; its slot counts down.
+    let code = [immediate(5, 0, 2, 0xFFFF), immediate(9, 2, 2, 0xFFFF), NOP];
+    let mut bench = Bench::new(&[NOP]);
+    bench.memory.set_ram_code(0x800..0x8000);
+    bench.memory.write(0x1000, &bytes(&code)).unwrap();
+    bench.cpu.set_register(2, 3);
+    bench.cpu.set_pc(RAM | 0x1000);
+    bench.run(8);
+    assert_eq!((bench.cpu.register(2), bench.cpu.pc()), (u32::MAX, RAM | 0x1008));
+}
+
+#[test]
 fn code_in_ram_can_change_itself() {
     // sw $8, 4($1), then what was written.
     let mut bench = Bench::new(&[NOP]);

@@ -121,8 +121,7 @@ impl DeskRequest {
             Body::Locate => Self::Robot(RobotRequest::Locate),
             Body::Clear { reason } => Self::Robot(RobotRequest::Clear(reason)),
             Body::Raw { packet } => Self::Robot(RobotRequest::Raw(packet)),
-            Body::BorrowLink { silent: false } => Self::Robot(RobotRequest::BorrowLink(RobotAnswers::Expected)),
-            Body::BorrowLink { silent: true } => Self::Robot(RobotRequest::BorrowLink(RobotAnswers::Silent)),
+            Body::BorrowLink { silent } => Self::Robot(RobotRequest::BorrowLink(if silent { RobotAnswers::Silent } else { RobotAnswers::Expected })),
             Body::Drive { v, w, ttl, clean, power } => Self::Hand(HandRequest::Drive(HandDrive {
                 speed_m_per_s: v,
                 turn_rad_per_s: w,
