@@ -183,7 +183,7 @@ impl Brain {
     /// Pose in the map frame and how sure it is.
     #[must_use]
     pub fn estimate(&self) -> PoseEstimate {
-        self.localization.estimate()
+        self.localization.estimate_in_home()
     }
 
     /// Share of what the sensors see lately that the map explains, 0..=1; `None` while nothing is compared with a map.

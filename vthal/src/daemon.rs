@@ -10,9 +10,10 @@ use std::time::Duration;
 use rvac_api::{Failure, LogEntry, LogLevel, Update};
 use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
+use tokio::sync::watch;
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
-use vthal_core::{ClientId, Core, Delivery, Input, Outputs, Recipients};
+use vthal_core::{ClientId, Core, Delivery, Input, LineHolder, Outputs, Recipients};
 
 use crate::board::{BoardEvent, LightsHandle};
 use crate::checkpoint_thread::CheckpointHandle;
@@ -26,7 +27,7 @@ use crate::radio::RadioEvent;
 use crate::recording::RecorderHandle;
 use crate::run_thread::RunHandle;
 use crate::serial::LineOrder;
-use crate::socket;
+use crate::{socket, systemd};
 
 /// Longest wait for the wheels to stop when the daemon ends.
 const STOP_WAIT: Duration = Duration::from_millis(500);
@@ -44,6 +45,8 @@ pub(crate) struct Wiring {
     pub event_sender: Sender<Event>,
     /// Bytes for the robot.
     pub to_robot: Sender<LineOrder>,
+    /// Whose that line is.
+    pub line_holder: watch::Sender<LineHolder>,
     /// Recordings, if enabled.
     pub recorder: Option<RecorderHandle>,
     /// Checkpoints.
@@ -137,6 +140,7 @@ impl Daemon {
     fn take(&mut self, event: Event) {
         match event {
             Event::Wake => self.handle(Input::Wake),
+            Event::WatchdogDue => systemd::tell_alive(),
             Event::Serial(SerialEvent::Opened) => self.handle(Input::LinkOpened),
             Event::Serial(SerialEvent::Bytes(bytes)) => self.handle(Input::LinkBytes(&bytes)),
             Event::Serial(SerialEvent::Closed(reason)) => self.handle(Input::LinkClosed { reason }),
@@ -228,6 +232,7 @@ impl Daemon {
     fn terminate(&mut self, signal: &'static str) {
         if self.ends_at.is_none() {
             tracing::info!(part = "vthal", "{signal}: stops the wheels and ends");
+            systemd::tell_stopping();
             self.ends_at = Some(Instant::now() + STOP_WAIT);
             self.handle(Input::Shutdown);
         }
@@ -304,6 +309,9 @@ impl Daemon {
                 );
             }
             self.congested = congested;
+        }
+        if let Some(holder) = self.outputs.line_holder.take() {
+            self.wiring.line_holder.send_replace(holder);
         }
         if self.outputs.next_rate && self.wiring.to_robot.try_send(LineOrder::NextRate).is_err() {
             tracing::warn!(part = "link", "the serial line is too busy to try another rate");

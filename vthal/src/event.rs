@@ -58,6 +58,8 @@ pub(crate) enum Event {
     Schedules(u64, Result<(), String>),
     /// The core asked to be called now.
     Wake,
+    /// systemd wants a sign of life.
+    WatchdogDue,
     /// The daemon is ordered to end, by the named signal.
     Terminate(&'static str),
 }

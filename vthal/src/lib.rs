@@ -39,6 +39,7 @@ mod serial;
 mod service;
 mod socket;
 mod system_zone;
+mod systemd;
 
 pub use clock::Clock;
 pub use kept_store::KeptStore;

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, bail};
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, Parser, Subcommand};
+use vthal::ServeError;
 use vthal::config::{self, Overrides};
 use vthal::recording::replay::{Replay, replay};
 
@@ -32,6 +33,9 @@ enum Job {
         /// The recording
         file: PathBuf,
     },
+    /// Prints the manual page, for packages
+    #[command(hide = true)]
+    Manual,
 }
 
 #[derive(Args)]
@@ -63,11 +67,15 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let result = match arguments.command {
         Some(Job::Replay { file }) => run_replay(&file),
+        Some(Job::Manual) => print_manual(),
         None => run_daemon(arguments.serve),
     };
     result.unwrap_or_else(|error| {
         eprintln!("vthal: {error:#}");
-        ExitCode::FAILURE
+        // systemd does not try again what only a person can mend.
+        let needs_a_person =
+            error.is::<config::ConfigError>() || matches!(error.downcast_ref(), Some(ServeError::Robot(_)));
+        ExitCode::from(if needs_a_person { 2 } else { 1 })
     })
 }
 
@@ -89,6 +97,11 @@ fn run_daemon(serve: Serve) -> anyhow::Result<ExitCode> {
     };
     let config = config::load(path, overrides)?;
     vthal::serve(&config, serve.speed)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn print_manual() -> anyhow::Result<ExitCode> {
+    clap_mangen::Man::new(Arguments::command()).render(&mut std::io::stdout())?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use brain::{BumperLayout, Point2, ProximityLayout, ProximityResponse, SensorLayout};
 use serde::Deserialize;
+use vthal_core::{Ability, CalibrationValue};
 
 /// Why the sensors are not known.
 #[derive(Debug, thiserror::Error)]
@@ -15,7 +16,6 @@ pub enum RobotFileError {
         /// The file.
         path: PathBuf,
         /// Why.
-        #[source]
         error: std::io::Error,
     },
     /// The file is no description of a robot.
@@ -24,7 +24,6 @@ pub enum RobotFileError {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        #[source]
         error: Box<toml::de::Error>,
     },
 }
@@ -35,6 +34,14 @@ struct RobotFile {
     bumper: Option<Bumper>,
     cliffs: Option<Cliffs>,
     proximity: Option<Proximity>,
+    #[serde(default)]
+    calibration: Vec<Calibration>,
+}
+
+#[derive(Deserialize)]
+struct Calibration {
+    name: String,
+    ability: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -76,12 +83,20 @@ struct Proximity {
     near: Option<Figure>,
 }
 
-/// The sensors of the robot that `path` describes.
+/// What the daemon takes from a robot's description.
+#[derive(Debug, Default)]
+pub(crate) struct RobotFacts {
+    pub(crate) sensors: SensorLayout,
+    /// What a person measures on the robot. An ability that a newer file names and this program does not know is left out.
+    pub(crate) calibration: Vec<CalibrationValue>,
+}
+
+/// What is to be known of the robot that `path` describes.
 ///
 /// # Errors
 /// See [`RobotFileError`].
-pub(crate) fn load(path: &Path) -> Result<SensorLayout, RobotFileError> {
-    let text = std::fs::read_to_string(path).map_err(|error| RobotFileError::Unreadable {
+pub(crate) fn load(path: &Path) -> Result<RobotFacts, RobotFileError> {
+    let text = kept_file::read_text(path).map_err(|error| RobotFileError::Unreadable {
         path: path.to_owned(),
         error,
     })?;
@@ -89,7 +104,20 @@ pub(crate) fn load(path: &Path) -> Result<SensorLayout, RobotFileError> {
         path: path.to_owned(),
         error: Box::new(error),
     })?;
-    Ok(layout(&file))
+    Ok(RobotFacts {
+        sensors: layout(&file),
+        calibration: calibration(&file.calibration),
+    })
+}
+
+fn calibration(values: &[Calibration]) -> Vec<CalibrationValue> {
+    let known = values.iter().filter_map(|value| {
+        Some(CalibrationValue {
+            name: value.name.clone(),
+            ability: Ability::from_name(value.ability.as_deref()?)?,
+        })
+    });
+    known.collect()
 }
 
 fn layout(file: &RobotFile) -> SensorLayout {
@@ -135,7 +163,9 @@ fn cliffs(part: &Cliffs) -> Option<[Point2; 3]> {
 mod tests {
     use std::path::PathBuf;
 
-    use super::{RobotFileError, load};
+    use vthal_core::Ability;
+
+    use super::{RobotFile, RobotFileError, load};
 
     fn robots() -> PathBuf {
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../robots")
@@ -143,7 +173,8 @@ mod tests {
 
     #[test]
     fn the_project_s_own_robot_is_understood() {
-        let layout = load(&robots().join("samsung-sr8730/robot.toml")).expect("a description");
+        let robot = load(&robots().join("samsung-sr8730/robot.toml")).expect("a description");
+        let layout = robot.sensors;
         let sensors = layout.proximity.sensors();
         assert_eq!(sensors.len(), 7);
         assert!(
@@ -156,6 +187,31 @@ mod tests {
         );
         assert!(layout.proximity.response.range_m > layout.proximity.response.skin_m);
         assert!(layout.cliffs.is_some_and(|places| places[0].y_m > 0.0));
+        for ability in Ability::ALL {
+            assert!(
+                robot.calibration.iter().any(|value| value.ability == ability),
+                "{} needs nothing that is measured",
+                ability.name()
+            );
+        }
+    }
+
+    #[test]
+    fn every_ability_that_a_description_names_is_known() {
+        for entry in std::fs::read_dir(robots()).expect("the folder") {
+            let path = entry.expect("an entry").path().join("robot.toml");
+            let Ok(text) = std::fs::read_to_string(&path) else {
+                continue;
+            };
+            let file: RobotFile = toml::from_str(&text).expect("a description");
+            for name in file
+                .calibration
+                .iter()
+                .filter_map(|value| value.ability.as_deref())
+            {
+                assert!(Ability::from_name(name).is_some(), "{}: {name}", path.display());
+            }
+        }
     }
 
     #[test]

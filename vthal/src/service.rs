@@ -3,12 +3,11 @@
 use std::io::{self, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use brain::SensorLayout;
 use tokio::signal::unix::{SignalKind, signal};
-use tokio::sync::mpsc;
+use tokio::sync::{mpsc, watch};
 use tokio::task::{LocalSet, spawn_local};
 use vthal_core::device::{Make, cordlib};
-use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, Recording};
+use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, LineHolder, Recording};
 
 use crate::clock::Clock;
 use crate::config::Config;
@@ -17,11 +16,11 @@ use crate::event::Event;
 use crate::instance::{self, InstanceError};
 use crate::kept_store::{self, KeptStore};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
-use crate::robot_file::{self, RobotFileError};
-use crate::serial::{self, RobotLine};
+use crate::robot_file::{self, RobotFacts, RobotFileError};
+use crate::serial::{self, LineOrders, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
-use crate::{board, checkpoint_thread, imu, logging, radio, run_thread};
+use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd};
 
 /// Make of the robot that this daemon serves.
 const MAKE: Make = cordlib::MAKE;
@@ -73,6 +72,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     let core_config = core_config(config, &kept)?;
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
     let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
+    let (line_holder, holder) = watch::channel(LineHolder::Daemon);
     let lights = match &config.board {
         Some(settings) => Some(board::start(settings.clone(), event_sender.clone())?),
         None => None,
@@ -82,6 +82,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         events,
         event_sender: event_sender.clone(),
         to_robot,
+        line_holder,
         recorder: recorder(config, &event_sender)?,
         runs: run_thread::start(kept.paths().runs.clone(), event_sender.clone())?,
         checkpoints: checkpoint_thread::start(kept.into_paths(), event_sender.clone())?,
@@ -89,6 +90,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         clients_max: config.clients_max,
     };
     watch_signals(&event_sender)?;
+    systemd::watch(&event_sender);
     spawn_local(socket::serve(listener, event_sender.clone()));
     let robot = RobotLine {
         path: config.serial.clone(),
@@ -104,7 +106,11 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     if let Some(radio) = &config.radio {
         spawn_local(radio::serve(radio.clone(), event_sender.clone()));
     }
-    spawn_local(serial::serve(robot, event_sender, robot_queue));
+    let orders = LineOrders {
+        to_robot: robot_queue,
+        holder,
+    };
+    spawn_local(serial::serve(robot, event_sender, orders));
     tracing::info!(
         part = "vthal",
         "version {} listens on {}",
@@ -120,14 +126,15 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
 
 /// Settings of the core, with what is kept in the state folder.
 fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeError> {
-    let sensors = match &config.description {
+    let robot = match &config.description {
         Some(path) => robot_file::load(path)?,
-        None => SensorLayout::default(),
+        None => RobotFacts::default(),
     };
     let core_config = kept.fill(CoreConfig {
         make: MAKE,
         zone: system_zone(),
-        sensors,
+        sensors: robot.sensors,
+        calibration: robot.calibration,
         seed: config.seed.unwrap_or_else(seed_from_clock),
         strategy: config.strategy,
         expert: if config.expert {
@@ -153,6 +160,7 @@ fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeErr
 
 /// Tells whoever started the daemon that its socket is open.
 fn announce() -> io::Result<()> {
+    systemd::tell_ready();
     let mut stdout = io::stdout().lock();
     writeln!(stdout, "ready").and_then(|()| stdout.flush())
 }

@@ -55,6 +55,17 @@ pub(crate) const MIPS: Target = Target {
     remedy: "rustup component add rust-src",
 };
 
+/// Small ARM microcontrollers: Cortex-M0 and M0+.
+pub(crate) const THUMB: Target = Target {
+    triple: "thumbv6m-none-eabi",
+    what: "Cortex-M0 microcontrollers",
+    library: &["-Zbuild-std=core"],
+    linker: "ld.lld-19",
+    linker_variable: "CARGO_TARGET_THUMBV6M_NONE_EABI_LINKER",
+    flags: None,
+    remedy: "rustup target add thumbv6m-none-eabi",
+};
+
 /// Debian's packages of a current compiler, its standard library as source, and a linker.
 const PACKAGES: [&str; 5] = [
     "rustc-web",
@@ -146,6 +157,26 @@ fn rustc() -> Command {
     let mut command = Command::new("rustc");
     command.current_dir(workspace::root());
     command
+}
+
+/// A cargo of a compiler that has the source of its standard library, without a target: the caller names it and what of the library is
+/// compiled along.
+pub(crate) fn source_cargo() -> anyhow::Result<Command> {
+    let sysroot = PathBuf::from(process::capture(rustc().args(["--print", "sysroot"]))?.trim());
+    let mut command = if sysroot
+        .join("lib/rustlib/src/rust/library/std/Cargo.toml")
+        .is_file()
+    {
+        workspace::cargo()
+    } else {
+        let toolchain = choose(&MIPS)?;
+        match toolchain.way {
+            Way::Debian => toolchain.debian_cargo(),
+            Way::Installed | Way::Source => workspace::cargo(),
+        }
+    };
+    command.env("RUSTC_BOOTSTRAP", "1");
+    Ok(command)
 }
 
 impl Toolchain {

@@ -24,6 +24,8 @@ pub(crate) struct Facts {
     pub(crate) knows_heading: bool,
     /// The charger has stopped for a fault.
     pub(crate) charger_fault: bool,
+    /// Values of this robot that it needs to move were never measured.
+    pub(crate) not_calibrated: bool,
     /// A fault that needs a person.
     pub(crate) fault: Option<Fault>,
     /// Inhibits that `arm` takes away.
@@ -92,6 +94,7 @@ impl Facts {
             Inhibit::CliffSensorFault => self.cliff_sensor = true,
             Inhibit::WheelDrop => self.wheel_drop = true,
             Inhibit::NotMoving => self.not_moving = true,
+            Inhibit::NotCalibrated => self.not_calibrated = true,
             Inhibit::LinkGarbled
             | Inhibit::LinkCorrupted
             | Inhibit::LinkLate

@@ -1,11 +1,13 @@
 //! The inverse sensor model: turns sightings into evidence for cells.
 
 mod parameters;
+#[cfg(test)]
+mod tests;
 
 use parameters::{CONTACT, OCCUPANCY, SURFACE};
 
 use super::kept_home::{Hit, KeptHome, Touched};
-use super::occupancy_grid::{Evidence, Flag, OccupancyGrid};
+use super::occupancy_grid::{Evidence, Flag, OccupancyGrid, is_seen_solid};
 use super::sighting::Sighting;
 use super::{CELL_M, Cell};
 use crate::model::config::{Body, SensorLayout};
@@ -37,10 +39,10 @@ pub(super) struct InverseSensorModel {
 impl InverseSensorModel {
     /// Adds the evidence of a sighting to the grid. What obstacles of `kept` explain confirms these.
     pub(super) fn draw(&self, sighting: &Sighting, kept: Option<&KeptHome>, grid: &mut OccupancyGrid) {
-        self.draw_body(sighting, grid);
+        self.draw_body(sighting, kept, grid);
         for (sensor, level) in self.sensors.proximity.sensors().iter().zip(sighting.levels) {
             let sensor = *sensor;
-            if let Some(hit_m) = self.clear_beam(sighting, ProximityReading { sensor, level }, grid) {
+            if let Some(hit_m) = self.clear_beam(sighting, ProximityReading { sensor, level }, (kept, grid)) {
                 for hit in self.hit_cells(sighting.pose * sensor, hit_m) {
                     draw_hit(sighting, hit, kept, grid);
                 }
@@ -78,7 +80,7 @@ impl InverseSensorModel {
     }
 
     /// Under the body is no obstacle. Contacts are newer evidence than this, so they are drawn after it.
-    fn draw_body(&self, sighting: &Sighting, grid: &mut OccupancyGrid) {
+    fn draw_body(&self, sighting: &Sighting, kept: Option<&KeptHome>, grid: &mut OccupancyGrid) {
         let sigma_m = 0.01 * f64::from(sighting.sigma_cm);
         let radius_m = self.body.radius_m - sigma_m.clamp(0.5 * CELL_M, OCCUPANCY.shrink_max_m);
         let centre = sighting.pose.position();
@@ -88,8 +90,16 @@ impl InverseSensorModel {
             let half_m = libm::sqrt((radius_m * radius_m - off_m * off_m).max(0.0));
             let first = libm::ceil((centre.x_m - half_m) / CELL_M - 0.5) as i32;
             let last = libm::floor((centre.x_m + half_m) / CELL_M - 0.5) as i32;
+            let sure_m = radius_m - OCCUPANCY.body_sure_m;
+            let sure_half_m = libm::sqrt((sure_m * sure_m - off_m * off_m).max(0.0));
             for x in first..=last {
-                grid.change(Cell { x, y }, |evidence| {
+                let cell = Cell { x, y };
+                let aside_m = ((f64::from(x) + 0.5) * CELL_M - centre.x_m).abs();
+                let is_at_rim = off_m.abs() > sure_m || aside_m > sure_half_m;
+                if is_at_rim && kept.is_some_and(|kept| is_seen_solid(kept.at(cell))) {
+                    continue;
+                }
+                grid.change(cell, |evidence| {
                     add_occupancy(evidence, OCCUPANCY.body_step);
                     evidence.contact = evidence.contact.saturating_sub(CONTACT.located);
                     evidence.set(Flag::Body);
@@ -100,12 +110,14 @@ impl InverseSensorModel {
         }
     }
 
-    /// Draws the floor up to the hit, whose distance it gives.
+    /// Draws the floor up to the hit, whose distance it gives. A hit soon behind an obstacle of `kept` counts against that: hits scatter
+    /// about the surface by the error of the pose, and each of them confirms some obstacle. Without this a wall would grow toward the
+    /// robot until hardly any hit lies before it.
     fn clear_beam(
         &self,
         sighting: &Sighting,
         reading: ProximityReading,
-        grid: &mut OccupancyGrid,
+        (kept, grid): (Option<&KeptHome>, &mut OccupancyGrid),
     ) -> Option<f64> {
         let response = self.sensors.proximity.response;
         let beam = sighting.pose * reading.sensor;
@@ -119,6 +131,15 @@ impl InverseSensorModel {
             Some(hit_m) => (hit_m - OCCUPANCY.margin_m, OCCUPANCY.passed_step),
             None => (OCCUPANCY.nothing_share * response.range_m, OCCUPANCY.nothing_step),
         };
+        if let (Some(kept), Some(hit_m)) = (kept, hit_m) {
+            let refuting = -((OCCUPANCY.refuting_share * self.hit_strength(hit_m)) as i8);
+            let from_m = (clear_m - OCCUPANCY.refuting_m).max(response.skin_m);
+            walk(beam, from_m, clear_m, |cell| {
+                if is_seen_solid(kept.at(cell)) {
+                    grid.change(cell, |evidence| add_occupancy(evidence, refuting));
+                }
+            });
+        }
         walk(beam, response.skin_m, clear_m, |cell| {
             grid.change(cell, |evidence| {
                 add_occupancy(evidence, step);
@@ -128,12 +149,17 @@ impl InverseSensorModel {
         hit_m
     }
 
+    /// Evidence of a hit at this distance.
+    fn hit_strength(&self, hit_m: f64) -> f64 {
+        let beyond_m = (hit_m - self.sensors.proximity.response.skin_m).max(0.0);
+        let beyond = beyond_m / OCCUPANCY.hit_half_m;
+        OCCUPANCY.hit_step / (1.0 + beyond * beyond)
+    }
+
     /// The cells in which a hit at this distance lies, and how much it tells of each.
     fn hit_cells(&self, beam: Pose2, hit_m: f64) -> impl Iterator<Item = (Cell, i8)> {
         let response = self.sensors.proximity.response;
-        let beyond_m = (hit_m - response.skin_m).max(0.0);
-        let beyond = beyond_m / OCCUPANCY.hit_half_m;
-        let strength = (OCCUPANCY.hit_step / (1.0 + beyond * beyond)) as i8;
+        let strength = self.hit_strength(hit_m) as i8;
         // The surface lies before the centre of its cell.
         let behind_m = hit_m + 0.5 * CELL_M;
         let reach_m = behind_m * libm::tan(response.half_angle_rad);

@@ -16,15 +16,12 @@ struct ExplanationParameters {
     /// A known obstacle explains a hit up to this distance from it, metres: the error of pose and distance together. In a flat of
     /// 26 square metres the 90th percentile of the pose's error was 13 to 22 cm.
     reach_m: f64,
-    /// A hit up to this distance from a known obstacle confirms it, metres.
-    confirm_m: f64,
     /// A known touch explains one up to so many cells beside it: the bearing of a contact is known to a quarter of the body.
     touch_cells: i32,
 }
 
 const EXPLANATION: ExplanationParameters = ExplanationParameters {
     reach_m: 0.1,
-    confirm_m: 0.1,
     touch_cells: 2,
 };
 
@@ -33,7 +30,7 @@ const EXPLANATION: ExplanationParameters = ExplanationParameters {
 pub(super) enum Hit {
     /// The obstacle in this cell, which it confirms.
     Known(Cell),
-    /// An obstacle that is too far away to be confirmed.
+    /// An obstacle whose cell cannot be told.
     Near,
     /// Nothing that is known.
     New,
@@ -97,9 +94,6 @@ impl KeptHome {
         let gap_m = self.seen.at(middle);
         if gap_m > EXPLANATION.reach_m {
             return Hit::New;
-        }
-        if gap_m > EXPLANATION.confirm_m {
-            return Hit::Near;
         }
         if is_seen_solid(self.at(cell)) {
             return Hit::Known(cell);

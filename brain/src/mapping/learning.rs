@@ -21,6 +21,8 @@ pub(super) struct LearningParameters {
     passed_cells: [i32; 4],
     /// What a run shows settles after this time, microseconds: a robot that drifts notices it later.
     pub(super) settling_us: u64,
+    /// The grid is remembered so often, microseconds.
+    pub(super) remembered_us: u64,
 }
 
 pub(super) const LEARNING: LearningParameters = LearningParameters {
@@ -28,6 +30,7 @@ pub(super) const LEARNING: LearningParameters = LearningParameters {
     occupancy_kept: 60,
     passed_cells: [3, 6, 9, 12],
     settling_us: 60_000_000,
+    remembered_us: 30_000_000,
 };
 
 /// Work of comparing a cell with what was known of it.

@@ -11,6 +11,8 @@ use core::task::{Context, Poll, Waker};
 
 /// Work of one step, in visited cells or equivalents: about a millisecond on one core of a desktop.
 const STEP_WORK: usize = 600_000;
+/// The same for work for which nobody waits: loading and saving a home. Their steps visit tiles, which takes longer for each cell.
+const SHORT_STEP_WORK: usize = 120_000;
 
 /// The work budget until the next pause.
 #[derive(Debug)]
@@ -23,6 +25,11 @@ impl StepBudget {
     /// Pauses after the work of each step.
     pub(crate) const fn limited() -> Self {
         Self::of(STEP_WORK)
+    }
+
+    /// Pauses after less work.
+    pub(crate) const fn short() -> Self {
+        Self::of(SHORT_STEP_WORK)
     }
 
     /// Never pauses.

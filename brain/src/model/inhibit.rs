@@ -75,6 +75,8 @@ named_enum! {
         CommandsLost => "commands-lost",
         /// The robot refuses commands because they are too old when they reach it.
         CommandsStale => "commands-stale",
+        /// Values that this robot needs to move, or to see where there is no floor, were never measured.
+        NotCalibrated => "not-calibrated",
     }
 }
 

@@ -28,6 +28,8 @@ named_enum! {
         Docked => "docked",
         /// The stick must come back to the centre before it drives again (S23).
         CentreFirst => "centre-first",
+        /// Values that this robot needs to move safely were never measured.
+        NotCalibrated => "not-calibrated",
         /// The robot can reach nothing of what is ordered.
         RestOutOfReach => "rest-out-of-reach",
     }

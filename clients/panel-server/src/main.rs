@@ -1,19 +1,34 @@
 //! The binary: reads the command line, serves until a signal ends it.
 #![forbid(unsafe_code)]
 
+mod host_name;
+mod systemd;
+
 use std::io::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use panel_server::{Guard, Server, Settings, StartError, unix_s};
 use tokio::signal::unix::{SignalKind, signal};
 
 /// Serves the panel of LibreRVAC and relays between browsers and vthal.
 #[derive(Debug, Parser)]
-#[command(version)]
+#[command(
+    version,
+    args_conflicts_with_subcommands = true,
+    subcommand_negates_reqs = true
+)]
 struct Arguments {
+    #[command(flatten)]
+    serve: Option<Serve>,
+    #[command(subcommand)]
+    command: Option<Job>,
+}
+
+#[derive(Debug, clap::Args)]
+struct Serve {
     /// Unix socket of vthal
     #[arg(long, value_name = "SOCKET")]
     vthal: PathBuf,
@@ -30,7 +45,7 @@ struct Arguments {
     #[arg(long, value_name = "DIR")]
     assets: PathBuf,
     /// Further name by which browsers may call this server, for example robot.local
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = host_name::parse)]
     host_name: Vec<String>,
     /// Folder of the robot's identity and of its paired devices: with it, HTTPS and for paired devices only
     #[arg(long, value_name = "DIR")]
@@ -44,16 +59,28 @@ struct Arguments {
     /// Port of a page that points to the HTTPS address, usually 80
     #[arg(long, value_name = "PORT", requires = "state")]
     page_port: Option<u16>,
+    /// Announce the robot's name on the home network, so that https://NAME.local/ is found
+    #[arg(long, requires = "state")]
+    announce: bool,
 }
 
-impl From<Arguments> for Settings {
-    fn from(arguments: Arguments) -> Self {
+#[derive(Debug, clap::Subcommand)]
+enum Job {
+    /// Prints the manual page, for packages
+    #[command(hide = true)]
+    Manual,
+}
+
+impl From<Serve> for Settings {
+    fn from(arguments: Serve) -> Self {
         let (console, card, page_port) = (arguments.console, arguments.card, arguments.page_port);
+        let announce = arguments.announce;
         let guard = arguments.state.map(|state| Guard {
             state,
             console,
             card,
             page_port,
+            announce,
             clock: unix_s,
         });
         Self {
@@ -69,8 +96,15 @@ impl From<Arguments> for Settings {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    match (arguments.command, arguments.serve) {
+        (Some(Job::Manual), _) | (None, None) => print_manual(),
+        (None, Some(serve)) => run_server(serve.into()),
+    }
+}
+
+fn run_server(settings: Settings) -> ExitCode {
     tracing_subscriber::fmt().with_writer(std::io::stderr).init();
-    match run(arguments.into()) {
+    match run(settings) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             let refused = error.downcast_ref::<StartError>().is_some();
@@ -80,16 +114,27 @@ fn main() -> ExitCode {
     }
 }
 
+fn print_manual() -> ExitCode {
+    let manual = clap_mangen::Man::new(Arguments::command());
+    match manual.render(&mut std::io::stdout()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
+}
+
 #[tokio::main(flavor = "current_thread")]
 async fn run(settings: Settings) -> anyhow::Result<()> {
     let server = Server::bind(settings).await?;
     let mut terminate = signal(SignalKind::terminate())?;
     let mut interrupt = signal(SignalKind::interrupt())?;
     writeln!(std::io::stdout(), "ready {}", server.url())?;
+    systemd::tell_ready();
     tokio::select! {
         () = server.run() => {}
+        () = systemd::show_life() => {}
         _ = terminate.recv() => {}
         _ = interrupt.recv() => {}
     }
+    systemd::tell_stopping();
     Ok(())
 }

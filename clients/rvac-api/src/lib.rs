@@ -54,8 +54,8 @@ pub use stop::{Evidence, EvidenceSample, Standstill};
 pub use thought::{Decision, Estimate, PlannedPath};
 pub use topic::Topic;
 pub use update::{
-    BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, LinkReading, LogEntry, LogLevel,
-    MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, Status, Update, Versions,
+    BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, Lacking, LinkReading, LogEntry,
+    LogLevel, MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, Status, Update, Versions,
 };
 
 /// Version of this interface. Raised when a message changes its meaning; additions need no new version.

@@ -246,6 +246,18 @@ pub struct RobotDescription {
     /// Motors whose current is not measured though that of others is: their place in `currents_a` means nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub unmeasured: Vec<String>,
+    /// What the robot lacks because values of its own were never measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub lacking: Vec<Lacking>,
+}
+
+/// An ability that the robot lacks until somebody measures what it needs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Lacking {
+    /// `drive`, `cliffs`, `proximity`, `gyro`, `wheel-currents`, `charging` or `dock-beams`. Without the first two it may not move.
+    pub ability: String,
+    /// The values that it needs, as `rvac calibrate` calls them. At least one of them is not measured.
+    pub values: Vec<String>,
 }
 
 /// What the robot is doing and why.

@@ -41,6 +41,14 @@ fn requests_about_buttons() {
 }
 
 #[test]
+fn a_request_for_the_line() {
+    request(
+        RequestBody::BorrowLink { silent: true },
+        r#"{"c":"borrow-link","silent":true}"#,
+    );
+}
+
+#[test]
 fn inputs_of_clients() {
     request(
         RequestBody::SetInputs {
@@ -351,6 +359,7 @@ fn introductions_and_answers() {
         parts: vec!["gyro".to_owned(), "dock".to_owned()],
         unguarded: Vec::new(),
         unmeasured: Vec::new(),
+        lacking: Vec::new(),
     };
     let hello = Update::Hello {
         api: 1,

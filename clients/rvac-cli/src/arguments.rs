@@ -7,6 +7,7 @@ mod history;
 mod learnt;
 mod orders;
 mod schedules;
+mod setup;
 
 use std::path::PathBuf;
 
@@ -24,6 +25,7 @@ pub(crate) use orders::{
     ZoneVerb,
 };
 pub(crate) use schedules::{ScheduleJob, ScheduleOptions, ScheduleVerb, day_name};
+pub(crate) use setup::{DoctorOptions, SetupOptions};
 
 /// LibreRVAC from the command line.
 #[derive(Debug, Parser)]
@@ -78,12 +80,41 @@ pub(crate) enum Subcommand {
     Drive(DriveOptions),
     /// The control mixes that are saved on the robot; without a command, list them.
     Mix(MixJob),
+    /// Set this board up: find the robot, write the configuration, start the services, show the way in.
+    Setup(SetupOptions),
+    /// What helps or hinders the robot, a line each: for reports of faults.
+    Doctor(DoctorOptions),
     /// Let a new device in: open a window and show its code.
     Pair(PairOptions),
     /// The paired devices; without a command, list them.
     Clients(ClientsJob),
     /// The robot's certificate: its fingerprint, and files for devices that are to trust it.
     Trust(TrustOptions),
+    /// Back up, write, verify and restore the robot's firmware.
+    Flash {
+        #[command(flatten)]
+        job: rvac_flash::FlashJob,
+        /// Unix socket of vthal, which lends its line.
+        #[arg(
+            long,
+            value_name = "PATH",
+            env = "RVAC_SOCKET",
+            default_value = "/run/vthal/vthal.sock",
+            global = true
+        )]
+        socket: PathBuf,
+    },
+    /// Print what a shell needs to complete rvac's commands.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Write the manual pages, for packages.
+    #[command(hide = true)]
+    Manual {
+        /// Where to.
+        folder: PathBuf,
+    },
     /// Start cleaning.
     Start {
         /// Name of the strategy; the daemon's default when not given.

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 
 mod arguments;
+mod board;
 mod calibrate;
 mod control;
 mod devices;
@@ -17,6 +18,7 @@ mod home;
 mod learnt;
 mod lines;
 mod listen;
+mod manual;
 mod mixes;
 mod orders;
 mod packet;
@@ -27,6 +29,7 @@ mod remote;
 mod replay;
 mod robot;
 mod schedules;
+mod setup;
 mod show;
 mod socket;
 mod status;
@@ -63,9 +66,14 @@ fn main() -> ExitCode {
         Subcommand::Probe(job) => probe::run(&job),
         Subcommand::Drive(options) => drive::run(&options),
         Subcommand::Mix(job) => mixes::run(&job),
+        Subcommand::Setup(options) => setup::run(&options),
+        Subcommand::Doctor(options) => setup::doctor(&options),
         Subcommand::Pair(options) => devices::pair(&options),
         Subcommand::Clients(job) => devices::clients(&job),
         Subcommand::Trust(options) => devices::trust(&options),
+        Subcommand::Completions { shell } => manual::completions(shell),
+        Subcommand::Manual { folder } => manual::write(&folder),
+        Subcommand::Flash { job, socket } => rvac_flash::run(&job, &rvac_flash::DaemonSocket(socket)),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
         Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
         Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use anyhow::bail;
-use rvac_api::{DeviceTable, Status, Topic, Update};
+use rvac_api::{DeviceTable, Lacking, Status, Topic, Update};
 
 use crate::arguments::{StatusOptions, WatchOptions};
 use crate::home::sureness;
@@ -21,12 +21,13 @@ pub(crate) fn print(options: &StatusOptions) -> anyhow::Result<ExitCode> {
     // Views come in this order; a daemon without a robot has no estimate.
     connection.watch(vec![Topic::Status, Topic::Estimate, Topic::Device])?;
     let deadline = Instant::now() + PATIENCE;
-    let (mut status, mut estimate, mut device) = (None, None, None);
+    let (mut hello, mut status, mut estimate, mut device) = (None, None, None, None);
     while status.is_none() || device.is_none() {
         let Some(message) = connection.receive_until(deadline)? else {
             bail!("vthal told no status within {} s", PATIENCE.as_secs());
         };
         match &message.update {
+            Some(Update::Hello { robot, .. }) => hello = robot.is_some().then_some(message),
             Some(Update::Status(_)) => status = Some(message),
             Some(Update::Estimate(_)) => estimate = Some(message),
             Some(Update::Device(_)) => device = Some(message),
@@ -34,7 +35,12 @@ pub(crate) fn print(options: &StatusOptions) -> anyhow::Result<ExitCode> {
             _ => {}
         }
     }
-    for message in [status, estimate, device].into_iter().flatten() {
+    // What a robot is, is for people; programs ask for it with hello.
+    let hello = hello.filter(|_| !options.json);
+    for message in [status, estimate, device, hello].into_iter().flatten() {
+        if !options.json && in_words(&message).is_none() {
+            continue;
+        }
         writeln!(
             stdout(),
             "{}",
@@ -79,6 +85,7 @@ fn in_words(message: &Message) -> Option<String> {
     match message.update.as_ref()? {
         Update::Status(status) => Some(status_in_words(status)),
         Update::Device(device) => Some(device_in_words(device)),
+        Update::Hello { robot, .. } => lacking_in_words(&robot.as_ref()?.lacking),
         Update::Pose(pose) => Some(format!(
             "pose      x {:.2} m, y {:.2} m, heading {:.0} deg",
             pose.x,
@@ -118,6 +125,15 @@ fn status_in_words(status: &Status) -> String {
         line += &format!(", driven by {driver}");
     }
     line
+}
+
+/// What the robot lacks until somebody measures something; nothing if it lacks nothing.
+fn lacking_in_words(lacking: &[Lacking]) -> Option<String> {
+    let lines: Vec<String> = lacking
+        .iter()
+        .map(|one| format!("lacks     {}: measure {}", one.ability, one.values.join(", ")))
+        .collect();
+    (!lines.is_empty()).then(|| lines.join("\n"))
 }
 
 fn device_in_words(device: &DeviceTable) -> String {

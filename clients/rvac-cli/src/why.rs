@@ -50,21 +50,39 @@ fn print_decisions(mut connection: Connection, options: &WhyOptions) -> anyhow::
     Ok(())
 }
 
-/// Gives `take` the past updates of `topic`, each with its JSON, and returns the daemon's time.
+/// A robot that can drive tells its pose many times in this time. One that cannot tells none.
+const POSE_WAIT: Duration = Duration::from_secs(1);
+
+/// Gives `take` the past updates of `topic`, each with its JSON, and returns the daemon's time: that of the robot's pose, or, where none
+/// comes, that of the newest of these updates.
 fn past_updates(
     connection: &mut Connection,
     topic: Topic,
     mut take: impl FnMut(Update, String),
 ) -> anyhow::Result<f64> {
-    // The topic first, then the pose, whose time is the present one.
-    connection.watch(vec![topic, Topic::Pose])?;
-    let deadline = Instant::now() + PATIENCE;
+    // The topic first, then the pose, whose time is the present one. The device table comes even without a robot.
+    connection.watch(vec![topic, Topic::Pose, Topic::Device])?;
+    let mut deadline = Instant::now() + PATIENCE;
+    let mut is_answered = false;
+    let mut newest_s = 0.0_f64;
     loop {
         let Some(message) = connection.receive_until(deadline)? else {
+            if is_answered {
+                return Ok(newest_s);
+            }
             bail!("vthal told nothing within {} s", PATIENCE.as_secs());
         };
         match message.update {
             Some(Update::Pose(pose)) => return Ok(pose.t),
+            Some(Update::Device(_)) if !is_answered => {
+                is_answered = true;
+                deadline = Instant::now() + POSE_WAIT;
+            }
+            Some(Update::Device(_)) => {}
+            Some(Update::Decision(decision)) => {
+                newest_s = newest_s.max(decision.t);
+                take(Update::Decision(decision), message.text);
+            }
             Some(Update::Failed(failure)) => bail!("refused ({}): {}", failure.reason, failure.text),
             Some(update) => take(update, message.text),
             None => {}

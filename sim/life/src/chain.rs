@@ -7,7 +7,6 @@ use std::time::Instant;
 use anyhow::Context;
 use brain::BehaviorState;
 use brain::command::StrategyName;
-use home::generate::{GeneratedHome, People};
 use home::{Home, Noise, Pcg, RobotModel, World, WorldSeeds};
 use robot::RobotSettings;
 use rvac_sim::run::{RunEnd, core_config, start_cleaning};
@@ -15,6 +14,7 @@ use rvac_sim::{Firmware, Host, Household, KeptWrite, Scene};
 use vthal::KeptStore;
 use vthal_core::CoreConfig;
 
+use crate::changes::ChangingHome;
 use crate::run::{LifeRun, LifeTiming};
 use crate::wear::Wear;
 
@@ -37,8 +37,8 @@ const FLOOR: u16 = 1;
 pub enum LivedHome {
     /// A home that is the same every day.
     Fixed(Arc<Home>),
-    /// A home of the generator whose chairs, boxes and toys are elsewhere every day, from the second run on.
-    Moved(GeneratedHome),
+    /// A home in which people change things.
+    Changing(ChangingHome),
 }
 
 /// What all runs of a chain have in common.
@@ -69,19 +69,11 @@ pub struct Chain<'a> {
 }
 
 impl LivedHome {
-    /// The home on the day of a run, counted from 1.
-    fn on_day(&self, run: u32, model: &RobotModel) -> anyhow::Result<Arc<Home>> {
+    /// The home on the day of a run, counted from 1, in the chain of a seed.
+    fn on_day(&self, run: u32, (seed, model): (u64, &RobotModel)) -> anyhow::Result<Arc<Home>> {
         match self {
             Self::Fixed(home) => Ok(Arc::clone(home)),
-            Self::Moved(home) => {
-                let people = if run == 1 { People::Out } else { home.people };
-                let today = GeneratedHome {
-                    arrangement: home.arrangement + run - 1,
-                    people,
-                    ..*home
-                };
-                Ok(Arc::new(today.home(model)?))
-            }
+            Self::Changing(home) => Ok(Arc::new(home.on_day(run, seed, model)?)),
         }
     }
 }
@@ -114,7 +106,9 @@ impl<'a> Chain<'a> {
     fn run(&self, run: u32) -> anyhow::Result<LifeRun> {
         let began = Instant::now();
         let seed = u64::from(Pcg::new(self.settings.seed, STREAM + u64::from(run)).next_u32());
-        let home = self.home.on_day(run, &self.settings.model)?;
+        let home = self
+            .home
+            .on_day(run, (self.settings.seed, &self.settings.model))?;
         let scene = Scene::new(home, self.settings.model.clone(), self.settings.noise);
         let reading = Instant::now();
         let config = self
@@ -131,13 +125,14 @@ impl<'a> Chain<'a> {
             "the robot did not answer"
         );
         self.clean(&mut household, &mut timing)?;
+        timing.save_step_max_ms = step_max_ms(&mut household);
         let report = household.report();
         let now_us = household.now_us();
         if let Some(host) = household.host_mut() {
             host.shut_down(now_us);
         }
         self.write(&mut household, &mut timing)?;
-        timing.save_step_max_ms = step_max_ms(&mut household);
+        timing.shutdown_ms = step_max_ms(&mut household);
         timing.times_real_time = report.sim_seconds / began.elapsed().as_secs_f64();
         Ok(LifeRun {
             seed: self.settings.seed,

@@ -5,11 +5,13 @@
 #![forbid(unsafe_code)]
 
 mod chain;
+mod changes;
 mod run;
 mod table;
 mod wear;
 
 pub use chain::{Chain, ChainSettings, LivedHome};
+pub use changes::{ChangingHome, HomeChange};
 pub use run::{LifeRun, LifeTiming};
 pub use table::LifeTable;
 pub use wear::Wear;

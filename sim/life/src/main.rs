@@ -1,30 +1,31 @@
 //! `bench-life`: how well a robot cleans its home run after run. `cargo xtask bench life` builds and runs it.
 #![forbid(unsafe_code)]
 
+use std::collections::BTreeSet;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use anyhow::Context;
 use clap::Parser;
-use home::generate::{GeneratedHome, Half};
-use home::{Home, RobotModel};
-use life::{Chain, ChainSettings, LifeRun, LifeTable, LivedHome, Wear};
+use home::RobotModel;
+use life::{Chain, ChainSettings, ChangingHome, HomeChange, LifeRun, LifeTable, LivedHome, Wear};
+use rvac_sim::bench::{NamedHome, in_order};
+use rvac_sim::days::KeptDays;
 
 /// Measures runs that follow each other, each with what the daemon kept of those before.
 #[derive(Debug, Parser)]
 struct Arguments {
-    /// Homes, separated by commas: `report` and `tuning` (halves of the published set), `generated:N`, or files.
+    /// Homes, separated by commas: `report` and `tuning` (halves of the published set), `published` (both), `generated:A..B` with B,
+    /// `generated:N`, or files.
     #[arg(long, default_value = "homes/two-room-flat.toml,generated:6,generated:14")]
     homes: String,
     /// Runs of each chain.
     #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..))]
     runs: u32,
     /// Chains in each home: seeds 1 to this.
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
     seeds: u64,
     /// Robot by name.
     #[arg(long, default_value = "sr8730")]
@@ -32,10 +33,19 @@ struct Arguments {
     /// Noise class: ideal, good, nominal or bad; parts of it can differ, as in `nominal,gyro=0,wheel-scale=2`.
     #[arg(long, default_value = "nominal")]
     noise: String,
-    /// Chairs, boxes and toys of generated homes are elsewhere in each run.
+    /// Chairs, boxes and toys stand 0.1 to 1 m from their places, elsewhere in each run from the second on.
     #[arg(long)]
-    moved: bool,
-    /// People walk and stand about in generated homes from the second run on. Implies --moved.
+    chairs: bool,
+    /// A door is shut in every third run.
+    #[arg(long)]
+    doors: bool,
+    /// The sofa is moved for good before run 10.
+    #[arg(long)]
+    sofa: bool,
+    /// A rug is laid before run 15.
+    #[arg(long)]
+    rug: bool,
+    /// People walk and stand about from the second run on.
     #[arg(long)]
     people: bool,
     /// The radius of the wheels falls by half a thousandth a run.
@@ -56,6 +66,9 @@ struct Arguments {
     /// Chains at a time.
     #[arg(long, default_value_t = 2)]
     jobs: usize,
+    /// Keep the medians of each run in this folder, for `rvac-sim report`.
+    #[arg(long, value_name = "DIR")]
+    keep: Option<PathBuf>,
     /// Print one JSON object, with the figures of each run.
     #[arg(long)]
     json: bool,
@@ -68,49 +81,69 @@ impl Arguments {
             noise: self.noise.parse()?,
             runs: self.runs,
             seed,
-            wear: Wear {
-                wheels: self.wheels_wear,
-                gyro: self.gyro_warms,
-                brush: self.brush_hardens,
-            },
+            wear: self.wear(),
             new_robots: self.new_robots,
             timing: self.timing,
         })
     }
 
-    fn places(&self) -> anyhow::Result<Vec<LivedHome>> {
-        let model = RobotModel::by_name(&self.robot)?;
-        let generated = |home: GeneratedHome| self.generated(home, &model);
-        let mut places = Vec::new();
-        for name in self.homes.split(',').map(str::trim) {
-            if let Some(half) = Half::named(name) {
-                for number in half.numbers() {
-                    places.push(generated(GeneratedHome::number(number))?);
-                }
-            } else if let Some(number) = name.strip_prefix("generated:") {
-                let home = GeneratedHome::parse(number);
-                places.push(generated(home.with_context(|| format!("`{name}` is no home"))?)?);
-            } else {
-                anyhow::ensure!(
-                    !self.moved && !self.people,
-                    "--moved and --people need generated homes, and `{name}` is a file"
-                );
-                places.push(LivedHome::Fixed(Arc::new(Home::load(Path::new(name), &model)?)));
-            }
+    const fn wear(&self) -> Wear {
+        Wear {
+            wheels: self.wheels_wear,
+            gyro: self.gyro_warms,
+            brush: self.brush_hardens,
         }
-        Ok(places)
     }
 
-    fn generated(&self, home: GeneratedHome, model: &RobotModel) -> anyhow::Result<LivedHome> {
-        if !self.moved && !self.people {
-            return Ok(LivedHome::Fixed(Arc::new(home.home(model)?)));
-        }
-        let people = if self.people {
-            home::generate::People::In
+    /// What the chains are called in a page.
+    fn title(&self) -> String {
+        let changes: Vec<String> = self
+            .changes()
+            .iter()
+            .map(|change| format!("{change:?}").to_lowercase())
+            .collect();
+        let changed = if changes.is_empty() {
+            "nothing moved".to_owned()
         } else {
-            home::generate::People::Out
+            changes.join(", ")
         };
-        Ok(LivedHome::Moved(GeneratedHome { people, ..home }))
+        format!(
+            "{} in {}, noise {}, {} seeds: {changed}",
+            self.robot, self.homes, self.noise, self.seeds
+        )
+    }
+
+    fn changes(&self) -> BTreeSet<HomeChange> {
+        let asked = [
+            (self.chairs, HomeChange::Chairs),
+            (self.doors, HomeChange::Doors),
+            (self.sofa, HomeChange::Sofa),
+            (self.rug, HomeChange::Rug),
+            (self.people, HomeChange::People),
+        ];
+        let asked = asked.into_iter().filter(|(is_asked, _)| *is_asked);
+        asked.map(|(_, change)| change).collect()
+    }
+
+    fn places(&self) -> anyhow::Result<Vec<LivedHome>> {
+        let model = RobotModel::by_name(&self.robot)?;
+        let changes = self.changes();
+        let named = NamedHome::list(&self.homes)?;
+        let lived = named.iter().map(|named| match (changes.is_empty(), named) {
+            (true, _) => Ok(LivedHome::Fixed(Arc::new(named.home(&model)?))),
+            (false, NamedHome::Generated(home)) => {
+                let text = home.floorplan(&model)?;
+                let home = ChangingHome::new(&format!("Generated {home}"), &text, &changes)?;
+                Ok(LivedHome::Changing(home))
+            }
+            (false, NamedHome::File(path)) => {
+                let name = path.display().to_string();
+                let text = std::fs::read_to_string(path).with_context(|| format!("cannot read {name}"))?;
+                Ok(LivedHome::Changing(ChangingHome::new(&name, &text, &changes)?))
+            }
+            (false, NamedHome::Trap(_)) => anyhow::bail!("nobody lives in a trap"),
+        });
+        lived.collect()
     }
 }
 
@@ -127,6 +160,13 @@ fn main() -> anyhow::Result<()> {
         arguments.jobs
     )?;
     let table = LifeTable::of(&chains);
+    if let Some(folder) = &arguments.keep {
+        let kept = KeptDays {
+            title: arguments.title(),
+            days: serde_json::from_value(serde_json::to_value(&table)?)?,
+        };
+        kept.keep(folder)?;
+    }
     let mut out = io::stdout().lock();
     if arguments.json {
         let object = serde_json::json!({
@@ -134,6 +174,8 @@ fn main() -> anyhow::Result<()> {
             "robot": arguments.robot,
             "noise": arguments.noise,
             "seeds": arguments.seeds,
+            "changes": arguments.changes(),
+            "wear": arguments.wear(),
             "days": table,
             "chains": chains,
         });
@@ -152,30 +194,11 @@ fn main() -> anyhow::Result<()> {
 
 /// All chains, in the order of homes and seeds.
 fn live(arguments: &Arguments, places: &[LivedHome]) -> anyhow::Result<Vec<Vec<LifeRun>>> {
-    let count = places.len() * arguments.seeds as usize;
-    let next = AtomicUsize::new(0);
-    let results = Mutex::new(Vec::new());
-    std::thread::scope(|scope| {
-        for _ in 0..arguments.jobs.clamp(1, count.max(1)) {
-            scope.spawn(|| {
-                loop {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    if number >= count {
-                        break;
-                    }
-                    let seed = (number % arguments.seeds as usize) as u64 + 1;
-                    let place = &places[number / arguments.seeds as usize];
-                    let result = one(arguments, place, (number, seed));
-                    if let Ok(mut results) = results.lock() {
-                        results.push((number, result));
-                    }
-                }
-            });
-        }
-    });
-    let mut results = results.into_inner().unwrap_or_default();
-    results.sort_by_key(|(number, _)| *number);
-    results.into_iter().map(|(_, result)| result).collect()
+    let seeds = arguments.seeds as usize;
+    in_order(places.len() * seeds, arguments.jobs, |_: &mut (), number| {
+        let place = &places[number / seeds];
+        one(arguments, place, (number, (number % seeds) as u64 + 1))
+    })
 }
 
 fn one(

@@ -29,6 +29,8 @@ pub struct LifeTiming {
     pub job_step_max_ms: f64,
     /// Longest step after the job: the map is finished and handed to the store then.
     pub save_step_max_ms: f64,
+    /// The step that ends the daemon, which writes the map down at once: nobody waits for it.
+    pub shutdown_ms: f64,
     /// Reading the state folder at the start, milliseconds.
     pub read_ms: f64,
     /// Longest write to the state folder, milliseconds.

@@ -2,39 +2,11 @@
 
 use std::fmt;
 
+use rvac_sim::bench::{RunFigure, Spread};
 use rvac_sim::{FieldMeasures, Figures, MapObstacles};
 use serde::{Serialize, Serializer};
 
 use crate::LifeRun;
-
-/// How a figure is taken from a run, and what it is called.
-struct FigureRow {
-    name: &'static str,
-    better: Better,
-    of: fn(&LifeRun) -> Option<f64>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Better {
-    Less,
-    More,
-}
-
-const fn less(name: &'static str, of: fn(&LifeRun) -> Option<f64>) -> FigureRow {
-    FigureRow {
-        name,
-        better: Better::Less,
-        of,
-    }
-}
-
-const fn more(name: &'static str, of: fn(&LifeRun) -> Option<f64>) -> FigureRow {
-    FigureRow {
-        name,
-        better: Better::More,
-        of,
-    }
-}
 
 fn figures(run: &LifeRun) -> Option<&Figures> {
     run.report.figures.as_deref()
@@ -48,65 +20,58 @@ fn obstacles(run: &LifeRun) -> Option<MapObstacles> {
     figures(run)?.map_obstacles
 }
 
-const ROWS: [FigureRow; 36] = [
-    more("swept", |run| Some(run.report.covered)),
-    less("t90_over_t0", |run| figures(run)?.t90_over_t0),
-    less("t95_over_t0", |run| figures(run)?.t95_over_t0),
-    less("job_over_t0", |run| figures(run)?.job_over_t0),
-    less("bumps", |run| Some(f64::from(run.report.bumps))),
-    less("bumps_per_m2", |run| Some(figures(run)?.bumps_per_m2)),
-    less("place_median_m", |run| figures(run)?.pose_error_median_m),
-    less("place_p90_m", |run| figures(run)?.pose_error_p90_m),
-    less("place_median_aligned_m", |run| {
+const ROWS: [RunFigure<LifeRun>; 38] = [
+    RunFigure::more("swept", |run| Some(run.report.covered)),
+    RunFigure::less("t90_over_t0", |run| figures(run)?.t90_over_t0),
+    RunFigure::less("t95_over_t0", |run| figures(run)?.t95_over_t0),
+    RunFigure::less("job_over_t0", |run| figures(run)?.job_over_t0),
+    RunFigure::less("bumps", |run| Some(f64::from(run.report.bumps))),
+    RunFigure::less("bumps_per_m2", |run| Some(figures(run)?.bumps_per_m2)),
+    RunFigure::less("place_median_m", |run| figures(run)?.pose_error_median_m),
+    RunFigure::less("place_p90_m", |run| figures(run)?.pose_error_p90_m),
+    RunFigure::less("place_median_aligned_m", |run| {
         figures(run)?.pose_error_median_aligned_m
     }),
-    less("place_p90_aligned_m", |run| {
+    RunFigure::less("place_p90_aligned_m", |run| {
         figures(run)?.pose_error_p90_aligned_m
     }),
-    less("sigma_median_m", |run| figures(run)?.sigma_median_m),
-    less("nees_place", |run| figures(run)?.nees_place),
-    less("nees_place_aligned", |run| figures(run)?.nees_place_aligned),
-    less("nees_heading", |run| figures(run)?.nees_heading),
-    less("lost_s", |run| Some(figures(run)?.lost_seconds)),
-    less("unnoticed_wrong_s", |run| Some(figures(run)?.lost_unnoticed_s)),
-    less("told_minus_true", |run| {
+    RunFigure::less("sigma_median_m", |run| figures(run)?.sigma_median_m),
+    RunFigure::less("nees_place", |run| figures(run)?.nees_place),
+    RunFigure::less("nees_place_aligned", |run| figures(run)?.nees_place_aligned),
+    RunFigure::less("nees_place_median_aligned", |run| {
+        figures(run)?.nees_place_median_aligned
+    }),
+    RunFigure::less("nees_heading", |run| figures(run)?.nees_heading),
+    RunFigure::less("lost_s", |run| Some(figures(run)?.lost_seconds)),
+    RunFigure::less("unnoticed_wrong_s", |run| Some(figures(run)?.lost_unnoticed_s)),
+    RunFigure::less("told_minus_true", |run| {
         figures(run)?.told_minus_true.map(f64::abs)
     }),
-    more("map_iou", |run| figures(run)?.map_iou),
-    more("map_iou_aligned", |run| figures(run)?.map_iou_aligned),
-    less("wall_error_m", |run| figures(run)?.wall_error_m),
-    less("wall_error_aligned_m", |run| figures(run)?.wall_error_aligned_m),
-    less("false_obstacle_m2", |run| Some(obstacles(run)?.false_m2)),
-    less("false_obstacles", |run| {
+    RunFigure::more("map_iou", |run| figures(run)?.map_iou),
+    RunFigure::more("map_iou_aligned", |run| figures(run)?.map_iou_aligned),
+    RunFigure::less("wall_error_m", |run| figures(run)?.wall_error_m),
+    RunFigure::less("wall_error_aligned_m", |run| figures(run)?.wall_error_aligned_m),
+    RunFigure::less("false_obstacle_m2", |run| Some(obstacles(run)?.false_m2)),
+    RunFigure::less("false_obstacles", |run| {
         Some(f64::from(obstacles(run)?.false_count))
     }),
-    less("missing_obstacle_m2", |run| Some(obstacles(run)?.missing_m2)),
-    less("missing_obstacles", |run| {
+    RunFigure::less("missing_obstacle_m2", |run| Some(obstacles(run)?.missing_m2)),
+    RunFigure::less("missing_obstacles", |run| {
         Some(f64::from(obstacles(run)?.missing_count))
     }),
-    less("map_bytes", |run| run.map_bytes.map(|bytes| bytes as f64)),
-    less("minutes_per_room", |run| field(run)?.minutes_per_room),
-    less("collisions_per_m2", |run| Some(field(run)?.collisions_per_m2)),
-    less("swept_twice", |run| Some(field(run)?.swept_twice)),
-    more("path_efficiency", |run| field(run)?.path_efficiency),
-    more("docked", |run| Some(f64::from(u8::from(figures(run)?.docked)))),
-    less("violations", |run| Some(f64::from(run.report.monitor_violations))),
-    less("load_step_max_ms", |run| Some(run.timing?.load_step_max_ms)),
-    less("save_step_max_ms", |run| Some(run.timing?.save_step_max_ms)),
-    less("write_max_ms", |run| Some(run.timing?.write_max_ms)),
-    more("times_real_time", |run| Some(run.timing?.times_real_time)),
+    RunFigure::less("map_bytes", |run| run.map_bytes.map(|bytes| bytes as f64)),
+    RunFigure::less("minutes_per_room", |run| field(run)?.minutes_per_room),
+    RunFigure::less("collisions_per_m2", |run| Some(field(run)?.collisions_per_m2)),
+    RunFigure::less("swept_twice", |run| Some(field(run)?.swept_twice)),
+    RunFigure::more("path_efficiency", |run| field(run)?.path_efficiency),
+    RunFigure::more("docked", |run| Some(f64::from(u8::from(figures(run)?.docked)))),
+    RunFigure::less("violations", |run| Some(f64::from(run.report.monitor_violations))),
+    RunFigure::less("load_step_max_ms", |run| Some(run.timing?.load_step_max_ms)),
+    RunFigure::less("save_step_max_ms", |run| Some(run.timing?.save_step_max_ms)),
+    RunFigure::less("shutdown_ms", |run| Some(run.timing?.shutdown_ms)),
+    RunFigure::less("write_max_ms", |run| Some(run.timing?.write_max_ms)),
+    RunFigure::more("times_real_time", |run| Some(run.timing?.times_real_time)),
 ];
-
-/// A figure over the chains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-struct Spread {
-    /// `null` = the median chain has no such figure.
-    median: Option<f64>,
-    /// The 90th percentile toward the worse.
-    p90: Option<f64>,
-    /// Chains without the figure.
-    missing: usize,
-}
 
 /// All runs of some chains, by their number.
 #[derive(Clone, Debug)]
@@ -123,34 +88,12 @@ impl LifeTable {
         let longest = chains.iter().map(Vec::len).max().unwrap_or(0);
         let day = |number: usize| {
             let runs: Vec<&LifeRun> = chains.iter().filter_map(|chain| chain.get(number)).collect();
-            let row = |row: &FigureRow| {
-                let values: Vec<Option<f64>> = runs.iter().map(|run| (row.of)(run)).collect();
-                spread(&values, row.better)
-            };
-            ROWS.iter().map(row).collect()
+            ROWS.iter().map(|row| row.spread(&runs)).collect()
         };
         Self {
             days: (0..longest).map(day).collect(),
             chains: chains.len(),
         }
-    }
-}
-
-/// Nearest rank; a run without the figure is worse than all others.
-fn spread(values: &[Option<f64>], better: Better) -> Spread {
-    let mut sorted: Vec<f64> = values.iter().flatten().copied().collect();
-    sorted.sort_by(f64::total_cmp);
-    if better == Better::More {
-        sorted.reverse();
-    }
-    let rank = |share: f64| {
-        let rank = (share * values.len() as f64).ceil() as usize;
-        rank.checked_sub(1).and_then(|index| sorted.get(index)).copied()
-    };
-    Spread {
-        median: rank(0.5),
-        p90: rank(0.9),
-        missing: values.len() - sorted.len(),
     }
 }
 
@@ -187,31 +130,5 @@ impl fmt::Display for LifeTable {
             writeln!(formatter)?;
         }
         Ok(())
-    }
-}
-
-impl Spread {
-    fn text(self) -> String {
-        let number = |value: Option<f64>| match value {
-            None => "-".to_owned(),
-            Some(value) if value.abs() >= 100.0 => format!("{value:.0}"),
-            Some(value) if value.abs() >= 1.0 => format!("{value:.2}"),
-            Some(value) => format!("{value:.3}"),
-        };
-        format!("{} ({})", number(self.median), number(self.p90))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Better, spread};
-
-    #[test]
-    fn a_chain_without_the_figure_counts_as_the_worst() {
-        let times: Vec<Option<f64>> = (1..=8).map(|n| Some(f64::from(n))).chain([None, None]).collect();
-        let found = spread(&times, Better::Less);
-        assert_eq!((found.median, found.p90, found.missing), (Some(5.0), None, 2));
-        let shares: Vec<Option<f64>> = (1..=10).map(|n| Some(f64::from(n) / 10.0)).collect();
-        assert_eq!(spread(&shares, Better::More).p90, Some(0.2));
     }
 }

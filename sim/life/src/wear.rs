@@ -2,6 +2,7 @@
 
 use home::RobotModel;
 use rvac_sim::Household;
+use serde::Serialize;
 
 /// Part of the wheels' radius that a run takes.
 const WHEEL_A_RUN: f64 = 0.0005;
@@ -13,7 +14,7 @@ const WARM_RAD_PER_S: f64 = 0.18 * core::f64::consts::PI / 180.0;
 const WARMING_S: f64 = 900.0;
 
 /// Which parts wear.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Wear {
     /// The radius of the wheels falls from run to run.
     pub wheels: bool,

@@ -31,7 +31,8 @@ pub(crate) enum SimCommand {
     Faults(FaultArguments),
     /// Writes the published set of generated homes as home .toml files.
     Homes(FolderArguments),
-    /// Makes one HTML page of the runs that `run --keep DIR` kept in a folder: DIR/index.html.
+    /// Makes one HTML page of the runs that `run --keep DIR` kept in a folder, and of the days that `bench life --keep DIR` kept
+    /// there: DIR/index.html.
     Report(ReportArguments),
 }
 

@@ -7,7 +7,9 @@
 #![forbid(unsafe_code)]
 
 pub mod baseline;
+pub mod bench;
 mod carpet_quality;
+pub mod days;
 mod explanation;
 pub mod faults;
 mod figures;

@@ -18,6 +18,7 @@ use home::RobotModel;
 use home::generate::{GeneratedHome, PUBLISHED};
 use progress::Progress;
 use rvac_sim::baseline::add_missing;
+use rvac_sim::days::KeptDays;
 use rvac_sim::faults::{FaultCampaign, Summary, trials};
 use rvac_sim::line_faults::{LineFault, LineFaultTable, passages};
 use rvac_sim::page;
@@ -149,7 +150,12 @@ fn write_homes(folder: &Path) -> anyhow::Result<ExitCode> {
 
 fn write_page(arguments: &ReportArguments) -> anyhow::Result<ExitCode> {
     let folder = &arguments.folder;
-    let mut runs = KeptRun::all(folder)?;
+    let days = KeptDays::all(folder)?;
+    let mut runs = if days.is_empty() || arguments.with_bounce {
+        KeptRun::all(folder)?
+    } else {
+        KeptRun::all_or_none(folder)?
+    };
     if arguments.with_bounce {
         let progress = Progress::new("bounce");
         let added = add_missing(folder, &runs, |share| progress.show(share));
@@ -163,7 +169,7 @@ fn write_page(arguments: &ReportArguments) -> anyhow::Result<ExitCode> {
             fs::write(&path, picture.svg).with_context(|| format!("cannot write {}", path.display()))?;
         }
     }
-    let page = page::write(&runs);
+    let page = page::write(&runs, &days);
     let path = folder.join("index.html");
     fs::write(&path, page).with_context(|| format!("cannot write {}", path.display()))?;
     print(&path.display().to_string())?;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use brain::mapping::{CELL_M, CellKnowledge, SurfaceKind};
 use home::{Cell, Home, Pose, Truth};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::baseline::Origin;
@@ -188,22 +189,16 @@ impl KeptRun {
     /// # Errors
     /// When the folder or the file cannot be written.
     pub fn keep(&self, folder: &Path) -> anyhow::Result<PathBuf> {
-        fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
         let home = self.report["home"].as_str().unwrap_or("home");
-        let name: String = format!("{home} {}", self.title)
-            .chars()
-            .map(|letter| {
-                if letter.is_ascii_alphanumeric() {
-                    letter.to_ascii_lowercase()
-                } else {
-                    '-'
-                }
-            })
-            .collect();
-        let path = folder.join(format!("{name}{ENDING}"));
-        let text = serde_json::to_string(self)?;
-        fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
-        Ok(path)
+        keep_as(folder, (&format!("{home} {}", self.title), ENDING), self)
+    }
+
+    /// As [`Self::all`], also of a folder without any.
+    ///
+    /// # Errors
+    /// When the folder cannot be read, or a file is not what it seems.
+    pub fn all_or_none(folder: &Path) -> anyhow::Result<Vec<Self>> {
+        kept_in(folder, ENDING)
     }
 
     /// All runs of a folder, by name.
@@ -211,22 +206,51 @@ impl KeptRun {
     /// # Errors
     /// When the folder cannot be read, holds no run, or a file is not what it seems.
     pub fn all(folder: &Path) -> anyhow::Result<Vec<Self>> {
-        let entries = fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
-        let mut paths: Vec<PathBuf> = entries
-            .filter_map(|entry| Some(entry.ok()?.path()))
-            .filter(|path| path.to_string_lossy().ends_with(ENDING))
-            .collect();
-        paths.sort();
+        let runs = Self::all_or_none(folder)?;
         anyhow::ensure!(
-            !paths.is_empty(),
+            !runs.is_empty(),
             "{} holds no runs; make some with: rvac-sim run --keep {0} --home ...",
             folder.display()
         );
-        paths.iter().map(|path| read(path)).collect()
+        Ok(runs)
     }
 }
 
-fn read(path: &Path) -> anyhow::Result<KeptRun> {
+/// Writes something into a folder, which is made if need be.
+pub(crate) fn keep_as(
+    folder: &Path,
+    (name, ending): (&str, &str),
+    kept: &impl Serialize,
+) -> anyhow::Result<PathBuf> {
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    let name: String = name
+        .chars()
+        .map(|letter| {
+            if letter.is_ascii_alphanumeric() {
+                letter.to_ascii_lowercase()
+            } else {
+                '-'
+            }
+        })
+        .collect();
+    let path = folder.join(format!("{name}{ending}"));
+    let text = serde_json::to_string(kept)?;
+    fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
+    Ok(path)
+}
+
+/// Everything in a folder whose name ends so, by name.
+pub(crate) fn kept_in<Kept: DeserializeOwned>(folder: &Path, ending: &str) -> anyhow::Result<Vec<Kept>> {
+    let entries = fs::read_dir(folder).with_context(|| format!("cannot read {}", folder.display()))?;
+    let mut paths: Vec<PathBuf> = entries
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.to_string_lossy().ends_with(ending))
+        .collect();
+    paths.sort();
+    paths.iter().map(|path| read(path)).collect()
+}
+
+fn read<Kept: DeserializeOwned>(path: &Path) -> anyhow::Result<Kept> {
     let text = fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-    serde_json::from_str(&text).with_context(|| format!("{} is no kept run", path.display()))
+    serde_json::from_str(&text).with_context(|| format!("{} is not what it seems", path.display()))
 }

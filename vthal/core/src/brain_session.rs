@@ -15,7 +15,7 @@ use brain::{
 };
 pub(crate) use floors::FloorNews;
 use floors::Hands;
-use next_run::{LoadingFloor, NextHome, NextRun};
+use next_run::{LeavingHome, LoadingFloor, NextHome, NextRun};
 use runs::RecordedRun;
 pub(crate) use runs::Recorder;
 use rvac_api::HomeView;
@@ -24,6 +24,7 @@ use crate::device::{Description, Part};
 use crate::edges::Edges;
 use crate::floors::Floors;
 use crate::home_view::{SurfaceSensing, home_view};
+use crate::lacking::{self, Lacking};
 use crate::observe::{LinkView, Observer};
 use crate::storey_resolver::StoreyResolver;
 use crate::{CoreConfig, FloorHome, Record, RunCause, RunEnd, to_api};
@@ -53,6 +54,8 @@ pub(crate) struct BrainSession {
     next: Option<NextRun>,
     /// The home of a floor that is being loaded.
     loading_floor: Option<LoadingFloor>,
+    /// What a run has left, until it is written down.
+    leaving_home: Option<LeavingHome>,
     /// The floor whose map the brain has; `None` while the floor is unknown.
     floor: Option<u16>,
     /// The search for the floor: while it is not known, and while the robot is lost on one of several.
@@ -60,6 +63,7 @@ pub(crate) struct BrainSession {
     hands: Hands,
     identity: (String, String),
     robot: rvac_api::RobotDescription,
+    lacking: Vec<Lacking>,
     measures_currents: bool,
 }
 
@@ -75,7 +79,7 @@ impl BrainSession {
         let seed = settings.seed;
         let mut brain = Brain::new(config, seed);
         brain.begin_with(learnt);
-        Self {
+        let mut session = Self {
             brain,
             config,
             seed,
@@ -89,6 +93,7 @@ impl BrainSession {
             run: None,
             next: None,
             loading_floor: None,
+            leaving_home: None,
             floor: floors.homes().next().is_none().then(|| floors.first()),
             storey_resolver: None,
             hands: Hands::default(),
@@ -96,9 +101,33 @@ impl BrainSession {
                 description.identity.device.clone(),
                 description.identity.firmware.clone(),
             ),
-            robot: to_api::robot(description),
+            robot: to_api::robot(description, &[]),
+            lacking: Vec::new(),
             measures_currents: description.has(Part::Currents),
-        }
+        };
+        session.describe(description, settings);
+        session
+    }
+
+    /// The robot has described itself, for the first time or once more: meanwhile its firmware may have learnt what was measured. Gives
+    /// what it lacks, if that is news.
+    pub(crate) fn describe(
+        &mut self,
+        description: &Description,
+        settings: &CoreConfig,
+    ) -> Option<&[Lacking]> {
+        let lacking = lacking::lacking(description, &settings.sensors, &settings.calibration);
+        self.robot = to_api::robot(description, &lacking);
+        let keeps = lacking.iter().any(|one| one.ability.is_needed_to_move());
+        self.observer.set_not_calibrated(keeps);
+        let is_news = lacking != self.lacking;
+        self.lacking = lacking;
+        is_news.then_some(&self.lacking)
+    }
+
+    /// What the robot lacks because values of its own were never measured.
+    pub(crate) fn lacking(&self) -> &[Lacking] {
+        &self.lacking
     }
 
     pub(crate) fn brain(&self) -> &Brain {
@@ -270,15 +299,25 @@ impl BrainSession {
 
     /// Whether [`Self::prepare`] has something to do.
     pub(crate) fn is_preparing(&self) -> bool {
-        self.next.is_some() || self.loading_floor.is_some()
+        self.next.is_some() || self.loading_floor.is_some() || self.leaving_home.is_some()
     }
 
-    /// Continues to load the home of a floor, then that of the next run, and begins the run when it is ready.
-    pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
+    /// Continues to load the home of a floor, then that of the next run, and begins the run when it is ready; then to write down what
+    /// a run has left. Gives that once it is ready.
+    pub(crate) fn prepare(&mut self, now_us: u64, recorder: &mut Recorder<'_>) -> Option<FloorHome> {
         if let Some(floor) = &mut self.loading_floor {
             floor.go_on();
-            return;
+        } else if self.next.is_some() {
+            self.prepare_run(now_us, recorder);
+        } else {
+            let home = self.leaving_home.as_mut()?.go_on()?;
+            self.leaving_home = None;
+            return Some(home).filter(|left| !left.home.is_empty());
         }
+        None
+    }
+
+    fn prepare_run(&mut self, now_us: u64, recorder: &mut Recorder<'_>) {
         let Some(next) = &mut self.next else { return };
         let Some(NextHome { written, ready }) = next.go_on(&self.config) else {
             return;
@@ -302,8 +341,17 @@ impl BrainSession {
         }
     }
 
-    /// The home as it is worth keeping, with its floor; `None` while the floor is unknown or the robot is lost.
-    pub(crate) fn home_to_keep(&self) -> Option<FloorHome> {
+    /// Begins to write down the home as it is worth keeping; [`Self::prepare`] goes on. Nothing begins while the floor is unknown or
+    /// the robot is lost.
+    pub(crate) fn begin_keeping_home(&mut self) {
+        let floor = self.floor.filter(|_| !self.brain.estimate().lost);
+        self.leaving_home = floor.map(|floor| LeavingHome::of(&self.brain, floor));
+    }
+
+    /// The home as it is worth keeping, with its floor, at once: for a robot at rest. It replaces what is being written down. `None`
+    /// while the floor is unknown or the robot is lost.
+    pub(crate) fn home_to_keep(&mut self) -> Option<FloorHome> {
+        self.leaving_home = None;
         let floor = self.floor.filter(|_| !self.brain.estimate().lost)?;
         let home = self.brain.map().stored();
         (!home.is_empty()).then_some(FloorHome { floor, home })

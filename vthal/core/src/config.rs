@@ -1,6 +1,8 @@
 //! Settings of the core.
 
 use brain::SensorLayout;
+
+use crate::lacking::CalibrationValue;
 use brain::command::StrategyName;
 
 use crate::Checkpoint;
@@ -27,6 +29,8 @@ pub struct CoreConfig {
     pub checkpoints: Checkpoints,
     /// Where the robot's sensors sit; the wire carries only their number.
     pub sensors: SensorLayout,
+    /// What a person measures on the robot, as far as something is absent without it.
+    pub calibration: Vec<CalibrationValue>,
     /// Longest job in seconds, after which the robot docks (S26).
     pub task_budget_s: u32,
     /// Version of the daemon, for clients and recordings.
@@ -62,6 +66,7 @@ impl Default for CoreConfig {
             recording: Recording::Off,
             checkpoints: Checkpoints::Off,
             sensors: SensorLayout::default(),
+            calibration: Vec::new(),
             task_budget_s: 120 * 60,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             floors: Vec::new(),

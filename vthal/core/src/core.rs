@@ -24,6 +24,7 @@ use crate::desk::input_desk::InputDesk;
 use crate::desk::journal::LogSource;
 use crate::desk::learnt::LearntDesk;
 use crate::desk::link::LinkDesk;
+use crate::desk::link_loan::LinkLoan;
 use crate::desk::schedules::ScheduleDesk;
 use crate::desk::sources::Sources;
 use crate::desk::standstills::StandstillDesk;
@@ -56,6 +57,7 @@ pub struct Core {
     ended: bool,
     audience: Audience,
     link: LinkDesk,
+    loan: LinkLoan,
     brain_session: Option<BrainSession>,
     pace: Pace,
     driver: DriverDesk,
@@ -85,6 +87,7 @@ impl Core {
             ended: false,
             audience,
             link: LinkDesk::default(),
+            loan: LinkLoan::default(),
             brain_session: None,
             pace: Pace::default(),
             driver: DriverDesk::default(),
@@ -270,7 +273,11 @@ impl Core {
             && now_us >= self.pace.prepared_us + PREPARE_US
         {
             self.pace.prepared_us = now_us;
-            brain_session.prepare(now_us, &mut Recorder::new(self.config.recording, outputs));
+            let left = brain_session.prepare(now_us, &mut Recorder::new(self.config.recording, outputs));
+            if let Some(left) = left {
+                self.floors.note_kept(&left);
+                outputs.home = Some(left);
+            }
         }
         if self.brain_session.is_some() && now_us >= self.pace.stepped_us + STEP_MAX_US {
             self.think(now_us, outputs);

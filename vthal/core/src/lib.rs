@@ -28,6 +28,7 @@ pub mod health;
 mod history;
 mod home_view;
 mod input;
+mod lacking;
 pub mod learnt;
 mod lights;
 mod newest;
@@ -47,10 +48,11 @@ pub use core::Core;
 pub use floors::KeptFloor;
 pub use history::cut_short;
 pub use input::{ClientId, Input, LinkLoss};
+pub use lacking::{Ability, CalibrationValue, Lacking};
 pub use lights::Lights;
 pub use outputs::{
     ArchiveOrder, ArchiveTask, Delivery, Direction, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder,
-    LearntOrder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunQuery,
-    RunStart, RunTask, ScheduleOrder,
+    LearntOrder, LineHolder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
+    RunQuery, RunStart, RunTask, ScheduleOrder,
 };
 pub use stored_version::OtherVersion;

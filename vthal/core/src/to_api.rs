@@ -7,6 +7,7 @@ use rvac_api::{
 };
 
 use crate::device::{Battery, ChargeState, Charger, Description};
+use crate::lacking::Lacking;
 use crate::swept_sigma::SweptSigma;
 
 /// A pose of the map frame at `time_us`.
@@ -25,7 +26,7 @@ pub(crate) fn seconds(time_us: u64) -> f64 {
 }
 
 /// A robot's description.
-pub(crate) fn robot(description: &Description) -> RobotDescription {
+pub(crate) fn robot(description: &Description, lacking: &[Lacking]) -> RobotDescription {
     RobotDescription {
         device: description.identity.device.clone(),
         radius_m: description.shape.circumscribed_radius_m(),
@@ -46,6 +47,13 @@ pub(crate) fn robot(description: &Description) -> RobotDescription {
             .iter()
             .copied()
             .map(str::to_owned)
+            .collect(),
+        lacking: lacking
+            .iter()
+            .map(|one| rvac_api::Lacking {
+                ability: one.ability.name().to_owned(),
+                values: one.values.clone(),
+            })
             .collect(),
     }
 }

@@ -43,6 +43,7 @@ fn start() -> RunStart {
             parts: vec!["gyro".to_owned()],
             unguarded: Vec::new(),
             unmeasured: Vec::new(),
+            lacking: Vec::new(),
         },
     }
 }

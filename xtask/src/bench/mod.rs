@@ -1,6 +1,7 @@
 //! `cargo xtask bench`: builds what is measured in the release profile and runs it.
 
 mod logic;
+mod relax;
 mod safety;
 
 use crate::{codegen, firmware, process, workspace};
@@ -27,6 +28,8 @@ enum Subject {
     Cordlib,
     /// Every safety rule on the robot's firmware in the emulated chip: worst reactions.
     Safety,
+    /// The Relax's image: bytes lost in full duplex, damaged packets, the worst reaction of each rule.
+    Relax,
     /// Bits that flip in the robot's firmware's memory and registers.
     Flips,
     /// The robot's firmware in boards with one mistake each: who notices.
@@ -77,6 +80,9 @@ pub(crate) struct BenchArguments {
 
 /// Runs the measurement.
 pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
+    if matches!(arguments.subject, Subject::Relax) {
+        return relax::run(arguments);
+    }
     if matches!(arguments.subject, Subject::LogicMutants) {
         return logic::run(arguments);
     }
@@ -185,6 +191,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Sim => &["--bin", "bench-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
         Subject::Safety => &["--bin", "bench-safety"],
+        Subject::Relax => &["--bin", "bench-relax"],
         Subject::Flips => &["--bin", "bench-flips"],
         Subject::Mutants => &["--bin", "bench-mutants"],
         Subject::LogicMutants => &[],
@@ -210,6 +217,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Panel
         | Subject::Writes
         | Subject::Cordlib
+        | Subject::Relax
         | Subject::Flips
         | Subject::Mutants
         | Subject::LogicMutants
@@ -241,6 +249,6 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
-        Subject::Cordlib | Subject::LogicMutants => &[],
+        Subject::Cordlib | Subject::Relax | Subject::LogicMutants => &[],
     }
 }

@@ -12,6 +12,8 @@ pub(super) fn workspace_tests(extent: Extent) -> Result {
     system::need("cc", &["gcc", "libc6-dev"])?;
     system::need("raku", &["rakudo"])?;
     system::need("socat", &["socat"])?;
+    system::need("node", &["nodejs"])?;
+    system::need("python3", &["python3"])?;
     system::need("curl", &["curl"])?;
     let build = check(&mut cargo(&["build", "--workspace", "--locked", "--all-targets"]));
     let run = tests(&mut runner(extent));

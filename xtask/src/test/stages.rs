@@ -2,7 +2,7 @@
 
 use super::extent::Extent;
 use super::runner::Result;
-use super::{browser, campaigns, code, programs, robot};
+use super::{browser, campaigns, code, flash, packages, programs, robot};
 
 /// One stage.
 pub(super) struct Stage {
@@ -19,7 +19,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 17] = [
+pub(super) const STAGES: [Stage; 19] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -112,6 +112,13 @@ pub(super) const STAGES: [Stage; 17] = [
         run: campaigns::faults,
     },
     Stage {
+        name: "flash",
+        does: "firmware goes into the simulated chips and comes back, with cut power; stcgal writes the simulated loader",
+        from: Extent::All,
+        wants_the_machine: true,
+        run: flash::flash,
+    },
+    Stage {
         name: "headless",
         does: "the demo cleans without a browser; with --all the emulated robot, too",
         from: Extent::Short,
@@ -131,6 +138,13 @@ pub(super) const STAGES: [Stage; 17] = [
         from: Extent::All,
         wants_the_machine: true,
         run: campaigns::writes,
+    },
+    Stage {
+        name: "packages",
+        does: "a package is installed, set up, used, upgraded and purged in a bare Debian; with --long those that are given out",
+        from: Extent::All,
+        wants_the_machine: true,
+        run: packages::packages,
     },
     Stage {
         name: "browser",

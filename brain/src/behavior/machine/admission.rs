@@ -51,6 +51,9 @@ impl Behavior {
                 None => JobRefusal::LinkLost,
             });
         }
+        if self.facts.not_calibrated {
+            return Err(JobRefusal::NotCalibrated);
+        }
         if let Some(fault) = self.facts.fault {
             return Err(JobRefusal::Fault(fault));
         }

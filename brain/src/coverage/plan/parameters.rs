@@ -6,8 +6,9 @@ use crate::mapping::CELL_M;
 pub(super) struct LaneParameters {
     /// Cells that one border edge less is worth.
     pub(super) border_cells: i16,
-    /// Smallest share of the gain of a lane over fully open floor in the same time, for each round.
-    pub(super) round_shares: [f64; 2],
+    /// Smallest share of the gain of a lane over fully open floor in the same time, for each round. The last round asks for what is
+    /// left beside walls and legs, and comes when all else is swept.
+    pub(super) round_shares: [f64; 3],
     /// Cost to enter and leave a lane, in radians of turning, added to the time of a lane. Besides the turns it covers
     /// braking and the path between lanes.
     pub(super) enter_rad: f64,
@@ -15,7 +16,7 @@ pub(super) struct LaneParameters {
 
 pub(super) const LANES: LaneParameters = LaneParameters {
     border_cells: 1,
-    round_shares: [0.35, 0.07],
+    round_shares: [0.35, 0.07, 0.03],
     enter_rad: 6.0,
 };
 

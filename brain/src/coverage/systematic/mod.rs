@@ -14,6 +14,7 @@
 mod assignment;
 mod contact_offset;
 mod frontier;
+mod known_floor;
 mod new_obstacles;
 mod outline;
 mod parameters;
@@ -46,6 +47,7 @@ use crate::navigation::{
 use assignment::{Assignment, Next};
 use contact_offset::ContactOffset;
 use frontier::margin_cells;
+use known_floor::KnownFloor;
 use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
 use parameters::{SQUEEZE, SYSTEMATIC};
 use passed::{CellWindow, Passed};
@@ -93,6 +95,8 @@ pub(crate) struct Systematic {
     squeeze: Squeeze,
     /// The map at the start of the job, in a known home.
     began: Option<Raster<CellKnowledge>>,
+    /// The floor of a known home.
+    known_floor: Option<KnownFloor>,
     shares: Shares,
 }
 
@@ -152,10 +156,10 @@ impl Task for Systematic {
 
     fn swept_share(&self, map: &Map) -> Option<SweptShare> {
         let target = self.assignment.target_floor(map);
-        self.shares.share(|settings| {
-            let passed = self.passed.as_ref()?.cells();
-            Some(PassedFloor::count(&passed, &target, map, settings))
-        })
+        let passed = self.passed.as_ref().map(Passed::cells);
+        let known = || self.known_floor.as_ref()?.count(passed.as_ref()?, &target, map);
+        let count = |settings: &_| Some(PassedFloor::count(passed.as_ref()?, &target, map, settings));
+        self.shares.share(count, known)
     }
 }
 
@@ -329,6 +333,9 @@ impl Systematic {
 
     /// Continues the plan in progress, if there is one.
     fn plan_on(&mut self, situation: &Situation<'_>) {
+        if let Some(floor) = &mut self.known_floor {
+            floor.go_on();
+        }
         self.plan_progress = match self.plan_progress.take() {
             Some(PlanProgress::Due(start)) => Some(self.begin_plan(start, situation)),
             Some(plan_progress) => Some(plan_progress.go_on()),
@@ -340,6 +347,7 @@ impl Systematic {
     /// the map shows the latest contacts.
     fn begin_plan(&mut self, start: Pose2, situation: &Situation<'_>) -> PlanProgress {
         let settings = settings(situation);
+        let departure = Departure { start, settings };
         let knowledge = situation.map.knowledge();
         let beyond_m = match self.outline {
             Some(Outline::Growing(margin)) => Some(margin.beyond_m),
@@ -347,6 +355,8 @@ impl Systematic {
         };
         if matches!(self.outline, Some(Outline::Known)) && self.began.is_none() {
             self.began = Some(knowledge.clone());
+            let radius_m = situation.config.body.radius_m;
+            self.known_floor = Some(KnownFloor::begin(knowledge.clone(), radius_m, departure));
         }
         let squeezed_m = self.squeeze.radius_m(situation.config.body);
         let beyond_m = beyond_m.map(|beyond_m| match squeezed_m {
@@ -373,7 +383,7 @@ impl Systematic {
             blocked: self.obstructions.points(situation.observation.time_us),
             target,
             passed,
-            departure: Departure { start, settings },
+            departure,
             frame: self.frame,
         })
     }

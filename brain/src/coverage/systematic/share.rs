@@ -3,6 +3,7 @@
 //! The newest plan gives the floor area and the swept part; what was swept since is added. In the low bound a strip counts
 //! less, the less certain the pose was there.
 
+use super::known_floor::CountedFloor;
 use super::parameters::EVALUATION;
 use crate::coverage::estimate::kept_low;
 use crate::coverage::plan::{CoveragePlan, PlanSettings};
@@ -114,13 +115,21 @@ impl Shares {
         self.newest.is_some()
     }
 
-    /// The share with what is counted now. Where nothing can be counted because the map was drawn again, the figures of the
+    /// The share with what is counted now; of a known home's floor where that is `known`. Where nothing can be counted because the map was drawn again, the figures of the
     /// plan are used alone.
-    pub(super) fn share(&self, count: impl Fn(&PlanSettings) -> Option<PassedFloor>) -> Option<SweptShare> {
+    pub(super) fn share(
+        &self,
+        count: impl Fn(&PlanSettings) -> Option<PassedFloor>,
+        known: impl Fn() -> Option<CountedFloor>,
+    ) -> Option<SweptShare> {
         let tally = self.newest.filter(|tally| tally.floor_m2 > 0.0)?;
-        let floor_m2 = tally.floor_m2;
         let now = count(&tally.settings).unwrap_or(tally.counted);
-        let passed_m2 = tally.passed_m2 + (now.m2 - tally.counted.m2).max(0.0);
+        let CountedFloor { floor_m2, passed_m2 } = known()
+            .filter(|known| known.floor_m2 > 0.0)
+            .unwrap_or_else(|| CountedFloor {
+                floor_m2: tally.floor_m2,
+                passed_m2: tally.passed_m2 + (now.m2 - tally.counted.m2).max(0.0),
+            });
         let share = (passed_m2 / floor_m2).clamp(0.0, 1.0);
         Some(SweptShare {
             share,
@@ -132,7 +141,7 @@ impl Shares {
 
 #[cfg(test)]
 mod tests {
-    use super::{PassedFloor, Shares};
+    use super::{CountedFloor, PassedFloor, Shares};
     use crate::coverage::plan::{CoveragePlan, PlanSettings};
 
     const SETTINGS: PlanSettings = PlanSettings {
@@ -156,7 +165,7 @@ mod tests {
         };
         let mut shares = Shares::default();
         shares.begin(SETTINGS, passed(2.5, 2.0));
-        assert_eq!(shares.share(|_| None), None, "no plan is made yet");
+        assert_eq!(shares.share(|_| None, || None), None, "no plan is made yet");
         shares.take(&plan, 10.0);
         shares
     }
@@ -164,19 +173,32 @@ mod tests {
     #[test]
     fn floor_passed_since_the_plan_is_added() {
         let reported = shares()
-            .share(|_| Some(passed(5.5, 4.4)))
+            .share(|_| Some(passed(5.5, 4.4)), || None)
             .expect("there is floor");
         assert!((reported.share - 0.5).abs() < 1e-9, "{reported:?}");
         assert!((reported.share_low - 0.4).abs() < 1e-9, "{reported:?}");
     }
 
     #[test]
+    fn the_floor_of_a_known_home_counts_instead_of_that_of_the_plan() {
+        let known = CountedFloor {
+            floor_m2: 20.0,
+            passed_m2: 19.0,
+        };
+        let reported = shares()
+            .share(|_| Some(passed(5.5, 4.4)), || Some(known))
+            .expect("there is floor");
+        assert!((reported.share - 0.95).abs() < 1e-9, "{reported:?}");
+        assert!((reported.left_m2 - 1.0).abs() < 1e-9, "{reported:?}");
+    }
+
+    #[test]
     fn without_a_count_the_plan_gives_the_share_and_no_share_exceeds_one() {
-        let reported = shares().share(|_| None).expect("there is floor");
+        let reported = shares().share(|_| None, || None).expect("there is floor");
         assert!((reported.share - 0.2).abs() < 1e-9, "{reported:?}");
         assert!((reported.share_low - 0.16).abs() < 1e-9, "{reported:?}");
         let all = shares()
-            .share(|_| Some(passed(40.0, 40.0)))
+            .share(|_| Some(passed(40.0, 40.0)), || None)
             .expect("there is floor");
         assert_eq!((all.share, all.share_low), (1.0, 1.0));
     }
@@ -212,10 +234,12 @@ mod tests {
         let mut shares = shares();
         shares.begin(SETTINGS, passed(3.5, 2.8));
         shares.pass_over();
-        let reported = shares.share(|_| Some(passed(5.5, 4.4))).expect("there is floor");
+        let reported = shares
+            .share(|_| Some(passed(5.5, 4.4)), || None)
+            .expect("there is floor");
         assert!((reported.share - 0.5).abs() < 1e-9, "{reported:?}");
         shares.begin(SETTINGS, passed(0.0, 0.0));
         shares.take(&CoveragePlan::default(), 0.0);
-        assert_eq!(shares.share(|_| None), None);
+        assert_eq!(shares.share(|_| None, || None), None);
     }
 }

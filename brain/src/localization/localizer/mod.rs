@@ -335,6 +335,19 @@ impl Localization {
         }
     }
 
+    /// As [`Self::estimate`], with the error of the map itself: the particles tell how sure the place in the map is, and the map is not
+    /// where the home is.
+    pub fn estimate_in_home(&self) -> PoseEstimate {
+        let in_map = self.estimate();
+        if self.estimator.known_map().is_none() {
+            return in_map;
+        }
+        PoseEstimate {
+            sigma_m: libm::hypot(in_map.sigma_m, PLACING.map_sigma_m),
+            ..in_map
+        }
+    }
+
     /// Share of the sensor readings that the map explains, 0..1; `None` without a known map.
     #[must_use]
     pub fn explained(&self) -> Option<f64> {

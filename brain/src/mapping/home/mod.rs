@@ -1,5 +1,6 @@
 //! The part of the map that outlives a job.
 
+mod cut_off;
 mod painting;
 mod settling;
 
@@ -7,7 +8,6 @@ use core::task::Poll;
 
 use super::annotations::Annotations;
 use super::carpet::SurfaceObservation;
-use super::cut_off::DrivenFloor;
 use super::derived::Derived;
 use super::dock_location::DockLocation;
 use super::inverse_sensor_model::InverseSensorModel;
@@ -123,6 +123,10 @@ impl HomeMap {
             return;
         }
         self.last = Some(sighting);
+        if self.known.is_some() {
+            // Nothing corrects past poses in a known home, so nothing is drawn again.
+            self.sightings.clear();
+        }
         self.sightings.push(sighting);
         let kept = self.known.as_ref().map(|known| &*known.kept);
         self.sensor_model.draw(&sighting, kept, &mut self.grid);
@@ -145,7 +149,7 @@ impl HomeMap {
         self.base.change(cell, change);
         self.grid.change(cell, change);
         if let Some(known) = &mut self.known {
-            known.settled.change(cell, change);
+            known.flag(cell, flag, access);
         }
     }
 
@@ -240,7 +244,6 @@ impl HomeMap {
 
     /// Makes everything up to now final.
     pub(super) fn finalize(&mut self) {
-        self.settle_all();
         self.base = self.grid.clone();
         self.sightings.clear();
     }
@@ -315,13 +318,7 @@ impl HomeMap {
         self.paint_no_go();
         self.derived = Derived::compute(&mut self.grid, budget).await;
         if let Some(dock) = self.dock.pose() {
-            let radius_m = self.sensor_model.body.radius_m;
-            let mut floor = DrivenFloor {
-                grid: &mut self.grid,
-                derived: &mut self.derived,
-                radius_m,
-            };
-            self.connected_share = floor.reconnect(dock.position(), budget).await;
+            self.connected_share = self.reconnect(dock.position(), budget).await;
             self.base = self.grid.clone();
         }
         let kept = KeptHome::of(&self.grid, &self.derived.knowledge, budget).await;

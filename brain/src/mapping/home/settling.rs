@@ -1,22 +1,17 @@
 //! What a run in a known home leaves to the next one.
 //!
-//! *Settled*: drawn by a robot that was sure of its place, and stayed sure for a while after. A robot that drifts notices it
-//! late, so newer sightings wait. When it doubts its place they are dropped, and the map is again as it was before them.
+//! A robot that drifts notices it late. So the grid is remembered now and then while the robot is sure of its place. When it doubts its
+//! place, what it has drawn in the minute before is dropped, and so is what it draws until it is sure again.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::HomeMap;
-use crate::mapping::inverse_sensor_model::InverseSensorModel;
+use super::{Access, HomeMap};
+use crate::mapping::Cell;
 use crate::mapping::kept_home::KeptHome;
 use crate::mapping::learning::{LEARNING, merged};
-use crate::mapping::occupancy_grid::OccupancyGrid;
-use crate::mapping::sighting::Sighting;
+use crate::mapping::occupancy_grid::{Flag, OccupancyGrid};
 use crate::model::gradual::StepBudget;
-
-/// Most sightings that settle in a step. Less than one a step is drawn.
-const SETTLED_A_STEP: usize = 4;
-/// Work of drawing a sighting: some two hundred cells.
-const SIGHTING_WORK: usize = 1_000;
 
 /// How sure the robot is of its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,24 +26,76 @@ pub(crate) enum PlaceTrust {
 #[derive(Debug)]
 pub(in crate::mapping) struct KnownHome {
     pub(in crate::mapping) kept: Arc<KeptHome>,
-    /// With what has settled of this run.
-    pub(in crate::mapping) settled: OccupancyGrid,
-    /// Sightings that have settled, or were dropped.
-    settled_sightings: usize,
+    /// The grid at some moments, the oldest first; never empty. They share their cells with the grid until that changes them.
+    remembered: VecDeque<RememberedGrid>,
     trust: PlaceTrust,
-    /// Of the last doubt.
-    doubted_us: u64,
+}
+
+/// The grid of a robot that was sure of its place.
+#[derive(Clone, Debug)]
+struct RememberedGrid {
+    time_us: u64,
+    grid: OccupancyGrid,
 }
 
 impl KnownHome {
     pub(super) fn begun(kept: KeptHome) -> Self {
+        let begun = RememberedGrid {
+            time_us: 0,
+            grid: kept.grid().clone(),
+        };
         Self {
-            settled: kept.grid().clone(),
             kept: Arc::new(kept),
-            settled_sightings: 0,
+            remembered: VecDeque::from([begun]),
             trust: PlaceTrust::Sure,
-            doubted_us: 0,
         }
+    }
+
+    /// Sets or clears a flag wherever the grid is remembered.
+    pub(super) fn flag(&mut self, cell: Cell, flag: Flag, access: Access) {
+        for remembered in &mut self.remembered {
+            remembered.grid.change(cell, |evidence| match access {
+                Access::Forbidden => evidence.set(flag),
+                Access::Allowed => evidence.clear(flag),
+            });
+        }
+    }
+
+    /// Remembers the grid once in a while, and forgets what is too old to be returned to.
+    fn remember(&mut self, grid: &OccupancyGrid, time_us: u64) {
+        let newest_us = self.remembered.back().map_or(0, |newest| newest.time_us);
+        if time_us < newest_us.saturating_add(LEARNING.remembered_us) {
+            return;
+        }
+        let settled_us = time_us.saturating_sub(LEARNING.settling_us);
+        while self
+            .remembered
+            .get(1)
+            .is_some_and(|second| second.time_us <= settled_us)
+        {
+            self.remembered.pop_front();
+        }
+        self.remembered.push_back(RememberedGrid {
+            time_us,
+            grid: grid.clone(),
+        });
+    }
+
+    /// The grid as it was at this time; that is all that is remembered from now on.
+    fn return_to(&mut self, settled_us: u64) -> Option<OccupancyGrid> {
+        while self.remembered.len() > 1
+            && self
+                .remembered
+                .back()
+                .is_some_and(|newest| newest.time_us > settled_us)
+        {
+            self.remembered.pop_back();
+        }
+        let settled = self.remembered.pop_back()?;
+        let grid = settled.grid.clone();
+        self.remembered.clear();
+        self.remembered.push_back(settled);
+        Some(grid)
     }
 }
 
@@ -56,77 +103,46 @@ impl HomeMap {
     /// Notes how sure the robot is of its place now.
     pub(in crate::mapping) fn note_trust(&mut self, trust: PlaceTrust, time_us: u64) {
         let Some(known) = &mut self.known else { return };
-        let before = core::mem::replace(&mut known.trust, trust);
-        match (before, trust) {
+        let returned = match (core::mem::replace(&mut known.trust, trust), trust) {
+            (PlaceTrust::Sure, PlaceTrust::Sure) => {
+                known.remember(&self.grid, time_us);
+                None
+            }
             (PlaceTrust::Sure, PlaceTrust::Doubtful) => {
-                known.settled_sightings = self.sightings.len();
-                self.grid = known.settled.clone();
-                self.grid.mark_all_dirty();
-                self.begin_refresh();
+                known.return_to(time_us.saturating_sub(LEARNING.settling_us))
             }
-            (_, PlaceTrust::Doubtful) => known.settled_sightings = self.sightings.len(),
-            (_, PlaceTrust::Sure) => self.settle_until(time_us.saturating_sub(LEARNING.settling_us)),
-        }
-        if trust == PlaceTrust::Doubtful
-            && let Some(known) = &mut self.known
-        {
-            known.doubted_us = time_us;
-        }
-    }
-
-    /// Settles everything that waits.
-    pub(in crate::mapping) fn settle_all(&mut self) {
-        if let Some(known) = &mut self.known {
-            let waiting = self.sightings.get(known.settled_sightings..).unwrap_or_default();
-            for sighting in waiting {
-                self.sensor_model
-                    .draw(sighting, Some(&known.kept), &mut known.settled);
-            }
-            known.settled_sightings = 0;
-        }
-    }
-
-    fn settle_until(&mut self, time_us: u64) {
-        let Some(known) = &mut self.known else { return };
-        let waiting = self.sightings.get(known.settled_sightings..).unwrap_or_default();
-        let old = |sighting: &&Sighting| sighting.time_us <= time_us;
-        for sighting in waiting.iter().take_while(old).take(SETTLED_A_STEP) {
-            self.sensor_model
-                .draw(sighting, Some(&known.kept), &mut known.settled);
-            known.settled_sightings += 1;
+            (PlaceTrust::Doubtful, PlaceTrust::Doubtful) => None,
+            // What is remembered is from before the doubt.
+            (PlaceTrust::Doubtful, PlaceTrust::Sure) => known.return_to(time_us),
+        };
+        if let Some(grid) = returned {
+            self.grid = grid;
+            self.grid.mark_all_dirty();
+            self.begin_refresh();
         }
     }
 
     /// A copy of the run up to now, for saving.
     pub(in crate::mapping) fn run_so_far(&self) -> Option<RunSoFar> {
         let known = self.known.as_ref()?;
-        let waiting = self.sightings.get(known.settled_sightings..).unwrap_or_default();
+        let remembered = known.remembered.back();
+        let doubted = remembered.filter(|_| known.trust == PlaceTrust::Doubtful);
         Some(RunSoFar {
-            sensor_model: self.sensor_model,
             kept: known.kept.clone(),
-            settled: known.settled.clone(),
-            waiting: waiting.to_vec(),
+            grid: doubted.map_or(&self.grid, |before| &before.grid).clone(),
         })
     }
 }
 
 /// A copy of a run in a known home. It shares its cells with the map until the map writes to them.
 pub(in crate::mapping) struct RunSoFar {
-    sensor_model: InverseSensorModel,
     kept: Arc<KeptHome>,
-    settled: OccupancyGrid,
-    /// Of a robot that is sure of its place: what has not settled yet.
-    waiting: Vec<Sighting>,
+    grid: OccupancyGrid,
 }
 
 impl RunSoFar {
     /// The home as this run leaves it.
-    pub(in crate::mapping) async fn left_home(mut self, budget: &mut StepBudget) -> OccupancyGrid {
-        for sighting in &self.waiting {
-            self.sensor_model
-                .draw(sighting, Some(&self.kept), &mut self.settled);
-            budget.spend(SIGHTING_WORK).await;
-        }
-        merged(&self.kept, &self.settled, budget).await
+    pub(in crate::mapping) async fn left_home(self, budget: &mut StepBudget) -> OccupancyGrid {
+        merged(&self.kept, &self.grid, budget).await
     }
 }

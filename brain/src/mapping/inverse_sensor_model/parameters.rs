@@ -8,6 +8,8 @@ pub(super) struct OccupancyParameters {
     pub(super) body_step: i8,
     /// Most by which the body is drawn smaller than it is, metres.
     pub(super) shrink_max_m: f64,
+    /// The rim of the body so wide says nothing of a known obstacle, metres: the error of the pose. Deeper, the obstacle is not there.
+    pub(super) body_sure_m: f64,
     /// Step of a cell that a beam passes.
     pub(super) passed_step: i8,
     /// Step along a beam that sees nothing: dark things are invisible at the end of the range.
@@ -21,6 +23,11 @@ pub(super) struct OccupancyParameters {
     pub(super) hit_half_m: f64,
     /// Limit of occupancy in both directions.
     pub(super) limit: i8,
+    /// A hit up to this distance behind a known obstacle counts against it, metres: as far as a hit is associated with one.
+    pub(super) refuting_m: f64,
+    /// By this share of what it counts for the obstacle that it confirms. A surface lies where the share of hits on it and before it is
+    /// as large against those behind it: at a third of them.
+    pub(super) refuting_share: f64,
     /// Levels below this are noise, 0..1.
     pub(super) level_min: f64,
     /// A beam may meet the obstacle this far before the measured distance, metres: rounding to cells. A rim of cells that is
@@ -31,12 +38,15 @@ pub(super) struct OccupancyParameters {
 pub(super) const OCCUPANCY: OccupancyParameters = OccupancyParameters {
     body_step: -30,
     shrink_max_m: CELL_M,
+    body_sure_m: 2.0 * CELL_M,
     passed_step: -3,
     nothing_step: -1,
     nothing_share: 0.6,
     hit_step: 30.0,
     hit_half_m: 0.07,
     limit: 100,
+    refuting_m: 0.1,
+    refuting_share: 0.5,
     level_min: 0.045,
     margin_m: CELL_M,
 };

@@ -178,6 +178,11 @@ impl Map {
             .then(|| 0.01 * f64::from(evidence.sigma_cm))
     }
 
+    /// Whether the body was in a cell, in this run or an earlier one.
+    pub(crate) fn was_driven(&self, cell: Cell) -> bool {
+        self.home.grid.at(cell).has(Flag::Body)
+    }
+
     /// Bytes of the home's map, including sightings.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {

@@ -25,7 +25,7 @@ impl MapLoader {
         let (body, sensors) = (config.body, config.sensors);
         Self(Gradual::new(async move {
             let blank = HomeMap::new(body, sensors);
-            LoadedHome(blank.filled(&stored, &mut StepBudget::limited()).await)
+            LoadedHome(blank.filled(&stored, &mut StepBudget::short()).await)
         }))
     }
 

@@ -14,6 +14,7 @@ mod saving;
 
 pub use confidence::MapConfidence;
 pub use loader::{LoadedHome, MapLoader};
+pub use saving::MapWriter;
 
 use super::coverage_grid::{CoverageGrid, Swath};
 use super::home::HomeMap;

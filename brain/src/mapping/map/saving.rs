@@ -3,6 +3,8 @@
 //! A home has some hundred thousand cells. A small board needs a quarter of a second for them, so saving can run in steps while
 //! the robot drives.
 
+use core::task::Poll;
+
 use super::Map;
 use crate::mapping::home::RunSoFar;
 use crate::mapping::occupancy_grid::OccupancyGrid;
@@ -43,7 +45,27 @@ impl MapCopy {
     }
 }
 
+/// Writes a home as plain data in steps, as it was at the beginning.
+#[derive(Debug)]
+pub struct MapWriter(Gradual<StoredMap>);
+
+impl MapWriter {
+    /// Does the next step. Must not be called again after it returned the home.
+    pub fn go_on(&mut self) -> Option<StoredMap> {
+        match self.0.go_on() {
+            Poll::Ready(home) => Some(home),
+            Poll::Pending => None,
+        }
+    }
+}
+
 impl Map {
+    /// As [`Self::stored`], of the present map, in steps: for a shell that answers meanwhile.
+    #[must_use]
+    pub fn begin_storing(&self) -> MapWriter {
+        MapWriter(self.stored_in_steps())
+    }
+
     /// The home as plain data.
     #[must_use]
     pub fn stored(&self) -> StoredMap {
@@ -53,6 +75,6 @@ impl Map {
     /// As [`Self::stored`], of the present map, in steps.
     pub(crate) fn stored_in_steps(&self) -> Gradual<StoredMap> {
         let copy = MapCopy::of(self);
-        Gradual::new(async move { copy.written(&mut StepBudget::limited()).await })
+        Gradual::new(async move { copy.written(&mut StepBudget::short()).await })
     }
 }

@@ -374,6 +374,7 @@ mod tests {
             parts: vec!["brush-main".to_owned(), "currents".to_owned()],
             unguarded: Vec::new(),
             unmeasured: Vec::new(),
+            lacking: Vec::new(),
         };
         let value = |robot: &RobotDescription, label: &str| {
             let mut rows = device_sections(ENGLISH, &table, Some(robot))

@@ -207,6 +207,7 @@ mod tests {
             parts: parts.iter().map(|&part| part.to_owned()).collect(),
             unguarded: Vec::new(),
             unmeasured: Vec::new(),
+            lacking: Vec::new(),
         };
         Offers::of(Some(&status), Some(&robot))
     }

@@ -140,6 +140,7 @@ mod tests {
             parts: vec!["gyro".to_owned(), "vacuum".to_owned()],
             unguarded: Vec::new(),
             unmeasured: Vec::new(),
+            lacking: Vec::new(),
         };
         assert_eq!(PowerPart::of(Some(&robot)), [PowerPart::Suction]);
         assert_eq!(PowerPart::of(None), PowerPart::ALL);

@@ -36,6 +36,18 @@ pub(crate) struct PairOptions {
     pub(crate) name: Option<DeviceName>,
 }
 
+impl PairOptions {
+    /// An administrator's device, let in by whoever is at this computer.
+    pub(crate) fn here(console: Console) -> Self {
+        Self {
+            console,
+            role: Role::Admin,
+            robot: None,
+            name: None,
+        }
+    }
+}
+
 #[derive(Debug, Args)]
 pub(crate) struct ClientsJob {
     #[command(subcommand)]

@@ -1,7 +1,7 @@
 //! The robot moves, bumps, falls, wears its battery down and charges as a robot does.
 
 use crate::scene::{at, drive, home, ideal, room, sr8730, steps};
-use home::{Actuation, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, Noise, Pose, RobotModel, World};
+use home::{Actuation, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, Noise, Pose, RobotModel, World, WorldSeeds};
 
 const HALF_TURN: f64 = core::f64::consts::PI;
 
@@ -453,4 +453,47 @@ fn a_start_elsewhere_is_taken() {
     let home = home(&room(4.0, 3.0));
     let pose = Pose::new(1.2, 0.9, 2.0);
     assert_eq!(ideal(&home, pose).truth().pose, pose);
+}
+
+#[test]
+fn floor_counts_as_swept_twice_when_the_swath_comes_back_after_ten_seconds() {
+    let home = home(&room(6.0, 4.0));
+    let mut world = ideal(&home, at(&home, 1.0, 2.0, 0.0));
+    steps(&mut world, 4_000, drive(0.6, 0.6));
+    steps(&mut world, 3_000, drive(0.0, 0.0));
+    let there = *world.truth();
+    assert_eq!(there.swept_twice_m2, 0.0, "it has rested on what it swept");
+    steps(&mut world, 2_000, drive(-0.6, -0.6));
+    assert!(
+        world.truth().swept_twice_m2 < 0.1 * there.swept_m2,
+        "it left that a moment ago: {:?}",
+        world.truth()
+    );
+    steps(&mut world, 12_000, drive(0.0, 0.0));
+    steps(&mut world, 2_000, drive(0.6, 0.6));
+    let again = world.truth();
+    assert!(again.swept_twice_m2 > 0.2 * there.swept_m2, "{again:?}");
+    assert!(again.swept_twice_m2 < again.swept_m2, "{again:?}");
+}
+
+#[test]
+fn a_robot_keeps_its_wheels_and_its_gyro_from_run_to_run_and_not_its_noise() {
+    let home = home(&room(6.0, 4.0));
+    let start = at(&home, 1.0, 2.0, 0.0);
+    let world = |build, run| {
+        let seeds = WorldSeeds { build, run };
+        World::new(home.clone(), &sr8730(), &Noise::nominal(), seeds, Some(start))
+    };
+    let driven = |build, run| {
+        let mut world = world(build, run);
+        steps(&mut world, 5_000, drive(0.6, 0.6));
+        world.truth().pose
+    };
+    assert!(world(1, 1).gyro_scale_error().is_some());
+    assert_eq!(world(1, 1).gyro_scale_error(), world(1, 2).gyro_scale_error());
+    assert_ne!(world(1, 1).gyro_scale_error(), world(2, 1).gyro_scale_error());
+    assert_ne!(driven(1, 1), driven(1, 2));
+    let both = World::new(home.clone(), &sr8730(), &Noise::nominal(), 3, Some(start));
+    assert_eq!(both.gyro_scale_error(), world(3, 3).gyro_scale_error());
+    assert_eq!(driven(3, 3), driven(3, 3));
 }

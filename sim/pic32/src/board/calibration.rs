@@ -42,6 +42,8 @@ struct RawValue {
     _assumed: Option<i32>,
     #[serde(rename = "needed-for")]
     _needed_for: String,
+    #[serde(rename = "ability")]
+    _ability: Option<String>,
     #[serde(rename = "measure")]
     _measure: String,
     simulated: i32,

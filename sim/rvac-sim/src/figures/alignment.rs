@@ -7,6 +7,8 @@ use super::Belief;
 use super::honesty::WRONG_M;
 use super::nees::of_place;
 
+/// Median of the mean of two squared normal errors: half of a chi-square with two degrees of freedom.
+const MEDIAN_OF_TRUE: f64 = core::f64::consts::LN_2;
 /// Places are kept once in so long, milliseconds.
 const KEEP_MS: u64 = 1_000;
 
@@ -31,6 +33,7 @@ struct AlignmentSample {
     is: [f64; 2],
     sigma_m: f64,
     says_lost: bool,
+    on_dock: bool,
 }
 
 /// A distribution of errors, metres.
@@ -49,12 +52,15 @@ pub(super) struct LeftOver {
     pub(super) unnoticed_s: f64,
     /// Median and 90th percentile of the distance; `None` without samples.
     pub(super) error: Option<ErrorSpread>,
-    /// Mean of the error squared over its reported variance, for each dimension, while the robot claims to know its pose.
+    /// Mean of the error squared over its reported variance, for each dimension, while the robot claims to know its pose and is off
+    /// its dock.
     pub(super) nees: Option<f64>,
+    /// Median of the same over that of a true deviation.
+    pub(super) nees_median: Option<f64>,
 }
 
 impl Alignment {
-    pub(super) fn sample(&mut self, now_ms: u64, belief: &Belief, is: Pose) {
+    pub(super) fn sample(&mut self, (now_ms, on_dock): (u64, bool), belief: &Belief, is: Pose) {
         let ([a, b], [x, y]) = ([belief.pose.x_m, belief.pose.y_m], [is.x_m, is.y_m]);
         self.count += 1.0;
         self.believed = [self.believed[0] + a, self.believed[1] + b];
@@ -70,6 +76,7 @@ impl Alignment {
                 is: [x, y],
                 sigma_m: belief.sigma.place_m,
                 says_lost: belief.lost,
+                on_dock,
             });
         }
     }
@@ -119,12 +126,13 @@ impl Alignment {
             }
             before_ms = kept.time_ms;
             errors_m.push(off_m);
-            if !kept.says_lost {
+            if !kept.says_lost && !kept.on_dock {
                 squares.push(of_place(off_m, kept.sigma_m));
             }
         }
         LeftOver {
             error: spread(errors_m),
+            nees_median: spread(squares.clone()).map(|squares| squares.median / MEDIAN_OF_TRUE),
             nees: (!squares.is_empty()).then(|| squares.iter().sum::<f64>() / squares.len() as f64),
             ..left
         }
@@ -183,9 +191,9 @@ mod tests {
             let turned = Pose::new(x_m * cos - y_m * sin + 5.0, x_m * sin + y_m * cos - 1.0, 0.0);
             let is = Pose::new(x_m, y_m + bend * x_m * x_m, 0.0);
             let now_ms = 2_000 * u64::from(step + 1);
-            alignment.sample(now_ms, &belief(turned, says_lost(now_ms)), is);
+            alignment.sample((now_ms, false), &belief(turned, says_lost(now_ms)), is);
             // So soon after it is not kept.
-            alignment.sample(now_ms + 1, &belief(turned, false), is);
+            alignment.sample((now_ms + 1, false), &belief(turned, false), is);
         }
         alignment
     }
@@ -199,11 +207,13 @@ mod tests {
             unnoticed_s,
             error,
             nees,
+            nees_median,
         } = straight.left_over();
         assert!(max_m < 1e-5, "{max_m} m");
         assert_eq!(unnoticed_s, 0.0);
         assert!(error.is_some_and(|error| error.p90 < 1e-5), "{error:?}");
         assert!(nees.is_some_and(|nees| nees < 1e-5), "{nees:?}");
+        assert!(nees_median.is_some_and(|nees| nees < 1e-5), "{nees_median:?}");
         assert!(straight.placed().is_some_and(|placed| placed.median > 1.0));
         assert_eq!(straight.sigma_median_m(), Some(0.1));
         let rmse_m = way(0.02, |_| false).rmse_m().unwrap();
@@ -234,6 +244,30 @@ mod tests {
         assert!(
             0.0 < late.unnoticed_s && late.unnoticed_s < unaware.unnoticed_s,
             "{late:?}"
+        );
+    }
+
+    #[test]
+    fn the_deviation_of_a_robot_on_its_dock_says_nothing() {
+        let mut random = home::Pcg::new(1, 1);
+        let mut alignment = Alignment::default();
+        for second in 0..4_000_u64 {
+            let on_dock = second % 4 == 0;
+            let off =
+                [random.normal(), random.normal()].map(|draw| if on_dock { 5.0 * draw } else { 0.1 * draw });
+            let at = Pose::new(random.symmetric(), random.symmetric(), 0.0);
+            let believed = Pose::new(at.x_m + off[0], at.y_m + off[1], 0.0);
+            alignment.sample((1_000 * second, on_dock), &belief(believed, false), at);
+        }
+        let left = alignment.left_over();
+        assert!(
+            left.nees.is_some_and(|nees| (0.8..3.0).contains(&nees)),
+            "{left:?}"
+        );
+        assert!(
+            left.nees_median
+                .is_some_and(|median| (0.8..2.0).contains(&median)),
+            "{left:?}"
         );
     }
 }

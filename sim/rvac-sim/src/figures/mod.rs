@@ -101,11 +101,13 @@ pub struct Figures {
     pub pose_error_p90_aligned_m: Option<f64>,
     /// Median of the standard deviation of its position that the robot reports.
     pub sigma_median_m: Option<f64>,
-    /// Mean of the position's error squared over its reported variance, for each dimension, while the robot does not say that
-    /// it is lost: 1 when the reported deviation is true, more when it is too small.
+    /// Mean of the position's error squared over its reported variance, for each dimension, while the robot is off its dock and does
+    /// not say that it is lost: 1 when the reported deviation is true, more when it is too small.
     pub nees_place: Option<f64>,
     /// The same after rigid alignment of the estimated path with the true one.
     pub nees_place_aligned: Option<f64>,
+    /// The median of the same, over the median for true deviations, so that moments with a deviation near zero do not count for all.
+    pub nees_place_median_aligned: Option<f64>,
     /// The same of the heading.
     pub nees_heading: Option<f64>,
     /// Root mean square of the error of the heading, degrees.
@@ -313,8 +315,9 @@ impl Collector {
         let error_m = belief.pose.distance_m(truth_in_map);
         let error_rad = home::wrap_angle(belief.pose.heading_rad - truth_in_map.heading_rad);
         self.pose_error.sample(job_s, error_m, error_rad);
-        self.alignment.sample(work_ms, belief, truth_in_map);
-        if !belief.lost {
+        self.alignment
+            .sample((work_ms, self.docked), belief, truth_in_map);
+        if !belief.lost && !self.docked {
             self.nees.sample(error_m, error_rad, belief.sigma);
         }
         self.lost.sample(work_ms, error_m);
@@ -408,6 +411,7 @@ impl Collector {
             sigma_median_m: self.alignment.sigma_median_m(),
             nees_place: nees.map(|(place, _)| place),
             nees_place_aligned: left_over.nees,
+            nees_place_median_aligned: left_over.nees_median,
             nees_heading: nees.map(|(_, heading)| heading),
             heading_rmse_deg: self.pose_error.heading_rmse_rad().map(f64::to_degrees),
             lost_seconds: lost_stretches

@@ -2,6 +2,7 @@
 //! truth. Everything is drawn as SVG in the page itself; it needs no network and no scripts.
 
 mod chart;
+mod days;
 mod map;
 mod pictures;
 
@@ -9,6 +10,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
+use crate::days::KeptDays;
 use crate::trace::KeptRun;
 use chart::{Chart, Curve};
 pub use pictures::{Picture, pictures};
@@ -33,7 +35,7 @@ figure{margin:0;flex:1 1 420px;min-width:0}figcaption{color:#55606a;font-size:13
 
 /// The page.
 #[must_use]
-pub fn write(runs: &[KeptRun]) -> String {
+pub fn write(runs: &[KeptRun], days: &[KeptDays]) -> String {
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Runs of a simulated robot</title>\
          <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head><body><main>\n\
@@ -45,6 +47,9 @@ pub fn write(runs: &[KeptRun]) -> String {
     for name in homes {
         let of_home: Vec<&KeptRun> = runs.iter().filter(|run| home(run) == name).collect();
         write_home(&mut page, name, &of_home);
+    }
+    for kept in days {
+        days::write_days(&mut page, kept);
     }
     page.push_str("</main></body></html>\n");
     page

@@ -54,7 +54,7 @@ fn it_tells_what_the_robot_decided_and_why() {
 }
 
 /// Keys of a report.
-const KEYS: [&str; 62] = [
+const KEYS: [&str; 63] = [
     "home",
     "free_area_m2",
     "reachable_area_m2",
@@ -107,6 +107,7 @@ const KEYS: [&str; 62] = [
     "nees_heading",
     "nees_place",
     "nees_place_aligned",
+    "nees_place_median_aligned",
     "pose_error_median_aligned_m",
     "pose_error_median_m",
     "pose_error_p90_aligned_m",

@@ -4,9 +4,9 @@
 //! commanded waits for the next one, in its order.
 
 use brain::config::BrainConfig;
-use brain::{Brain, CheckpointWork, LoadedHome, MapLoader, StoredMap};
+use brain::{Brain, CheckpointWork, LoadedHome, MapLoader, MapWriter, StoredMap};
 
-use crate::RunCause;
+use crate::{FloorHome, RunCause};
 
 /// A run that is about to begin.
 #[derive(Debug)]
@@ -58,6 +58,32 @@ impl NextRun {
                 written: core::mem::take(&mut **written),
             }),
         }
+    }
+}
+
+/// A home that is being written down for the disk.
+#[derive(Debug)]
+pub(super) struct LeavingHome {
+    floor: u16,
+    home: MapWriter,
+}
+
+impl LeavingHome {
+    /// The home of `brain` as it is now, on this floor.
+    pub(super) fn of(brain: &Brain, floor: u16) -> Self {
+        Self {
+            floor,
+            home: brain.map().begin_storing(),
+        }
+    }
+
+    /// Does the next step. Must not be called again after it returned the home.
+    pub(super) fn go_on(&mut self) -> Option<FloorHome> {
+        let home = self.home.go_on()?;
+        Some(FloorHome {
+            floor: self.floor,
+            home,
+        })
     }
 }
 

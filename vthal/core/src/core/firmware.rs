@@ -9,7 +9,7 @@ use crate::desk::arbiter::Source;
 use crate::desk::button_desk::{ButtonEdge, Doing};
 use crate::desk::journal::LogSource;
 use crate::device::{Description, DeviceEvent, Greeting, Report};
-use crate::{Checkpoint, Outputs, RunEnd, cut_short};
+use crate::{Checkpoint, Outputs, RunEnd, cut_short, lacking};
 
 /// The firmware stops by itself when a button is pressed in motion; by the time the press arrives here the state may have
 /// changed for that very press. A press so soon after a change means the state before.
@@ -116,12 +116,11 @@ impl Core {
     /// Another robot than the one before begins with a brain of its own.
     fn described(&mut self, now_us: u64, description: &Description, outputs: &mut Outputs) {
         let device = &description.identity.device;
-        if self
-            .brain_session
-            .as_ref()
-            .is_some_and(|brain_session| brain_session.device() == device)
+        if let Some(known) = self.brain_session.as_mut()
+            && known.device() == device
         {
-            return;
+            let news = known.describe(description, &self.config).map(lacking::in_words);
+            return self.tell_lacking(now_us, news, outputs);
         }
         let recording = self.config.recording;
         self.keep_learnt(outputs);
@@ -143,7 +142,18 @@ impl Core {
             Some(others) => self.history.keep(cut_short(others), None, outputs),
             None => {}
         }
+        let news = Some(brain_session.lacking())
+            .filter(|lacking| !lacking.is_empty())
+            .map(lacking::in_words);
         self.brain_session = Some(brain_session);
+        self.tell_lacking(now_us, news, outputs);
+    }
+
+    fn tell_lacking(&mut self, now_us: u64, news: Option<String>, outputs: &mut Outputs) {
+        if let Some(text) = news {
+            self.teller(now_us, outputs)
+                .log(LogLevel::Warn, LogSource::Firmware, text);
+        }
     }
 
     /// Goes on with what a daemon before this one was doing.

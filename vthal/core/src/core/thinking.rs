@@ -43,13 +43,10 @@ impl Core {
         };
         let actions = brain_session.step(&mut Recorder::new(recording, outputs));
         if was_recorded && !brain_session.is_recorded() {
-            outputs.home = brain_session.home_to_keep();
+            brain_session.begin_keeping_home();
             self.keep_learnt(outputs);
         }
         self.follow_run(now_us, &actions.decisions, outputs);
-        if let Some(kept) = &outputs.home {
-            self.floors.note_kept(kept);
-        }
         self.keep_edits(now_us, &actions.edits, outputs);
         self.follow_state(now_us, before);
         if let Some(news) = news {

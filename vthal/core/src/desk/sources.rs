@@ -56,7 +56,10 @@ impl Sources<'_> {
         Update::Hello {
             api: API_VERSION,
             versions: self.link.versions(&self.config.version),
-            robot: self.link.description().map(to_api::robot),
+            robot: self.link.description().map(|description| {
+                let lacking = self.brain_session.map(BrainSession::lacking);
+                to_api::robot(description, lacking.unwrap_or_default())
+            }),
             strategies: brain::StrategyName::ALL
                 .iter()
                 .map(|strategy| strategy.name().to_owned())

@@ -2,8 +2,8 @@
 
 mod charge;
 
-use brain::LinkFault;
 use brain::observation::{BeaconSignal, Contacts, Observation};
+use brain::{Inhibit, LinkFault};
 
 use crate::device::{Battery, Description, Report, WrappingTotal};
 
@@ -26,6 +26,7 @@ pub struct Observer {
     /// Heading of whichever gyro counts, microradians.
     heading: WrappingTotal,
     board_heading: Option<BoardHeading>,
+    not_calibrated: bool,
     observation: Observation,
 }
 
@@ -40,6 +41,7 @@ impl Observer {
         Self {
             heading: WrappingTotal::default(),
             board_heading: None,
+            not_calibrated: false,
             observation,
         }
     }
@@ -105,6 +107,14 @@ impl Observer {
             description.sensors.dock_receivers,
         );
         view.inhibits = report.inhibits;
+        if self.not_calibrated {
+            view.inhibits.insert(Inhibit::NotCalibrated);
+        }
+    }
+
+    /// Whether values that the robot needs to move were never measured; in force from the next report on.
+    pub fn set_not_calibrated(&mut self, not_calibrated: bool) {
+        self.not_calibrated = not_calibrated;
     }
 
     /// Takes what is known of the battery.

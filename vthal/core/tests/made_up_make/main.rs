@@ -3,6 +3,7 @@
 
 mod make;
 mod robot;
+mod uncalibrated;
 
 use make::MAKE;
 use robot::{RADIUS_M, Robot};
@@ -24,11 +25,12 @@ struct Pair {
 impl Pair {
     /// Connected, described and idle.
     fn new(robot: Robot) -> Self {
+        Self::with(robot, CoreConfig::default())
+    }
+
+    fn with(robot: Robot, config: CoreConfig) -> Self {
         let mut pair = Self {
-            core: Core::new(CoreConfig {
-                make: MAKE,
-                ..CoreConfig::default()
-            }),
+            core: Core::new(CoreConfig { make: MAKE, ..config }),
             robot,
             now_ms: 0,
             to_robot: Vec::new(),

@@ -131,7 +131,8 @@ fn describe(version: &str) -> Description {
             firmware: version.to_owned(),
             protocol: 1,
         },
-        levels: &[Level::Motion],
+        // The first version waits for measured wheels.
+        levels: if version == "1.0" { &[] } else { &[Level::Motion] },
         shape: Shape::D {
             radius_m: 0.16,
             front_m: 0.12,

@@ -24,6 +24,8 @@ pub(crate) struct Robot {
     pub(crate) is_lifted: bool,
     /// Whether it hears anything.
     pub(crate) hears: bool,
+    /// Version of its firmware.
+    pub(crate) version: &'static str,
     travelled_mm: [f64; 2],
     bumper: u8,
     line: Vec<u8>,
@@ -50,6 +52,7 @@ impl Robot {
             is_driven: false,
             is_lifted: false,
             hears: true,
+            version: "1.3",
             travelled_mm: [0.0; 2],
             bumper: 0,
             line: Vec::new(),
@@ -124,7 +127,7 @@ impl Robot {
     fn obey(&mut self, line: &str, answer: &mut String) {
         let words: Vec<&str> = line.split(' ').collect();
         match words.as_slice() {
-            ["who"] => answer.push_str("pebble 1.3\n"),
+            ["who"] => writeln!(answer, "pebble {}", self.version).unwrap_or_default(),
             ["mode", mode] => {
                 self.is_driven = *mode == "drive";
                 writeln!(answer, "mode {mode}").expect("a string takes everything");

@@ -31,6 +31,8 @@ pub(crate) struct Item {
     assumed: Option<i32>,
     /// What is absent without it.
     needed_for: String,
+    /// Name of what the daemon calls absent without it.
+    ability: Option<String>,
     /// How to find it.
     measure: String,
     /// What the simulated robot has.
@@ -185,6 +187,9 @@ impl Item {
         if !self.name.starts_with(|letter: char| letter.is_ascii_lowercase()) || !self.name.chars().all(plain)
         {
             return Some("a name is made of small letters, digits and hyphens".to_owned());
+        }
+        if !self.ability.iter().flat_map(|name| name.chars()).all(plain) {
+            return Some("an ability is made of small letters, digits and hyphens".to_owned());
         }
         if low > high || low == i32::MIN {
             return Some(format!(

@@ -153,6 +153,7 @@ fn robot(parts: &[&str]) -> RobotDescription {
         parts: parts.iter().map(|&part| part.to_owned()).collect(),
         unguarded: Vec::new(),
         unmeasured: Vec::new(),
+        lacking: Vec::new(),
     }
 }
 

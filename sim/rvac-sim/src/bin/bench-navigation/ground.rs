@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
+use home::generate::GeneratedHome;
 use home::{Home, Noise, RobotModel};
 use robot::RobotSettings;
+use rvac_sim::bench::NamedHome;
 use rvac_sim::run::core_config;
 use rvac_sim::{Host, Household, PoseSource, Scene};
 use vthal_core::CoreConfig;
@@ -41,6 +43,18 @@ impl HomeWithHistory {
             scene: Scene::new(home, setup.model.clone(), setup.noise),
             first_day,
         }
+    }
+
+    /// The home, and how it was on its first day, empty, where there is another day.
+    pub(crate) fn of(named: &NamedHome, setup: &Setup) -> anyhow::Result<Self> {
+        let home = Arc::new(named.home(&setup.model)?);
+        let first_day = match named {
+            NamedHome::Generated(today) if *today != GeneratedHome::number(today.number) => {
+                Arc::new(GeneratedHome::number(today.number).home(&setup.model)?)
+            }
+            NamedHome::Generated(_) | NamedHome::File(_) | NamedHome::Trap(_) => Arc::clone(&home),
+        };
+        Ok(Self::new(home, first_day, setup))
     }
 
     /// A robot and a host for a mode.

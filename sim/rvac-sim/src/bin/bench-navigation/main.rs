@@ -2,15 +2,14 @@
 //! `cargo xtask bench navigation` builds and runs it.
 #![forbid(unsafe_code)]
 
-mod crew;
 mod ground;
-mod homes;
 mod lost;
 mod memory;
 mod mode;
 #[path = "../../progress.rs"]
 mod progress;
 mod run;
+mod shared_progress;
 mod table;
 mod traps;
 
@@ -21,12 +20,12 @@ use anyhow::Context;
 use clap::Parser;
 use home::RobotModel;
 use home::traps::{Trap, TrapKind};
+use rvac_sim::bench::{NamedHome, in_order};
 
-use crew::{SharedProgress, in_order};
 use ground::{GyroFitting, HomeWithHistory, Setup};
-use homes::NavigationHome;
 use mode::{CleaningMode, SeededMode};
 use run::{Ground, Length, NavigationRun, rounds};
+use shared_progress::SharedProgress;
 use table::NavigationTable;
 use traps::{TrapRun, TrapTable};
 
@@ -121,7 +120,7 @@ fn main() -> anyhow::Result<()> {
     if arguments.traps {
         return measure_traps(&arguments, &setup, &modes);
     }
-    let places = NavigationHome::list(&arguments.homes)?;
+    let places = NamedHome::list(&arguments.homes)?;
     let runs = runs_in(&places, &arguments, &setup, &arguments.ways(&modes))?;
     print(&arguments, &places, &modes, &runs)
 }
@@ -130,7 +129,7 @@ fn main() -> anyhow::Result<()> {
 type WorkerHome = Option<(usize, HomeWithHistory)>;
 
 fn runs_in(
-    places: &[NavigationHome],
+    places: &[NamedHome],
     arguments: &Arguments,
     setup: &Setup,
     ways: &[SeededMode],
@@ -140,7 +139,7 @@ fn runs_in(
     let runs = in_order(count, arguments.threads(), |desk: &mut WorkerHome, number| {
         let (place, way) = (number / ways.len(), number % ways.len());
         if desk.as_ref().is_none_or(|(other, _)| *other != place) {
-            *desk = Some((place, places[place].ground(setup)?));
+            *desk = Some((place, HomeWithHistory::of(&places[place], setup)?));
         }
         let (_, home) = desk.as_ref().context("a home was put there")?;
         let ground = Ground { home, setup };
@@ -153,7 +152,7 @@ fn runs_in(
 
 fn print(
     arguments: &Arguments,
-    places: &[NavigationHome],
+    places: &[NamedHome],
     modes: &[CleaningMode],
     runs: &[NavigationRun],
 ) -> anyhow::Result<()> {

@@ -10,11 +10,11 @@ use brain::BehaviorState;
 use home::Pose;
 use home::traps::{Trap, TrapBounds, TrapKind};
 use rvac_sim::Household;
+use rvac_sim::bench::NamedHome;
 use rvac_sim::run::start_cleaning;
 use serde::Serialize;
 
-use crate::ground::Setup;
-use crate::homes::NavigationHome;
+use crate::ground::{HomeWithHistory, Setup};
 use crate::mode::{CleaningMode, SeededMode};
 
 /// Nobody waits longer for an end.
@@ -39,7 +39,7 @@ pub(crate) struct TrapRun {
 
 impl TrapRun {
     pub(crate) fn of(trap: Trap, setup: &Setup, mode: CleaningMode) -> anyhow::Result<Self> {
-        let ground = NavigationHome::Trap(trap).ground(setup)?;
+        let ground = HomeWithHistory::of(&NamedHome::Trap(trap), setup)?;
         let mut household = ground.household(
             setup,
             SeededMode {

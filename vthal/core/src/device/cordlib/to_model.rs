@@ -22,7 +22,8 @@ pub(super) fn description(hello: Option<&RobotHello>, table: &message::Descripti
     let limits = table.limits;
     Description {
         identity: identity(hello),
-        levels: &[Level::Motion],
+        // Without calibrated encoders the firmware refuses every command with a speed.
+        levels: if has.encoders { &[Level::Motion] } else { &[] },
         shape: Shape::Circle {
             radius_m: limits.radius.as_m(),
         },
@@ -280,7 +281,9 @@ mod tests {
 
     #[test]
     fn inhibits_have_the_same_names_on_the_wire() {
-        let of_host = |inhibit: &Inhibit| LinkFault::from_name(inhibit.name()).is_some();
+        let of_host = |inhibit: &Inhibit| {
+            *inhibit == Inhibit::NotCalibrated || LinkFault::from_name(inhibit.name()).is_some()
+        };
         let here: Vec<_> = Inhibit::all()
             .filter(|inhibit| !of_host(inhibit))
             .map(|inhibit| (inhibit.name(), inhibit.is_latched()))

@@ -1,16 +1,17 @@
 //! Work spread over threads; results are in the order of the work.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
-
-use crate::progress::Progress;
 
 /// Does the work of each number below `count` on `threads` threads. Each thread begins with a `desk` of its own.
 ///
 /// # Errors
 /// One that came up; work that was not begun by then is left.
-pub(crate) fn in_order<WorkerHome: Default, Done: Send>(
+///
+/// # Panics
+/// When the work panics.
+pub fn in_order<WorkerHome: Default, Done: Send>(
     count: usize,
     threads: usize,
     work: impl Fn(&mut WorkerHome, usize) -> anyhow::Result<Done> + Sync,
@@ -42,41 +43,6 @@ pub(crate) fn in_order<WorkerHome: Default, Done: Send>(
     let mut results = results.into_inner().expect("all threads have ended well");
     results.sort_by_key(|(number, _)| *number);
     results.into_iter().map(|(_, result)| result).collect()
-}
-
-/// Progress of work that several do at once.
-#[derive(Debug)]
-pub(crate) struct SharedProgress {
-    line: Progress,
-    count: usize,
-    /// Thousandths of single pieces of work, all together.
-    done: AtomicU64,
-}
-
-impl SharedProgress {
-    pub(crate) fn new(what: &'static str, count: usize) -> Self {
-        Self {
-            line: Progress::new(what),
-            count,
-            done: AtomicU64::new(0),
-        }
-    }
-
-    /// Takes shares of 0 to 1 of one piece of work.
-    pub(crate) fn piece(&self) -> impl FnMut(f64) {
-        let mut before = 0;
-        move |share| {
-            let now = (1_000.0 * share) as u64;
-            let more = now.saturating_sub(before);
-            before += more;
-            let done = self.done.fetch_add(more, Ordering::Relaxed) + more;
-            self.line.show(done as f64 / (1_000.0 * self.count as f64));
-        }
-    }
-
-    pub(crate) fn clear(&self) {
-        self.line.clear();
-    }
 }
 
 #[cfg(test)]

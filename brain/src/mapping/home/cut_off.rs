@@ -4,10 +4,11 @@
 //! less than that floor is connected, touches on it expire before the run begins. What is cut off even so stands behind something that
 //! infrared sees: that floor counts as not swept, and a person is told.
 
-use super::derived::Derived;
-use super::occupancy_grid::{Evidence, Flag, OccupancyGrid, is_touched_only};
-use super::reach::{connected, passable};
-use super::{Cell, CellKnowledge, Raster};
+use super::HomeMap;
+use crate::mapping::derived::Derived;
+use crate::mapping::occupancy_grid::{Evidence, Flag, is_touched_only};
+use crate::mapping::reach::{connected, passable};
+use crate::mapping::{Cell, Raster};
 use crate::model::geometry::Point2;
 use crate::model::gradual::StepBudget;
 
@@ -22,34 +23,10 @@ const CUT_OFF: CutOffParameters = CutOffParameters { connected_below: 0.9 };
 /// Work of looking at a cell.
 const CELL_WORK: usize = 6;
 
-/// Centres of the body on floor over which it drove in earlier runs, and how many of them are connected.
-struct Connection {
-    connected: usize,
-    all: usize,
-}
-
-impl Connection {
-    fn share(&self) -> f64 {
-        if self.all == 0 {
-            1.0
-        } else {
-            self.connected as f64 / self.all as f64
-        }
-    }
-}
-
-/// What the guard looks at and changes.
-pub(super) struct DrivenFloor<'home> {
-    pub(super) grid: &'home mut OccupancyGrid,
-    pub(super) derived: &'home mut Derived,
-    pub(super) radius_m: f64,
-}
-
-impl DrivenFloor<'_> {
+impl HomeMap {
     /// Expires touches that cut off floor from a robot at `dock`. Returns the share of the floor driven before that is connected then.
     pub(super) async fn reconnect(&mut self, dock: Point2, budget: &mut StepBudget) -> f64 {
-        let before = self.connection(dock, budget).await.share();
-        if before >= CUT_OFF.connected_below {
+        if self.driven_share(dock, budget).await >= CUT_OFF.connected_below {
             return 1.0;
         }
         let touched = self.grid.gathered();
@@ -60,43 +37,33 @@ impl DrivenFloor<'_> {
             self.grid.change(cell, Evidence::expire_touch);
             budget.spend(CELL_WORK).await;
         }
-        self.derived.refresh(self.grid);
-        let after = self.connection(dock, budget).await.share();
-        if after >= CUT_OFF.connected_below {
+        self.derived = Derived::compute(&mut self.grid, budget).await;
+        let share = self.driven_share(dock, budget).await;
+        if share >= CUT_OFF.connected_below {
             1.0
         } else {
-            after
+            share
         }
     }
 
-    async fn connection(&self, dock: Point2, budget: &mut StepBudget) -> Connection {
-        let open: Raster<bool> = passable(&self.knowledge(), self.radius_m, budget).await;
+    /// Share of the floor driven in earlier runs that a robot at `dock` reaches, where nothing is forbidden: people know what they
+    /// cut off by that.
+    async fn driven_share(&mut self, dock: Point2, budget: &mut StepBudget) -> f64 {
+        let without_no_go = self.knowledge_without_no_go();
+        let knowledge = without_no_go.as_ref().unwrap_or_else(|| self.knowledge());
+        let open: Raster<bool> = passable(knowledge, self.sensor_model.body.radius_m, budget).await;
         let reached = connected(&open, dock, budget).await;
-        let mut connection = Connection { connected: 0, all: 0 };
+        let (mut reached_cells, mut cells) = (0.0, 0.0);
         for (index, is_open) in open.values().iter().enumerate() {
             if *is_open && self.grid.at(open.cell(index)).has(Flag::Body) {
-                connection.all += 1;
-                connection.connected += usize::from(reached.values().get(index) == Some(&true));
+                cells += 1.0;
+                if reached.values().get(index) == Some(&true) {
+                    reached_cells += 1.0;
+                }
             }
             budget.spend(1).await;
         }
-        connection
-    }
-
-    /// Knowledge without what people forbid: they know that they cut that off.
-    fn knowledge(&self) -> Raster<CellKnowledge> {
-        let mut knowledge = self.derived.knowledge.clone();
-        for index in 0..knowledge.values().len() {
-            let cell = knowledge.cell(index);
-            if let Some(kind) = knowledge.values_mut().get_mut(index)
-                && *kind == CellKnowledge::NoGo
-            {
-                let mut evidence = self.grid.at(cell);
-                evidence.clear(Flag::NoGo);
-                *kind = evidence.knowledge();
-            }
-        }
-        knowledge
+        if cells > 0.0 { reached_cells / cells } else { 1.0 }
     }
 
     /// Whether the body was in a cell or beside it: it is drawn a little smaller than it is.
@@ -113,7 +80,6 @@ impl DrivenFloor<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::DrivenFloor;
     use crate::mapping::derived::Derived;
     use crate::mapping::home::HomeMap;
     use crate::mapping::occupancy_grid::{Evidence, Flag};
@@ -150,13 +116,7 @@ mod tests {
     }
 
     fn share(home: &mut HomeMap) -> f64 {
-        let radius_m = home.sensor_model.body.radius_m;
-        let mut floor = DrivenFloor {
-            grid: &mut home.grid,
-            derived: &mut home.derived,
-            radius_m,
-        };
-        at_once(floor.reconnect(DOCK, &mut StepBudget::unlimited()))
+        at_once(home.reconnect(DOCK, &mut StepBudget::unlimited()))
     }
 
     #[test]

@@ -1,26 +1,30 @@
 //! Sets of homes by name.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use anyhow::Context;
 use home::generate::{GeneratedHome, Half, PUBLISHED};
 use home::traps::Trap;
 use home::{Home, RobotModel};
 
-use crate::ground::{HomeWithHistory, Setup};
-
 /// Where a home comes from.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum NavigationHome {
+pub enum NamedHome {
+    /// A file.
     File(PathBuf),
+    /// A home of the generator.
     Generated(GeneratedHome),
+    /// A room with a trap.
     Trap(Trap),
 }
 
-impl NavigationHome {
-    /// Reads a list of sets.
-    pub(crate) fn list(text: &str) -> anyhow::Result<Vec<Self>> {
+impl NamedHome {
+    /// Reads a list of sets, separated by commas: `tuning` and `report` (odd and even numbers of the published set), `published`
+    /// (both), `generated:A..B` with B, `generated:N`, `trap:KIND/SEED`, or files.
+    ///
+    /// # Errors
+    /// When a set is none, or the list is empty.
+    pub fn list(text: &str) -> anyhow::Result<Vec<Self>> {
         let mut places = Vec::new();
         for set in text.split(',').map(str::trim).filter(|set| !set.is_empty()) {
             places.extend(Self::set(set)?);
@@ -57,19 +61,11 @@ impl NavigationHome {
         Ok(homes.map(Self::Generated).collect())
     }
 
-    /// The home, and how it was on its first day, empty, where there is another day.
-    pub(crate) fn ground(&self, setup: &Setup) -> anyhow::Result<HomeWithHistory> {
-        let home = Arc::new(self.home(&setup.model)?);
-        let first_day = match self {
-            Self::Generated(today) if *today != GeneratedHome::number(today.number) => {
-                Arc::new(GeneratedHome::number(today.number).home(&setup.model)?)
-            }
-            Self::Generated(_) | Self::File(_) | Self::Trap(_) => Arc::clone(&home),
-        };
-        Ok(HomeWithHistory::new(home, first_day, setup))
-    }
-
-    fn home(&self, model: &RobotModel) -> anyhow::Result<Home> {
+    /// The home itself.
+    ///
+    /// # Errors
+    /// When it cannot be read or drawn.
+    pub fn home(&self, model: &RobotModel) -> anyhow::Result<Home> {
         Ok(match self {
             Self::File(path) => Home::load(Path::new(path), model)?,
             Self::Generated(home) => home.home(model)?,
@@ -80,7 +76,7 @@ impl NavigationHome {
 
 #[cfg(test)]
 mod tests {
-    use super::NavigationHome;
+    use super::NamedHome;
 
     #[test]
     fn sets_are_read() {
@@ -91,7 +87,7 @@ mod tests {
             ("generated:7/1+people", 1),
             ("trap:sofa/3", 1),
         ] {
-            assert_eq!(NavigationHome::list(text).unwrap().len(), count, "{text}");
+            assert_eq!(NamedHome::list(text).unwrap().len(), count, "{text}");
         }
         for wrong in [
             "",
@@ -101,7 +97,7 @@ mod tests {
             "generated:a..b",
             "trap:sea",
         ] {
-            assert!(NavigationHome::list(wrong).is_err(), "{wrong}");
+            assert!(NamedHome::list(wrong).is_err(), "{wrong}");
         }
     }
 }
