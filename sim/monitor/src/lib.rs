@@ -90,7 +90,7 @@ impl Monitor {
     /// The firmware put this byte into its transmitter.
     pub fn said(&mut self, now_ms: u64, byte: u8) {
         if let Some(told) = self.permission.said(now_ms, byte) {
-            self.reports.take(&told);
+            self.reports.take(told);
         }
     }
 
@@ -105,6 +105,7 @@ impl Monitor {
     /// first may start it later than the reset. The age of commands is measured with it.
     pub fn clock_started(&mut self, now_ms: u64) {
         self.permission.clock_started(now_ms);
+        self.reports.clock_started(now_ms);
     }
 
     /// Checks one millisecond: the pins before the firmware's pass and the motors after it.

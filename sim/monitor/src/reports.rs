@@ -24,6 +24,8 @@ const WARMTH_SLACK_DC: i32 = 40;
 /// Windows and reports in a row that must be wrong: one may lie across a change.
 const WRONG_IN_A_ROW: u8 = 2;
 const WRONG_PACKS: u8 = 3;
+/// A state is made and has crossed the line within this.
+const AGE_MOST_MS: i32 = 100;
 /// After a reset debouncing starts anew.
 const SETTLE_MS: u64 = 1_000;
 
@@ -144,6 +146,10 @@ pub(crate) struct ReportWatch {
     now_ms: u64,
     /// Nothing is judged before.
     from_ms: u64,
+    /// The robot's clock began to count.
+    clock_ms: u64,
+    /// What was told in this millisecond: the pins that it may be about are seen at its end.
+    pending: Option<Told>,
     declared: Option<Declared>,
     pins: Pins,
     sides: [Shown; SIDES],
@@ -164,11 +170,17 @@ impl ReportWatch {
         *self = Self {
             now_ms,
             from_ms: now_ms + SETTLE_MS,
+            clock_ms: now_ms,
             pins: self.pins,
             sides: self.sides,
             cliffs: self.cliffs,
             ..Self::default()
         };
+    }
+
+    /// The robot's clock begins to count.
+    pub(crate) const fn clock_started(&mut self, now_ms: u64) {
+        self.clock_ms = now_ms;
     }
 
     /// Takes the pins of a millisecond.
@@ -200,7 +212,8 @@ impl ReportWatch {
             }
         }
         if let Some(pack_mv) = pins.sensed.pack_mv {
-            self.pack_mv.update(now_ms, pack_mv);
+            // No report can tell less than nothing.
+            self.pack_mv.update(now_ms, pack_mv.max(0));
         }
         if let Some(temperature_dc) = pins.sensed.temperature_dc {
             self.warmth_dc.update(now_ms, temperature_dc);
@@ -211,15 +224,30 @@ impl ReportWatch {
                 *sum += i64::from(current_ma);
             }
         }
+        if let Some(told) = self.pending.take() {
+            self.judge(&told);
+        }
     }
 
-    /// Takes a report.
-    pub(crate) fn take(&mut self, told: &Told) {
+    /// Takes a report, which is judged with the pins of this millisecond.
+    pub(crate) fn take(&mut self, told: Told) {
+        if let Some(before) = self.pending.replace(told) {
+            self.judge(&before);
+        }
+    }
+
+    fn judge(&mut self, told: &Told) {
         match told {
             Told::Parts(parts) => self.declared = Some(*parts),
             Told::State(state) => self.judge_state(state),
             Told::Pack(pack) => self.judge_pack(pack),
         }
+    }
+
+    /// A report that waited for a line that was held is of another time.
+    fn is_of_now(&self, tick: u32) -> bool {
+        let age_ms = (self.now_ms.saturating_sub(self.clock_ms) as u32).wrapping_sub(tick);
+        age_ms.cast_signed() <= AGE_MOST_MS
     }
 
     /// Rules that the newest reports break, bit by rule.
@@ -231,6 +259,10 @@ impl ReportWatch {
         let Some(parts) = self.declared.filter(|_| self.now_ms >= self.from_ms) else {
             return;
         };
+        if !self.is_of_now(state.tick) {
+            self.window = Window::default();
+            return;
+        }
         self.false_state = bit(Rule::ReportsSide, self.names_wrong_side(state, parts))
             | bit(Rule::ReportsNear, self.tells_wrong_closeness(state, parts))
             | bit(Rule::ReportsAbsent, tells_absent(state, parts));

@@ -28,6 +28,8 @@ struct Scene {
     now_ms: u64,
     number: u16,
     pins: Pins,
+    /// The newest start of the robot.
+    reset_ms: u64,
 }
 
 impl Scene {
@@ -38,6 +40,7 @@ impl Scene {
             now_ms: 100,
             number: 0,
             pins: Pins::default(),
+            reset_ms: 0,
         };
         scene.open_session(SESSION);
         scene.arm(false);

@@ -33,6 +33,8 @@ pub(crate) struct Declared {
 /// Telemetry.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct ToldState {
+    /// When it was made, by the robot's clock.
+    pub(crate) tick: u32,
     pub(crate) counts: [i32; 2],
     pub(crate) bumpers: [bool; 2],
     pub(crate) cliffs: [bool; 3],
@@ -89,6 +91,7 @@ fn state_of(object: &Value) -> ToldState {
             .is_some_and(|digits| digits.bytes().any(|digit| digit != b'0'))
     };
     ToldState {
+        tick: object["t"].as_u64().unwrap_or(0) as u32,
         counts: [count("l"), count("r")],
         bumpers: [flag('b'), flag('B')],
         cliffs: [flag('c'), flag('m'), flag('C')],
@@ -110,6 +113,7 @@ fn read_binary(body: &[u8]) -> Option<Told> {
     let flags = u16::from_le_bytes([body[32], body[33]]);
     let flag = |bit: u16| flags >> bit & 1 == 1;
     Some(Told::State(ToldState {
+        tick: long(0).cast_unsigned(),
         counts: [long(4), long(8)],
         bumpers: [flag(0), flag(1)],
         cliffs: [flag(2), flag(3), flag(4)],

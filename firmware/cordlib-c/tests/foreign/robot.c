@@ -159,6 +159,7 @@ static void check_machine(void)
 static void check_stall(void)
 {
     const uint32_t stall_bit = 1u << 9;
+    run(50);
     check(cord_arm(0) == CORD_OK, "armed again");
     cord_event_currents(0.45, 0.1, 0);
     for (int i = 0; i < 3; i++) {

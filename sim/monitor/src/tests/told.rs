@@ -15,6 +15,7 @@ fn state(flags: &str, counts: [i32; 2], currents_a: [f64; 2]) -> String {
 
 impl Scene {
     fn tell(&mut self, json: &str) {
+        let json = &json.replace(r#""t":1,"#, &format!(r#""t":{},"#, self.now_ms - self.reset_ms));
         let crc = packet_crc(json.as_bytes(), WireDirection::FromRobot, SESSION);
         self.robot(&format!("{json}*{crc:08X}"));
     }
@@ -93,6 +94,7 @@ fn nothing_is_judged_that_was_not_declared_or_is_too_young() {
     let mut scene = Scene::described(PARTS);
     press(&mut scene);
     scene.monitor.reset(scene.now_ms, super::ResetCause::Watchdog);
+    scene.reset_ms = scene.now_ms;
     scene.open_session(SESSION);
     scene.tell(PARTS);
     assert_eq!(scene.telling(900, ""), []);
@@ -170,6 +172,20 @@ fn voltage_and_temperature_are_those_of_the_pack() {
 }
 
 #[test]
+fn a_report_that_waited_for_its_line_or_is_of_this_very_millisecond_is_not_false() {
+    let mut scene = Scene::described(PARTS);
+    let told = state("b", [0; 2], [0.0; 2]).replace(r#""t":1,"#, &format!(r#""t":{},"#, scene.now_ms));
+    scene.pass(150, OFF);
+    scene.tell(&told);
+    assert_eq!(scene.pass(1, OFF), [], "old");
+    scene.now_ms += 1;
+    scene.tell(&state("b", [0; 2], [0.0; 2]));
+    scene.pins.sides.as_mut().unwrap().bumpers[0] = true;
+    scene.now_ms -= 1;
+    assert_eq!(scene.pass(1, OFF), [], "pressed now");
+}
+
+#[test]
 fn a_part_that_is_not_there_shows_nothing() {
     for (gone, told) in [
         (
@@ -243,13 +259,14 @@ fn something_near_is_told_at_its_own_sensor() {
 /// The binary form, byte by byte from section 8 of SPEC.md.
 #[test]
 fn a_binary_report_is_read_as_well() {
-    let mut body = vec![0; 50];
+    let mut scene = Scene::described(PARTS);
+    let mut body = (scene.now_ms as u32).to_le_bytes().to_vec();
+    body.resize(50, 0);
     body[32] = 1;
     let mut packet = vec![0x82];
     packet.extend(&body);
     let crc = packet_crc(&packet, WireDirection::FromRobot, SESSION);
     packet.extend(crc.to_le_bytes());
-    let mut scene = Scene::described(PARTS);
     for (place, byte) in packet.iter().enumerate() {
         if place > 0 && [0x1D, 0x1E, 0x1F].contains(byte) {
             scene.monitor.said(scene.now_ms, 0x1D);
