@@ -104,7 +104,7 @@ pub fn newest(path: &Path, now: &BootTime) -> Option<Found> {
 }
 
 fn load_one(path: &Path, now: &BootTime) -> Option<Found> {
-    let bytes = fs::read(path).ok()?;
+    let bytes = kept_file::read(path).ok()?;
     let end = bytes.iter().position(|byte| *byte == b'\n')?;
     let (header, body) = (bytes.get(..end)?, bytes.get(end + 1..)?);
     let expected = format!("{MAGIC} {} {:08X}", body.len(), digest(body));

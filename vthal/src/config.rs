@@ -76,7 +76,6 @@ pub enum ConfigError {
         /// The file.
         path: PathBuf,
         /// Why.
-        #[source]
         error: std::io::Error,
     },
     /// The file is not what it should be.
@@ -222,7 +221,7 @@ pub fn load(path: Option<&Path>, overrides: Overrides) -> Result<Config, ConfigE
             },
         );
     };
-    let text = std::fs::read_to_string(path).map_err(|error| ConfigError::Unreadable {
+    let text = kept_file::read_text(path).map_err(|error| ConfigError::Unreadable {
         path: path.to_owned(),
         error,
     })?;

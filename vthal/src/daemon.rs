@@ -10,9 +10,10 @@ use std::time::Duration;
 use rvac_api::{Failure, LogEntry, LogLevel, Update};
 use tokio::net::UnixStream;
 use tokio::sync::mpsc::{Receiver, Sender};
+use tokio::sync::watch;
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
-use vthal_core::{ClientId, Core, Delivery, Input, Outputs, Recipients};
+use vthal_core::{ClientId, Core, Delivery, Input, LineHolder, Outputs, Recipients};
 
 use crate::board::{BoardEvent, LightsHandle};
 use crate::checkpoint_thread::CheckpointHandle;
@@ -44,6 +45,8 @@ pub(crate) struct Wiring {
     pub event_sender: Sender<Event>,
     /// Bytes for the robot.
     pub to_robot: Sender<LineOrder>,
+    /// Whose that line is.
+    pub line_holder: watch::Sender<LineHolder>,
     /// Recordings, if enabled.
     pub recorder: Option<RecorderHandle>,
     /// Checkpoints.
@@ -306,6 +309,9 @@ impl Daemon {
                 );
             }
             self.congested = congested;
+        }
+        if let Some(holder) = self.outputs.line_holder.take() {
+            self.wiring.line_holder.send_replace(holder);
         }
         if self.outputs.next_rate && self.wiring.to_robot.try_send(LineOrder::NextRate).is_err() {
             tracing::warn!(part = "link", "the serial line is too busy to try another rate");

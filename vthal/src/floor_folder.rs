@@ -237,7 +237,7 @@ fn read(path: &Path) -> Result<List, String> {
         return Err("it is larger than any list of floors".to_owned());
     }
     let list: List =
-        serde_json::from_slice(&fs::read(path).map_err(said)?).map_err(|error| error.to_string())?;
+        serde_json::from_slice(&kept_file::read(path).map_err(said)?).map_err(|error| error.to_string())?;
     match list.version {
         1 => Ok(list),
         version => Err(format!(

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use vthal::ServeError;
 use vthal::config::{self, Overrides};
 use vthal::recording::replay::{Replay, replay};
 
@@ -71,7 +72,10 @@ fn main() -> ExitCode {
     };
     result.unwrap_or_else(|error| {
         eprintln!("vthal: {error:#}");
-        ExitCode::FAILURE
+        // systemd does not try again what only a person can mend.
+        let needs_a_person =
+            error.is::<config::ConfigError>() || matches!(error.downcast_ref(), Some(ServeError::Robot(_)));
+        ExitCode::from(if needs_a_person { 2 } else { 1 })
     })
 }
 

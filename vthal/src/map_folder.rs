@@ -171,7 +171,7 @@ impl MapFolder {
         if fs::metadata(&file)?.len() > BYTES_MAX {
             return Err(io::Error::other("it is larger than any map"));
         }
-        fs::read(file)
+        kept_file::read(&file)
     }
 
     fn load(&self, number: u64) -> Result<StoredMap, String> {

@@ -123,7 +123,7 @@ fn read(path: &Path) -> Option<Profile> {
     if length > PROFILE_BYTES_MAX {
         return None;
     }
-    Profile::parse(&fs::read_to_string(path).ok()?).ok()
+    Profile::parse(&kept_file::read_text(path).ok()?).ok()
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ pub(crate) fn newest<T>(path: &Path, what: &str, parse: impl Fn(&str) -> Result<
         .iter()
         .filter(|version| version.exists())
     {
-        let text = fs::read_to_string(version).map_err(|error| error.to_string());
+        let text = kept_file::read_text(version).map_err(|error| error.to_string());
         match text.and_then(|text| parse(&text)) {
             Ok(value) => {
                 return Newest {

@@ -16,7 +16,6 @@ pub enum RobotFileError {
         /// The file.
         path: PathBuf,
         /// Why.
-        #[source]
         error: std::io::Error,
     },
     /// The file is no description of a robot.
@@ -25,7 +24,6 @@ pub enum RobotFileError {
         /// The file.
         path: PathBuf,
         /// What is wrong.
-        #[source]
         error: Box<toml::de::Error>,
     },
 }
@@ -98,7 +96,7 @@ pub(crate) struct RobotFacts {
 /// # Errors
 /// See [`RobotFileError`].
 pub(crate) fn load(path: &Path) -> Result<RobotFacts, RobotFileError> {
-    let text = std::fs::read_to_string(path).map_err(|error| RobotFileError::Unreadable {
+    let text = kept_file::read_text(path).map_err(|error| RobotFileError::Unreadable {
         path: path.to_owned(),
         error,
     })?;

@@ -270,7 +270,7 @@ impl RunFolder {
         if length > BYTES_MAX {
             return Err(broken("it is larger than any record".to_owned()));
         }
-        let text = fs::read(&file).map_err(|error| broken(error.to_string()))?;
+        let text = kept_file::read(&file).map_err(|error| broken(error.to_string()))?;
         serde_json::from_slice(&text).map_err(|error| broken(error.to_string()))
     }
 }

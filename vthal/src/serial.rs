@@ -8,8 +8,9 @@ use std::time::Duration;
 use rustix::fs::{FlockOperation, Mode, OFlags, flock};
 use serial2_tokio::{SerialPort, Settings};
 use tokio::sync::mpsc::{Receiver, Sender};
-use vthal_core::LinkLoss;
+use tokio::sync::watch;
 use vthal_core::device::Opening;
+use vthal_core::{LineHolder, LinkLoss};
 
 use crate::event::{Event, SerialEvent};
 
@@ -51,9 +52,28 @@ pub(crate) enum LineOrder {
     NextRate,
 }
 
+/// What comes to the task from the daemon's core.
+#[derive(Debug)]
+pub(crate) struct LineOrders {
+    /// For the robot, in order.
+    pub to_robot: Receiver<LineOrder>,
+    /// Whose the line is: nobody but the daemon opens it while it is the daemon's.
+    pub holder: watch::Receiver<LineHolder>,
+}
+
+impl LineOrders {
+    /// Waits until the line is the daemon's, or a client's.
+    async fn await_holder(&mut self, wanted: LineHolder) {
+        if self.holder.wait_for(|holder| *holder == wanted).await.is_err() {
+            // The daemon ends, and nobody lends a line any more.
+            std::future::pending::<()>().await;
+        }
+    }
+}
+
 /// Serves the device until the daemon's event queue closes: opens it, passes bytes in both directions, and begins again when it is
-/// lost. Each outage is reported once.
-pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot: Receiver<LineOrder>) {
+/// lost. Each outage is reported once. While the line is lent to a client, it is closed.
+pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: LineOrders) {
     let mut rates = robot.rates_baud.iter().copied().cycle();
     let mut settings = SerialSettings {
         path: robot.path.clone(),
@@ -62,14 +82,15 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut to_robot:
     let mut pause = PAUSE_MIN;
     let mut is_reported = false;
     loop {
+        orders.await_holder(LineHolder::Daemon).await;
         let event = match open_to_robot(&settings, robot.opening).await {
             Ok(line) => {
                 is_reported = false;
-                drain(&mut to_robot);
+                drain(&mut orders.to_robot);
                 if events.send(Event::Serial(SerialEvent::Opened)).await.is_err() {
                     return;
                 }
-                let (end, read_any) = pass_bytes(&line.port, &events, &mut to_robot).await;
+                let (end, read_any) = pass_bytes(&line.port, &events, &mut orders).await;
                 if read_any {
                     pause = PAUSE_MIN;
                 }
@@ -178,16 +199,16 @@ enum LineEnd {
     NextRate,
 }
 
-async fn pass_bytes(
-    port: &SerialPort,
-    events: &Sender<Event>,
-    to_robot: &mut Receiver<LineOrder>,
-) -> (LineEnd, bool) {
+async fn pass_bytes(port: &SerialPort, events: &Sender<Event>, orders: &mut LineOrders) -> (LineEnd, bool) {
     let mut buffer = [0; READ_SIZE];
     let mut pending = Vec::new();
     let mut read_any = false;
+    let LineOrders { to_robot, holder } = orders;
     loop {
         tokio::select! {
+            Ok(_) = holder.wait_for(|holder| *holder == LineHolder::Client) => {
+                return (LineEnd::Lost(LinkLoss::Lent), read_any);
+            }
             read = port.read(&mut buffer) => match read {
                 Ok(0) => return (LineEnd::Lost(LinkLoss::HungUp), read_any),
                 Ok(count) => {

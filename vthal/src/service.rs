@@ -4,10 +4,10 @@ use std::io::{self, Write};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use tokio::signal::unix::{SignalKind, signal};
-use tokio::sync::mpsc;
+use tokio::sync::{mpsc, watch};
 use tokio::task::{LocalSet, spawn_local};
 use vthal_core::device::{Make, cordlib};
-use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, Recording};
+use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, LineHolder, Recording};
 
 use crate::clock::Clock;
 use crate::config::Config;
@@ -17,7 +17,7 @@ use crate::instance::{self, InstanceError};
 use crate::kept_store::{self, KeptStore};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFacts, RobotFileError};
-use crate::serial::{self, RobotLine};
+use crate::serial::{self, LineOrders, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::system_zone::system_zone;
 use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd};
@@ -72,6 +72,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     let core_config = core_config(config, &kept)?;
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
     let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
+    let (line_holder, holder) = watch::channel(LineHolder::Daemon);
     let lights = match &config.board {
         Some(settings) => Some(board::start(settings.clone(), event_sender.clone())?),
         None => None,
@@ -81,6 +82,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         events,
         event_sender: event_sender.clone(),
         to_robot,
+        line_holder,
         recorder: recorder(config, &event_sender)?,
         runs: run_thread::start(kept.paths().runs.clone(), event_sender.clone())?,
         checkpoints: checkpoint_thread::start(kept.into_paths(), event_sender.clone())?,
@@ -104,7 +106,11 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     if let Some(radio) = &config.radio {
         spawn_local(radio::serve(radio.clone(), event_sender.clone()));
     }
-    spawn_local(serial::serve(robot, event_sender, robot_queue));
+    let orders = LineOrders {
+        to_robot: robot_queue,
+        holder,
+    };
+    spawn_local(serial::serve(robot, event_sender, orders));
     tracing::info!(
         part = "vthal",
         "version {} listens on {}",

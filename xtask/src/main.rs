@@ -9,6 +9,7 @@ mod codegen;
 mod demo;
 mod firmware;
 mod hardware;
+mod new_robot;
 mod package;
 mod panel;
 mod process;
@@ -45,6 +46,8 @@ enum Command {
     Tidy(tidy::TidyArguments),
     /// Writes the generated files, or with --check says which are stale.
     Codegen(codegen::CodegenArguments),
+    /// Makes the folders of a new robot, with firmware that says hello.
+    NewRobot(new_robot::NewRobotArguments),
     /// Packs the programs for the Linux board, for Debian and as archives.
     Package(package::PackageArguments),
     /// Builds the panel for the browser and packs it.
@@ -66,6 +69,7 @@ fn main() -> ExitCode {
         Command::Bench(arguments) => bench::run(&arguments),
         Command::Tidy(arguments) => tidy::run_with(&arguments),
         Command::Codegen(arguments) => codegen::run(&arguments),
+        Command::NewRobot(arguments) => new_robot::run(&arguments),
         Command::Package(arguments) => package::run(&arguments),
         Command::BookPictures => book_pictures::run(),
         Command::Panel => panel::build(panel::Page::Release)

@@ -55,6 +55,17 @@ pub(crate) const MIPS: Target = Target {
     remedy: "rustup component add rust-src",
 };
 
+/// Small ARM microcontrollers: Cortex-M0 and M0+.
+pub(crate) const THUMB: Target = Target {
+    triple: "thumbv6m-none-eabi",
+    what: "Cortex-M0 microcontrollers",
+    library: &["-Zbuild-std=core"],
+    linker: "ld.lld-19",
+    linker_variable: "CARGO_TARGET_THUMBV6M_NONE_EABI_LINKER",
+    flags: None,
+    remedy: "rustup target add thumbv6m-none-eabi",
+};
+
 /// Debian's packages of a current compiler, its standard library as source, and a linker.
 const PACKAGES: [&str; 5] = [
     "rustc-web",

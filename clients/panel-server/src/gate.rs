@@ -231,6 +231,11 @@ impl Gate {
             .collect()
     }
 
+    /// The robot's name on the network.
+    pub(crate) fn host_name(&self) -> String {
+        self.authority().robot().host_name()
+    }
+
     /// What devices may trust.
     pub(crate) fn trust(&self) -> Trust {
         let authority = self.authority();

@@ -9,6 +9,7 @@
 //! driver's seat of a browser that went away. On loopback there is no gate; beyond it nothing bypasses it.
 #![forbid(unsafe_code)]
 
+mod announcement;
 mod api;
 mod assets;
 mod browser;

@@ -1,6 +1,7 @@
 //! The binary: reads the command line, serves until a signal ends it.
 #![forbid(unsafe_code)]
 
+mod host_name;
 mod systemd;
 
 use std::io::Write;
@@ -44,7 +45,7 @@ struct Serve {
     #[arg(long, value_name = "DIR")]
     assets: PathBuf,
     /// Further name by which browsers may call this server, for example robot.local
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = host_name::parse)]
     host_name: Vec<String>,
     /// Folder of the robot's identity and of its paired devices: with it, HTTPS and for paired devices only
     #[arg(long, value_name = "DIR")]
@@ -58,6 +59,9 @@ struct Serve {
     /// Port of a page that points to the HTTPS address, usually 80
     #[arg(long, value_name = "PORT", requires = "state")]
     page_port: Option<u16>,
+    /// Announce the robot's name on the home network, so that https://NAME.local/ is found
+    #[arg(long, requires = "state")]
+    announce: bool,
 }
 
 #[derive(Debug, clap::Subcommand)]
@@ -70,11 +74,13 @@ enum Job {
 impl From<Serve> for Settings {
     fn from(arguments: Serve) -> Self {
         let (console, card, page_port) = (arguments.console, arguments.card, arguments.page_port);
+        let announce = arguments.announce;
         let guard = arguments.state.map(|state| Guard {
             state,
             console,
             card,
             page_port,
+            announce,
             clock: unix_s,
         });
         Self {

@@ -25,6 +25,7 @@ use tokio::time::timeout;
 use tokio_rustls::TlsAcceptor;
 use tracing::{debug, error, warn};
 
+use crate::announcement::announce;
 use crate::api::{self, Peer};
 use crate::browser;
 use crate::buttons::watch_buttons;
@@ -76,6 +77,8 @@ pub struct Server {
     url: String,
     page: Option<TcpListener>,
     console: Option<UnixListener>,
+    /// Whether the robot's name is announced.
+    announce: bool,
     site: Arc<Site>,
 }
 
@@ -109,6 +112,7 @@ impl Server {
             url: format!("http://{address}/"),
             page: None,
             console: None,
+            announce: false,
             site: Arc::new(Site {
                 rules: RwLock::new(plain_rules(address, &settings.host_names)),
                 assets,
@@ -140,6 +144,7 @@ impl Server {
         let path = guard.console.unwrap_or_else(|| guard.state.join("console.sock"));
         let console = listen_console(&path).map_err(|source| StartError::Console { path, source })?;
         self.console = Some(console);
+        self.announce = guard.announce;
         if let Some(port) = guard.page_port {
             self.page = Some(listen(SocketAddr::new(self.address.ip(), port)).await?.0);
         }
@@ -201,6 +206,7 @@ impl Server {
             watch_buttons(&gate),
             OptionFuture::from(page),
             OptionFuture::from(console),
+            OptionFuture::from(self.announce.then(|| announce(&gate, self.address.port()))),
         );
     }
 }

@@ -33,6 +33,8 @@ pub struct Guard {
     pub console: Option<PathBuf>,
     /// Folder in which the owner may put the file that has all devices forgotten.
     pub card: Option<PathBuf>,
+    /// Whether the robot's name is announced on the home network.
+    pub announce: bool,
     /// Port of a page that only points to the HTTPS address.
     pub page_port: Option<u16>,
     /// The board's clock, seconds since 1970, on which nothing but the life of the certificate depends: see [`crate::unix_s`].

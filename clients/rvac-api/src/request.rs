@@ -194,6 +194,13 @@ pub enum RequestBody {
     },
     /// Beeps so that a person finds the robot.
     Locate,
+    /// Asks the daemon to let go of the serial line, so that this client can write the robot's firmware over it. The daemon takes it
+    /// again by itself when the connection of this client ends. Refused unless the robot stands on its dock with a charge of 40 %.
+    BorrowLink {
+        /// The robot does not answer, and the owner says that it stands where it should: nothing can be checked.
+        #[serde(default)]
+        silent: bool,
+    },
     /// Presses of buttons on the robot start nothing for so long, because somebody counts them for another purpose; what runs they
     /// stop as ever. Ends by itself, and with the client's connection.
     ClaimButtons {
@@ -367,7 +374,7 @@ pub enum RequestBody {
 
 /// The least role that may ask each request over the network, by its word in `c`. On the robot's own socket all may.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 60] = [
+pub const VERBS: [(&str, Role); 61] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -427,6 +434,7 @@ pub const VERBS: [(&str, Role); 60] = [
     ("set-quiet",       Role::Admin),
     ("set-zone",        Role::Admin),
     ("claim-buttons",   Role::Admin),
+    ("borrow-link",     Role::Admin),
     ("raw",             Role::Admin),
 ];
 

@@ -356,8 +356,9 @@ pub struct DeviceTable {
     pub currents_a: Option<[f32; 3]>,
     /// Main brush, side brushes, suction run.
     pub cleaners: [bool; 3],
-    /// Dust box is in.
-    pub dust_box: bool,
+    /// Dust box is in; `null` where nothing watches it.
+    #[serde(default)]
+    pub dust_box: Option<bool>,
     /// On the dock.
     pub docked: bool,
 }

@@ -41,6 +41,14 @@ fn requests_about_buttons() {
 }
 
 #[test]
+fn a_request_for_the_line() {
+    request(
+        RequestBody::BorrowLink { silent: true },
+        r#"{"c":"borrow-link","silent":true}"#,
+    );
+}
+
+#[test]
 fn inputs_of_clients() {
     request(
         RequestBody::SetInputs {
@@ -826,7 +834,7 @@ fn the_device_table() {
         proximity: vec![0.5],
         currents_a: Some([0.25, 0.5, 0.75]),
         cleaners: [true, true, false],
-        dust_box: true,
+        dust_box: Some(true),
         docked: false,
     };
     let golden = format!(

@@ -90,6 +90,20 @@ pub(crate) enum Subcommand {
     Clients(ClientsJob),
     /// The robot's certificate: its fingerprint, and files for devices that are to trust it.
     Trust(TrustOptions),
+    /// Back up, write, verify and restore the robot's firmware.
+    Flash {
+        #[command(flatten)]
+        job: rvac_flash::FlashJob,
+        /// Unix socket of vthal, which lends its line.
+        #[arg(
+            long,
+            value_name = "PATH",
+            env = "RVAC_SOCKET",
+            default_value = "/run/vthal/vthal.sock",
+            global = true
+        )]
+        socket: PathBuf,
+    },
     /// Print what a shell needs to complete rvac's commands.
     Completions {
         /// The shell.

@@ -73,6 +73,7 @@ fn main() -> ExitCode {
         Subcommand::Trust(options) => devices::trust(&options),
         Subcommand::Completions { shell } => manual::completions(shell),
         Subcommand::Manual { folder } => manual::write(&folder),
+        Subcommand::Flash { job, socket } => rvac_flash::run(&job, &rvac_flash::DaemonSocket(socket)),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),
         Subcommand::Stop(daemon) => control::send(rvac_api::RequestBody::Stop, &daemon),
         Subcommand::Pause(daemon) => control::send(rvac_api::RequestBody::Pause, &daemon),

@@ -29,11 +29,13 @@ enum cord_received { CORD_RECEIVED_NOTHING, CORD_RECEIVED_BYTE, CORD_RECEIVED_FR
 /* What stays over a reset, but not over a loss of power. */
 struct cord_kept {
     uint32_t latched;
-    uint32_t boots;
+    uint16_t boots;
     uint8_t recent_resets;
-    uint8_t check; /* makes the sum of all bytes right */
+    uint16_t check; /* of what stands before it */
 };
 
+/* Whether the program is as it was built; called once, at the start, before anything may move. */
+uint8_t cord_board_is_program_sound(void);
 /* Milliseconds since the last call, at most 255. */
 uint8_t cord_board_elapsed_ms(void);
 /* CORD_BUMPER_LEFT and so on, as they are now. */
@@ -46,8 +48,9 @@ uint8_t cord_board_is_battery_low(void);
 uint8_t cord_board_wall(void);
 /* Encoder edges of a wheel, 0 left, 1 right, since the last call. */
 uint8_t cord_board_edges(uint8_t side);
-/* Drives a wheel: -255..255 of full, 0 = no drive. Acts within a millisecond. */
-void cord_board_drive(uint8_t side, int16_t duty);
+/* Drives both wheels at once as `cord_duty` says: -255..255 of full, left and right, 0 = no drive. Acts within a millisecond. In no
+ * moment may a wheel be driven ahead harder than the other one back when `cord_duty` does not say so. */
+void cord_board_drive(void);
 /* Switches brush and suction, CORD_LOAD_BRUSH and CORD_LOAD_SUCTION. */
 void cord_board_clean(uint8_t motors);
 /* Switches everything off at once. */

@@ -7,6 +7,7 @@
 #include "board.h"
 #include "cleaning.h"
 #include "command.h"
+#include "crc.h"
 #include "cordlib-rules.h"
 #include "inhibit.h"
 #include "machine.h"
@@ -14,13 +15,13 @@
 #include "session.h"
 #include "transmit.h"
 #include "wire.h"
+#include <stddef.h>
 
 /* Most bytes taken from the line in one pass, so that no flood delays the reflexes. */
-#define BYTES_IN_PASS 8
+#define BYTES_IN_PASS 16
 #define CONTROL_MS 10
-#define KEPT_BYTES 9
-/* Makes the sum of what is kept right; any value that fresh memory is unlikely to hold. */
-#define KEPT_MARK 0xA5
+/* Begins the CRC of what is kept, which is no packet. */
+#define KEPT_MARK 'k'
 /* A session's seed differs from start to start: a large odd number, times their count. */
 #define SEED_STEP 0x9E3779B9UL
 /* Millionths of full drive in a 255th, nearly. */
@@ -32,18 +33,19 @@ static uint8_t control_ms;
 static uint8_t told_contacts;
 static uint32_t told_inhibits;
 
-static uint8_t kept_sum(void) {
-    uint8_t sum = KEPT_MARK;
-    uint8_t shift;
-    for (shift = 0; shift < 32; shift += 8) {
-        sum = (uint8_t)((sum ^ (uint8_t)(cord_kept.latched >> shift)) * 3 + 1);
-        sum = (uint8_t)((sum ^ (uint8_t)(cord_kept.boots >> shift)) * 3 + 1);
+/* Two bytes of the CRC of what is kept: memory that was without power passes once in 65,536 times. */
+static uint16_t kept_check(void) {
+    const uint8_t *byte = (const uint8_t *)&cord_kept;
+    uint8_t left;
+    cord_crc_start(KEPT_MARK, 0);
+    for (left = offsetof(struct cord_kept, check); left != 0; left--) {
+        cord_crc_take(*byte++);
     }
-    return (uint8_t)((sum ^ cord_kept.recent_resets) * 3 + 1);
+    return (uint16_t)((uint16_t)((uint16_t)cord_crc.b1 << 8) | cord_crc.b0);
 }
 
 void cord_kept_seal(void) {
-    cord_kept.check = kept_sum();
+    cord_kept.check = kept_check();
 }
 
 void cord_forget_resets(void) {
@@ -53,7 +55,7 @@ void cord_forget_resets(void) {
 
 /* Takes up what was kept; power that came on has left anything there. */
 static void take_up(void) {
-    cord_is_first_start = cord_kept.check != kept_sum();
+    cord_is_first_start = cord_kept.check != kept_check();
     if (cord_is_first_start) {
         cord_kept.latched = 0;
         cord_kept.boots = 0;
@@ -77,6 +79,10 @@ void cord_start(uint16_t moment) {
     cord_motion_start();
     cord_session_start(cord_kept.boots * SEED_STEP ^ (uint32_t)moment << 16);
     cord_reflex_start(cord_kept.recent_resets >= CORD_RESET_RESETS_MAX);
+    if (!cord_board_is_program_sound()) {
+        cord_latch(CORD_INHIBIT_MEMORY);
+        cord_inhibits_renew();
+    }
     cord_transmit_start();
     told_inhibits = cord_inhibits;
 }
@@ -191,12 +197,6 @@ static void obey(void) {
             cord_transmit_set_info_ms((uint16_t)cord_command.value);
         }
         break;
-    case CORD_COMMAND_BEEP:
-    case CORD_COMMAND_LED:
-        return;
-    case CORD_COMMAND_MOVE:
-        refusal = CORD_REFUSAL_UNKNOWN;
-        break;
     default:
         refusal = CORD_REFUSAL_ABSENT;
         break;
@@ -215,12 +215,13 @@ static void dispatch(uint8_t event) {
     }
 }
 
-static void take_bytes(void) {
+/* True when it left nothing on the line. */
+static uint8_t take_bytes(void) {
     uint8_t count;
     for (count = 0; count < BYTES_IN_PASS; count++) {
         switch (cord_board_receive()) {
         case CORD_RECEIVED_NOTHING:
-            return;
+            return 1;
         case CORD_RECEIVED_BYTE:
             cord_transmit_count_byte();
             dispatch(cord_session_take(cord_byte));
@@ -233,6 +234,7 @@ static void take_bytes(void) {
             break;
         }
     }
+    return 0;
 }
 
 /* Tells the host what has changed. */
@@ -299,6 +301,8 @@ void cord_pass(void) {
     if (elapsed_ms != 0) {
         tick(elapsed_ms);
     }
-    take_bytes();
-    cord_transmit_pass();
+    /* What comes in can be lost, what goes out waits. */
+    if (take_bytes()) {
+        cord_transmit_pass();
+    }
 }

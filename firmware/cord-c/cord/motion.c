@@ -25,7 +25,7 @@
 #define FULL 255
 #define FULL_SPEED (CORD_FULL_SPEED_UM_PER_S / 100)
 /* Feed-forward, proportional and integral gain in duty for a unit, times 2^12, 2^12 and 2^16: 1.5 thousandths of full for a mm/s,
- * 15 thousandths for a mm. */
+ * 15 thousandths for a mm. Each fits into a byte, as `scaled` wants it. */
 #define FORWARD ((FULL - DEAD_BAND) * 4096L / FULL_SPEED)
 #define PROPORTIONAL 157
 #define INTEGRAL 251
@@ -35,8 +35,9 @@
 #define EDGE_FASTEST ((CORD_CLIFF_SPEED_MAX_UM_PER_S + CORD_CLIFF_SPEED_RIPPLE_UM_PER_S) / 100)
 /* A wheel that turns faster is braked before a duty drives it the other way. */
 #define REVERSAL_SPEED 500
-/* Rim speed for a mrad/s, times 2^12. */
-#define SWING (CORD_HALF_TRACK_UM * 4096L / 100000L)
+/* Rim speed for a mrad/s: whole ones, and 256ths. */
+#define SWING_WHOLE (CORD_HALF_TRACK_UM / 100000L)
+#define SWING_PARTS (CORD_HALF_TRACK_UM % 100000L * 256L / 100000L)
 /* More edges than this in a period are no wheel's. */
 #define COUNTS_MOST 6
 
@@ -123,9 +124,17 @@ int8_t cord_motion_count(uint8_t side, uint8_t edges, uint8_t elapsed_ms) {
     return signed_edges;
 }
 
+/* A value times a 256th of a byte, rounded towards 0: two short products, for chips that have no long one. */
+static int16_t scaled(int16_t value, uint8_t factor) {
+    uint16_t size = (uint16_t)(value < 0 ? -value : value);
+    uint16_t low = (uint16_t)((uint8_t)size * factor);
+    size = (uint16_t)((uint16_t)((uint8_t)(size >> 8) * factor) + (low >> 8));
+    return value < 0 ? (int16_t)-(int16_t)size : (int16_t)size;
+}
+
 /* Rims of a base that moves so, no faster than `most`, with the same curvature. */
 static void set_rims(int16_t speed, int16_t turn, int16_t most) {
-    int16_t swing = (int16_t)(((int32_t)turn * SWING) >> 12);
+    int16_t swing = (int16_t)(turn * SWING_WHOLE + scaled(turn, SWING_PARTS));
     int16_t fastest;
     uint8_t side;
     rims[0] = speed - swing;
@@ -143,9 +152,16 @@ static uint8_t suits_base(int16_t speed, int16_t left, int16_t right) {
     return !(cord_inhibits_forward() && speed > 0) && cord_permits(left, right);
 }
 
+/* A value over 2^(16 + shift) / factor, rounded towards 0: a division by another name, in a fifth of its time. */
+static int16_t divided(int32_t value, uint16_t factor, uint8_t shift) {
+    uint32_t size = (uint32_t)(value < 0 ? -value : value);
+    int16_t quotient = (int16_t)((uint16_t)(size * factor >> 16) >> shift);
+    return value < 0 ? (int16_t)-quotient : quotient;
+}
+
 uint8_t cord_motion_drive(int32_t um_per_s, int32_t urad_per_s, uint16_t lease) {
-    int16_t speed = (int16_t)(um_per_s / 100);
-    int16_t turn = (int16_t)(urad_per_s / 1000);
+    int16_t speed = divided(um_per_s, 5243, 3);   /* 100 */
+    int16_t turn = divided(urad_per_s, 1049, 4); /* 1000 */
     set_rims(speed, turn, FULL_SPEED);
     if (!suits_base(speed, rims[0], rims[1])) {
         return 0;
@@ -230,7 +246,7 @@ static void measure(uint8_t side) {
     int16_t change = sample - cord_speed[side];
     cord_period_counts[side] = counted[side];
     counted[side] = 0;
-    cord_speed[side] = (int16_t)(cord_speed[side] + (change > -4 && change < 4 ? change : change / 4));
+    cord_speed[side] = (int16_t)(cord_speed[side] + (change > -4 && change < 4 ? change : scaled(change, 64)));
     lag[side] = within((int16_t)within(lag[side], -LAG_MOST, LAG_MOST) - (int16_t)within(sample, -LAG_MOST, LAG_MOST),
                        -LAG_MOST, LAG_MOST);
 }
@@ -245,12 +261,11 @@ static void control_wheel(uint8_t side, int16_t speed, uint8_t near_edge) {
         return;
     }
     lag[side] = within((int16_t)(lag[side] + speed), -LAG_MOST, LAG_MOST);
-    of_lag = (int16_t)(((int32_t)lag[side] * INTEGRAL) >> 16);
+    of_lag = scaled(lag[side], INTEGRAL) >> 8;
     if (near_edge) {
         of_lag = within(of_lag, -LAG_DUTY_MOST, LAG_DUTY_MOST);
     }
-    duty = (int16_t)(((int32_t)speed * FORWARD) >> 12);
-    duty = (int16_t)(duty + (((int32_t)(speed - cord_speed[side]) * PROPORTIONAL) >> 12) + of_lag);
+    duty = (int16_t)(((scaled(speed, FORWARD) + scaled((int16_t)(speed - cord_speed[side]), PROPORTIONAL)) >> 4) + of_lag);
     if (duty == 0 || (duty ^ speed) < 0) {
         asked[side] = 0;
         return;
@@ -343,11 +358,11 @@ static void apply_wheel(uint8_t side, int16_t duty) {
         direction[side] = now;
     }
     cord_duty[side] = duty;
-    cord_board_drive(side, duty);
 }
 
 void cord_motion_apply(void) {
     uint8_t side;
+    uint8_t is_changed = 0;
     if (phase != CORD_PHASE_IDLE && !suits()) {
         cord_motion_halt();
         was_braked = 1;
@@ -358,6 +373,10 @@ void cord_motion_apply(void) {
     for (side = 0; side < 2; side++) {
         if (rims[side] != cord_duty[side]) {
             apply_wheel(side, rims[side]);
+            is_changed = 1;
         }
+    }
+    if (is_changed) {
+        cord_board_drive();
     }
 }

@@ -113,7 +113,7 @@ static void settle(uint8_t raw, uint8_t elapsed_ms) {
         return;
     }
     any_differs = differs;
-    for (index = 0, bit = 1; index < CONTACTS; index++, bit <<= 1) {
+    for (index = 0, bit = 1; index < CONTACTS; index++, bit = (uint8_t)(bit << 1)) {
         uint8_t span_ms;
         if ((differs & bit) == 0) {
             differs_ms[index] = 0;
@@ -261,7 +261,7 @@ static void judge_wheel(uint8_t side) {
     if (holds(TIMER_RUNAWAY + side, speed > most, CORD_RUNAWAY_RUNAWAY_MS / PERIOD_MS) && is_watched) {
         cord_latch(CORD_INHIBIT_RUNAWAY);
     }
-    if (holds(TIMER_ENCODER + side, is_driven && goal >= SET_POINT_LEAST && speed < goal / 5,
+    if (holds(TIMER_ENCODER + side, is_driven && goal >= SET_POINT_LEAST && speed < goal && 5 * (speed + 1) <= goal,
               CORD_ENCODER_DISAGREEMENT_MS / PERIOD_MS)) {
         cord_latch(CORD_INHIBIT_ENCODER);
     }
@@ -341,6 +341,8 @@ static uint8_t cause_remains(uint8_t inhibit) {
         return cord_board_overloads() & (CORD_LOAD_LEFT | CORD_LOAD_RIGHT);
     case CORD_INHIBIT_BRUSH_STALL:
         return cord_board_overloads() & (CORD_LOAD_BRUSH | CORD_LOAD_SUCTION);
+    case CORD_INHIBIT_MEMORY:
+        return 1; /* until the next check, after power was off */
     default:
         return 0;
     }

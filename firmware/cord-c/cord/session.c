@@ -396,9 +396,10 @@ static uint8_t accept(uint8_t is_checked) {
     case CORD_COMMAND_INFO:
     case CORD_COMMAND_STATE:
     case CORD_COMMAND_STOP:
+        return act(0, 0);
     case CORD_COMMAND_BEEP:
     case CORD_COMMAND_LED:
-        return act(0, 0);
+        return refuse(CORD_REFUSAL_ABSENT, 0, 0);
     default:
         return accept_once();
     }

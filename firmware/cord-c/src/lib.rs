@@ -1,10 +1,13 @@
 //! The C cord's other half: what is made for it from Rust and TOML.
 //!
 //! The firmware itself stands in `cord/`, in C, for chips without a Rust compiler. Everything that both languages must agree
-//! on is made here: names and their order, ranges, the CRC's tables, and what a robot tells of itself.
+//! on is made here: names and their order, ranges, the CRC's tables, and what a robot tells of itself. [`host`] runs the cord
+//! on this machine under sanitizers; [`corruption`] sends it damaged packets.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod corruption;
+pub mod host;
 mod machine;
 mod tables;
 mod wire;

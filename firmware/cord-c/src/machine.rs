@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// Where the facts are.
 const ROBOT: &str = "robots/vileda-relax/robot.toml";
-/// What the C cord does not understand, by name; it refuses them as `unknown` or `absent`.
+/// What the C cord does not carry out, by name; it refuses them as `absent`.
 const LEFT_OUT: [CommandName; 5] = [
     CommandName::Move,
     CommandName::Beep,

@@ -1,14 +1,13 @@
 //! Tables: of the CRC, of names, of ranges.
 
 use crate::wire::{COUNT, SPANS};
+use rvac_protocol::crc::crc32c;
 use rvac_protocol::message::{ArmingState, CommandName, Inhibit, Motor, Parameter, Refusal};
 use rvac_protocol::span::Span;
 use std::fmt::Write;
 
 const HEAD: &str = "/* Tables of the C cord, included once, by tables.c. Made by cargo xtask codegen from \
                     protocol/rvac-protocol. Do not edit.\n *\n * SPDX-License-Identifier: GPL-3.0-or-later\n */\n";
-/// CRC-32C, reflected.
-const POLYNOMIAL: u32 = 0x82F6_3B78;
 
 /// The header.
 pub(crate) fn source() -> anyhow::Result<String> {
@@ -45,23 +44,17 @@ pub(crate) fn source() -> anyhow::Result<String> {
     Ok(text)
 }
 
-fn entry(index: u32) -> u32 {
-    (0..8).fold(index, |rest, _| {
-        if rest & 1 == 1 {
-            rest >> 1 ^ POLYNOMIAL
-        } else {
-            rest >> 1
-        }
-    })
-}
-
 /// One byte of each entry of the usual table.
 fn crc_table(text: &mut String, byte: u32) -> std::fmt::Result {
     write!(text, "\nconst uint8_t cord_crc_table_{byte}[256] = {{")?;
-    for index in 0..256 {
+    for index in 0..=u8::MAX {
         let comma = if index == 0 { "" } else { "," };
         let space = if index % 16 == 0 { "\n    " } else { " " };
-        write!(text, "{comma}{space}0x{:02X}", entry(index) >> (8 * byte) & 0xFF)?;
+        write!(
+            text,
+            "{comma}{space}0x{:02X}",
+            crc32c(0, &[index]) >> (8 * byte) & 0xFF
+        )?;
     }
     writeln!(text, "\n}};")
 }
@@ -85,14 +78,29 @@ fn numbers(text: &mut String, declaration: &str, values: &[i64]) -> std::fmt::Re
 
 #[cfg(test)]
 mod tests {
-    use super::entry;
+    use super::source;
     use rvac_protocol::crc::crc32c;
 
+    /// The bytes of a table as they stand in the header.
+    fn table(text: &str, byte: u32) -> Vec<u32> {
+        let head = format!("cord_crc_table_{byte}[256] = {{");
+        let rest = text.split_once(&head).expect("the table").1;
+        let rest = rest.split_once('}').expect("its end").0;
+        let digits = rest.split(',').map(|word| word.trim().trim_start_matches("0x"));
+        digits
+            .map(|word| u32::from_str_radix(word, 16).expect("a byte"))
+            .collect()
+    }
+
     #[test]
-    fn the_tables_are_those_of_the_protocol() {
+    fn the_tables_make_the_crc_of_the_protocol() {
+        let text = source().expect("the header");
+        let tables: Vec<Vec<u32>> = (0..4).map(|byte| table(&text, byte)).collect();
         let mut register = u32::MAX;
         for byte in b"123456789" {
-            register = register >> 8 ^ entry((register ^ u32::from(*byte)) & 0xFF);
+            let index = ((register ^ u32::from(*byte)) & 0xFF) as usize;
+            let entry = (0..4).fold(0, |sum, byte| sum | tables[byte][index] << (8 * byte));
+            register = register >> 8 ^ entry;
         }
         assert_eq!(!register, 0xE306_9283);
         assert_eq!(register, crc32c(u32::MAX, b"123456789"));

@@ -264,6 +264,10 @@
 #define CORD_LIMIT_ARMING_SESSION_MS 30
 #define CORD_ARMING_QUIET_MS 10000
 
+/* reports: a value is told that the robot cannot know, or under another's name */
+#define CORD_LIMIT_REPORTS_TOLD_MS 400
+#define CORD_LIMIT_REPORTS_UNTOLD_MS 200
+
 /* What a latch forbids: 1 motion, 2 charging, 3 both. Cleared only when its cause is gone. */
 #define CORD_LATCH_CLOCK_FORBIDS 3
 #define CORD_LATCH_MEMORY_FORBIDS 3

@@ -60,6 +60,11 @@ int32_t cord_set_limits(double speed, double turn);
  * wheel does not turn (0..1) and the speed at full duty (m/s). Returns 1, or 0 for a value out of range. */
 int32_t cord_set_wheels(double track, double distance_per_count, double dead_band, double speed_at_full);
 
+/* Sets the currents in A above which a wheel, and the main brush, is switched off after 100 ms (S11): some three quarters of
+ * what the motor draws when it is held. At first they are 1.5 A and 2 A. Returns 1, or 0 for a value that is not above 0 or not
+ * finite. */
+int32_t cord_set_stall_limits(double wheel, double brush_main);
+
 /* Declares how many of a part the machine has: "bumpers" (0..2), "cliffs" (0..3, from the left), "wheel-drops" (0..2),
  * "gyro", "buttons" (0..8), "leds" (0..16), "beeper", "brush-main", "brush-sides", "vacuum", "currents", "battery"
  * (0..1). What is not declared is absent. Wheels with encoders are always present. Returns 1, or 0 for another name or

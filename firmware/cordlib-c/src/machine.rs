@@ -6,7 +6,7 @@ use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use cord::board::KeptWords;
 use cord::{HandMode, Parameters};
 use rvac_protocol::message::{Capabilities, Limits};
-use rvac_units::{AngularSpeed, Length, Speed, Throttle};
+use rvac_units::{AngularSpeed, Current, Length, Speed, Throttle};
 
 /// The machine as described so far.
 #[derive(Debug)]
@@ -146,6 +146,20 @@ pub extern "C" fn cord_set_wheels(
     machine.parameters.limits.count_nm = (distance_per_count * 1e9) as u32;
     machine.parameters.wheel.dead_band = Throttle::saturating_from_millionths((dead_band * 1e6) as i32);
     machine.parameters.wheel.speed_at_full = Speed::from_m_per_s(speed_at_full);
+    1
+}
+
+/// Sets the currents in A above which a wheel, and the main brush, is switched off after 100 ms (S11): some three quarters of
+/// what the motor draws when it is held. At first they are 1.5 A and 2 A. Returns 1, or 0 for a value that is not above 0 or not
+/// finite.
+#[unsafe(no_mangle)]
+pub extern "C" fn cord_set_stall_limits(wheel: f64, brush_main: f64) -> i32 {
+    if !all_positive(&[wheel, brush_main]) {
+        return 0;
+    }
+    let guard = &mut machine().parameters.guard;
+    guard.wheel_current_max = Current::from_a(wheel);
+    guard.brush_current_max = Current::from_a(brush_main);
     1
 }
 

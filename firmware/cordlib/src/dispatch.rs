@@ -247,8 +247,14 @@ impl<P: Parts> Cord<P> {
         self.arm_anew(ArmingEvent::Arm(by), by, now)
     }
 
+    /// A robot that does not stand on its dock has none to leave: closing contacts are then an arrival from the first one on.
     fn undock(&mut self, by: Holder, now: Tick) -> CommandResult {
-        self.arm_anew(ArmingEvent::Undock(by), by, now)
+        let event = if self.reflexes.dock.is_docked() {
+            ArmingEvent::Undock(by)
+        } else {
+            ArmingEvent::Arm(by)
+        };
+        self.arm_anew(event, by, now)
     }
 
     /// Allows motion from now on and forgets earlier requests (S19).

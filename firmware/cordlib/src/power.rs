@@ -1,6 +1,6 @@
 //! The battery in the main loop: inputs and outputs of the charge controller, and the reports to the host.
 
-use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, LogLevel};
+use rvac_protocol::message::{Battery, ChargeFault, ChargePhase, ChargeState, LogLevel, PackReading};
 use rvac_units::{Current, Temperature, Throttle, Tick, Voltage};
 
 use crate::board::{ChargeDrive, Charger, Parts};
@@ -115,9 +115,12 @@ impl<P: Parts> Cord<P> {
     }
 
     /// Voltage and current of the pack; `None` while they are not measured.
-    pub(crate) fn pack(&self) -> Option<(Voltage, Current)> {
+    pub(crate) fn pack(&self) -> Option<PackReading> {
         let (pack_mv, current_ma) = self.charger.pack().filter(|_| self.fitted.battery)?;
-        Some((Voltage(pack_mv), Current(current_ma)))
+        Some(PackReading {
+            voltage: Voltage(pack_mv),
+            current: Current(current_ma),
+        })
     }
 
     /// The battery for telemetry; `None` while it is not measured or its charge is not known yet, so that no pack is
@@ -126,7 +129,7 @@ impl<P: Parts> Cord<P> {
         if !self.parameters.pack.measured {
             return None;
         }
-        let (voltage, current) = self.pack()?;
+        let PackReading { voltage, current } = self.pack()?;
         let tenths = self
             .charger
             .temperature_cc()

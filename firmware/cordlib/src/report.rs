@@ -206,7 +206,6 @@ impl<P: Parts> Cord<P> {
     }
 
     fn state(&mut self, now: Tick) -> State {
-        let (battery_voltage, battery_current) = self.pack().unwrap_or_default();
         State {
             tick: now,
             count_left: shown(self.fitted.encoders, self.senses.counts.left),
@@ -218,11 +217,9 @@ impl<P: Parts> Cord<P> {
             proximity: shown(self.fitted.proximity > 0, self.board.proximity.closeness()),
             dock: shown(self.fitted.dock_receivers > 0, self.board.dock_beams.symbols()),
             buttons: self.reflexes.buttons(),
-            // The wire cannot express a machine without this switch: its box counts as inserted.
-            dust_box: self.board.dust_box.inserted().unwrap_or(true),
-            currents: self.senses.currents.unwrap_or_default(),
-            battery_voltage,
-            battery_current,
+            dust_box: self.board.dust_box.inserted(),
+            currents: self.senses.currents,
+            pack: self.pack(),
             charge: self.charge_state(),
             docked: self.reflexes.dock.is_docked(),
             inhibits: self.reflexes.inhibits(),

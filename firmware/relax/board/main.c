@@ -4,7 +4,9 @@
  */
 #include "board.h"
 #include "cord.h"
+#include "crc.h"
 #include "interrupts.h"
+#include "motion.h"
 #include "pins.h"
 
 /* The last bytes of the memory on the chip, outside of what start-up clears, are `cord_kept`. */
@@ -15,6 +17,10 @@ void kept_place(void) __naked {
         _cord_kept = 0x03F0
     __endasm;
 }
+
+#define FLASH_BYTES 0x8000U
+/* Begins the CRC of the flash, which is no packet. */
+#define PROGRAM_MARK 'p'
 
 uint8_t cord_byte;
 
@@ -32,6 +38,20 @@ unsigned char _sdcc_external_startup(void) {
     AUXR = AUXR_ALEOFF;
     WDT_CONTR = WDT_RUN | WDT_105_MS;
     return 0;
+}
+
+/* All of the flash, whose last four bytes make its CRC 0. Takes half a second; the watchdog is fed every 256 bytes. */
+uint8_t cord_board_is_program_sound(void) {
+    __code const uint8_t *at = 0;
+    cord_crc_start(PROGRAM_MARK, 0);
+    do {
+        cord_crc_take(*at);
+        at++;
+        if ((uint8_t)(uint16_t)at == 0) {
+            cord_board_feed();
+        }
+    } while ((uint16_t)at != FLASH_BYTES);
+    return (cord_crc.b0 | cord_crc.b1 | cord_crc.b2 | cord_crc.b3) == 0;
 }
 
 uint8_t cord_board_elapsed_ms(void) {
@@ -105,17 +125,16 @@ uint8_t cord_board_edges(uint8_t side) {
     return count;
 }
 
-void cord_board_drive(uint8_t side, int16_t duty) {
-    uint8_t is_backward = duty < 0;
-    uint8_t strength = (uint8_t)(is_backward ? -duty : duty);
+void cord_board_drive(void) {
+    uint8_t is_left_backward = cord_duty[0] < 0;
+    uint8_t is_right_backward = cord_duty[1] < 0;
+    uint8_t left = (uint8_t)(is_left_backward ? -cord_duty[0] : cord_duty[0]);
+    uint8_t right = (uint8_t)(is_right_backward ? -cord_duty[1] : cord_duty[1]);
     EA = 0;
-    if (side == 0) {
-        backward_left = is_backward;
-        strength_left = strength;
-    } else {
-        backward_right = is_backward;
-        strength_right = strength;
-    }
+    backward_left = is_left_backward;
+    strength_left = left;
+    backward_right = is_right_backward;
+    strength_right = right;
     EA = 1;
 }
 
@@ -172,13 +191,12 @@ void cord_board_feed(void) {
 
 void main(void) {
     uint8_t index;
-    uint16_t moment = (uint16_t)((uint16_t)TH0 << 8 | TL0);
+    cord_start((uint16_t)((uint16_t)TH0 << 8 | TL0));
     interrupts_start();
     last_ms = 0;
     for (index = 0; index < 2; index++) {
         last_edges[index] = 0;
     }
-    cord_start(moment);
     for (;;) {
         cord_pass();
     }

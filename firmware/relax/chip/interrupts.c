@@ -9,6 +9,8 @@
 #define PULSE_RELOAD (65536UL - 2500 + 7)
 /* The lamp is on for 100 us, a fifth of the time, before the sensors are read. */
 #define LIT_RELOAD (65536UL - 430)
+/* Odd, so that all 256 phases come, and the golden section of 256, so that those below a strength come evenly. */
+#define PHASE_STEP 159
 #define ENCODERS (ENCODER_LEFT_MASK | ENCODER_RIGHT_MASK)
 
 volatile __data uint8_t lit_p0, dark_p0;
@@ -22,15 +24,15 @@ volatile __bit line_error, line_overrun, is_sending;
 __xdata uint8_t receive_ring[RECEIVE_RING];
 __xdata uint8_t send_ring[SEND_RING];
 
-/* What the pulses have summed up to, and the encoders' last levels. */
-static __data uint8_t sum_left, sum_right;
+/* Where in its 256 pulses a wheel's strength is, and the encoders' last levels. */
+static __data uint8_t phase;
 static __data uint8_t encoder_levels;
 static __bit is_half;
 
 void interrupts_start(void) {
     lit_p0 = dark_p0 = pressed = 0;
     milliseconds = edges_left = edges_right = 0;
-    strength_left = strength_right = sum_left = sum_right = 0;
+    strength_left = strength_right = phase = 0;
     received_to = received_from = sent_to = sent_from = 0;
     line_error = line_overrun = is_sending = is_half = 0;
     encoder_levels = P0 & ENCODERS;
@@ -83,10 +85,10 @@ void on_pulse(void) __interrupt(TF0_VECTOR) __using(1) {
         }
         encoder_levels = now;
     }
-    /* A pulse each time the sum overflows; the two lines of a wheel are never on together. */
-    now = sum_left;
-    sum_left += strength_left;
-    if (sum_left < now || strength_left == 255) {
+    /* A pulse while the phase is below the strength: the weaker wheel has none without the stronger one, so that a turn on the spot
+     * beside an obstacle never pushes ahead. The two lines of a wheel are never on together. */
+    phase += PHASE_STEP;
+    if (phase < strength_left) {
         if (backward_left) {
             WHEEL_LEFT_FORWARD = !WHEEL_LEFT_FORWARD_ACTIVE;
             WHEEL_LEFT_BACKWARD = WHEEL_LEFT_BACKWARD_ACTIVE;
@@ -98,9 +100,7 @@ void on_pulse(void) __interrupt(TF0_VECTOR) __using(1) {
         WHEEL_LEFT_FORWARD = !WHEEL_LEFT_FORWARD_ACTIVE;
         WHEEL_LEFT_BACKWARD = !WHEEL_LEFT_BACKWARD_ACTIVE;
     }
-    now = sum_right;
-    sum_right += strength_right;
-    if (sum_right < now || strength_right == 255) {
+    if (phase < strength_right) {
         if (backward_right) {
             WHEEL_RIGHT_FORWARD = !WHEEL_RIGHT_FORWARD_ACTIVE;
             WHEEL_RIGHT_BACKWARD = WHEEL_RIGHT_BACKWARD_ACTIVE;

@@ -9,8 +9,8 @@ use rvac_units::{Angle, AngularSpeed, Current, Speed, Tick, Voltage};
 use crate::buffer::{EncodeError, PacketBuffer};
 use crate::crc::Direction;
 use crate::message::{
-    Bumpers, ChargeState, Cliffs, Currents, Drive, Gyro, Inhibits, MotionPhase, Refusal, Sequence, State,
-    WheelDrops,
+    Bumpers, ChargeState, Cliffs, Currents, Drive, Gyro, Inhibits, MotionPhase, PackReading, Refusal,
+    Sequence, State, WheelDrops,
 };
 use crate::span::{self, Span};
 
@@ -101,12 +101,15 @@ fn flags(state: &State) -> u16 {
         state.cliffs.right,
         state.wheel_drops.left,
         state.wheel_drops.right,
-        state.dust_box,
+        state.dust_box == Some(true),
         state.docked,
         state.cleaners & 1 != 0,
         state.cleaners & 2 != 0,
         state.cleaners & 4 != 0,
         state.gyro.is_some(),
+        state.dust_box.is_none(),
+        state.currents.is_none(),
+        state.pack.is_none(),
     ];
     bits.into_iter()
         .enumerate()
@@ -117,6 +120,8 @@ fn flags(state: &State) -> u16 {
 #[must_use]
 pub fn write_state(state: &State) -> Vec<u8, { STATE_BYTES + 1 }> {
     let gyro = state.gyro.unwrap_or_default();
+    let currents = state.currents.unwrap_or_default();
+    let pack = state.pack.unwrap_or_default();
     let mut packet = Packet::new();
     // The parts add up to the capacity, so none is left out.
     let mut put = |bytes: &[u8]| packet.extend_from_slice(bytes).ok();
@@ -132,11 +137,11 @@ pub fn write_state(state: &State) -> Vec<u8, { STATE_BYTES + 1 }> {
     put(&flags(state).to_le_bytes());
     put(&[state.buttons]);
     put(&[charge_code(state.charge) | motion_code(state.motion) << 4]);
-    put(&current(state.currents.wheel_left));
-    put(&current(state.currents.wheel_right));
-    put(&current(state.currents.brush_main));
-    put(&(span::VOLTAGE.saturate(i64::from(state.battery_voltage.0)) as u16).to_le_bytes());
-    put(&current(state.battery_current));
+    put(&current(currents.wheel_left));
+    put(&current(currents.wheel_right));
+    put(&current(currents.brush_main));
+    put(&(span::VOLTAGE.saturate(i64::from(pack.voltage.0)) as u16).to_le_bytes());
+    put(&current(pack.current));
     put(&state.inhibits.bits().to_le_bytes());
     packet
 }
@@ -160,6 +165,15 @@ pub fn read_state(body: &[u8]) -> Result<State, Refusal> {
     let flags = reader.u16();
     let flag = |bit: u32| flags >> bit & 1 == 1;
     let [buttons, codes] = reader.bytes();
+    let currents = Currents {
+        wheel_left: reader.current()?,
+        wheel_right: reader.current()?,
+        brush_main: reader.current()?,
+    };
+    let pack = PackReading {
+        voltage: Voltage(i32::from(reader.u16())),
+        current: reader.current()?,
+    };
     Ok(State {
         tick,
         count_left,
@@ -181,14 +195,9 @@ pub fn read_state(body: &[u8]) -> Result<State, Refusal> {
         proximity,
         dock,
         buttons,
-        dust_box: flag(7),
-        currents: Currents {
-            wheel_left: reader.current()?,
-            wheel_right: reader.current()?,
-            brush_main: reader.current()?,
-        },
-        battery_voltage: Voltage(i32::from(reader.u16())),
-        battery_current: reader.current()?,
+        dust_box: (!flag(13)).then_some(flag(7)),
+        currents: (!flag(14)).then_some(currents),
+        pack: (!flag(15)).then_some(pack),
         charge: charge_from_code(codes & 0xF)?,
         docked: flag(8),
         inhibits: Inhibits::from_bits(reader.u32()),

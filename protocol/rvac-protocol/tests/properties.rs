@@ -8,7 +8,7 @@ use rvac_protocol::frame::{Framed, Framer};
 use rvac_protocol::message::{
     Beep, Bumpers, ButtonProbe, ChargeState, Cliffs, Command, Currents, Drive, EncoderProbe, Gyro, Inhibits,
     LogLevel, LogText, MotionPhase, Motor, MotorCommand, Move, PROBE_BYTES, PROBE_CHANNELS, PROBE_PORTS,
-    Probe, ProbeTarget, Probed, ProbedContent, Report, Sequence, SerialProbe, State, WheelDrops,
+    PackReading, Probe, ProbeTarget, Probed, ProbedContent, Report, Sequence, SerialProbe, State, WheelDrops,
 };
 use rvac_protocol::text::{
     Form, ReportPacket, read_command, read_report, write_command, write_command_with_crc, write_report,
@@ -205,16 +205,28 @@ fn currents() -> impl Strategy<Value = Currents> {
     })
 }
 
+fn pack() -> impl Strategy<Value = PackReading> {
+    (0..=65_535, current()).prop_map(|(voltage, current)| PackReading {
+        voltage: Voltage(voltage),
+        current,
+    })
+}
+
 fn state() -> impl Strategy<Value = State> {
     let totals = (any::<u32>(), any::<i32>(), any::<i32>(), any::<u32>());
     let bytes = (any::<[u8; 8]>(), any::<[u8; 4]>(), any::<u8>(), 0..8_u8);
-    let power = (currents(), current(), 0..=65_535);
-    let rest = (0..4_usize, 0..5_usize, any::<bool>(), any::<bool>());
+    let power = (prop::option::of(currents()), prop::option::of(pack()));
+    let rest = (
+        0..4_usize,
+        0..5_usize,
+        prop::option::of(any::<bool>()),
+        any::<bool>(),
+    );
     (totals, prop::option::of(gyro()), touch(), bytes, power, rest).prop_map(
         |(totals, gyro, (bumpers, cliffs, wheel_drops), bytes, power, rest)| {
             let (tick, count_left, count_right, inhibits) = totals;
             let (proximity, dock, buttons, cleaners) = bytes;
-            let (currents, battery_current, voltage) = power;
+            let (currents, pack) = power;
             let (charge, motion, dust_box, docked) = rest;
             State {
                 tick: Tick(tick),
@@ -229,8 +241,7 @@ fn state() -> impl Strategy<Value = State> {
                 buttons,
                 dust_box,
                 currents,
-                battery_voltage: Voltage(voltage),
-                battery_current,
+                pack,
                 charge: CHARGES[charge],
                 docked,
                 inhibits: Inhibits::from_bits(inhibits),

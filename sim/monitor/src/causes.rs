@@ -3,6 +3,8 @@
 use super::limits::{CLIFF_RIM_MM_PER_S, HARD_DRIVE, WHEEL_DROP_MS};
 use crate::charging::{ChargeTimes, Charging};
 use crate::encoders::EncoderWatch;
+use crate::hardware::{HardwareTimes, HardwareTruth};
+use crate::loads::{LoadTimes, WheelLoad};
 use crate::pack::PackTimes;
 
 /// Inputs of the firmware's pins in this millisecond, and ground truth that no pin shows.
@@ -28,6 +30,40 @@ pub struct Pins {
     pub fallen: bool,
     /// Charger and pack (ground truth).
     pub charging: Charging,
+    /// The switches and receivers one by one; `None` = the simulator does not tell them apart, and no report is judged by them.
+    pub sides: Option<Sides>,
+    /// What sensors of the pack and of the motors show, with their faults and without those of the converter.
+    pub sensed: Sensed,
+    /// The motors of left and right wheel (ground truth); `None` = the simulator does not know.
+    pub loads: Option<[WheelLoad; 2]>,
+    /// The machine (ground truth).
+    pub hardware: HardwareTruth,
+}
+
+/// Switches and receivers, from the left.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sides {
+    /// Pressed halves of the bumper.
+    pub bumpers: [bool; 2],
+    /// Receivers that see no floor.
+    pub cliffs: [bool; 3],
+    /// Wheels that hang.
+    pub wheel_drops: [bool; 2],
+    /// Buttons that are down, bit by number.
+    pub buttons: u8,
+}
+
+/// Readings that a report may tell; `None` = this one cannot be compared now.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sensed {
+    /// Of the pack, mV.
+    pub pack_mv: Option<i32>,
+    /// Of the pack, tenths of a degree.
+    pub temperature_dc: Option<i32>,
+    /// Of left and right wheel, mA.
+    pub currents_ma: Option<[i32; 2]>,
+    /// Closeness at each proximity sensor, 0 = nothing, 255 = touching.
+    pub proximity: Option<[u8; 8]>,
 }
 
 /// Drives of the motors, in millionths of full drive, forward positive.
@@ -100,6 +136,8 @@ pub(crate) struct CauseTimes {
     pub(crate) fallen: bool,
     pub(crate) charge: ChargeTimes,
     pub(crate) pack: PackTimes,
+    pub(crate) hardware: HardwareTimes,
+    pub(crate) loads: LoadTimes,
     /// Cleaners were off in the millisecond before.
     pub(crate) cleaners_start: bool,
     cleaners_were_on: bool,
@@ -135,6 +173,8 @@ impl Default for CauseTimes {
             fallen: false,
             charge: ChargeTimes::default(),
             pack: PackTimes::default(),
+            hardware: HardwareTimes::default(),
+            loads: LoadTimes::default(),
             cleaners_start: false,
             cleaners_were_on: false,
             counts: [0; 2],
@@ -151,6 +191,8 @@ impl CauseTimes {
         self.cliff_reversed_um = 0;
         self.encoders = EncoderWatch::default();
         self.pack = PackTimes::default();
+        self.hardware.reset();
+        self.loads = LoadTimes::default();
     }
 
     pub(crate) fn update(&mut self, pins: &Pins, drives: &Drives) {
@@ -177,6 +219,7 @@ impl CauseTimes {
         self.counts = pins.counts;
         self.encoders.update(pins, drives);
         self.pack.update(&pins.charging, drives);
+        self.hardware.update(pins.hardware, drives, pins.charging.driven);
         self.fallen = pins.fallen;
         self.charge.update(&pins.charging, self.motors_run, 1);
         self.cleaners_start = drives.cleaners_on() && !self.cleaners_were_on;

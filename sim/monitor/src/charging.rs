@@ -100,7 +100,7 @@ impl ChargeTimes {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChargeMonitor {
     standing: ChargeTimes,
-    broken: u32,
+    broken: u64,
     count: u32,
     longest_ms: u32,
 }

@@ -1,7 +1,7 @@
 //! The safety monitor: an independent check of every millisecond of every simulation.
 //!
 //! It checks one requirement: a motor may be driven only while the host has armed motion, a fresh command covers it,
-//! and no physical cause forbids it. It does not rely on the firmware. It reads commands from the bytes on the wire
+//! and no physical cause forbids it. It judges what the robot tells about its sensors, too. It does not rely on the firmware. It reads commands from the bytes on the wire
 //! ([`wire`], [`said`]), causes from the pins ([`Pins`]), and the motors from the bridges ([`Drives`]).
 //!
 //! *Cause times* are how long each cause has lasted without a gap. A *rule* is one line of SAFETY.md with its reaction time;
@@ -15,19 +15,26 @@
 mod causes;
 mod charging;
 mod encoders;
+mod hardware;
 mod limits;
+mod loads;
 mod pack;
 mod permission;
+mod reports;
 mod said;
+mod told;
 mod verdict;
 mod wire;
 
-pub use causes::{Drives, Pins};
+pub use causes::{Drives, Pins, Sensed, Sides};
 pub use charging::{ChargeMonitor, Charging};
+pub use hardware::HardwareTruth;
+pub use loads::WheelLoad;
 pub use verdict::{Rule, Violation};
 
 use causes::CauseTimes;
 use permission::HostPermission;
+use reports::ReportWatch;
 use rvac_protocol::message::ResetCause;
 
 /// Wheel bridges of a simulated robot: good ones, or faulty ones to test the monitor.
@@ -48,8 +55,9 @@ const KEPT_MAX: usize = 32;
 pub struct Monitor {
     permission: HostPermission,
     standing: CauseTimes,
+    reports: ReportWatch,
     /// Rules that are broken right now, bit by rule.
-    broken: u32,
+    broken: u64,
     kept: Vec<Violation>,
     count: u32,
 }
@@ -67,6 +75,7 @@ impl Monitor {
         Self {
             permission: HostPermission::default(),
             standing: CauseTimes::default(),
+            reports: ReportWatch::default(),
             broken: 0,
             kept: Vec::new(),
             count: 0,
@@ -80,13 +89,16 @@ impl Monitor {
 
     /// The firmware put this byte into its transmitter.
     pub fn said(&mut self, now_ms: u64, byte: u8) {
-        self.permission.said(now_ms, byte);
+        if let Some(told) = self.permission.said(now_ms, byte) {
+            self.reports.take(&told);
+        }
     }
 
     /// The microcontroller was reset at `now_ms`.
     pub fn reset(&mut self, now_ms: u64, cause: ResetCause) {
         self.permission.reset(now_ms, cause);
         self.standing.reset();
+        self.reports.reset(now_ms);
     }
 
     /// The firmware's millisecond clock begins to count at `now_ms` at the latest: a firmware that checks its memories
@@ -99,10 +111,14 @@ impl Monitor {
     pub fn judge(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
         self.standing.update(pins, drives);
         self.permission.update(now_ms, &self.standing);
-        if drives.is_off() && self.broken == 0 && !pins.fallen && !pins.charging.driven {
+        self.update_loads(now_ms, pins, drives);
+        self.reports.look(now_ms, pins);
+        let told = self.reports.broken();
+        let rests = drives.is_off() && !pins.fallen && !pins.charging.driven;
+        if rests && self.broken == 0 && told == 0 {
             return;
         }
-        let broken = verdict::broken(now_ms, &self.permission, &self.standing, drives);
+        let broken = told | verdict::broken(now_ms, &self.permission, &self.standing, drives);
         for rule in Rule::ALL {
             let bit = 1 << rule as u32;
             if broken & bit != 0 && self.broken & bit == 0 {
@@ -115,16 +131,26 @@ impl Monitor {
         self.broken = broken;
     }
 
+    fn update_loads(&mut self, now_ms: u64, pins: &Pins, drives: &Drives) {
+        // A robot that backs off its dock by itself was asked by nobody.
+        let asked = if self.standing.charge.may_leave() {
+            None
+        } else {
+            self.permission.asked_mm_per_s(now_ms)
+        };
+        self.standing.loads.update(pins, drives, asked);
+    }
+
     /// Violations so far.
     #[must_use]
     pub const fn count(&self) -> u32 {
         self.count
     }
 
-    /// Whether a rule is broken in this millisecond.
+    /// Whether a motor or the charger breaks a rule in this millisecond.
     #[must_use]
     pub const fn is_broken(&self) -> bool {
-        self.broken != 0
+        self.broken & !Rule::REPORTS != 0
     }
 
     /// The first violations in full.

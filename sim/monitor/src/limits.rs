@@ -24,6 +24,22 @@ pub(crate) const STALL_MS: u32 = 300;
 pub(crate) const HARD_DRIVE: i32 = 300_000;
 /// S13.found, and the monitor's own window.
 pub(crate) const ENCODER_MS: u32 = 600;
+/// S11.over-current, and the converter's filter and two control periods.
+pub(crate) const TOO_MUCH_MS: u32 = 160;
+/// S15.found, and of a motor whose limit nobody has measured: S11, S13 or S15 sees it, the last of them after this.
+pub(crate) const NEARLY_HELD_MS: u32 = 2_100;
+/// S12.found, and the ramp of the wheels.
+pub(crate) const TOO_FAST_MS: u32 = 350;
+/// S20.off.
+pub(crate) const CLOCK_MS: u32 = 10;
+/// S21.memory.
+pub(crate) const MEMORY_MS: u32 = 60_000;
+/// S21.register.
+pub(crate) const PULSES_MS: u32 = 20;
+/// Reports.told.
+pub(crate) const TOLD_MS: u32 = 400;
+/// Reports.untold.
+pub(crate) const UNTOLD_MS: u32 = 200;
 /// S16.empty.
 pub(crate) const PACK_EMPTY_MS: u32 = 500;
 /// S16.weak.

@@ -7,6 +7,7 @@ use super::limits::{
     DOCKED_MS, FRESH_MS, HAND_LEASE_MS, HAND_QUIET_MS, LEAVING_MS, RESET_WINDOW_MS, SILENCE_MS,
 };
 use super::said::{Heard, Said, read_heard, read_said};
+use super::told::{Told, read_told};
 use super::wire::Splitter;
 
 /// S1: each motor is off 50 ms after its lease at the latest.
@@ -19,6 +20,8 @@ const CLOCK_GRACE_MS: u64 = 200;
 const BUTTON_HELD_MS: u32 = 20;
 /// Being off the dock for this long ends what an undock command allowed.
 const UNDOCKED_MS: u32 = 3_000;
+/// Contacts that bounce open for less still hold the robot on its dock (S19), and debouncing takes its time.
+const BOUNCE_MS: u32 = 400;
 /// A robot answers an `arm` within this. A later refusal with its number is of another packet: numbers come round after
 /// 65,536.
 const ANSWER_MS: u64 = 1_000;
@@ -76,8 +79,44 @@ pub(crate) struct HostPermission {
     cleaners_until_ms: [u64; 3],
     /// Times of the newest three resets other than power-on.
     resets_ms: [Option<u64>; 3],
+    asked: AskedSpeed,
+    /// For how long the contacts have been open.
+    away_ms: u32,
     motors_ran: bool,
     button_while_running: bool,
+}
+
+/// The fastest rim that was asked for of late: a wheel needs its time to slow down.
+#[derive(Clone, Copy, Debug, Default)]
+struct AskedSpeed {
+    /// In the present period and in the one before, mm/s.
+    fastest: [i32; 2],
+    period_end_ms: u64,
+    /// Something was asked for until then that has no speed.
+    any_until_ms: u64,
+}
+
+impl AskedSpeed {
+    const PERIOD_MS: u64 = 1_500;
+
+    fn take(&mut self, now_ms: u64, lease_ms: u64, rim_mm_per_s: Option<i32>) {
+        self.pass(now_ms);
+        match rim_mm_per_s {
+            Some(rim) => self.fastest[0] = self.fastest[0].max(rim),
+            None => self.any_until_ms = now_ms + lease_ms + Self::PERIOD_MS,
+        }
+    }
+
+    fn pass(&mut self, now_ms: u64) {
+        if now_ms >= self.period_end_ms {
+            self.fastest = [0, self.fastest[0]];
+            self.period_end_ms = now_ms + Self::PERIOD_MS;
+        }
+    }
+
+    fn most_mm_per_s(&self, now_ms: u64) -> Option<i32> {
+        (now_ms > self.any_until_ms).then_some(self.fastest[0].max(self.fastest[1]))
+    }
 }
 
 impl HostPermission {
@@ -128,7 +167,8 @@ impl HostPermission {
             Heard::Arm { number, undock } if !checked || number.is_some() => self.arm(
                 now_ms,
                 Arming {
-                    undock,
+                    // A robot that stands elsewhere has no dock to leave.
+                    undock: undock && self.away_ms <= BOUNCE_MS,
                     number: number.filter(|_| checked),
                     typed: !checked,
                     ..Arming::default()
@@ -139,7 +179,9 @@ impl HostPermission {
                 wheels,
                 lease_ms,
                 mark,
+                rim_mm_per_s,
             } if self.is_fresh(now_ms, mark) => {
+                self.asked.take(now_ms, lease_ms, rim_mm_per_s);
                 let until_ms = now_ms
                     + if checked {
                         lease_ms
@@ -200,13 +242,17 @@ impl HostPermission {
         true
     }
 
-    pub(crate) fn said(&mut self, now_ms: u64, byte: u8) {
+    /// Takes a byte of the robot; returns what it tells about itself.
+    pub(crate) fn said(&mut self, now_ms: u64, byte: u8) -> Option<Told> {
         let session = self.session;
-        match self
-            .from_robot
-            .push(Some(byte))
-            .and_then(|packet| read_said(packet, session))
-        {
+        let packet = self.from_robot.push(Some(byte))?;
+        let (said, told) = (read_said(packet, session), read_told(packet, session));
+        self.note(now_ms, said);
+        told
+    }
+
+    fn note(&mut self, now_ms: u64, said: Option<Said>) {
+        match said {
             Some(Said::Session(number)) if number != self.session => {
                 self.session = number;
                 self.checked_ms = Some(now_ms);
@@ -253,7 +299,14 @@ impl HostPermission {
         self.clock_ms = now_ms;
     }
 
+    /// The fastest rim that was asked for, mm/s; `None` = any.
+    pub(crate) fn asked_mm_per_s(&self, now_ms: u64) -> Option<i32> {
+        self.asked.most_mm_per_s(now_ms)
+    }
+
     pub(crate) fn update(&mut self, now_ms: u64, standing: &CauseTimes) {
+        self.asked.pass(now_ms);
+        self.away_ms = standing.undocked_ms;
         if standing.button_ms == 1 {
             self.button_while_running = self.motors_ran;
         }

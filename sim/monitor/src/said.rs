@@ -27,6 +27,8 @@ pub(crate) enum Heard {
         wheels: [bool; 2],
         lease_ms: u64,
         mark: Mark,
+        /// The fastest rim that it asks for; `None` = it asks for no speed.
+        rim_mm_per_s: Option<i32>,
     },
     /// Something that may turn main brush (0), side brushes (1) or suction (2) for `lease_ms`.
     Cleaner {
@@ -102,12 +104,17 @@ fn word_of(object: &Value) -> Heard {
             wheels: [true; 2],
             lease_ms: lease_of(object),
             mark: mark_of(object),
+            rim_mm_per_s: object["v"]
+                .as_f64()
+                .zip(object["w"].as_f64())
+                .map(|(speed, turn)| rim_of(speed, turn)),
         },
         Some("motor") => word_of_motor(object),
         Some("move") => Heard::Wheels {
             wheels: [true; 2],
             lease_ms: move_ms(object["length"].as_f64().unwrap_or(0.0)),
             mark: mark_of(object),
+            rim_mm_per_s: None,
         },
         _ => Heard::Other,
     }
@@ -124,6 +131,7 @@ fn word_of_motor(object: &Value) -> Heard {
         wheels,
         lease_ms,
         mark,
+        rim_mm_per_s: None,
     };
     match object["motor"].as_str() {
         Some("wheel left") => wheels([true, false]),
@@ -138,8 +146,30 @@ fn word_of_motor(object: &Value) -> Heard {
 /// Kind 0x81 is `drive`: speed and turn rate, then lease, number and tick, all little endian.
 fn word_of_binary(body: &[u8]) -> Heard {
     match body {
-        [0x81, _, _, _, _, _, _, _, _, l0, l1, n0, n1, t0, t1, t2, t3] => Heard::Wheels {
+        [
+            0x81,
+            v0,
+            v1,
+            v2,
+            v3,
+            w0,
+            w1,
+            w2,
+            w3,
+            l0,
+            l1,
+            n0,
+            n1,
+            t0,
+            t1,
+            t2,
+            t3,
+        ] => Heard::Wheels {
             wheels: [true; 2],
+            rim_mm_per_s: Some(rim_of(
+                f64::from(i32::from_le_bytes([*v0, *v1, *v2, *v3])) / 1e6,
+                f64::from(i32::from_le_bytes([*w0, *w1, *w2, *w3])) / 1e6,
+            )),
             lease_ms: u64::from(u16::from_le_bytes([*l0, *l1])).min(LEASE_MAX_MS),
             mark: Mark {
                 number: Some(u16::from_le_bytes([*n0, *n1])),
@@ -148,6 +178,13 @@ fn word_of_binary(body: &[u8]) -> Heard {
         },
         _ => Heard::Other,
     }
+}
+
+/// No robot that fits beneath furniture has its wheels farther from its middle.
+const HALF_TRACK_MOST_M: f64 = 0.15;
+
+fn rim_of(speed_m_per_s: f64, turn_rad_per_s: f64) -> i32 {
+    ((speed_m_per_s.abs() + turn_rad_per_s.abs() * HALF_TRACK_MOST_M) * 1e3) as i32
 }
 
 fn move_ms(length_m: f64) -> u64 {

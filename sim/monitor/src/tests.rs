@@ -19,6 +19,9 @@ const OFF: Drives = Drives {
     cleaners: [0; 3],
 };
 
+mod broken;
+mod told;
+
 /// A monitor, its clock, and a host and a robot that speak perfectly.
 struct Scene {
     monitor: Monitor,
@@ -349,6 +352,26 @@ fn a_button_on_a_standing_robot_stops_nothing() {
     scene.pins.button = true;
     scene.pass(100, OFF);
     assert_eq!(scene.pass_driven(200, FORWARD), []);
+}
+
+#[test]
+fn an_undock_command_means_the_dock_that_the_robot_stands_on() {
+    for away_ms in [0, 300, 3_000] {
+        let mut scene = Scene::armed();
+        scene.pins.docked = true;
+        scene.pass(100, OFF);
+        scene.pins.docked = false;
+        scene.pass(away_ms, OFF);
+        scene.arm(true);
+        scene.pass_driven(300, BACKWARD);
+        scene.pins.docked = true;
+        let expected: &[Rule] = if away_ms > 1_000 {
+            &[Rule::Docked, Rule::NotArmed]
+        } else {
+            &[]
+        };
+        assert_eq!(scene.pass_driven(25, BACKWARD), expected, "{away_ms}");
+    }
 }
 
 #[test]

@@ -4,10 +4,12 @@ use super::causes::{CauseTimes, Drives, Pins};
 use super::charging::ChargeTimes;
 use super::limits::{
     BUMPER_BACKING_MS, BUMPER_MS, BUMPER_STUCK_MS, BUTTON_MS, CHARGE_CURRENT_MS, CHARGE_MS, CHARGE_TIME_MS,
-    CLIFF_HASTE_MS, CLIFF_MS, CLIFF_REVERSE_UM, DOCKED_MS, ENCODER_MS, ESCAPE_WARNING_MS, GROUNDED_MS,
-    PACK_EMPTY_MS, PACK_HOT_MS, PACK_WEAK_MS, STALL_MS, WHEEL_DROP_MS,
+    CLIFF_HASTE_MS, CLIFF_MS, CLIFF_REVERSE_UM, CLOCK_MS, DOCKED_MS, ENCODER_MS, ESCAPE_WARNING_MS,
+    GROUNDED_MS, MEMORY_MS, NEARLY_HELD_MS, PACK_EMPTY_MS, PACK_HOT_MS, PACK_WEAK_MS, PULSES_MS, STALL_MS,
+    TOO_FAST_MS, TOO_MUCH_MS, WHEEL_DROP_MS,
 };
 use super::permission::HostPermission;
+use crate::hardware::HardwareTimes;
 
 /// A line of SAFETY.md that the monitor checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -65,11 +67,34 @@ pub enum Rule {
     PackWeak = 24,
     /// S17: for a second any motor driven although the pack is really above 55 degrees.
     PackHot = 25,
+    /// S11: for 100 ms a wheel driven while it really draws more than any limit allows, or for 2 s while it draws what a held
+    /// wheel draws.
+    Current = 26,
+    /// S12: for 250 ms a wheel driven while its rim is faster than one and a half times what was asked.
+    TooFast = 27,
+    /// S20: a motor or the charger on 10 ms after the crystal stopped.
+    Clock = 28,
+    /// S21: a motor or the charger on a minute after a bit of the program flipped.
+    Memory = 29,
+    /// S21: a motor or the charger on 20 ms after a register behind the pulses changed.
+    Pulses = 30,
+    /// A report names a switch or receiver that is not so, or does not name one that is.
+    ReportsSide = 31,
+    /// Reported totals of the encoders are not those of their wheels.
+    ReportsCount = 32,
+    /// Reported currents are not those of their wheels.
+    ReportsCurrent = 33,
+    /// A reported voltage or temperature is not that of the pack.
+    ReportsPack = 34,
+    /// A report tells a value of a part that the robot says it does not have.
+    ReportsAbsent = 35,
+    /// A report tells something near a proximity sensor where nothing is, or nothing where something is.
+    ReportsNear = 36,
 }
 
 impl Rule {
     /// All of them.
-    pub const ALL: [Self; 26] = [
+    pub const ALL: [Self; 37] = [
         Self::WheelsWithoutLease,
         Self::CleanersWithoutLease,
         Self::NotArmed,
@@ -96,7 +121,26 @@ impl Rule {
         Self::PackEmpty,
         Self::PackWeak,
         Self::PackHot,
+        Self::Current,
+        Self::TooFast,
+        Self::Clock,
+        Self::Memory,
+        Self::Pulses,
+        Self::ReportsSide,
+        Self::ReportsCount,
+        Self::ReportsCurrent,
+        Self::ReportsPack,
+        Self::ReportsAbsent,
+        Self::ReportsNear,
     ];
+
+    /// Those that a report breaks and no motor, bit by rule.
+    pub(crate) const REPORTS: u64 = 1 << Self::ReportsSide as u32
+        | 1 << Self::ReportsCount as u32
+        | 1 << Self::ReportsCurrent as u32
+        | 1 << Self::ReportsPack as u32
+        | 1 << Self::ReportsAbsent as u32
+        | 1 << Self::ReportsNear as u32;
 
     /// Rule number and a name.
     #[must_use]
@@ -128,6 +172,17 @@ impl Rule {
             Self::PackEmpty => "S16-pack-empty",
             Self::PackWeak => "S16-pack-weak",
             Self::PackHot => "S17-pack-hot",
+            Self::Current => "S11-current",
+            Self::TooFast => "S12-too-fast",
+            Self::Clock => "S20-clock",
+            Self::Memory => "S21-memory",
+            Self::Pulses => "S21-pulses",
+            Self::ReportsSide => "reports-side",
+            Self::ReportsCount => "reports-count",
+            Self::ReportsCurrent => "reports-current",
+            Self::ReportsPack => "reports-pack",
+            Self::ReportsAbsent => "reports-absent",
+            Self::ReportsNear => "reports-near",
         }
     }
 }
@@ -224,13 +279,38 @@ fn state_verdicts(standing: &CauseTimes, any: bool) -> [(Rule, bool); 4] {
     ]
 }
 
+/// What the wheels' motors themselves show.
+fn motor_verdicts(standing: &CauseTimes) -> [(Rule, bool); 2] {
+    let loads = &standing.loads;
+    let lasts = |times: &[u32; 2], limit_ms: u32| times.iter().any(|ms| *ms > limit_ms + MARGIN_MS);
+    [
+        (
+            Rule::Current,
+            lasts(&loads.too_much_ms, TOO_MUCH_MS) || lasts(&loads.nearly_held_ms, NEARLY_HELD_MS),
+        ),
+        (Rule::TooFast, lasts(&loads.too_fast_ms, TOO_FAST_MS)),
+    ]
+}
+
+/// What a broken machine may no longer do.
+const fn hardware_verdicts(hardware: &HardwareTimes) -> [(Rule, bool); 3] {
+    [
+        (Rule::Clock, hardware.clock_ms > CLOCK_MS + MARGIN_MS),
+        (
+            Rule::Memory,
+            hardware.is_on && hardware.image_ms > MEMORY_MS + MARGIN_MS,
+        ),
+        (Rule::Pulses, hardware.pulses_ms > PULSES_MS + MARGIN_MS),
+    ]
+}
+
 /// The rules that are broken now, bit by rule.
 pub(crate) fn broken(
     now_ms: u64,
     permission: &HostPermission,
     standing: &CauseTimes,
     drives: &Drives,
-) -> u32 {
+) -> u64 {
     let wheels = drives.wheels_on();
     let cleaners = drives.cleaners_on();
     let any = wheels || cleaners;
@@ -291,15 +371,19 @@ pub(crate) fn broken(
         (Rule::Button, any && stopped_by_button),
         (Rule::CleanersStart, standing.cleaners_start && blocked),
     ];
-    bits(verdicts) | bits(state_verdicts(standing, any)) | broken_by_charger(&standing.charge)
+    bits(verdicts)
+        | bits(state_verdicts(standing, any))
+        | bits(motor_verdicts(standing))
+        | bits(hardware_verdicts(&standing.hardware))
+        | broken_by_charger(&standing.charge)
 }
 
 /// The rules that the charger breaks now, bit by rule.
-pub(crate) fn broken_by_charger(standing: &ChargeTimes) -> u32 {
+pub(crate) fn broken_by_charger(standing: &ChargeTimes) -> u64 {
     bits(charger_verdicts(standing))
 }
 
-fn bits(verdicts: impl IntoIterator<Item = (Rule, bool)>) -> u32 {
+fn bits(verdicts: impl IntoIterator<Item = (Rule, bool)>) -> u64 {
     verdicts
         .into_iter()
         .filter(|(_, broken)| *broken)

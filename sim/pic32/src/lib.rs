@@ -12,6 +12,7 @@
 pub mod board;
 pub mod cpu;
 pub mod gdb;
+pub mod icsp;
 pub mod image;
 pub mod machine;
 pub mod memory;

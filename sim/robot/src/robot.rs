@@ -3,7 +3,7 @@
 use cordlib::Cord;
 use cordlib::board::{ChargeDrive, CliffLevels, DockRequest, Emitters, Received, WheelCounts, WheelDrive};
 use home::{Actuation, Bridge, Fnv1a, RobotModel, Sensors, World};
-use monitor::{Bridges, Charging, Drives, Monitor, Pins};
+use monitor::{Bridges, Charging, Drives, HardwareTruth, Monitor, Pins, Sensed, Sides, WheelLoad};
 use rvac_channel::{FaultRates, ReceivedByte};
 use rvac_protocol::message::{Bumpers, Currents, Gyro, Inhibits, ResetCause, WheelDrops};
 use rvac_units::{Throttle, Tick};
@@ -60,7 +60,8 @@ pub struct SimulatedRobot<O: Outfit = Sr8730Outfit> {
     reset_ms: u64,
     resets: u32,
     cliff_settled_ms: u32,
-    cliff_seen: bool,
+    /// Receivers that saw no floor when they were lit last, from the left.
+    cliffs_seen: [bool; 3],
     digest: Fnv1a,
 }
 
@@ -96,7 +97,7 @@ impl<O: Outfit> SimulatedRobot<O> {
             reset_ms: 0,
             resets: 0,
             cliff_settled_ms: 0,
-            cliff_seen: false,
+            cliffs_seen: [false; 3],
             digest: Fnv1a::default(),
         }
     }
@@ -232,7 +233,7 @@ impl<O: Outfit> SimulatedRobot<O> {
         let truth = self.world.truth();
         Pins {
             bumper: sensors.bumper_left || sensors.bumper_right,
-            cliff: self.cliff_seen,
+            cliff: self.cliffs_seen.contains(&true),
             wheel_drop: sensors.wheel_drop_left || sensors.wheel_drop_right,
             docked: sensors.dock_contacts,
             button: sensors.buttons != 0,
@@ -241,7 +242,29 @@ impl<O: Outfit> SimulatedRobot<O> {
             speed_mm_per_s: (truth.speed_m_per_s * 1e3) as i32,
             fallen: truth.fallen,
             charging: self.charging(),
+            sides: Some(Sides {
+                bumpers: [sensors.bumper_left, sensors.bumper_right],
+                cliffs: self.cliffs_seen,
+                wheel_drops: [sensors.wheel_drop_left, sensors.wheel_drop_right],
+                buttons: sensors.buttons,
+            }),
+            sensed: Sensed {
+                pack_mv: Some(sensors.battery_voltage.0),
+                temperature_dc: Some(i32::from(sensors.battery_temperature.0)),
+                currents_ma: Some([sensors.wheel_left_current.0, sensors.wheel_right_current.0]),
+                proximity: Some(sensors.proximity),
+            },
+            loads: Some(self.loads()),
+            hardware: HardwareTruth::default(),
         }
+    }
+
+    fn loads(&self) -> [WheelLoad; 2] {
+        let motor = &self.world.model().wheel_motor;
+        self.world.wheel_currents_a().map(|current_a| WheelLoad {
+            current_ma: (current_a * 1e3) as i32,
+            held_ma: ((motor.idle_current_a + motor.stall_current_a) * 1e3) as i32,
+        })
     }
 
     fn charging(&self) -> Charging {
@@ -262,8 +285,17 @@ impl<O: Outfit> SimulatedRobot<O> {
         }
         self.cliff_settled_ms = self.cliff_settled_ms.saturating_add(1);
         if self.cliff_settled_ms > CLIFF_SETTLE_MS {
-            let levels = &self.world.sensors().cliff_levels[..self.model.cliffs.len().min(4)];
-            self.cliff_seen = levels.iter().any(|level| *level < NO_FLOOR_LEVEL);
+            let dark = self
+                .world
+                .sensors()
+                .cliff_levels
+                .map(|level| level < NO_FLOOR_LEVEL);
+            self.cliffs_seen = match (self.model.cliffs.len(), dark) {
+                (4.., [left, inner_left, inner_right, right]) => [left, inner_left || inner_right, right],
+                (fitted, [left, middle, right, _]) => {
+                    [left && fitted > 0, middle && fitted > 1, right && fitted > 2]
+                }
+            };
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! An [`image::Image`] (Intel HEX) is executed by a [`machine::Machine`]: a [`cpu::Cpu`], which knows only the core, and
 //! the peripherals around it ([`peripheral`]), behind the trait [`cpu::Bus`]. A circuit is built around [`pins`] and whole
-//! frames of the serial line; [`board`] is that of the Relax in a simulated home. There is no clock, no thread and no
+//! frames of the serial line; [`board`] is that of the Relax in a simulated home, [`hosted`] adds a host. There is no clock, no thread and no
 //! randomness of its own: the same image and the same calls give the same bits, and every state can be cloned.
 //!
 //! # What is followed where sources differ
@@ -26,7 +26,9 @@
 
 pub mod board;
 pub mod cpu;
+pub mod hosted;
 pub mod image;
+pub mod loader;
 pub mod machine;
 pub mod peripheral;
 pub mod pins;

@@ -1,5 +1,7 @@
 //! Every trial at many phases.
 
+use std::io::{self, Write};
+
 use pic32::board::CYCLES_PER_MS;
 use rayon::prelude::*;
 use rvac_protocol::message::Inhibit;
@@ -136,6 +138,33 @@ impl TrialSummary {
                 .map(|outcome| outcome.inhibits.iter().map(Inhibit::name).collect())
                 .unwrap_or_default(),
         }
+    }
+
+    /// Prints a line for people.
+    ///
+    /// # Errors
+    /// When `out` takes nothing.
+    pub fn print(&self, out: &mut impl Write) -> io::Result<()> {
+        let worst = self
+            .worst_ms
+            .map_or_else(|| "never".to_owned(), |worst_ms| format!("{worst_ms:.2}"));
+        let remark = if self.is_kept() {
+            String::new()
+        } else {
+            format!(
+                "  BROKEN {} of {} times, {} breaches; said: {}",
+                self.broken,
+                self.phases,
+                self.violations,
+                self.said.join(", ")
+            )
+        };
+        writeln!(
+            out,
+            "{:<6} {:<28} {worst:>9} {:>9.2} {:>7}  {}{remark}",
+            self.rule, self.name, self.mean_ms, self.limit_ms, self.what
+        )?;
+        out.flush()
     }
 
     /// Whether the rule held at every phase.

@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use stc90::hosted::HostedError;
+
 use crate::measured::MeasuredError;
 use crate::testbed::TestbedError;
 
@@ -12,6 +14,9 @@ pub enum CampaignError {
     /// The robot does not reach the start of the trials.
     #[error(transparent)]
     Testbed(#[from] TestbedError),
+    /// The same of a Relax.
+    #[error(transparent)]
+    Hosted(#[from] HostedError),
     /// The figures of the last long run cannot be read or written.
     #[error(transparent)]
     Measured(#[from] MeasuredError),

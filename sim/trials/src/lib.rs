@@ -2,7 +2,8 @@
 //! pin to the motors' compare registers, at any phase of the firmware's loop and interrupts.
 //!
 //! A [`Testbed`] is a robot with its image and a host that only implements the protocol. A [`Trial`] is an operating
-//! state, an event at a known cycle, and the expected reaction with its time limit.
+//! state, an event at a known cycle, and the expected reaction with its time limit. That is the SR8730; [`relax`] does the same
+//! with the other robot's chip.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
@@ -15,6 +16,7 @@ pub mod flips;
 pub mod flood;
 pub mod limits;
 pub mod measured;
+pub mod relax;
 mod scene;
 mod testbed;
 mod trial;

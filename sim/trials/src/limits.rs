@@ -375,6 +375,18 @@ pub const ARMING_SESSION: Limit = Limit {
     ms: 30,
 };
 
+/// Reports: the slowest debouncing, a report every 20 ms and the line.
+pub const REPORTS_TOLD: Limit = Limit {
+    name: "reports.told",
+    ms: 400,
+};
+
+/// Reports.
+pub const REPORTS_UNTOLD: Limit = Limit {
+    name: "reports.untold",
+    ms: 200,
+};
+
 /// A report comes every 20 ms and takes some to cross the line.
 pub const REPORT_MS: u32 = 40;
 

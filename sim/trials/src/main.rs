@@ -90,7 +90,7 @@ fn run(arguments: &Arguments) -> Result<bool, CampaignError> {
     for trial in &chosen {
         let summary = campaign.judge(trial, arguments.phases as usize, arguments.seed);
         if !arguments.json {
-            print(&mut out, &summary)?;
+            summary.print(&mut out)?;
         }
         report.broken += summary.broken;
         report.violations += summary.violations;
@@ -156,29 +156,6 @@ fn printed_by_tests(text: &str) -> BTreeMap<String, f64> {
         *place = place.max(ms);
     }
     worst
-}
-
-fn print(out: &mut impl Write, summary: &TrialSummary) -> io::Result<()> {
-    let worst = summary
-        .worst_ms
-        .map_or_else(|| "never".to_owned(), |worst_ms| format!("{worst_ms:.2}"));
-    let remark = if summary.is_kept() {
-        String::new()
-    } else {
-        format!(
-            "  BROKEN {} of {} times, {} breaches; said: {}",
-            summary.broken,
-            summary.phases,
-            summary.violations,
-            summary.said.join(", ")
-        )
-    };
-    writeln!(
-        out,
-        "{:<6} {:<28} {worst:>9} {:>9.2} {:>7}  {}{remark}",
-        summary.rule, summary.name, summary.mean_ms, summary.limit_ms, summary.what
-    )?;
-    out.flush()
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use home::{Pack, PackMake, Pcg, SensorFault, SensorId};
 use monitor::Bridges;
+use pic32::board::MotorOutput;
 use rvac_units::{AngularSpeed, Speed, Throttle};
 
 use crate::testbed::{Fixture, Testbed, TestbedError};
@@ -12,6 +13,8 @@ const SETTLE_MS: u64 = 1_200;
 const BEGINS_MS: u64 = 60_000;
 /// A session that is silent is over after this, and a person may type.
 const SILENCE_MS: u64 = 2_300;
+/// A rim that turns is faster than this, even where a person drives slowly.
+const TURNS_M_PER_S: f64 = 0.02;
 const PACKS: u64 = 0x0D0C;
 /// Tenths of a degree: the pack below the two limits of heat, by more than a measured thermistor may be wrong.
 const WARM_DC: i32 = 500;
@@ -119,16 +122,43 @@ impl OperatingState {
         Ok(())
     }
 
+    /// Whether the robot does what it was told, and nobody has seen a breach on the way.
     fn check(self, testbed: &Testbed) -> Result<(), TestbedError> {
+        let robot = testbed.robot();
+        if let Some(breach) = robot.monitor().violations().first() {
+            return Err(TestbedError::Breach(breach.to_string()));
+        }
         let wanted = !matches!(
             self,
             Self::Locked | Self::Standing | Self::HotStanding | Self::Charging
         );
-        match (wanted, testbed.robot().wheels_driven()) {
-            (true, false) => Err(TestbedError::OperatingState("it does not drive")),
-            (false, true) => Err(TestbedError::OperatingState("it does not stand")),
-            _ => Ok(()),
+        match (wanted, robot.wheels_driven()) {
+            (true, false) => return Err(TestbedError::OperatingState("it does not drive")),
+            (false, true) => return Err(TestbedError::OperatingState("it does not stand")),
+            _ => {}
         }
+        let truth = robot.world().truth();
+        let rims = [truth.rim_left_m_per_s, truth.rim_right_m_per_s];
+        let is_along = match self {
+            Self::Locked | Self::Standing | Self::HotStanding | Self::Charging => true,
+            Self::Turning => rims[0] < -TURNS_M_PER_S && rims[1] > TURNS_M_PER_S,
+            _ => rims.iter().all(|rim| *rim > TURNS_M_PER_S),
+        };
+        if !is_along {
+            return Err(TestbedError::OperatingState("its wheels turn another way"));
+        }
+        let cleaners = [
+            MotorOutput::BrushMain,
+            MotorOutput::BrushSides,
+            MotorOutput::Vacuum,
+        ];
+        let cleans = matches!(self, Self::Cleaning | Self::WarmCleaning);
+        if cleans && !cleaners.into_iter().all(|motor| robot.duty(motor) > 0.0) {
+            return Err(TestbedError::OperatingState(
+                "a brush or the suction does not run forward",
+            ));
+        }
+        Ok(())
     }
 }
 

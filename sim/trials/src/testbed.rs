@@ -93,6 +93,9 @@ pub enum TestbedError {
     /// The robot does not reach the trial's operating state.
     #[error("the robot does not get into the scene: {0}")]
     OperatingState(&'static str),
+    /// The monitor saw a breach on the way there.
+    #[error("the monitor: {0}")]
+    Breach(String),
 }
 
 /// Everything that all testbeds share, read once.

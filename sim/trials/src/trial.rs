@@ -182,7 +182,12 @@ impl Trial {
 
     /// Runs the trial, with the event so many cycles (less than a millisecond) after the testbed's present millisecond.
     #[must_use]
-    pub fn run(&self, mut testbed: Testbed, late_cycles: u64) -> TrialOutcome {
+    pub fn run(&self, testbed: Testbed, late_cycles: u64) -> TrialOutcome {
+        self.watch(testbed, late_cycles).0
+    }
+
+    /// The same, with the robot as it is in the end.
+    pub(crate) fn watch(&self, mut testbed: Testbed, late_cycles: u64) -> (TrialOutcome, Testbed) {
         let before = testbed.robot().monitor().count();
         let at = testbed.robot().cycle() + late_cycles % CYCLES_PER_MS;
         let cycle = (self.event)(&mut testbed, at);
@@ -208,7 +213,7 @@ impl Trial {
                 off_ms(&testbed, self.expected.motors(), cycle)
             }
         };
-        TrialOutcome {
+        let outcome = TrialOutcome {
             reaction_ms,
             violations: match self.expected {
                 Expectation::SaysBroken(_) => 0,
@@ -216,7 +221,8 @@ impl Trial {
             },
             unsaid: self.expected.said().is_some() && noticed_ms.is_none(),
             inhibits: testbed.inhibits(),
-        }
+        };
+        (outcome, testbed)
     }
 
     /// What the robot had to say, or do by itself.

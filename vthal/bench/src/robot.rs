@@ -42,7 +42,7 @@ impl SyntheticRobot {
             started: Instant::now(),
             reported: Instant::now(),
             state: State {
-                dust_box: true,
+                dust_box: Some(true),
                 ..State::default()
             },
             drive: None,

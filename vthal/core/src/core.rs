@@ -24,6 +24,7 @@ use crate::desk::input_desk::InputDesk;
 use crate::desk::journal::LogSource;
 use crate::desk::learnt::LearntDesk;
 use crate::desk::link::LinkDesk;
+use crate::desk::link_loan::LinkLoan;
 use crate::desk::schedules::ScheduleDesk;
 use crate::desk::sources::Sources;
 use crate::desk::standstills::StandstillDesk;
@@ -56,6 +57,7 @@ pub struct Core {
     ended: bool,
     audience: Audience,
     link: LinkDesk,
+    loan: LinkLoan,
     brain_session: Option<BrainSession>,
     pace: Pace,
     driver: DriverDesk,
@@ -85,6 +87,7 @@ impl Core {
             ended: false,
             audience,
             link: LinkDesk::default(),
+            loan: LinkLoan::default(),
             brain_session: None,
             pace: Pace::default(),
             driver: DriverDesk::default(),

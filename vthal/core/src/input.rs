@@ -136,6 +136,8 @@ pub enum LinkLoss {
         /// Bits per second.
         baud: u32,
     },
+    /// It is lent to a client, as [`crate::Outputs::line_holder`] said.
+    Lent,
     /// Reading or writing failed.
     Failed(String),
 }

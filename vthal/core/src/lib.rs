@@ -52,7 +52,7 @@ pub use lacking::{Ability, CalibrationValue, Lacking};
 pub use lights::Lights;
 pub use outputs::{
     ArchiveOrder, ArchiveTask, Delivery, Direction, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder,
-    LearntOrder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd, RunQuery,
-    RunStart, RunTask, ScheduleOrder,
+    LearntOrder, LineHolder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
+    RunQuery, RunStart, RunTask, ScheduleOrder,
 };
 pub use stored_version::OtherVersion;

@@ -16,6 +16,8 @@ pub struct Outputs {
     pub link: Vec<u8>,
     /// No robot answers: the line is to be opened again at the next rate of the make.
     pub next_rate: bool,
+    /// From now on the serial line is the daemon's or a client's.
+    pub line_holder: Option<LineHolder>,
     /// Updates for clients, in order.
     pub deliveries: Vec<Delivery>,
     /// Lines of the log. Followers of [`Topic::Log`] get them as deliveries besides.
@@ -47,6 +49,15 @@ pub struct Outputs {
     pub run: Option<Box<RunRecord>>,
     /// What clients ask of the kept runs, in order.
     pub run_queries: Vec<RunQuery>,
+}
+
+/// Whose the serial line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineHolder {
+    /// The daemon's, as usual.
+    Daemon,
+    /// A client's, which writes the robot's firmware: the daemon keeps away from the device.
+    Client,
 }
 
 /// Schedules that the shell keeps in place of the ones before, and says so with [`crate::Input::SchedulesKept`]. Until then no
@@ -247,6 +258,7 @@ impl Outputs {
     pub fn clear(&mut self) {
         self.link.clear();
         self.next_rate = false;
+        self.line_holder = None;
         self.deliveries.clear();
         self.log.clear();
         self.records.clear();

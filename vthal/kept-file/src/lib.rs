@@ -5,7 +5,7 @@
 #![forbid(unsafe_code)]
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::os::unix::fs::{OpenOptionsExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
 
@@ -52,6 +52,37 @@ fn put(path: &Path, fresh: &Path, mut file: File, bytes: &[u8]) -> io::Result<()
     Ok(())
 }
 
+/// No file that is kept is longer. Whoever puts an endless device in its place gets an answer.
+const BYTES_MAX: u64 = 64 << 20;
+
+/// Reads a whole file. A pipe, which would be waited for in silence, a folder or a device is refused, and so is what is longer than any
+/// file of ours.
+///
+/// # Errors
+/// What the file system says; [`io::ErrorKind::InvalidInput`] with a sentence for what is no plain file, or is too long.
+pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let refused = |what: String| io::Error::new(io::ErrorKind::InvalidInput, what);
+    let about = fs::metadata(path)?;
+    if !about.is_file() {
+        return Err(refused("it is no plain file".to_owned()));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(BYTES_MAX + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > BYTES_MAX {
+        return Err(refused(format!("it is longer than {} MiB", BYTES_MAX >> 20)));
+    }
+    Ok(bytes)
+}
+
+/// The same for text.
+///
+/// # Errors
+/// As [`read`]; [`io::ErrorKind::InvalidData`] when it is no text.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    let no_text = |_| io::Error::new(io::ErrorKind::InvalidData, "it is no text (UTF-8)");
+    String::from_utf8(read(path)?).map_err(no_text)
+}
+
 /// The present file and its predecessor, whether they are there or not.
 #[must_use]
 pub fn versions(path: &Path) -> [PathBuf; 2] {
@@ -68,6 +99,34 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
 mod tests {
     use std::fs;
     use std::os::unix::fs::PermissionsExt as _;
+
+    #[test]
+    fn what_is_no_plain_file_is_refused_at_once() {
+        let folder = std::env::temp_dir().join(format!("kept-file-read-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let pipe = folder.join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+        assert!(made.success());
+        for path in [pipe.as_path(), folder.as_path(), "/dev/zero".as_ref()] {
+            let error = super::read(path).unwrap_err();
+            assert_eq!(
+                error.kind(),
+                std::io::ErrorKind::InvalidInput,
+                "{}",
+                path.display()
+            );
+        }
+        let text = folder.join("text");
+        fs::write(&text, b"\xff").unwrap();
+        assert_eq!(super::read(&text).unwrap(), b"\xff");
+        assert_eq!(
+            super::read_text(&text).unwrap_err().kind(),
+            std::io::ErrorKind::InvalidData
+        );
+        let missing = super::read(&folder.join("missing")).unwrap_err();
+        assert_eq!(missing.kind(), std::io::ErrorKind::NotFound);
+        fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn the_predecessor_stays_and_a_secret_is_the_owner_s_alone() {

@@ -3,9 +3,9 @@
 use std::fs;
 use std::io::{ErrorKind, Read, Write};
 use std::os::unix::fs::{FileTypeExt, PermissionsExt};
-use std::os::unix::net::{UnixListener, UnixStream};
+use std::os::unix::net::{UnixDatagram, UnixListener, UnixStream};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use base64::Engine as _;
@@ -15,6 +15,7 @@ use rvac_api::{LogEntry, Request, RequestBody, RunResult, Schedules, Update};
 use rvac_protocol::crc::{Digest, Direction as CrcDirection};
 use rvac_protocol::message::{self, BinaryKinds};
 
+use rustix::process::{Pid, Signal, kill_process};
 use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
 use vthal_core::stored_map;
 
@@ -137,6 +138,54 @@ fn a_robot_may_come_late_go_and_come_back_as_another_one() {
         second.live_until(soon(), SyntheticRobot::moves).expect("lives"),
         "the new one drives"
     );
+}
+
+/// Whether somebody else could take the device now: the daemon locks it while it has it open.
+fn is_free(scratch: &Scratch) -> bool {
+    let device = fs::File::open(scratch.join("tty")).expect("the terminal is there");
+    rustix::fs::flock(&device, rustix::fs::FlockOperation::NonBlockingLockExclusive).is_ok()
+}
+
+fn borrow(desk: &Desk) -> Client {
+    let mut flasher = Client::connect(&desk.scratch.join("vthal.sock")).expect("connects");
+    flasher
+        .send(r#"{"c":"borrow-link","silent":false,"id":7}"#)
+        .expect("sends");
+    flasher
+}
+
+#[test]
+fn the_line_is_lent_to_one_client_and_taken_again_when_it_is_gone() {
+    let mut desk = Desk::idle();
+    let mut early = borrow(&desk);
+    let refused = early.wait_for(soon(), |update| matches!(update, Update::Failed(_)));
+    let Some(Update::Failed(failure)) = refused.expect("reads") else {
+        panic!("a robot off its dock keeps its daemon");
+    };
+    assert_eq!((failure.id, failure.reason.as_str()), (Some(7), "not-docked"));
+    assert!(!is_free(&desk.scratch));
+    desk.robot.dock();
+    wait_for_state(&mut desk.robot, &mut desk.client, "docked");
+    let mut flasher = borrow(&desk);
+    wait_until(&mut desk.robot, &mut desk.client, |update| {
+        has_text(update, "serial device lent")
+    });
+    let done = flasher.wait_for(soon(), |update| matches!(update, Update::Done { id: 7 }));
+    assert!(done.expect("reads").is_some());
+    assert!(is_free(&desk.scratch), "the flasher can take the device");
+    let mut other = borrow(&desk);
+    let refused = other.wait_for(soon(), |update| matches!(update, Update::Failed(_)));
+    let Some(Update::Failed(failure)) = refused.expect("reads") else {
+        panic!("one line for two");
+    };
+    assert_eq!(failure.reason, "link-lent");
+    // However the flasher ends, its connection does.
+    drop(flasher);
+    wait_until(&mut desk.robot, &mut desk.client, |update| {
+        has_text(update, "serial device open")
+    });
+    wait_for_state(&mut desk.robot, &mut desk.client, "docked");
+    assert!(!is_free(&desk.scratch));
 }
 
 #[test]
@@ -713,7 +762,11 @@ fn a_broken_configuration_is_one_sentence_and_nothing_is_written() {
         .arg(&file)
         .output()
         .expect("runs");
-    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(
+        output.status.code(),
+        Some(2),
+        "another start would change nothing"
+    );
     let message = String::from_utf8_lossy(&output.stderr).into_owned();
     let place = format!("vthal: {}:5: link.baud: ", file.display());
     assert!(
@@ -938,4 +991,33 @@ fn steps_that_replay(path: &Path) -> u64 {
     steps
         .and_then(|steps| steps.parse().ok())
         .unwrap_or_else(|| panic!("{text}"))
+}
+
+#[test]
+fn systemd_hears_when_it_is_ready_that_its_loop_turns_and_when_it_ends() {
+    let scratch = Scratch::new().expect("creates");
+    let notify = UnixDatagram::bind(scratch.join("notify.sock")).expect("binds");
+    notify
+        .set_read_timeout(Some(Duration::from_secs(10)))
+        .expect("a timeout");
+    let mut daemon = Command::new(vthal())
+        .args(["--serial", "/dev/null", "--socket"])
+        .arg(scratch.join("vthal.sock"))
+        .arg("--state")
+        .arg(scratch.join("state"))
+        .env("NOTIFY_SOCKET", scratch.join("notify.sock"))
+        .env("WATCHDOG_USEC", "200000")
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("starts");
+    let hear = || {
+        let mut bytes = [0; 256];
+        let count = notify.recv(&mut bytes).expect("a word in time");
+        String::from_utf8_lossy(&bytes[..count]).trim_end().to_owned()
+    };
+    let words: Vec<String> = (0..4).map(|_| hear()).collect();
+    assert_eq!(words, ["READY=1", "WATCHDOG=1", "WATCHDOG=1", "WATCHDOG=1"]);
+    kill_process(Pid::from_child(&daemon), Signal::TERM).expect("signals");
+    while hear() != "STOPPING=1" {}
+    assert!(daemon.wait().expect("ends").success());
 }

@@ -6,3 +6,4 @@ mod kept;
 mod learnt;
 mod radio;
 mod recording;
+mod scripts;

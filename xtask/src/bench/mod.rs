@@ -1,5 +1,7 @@
 //! `cargo xtask bench`: builds what is measured in the release profile and runs it.
 
+mod logic;
+mod relax;
 mod safety;
 
 use crate::{codegen, firmware, process, workspace};
@@ -26,10 +28,14 @@ enum Subject {
     Cordlib,
     /// Every safety rule on the robot's firmware in the emulated chip: worst reactions.
     Safety,
+    /// The Relax's image: bytes lost in full duplex, damaged packets, the worst reaction of each rule.
+    Relax,
     /// Bits that flip in the robot's firmware's memory and registers.
     Flips,
     /// The robot's firmware in boards with one mistake each: who notices.
     Mutants,
+    /// cordlib's reflexes, charger, arming and leases with one expression changed each: which its tests notice.
+    LogicMutants,
     /// Edges that flood the receive pin of the robot's firmware.
     Flood,
     /// The robot's firmware charging packs in the emulated chip.
@@ -74,6 +80,12 @@ pub(crate) struct BenchArguments {
 
 /// Runs the measurement.
 pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
+    if matches!(arguments.subject, Subject::Relax) {
+        return relax::run(arguments);
+    }
+    if matches!(arguments.subject, Subject::LogicMutants) {
+        return logic::run(arguments);
+    }
     if matches!(
         arguments.subject,
         Subject::Relay | Subject::Kill | Subject::Writes
@@ -179,8 +191,10 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Sim => &["--bin", "bench-sim"],
         Subject::Cordlib => &["--package", "cordlib", "--example", "size"],
         Subject::Safety => &["--bin", "bench-safety"],
+        Subject::Relax => &["--bin", "bench-relax"],
         Subject::Flips => &["--bin", "bench-flips"],
         Subject::Mutants => &["--bin", "bench-mutants"],
+        Subject::LogicMutants => &[],
         Subject::Flood => &["--bin", "bench-flood"],
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
@@ -203,8 +217,10 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Panel
         | Subject::Writes
         | Subject::Cordlib
+        | Subject::Relax
         | Subject::Flips
         | Subject::Mutants
+        | Subject::LogicMutants
         | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
@@ -222,7 +238,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Writes => &["--kills", "100000"],
         Subject::Safety => &["--phases", "200"],
         Subject::Flips => &["--count", "100000"],
-        Subject::Mutants => &["--phases", "10"],
+        Subject::Mutants => &["--every-trial"],
         Subject::Flood => &["--count", "40", "--seconds", "10"],
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
@@ -233,6 +249,6 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Firmware => &["--flood-seconds", "3600"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
-        Subject::Cordlib => &[],
+        Subject::Cordlib | Subject::Relax | Subject::LogicMutants => &[],
     }
 }

@@ -13,7 +13,7 @@ mod stack;
 mod state;
 mod trace;
 
-use crate::firmware::{self, build::Options};
+use crate::firmware::RobotFirmware;
 use crate::panel::{self, Ahead, Page};
 use crate::{process, workspace};
 use stack::Stack;
@@ -70,20 +70,8 @@ impl DemoArguments {
         if !self.emulated {
             return Ok(None);
         }
-        if self.robot == firmware::sdcc::ROBOT {
-            if self.calibration.is_some() {
-                anyhow::bail!("no calibration is put into the image of relax: leave out --calibration");
-            }
-            return firmware::sdcc::image().map(Some);
-        }
-        let board = firmware::board(&self.robot)?;
-        let files = firmware::build(board, &Options::default(), self.calibration.as_deref())?;
-        // The HEX file is the one that has a calibration.
-        Ok(Some(if self.calibration.is_some() {
-            files.hex
-        } else {
-            files.elf
-        }))
+        let firmware = RobotFirmware::of(&self.robot)?;
+        firmware.image(self.calibration.as_deref()).map(Some)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Checks of what a person gave, before anything is started or written.
 
 use super::{DEFAULT_HOME, DemoArguments};
+use crate::firmware::RobotFirmware;
 use crate::workspace::{self, Profile};
 use crate::{process, system};
 use anyhow::{Context, bail};
@@ -35,8 +36,8 @@ pub(crate) fn arguments(arguments: &DemoArguments) -> anyhow::Result<()> {
         );
     }
     robot(&arguments.robot)?;
-    if arguments.emulated && arguments.robot != crate::firmware::sdcc::ROBOT {
-        crate::firmware::board(&arguments.robot)?;
+    if arguments.emulated {
+        RobotFirmware::of(&arguments.robot)?;
     }
     if arguments.headless {
         Ok(())

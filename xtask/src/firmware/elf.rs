@@ -60,6 +60,7 @@ pub(super) const fn physical(address: u32) -> u32 {
 }
 
 const MACHINE_MIPS: u16 = 8;
+const MACHINE_ARM: u16 = 40;
 const KIND_SYMBOLS: u32 = 2;
 const KIND_ZEROED: u32 = 8;
 const FLAG_ALLOCATED: u32 = 2;
@@ -76,8 +77,11 @@ impl Elf {
             bail!("this ELF file is not of a 32-bit little-endian machine");
         }
         let file = ElfBytes { bytes };
-        if file.half(18)? != MACHINE_MIPS {
-            bail!("this ELF file is for machine {}, not for MIPS", file.half(18)?);
+        if ![MACHINE_MIPS, MACHINE_ARM].contains(&file.half(18)?) {
+            bail!(
+                "this ELF file is for machine {}, neither MIPS nor ARM",
+                file.half(18)?
+            );
         }
         let headers = file.headers()?;
         let mut elf = Self {

@@ -10,6 +10,7 @@ mod image_crc;
 mod instruction;
 mod record;
 mod report;
+pub(crate) mod rp2040;
 #[cfg(test)]
 mod sample;
 pub(crate) mod sdcc;
@@ -46,15 +47,62 @@ pub(crate) struct FirmwareArguments {
     once: bool,
 }
 
-/// Builds, writes both files, prints what the firmware takes, and fails when that is too much.
-pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
-    if arguments.robot == sdcc::ROBOT {
-        if arguments.calibration.is_some() || !arguments.features.is_empty() {
-            bail!("the firmware of relax has no features, and no calibration is put into its image");
+/// A robot's firmware, by the language that its chip leaves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum RobotFirmware {
+    /// In Rust, as ELF and Intel HEX.
+    InRust(&'static Board),
+    /// In C: the Relax's, as Intel HEX.
+    InC,
+}
+
+impl RobotFirmware {
+    /// That of the robot with this name.
+    pub(crate) fn of(robot: &str) -> anyhow::Result<Self> {
+        if robot == sdcc::ROBOT {
+            return Ok(Self::InC);
         }
-        return sdcc::run(arguments);
+        board(robot).map(Self::InRust)
     }
-    let board = board(&arguments.robot)?;
+
+    /// The image, built if it is not fresh, with the measured values of a file if there is one.
+    pub(crate) fn image(self, calibration: Option<&Path>) -> anyhow::Result<PathBuf> {
+        match self {
+            Self::InRust(board) => {
+                let files = build(board, &Options::default(), calibration)?;
+                // The HEX file is the one that has a calibration.
+                Ok(if calibration.is_some() {
+                    files.hex
+                } else {
+                    files.elf
+                })
+            }
+            Self::InC if calibration.is_some() => {
+                bail!("no calibration is put into the image of relax: leave out --calibration")
+            }
+            Self::InC => sdcc::image(),
+        }
+    }
+}
+
+/// Builds, writes what is flashed, prints what the firmware takes, and fails when that is too much.
+pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
+    if let Some(port) = rp2040::ports()?.iter().find(|port| port.name == arguments.robot) {
+        if arguments.calibration.is_some() || !arguments.features.is_empty() {
+            bail!("the firmware of {} has no features and no calibration", port.name);
+        }
+        return rp2040::run(port, arguments.json);
+    }
+    match RobotFirmware::of(&arguments.robot)? {
+        RobotFirmware::InRust(board) => run_in_rust(arguments, board),
+        RobotFirmware::InC if arguments.calibration.is_some() || !arguments.features.is_empty() => {
+            bail!("the firmware of relax has no features, and no calibration is put into its image")
+        }
+        RobotFirmware::InC => sdcc::run(arguments),
+    }
+}
+
+fn run_in_rust(arguments: &FirmwareArguments, board: &'static Board) -> anyhow::Result<()> {
     let record = arguments
         .calibration
         .as_deref()
@@ -88,13 +136,15 @@ pub(crate) fn report(elf: &Path) -> anyhow::Result<serde_json::Value> {
     Ok(serde_json::to_value(Report::of(&Elf::read(&bytes)?, None)?)?)
 }
 
-/// The firmware of this robot.
-pub(crate) fn board(robot: &str) -> anyhow::Result<&'static Board> {
+/// The firmware in Rust of this robot.
+fn board(robot: &str) -> anyhow::Result<&'static Board> {
     BOARDS.iter().find(|board| board.name == robot).with_context(|| {
+        let ports = rp2040::ports().unwrap_or_default();
         let known: Vec<&str> = BOARDS
             .iter()
             .map(|board| board.name)
             .chain([sdcc::ROBOT])
+            .chain(ports.iter().map(|port| port.name.as_str()))
             .collect();
         format!(
             "there is no firmware for a robot {robot:?}; there is one for: {}",

@@ -41,7 +41,7 @@ pub(crate) struct Packed {
 }
 
 #[derive(Debug, Serialize)]
-struct Report {
+struct PackageReport {
     version: String,
     targets: Vec<Packed>,
 }
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &PackageArguments) -> anyhow::Result<()> {
     for machine in machines {
         targets.extend(common.pack(machine)?);
     }
-    let report = Report {
+    let report = PackageReport {
         version: version().to_owned(),
         targets,
     };

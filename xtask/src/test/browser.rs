@@ -8,6 +8,14 @@ use crate::{firmware, process, system};
 use std::path::PathBuf;
 use std::process::Command;
 
+/// Other engines, their driver, and a screen with a pointer for them, with Debian's packages.
+const ENGINES: [(&str, &str); 4] = [
+    ("firefox-esr", "firefox-esr"),
+    ("WebKitWebDriver", "webkit2gtk-driver"),
+    ("Xvfb", "xvfb"),
+    ("xdotool", "xdotool"),
+];
+
 /// The tests take turns in one process: those that measure a time have the machine for themselves.
 pub(super) fn browser(extent: Extent) -> Result {
     system::need("chromium", &["chromium"])?;
@@ -28,6 +36,12 @@ pub(super) fn browser(extent: Extent) -> Result {
         .env("RVAC_PANEL", assets)
         .env("RVAC_FIRMWARE", elf)
         .env("RVAC_SCREENSHOTS", screenshots);
+    if extent == Extent::Long {
+        for (program, package) in ENGINES {
+            system::need(program, &[package])?;
+        }
+        command.env("RVAC_ENGINES", "1");
+    }
     tests(&mut command)
 }
 

@@ -5,6 +5,7 @@ mod campaigns;
 mod code;
 mod count;
 mod extent;
+mod flash;
 mod packages;
 mod processor;
 mod programs;
@@ -29,7 +30,7 @@ pub(crate) struct TestArguments {
     /// Run only this stage; may be given several times.
     #[arg(long, value_name = "STAGE")]
     only: Vec<String>,
-    /// Print what the stage `attacks` or `packages` saw as JSON, and nothing else.
+    /// Print what the stage `attacks`, `flash` or `packages` saw as JSON, and nothing else.
     #[arg(long)]
     json: bool,
     /// Print the names of the stages, which of them run without --all, and what each does.
@@ -70,10 +71,11 @@ pub(crate) fn run(arguments: &TestArguments) -> anyhow::Result<()> {
     }
     let names: Vec<String> = arguments.stages.iter().chain(&arguments.only).cloned().collect();
     if arguments.json {
-        return match names.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
-            ["attacks"] => programs::attacks_as_json(),
-            ["packages"] => packages::as_json(arguments.extent()),
-            _ => bail!("--json is for one stage: cargo xtask test attacks --json, or packages"),
+        return match names.as_slice() {
+            [name] if name == "attacks" => programs::attacks_as_json(),
+            [name] if name == "flash" => flash::as_json(arguments.extent().max(Extent::All)),
+            [name] if name == "packages" => packages::as_json(arguments.extent()),
+            _ => bail!("--json is for one stage: cargo xtask test attacks --json, or flash, or packages"),
         };
     }
     let extent = arguments.extent();

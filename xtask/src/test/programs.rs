@@ -1,7 +1,7 @@
 //! Stages that run the tests of the workspace and of the panel's logic.
 
 use super::extent::Extent;
-use super::runner::{Result, all, cargo, check, tests};
+use super::runner::{Result, all, cargo, check, checks, tests};
 use crate::system;
 use crate::workspace::{self, Profile};
 use std::process::Command;
@@ -12,6 +12,8 @@ pub(super) fn workspace_tests(extent: Extent) -> Result {
     system::need("cc", &["gcc", "libc6-dev"])?;
     system::need("raku", &["rakudo"])?;
     system::need("socat", &["socat"])?;
+    system::need("node", &["nodejs"])?;
+    system::need("python3", &["python3"])?;
     system::need("curl", &["curl"])?;
     let build = check(&mut cargo(&["build", "--workspace", "--locked", "--all-targets"]));
     let run = tests(&mut runner(extent));
@@ -59,10 +61,17 @@ const ALL_ZONES: [&str; 7] = [
 /// No package is named: with one cargo would choose other features for what all share, and build it a second time.
 const ATTACKS: [&str; 5] = ["test", "--quiet", "--locked", "--test", "attacks"];
 
-/// Each line of the attack table, against a real server on real sockets.
-pub(super) fn attacks(_extent: Extent) -> Result {
+/// Each line of the attack table, against a real server on real sockets; with --long also a stick that is held on while something
+/// happens to connections and processes at a thousand moments.
+pub(super) fn attacks(extent: Extent) -> Result {
     workspace::build(&["rvac-sim", "vthal"], Profile::Dev)?;
-    check(&mut cargo(&ATTACKS))
+    let mut commands = vec![cargo(&ATTACKS)];
+    if extent == Extent::Long {
+        let mut held = cargo(&ATTACKS);
+        held.env("RVAC_HELD_MOMENTS", "1000");
+        commands.push(held);
+    }
+    checks(&mut commands)
 }
 
 /// The same for programs: nothing but the table goes to the output.

@@ -1,7 +1,8 @@
 //! Stages about the robot's own chip: its firmware, and the emulator that runs it.
 
+use super::count::Count;
 use super::extent::Extent;
-use super::runner::{Result, all, cargo, check, tests};
+use super::runner::{Failed, Result, all, cargo, check, tests};
 use crate::firmware::build::build_others;
 use crate::workspace::{self, Profile, program};
 use crate::{firmware, system};
@@ -26,6 +27,11 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
     };
     let mut in_c = cargo(&["xtask", "firmware", firmware::sdcc::ROBOT]);
     in_c.args((!extent.has_campaigns()).then_some("--once"));
+    let ports = if extent.has_campaigns() {
+        ports()
+    } else {
+        Vec::new()
+    };
     let lints = FIRMWARE
         .map(|manifest| on_this_machine("clippy", manifest, &["--all-targets", "--", "-D", "warnings"]));
     let tested =
@@ -33,7 +39,26 @@ pub(super) fn of_firmware(extent: Extent) -> Result {
     let lints = lints.into_iter().map(|mut command| check(&mut command));
     let tested = tested.into_iter().map(|mut command| tests(&mut command));
     let builds = builds.into_iter().map(|mut command| check(&mut command));
-    all(builds.chain([check(&mut in_c)]).chain(lints).chain(tested))
+    all(builds
+        .chain([check(&mut in_c)])
+        .chain(ports)
+        .chain(lints)
+        .chain(tested))
+}
+
+/// Firmware that is found by its manifest: each is built and says hello in an emulator.
+fn ports() -> Vec<Result> {
+    let found = match firmware::rp2040::ports() {
+        Ok(found) => found,
+        Err(error) => {
+            return vec![Err(Failed {
+                count: Count::default(),
+                errors: vec![error],
+            })];
+        }
+    };
+    let run = |name: &str| check(&mut cargo(&["xtask", "firmware", name]));
+    found.iter().map(|port| run(&port.name)).collect()
 }
 
 fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
@@ -45,13 +70,14 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 
 /// Tests that need the built firmware, its parts or other people's emulator and debugger. No package is named, so that all is
 /// built once for this stage and for the other tests.
-const BESIDE_OTHERS: [&str; 5] = ["gdb", "hal_examples", "image", "qemu", "ucsim"];
+const BESIDE_OTHERS: [&str; 6] = ["cord_in_chip", "gdb", "hal_examples", "image", "qemu", "ucsim"];
 
 /// The emulated chips beside qemu-user and uCsim, and with the programs that are written for them.
 pub(super) fn of_emulator(_extent: Extent) -> Result {
     system::need("qemu-mipsel-static", &["qemu-user-static"])?;
     let elf = firmware::usual_elf()?;
     let sampled = firmware::sampled_elf()?;
+    let relax = firmware::sdcc::image()?;
     system::need("gdb-multiarch", &["gdb-multiarch"])?;
     system::need("sdcc", &["sdcc"])?;
     need_ucsim()?;
@@ -72,14 +98,29 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
         .env("RVAC_PROOF", programs)
         .env("RVAC_EXAMPLES", examples)
         .env("RVAC_FIRMWARE", &elf)
-        .env("RVAC_FIRMWARE_SAMPLED", sampled);
-    let mut programs = vec!["rvac", "bench-firmware"];
+        .env("RVAC_FIRMWARE_SAMPLED", sampled)
+        .env("RVAC_RELAX", relax.with_file_name(""));
+    let mut programs = vec!["rvac", "bench-firmware", "bench-relax", "relax-pace"];
     programs.extend(TRIALS.map(|(program, _)| program));
     workspace::build(&programs, Profile::Dev)?;
     let pace = check(&mut pace(&elf)?);
     let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
+    let relax = [
+        check(&mut trial("bench-relax", &["--phases", "2"], &relax)),
+        check(&mut damaged_packets(&relax)),
+    ];
     let owner = tests(&mut owner(&elf));
-    all([tests(&mut command), owner, pace].into_iter().chain(trials))
+    all([tests(&mut command), owner, pace]
+        .into_iter()
+        .chain(trials)
+        .chain(relax))
+}
+
+/// Damaged packets for the Relax's image; `cargo xtask bench relax --long` sends more.
+fn damaged_packets(image: &Path) -> Command {
+    let mut command = Command::new(program("relax-pace", Profile::Dev));
+    command.arg(image).args(["0", "--corrupted", "3000"]);
+    command
 }
 
 /// The 8051's simulator comes in a package of its own, and its program has another name in newer releases.

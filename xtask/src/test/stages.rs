@@ -2,7 +2,7 @@
 
 use super::extent::Extent;
 use super::runner::Result;
-use super::{browser, campaigns, code, packages, programs, robot};
+use super::{browser, campaigns, code, flash, packages, programs, robot};
 
 /// One stage.
 pub(super) struct Stage {
@@ -19,7 +19,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 18] = [
+pub(super) const STAGES: [Stage; 19] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -110,6 +110,13 @@ pub(super) const STAGES: [Stage; 18] = [
         from: Extent::Short,
         wants_the_machine: false,
         run: campaigns::faults,
+    },
+    Stage {
+        name: "flash",
+        does: "firmware goes into the simulated chips and comes back, with cut power; stcgal writes the simulated loader",
+        from: Extent::All,
+        wants_the_machine: true,
+        run: flash::flash,
     },
     Stage {
         name: "headless",

@@ -44,10 +44,11 @@ pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
             continue;
         };
         let code = code(text);
-        if NO_STD.contains(&folder) && !is_without_std(&code) {
+        let is_port = is_port(files, folder);
+        if (is_port || NO_STD.contains(&folder)) && !is_without_std(&code) {
             found.push(format!("{path}: lacks #![no_std]; it runs on a microcontroller"));
         }
-        let allowed = UNSAFE.iter().any(|(crate_folder, _)| *crate_folder == folder);
+        let allowed = is_port || UNSAFE.iter().any(|(crate_folder, _)| *crate_folder == folder);
         if !allowed && !code.contains("#![forbid(unsafe_code)]") && !forbidden_in_manifest(files, folder) {
             found.push(format!(
                 "{path}: lacks #![forbid(unsafe_code)]; only a C interface may do without"
@@ -64,8 +65,15 @@ fn is_without_std(code: &str) -> bool {
         .any(|line| line == "#![no_std]" || (line.starts_with("#![cfg_attr(") && names_it(line)))
 }
 
+/// Firmware that its manifest names as such, and no list: a program without an operating system names its own entry point and handlers.
+fn is_port(files: &Files, folder: &str) -> bool {
+    manifest(files, folder).is_some_and(|text| text.contains("[package.metadata.librervac]"))
+}
+
+fn manifest<'a>(files: &'a Files, folder: &str) -> Option<&'a str> {
+    files.text(&format!("{folder}/Cargo.toml"))
+}
+
 fn forbidden_in_manifest(files: &Files, folder: &str) -> bool {
-    files
-        .text(&format!("{folder}/Cargo.toml"))
-        .is_some_and(|manifest| manifest.contains("unsafe_code = \"forbid\""))
+    manifest(files, folder).is_some_and(|text| text.contains("unsafe_code = \"forbid\""))
 }

@@ -1,6 +1,5 @@
 //! The robot's certificate authority: made once, kept for ever.
 
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -168,7 +167,7 @@ fn damaged(path: &Path, why: &dyn std::fmt::Display) -> IdentityError {
 /// The text of a kept file. A crash can leave the predecessor alone; the file that was to replace it was not confirmed to anybody.
 pub(crate) fn kept_text(path: &Path) -> io::Result<Option<String>> {
     for version in kept_file::versions(path) {
-        match fs::read_to_string(&version) {
+        match kept_file::read_text(&version) {
             Ok(text) => return Ok(Some(text)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(error),

@@ -38,6 +38,14 @@ pub(crate) async fn try_all(report: &mut Report) {
     held::try_all(&mut scene, report).await;
 }
 
+/// Held sticks alone, as often as somebody wants.
+pub(crate) async fn try_held_only(report: &mut Report) {
+    let page = Folder::new();
+    std::fs::write(page.join("index.html"), "<!doctype html><title>x</title>").unwrap();
+    let mut scene = Scene::new(page).await;
+    held::try_all(&mut scene, report).await;
+}
+
 /// A robot with its daemon and its server.
 pub(crate) struct Scene {
     pub(crate) stack: Stack,

@@ -7,12 +7,15 @@ use crate::report::Report;
 use crate::rig::DEADLINE;
 use crate::rival::Rival;
 
-/// How often a connection breaks under a held stick, at each socket.
-const BREAKS: u32 = 12;
+/// How often a connection breaks under a held stick, at each socket, and how often each process starts anew, without a wish.
+const USUAL: Moments = Moments {
+    breaks: 12,
+    restarts: 2,
+};
 /// Shortest and longest time without a connection.
 const AWAY_MS: [u64; 2] = [50, 2_000];
-/// What starts anew does so this often.
-const RESTARTS: u32 = 2;
+/// Longest time for which a stick that drives is held before something happens to it.
+const HELD_MS: u64 = 700;
 /// By then the wheels of whoever was lost stand.
 const STANDS: Duration = Duration::from_millis(600);
 /// So long the stick is held on after that.
@@ -20,6 +23,32 @@ const HELD_ON: Duration = Duration::from_millis(500);
 const TURN_RAD_S: f64 = 0.8;
 /// What no answer to a held stick may be.
 const DRIVES: &str = "drives";
+
+/// Moments at which something happens to a held stick.
+#[derive(Clone, Copy, Debug)]
+struct Moments {
+    /// Connections, which break at each of the two sockets.
+    breaks: u32,
+    /// Restarts of the daemon under a stick at each socket, and of the panel's server.
+    restarts: u32,
+}
+
+/// `RVAC_HELD_MOMENTS` of them in all: half of them connections, the rest processes.
+fn moments() -> Moments {
+    let Some(wished) = std::env::var("RVAC_HELD_MOMENTS").ok() else {
+        return USUAL;
+    };
+    let all: u32 = wished.parse().expect("RVAC_HELD_MOMENTS is a number");
+    Moments {
+        breaks: (all / 4).max(2),
+        restarts: all.div_ceil(6),
+    }
+}
+
+/// Somewhere between nothing and `most`, other for each number, and the same in each run.
+fn spread_ms(number: u32, most: u64) -> u64 {
+    u64::from(number.wrapping_mul(2_654_435_761) >> 8) % (most + 1)
+}
 
 /// Where the stick is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +100,16 @@ impl Stick {
         }
     }
 
+    /// Goes on turning the robot for a while that differs from trial to trial.
+    async fn drive_on(&mut self, trial: u32) {
+        let until = Instant::now() + Duration::from_millis(spread_ms(trial, HELD_MS));
+        while Instant::now() < until {
+            // Whether it is granted is not asked here: a machine that is busy may be late once.
+            self.turns(TURN_RAD_S).await;
+            tokio::time::sleep(BETWEEN).await;
+        }
+    }
+
     /// Holds on; gives what went wrong, or the last answer. What has started anew is waited for.
     async fn hold_on(&mut self, scene: &Scene) -> String {
         let began = Instant::now();
@@ -105,17 +144,18 @@ impl Stick {
 }
 
 pub(crate) async fn try_all(scene: &mut Scene, report: &mut Report) {
+    let Moments { breaks, restarts } = moments();
     for (door, words) in [
         (Door::Daemon, "the daemon's socket"),
         (Door::Panel, "the panel's"),
     ] {
         let mut seen = Vec::new();
-        for trial in 0..BREAKS {
+        for trial in 0..breaks {
             seen.push(broken(scene, door, trial).await);
         }
         row(
             report,
-            &format!("{BREAKS} connections break under a held stick at {words}"),
+            &format!("{breaks} connections break under a held stick at {words}"),
             seen,
         );
         let seen = vec![taken_over(scene, door).await];
@@ -125,20 +165,24 @@ pub(crate) async fn try_all(scene: &mut Scene, report: &mut Report) {
             seen,
         );
         let mut seen = Vec::new();
-        for _ in 0..RESTARTS {
-            seen.push(restarted_daemon(scene, door).await);
+        for trial in 0..restarts {
+            seen.push(restarted_daemon(scene, door, trial).await);
         }
         row(
             report,
-            &format!("the daemon starts anew under a stick at {words}"),
+            &format!("the daemon starts anew {restarts} times under a stick at {words}"),
             seen,
         );
     }
     let mut seen = Vec::new();
-    for _ in 0..RESTARTS {
-        seen.push(restarted_server(scene).await);
+    for trial in 0..restarts {
+        seen.push(restarted_server(scene, trial).await);
     }
-    row(report, "the panel's server starts anew under a stick", seen);
+    row(
+        report,
+        &format!("the panel's server starts anew {restarts} times under a stick"),
+        seen,
+    );
 }
 
 fn row(report: &mut Report, what: &str, mut seen: Vec<String>) {
@@ -154,9 +198,10 @@ fn row(report: &mut Report, what: &str, mut seen: Vec<String>) {
 async fn broken(scene: &Scene, door: Door, trial: u32) -> String {
     let mut stick = Stick::at(scene, door).await;
     stick.begin(scene).await;
+    stick.drive_on(trial).await;
     drop(stick);
     let [shortest, longest] = AWAY_MS;
-    let away_ms = shortest + (longest - shortest) * u64::from(trial) / u64::from(BREAKS - 1);
+    let away_ms = shortest + spread_ms(trial, longest - shortest);
     tokio::time::sleep(Duration::from_millis(away_ms)).await;
     Stick::at(scene, door).await.hold_on(scene).await
 }
@@ -174,9 +219,10 @@ async fn taken_over(scene: &Scene, door: Door) -> String {
 }
 
 /// Who holds the stick at the panel's socket keeps that connection: the server finds the new daemon.
-async fn restarted_daemon(scene: &mut Scene, door: Door) -> String {
+async fn restarted_daemon(scene: &mut Scene, door: Door, trial: u32) -> String {
     let mut stick = Stick::at(scene, door).await;
     stick.begin(scene).await;
+    stick.drive_on(trial).await;
     scene.stack.kill_vthal();
     scene.stack.start_vthal();
     if door == Door::Daemon {
@@ -185,9 +231,10 @@ async fn restarted_daemon(scene: &mut Scene, door: Door) -> String {
     stick.hold_on(scene).await
 }
 
-async fn restarted_server(scene: &mut Scene) -> String {
+async fn restarted_server(scene: &mut Scene, trial: u32) -> String {
     let mut stick = Stick::at(scene, Door::Panel).await;
     stick.begin(scene).await;
+    stick.drive_on(trial).await;
     scene.stack.stop_server();
     scene.stack.serve_again(&scene.page);
     Stick::at(scene, Door::Panel).await.hold_on(scene).await

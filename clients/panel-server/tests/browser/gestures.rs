@@ -8,7 +8,7 @@ use crate::losses::ready_to_drive;
 use crate::mixes::is_ready;
 
 /// Counts the requests that would move the robot.
-const COUNT_MOTIONS: &str = "
+pub(crate) const COUNT_MOTIONS: &str = "
     window.motions = 0;
     const send = WebSocket.prototype.send;
     WebSocket.prototype.send = function (text) {
@@ -18,7 +18,7 @@ const COUNT_MOTIONS: &str = "
     };
     return ''";
 /// Motions asked for while the hands are off. The first steps after that may still say the last position.
-const MOTIONS_SINCE: &str = "
+pub(crate) const MOTIONS_SINCE: &str = "
     const pause = (ms) => new Promise((done) => setTimeout(done, ms));
     return pause(80).then(() => { window.before = window.motions; return pause(140); })
         .then(() => String(window.motions - window.before))";
@@ -34,16 +34,16 @@ const INTERRUPTIONS: [&str; 6] = [
 const SEED: u64 = 9;
 
 /// How many gestures are tried.
-fn count() -> u32 {
+pub(crate) fn count() -> u32 {
     let wanted = std::env::var("RVAC_GESTURES").ok();
     wanted.map_or(50, |text| text.parse().expect("RVAC_GESTURES is a number"))
 }
 
 /// A small generator, so that the gestures are the same each time.
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn below(&mut self, end: u64) -> u64 {
+    pub(crate) fn below(&mut self, end: u64) -> u64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (self.0 >> 33) % end
     }

@@ -45,7 +45,7 @@ impl Losses {
 }
 
 /// Open floor in front of the dock, which a robot on it faces along x.
-const OFF_DOCK: &str = r#"{"c":"place","x":-0.6,"y":0.0,"heading":3.14}"#;
+pub(crate) const OFF_DOCK: &str = r#"{"c":"place","x":-0.6,"y":0.0,"heading":3.14}"#;
 
 /// A robot that was put beside its dock, and an observer of its pose.
 pub(crate) async fn ready_to_drive(screen: Screen) -> Option<(Visit, Observer)> {

@@ -4,7 +4,7 @@
 //! `RVAC_PANEL`, the robot's firmware named by `RVAC_FIRMWARE`, and the binaries `vthal`, `rvac` and `rvac-sim` beside that of
 //! the server. Screenshots go to the folder named by `RVAC_SCREENSHOTS`. `RVAC_AXE` names `axe.min.js` of axe-core.
 //! `RVAC_PICTURES` names the folder for the pictures of the README, which are taken only then.
-//! `RVAC_LOSSES` says how often each loss of the driver is tried, `RVAC_GESTURES` how many random gestures, `RVAC_WATCH_MINUTES` how long the memory of the page is watched.
+//! `RVAC_LOSSES` says how often each loss of the driver is tried, `RVAC_GESTURES` how many random gestures, `RVAC_ENGINES` that they are made in other engines, too, `RVAC_WATCH_MINUTES` how long the memory of the page is watched.
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 mod accessibility;
@@ -12,6 +12,7 @@ mod browser;
 mod carpets;
 mod costs;
 mod edits;
+mod engines;
 mod floors;
 #[path = "../folder/mod.rs"]
 mod folder;

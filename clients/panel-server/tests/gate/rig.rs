@@ -354,6 +354,7 @@ async fn serve(
             console: None,
             card: Some(folder.join("card")),
             page_port: Some(0),
+            announce: false,
             clock,
         }),
         assets: folder.to_owned(),

@@ -137,6 +137,7 @@ async fn refusals_to_start_name_the_remedy() {
         console: None,
         card: None,
         page_port: None,
+        announce: false,
         clock: panel_server::unix_s,
     });
     let server = Server::bind(open).await.unwrap();

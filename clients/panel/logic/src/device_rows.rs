@@ -196,15 +196,10 @@ fn motion(words: &Words, table: &DeviceTable, robot: Option<&RobotDescription>) 
     }
     if has("vacuum") {
         rows.push(row(texts.suction, suction));
-        rows.push(alarm(
-            texts.dust_box,
-            if table.dust_box {
-                texts.in_place
-            } else {
-                texts.missing
-            },
-            !table.dust_box,
-        ));
+        rows.extend(table.dust_box.map(|is_in| {
+            let seen = if is_in { texts.in_place } else { texts.missing };
+            alarm(texts.dust_box, seen, !is_in)
+        }));
     }
     rows.extend(robot.and_then(|robot| stall_detection(words, robot)));
     rows

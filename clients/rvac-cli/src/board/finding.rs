@@ -5,7 +5,7 @@ use serde::Serialize;
 /// How it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum Verdict {
+pub(crate) enum Grade {
     /// As it should be.
     Good,
     /// The robot works, but something will surprise its owner.
@@ -19,7 +19,7 @@ pub(crate) enum Verdict {
 pub(crate) struct Finding {
     /// What was checked, one word.
     pub(crate) check: &'static str,
-    pub(crate) verdict: Verdict,
+    pub(crate) grade: Grade,
     /// What was found, or the cause of what is wrong.
     pub(crate) cause: String,
     /// What to do; empty when nothing is to be done.
@@ -30,7 +30,7 @@ impl Finding {
     pub(crate) fn good(check: &'static str, cause: impl Into<String>) -> Self {
         Self {
             check,
-            verdict: Verdict::Good,
+            grade: Grade::Good,
             cause: cause.into(),
             remedy: String::new(),
         }
@@ -39,7 +39,7 @@ impl Finding {
     pub(crate) fn warning(check: &'static str, cause: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self {
             check,
-            verdict: Verdict::Warning,
+            grade: Grade::Warning,
             cause: cause.into(),
             remedy: remedy.into(),
         }
@@ -48,7 +48,7 @@ impl Finding {
     pub(crate) fn fault(check: &'static str, cause: impl Into<String>, remedy: impl Into<String>) -> Self {
         Self {
             check,
-            verdict: Verdict::Fault,
+            grade: Grade::Fault,
             cause: cause.into(),
             remedy: remedy.into(),
         }
@@ -56,10 +56,10 @@ impl Finding {
 
     /// One line for people.
     pub(crate) fn line(&self) -> String {
-        let mark = match self.verdict {
-            Verdict::Good => "ok",
-            Verdict::Warning => "note",
-            Verdict::Fault => "FAULT",
+        let mark = match self.grade {
+            Grade::Good => "ok",
+            Grade::Warning => "note",
+            Grade::Fault => "FAULT",
         };
         let remedy = if self.remedy.is_empty() {
             String::new()

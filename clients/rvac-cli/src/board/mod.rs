@@ -12,7 +12,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 pub(crate) use checks::all;
-pub(crate) use finding::{Finding, Verdict};
+pub(crate) use finding::{Finding, Grade};
 pub(crate) use serial_devices::candidates;
 
 /// The files of a Linux system.

@@ -4,7 +4,7 @@ use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 
-use super::{Board, Verdict, all, candidates};
+use super::{Board, Grade, all, candidates};
 use crate::folder::Folder;
 
 /// A time at which the clock is set: 2026-11-28.
@@ -49,12 +49,12 @@ fn link(folder: &Folder, target: &str, path: &str) {
 }
 
 /// Checks that are not good, with their causes.
-fn complaints(folder: &Folder) -> Vec<(&'static str, Verdict, String)> {
+fn complaints(folder: &Folder) -> Vec<(&'static str, Grade, String)> {
     all(&Board::below(&folder.join("")), NOW_S)
         .into_iter()
-        .filter(|finding| finding.verdict != Verdict::Good)
+        .filter(|finding| finding.grade != Grade::Good)
         .inspect(|finding| assert!(!finding.remedy.is_empty(), "{finding:?}"))
-        .map(|finding| (finding.check, finding.verdict, finding.cause))
+        .map(|finding| (finding.check, finding.grade, finding.cause))
         .collect()
 }
 
@@ -66,65 +66,65 @@ fn a_board_in_order_has_nothing_to_say() {
 #[test]
 fn each_thing_that_keeps_a_robot_from_working_has_its_line() {
     type Spoil = fn(&Folder);
-    let cases: [(&str, Verdict, Spoil); 11] = [
-        ("console", Verdict::Fault, |folder| {
+    let cases: [(&str, Grade, Spoil); 11] = [
+        ("console", Grade::Fault, |folder| {
             put(folder, "proc/cmdline", "console=serial0,115200 console=tty1\n");
         }),
-        ("console", Verdict::Fault, |folder| {
+        ("console", Grade::Fault, |folder| {
             link(
                 folder,
                 "/lib/systemd/system/serial-getty@.service",
                 "etc/systemd/system/getty.target.wants/serial-getty@ttyAMA0.service",
             );
         }),
-        ("console", Verdict::Fault, |folder| {
+        ("console", Grade::Fault, |folder| {
             put(
                 folder,
                 "proc/417/cmdline",
                 "/sbin/agetty\0-o\0-p\0ttyAMA0\0vt220\0",
             );
         }),
-        ("serial", Verdict::Fault, |folder| {
+        ("serial", Grade::Fault, |folder| {
             fs::remove_file(folder.join("dev/ttyAMA0")).expect("removed");
         }),
-        ("configuration", Verdict::Fault, |folder| {
+        ("configuration", Grade::Fault, |folder| {
             put(folder, "etc/vthal.toml", "[link]\nserial = /dev/serial0\n");
         }),
-        ("groups", Verdict::Fault, |folder| {
+        ("groups", Grade::Fault, |folder| {
             put(folder, "etc/group", "dialout:x:20:pi\nvthal:x:998:\n");
         }),
-        ("zone", Verdict::Warning, |folder| {
+        ("zone", Grade::Warning, |folder| {
             link(folder, "/usr/share/zoneinfo/Etc/UTC", "etc/localtime");
         }),
-        ("zone", Verdict::Warning, |folder| {
+        ("zone", Grade::Warning, |folder| {
             fs::remove_file(folder.join("etc/localtime")).expect("removed");
         }),
-        ("supply", Verdict::Fault, |folder| {
+        ("supply", Grade::Fault, |folder| {
             put(
                 folder,
                 "sys/devices/platform/soc/soc:firmware/get_throttled",
                 "50005\n",
             );
         }),
-        ("supply", Verdict::Warning, |folder| {
+        ("supply", Grade::Warning, |folder| {
             put(
                 folder,
                 "sys/devices/platform/soc/soc:firmware/get_throttled",
                 "0x50000\n",
             );
         }),
-        ("heat", Verdict::Warning, |folder| {
+        ("heat", Grade::Warning, |folder| {
             put(folder, "sys/class/thermal/thermal_zone0/temp", "83000\n");
         }),
     ];
-    for (check, verdict, spoil) in cases {
+    for (check, grade, spoil) in cases {
         let folder = pi_zero();
         spoil(&folder);
         let found = complaints(&folder);
         let [(named, how, cause)] = found.as_slice() else {
             panic!("{check}: {found:?}");
         };
-        assert_eq!((*named, *how), (check, verdict), "{cause}");
+        assert_eq!((*named, *how), (check, grade), "{cause}");
     }
 }
 

@@ -32,7 +32,7 @@ impl Measurements {
             path: path.to_owned(),
             values: BTreeMap::new(),
         };
-        let text = match std::fs::read_to_string(path) {
+        let text = match kept_file::read_text(path) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(measurements),
             Err(error) => return Err(error).with_context(|| format!("cannot read {}", path.display())),

@@ -44,7 +44,13 @@ pub(crate) fn run(options: &CalibrateOptions) -> anyhow::Result<ExitCode> {
 fn list(options: &CalibrateOptions) -> anyhow::Result<ExitCode> {
     let catalog = Catalog::of(&options.robot)?;
     let measured = Measurements::open(&options.file, &catalog)?;
-    for item in &catalog.items {
+    let named: Vec<&Item> = if options.names.is_empty() {
+        catalog.items.iter().collect()
+    } else {
+        let find = |name: &String| catalog.find(name);
+        options.names.iter().map(find).collect::<anyhow::Result<_>>()?
+    };
+    for item in named {
         let state = match (measured.get(&item.name), item.assumed) {
             (Some(value), _) => item.shown(value),
             (None, Some(assumed)) => format!("not measured, taken as {}", item.shown(assumed)),

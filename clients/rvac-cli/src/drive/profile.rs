@@ -30,7 +30,7 @@ pub(crate) fn named(name: &str, connection: &mut Connection) -> anyhow::Result<P
 /// A profile from a file.
 pub(crate) fn read(path: &std::path::Path) -> anyhow::Result<Profile> {
     let place = || path.display().to_string();
-    let text = std::fs::read_to_string(path).with_context(place)?;
+    let text = kept_file::read_text(path).with_context(place)?;
     Profile::parse(&text).with_context(place)
 }
 

@@ -73,7 +73,7 @@ pub(super) fn import(
             path.display()
         );
     }
-    let archive = fs::read(path).with_context(unread)?;
+    let archive = kept_file::read(path).with_context(unread)?;
     let mut from = 0;
     for piece in archive.chunks(ARCHIVE_UPLOAD_BYTES as usize) {
         let body = RequestBody::ImportFloors {

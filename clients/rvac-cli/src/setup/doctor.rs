@@ -7,7 +7,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::answering;
 use crate::arguments::{Console, Daemon, DoctorOptions};
-use crate::board::{self, Board, Finding, Verdict};
+use crate::board::{self, Board, Finding, Grade};
 
 /// Prints all findings; fails when the robot cannot work.
 pub(crate) fn run(options: &DoctorOptions) -> anyhow::Result<ExitCode> {
@@ -17,7 +17,7 @@ pub(crate) fn run(options: &DoctorOptions) -> anyhow::Result<ExitCode> {
     } else {
         print(&findings)?;
     }
-    let is_well = findings.iter().all(|finding| finding.verdict != Verdict::Fault);
+    let is_well = findings.iter().all(|finding| finding.grade != Grade::Fault);
     Ok(if is_well {
         ExitCode::SUCCESS
     } else {

@@ -21,7 +21,7 @@ pub(super) fn services(board: &Board) -> anyhow::Result<()> {
         return Ok(say(
             "systemd does not run here, so nothing is started. By hand:\n  \
              vthal --config /etc/vthal.toml &\n  \
-             panel-server --vthal /run/vthal/vthal.sock --assets /usr/share/rvac-panel --bind :: --port 443 --page-port 80 \
+             panel-server --vthal /run/vthal/vthal.sock --assets /usr/share/rvac-panel --bind :: --port 443 --page-port 80 --announce \
              --state /var/lib/rvac-panel &",
         )?);
     }

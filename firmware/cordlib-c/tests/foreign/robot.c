@@ -149,7 +149,30 @@ static void check_machine(void)
     check(cord_set_wheels(0.23, -1, 0.1, 0.4) == 0, "a negative way is refused");
     check(cord_declare("bumpers", 2) && cord_declare("beeper", 1), "parts are declared");
     check(cord_declare("bumper", 2) == 0, "names match exactly");
+    check(cord_set_stall_limits(0.5, 0) == 0 && cord_set_stall_limits(NAN, 1) == 0, "no stall limit");
+    check(cord_set_stall_limits(0.5, 0.8) == 1 && cord_declare("currents", 1), "stall limits are taken");
+    check(cord_set_limits(0.35, 1.5) == 1, "and outlast a new speed");
     check(cord_set_hand_mode(1) == 1 && cord_set_hand_mode(2) == 0, "hand mode is allowed or not");
+}
+
+/* A wheel that draws more than the limit that was set is off after 100 ms. */
+static void check_stall(void)
+{
+    const uint32_t stall_bit = 1u << 9;
+    check(cord_arm(0) == CORD_OK, "armed again");
+    cord_event_currents(0.45, 0.1, 0);
+    for (int i = 0; i < 3; i++) {
+        check(cord_set_speed_goal(0.1, 0.1) == CORD_OK, "drives below the limit");
+        run(100);
+    }
+    check(!(cord_inhibits() & stall_bit), "a current below the limit is none of a stall");
+    cord_event_currents(0.55, 0.1, 0);
+    cord_set_speed_goal(0.1, 0.1);
+    run(110);
+    check((cord_inhibits() & stall_bit) && throttles[0] == 0, "above it the wheel is off");
+    cord_event_currents(0, 0, 0);
+    run(20);
+    check(cord_clear("wheel-stall") == CORD_OK, "and a person clears it");
 }
 
 /* A fault that stands cannot be cleared, and cord_init, which is a reset, does not take it away. */
@@ -224,6 +247,7 @@ int main(void)
     check(cord_stop() == CORD_OK && tone_hz == 0, "stop silences");
     check(cord_clear("no-such-thing") == CORD_RANGE && cord_clear(NULL) == CORD_RANGE, "unknown inhibit");
 
+    check_stall();
     set_callback_step(cord_event_exit);
     cord_event_init();
     check(setups == 2, "cord_event_init returns after cord_event_exit");

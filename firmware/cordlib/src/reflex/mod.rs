@@ -198,9 +198,10 @@ impl Reflexes {
             }
         }
         for (wheel, rule) in wheels.into_iter().zip(&mut self.runaway) {
-            let is_runaway = rule.update(wheel, senses.now);
-            if is_runaway && self.is_watched {
-                self.latched.insert(Inhibit::Runaway);
+            if let Some(found) = rule.update(wheel, senses.now)
+                && self.is_watched
+            {
+                self.latched.insert(found);
             }
         }
         let headway = Headway {

@@ -180,7 +180,7 @@ fn readings_without_calibration_are_not_believed() {
     rig.run(2_000);
     assert!(!rig.wheels_off() && rig.names().is_empty(), "{:?}", rig.names());
     let state = rig.last_state();
-    assert_eq!((state.gyro, state.currents), (None, Currents::default()));
+    assert_eq!((state.gyro, state.currents, state.pack), (None, None, None));
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn a_charger_that_was_not_checked_never_switches_on_and_still_measures() {
         rig.run(1);
         assert_eq!(rig.cord.board().charger.drive, ChargeDrive::Off);
     }
-    assert_eq!(rig.last_state().battery_voltage.0, 14_000);
+    assert_eq!(rig.last_state().pack.map(|pack| pack.voltage.0), Some(14_000));
     let refused = rig.ask(rvac_protocol::message::Command::Charge {
         sequence: rvac_protocol::message::Sequence(0),
         wanted: true,
@@ -234,7 +234,12 @@ fn a_pack_that_nobody_measured_has_no_charge_to_tell() {
             .iter()
             .any(|report| matches!(report, Report::Info(info) if info.battery.is_some()));
         assert_eq!(told, measured);
-        assert_eq!(rig.last_state().battery_voltage.0, 16_800, "the voltage is told");
+        let pack = rig.last_state().pack;
+        assert_eq!(
+            pack.map(|pack| pack.voltage.0),
+            Some(16_800),
+            "the voltage is told"
+        );
     }
 }
 

@@ -534,8 +534,8 @@ fn s13_a_swapped_encoder_is_found_within_500_ms() {
         rig
     };
     let found = |rig: &Rig| {
-        let latched = [Inhibit::EncoderFault, Inhibit::Runaway, Inhibit::WheelStall];
-        latched.iter().any(|inhibit| rig.has(*inhibit)) && rig.wheels_off()
+        assert!(!rig.has(Inhibit::Runaway), "it is the encoder: {:?}", rig.names());
+        rig.has(Inhibit::EncoderFault) && rig.wheels_off()
     };
     let swap = |rig: &mut Rig| {
         rig.mechanics.swapped = true;
@@ -622,6 +622,20 @@ fn s19_docking_stops_and_disarms_and_only_undock_leads_off() {
     rig.cord.board_mut().dock_contacts.0 = true;
     rig.run(20);
     assert!(rig.wheels_off() && !rig.cord.is_armed(), "a new arrival");
+}
+
+/// A robot that stands elsewhere has no dock to leave: its arrival there is one from the first contact on.
+#[test]
+fn s19_a_robot_told_to_leave_a_dock_it_is_not_on_stops_when_it_arrives() {
+    for before_ms in [0, 500, 900, 5_000] {
+        let mut rig = Rig::driving(0);
+        assert_eq!(rig.ask(rig::arm(true)), Ok(()));
+        rig.run(before_ms);
+        rig.cord.board_mut().dock_contacts.0 = true;
+        let took_ms = rig.run_until(40, |rig| rig.has(Inhibit::Docked) && rig.wheels_off());
+        assert!(took_ms <= 20, "{before_ms}: {took_ms} ms {:?}", rig.names());
+        assert!(!rig.cord.is_armed(), "{before_ms}");
+    }
 }
 
 /// The firmware of 2016 stored throttles that came while docked, and they became live when the robot was lifted off.

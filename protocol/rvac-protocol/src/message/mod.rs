@@ -26,6 +26,6 @@ pub use probe::{
 };
 pub use report::{
     Acknowledgement, Battery, Bumpers, ChargeState, Cliffs, Currents, DockReceivers, Event, Gyro, Info,
-    LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, NumberedEvent, PROXIMITY_SENSORS, Refusal, Report,
-    State, WheelDrops,
+    LinkCounters, LogLevel, LogText, MotionPhase, MoveEnd, NumberedEvent, PROXIMITY_SENSORS, PackReading,
+    Refusal, Report, State, WheelDrops,
 };

@@ -199,14 +199,12 @@ pub struct State {
     pub dock: DockReceivers,
     /// Buttons that are down, bit by number.
     pub buttons: u8,
-    /// Dust box inserted.
-    pub dust_box: bool,
-    /// Motor currents.
-    pub currents: Currents,
-    /// Pack voltage.
-    pub battery_voltage: Voltage,
-    /// Pack current.
-    pub battery_current: Current,
+    /// Dust box inserted; `None` without a switch behind it.
+    pub dust_box: Option<bool>,
+    /// Motor currents; `None` while they are not measured.
+    pub currents: Option<Currents>,
+    /// Voltage and current of the pack; `None` while they are not measured.
+    pub pack: Option<PackReading>,
     /// State of the charger.
     pub charge: ChargeState,
     /// On the dock contacts.
@@ -217,6 +215,15 @@ pub struct State {
     pub motion: MotionPhase,
     /// Cleaning motors that run now: bit 0 main brush, 1 side brushes, 2 vacuum.
     pub cleaners: u8,
+}
+
+/// Voltage and current of the pack.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PackReading {
+    /// At its terminals.
+    pub voltage: Voltage,
+    /// Into the pack is positive.
+    pub current: Current,
 }
 
 /// How a `move` ended.

@@ -6,7 +6,8 @@ use super::fields::{Fields, UnknownKeys};
 use super::write::ObjectWriter;
 use crate::buffer::EncodeError;
 use crate::message::{
-    Bumpers, ChargeState, Cliffs, Currents, Gyro, Inhibits, MotionPhase, Refusal, State, WheelDrops,
+    Bumpers, ChargeState, Cliffs, Currents, Gyro, Inhibits, MotionPhase, PackReading, Refusal, State,
+    WheelDrops,
 };
 use crate::span;
 
@@ -36,7 +37,7 @@ const fn motion_letter(motion: MotionPhase) -> u8 {
 }
 
 /// Flags by letter: lower case is left, upper case is right.
-fn flags(state: &State) -> heapless::String<12> {
+fn flags(state: &State) -> heapless::String<15> {
     let cleaner = |bit: u8| state.cleaners >> bit & 1 == 1;
     let letters = [
         ('b', state.bumpers.left),
@@ -46,16 +47,19 @@ fn flags(state: &State) -> heapless::String<12> {
         ('C', state.cliffs.right),
         ('w', state.wheel_drops.left),
         ('W', state.wheel_drops.right),
-        ('x', state.dust_box),
+        ('x', state.dust_box == Some(true)),
         ('d', state.docked),
         ('h', cleaner(0)),
         ('s', cleaner(1)),
         ('v', cleaner(2)),
+        ('X', state.dust_box.is_none()),
+        ('n', state.currents.is_none()),
+        ('a', state.pack.is_none()),
     ];
     let mut flags = heapless::String::new();
     for (letter, set) in letters {
         if set {
-            // Twelve letters fit twelve places.
+            // Fifteen letters fit fifteen places.
             flags.push(letter).ok();
         }
     }
@@ -63,6 +67,8 @@ fn flags(state: &State) -> heapless::String<12> {
 }
 
 pub(super) fn write(state: &State, object: &mut ObjectWriter<'_>) -> Result<(), EncodeError> {
+    let currents = state.currents.unwrap_or_default();
+    let pack = state.pack.unwrap_or_default();
     object
         .name("c", "state")
         .number("t", state.tick.0, span::TOTAL)
@@ -78,11 +84,11 @@ pub(super) fn write(state: &State, object: &mut ObjectWriter<'_>) -> Result<(), 
         .hex("d", &state.dock)
         .name("f", &flags(state))
         .number("k", state.buttons, span::BYTE)
-        .measured("x", state.currents.wheel_left.0, span::CURRENT)
-        .measured("y", state.currents.wheel_right.0, span::CURRENT)
-        .measured("z", state.currents.brush_main.0, span::CURRENT)
-        .measured("v", state.battery_voltage.0, span::VOLTAGE)
-        .measured("a", state.battery_current.0, span::CURRENT)
+        .measured("x", currents.wheel_left.0, span::CURRENT)
+        .measured("y", currents.wheel_right.0, span::CURRENT)
+        .measured("z", currents.brush_main.0, span::CURRENT)
+        .measured("v", pack.voltage.0, span::VOLTAGE)
+        .measured("a", pack.current.0, span::CURRENT)
         .letters("s", [charge_letter(state.charge), motion_letter(state.motion)])
         .number("i", state.inhibits.bits(), span::TOTAL)
         .finish()
@@ -97,6 +103,15 @@ pub(super) fn read(text: &[u8]) -> Result<State, Refusal> {
     let flag = |letter: u8| flags.contains(&letter);
     let cleaners = u8::from(flag(b'h')) | u8::from(flag(b's')) << 1 | u8::from(flag(b'v')) << 2;
     let current = |index| fields.int(index, span::CURRENT).map(Current);
+    let currents = Currents {
+        wheel_left: current(10)?,
+        wheel_right: current(11)?,
+        brush_main: current(12)?,
+    };
+    let pack = PackReading {
+        voltage: Voltage(fields.int(13, span::VOLTAGE)?),
+        current: current(14)?,
+    };
     Ok(State {
         tick: Tick(fields.total(1)?),
         count_left: fields.int(2, span::COUNT)?,
@@ -118,14 +133,9 @@ pub(super) fn read(text: &[u8]) -> Result<State, Refusal> {
         proximity: read_hex(fields.text(6)?)?,
         dock: read_hex(fields.text(7)?)?,
         buttons: fields.byte(9)?,
-        dust_box: flag(b'x'),
-        currents: Currents {
-            wheel_left: current(10)?,
-            wheel_right: current(11)?,
-            brush_main: current(12)?,
-        },
-        battery_voltage: Voltage(fields.int(13, span::VOLTAGE)?),
-        battery_current: current(14)?,
+        dust_box: (!flag(b'X')).then_some(flag(b'x')),
+        currents: (!flag(b'n')).then_some(currents),
+        pack: (!flag(b'a')).then_some(pack),
         charge: charge_from_letter(charge)?,
         docked: flag(b'd'),
         inhibits: Inhibits::from_bits(fields.total(16)?),

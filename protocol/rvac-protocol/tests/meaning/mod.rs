@@ -214,8 +214,8 @@ fn telemetry(state: &State) -> Value {
         "cliff": [state.cliffs.left, state.cliffs.middle, state.cliffs.right],
         "wheel_drop": [state.wheel_drops.left, state.wheel_drops.right],
         "proximity": state.proximity, "dock": state.dock, "buttons": state.buttons, "dust_box": state.dust_box,
-        "current_ma": [state.currents.wheel_left.0, state.currents.wheel_right.0, state.currents.brush_main.0],
-        "battery_mv": state.battery_voltage.0, "battery_ma": state.battery_current.0,
+        "current_ma": state.currents.map(|all| [all.wheel_left.0, all.wheel_right.0, all.brush_main.0]),
+        "battery_mv": state.pack.map(|pack| pack.voltage.0), "battery_ma": state.pack.map(|pack| pack.current.0),
         "charge": charge_state(state.charge), "docked": state.docked, "inhibits": state.inhibits.bits(),
         "motion": motion_phase(state.motion), "cleaners": state.cleaners,
     })

@@ -8,6 +8,7 @@ mod ros;
 mod valetudo;
 
 use std::io::Read;
+use std::os::unix::fs::FileTypeExt as _;
 use std::path::Path;
 
 pub use error::HomeError;
@@ -141,6 +142,10 @@ pub(crate) enum ReadError {
 
 /// Reads a regular file of at most `limit` bytes.
 pub(crate) fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, ReadError> {
+    // Opening a pipe waits for whoever writes into it, in silence.
+    if std::fs::metadata(path).is_ok_and(|about| about.file_type().is_fifo()) {
+        return Err(ReadError::Io(std::io::Error::other("it is a pipe")));
+    }
     let file = std::fs::File::open(path).map_err(ReadError::Io)?;
     let metadata = file.metadata().map_err(ReadError::Io)?;
     if metadata.is_dir() {

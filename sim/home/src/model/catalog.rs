@@ -49,7 +49,14 @@ impl RobotModel {
             path: path.to_owned(),
             cause,
         };
-        let size = std::fs::metadata(path).map_err(unreadable)?.len();
+        let about = std::fs::metadata(path).map_err(unreadable)?;
+        if !about.is_file() {
+            return Err(ModelError::Format {
+                origin: path.display().to_string(),
+                message: "it is no plain file".to_owned(),
+            });
+        }
+        let size = about.len();
         if size > FILE_BYTES_MAX {
             return Err(ModelError::Format {
                 origin: path.display().to_string(),

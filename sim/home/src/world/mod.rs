@@ -209,6 +209,12 @@ impl World {
         [self.left.exact_count(), self.right.exact_count()]
     }
 
+    /// What the motors of left and right wheel really draw, ampere.
+    #[must_use]
+    pub const fn wheel_currents_a(&self) -> [f64; 2] {
+        [self.left.current_a, self.right.current_a]
+    }
+
     /// What the gyro's turns must be multiplied by, less 1, to be true; `None` without a gyro.
     #[must_use]
     pub fn gyro_scale_error(&self) -> Option<f64> {

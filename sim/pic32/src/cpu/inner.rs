@@ -106,7 +106,11 @@ impl LoopState {
 
     fn save(self, cpu: &mut Cpu, region: Region) {
         cpu.pc = region.address(self.index);
-        cpu.next = region.address(self.next);
+        // The word behind the one before the code has an index of its own, which is not 0.
+        cpu.next = match self.next == self.index.wrapping_add(1) {
+            true => cpu.pc.wrapping_add(4),
+            false => region.address(self.next),
+        };
         cpu.cycle = self.cycle;
         cpu.in_slot = self.slot == self.cycle;
         cpu.line = region.first_line.map(|_| self.line);

@@ -30,6 +30,7 @@ mod open;
 pub(crate) mod operation;
 mod perform;
 mod prefetch;
+mod probe;
 mod registers;
 mod run;
 mod system;
@@ -38,9 +39,11 @@ mod uncommon;
 
 pub use bus::{Access, Bus, BusFault, Width};
 pub use exception::{Exception, ExceptionCode};
+pub use probe::ProbeAccess;
 
 use multiplier::Multiplier;
 use prefetch::PrefetchUnit;
+use probe::Probe;
 use registers::{Registers, Source, WriteTarget};
 use system::Coprocessor0;
 use timer::CoreTimer;
@@ -121,6 +124,7 @@ pub struct Cpu {
     idle_cycles: u64,
     deepest_stack: u32,
     software_requests: u8,
+    probe: Probe,
 }
 
 impl Default for Cpu {
@@ -151,6 +155,7 @@ impl Cpu {
             idle_cycles: 0,
             deepest_stack: u32::MAX,
             software_requests: 0,
+            probe: Probe::default(),
         }
     }
 
@@ -169,6 +174,7 @@ impl Cpu {
             self.request = None;
             self.software_requests = 0;
         }
+        self.forget_probe();
         self.is_waiting = false;
         self.is_linked = false;
         self.continue_at(RESET_VECTOR);

@@ -2,6 +2,8 @@
 
 use super::exception::{ExceptionCode, InstructionFault};
 use super::inner::{Leave, Region};
+use super::operation::Operation;
+use super::probe::WindowFlow;
 use super::uncommon::Flow;
 use super::{Bus, Cpu, Exit, Taken};
 use crate::memory::{Code, Memory};
@@ -85,23 +87,41 @@ impl Cpu {
 
     /// Runs the code at the current address up to `limit`, or executes the one instruction that ended it.
     fn run_code<B: Bus>(&mut self, memory: &mut Memory, bus: &mut B, limit: u64) -> Option<Exit> {
+        if self.is_in_window() {
+            return self.run_probed(memory, bus, limit);
+        }
         let Some((code, start)) = self.fetch(memory) else {
             return Some(Exit::Exception(self.raise(self.fetch_fault())));
         };
         let region = self.region(memory, code, start);
         self.arrive(region);
-        let leave = self.run_region(
-            memory.open(code, &mut [crate::cpu::operation::Operation::Nop]),
-            region,
-            limit,
-        );
+        let leave = self.run_region(memory.open(code, &mut [Operation::Nop]), region, limit);
         let Leave::Uncommon(operation) = leave else {
             return None;
         };
-        match self.execute(operation, memory, bus) {
+        self.execute_outside((operation, region.fetch), (memory, bus), limit)
+    }
+
+    /// Executes an instruction that the inner loop left; it takes `fetch` cycles. One that waits for the probe waits up to
+    /// `limit`.
+    pub(super) fn execute_outside<B: Bus>(
+        &mut self,
+        (operation, fetch): (Operation, u64),
+        (memory, bus): (&mut Memory, &mut B),
+        limit: u64,
+    ) -> Option<Exit> {
+        let outcome = match self.reach_window(operation) {
+            Some(WindowFlow::Waits) => {
+                self.cycle = self.cycle.max(limit);
+                return None;
+            }
+            Some(WindowFlow::Done(flow)) => Ok(flow),
+            None => self.execute(operation, memory, bus),
+        };
+        match outcome {
             Ok(Flow::Stop) => Some(Exit::Breakpoint),
             Ok(flow) => {
-                self.go(flow, region.fetch);
+                self.go(flow, fetch);
                 None
             }
             Err(fault) => Some(Exit::Exception(self.raise(fault))),

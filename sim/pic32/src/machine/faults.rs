@@ -50,6 +50,11 @@ impl Machine {
         self.chip.fail_crystal(self.cycle);
     }
 
+    /// Flash takes nothing any more: each operation ends with an error and changes nothing.
+    pub fn wear_out_flash(&mut self) {
+        self.is_worn_out = true;
+    }
+
     /// The supply was too low for a moment: a reset. RAM keeps its contents here; on the chip it need not.
     pub fn brown_out(&mut self) {
         self.reset(ResetSource::BrownOut);

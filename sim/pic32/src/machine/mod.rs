@@ -10,6 +10,7 @@
 mod accounting;
 mod core_clock;
 mod faults;
+mod programming;
 mod surroundings;
 mod touches;
 mod view;
@@ -105,6 +106,8 @@ pub struct Machine {
     exceptions: Vec<ExceptionRecord>,
     exception_count: u64,
     touches: Option<Box<touches::Touches>>,
+    unfinished: Option<programming::UnfinishedOperation>,
+    is_worn_out: bool,
 }
 
 impl Machine {
@@ -127,6 +130,8 @@ impl Machine {
             exceptions: Vec::new(),
             exception_count: 0,
             touches: None,
+            unfinished: None,
+            is_worn_out: false,
         }
     }
 
@@ -239,6 +244,7 @@ impl Machine {
     /// Flash changes when the operation begins, so that a reset in its midst finds it done, as the chip would have it.
     fn program(&mut self, operation: NvmOperation) {
         let done = match operation {
+            _ if self.is_worn_out => false,
             NvmOperation::Word { address, value } => self.write_flash(address, &value.to_le_bytes()),
             NvmOperation::Row { address, source } => {
                 let mut row = [0; ROW_BYTES as usize];
@@ -253,6 +259,10 @@ impl Machine {
         if !done {
             self.chip.flash_failed();
         }
+        self.unfinished = Some(programming::UnfinishedOperation {
+            operation,
+            until: self.cycle + operation.cycles(),
+        });
         // The core waits for flash only if its next instruction is there.
         if self.cpu.pc() & 0x1FFF_FFFF >= FLASH_START {
             self.stalled_until = self.cycle + operation.cycles();

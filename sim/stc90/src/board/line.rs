@@ -90,6 +90,11 @@ impl Line {
         QUEUE_MAX - self.to_robot.len()
     }
 
+    /// Bytes that the host's driver holds.
+    pub(super) fn waiting(&self) -> usize {
+        self.to_robot.len()
+    }
+
     /// Hands bytes to the host's driver and returns how many it took.
     pub(super) fn send(&mut self, bytes: &[u8]) -> usize {
         let taken = bytes.len().min(self.room());

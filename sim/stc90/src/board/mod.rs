@@ -1,10 +1,11 @@
 //! The board of the Relax, between the microcontroller's pins and the simulated home.
 //!
 //! The pins are read from `robots/vileda-relax/pinout.toml`. Over-current lines and the line `battery-ok` never complain:
-//! nobody has measured their thresholds.
+//! nobody has measured their thresholds. [`EmulatedRelax::hold`] lets them.
 
 mod encoder;
 mod error;
+mod held;
 mod line;
 mod motors;
 mod pinout;
@@ -12,6 +13,7 @@ mod robot;
 mod wiring;
 
 pub use error::BoardError;
+pub use held::HeldLine;
 pub use line::HostRate;
 pub use motors::Motor;
 pub use robot::{EmulatedRelax, RelaxBlueprint, RelaxSettings};

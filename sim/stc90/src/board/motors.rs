@@ -27,6 +27,8 @@ pub(super) struct Motors {
     lines: [(DigitalLine, Option<DigitalLine>); 4],
     duties: [f64; 4],
     levels: Levels,
+    /// Cycles up to which each was on.
+    on_until: [u64; 4],
     /// Cycles in which both lines of a wheel were on.
     short_cycles: u64,
 }
@@ -51,6 +53,7 @@ impl Motors {
             lines,
             duties: [0.0; 4],
             levels: machine.outputs(),
+            on_until: [0; 4],
             short_cycles: 0,
         }
     }
@@ -61,30 +64,46 @@ impl Motors {
         let mut from = end - CYCLES_PER_MS;
         for edge in edges {
             let until = edge.cycle.clamp(from, end);
-            self.pass(until - from, &mut driven);
+            self.pass((from, until), &mut driven);
             self.levels.set(edge.pin, edge.level);
             from = until;
         }
-        self.pass(end - from, &mut driven);
+        self.pass((from, end), &mut driven);
         self.duties = driven.map(|cycles| cycles as f64 / CYCLES_PER_MS as f64);
     }
 
-    fn pass(&mut self, cycles: u64, driven: &mut [i64; 4]) {
-        for ((forward, backward), driven) in self.lines.iter().zip(driven) {
+    fn pass(&mut self, (from, until): (u64, u64), driven: &mut [i64; 4]) {
+        let cycles = until - from;
+        let parts = self.lines.iter().zip(driven).zip(&mut self.on_until);
+        for (((forward, backward), driven), on_until) in parts {
             let is_forward = forward.is_on(&self.levels);
             let is_backward = backward.is_some_and(|line| line.is_on(&self.levels));
             match (is_forward, is_backward) {
                 (true, true) => self.short_cycles += cycles,
                 (true, false) => *driven += cycles as i64,
                 (false, true) => *driven -= cycles as i64,
-                (false, false) => {}
+                (false, false) => continue,
+            }
+            if cycles > 0 {
+                *on_until = until;
             }
         }
+    }
+
+    /// The chip was reset: what it did before is over.
+    pub(super) fn reset(&mut self, machine: &Machine) {
+        self.duties = [0.0; 4];
+        self.levels = machine.outputs();
     }
 
     /// Mean drive of a motor in the last millisecond, -1..=1, forward positive.
     pub(super) fn duty(&self, motor: Motor) -> f64 {
         self.duties[motor as usize]
+    }
+
+    /// The cycle up to which a motor was on, 0 if it never was.
+    pub(super) fn on_until(&self, motor: Motor) -> u64 {
+        self.on_until[motor as usize]
     }
 
     /// For how many cycles both lines of a wheel were on.

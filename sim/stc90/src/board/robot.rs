@@ -1,6 +1,7 @@
 //! The robot: chip, board and home together.
 
 use super::encoder::LineEncoder;
+use super::held::{Held, HeldLine};
 use super::line::{HostRate, Line};
 use super::motors::{Motor, Motors};
 use super::{BoardError, CYCLES_PER_MS, Wiring};
@@ -17,6 +18,8 @@ use rvac_protocol::message::ResetCause;
 const FLOOR_LEVEL: u8 = 95;
 /// The home says near or far as all or nothing.
 const NEAR_LEVEL: u8 = 128;
+/// Half a hundredth of a millisecond: wheels that differ by less turn on the spot.
+const PULSE_SLACK_MILLIONTHS: i32 = 5_000;
 /// Milliseconds between two poses in the digest.
 const DIGEST_MS: u64 = 100;
 /// Timers whose interrupt can be a firmware's clock.
@@ -73,6 +76,7 @@ pub struct EmulatedRelax {
     monitor: Monitor,
     digest: Fnv1a,
     actuation: Actuation,
+    held: Vec<Held>,
     /// Calls of the timers' handlers at the last reset, until the first one after it.
     clock_before: Option<u64>,
     now_ms: u64,
@@ -95,6 +99,7 @@ impl EmulatedRelax {
                 cliff_emitter: true,
                 ..Actuation::default()
             },
+            held: Vec::new(),
             clock_before: Some(0),
             now_ms: 0,
             resets: 0,
@@ -117,6 +122,7 @@ impl EmulatedRelax {
             self.digest.byte(byte.unwrap_or_default());
         }
         let pins = self.pins();
+        self.run_to_holds((from, end));
         self.machine.run_until(end);
         let edges = self.machine.take_edges();
         self.motors.take(&edges, end);
@@ -143,8 +149,13 @@ impl EmulatedRelax {
         for encoder in &self.encoders {
             still.set(encoder.pin(), encoder.level());
         }
+        for held in self.held.iter().filter(|held| held.from <= from) {
+            if let Some(line) = held.signal.plain_line(&self.wiring) {
+                still.set(line.pin, line.level(held.is_on));
+            }
+        }
         self.machine.set_inputs(still);
-        self.machine.switch_inputs(self.lit_inputs());
+        self.machine.switch_inputs(self.lit_inputs(from));
         let mut edges = Vec::new();
         let exact = self.world.encoder_positions();
         let shown = [sensors.count_left, sensors.count_right];
@@ -156,8 +167,25 @@ impl EmulatedRelax {
         }
     }
 
+    /// Lets the chip run up to each line that something takes hold of within this millisecond.
+    fn run_to_holds(&mut self, (from, end): (u64, u64)) {
+        let begun: Vec<Held> = self
+            .held
+            .iter()
+            .filter(|held| held.from > from && held.from < end)
+            .copied()
+            .collect();
+        for held in begun {
+            self.machine.run_until(held.from);
+            match held.signal.plain_line(&self.wiring) {
+                Some(line) => self.machine.set_input(line.pin, line.level(held.is_on)),
+                None => self.machine.switch_inputs(self.lit_inputs(held.from)),
+            }
+        }
+    }
+
     /// Sensors that see by the light that the chip switches: without it bumpers are pressed and floors are missing.
-    fn lit_inputs(&self) -> SwitchedInputs {
+    fn lit_inputs(&self, at: u64) -> SwitchedInputs {
         let sensors = self.world.sensors();
         let [mut lit, mut dark] = [Levels::HIGH; 2];
         let mut put = |line: super::DigitalLine, is_on: bool, is_on_in_the_dark: bool| {
@@ -171,6 +199,14 @@ impl EmulatedRelax {
             put(line, level >= FLOOR_LEVEL, false);
         }
         put(self.wiring.wall, sensors.proximity[0] >= NEAR_LEVEL, false);
+        let held = || self.held.iter().filter(|held| held.from <= at);
+        for (line, is_on) in held().filter_map(|held| Some((held.signal.lit_line(&self.wiring)?, held.is_on)))
+        {
+            put(line, is_on, is_on);
+        }
+        if held().any(|held| held.signal == HeldLine::Lamp && !held.is_on) {
+            lit = dark;
+        }
         let light = self.wiring.sensor_light;
         let [low, high] = match light.active {
             Level::Low => [lit, dark],
@@ -230,8 +266,13 @@ impl EmulatedRelax {
     fn drives(&self) -> Drives {
         let millionths = |motor| (self.motors.duty(motor) * 1e6) as i32;
         let suction = millionths(Motor::Suction);
+        let [left, mut right] = [Motor::WheelLeft, Motor::WheelRight].map(millionths);
+        // A program switches one wheel some cycles after the other.
+        if (left + right).abs() <= PULSE_SLACK_MILLIONTHS {
+            right = -left;
+        }
         Drives {
-            wheels: [Motor::WheelLeft, Motor::WheelRight].map(millionths),
+            wheels: [left, right],
             cleaners: [millionths(Motor::Brush), suction, suction],
         }
     }
@@ -240,6 +281,7 @@ impl EmulatedRelax {
     fn notice_resets(&mut self) {
         for source in self.machine.take_resets() {
             self.resets += 1;
+            self.motors.reset(&self.machine);
             self.monitor.reset(self.now_ms, cause_of(source));
             self.clock_before = Some(self.clock_calls());
         }
@@ -280,6 +322,12 @@ impl EmulatedRelax {
         self.line.room()
     }
 
+    /// Bytes that the host's driver still holds.
+    #[must_use]
+    pub fn line_waiting(&self) -> usize {
+        self.line.waiting()
+    }
+
     /// Sets how often what goes wrong on the line, both ways.
     pub fn set_line_rates(&mut self, rates: FaultRates) {
         self.line.set_rates(rates);
@@ -293,6 +341,23 @@ impl EmulatedRelax {
     /// Both ways of the line wait for `ms`.
     pub fn hold_line(&mut self, ms: u32) {
         self.line.hold_until(self.cycle() + u64::from(ms) * CYCLES_PER_MS);
+    }
+
+    /// From this cycle on, which is to come, something holds a line, whatever the home says. Lines are held in the order of
+    /// these calls, but a dark lamp is dark.
+    pub fn hold(&mut self, signal: HeldLine, is_on: bool, from: u64) {
+        self.held.push(Held { signal, is_on, from });
+    }
+
+    /// Nothing holds a line any more.
+    pub fn let_go(&mut self) {
+        self.held.clear();
+    }
+
+    /// The cycle up to which a motor's line was on, 0 if it never was.
+    #[must_use]
+    pub fn on_until(&self, motor: Motor) -> u64 {
+        self.motors.on_until(motor)
     }
 
     /// The cable is out for `ms`.

@@ -1,23 +1,26 @@
 //! Bumper, wheel drops, buttons and cliff sensors.
 
+use home::{SensorFault, SensorId};
 use pic32::board::Contact;
 use rvac_protocol::message::Inhibit;
 use rvac_units::{AngularSpeed, Speed, Throttle};
 
-use super::{flood, hold, read};
+use super::{fault, flood, hold};
 use crate::limits;
 use crate::scene::OperatingState::{Cleaning, Driving, Standing, Turning};
 use crate::testbed::Testbed;
 use crate::trial::Expectation::{Off, OffSaying, Says};
 use crate::trial::{MotorGroup, Trial};
 
-/// Channels of the converter (pinout.toml).
-const CLIFF_RIGHT: u8 = 8;
-const CLIFF_MIDDLE: u8 = 10;
-const CLIFF_LEFT: u8 = 11;
-/// Counts of a lit receiver above a drop, and of one that is stuck in the middle of its range.
-const DROP: u16 = 30;
-const STUCK: u16 = 600;
+/// Numbers of the cliff sensors, from the left.
+const LEFT: u8 = 0;
+const MIDDLE: u8 = 1;
+const RIGHT: u8 = 2;
+/// Light on a receiver above a drop, of 255, and of one that is stuck in the middle of its range.
+const DROP: i32 = 8;
+const STUCK: i32 = 150;
+/// By then a report tells which sensor it is, and the monitor compares.
+const TOLD_MS: u64 = 300;
 /// A reverse slow enough to stay within S7's distance for its whole time, µm/s, and the time in which it begins.
 const SLOW_REVERSE: Speed = Speed(-40_000);
 const TURNS_BACK_MS: u64 = 500;
@@ -85,19 +88,20 @@ fn touch() -> Vec<Trial> {
 fn floor() -> Vec<Trial> {
     let seen = OffSaying(MotorGroup::Wheels, Inhibit::Cliff);
     vec![
-        Trial::new("cliff-left", "cliff, left", Driving, |testbed, cycle| {
-            read(testbed, CLIFF_LEFT, DROP, cycle)
+        Trial::new("cliff-left", "cliff, left", Driving, |testbed, _| {
+            fault(testbed, SensorId::Cliff(LEFT), SensorFault::StuckAt(DROP))
         })
-        .expects(seen, limits::S8_STOP),
-        Trial::new("cliff-middle", "cliff, middle", Driving, |testbed, cycle| {
-            read(testbed, CLIFF_MIDDLE, DROP, cycle)
+        .expects(seen, limits::S8_STOP)
+        .watched_for(TOLD_MS),
+        Trial::new("cliff-middle", "cliff, middle", Driving, |testbed, _| {
+            fault(testbed, SensorId::Cliff(MIDDLE), SensorFault::StuckAt(DROP))
         })
         .expects(seen, limits::S8_STOP),
         Trial::new(
             "cliff-right-turning",
             "cliff, right, while it turns",
             Turning,
-            |testbed, cycle| read(testbed, CLIFF_RIGHT, DROP, cycle),
+            |testbed, _| fault(testbed, SensorId::Cliff(RIGHT), SensorFault::StuckAt(DROP)),
         )
         .expects(seen, limits::S8_STOP),
         Trial::new(
@@ -106,7 +110,7 @@ fn floor() -> Vec<Trial> {
             Driving,
             |testbed, cycle| {
                 flood(testbed, cycle);
-                read(testbed, CLIFF_MIDDLE, DROP, cycle)
+                fault(testbed, SensorId::Cliff(MIDDLE), SensorFault::StuckAt(DROP))
             },
         )
         .expects(Off(MotorGroup::Wheels), limits::S8_STOP),
@@ -114,14 +118,14 @@ fn floor() -> Vec<Trial> {
             "cliff-receiver-sticks-middle",
             "a cliff receiver sticks, middle",
             Driving,
-            |testbed, cycle| read(testbed, CLIFF_MIDDLE, STUCK, cycle),
+            |testbed, _| fault(testbed, SensorId::Cliff(MIDDLE), SensorFault::StuckAt(STUCK)),
         )
         .expects(Off(MotorGroup::Wheels), limits::S9_BLIND),
         Trial::new(
             "cliff-receiver-sticks-left",
             "a cliff receiver sticks, left, while it turns",
             Turning,
-            |testbed, cycle| read(testbed, CLIFF_LEFT, STUCK, cycle),
+            |testbed, _| fault(testbed, SensorId::Cliff(LEFT), SensorFault::StuckAt(STUCK)),
         )
         .expects(Off(MotorGroup::Wheels), limits::S9_BLIND),
     ]

@@ -53,20 +53,17 @@ fn write(testbed: &mut Testbed, register: u32, value: u32) -> u64 {
 }
 
 fn flip_register(testbed: &mut Testbed, address: u32, mask: u32) -> u64 {
-    let value = testbed
-        .robot_mut()
-        .machine_mut()
-        .peek_register(address)
-        .unwrap_or_default();
-    write(testbed, address, value ^ mask)
+    let at = testbed.robot().cycle();
+    testbed.robot_mut().damage_pulses(address, mask);
+    at
 }
 
 /// Flips a bit of a text that the program says on another fault only: what it does goes on, and its memory is wrong.
 fn flip_text(testbed: &mut Testbed) -> u64 {
     let at = testbed.robot().cycle();
-    let machine = testbed.robot_mut().machine_mut();
+    let robot = testbed.robot_mut();
     let mut flash = vec![0; FLASH_BYTES];
-    if machine.memory().read(FLASH, &mut flash).is_err() {
+    if robot.machine().memory().read(FLASH, &mut flash).is_err() {
         return at;
     }
     let text = Inhibit::ChargerShorted.name().as_bytes();
@@ -75,7 +72,7 @@ fn flip_text(testbed: &mut Testbed) -> u64 {
         .find(|(_, bytes)| *bytes == text)
     {
         // The place was just read from the flash, so it is one.
-        machine.flip_flash_bit(FLASH + place.0, 3).ok();
+        robot.damage_image(FLASH + place.0, 3).ok();
     }
     at
 }
@@ -173,7 +170,7 @@ fn parts() -> Vec<Trial> {
     vec![
         Trial::new("crystal-stops", "the crystal stops", Cleaning, |testbed, _| {
             let at = testbed.robot().cycle();
-            testbed.robot_mut().machine_mut().fail_oscillator();
+            testbed.robot_mut().stop_crystal();
             at
         })
         .expects(off, limits::S20_OFF),

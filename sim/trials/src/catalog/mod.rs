@@ -6,7 +6,9 @@ mod hardware;
 mod link;
 mod motors;
 mod power;
+mod reports;
 
+use home::{SensorFault, SensorId};
 use pic32::board::{Contact, Hold};
 
 use crate::testbed::Testbed;
@@ -22,6 +24,7 @@ pub fn trials() -> Vec<Trial> {
         motors::trials(),
         power::trials(),
         arming::trials(),
+        reports::trials(),
     ]
     .concat()
 }
@@ -31,11 +34,9 @@ fn hold(testbed: &mut Testbed, contact: Contact, cycle: u64) -> u64 {
     cycle
 }
 
-fn read(testbed: &mut Testbed, channel: u8, counts: u16, cycle: u64) -> u64 {
-    testbed
-        .robot_mut()
-        .hold_analog(channel, counts, (cycle, u64::MAX));
-    cycle
+fn fault(testbed: &mut Testbed, sensor: SensorId, fault: SensorFault) -> u64 {
+    testbed.robot_mut().world_mut().set_fault(sensor, Some(fault));
+    testbed.robot().cycle()
 }
 
 /// Another sender on the wire to the robot, from this cycle on: 750,000 edges a second, for longer than a trial looks.

@@ -2,35 +2,102 @@
 
 use home::{SensorFault, SensorId};
 use pic32::board::Contact;
-use rvac_protocol::message::Inhibit;
+use rvac_protocol::message::{Command, Inhibit, Motor, MotorCommand, Sequence};
+use rvac_units::{Throttle, Tick};
 
-use super::{hold, read};
+use super::{fault, hold};
 use crate::limits;
-use crate::scene::OperatingState::{DeafBridges, Driving};
+use crate::scene::OperatingState::{DeafBridges, Driving, Standing};
 use crate::testbed::Testbed;
-use crate::trial::Expectation::{Off, OffSaying, SaysBroken};
+use crate::trial::Expectation::{Lawful, OffSaying, SaysBroken};
 use crate::trial::{MotorGroup, Trial};
 
-/// Channel of the converter (pinout.toml).
-const CURRENT_LEFT: u8 = 14;
+/// More than any wheel draws, mA.
+const TOO_MUCH_MA: i32 = 4_000;
 
-fn fault(testbed: &mut Testbed, sensor: SensorId, fault: SensorFault) -> u64 {
-    testbed.robot_mut().world_mut().set_fault(sensor, Some(fault));
+/// One wheel alone is asked for, and as long as a lease lasts.
+fn turn_one_wheel(testbed: &mut Testbed, _: u64) -> u64 {
+    let command = MotorCommand {
+        motor: Motor::WheelLeft,
+        throttle: Throttle::saturating_from_millionths(400_000),
+        lease_ms: 300,
+        sequence: Sequence(0),
+        seen_tick: Tick(testbed.robot().now_ms() as u32),
+    };
+    testbed.say(Command::Motor(command));
     testbed.robot().cycle()
 }
 
+/// Suction alone is asked for.
+fn suck(testbed: &mut Testbed, _: u64) -> u64 {
+    let command = MotorCommand {
+        motor: Motor::Vacuum,
+        throttle: Throttle::saturating_from_millionths(800_000),
+        lease_ms: 300,
+        sequence: Sequence(0),
+        seen_tick: Tick(testbed.robot().now_ms() as u32),
+    };
+    testbed.say(Command::Motor(command));
+    testbed.robot().cycle()
+}
+
+fn alone() -> Vec<Trial> {
+    vec![
+        Trial::new(
+            "one-wheel",
+            "one wheel alone is asked for: no other motor turns",
+            Standing,
+            turn_one_wheel,
+        )
+        .expects(Lawful, limits::S1_SILENCE)
+        .watched_for(600),
+        Trial::new(
+            "suction-alone",
+            "suction alone is asked for: no other motor turns",
+            Standing,
+            suck,
+        )
+        .expects(Lawful, limits::S1_CLEANERS)
+        .watched_for(600),
+    ]
+}
+
 pub(super) fn trials() -> Vec<Trial> {
+    [alone(), load()].concat()
+}
+
+fn load() -> Vec<Trial> {
     let stalls = OffSaying(MotorGroup::Wheels, Inhibit::WheelStall);
-    // Which of the two rules names it first depends on how fast the wheel runs away.
-    let lies = Off(MotorGroup::Wheels);
+    let lies = OffSaying(MotorGroup::Wheels, Inhibit::EncoderFault);
     vec![
         Trial::new(
             "wheel-over-current",
             "a wheel draws too much",
             Driving,
-            |testbed, cycle| read(testbed, CURRENT_LEFT, 1_023, cycle),
+            |testbed, _| {
+                fault(
+                    testbed,
+                    SensorId::WheelLeftCurrent,
+                    SensorFault::StuckAt(TOO_MUCH_MA),
+                )
+            },
         )
-        .expects(stalls, limits::S11_OVER_CURRENT),
+        .expects(stalls, limits::S11_OVER_CURRENT)
+        .watched_for(1_200),
+        Trial::new(
+            "wheel-over-current-right",
+            "the right wheel draws too much",
+            Driving,
+            |testbed, _| {
+                fault(
+                    testbed,
+                    SensorId::WheelRightCurrent,
+                    SensorFault::StuckAt(TOO_MUCH_MA),
+                )
+            },
+        )
+        .expects(stalls, limits::S11_OVER_CURRENT)
+        .watched_for(1_200),
         Trial::new(
             "wheel-standstill",
             "a driven wheel stands still",

@@ -1,9 +1,10 @@
 //! Battery, charger and dock.
 
+use home::{SensorFault, SensorId};
 use pic32::board::Contact;
 use rvac_protocol::message::Inhibit;
 
-use super::{hold, read};
+use super::{fault, hold};
 use crate::limits;
 use crate::scene::OperatingState::{Charging, Cleaning, HotStanding, Standing, WarmCleaning};
 use crate::scene::show_temperature;
@@ -11,13 +12,10 @@ use crate::testbed::Testbed;
 use crate::trial::Expectation::{DrivesOff, OffSaying, Says};
 use crate::trial::{MotorGroup, Trial};
 
-/// Channels of the converter (pinout.toml).
-const PACK: u8 = 3;
-const THERMISTOR: u8 = 4;
-/// Counts of pack voltages: 0.95, 0.85 and 1.05 V a cell at 32.55 mV a count.
-const PACK_WEAK: u16 = 350;
-const PACK_EMPTY: u16 = 313;
-const PACK_LOW: u16 = 387;
+/// Pack voltages: 0.95, 0.85 and 1.05 V a cell.
+const PACK_WEAK_MV: i32 = 11_400;
+const PACK_EMPTY_MV: i32 = 10_200;
+const PACK_LOW_MV: i32 = 12_600;
 /// Counts of a thermistor that is not plugged in, and of one that is shorted (sr8730.md section 7).
 const OPEN: u16 = 1_000;
 const SHORTED: u16 = 20;
@@ -30,6 +28,18 @@ const OVERHEATED_DC: i32 = 598;
 fn heat_to(testbed: &mut Testbed, temperature_dc: i32) -> u64 {
     show_temperature(testbed, temperature_dc);
     testbed.robot().cycle()
+}
+
+/// The pack has this voltage from the next millisecond on.
+fn show_voltage(testbed: &mut Testbed, pack_mv: i32) -> u64 {
+    fault(testbed, SensorId::BatteryVoltage, SensorFault::StuckAt(pack_mv))
+}
+
+fn read_thermistor(testbed: &mut Testbed, counts: u16, cycle: u64) -> u64 {
+    let channel = testbed.robot().wiring().thermistor;
+    let robot = testbed.robot_mut();
+    robot.hold_analog(channel, counts, (cycle, u64::MAX));
+    cycle
 }
 
 fn short_the_switch(testbed: &mut Testbed) -> u64 {
@@ -47,7 +57,7 @@ fn voltage() -> Vec<Trial> {
             "pack-empty",
             "pack below 0.9 V a cell: all motors",
             Cleaning,
-            |testbed, cycle| read(testbed, PACK, PACK_EMPTY, cycle),
+            |testbed, _| show_voltage(testbed, PACK_EMPTY_MV),
         )
         .expects(
             OffSaying(MotorGroup::All, Inhibit::BatteryEmpty),
@@ -57,7 +67,7 @@ fn voltage() -> Vec<Trial> {
             "pack-weak",
             "pack below 1.0 V a cell: brushes and suction",
             Cleaning,
-            |testbed, cycle| read(testbed, PACK, PACK_WEAK, cycle),
+            |testbed, _| show_voltage(testbed, PACK_WEAK_MV),
         )
         .expects(
             OffSaying(MotorGroup::Cleaners, Inhibit::BatteryWeak),
@@ -67,7 +77,7 @@ fn voltage() -> Vec<Trial> {
             "pack-low",
             "pack below 1.1 V a cell; reported",
             Standing,
-            |testbed, cycle| read(testbed, PACK, PACK_LOW, cycle),
+            |testbed, _| show_voltage(testbed, PACK_LOW_MV),
         )
         .expects(Says(Inhibit::BatteryLow), limits::S16_LOW),
     ]
@@ -94,14 +104,14 @@ fn heat() -> Vec<Trial> {
             "thermistor-open",
             "thermistor unplugged: all motors",
             Cleaning,
-            |testbed, cycle| read(testbed, THERMISTOR, OPEN, cycle),
+            |testbed, cycle| read_thermistor(testbed, OPEN, cycle),
         )
         .expects(unknown, limits::S17_UNMEASURED),
         Trial::new(
             "thermistor-shorted",
             "thermistor shorted: all motors",
             Cleaning,
-            |testbed, cycle| read(testbed, THERMISTOR, SHORTED, cycle),
+            |testbed, cycle| read_thermistor(testbed, SHORTED, cycle),
         )
         .expects(unknown, limits::S17_UNMEASURED),
     ]

@@ -84,6 +84,17 @@ pub(crate) enum RobotRequest {
     Clear(String),
     /// A packet of the wire.
     Raw(String),
+    /// The serial line, for a client that writes firmware.
+    BorrowLink(RobotAnswers),
+}
+
+/// Whether the robot can be asked where it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum RobotAnswers {
+    /// It is to be asked.
+    Expected,
+    /// It is silent, and the owner has looked.
+    Silent,
 }
 
 impl DeskRequest {
@@ -110,6 +121,8 @@ impl DeskRequest {
             Body::Locate => Self::Robot(RobotRequest::Locate),
             Body::Clear { reason } => Self::Robot(RobotRequest::Clear(reason)),
             Body::Raw { packet } => Self::Robot(RobotRequest::Raw(packet)),
+            Body::BorrowLink { silent: false } => Self::Robot(RobotRequest::BorrowLink(RobotAnswers::Expected)),
+            Body::BorrowLink { silent: true } => Self::Robot(RobotRequest::BorrowLink(RobotAnswers::Silent)),
             Body::Drive { v, w, ttl, clean, power } => Self::Hand(HandRequest::Drive(HandDrive {
                 speed_m_per_s: v,
                 turn_rad_per_s: w,

@@ -4,7 +4,7 @@ use brain::{Inhibit, JobCommand};
 use rvac_api::{LogLevel, RunAsker};
 
 use super::Core;
-use super::desk_request::{HandRequest, RobotRequest};
+use super::desk_request::{HandRequest, RobotAnswers, RobotRequest};
 use crate::desk::arbiter::Stick;
 use crate::desk::audience::Asking;
 use crate::desk::driver::{HandDrive, Pull};
@@ -107,6 +107,9 @@ impl Core {
             self.driver_left(now_us, (client, DeviceCommand::EmergencyStop), outputs);
         }
         self.buttons.forget_client(client);
+        if let Some(holder) = self.loan.forget_client(client) {
+            outputs.line_holder = Some(holder);
+        }
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.inputs.forget(client, &mut teller);
     }
@@ -130,8 +133,27 @@ impl Core {
             }
             RobotRequest::Clear(reason) => self.clear(now_us, &reason, outputs)?,
             RobotRequest::Raw(packet) => self.raw(now_us, (asker.client, &packet), outputs)?,
+            RobotRequest::BorrowLink(answers) => self.lend_link(now_us, (asker.client, answers), outputs)?,
         }
         Ok(Reply::Done)
+    }
+
+    /// The shell closes the device at once, and the robot is disconnected until the client is gone.
+    fn lend_link(
+        &mut self,
+        now_us: u64,
+        (client, answers): (ClientId, RobotAnswers),
+        outputs: &mut Outputs,
+    ) -> Result<(), Refusal> {
+        let facts = self.link.loan_facts();
+        outputs.line_holder = Some(self.loan.lend(client, answers, facts)?);
+        let text = format!(
+            "the serial line is lent to {}",
+            self.audience.clients.name(client)
+        );
+        self.teller(now_us, outputs)
+            .log(LogLevel::Warn, LogSource::Client, text);
+        Ok(())
     }
 
     fn clear(&mut self, now_us: u64, reason: &str, outputs: &mut Outputs) -> Result<(), Refused> {

@@ -8,6 +8,7 @@ use super::command_failures::CommandFailures;
 use super::driver::Brakes;
 use super::journal::LogSource;
 use super::link_facts::LinkFacts;
+use super::link_loan::LoanFacts;
 use crate::device::{
     CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, LinkNews, Make, Report,
     SlowFacts, Supervisor, WheelSpeeds,
@@ -50,6 +51,7 @@ impl LinkDesk {
         let text = match reason {
             LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
             LinkLoss::NoAnswer { baud } => format!("no robot answers at {baud} baud; tries the next rate"),
+            LinkLoss::Lent => "serial device lent: it is used again when the client is done".to_owned(),
             LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
         };
         teller.log(LogLevel::Warn, LogSource::Link, text);
@@ -202,6 +204,19 @@ impl LinkDesk {
     /// The description of the robot, once it has sent it.
     pub(crate) fn description(&self) -> Option<&Description> {
         self.device.as_ref().and_then(Supervisor::description)
+    }
+
+    /// What whoever asks for the line must know.
+    pub(crate) fn loan_facts(&self) -> LoanFacts {
+        let slow = self.facts.slow.as_ref();
+        LoanFacts {
+            is_attached: self.is_attached(),
+            stands_still: self.stands_still(),
+            is_docked: self.report().is_some_and(|report| report.docked),
+            charge: slow
+                .and_then(|slow| slow.battery.as_ref())
+                .map(|battery| battery.charge),
+        }
     }
 
     /// The newest report.

@@ -24,6 +24,7 @@ pub(crate) mod journal;
 pub(crate) mod learnt;
 pub(crate) mod link;
 mod link_facts;
+pub(crate) mod link_loan;
 pub(crate) mod readiness;
 mod refusal_log;
 pub(crate) mod reply;

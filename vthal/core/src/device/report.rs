@@ -30,8 +30,8 @@ pub struct Report {
     pub dock_beams: [u8; DOCK_RECEIVERS_MAX],
     /// On the dock's contacts.
     pub docked: bool,
-    /// The dust box is in.
-    pub dust_box: bool,
+    /// The dust box is in; `None` where nothing watches it.
+    pub dust_box: Option<bool>,
     /// What of brushes and suction runs.
     pub cleaners: CleanersRunning,
     /// Buttons that are down, bit by number: 0 starts and stops, 2 sends home, others are the make's own.

@@ -28,19 +28,27 @@ struct Raw {
     pins: BTreeMap<String, Vec<String>>,
 }
 
-/// A pin of a port: `RB5` is bit 5 of port B of a PIC32, `P1.3` bit 3 of port 1 of an 8051.
+/// A pin of a port: `RB5` is bit 5 of port B of a PIC32, `P1.3` bit 3 of port 1 of an 8051, `GPIO7` a pin of a chip with one port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct PortPin {
-    /// `A` to `G`, or `0` to `4`.
+    /// `A` to `G`, or `0` to `4`; a space for the only port.
     pub(super) port: char,
-    /// 0 to 15.
+    /// 0 to 15; of the only port 0 to 47.
     pub(super) bit: u8,
 }
 
 impl PortPin {
-    /// Reads `RB5` or `P1.3`; `None` when it is no port pin.
+    /// Reads `RB5`, `P1.3` or `GPIO7`; `None` when it is no port pin.
     pub(super) fn parse(text: &str) -> Option<Self> {
-        Self::lettered(text).or_else(|| Self::numbered(text))
+        Self::lettered(text)
+            .or_else(|| Self::numbered(text))
+            .or_else(|| Self::of_only_port(text))
+    }
+
+    fn of_only_port(text: &str) -> Option<Self> {
+        let digits = text.strip_prefix("GPIO")?;
+        let bit: u8 = digits.parse().ok().filter(|bit| *bit < 48)?;
+        (bit.to_string() == digits).then_some(Self { port: ' ', bit })
     }
 
     fn numbered(text: &str) -> Option<Self> {
@@ -63,7 +71,9 @@ impl PortPin {
 
 impl fmt::Display for PortPin {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.port.is_ascii_digit() {
+        if self.port == ' ' {
+            write!(formatter, "GPIO{}", self.bit)
+        } else if self.port.is_ascii_digit() {
             write!(formatter, "P{}.{}", self.port, self.bit)
         } else {
             write!(formatter, "R{}{}", self.port, self.bit)
@@ -89,7 +99,7 @@ impl Chip {
         };
         let port = |text: &String| {
             PortPin::parse(text)
-                .with_context(|| format!("crystal: {text:?} is no port pin such as RC12 or P1.3"))
+                .with_context(|| format!("crystal: {text:?} is no port pin such as RC12, P1.3 or GPIO7"))
         };
         Ok(Self {
             name: raw.name,
@@ -146,6 +156,11 @@ mod tests {
             PortPin::parse("RB5").map(|pin| pin.to_string()),
             Some("RB5".to_owned())
         );
+        assert_eq!(
+            PortPin::parse("GPIO29").map(|pin| (pin.port, pin.bit, pin.to_string())),
+            Some((' ', 29, "GPIO29".to_owned()))
+        );
+        assert_eq!(PortPin::parse("GPIO07"), None);
         assert_eq!(
             PortPin::parse("P1.3").map(|pin| (pin.port, pin.bit, pin.to_string())),
             Some(('1', 3, "P1.3".to_owned()))

@@ -12,7 +12,7 @@ use super::{Generated, formatted};
 use anyhow::Context;
 use calibration::Calibration;
 use pinout::Pinout;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A robot with firmware of ours.
 #[derive(Debug)]
@@ -84,8 +84,32 @@ pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
         });
         files.push(readme(&folder, &pinout, &Calibration::load(&folder)?)?);
     }
+    for folder in others(root)? {
+        let pinout = Pinout::load(&root.join("robots"), &folder)?;
+        files.push(readme(&folder, &pinout, &Calibration::load(&folder)?)?);
+    }
     Ok(files)
 }
+
+/// Folders of all robots with a pinout for which nothing but their tables is made.
+fn others(root: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let known = BOARDS
+        .iter()
+        .map(|board| board.facts)
+        .chain(SMALL_BOARDS.iter().map(|board| board.facts));
+    let known: Vec<PathBuf> = known.map(|facts| root.join(facts)).collect();
+    let robots = root.join("robots");
+    let mut folders = Vec::new();
+    for entry in std::fs::read_dir(&robots).with_context(|| format!("cannot read {}", robots.display()))? {
+        let folder = entry?.path();
+        if folder.join("pinout.toml").is_file() && !known.contains(&folder) {
+            folders.push(folder);
+        }
+    }
+    folders.sort();
+    Ok(folders)
+}
+
 /// The robot's README with fresh tables.
 fn readme(folder: &Path, pinout: &Pinout, calibration: &Calibration) -> anyhow::Result<Generated> {
     let path = folder.join("README.md");

@@ -215,7 +215,11 @@ impl Pinout {
 
 fn signal(raw: RawSignal) -> anyhow::Result<Signal> {
     let Some(port) = PortPin::parse(&raw.port) else {
-        bail!("{}: {:?} is no port pin such as RB5 or P1.3", raw.name, raw.port);
+        bail!(
+            "{}: {:?} is no port pin such as RB5, P1.3 or GPIO7",
+            raw.name,
+            raw.port
+        );
     };
     Ok(Signal {
         port,

@@ -1,6 +1,6 @@
 //! Compiling and linking with SDCC.
 
-use super::beside;
+use super::{beside, sealed};
 use crate::{process, system, workspace};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
@@ -24,8 +24,11 @@ const COMPILED: [&str; 2] = ["relax/chip", "cord-c/cord"];
 
 /// An image and what SDCC tells of it.
 #[derive(Debug)]
-pub(super) struct Built {
+pub(crate) struct Built {
+    /// What is flashed.
     pub(super) image: PathBuf,
+    /// What the linker wrote.
+    linked: PathBuf,
     modules: Vec<PathBuf>,
 }
 
@@ -58,20 +61,23 @@ pub(super) fn build(out: &Path) -> anyhow::Result<Built> {
         process::capture(&mut compiler)?;
         modules.push(module);
     }
-    let image = out.join("relax.ihx");
+    let linked = out.join("linked.ihx");
     let mut linker = Command::new("sdcc");
-    linker.args(MODEL).args([
-        "--xram-size",
-        "1024",
-        "--iram-size",
-        "256",
-        "--code-size",
-        "32768",
-        "-o",
-    ]);
-    linker.arg(&image).args(&modules);
+    linker
+        .args(MODEL)
+        .args(["--xram-size", "1024", "--iram-size", "256", "--code-size"])
+        .arg(sealed::PROGRAM_BYTES.to_string())
+        .arg("-o");
+    linker.arg(&linked).args(&modules);
     process::capture(&mut linker)?;
-    Ok(Built { image, modules })
+    let image = out.join("relax.ihx");
+    std::fs::write(&image, sealed::seal(&read(&linked)?)?)
+        .with_context(|| format!("cannot write {}", image.display()))?;
+    Ok(Built {
+        image,
+        linked,
+        modules,
+    })
 }
 
 /// The C files of a folder, in the order of their names.
@@ -89,14 +95,24 @@ pub(super) fn sources(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
 }
 
 impl Built {
+    /// What is flashed.
+    pub(crate) fn image(&self) -> &Path {
+        &self.image
+    }
+
     /// The image as text.
     pub(super) fn hex(&self) -> anyhow::Result<String> {
         read(&self.image)
     }
 
+    /// What the linker wrote, as text: the program without what was never written.
+    pub(super) fn program(&self) -> anyhow::Result<String> {
+        read(&self.linked)
+    }
+
     /// What the linker says of memory.
     pub(super) fn memory(&self) -> anyhow::Result<String> {
-        read(&beside(&self.image, "mem"))
+        read(&beside(&self.linked, "mem"))
     }
 
     /// The assembler's listings.
@@ -108,8 +124,8 @@ impl Built {
     }
 
     /// Where a function is, in hexadecimal digits.
-    pub(super) fn address_of(&self, name: &str) -> anyhow::Result<String> {
-        let map = read(&beside(&self.image, "map"))?;
+    pub(crate) fn address_of(&self, name: &str) -> anyhow::Result<String> {
+        let map = read(&beside(&self.linked, "map"))?;
         let address = map.lines().find_map(|line| {
             let mut words = line.split_whitespace().skip_while(|word| word.ends_with(':'));
             let address = words.next()?;

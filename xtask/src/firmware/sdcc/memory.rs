@@ -4,7 +4,7 @@ use super::build::Built;
 use anyhow::{Context, bail};
 
 /// What is kept over a reset lies apart, at the end of the memory, and the linker does not count it.
-const KEPT_BYTES: u32 = 10;
+const KEPT_BYTES: u32 = 9;
 
 /// Bytes in use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +21,7 @@ impl MemoryUse {
     pub(super) fn read(built: &Built) -> anyhow::Result<Self> {
         let memory = built.memory()?;
         Ok(Self {
-            code: bytes_of(&built.hex()?)?,
+            code: bytes_of(&built.program()?)?,
             xdata: used(&memory, "EXTERNAL RAM").context("no line for external memory")? + KEPT_BYTES,
             idata: stack_start(&memory).context("no line for the stack")?,
         })

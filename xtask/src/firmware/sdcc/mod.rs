@@ -3,6 +3,7 @@
 
 mod build;
 mod memory;
+mod sealed;
 mod stack;
 
 use super::FirmwareArguments;
@@ -17,8 +18,8 @@ use std::process::Command;
 
 /// The robot by its name.
 pub(crate) const ROBOT: &str = "relax";
-/// What the chip has.
-const CODE_MAX: u32 = 32_768;
+/// What the chip has, without the CRC of its flash.
+const CODE_MAX: u32 = sealed::PROGRAM_BYTES as u32;
 const XDATA_MAX: u32 = 1_024;
 const IDATA_MAX: u32 = 256;
 /// What we hold ourselves to.
@@ -52,6 +53,7 @@ struct Pace {
     stack_to: u32,
     bytes_overrun: u64,
     host_bad_packets: u64,
+    robot_lost: u64,
     states_per_s: f64,
     refused: u64,
     resets: u64,
@@ -80,9 +82,14 @@ pub(super) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
     }
 }
 
-/// The image, built if it is not there yet.
+/// The image as it is flashed.
 pub(crate) fn image() -> anyhow::Result<PathBuf> {
-    Ok(build::build(&folder("relax"))?.image)
+    Ok(built()?.image)
+}
+
+/// The image, and where its functions are.
+pub(crate) fn built() -> anyhow::Result<Built> {
+    build::build(&folder("relax"))
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -112,7 +119,7 @@ fn report(built: &Built, reproducible: Option<bool>) -> anyhow::Result<ChipUse> 
         main_loop_idle_hz: pace.main_loop_idle_hz,
         main_loop_driving_hz: pace.main_loop_driving_hz,
         states_per_s: pace.states_per_s,
-        bytes_lost: pace.bytes_overrun + pace.host_bad_packets,
+        bytes_lost: pace.bytes_overrun + pace.host_bad_packets + pace.robot_lost,
         violations: pace.violations,
         reproducible,
         cortex_m0_text_bytes,

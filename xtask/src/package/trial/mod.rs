@@ -97,13 +97,13 @@ pub(crate) fn print(trials: &Trials) -> anyhow::Result<()> {
 
 /// A package and its successor.
 #[derive(Debug)]
-struct Packages {
+struct Editions {
     machine: Machine,
     first: PathBuf,
     next: PathBuf,
 }
 
-fn packages(common: &Common, machine: Machine, scope: Scope) -> anyhow::Result<Packages> {
+fn packages(common: &Common, machine: Machine, scope: Scope) -> anyhow::Result<Editions> {
     let programs = match scope {
         Scope::Scripts => programs::of_this_host()?,
         Scope::Released => compile::programs(machine)?,
@@ -120,7 +120,7 @@ fn packages(common: &Common, machine: Machine, scope: Scope) -> anyhow::Result<P
             epoch_s: common.epoch_s,
         },
     )?;
-    Ok(Packages {
+    Ok(Editions {
         machine,
         first: kept,
         next,

@@ -1,7 +1,7 @@
 //! What an owner does with a package, step after step.
 
 use super::chroot::Chroot;
-use super::{Packages, Scope, Trial};
+use super::{Editions, Scope, Trial};
 use crate::workspace::{self, Profile};
 use crate::{process, system};
 use anyhow::{Context, bail};
@@ -38,7 +38,7 @@ impl Drop for Running {
 }
 
 /// Tries one package.
-pub(super) fn run(chroot: &Chroot, packages: &Packages, scope: Scope) -> anyhow::Result<Trial> {
+pub(super) fn run(chroot: &Chroot, packages: &Editions, scope: Scope) -> anyhow::Result<Trial> {
     system::need("curl", &["curl"])?;
     workspace::build(&["rvac-sim"], Profile::Dev)?;
     install(chroot, &packages.first)?;

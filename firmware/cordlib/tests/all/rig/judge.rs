@@ -2,10 +2,20 @@
 //! the inputs and the motors.
 
 use cordlib::board::Board;
-use monitor::{Drives, Monitor, Pins, Violation};
+use monitor::{Drives, Monitor, Pins, Sensed, Sides, Violation};
 use rvac_protocol::message::{Bumpers, Cliffs, WheelDrops};
 
 use super::parts::Memory;
+
+fn sides(board: &Board<Memory>) -> Sides {
+    let (bumpers, drops, missing) = (board.bumpers.0, board.wheel_drops.0, board.cliffs.missing);
+    Sides {
+        bumpers: [bumpers.left, bumpers.right],
+        cliffs: [missing.left, missing.middle, missing.right],
+        wheel_drops: [drops.left, drops.right],
+        buttons: board.buttons.down,
+    }
+}
 
 /// The monitor and its clock, which shows what the board's does, without its wrap.
 pub struct Judge {
@@ -50,6 +60,11 @@ impl Judge {
             counts: [counts.left, counts.right],
             rims_mm_per_s,
             speed_mm_per_s: i32::midpoint(rims_mm_per_s[0], rims_mm_per_s[1]),
+            sides: Some(sides(board)),
+            sensed: Sensed {
+                currents_ma: Some([board.currents.0.wheel_left.0, board.currents.0.wheel_right.0]),
+                ..Sensed::default()
+            },
             ..Pins::default()
         };
         let wheels = [board.wheels.left, board.wheels.right].map(|drive| drive.duty().millionths());

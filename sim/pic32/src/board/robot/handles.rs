@@ -11,6 +11,7 @@ use crate::board::contacts::{Contact, Hold};
 use crate::board::motors::{DriveInterval, MotorOutput};
 use crate::board::wiring::Wiring;
 use crate::machine::{Machine, ResetSource};
+use crate::memory::OutsideMemory;
 
 /// The host and the cable.
 impl EmulatedRobot {
@@ -85,6 +86,29 @@ impl EmulatedRobot {
     /// The transistor of the charging switch conducts for good.
     pub const fn short_charging_switch(&mut self) {
         self.charge_switch_shorted = true;
+    }
+
+    /// The crystal stops; the judge knows.
+    pub fn stop_crystal(&mut self) {
+        self.machine.fail_oscillator();
+        self.broken.clock_fails = true;
+    }
+
+    /// A bit of the program at this physical address flips; the judge knows.
+    ///
+    /// # Errors
+    /// When the address is not in flash.
+    pub fn damage_image(&mut self, address: u32, bit: u8) -> Result<(), OutsideMemory> {
+        self.machine.flip_flash_bit(address, bit)?;
+        self.broken.image_damaged = true;
+        Ok(())
+    }
+
+    /// These bits of a register behind the motors' pulses flip; the judge knows.
+    pub fn damage_pulses(&mut self, register: u32, mask: u32) {
+        let value = self.machine.peek_register(register).unwrap_or_default();
+        self.machine.write_register(register, value ^ mask);
+        self.broken.pulses_damaged = true;
     }
 
     /// The chip, to break it and to look into it.

@@ -6,7 +6,7 @@ mod settings;
 pub use settings::{Blueprint, BlueprintError, CalibrationChoice, EmulatedSettings};
 
 use home::{Actuation, Fnv1a, RobotModel, World};
-use monitor::{Bridges, Charging, Drives, Monitor, Pins};
+use monitor::{Bridges, Charging, Drives, HardwareTruth, Monitor, Pins, Sensed, Sides, WheelLoad};
 use rvac_channel::ReceivedByte;
 
 use crate::board::CYCLES_PER_MS;
@@ -22,7 +22,7 @@ use crate::board::power::{Feed, SLICE, SwitchUse};
 use crate::board::serial::{BitReceiver, HostPort, Sender};
 use crate::board::wiring::{Wiring, selected};
 use crate::machine::Machine;
-use crate::pins::Level;
+use crate::pins::{Level, PinDriver};
 
 /// Channel of the transmit multiplexer whose emitter the dock sees.
 const FRONT: u8 = 3;
@@ -73,7 +73,10 @@ pub struct EmulatedRobot {
     now_ms: u64,
     resets: u32,
     cliff_settled_ms: u32,
-    cliff_seen: bool,
+    /// Receivers that saw no floor when they were lit last, from the left.
+    cliffs_seen: [bool; 3],
+    /// What somebody has broken in the chip.
+    broken: HardwareTruth,
 }
 
 impl EmulatedRobot {
@@ -119,7 +122,8 @@ impl EmulatedRobot {
             now_ms: 0,
             resets: 0,
             cliff_settled_ms: 0,
-            cliff_seen: false,
+            cliffs_seen: [false; 3],
+            broken: HardwareTruth::default(),
             wiring: wiring.clone(),
             world,
         };
@@ -249,19 +253,25 @@ impl EmulatedRobot {
     }
 
     fn charge(&mut self, cycles: u64) {
-        let total = self.machine.high_cycles(self.wiring.charge.pin);
+        let line = self.wiring.charge;
+        let total = self.machine.high_cycles(line.pin);
+        let high = total - self.charge_cycles;
+        self.charge_cycles = total;
+        let closed = match (line.active, self.machine.output(line.pin)) {
+            (Level::High, _) => high,
+            // A resistor opens the switch while nobody drives it.
+            (Level::Low, PinDriver::Floating) => 0,
+            (Level::Low, _) => cycles.saturating_sub(high),
+        };
         let mut switch = SwitchUse {
             cycles,
-            closed: total - self.charge_cycles,
+            closed,
             openings: 0,
         };
-        self.charge_cycles = total;
         if switch.closed != 0 {
             self.charge_driven_ms = Some(self.now_ms);
-        }
-        if switch.closed != 0 {
-            let edges = self.machine.take_edges(self.wiring.charge.pin).into_iter();
-            switch.openings = edges.filter(|(_, level)| !level.is_high()).count() as u32;
+            let edges = self.machine.take_edges(line.pin).into_iter();
+            switch.openings = edges.filter(|(_, level)| *level != line.active).count() as u32;
         }
         if self.charge_switch_shorted {
             switch = SwitchUse {
@@ -363,14 +373,14 @@ impl EmulatedRobot {
     fn pins(&mut self) -> Pins {
         let sensors = &self.circuit.sensors;
         if self.cliff_settled_ms > CLIFF_SETTLE_MS {
-            let levels = &sensors.cliff_levels[..self.wiring.cliffs.len()];
-            self.cliff_seen = levels.iter().any(|level| *level < NO_FLOOR_LEVEL);
+            let [left, middle, right, _] = sensors.cliff_levels.map(|level| level < NO_FLOOR_LEVEL);
+            self.cliffs_seen = [left, middle, right];
         }
         let on = |contact| self.contacts.was_on(contact);
         let truth = self.world.truth();
         Pins {
             bumper: on(Contact::BumperLeft) || on(Contact::BumperRight),
-            cliff: self.cliff_seen,
+            cliff: self.cliffs_seen.contains(&true),
             wheel_drop: on(Contact::WheelDropLeft) || on(Contact::WheelDropRight),
             docked: on(Contact::Adapter),
             button: on(Contact::AnyButton),
@@ -379,7 +389,39 @@ impl EmulatedRobot {
             speed_mm_per_s: (truth.speed_m_per_s * 1e3) as i32,
             fallen: truth.fallen,
             charging: self.charging(),
+            sides: Some(Sides {
+                bumpers: [on(Contact::BumperLeft), on(Contact::BumperRight)],
+                cliffs: self.cliffs_seen,
+                wheel_drops: [on(Contact::WheelDropLeft), on(Contact::WheelDropRight)],
+                buttons: sensors.buttons,
+            }),
+            sensed: self.sensed(),
+            loads: Some(self.loads()),
+            hardware: self.broken,
         }
+    }
+
+    /// Readings to which reports can be compared: an input that the caller holds shows no sensor.
+    fn sensed(&self) -> Sensed {
+        let sensors = &self.circuit.sensors;
+        let is_free = |channel| self.circuit.held(channel, self.cycle()).is_none();
+        let currents_ma = [sensors.wheel_left_current.0, sensors.wheel_right_current.0];
+        let are_free = self.wiring.wheels.iter().all(|wheel| is_free(wheel.current));
+        Sensed {
+            pack_mv: is_free(self.wiring.battery_volts).then_some(sensors.battery_voltage.0),
+            temperature_dc: is_free(self.wiring.thermistor)
+                .then_some(i32::from(sensors.battery_temperature.0)),
+            currents_ma: are_free.then_some(currents_ma),
+            proximity: is_free(self.wiring.receive).then_some(sensors.proximity),
+        }
+    }
+
+    fn loads(&self) -> [WheelLoad; 2] {
+        let motor = &self.world.model().wheel_motor;
+        self.world.wheel_currents_a().map(|current_a| WheelLoad {
+            current_ma: (current_a * 1e3) as i32,
+            held_ma: ((motor.idle_current_a + motor.stall_current_a) * 1e3) as i32,
+        })
     }
 
     fn charging(&self) -> Charging {
@@ -399,6 +441,8 @@ impl EmulatedRobot {
     fn notice_resets(&mut self) {
         for source in self.machine.take_resets() {
             self.resets += 1;
+            self.broken.clock_fails = false;
+            self.broken.pulses_damaged = false;
             self.motors.reset();
             self.monitor.reset(self.now_ms, handles::cause_of(source));
             self.ticks_before = Some(self.ticks());

@@ -1,0 +1,205 @@
+//! A job from the command line to its end.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use anyhow::{Context as _, bail};
+use pic32_icsp::Part;
+use stc_isp::{Entry, Report, Step};
+
+use crate::arguments::{FlashJob, FlashVerb, Safeguards};
+use crate::backups::Backups;
+use crate::gpio_lines::GpioLines;
+use crate::hex;
+use crate::journal::Journal;
+use crate::line_loan::{LineLoan, RobotAnswers};
+use crate::progress_line::progress_line;
+use crate::serial_line::SerialLine;
+use crate::settings::{FlashSettings, RobotName};
+use crate::{relax, sr8730};
+
+/// Where the daemon listens.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DaemonSocket(pub PathBuf);
+
+/// Does the job.
+///
+/// # Errors
+/// Why it was not done, and what to do.
+pub fn run(job: &FlashJob, socket: &DaemonSocket) -> anyhow::Result<ExitCode> {
+    let settings = FlashSettings::read(&job.wiring)?;
+    let answers = match job.robot_is_silent {
+        true => RobotAnswers::Silent,
+        false => RobotAnswers::Expected,
+    };
+    // Files first: a robot is not disturbed for a file that is damaged.
+    let pieces = match &job.verb {
+        FlashVerb::Write { file, .. } | FlashVerb::Verify { file } => read_hex(file)?,
+        _ => Vec::new(),
+    };
+    let journal = Journal::new(&settings.folder);
+    if let Some(warning) = journal.warning() {
+        eprintln!("{warning}");
+    }
+    match settings.robot {
+        RobotName::Sr8730 => {
+            let lines = settings
+                .icsp
+                .as_ref()
+                .context("the wiring has no [icsp]: the lines to the programming port")?;
+            let _loan = LineLoan::take(&socket.0, &settings.serial, answers)?;
+            let mut lines = GpioLines::open(lines).context("cannot use the GPIO lines of [icsp]")?;
+            on_sr8730(&mut lines, (&job.verb, &pieces), &settings.folder)?;
+        }
+        RobotName::Relax => {
+            let _loan = LineLoan::take(&socket.0, &settings.serial, answers)?;
+            let mut line = SerialLine::open(&settings.serial, settings.power.as_ref())?;
+            let entry = match settings.power {
+                Some(_) => Entry::PowerSwitch,
+                None => Entry::Person,
+            };
+            on_relax(&mut line, (&job.verb, &pieces, entry), &settings.folder)?;
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn read_hex(path: &Path) -> anyhow::Result<Vec<hex::Piece>> {
+    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    hex::parse(&text).with_context(|| path.display().to_string())
+}
+
+fn now() -> String {
+    jiff::Timestamp::now()
+        .round(jiff::Unit::Second)
+        .map_or_else(|_| String::from("1970-01-01T00:00:00Z"), |now| now.to_string())
+}
+
+fn on_sr8730(
+    lines: &mut GpioLines,
+    (verb, pieces): (&FlashVerb, &[hex::Piece]),
+    folder: &Path,
+) -> anyhow::Result<()> {
+    let keeping = sr8730::Keeping {
+        backups: Backups::new(folder),
+        journal: Journal::new(folder),
+        date: now(),
+    };
+    let mut shown = shown_on_terminal();
+    let mut show = |progress: pic32_icsp::Progress| {
+        shown(
+            sr8730::word(progress.task),
+            (progress.done_bytes, progress.total_bytes),
+        );
+    };
+    match verb {
+        FlashVerb::Probe => {
+            let id = sr8730::probe(lines, &mut show)?;
+            let name = Part::of_id(id).map_or("unknown", |part| part.name);
+            println!("{name}, revision {}, not protected", id >> 28);
+        }
+        FlashVerb::Backup => {
+            let name = sr8730::backup(lines, &keeping, &mut show)?;
+            println!("kept {name} in {}", folder.display());
+            println!(
+                "Copy both of its files to another computer: they are the way back if this board's card dies."
+            );
+        }
+        FlashVerb::Write { safeguards, .. } => {
+            let image = sr8730::image_of(pieces)?;
+            sr8730::write(lines, (&image, *safeguards), &keeping, &mut show)?;
+            println!("written and verified");
+        }
+        FlashVerb::Verify { .. } => {
+            sr8730::verify(lines, &sr8730::image_of(pieces)?, &mut show)?;
+            println!("the chip holds this image");
+        }
+        FlashVerb::Restore { name, safeguards } => {
+            let backup = keeping.backups.load(name.as_deref())?;
+            sr8730::restore(lines, (&backup, *safeguards), &keeping, &mut show)?;
+            println!("{} is in the chip again, verified", backup.name);
+        }
+    }
+    Ok(())
+}
+
+fn on_relax(
+    line: &mut SerialLine,
+    (verb, pieces, entry): (&FlashVerb, &[hex::Piece], Entry),
+    folder: &Path,
+) -> anyhow::Result<()> {
+    let keeping = relax::Keeping {
+        folder: folder.to_owned(),
+        journal: Journal::new(folder),
+        date: now(),
+    };
+    let mut shown = shown_on_terminal();
+    let mut show = |step: Step, progress| {
+        if matches!(step, Step::Write { .. }) {
+            shown("write", progress);
+        }
+    };
+    match verb {
+        FlashVerb::Probe => say(&relax::probe(line, entry, &mut show)?),
+        FlashVerb::Backup => bail!("this chip cannot be read: nobody can back up what is in it"),
+        FlashVerb::Verify { .. } => {
+            bail!("this chip cannot be read: it is verified block by block while it is written")
+        }
+        FlashVerb::Write { safeguards, .. } => {
+            let image = relax::image_of(pieces)?;
+            say(&relax::write(
+                line,
+                (&image, *safeguards, entry),
+                &keeping,
+                &mut show,
+            )?);
+        }
+        FlashVerb::Restore { .. } => {
+            let image = keeping
+                .way_back()
+                .context("no image is known that ran on this robot: write one with `rvac flash write`")?;
+            let sure = Safeguards::default();
+            say(&relax::write(line, (&image, sure, entry), &keeping, &mut show)?);
+        }
+    }
+    Ok(())
+}
+
+fn say(report: &Report) {
+    println!(
+        "{}, {:.3} MHz, {} clocks a cycle, loader {}.{}",
+        report.model.name,
+        report.clock.hz as f64 / 1e6,
+        report.clock.clocks_per_cycle,
+        report.loader_version >> 4,
+        report.loader_version & 15
+    );
+    if let Some(baud) = report.baud {
+        println!(
+            "{} bytes written at {baud} baud, each block confirmed by its sum",
+            report.written_bytes
+        );
+    }
+}
+
+/// Shows progress on a terminal, and nothing elsewhere.
+fn shown_on_terminal() -> impl FnMut(&str, (usize, usize)) {
+    let is_terminal = std::io::stderr().is_terminal();
+    let mut task = (String::new(), Instant::now());
+    let mut last = String::new();
+    move |what: &str, progress: (usize, usize)| {
+        if task.0 != what {
+            task = (what.to_owned(), Instant::now());
+        }
+        let elapsed_ms = u64::try_from(task.1.elapsed().as_millis()).unwrap_or(u64::MAX);
+        let line = progress_line(what, progress, elapsed_ms);
+        if is_terminal && line != last {
+            let end = if progress.0 >= progress.1 { "\n" } else { "" };
+            // Progress that cannot be shown stops no write.
+            write!(std::io::stderr(), "\r{line}\x1b[K{end}").ok();
+        }
+        last = line;
+    }
+}

@@ -1,0 +1,258 @@
+//! The programmer against the emulated PIC32: the whole way there and back, and what can be wrong.
+
+use flash_trials::fixtures::{chip_with, content_of, flash_image};
+use flash_trials::{Interruption, LinesLost, SimulatedIcsp, WireFaults};
+use pic32::icsp::PortFaults;
+use pic32::machine::Machine;
+use pic32::pins::Level;
+use pic32_icsp::{ConfigurationRisk, ErasedFirst, FlashImage, IcspError, LineLevel, Programmer};
+
+const MHZ: u64 = 1_000_000;
+/// DEVCFG0 with nothing protected.
+const OPEN: u32 = 0x7FFF_FFFF;
+
+/// Both flashes full.
+fn full(seed: u64) -> FlashImage {
+    flash_image(0x4_0000, 0x2FF0, seed)
+}
+
+/// A few pages only: quick.
+fn small(seed: u64) -> FlashImage {
+    flash_image(0x2800, 64, seed)
+}
+
+fn lines(machine: Machine, port: PortFaults, wires: WireFaults) -> SimulatedIcsp {
+    SimulatedIcsp::new(machine, MHZ, (wires, port))
+}
+
+fn write(
+    lines: &mut SimulatedIcsp,
+    image: &FlashImage,
+    erased: ErasedFirst,
+) -> Result<(), IcspError<LinesLost>> {
+    let mut progress = |_| {};
+    let mut programmer = Programmer::new(lines, &mut progress);
+    programmer.write(image, erased)?;
+    programmer.verify(image)?;
+    programmer.release()
+}
+
+#[test]
+fn a_chip_is_read_written_verified_and_restored() {
+    let (makers, ours) = (full(1), full(2));
+    let mut lines = lines(chip_with(&makers), PortFaults::default(), WireFaults::default());
+    let mut progress = |_| {};
+    let mut programmer = Programmer::new(&mut lines, &mut progress);
+    assert_eq!(programmer.probe().expect("a chip") & 0x0FFF_FFFF, 0x0934_053);
+    let backup = programmer.read().expect("can be read");
+    assert_eq!(backup, makers);
+    programmer
+        .write(&ours, ErasedFirst::Pages)
+        .expect("can be written");
+    programmer.verify(&ours).expect("is there");
+    assert!(matches!(
+        programmer.verify(&makers),
+        Err(IcspError::Differs { .. })
+    ));
+    programmer
+        .write(&backup, ErasedFirst::Chip)
+        .expect("can be restored");
+    programmer.verify(&makers).expect("is there again");
+    programmer.release().expect("runs");
+    assert_eq!(content_of(lines.machine()), makers);
+    assert_eq!(lines.violations(), []);
+}
+
+#[test]
+fn what_was_written_boots() {
+    // lui t0, 0xBF88; sw zero to TRISE; ori t1, 1; sw t1 to LATE; loop.
+    let words: [u32; 7] = [
+        0x3C08_BF88,
+        0xAD00_6100,
+        0x3409_0001,
+        0xAD09_6120,
+        0x1000_FFFF,
+        0,
+        0,
+    ];
+    let mut image = FlashImage::erased();
+    let code: Vec<u8> = words.into_iter().flat_map(u32::to_le_bytes).collect();
+    assert!(image.write(0x1FC0_0000, &code));
+    assert!(image.write(0x1FC0_2FFC, &OPEN.to_le_bytes()));
+    let mut lines = lines(chip_with(&small(3)), PortFaults::default(), WireFaults::default());
+    let pin = "RE0".parse().expect("a pin");
+    lines.run_ms(5);
+    assert!(!lines.machine().output(pin).is_high());
+    write(&mut lines, &image, ErasedFirst::Pages).expect("can be written");
+    lines.run_ms(5);
+    assert!(lines.machine().output(pin).is_high());
+}
+
+#[test]
+fn wrong_chips_and_wires_are_refused_before_anything_is_touched() {
+    let makers = small(1);
+    let stuck = |level| PortFaults {
+        stuck_data: Some(level),
+        ..PortFaults::default()
+    };
+    let id = |id| PortFaults {
+        device_id: Some(id),
+        ..PortFaults::default()
+    };
+    let swapped = WireFaults {
+        is_swapped: true,
+        ..WireFaults::default()
+    };
+    let deaf = PortFaults {
+        is_deaf: true,
+        ..PortFaults::default()
+    };
+    let protected = PortFaults {
+        is_protected: true,
+        ..PortFaults::default()
+    };
+    let fine = WireFaults::default();
+    let cases = [
+        (stuck(Level::High), fine, IcspError::NoAnswer(LineLevel::High)),
+        (stuck(Level::Low), fine, IcspError::NoAnswer(LineLevel::Low)),
+        (
+            PortFaults::default(),
+            swapped,
+            IcspError::NoAnswer(LineLevel::Low),
+        ),
+        (deaf, fine, IcspError::NoAnswer(LineLevel::Low)),
+        (id(0x1093_8053), fine, IcspError::WrongPart(0x1093_8053)),
+        (id(0x1234_5678), fine, IcspError::WrongPart(0x1234_5678)),
+        (protected, fine, IcspError::CodeProtected),
+    ];
+    for (port, wires, expected) in cases {
+        let mut lines = lines(chip_with(&makers), port, wires);
+        assert_eq!(
+            write(&mut lines, &small(2), ErasedFirst::Pages),
+            Err(expected.clone())
+        );
+        assert_eq!(content_of(lines.machine()), makers, "{expected}");
+    }
+}
+
+#[test]
+fn a_protected_chip_is_entered_by_erasing_all_of_it_only() {
+    let mut makers = small(1);
+    assert!(makers.write(0x1FC0_2FFC, &(OPEN & !(1 << 28)).to_le_bytes()));
+    assert_eq!(
+        makers.configuration_risk(),
+        Some(ConfigurationRisk::CodeProtection)
+    );
+    let mut lines = lines(chip_with(&makers), PortFaults::default(), WireFaults::default());
+    assert_eq!(
+        write(&mut lines, &small(2), ErasedFirst::Pages),
+        Err(IcspError::CodeProtected)
+    );
+    assert_eq!(content_of(lines.machine()), makers);
+    assert_eq!(write(&mut lines, &small(2), ErasedFirst::Chip), Ok(()));
+    assert_eq!(content_of(lines.machine()), small(2));
+}
+
+#[test]
+fn write_protected_pages_are_reported_and_a_whole_erasure_helps() {
+    let mut makers = small(1);
+    assert!(makers.write(0x1FC0_2FFC, &(OPEN & !(1 << 24)).to_le_bytes()));
+    let mut lines = lines(chip_with(&makers), PortFaults::default(), WireFaults::default());
+    let refused = write(&mut lines, &small(2), ErasedFirst::Pages);
+    assert!(
+        matches!(refused, Err(IcspError::FlashRefused { .. })),
+        "{refused:?}"
+    );
+    assert_eq!(write(&mut lines, &small(2), ErasedFirst::Chip), Ok(()));
+}
+
+#[test]
+fn flash_that_is_worn_out_is_reported() {
+    let mut machine = chip_with(&small(1));
+    machine.wear_out_flash();
+    let mut lines = lines(machine, PortFaults::default(), WireFaults::default());
+    let refused = write(&mut lines, &small(2), ErasedFirst::Pages);
+    assert!(
+        matches!(refused, Err(IcspError::FlashRefused { .. })),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn noise_sleep_and_a_late_core_cost_time_only() {
+    let noisy = |flip_one_in, seed| PortFaults {
+        flip_one_in,
+        seed,
+        ..PortFaults::default()
+    };
+    let late = PortFaults {
+        late_polls: 3,
+        ..PortFaults::default()
+    };
+    let slow = |pause_every| WireFaults {
+        pause_every,
+        ..WireFaults::default()
+    };
+    let cases = [
+        (noisy(200_000, 1), slow(0)),
+        (noisy(60_000, 2), slow(0)),
+        (late, slow(0)),
+        (PortFaults::default(), slow(20_011)),
+        (PortFaults::default(), slow(997)),
+        (noisy(100_000, 3), slow(10_007)),
+    ];
+    for (port, wires) in cases {
+        let mut lines = lines(chip_with(&small(1)), port, wires);
+        assert_eq!(
+            write(&mut lines, &small(2), ErasedFirst::Pages),
+            Ok(()),
+            "{port:?} {wires:?}"
+        );
+        assert_eq!(content_of(lines.machine()), small(2));
+    }
+}
+
+#[test]
+fn a_line_that_is_too_noisy_is_named() {
+    let port = PortFaults {
+        flip_one_in: 400,
+        seed: 5,
+        ..PortFaults::default()
+    };
+    let mut lines = lines(chip_with(&small(1)), port, WireFaults::default());
+    let refused = write(&mut lines, &small(2), ErasedFirst::Pages);
+    let is_named = matches!(
+        refused,
+        Err(IcspError::LineFaulty { .. }
+            | IcspError::Unsteady { .. }
+            | IcspError::NotReady(_)
+            | IcspError::CoreSilent)
+    );
+    assert!(is_named, "{refused:?}");
+}
+
+#[test]
+fn after_a_power_cut_or_a_kill_the_next_run_writes() {
+    let write =
+        |lines: &mut SimulatedIcsp| Programmer::new(lines, &mut |_| {}).write(&small(2), ErasedFirst::Pages);
+    let span_us = {
+        let mut lines = lines(chip_with(&small(1)), PortFaults::default(), WireFaults::default());
+        write(&mut lines).expect("can be written");
+        pic32_icsp::IcspPins::now_us(&lines)
+    };
+    for part in 0..12 {
+        let at_us = span_us * part / 12 + 1;
+        for interruption in [
+            Interruption::PowerCut { at_us, seed: part },
+            Interruption::Killed { at_us },
+        ] {
+            let mut lines = lines(chip_with(&small(1)), PortFaults::default(), WireFaults::default());
+            lines.interrupt(interruption);
+            let cut = write(&mut lines);
+            assert_eq!(cut, Err(IcspError::Pins(LinesLost)), "{interruption:?}");
+            lines.start_again();
+            assert_eq!(write(&mut lines), Ok(()), "{interruption:?}");
+            assert_eq!(content_of(lines.machine()), small(2));
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The stage in which firmware goes into the simulated chips of both robots and comes back.
+
+use super::extent::Extent;
+use super::runner::{Result, check};
+use crate::workspace::{self, Profile, program};
+use crate::{firmware, process, system};
+use anyhow::Context;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// A flasher that nobody here wrote, from PyPI.
+const STCGAL: &str = "stcgal==1.10";
+
+/// Backup, write, verify, restore; cut power and killed programmers; stcgal on a pseudo terminal.
+pub(super) fn flash(extent: Extent) -> Result {
+    check(&mut campaign(extent)?)
+}
+
+/// The same, with its figures as one JSON object on the output stream.
+pub(super) fn as_json(extent: Extent) -> anyhow::Result<()> {
+    let figures = process::capture(campaign(extent)?.arg("--json"))?;
+    process::print(figures.trim());
+    Ok(())
+}
+
+fn campaign(extent: Extent) -> anyhow::Result<Command> {
+    let elf = firmware::usual_elf()?;
+    let stcgal = stcgal()?;
+    workspace::build(&["bench-flash"], Profile::Dev)?;
+    let mut command = Command::new(program("bench-flash", Profile::Dev));
+    command
+        .current_dir(workspace::root())
+        .args(["--moments", extent.pick("20", "20", "1000")])
+        .arg("--firmware")
+        .arg(elf)
+        .arg("--stcgal")
+        .arg(stcgal);
+    Ok(command)
+}
+
+/// stcgal in an environment of its own below the build's folder; made when it is not there yet.
+fn stcgal() -> anyhow::Result<PathBuf> {
+    let folder = workspace::target().join("stcgal");
+    let installed = folder.join("bin/stcgal");
+    if installed.is_file() {
+        return Ok(installed);
+    }
+    system::need("python3", &["python3", "python3-venv"])?;
+    let make = || {
+        let mut command = Command::new("python3");
+        command.args(["-m", "venv", "--clear"]).arg(&folder);
+        process::run("make a Python environment for stcgal", &mut command)
+    };
+    if make().is_err() {
+        system::install(&["python3-venv"])?;
+        make()?;
+    }
+    let mut command = Command::new(folder.join("bin/pip"));
+    command.args(["install", "--quiet", STCGAL]);
+    process::run(&format!("install {STCGAL} from PyPI"), &mut command)
+        .context("the stage flash lets stcgal write the simulated loader, and it comes from PyPI")?;
+    Ok(installed)
+}
