@@ -107,10 +107,10 @@ impl<'space> Picker<'space> {
         picker
     }
 
-    /// The lanes of each round.
-    pub(super) async fn rounds(&mut self, budget: &mut StepBudget) -> Vec<Vec<Lane>> {
+    /// The lanes of the first rounds, up to this number.
+    pub(super) async fn rounds(&mut self, most: usize, budget: &mut StepBudget) -> Vec<Vec<Lane>> {
         let mut rounds = Vec::with_capacity(LANES.round_shares.len());
-        for share in LANES.round_shares {
+        for share in LANES.round_shares.into_iter().take(most) {
             rounds.push(self.round(share, budget).await);
         }
         rounds

@@ -28,6 +28,7 @@ use crate::navigation::router::Router;
 use crate::navigation::smoothing::{self, Polyline};
 use contour::{RingFloor, RingStart, ring_path};
 use lanes::Picker;
+use parameters::LANES;
 pub(crate) use settings::reach_cells;
 pub use settings::{Departure, PlanSettings};
 pub(crate) use sweep_pattern::SweepPattern;
@@ -164,7 +165,12 @@ pub(crate) async fn plan_area(
         None => (Vec::new(), 0, (origin, start.heading_rad)),
     };
     let mut picker = Picker::new(&mut space, settings, budget).await;
-    let rounds = picker.rounds(budget).await;
+    let rounds_max = if ring_floor.is_some() {
+        LANES.rounds_beside_rings
+    } else {
+        LANES.round_shares.len()
+    };
+    let rounds = picker.rounds(rounds_max, budget).await;
     let router = Router::new(&space, budget).await;
     let start_of_lanes = Pose2 {
         heading_rad,

@@ -9,6 +9,8 @@ pub(super) struct LaneParameters {
     /// Smallest share of the gain of a lane over fully open floor in the same time, for each round. The last round asks for what is
     /// left beside walls and legs, and comes when all else is swept.
     pub(super) round_shares: [f64; 3],
+    /// Rounds where some floor is swept in rings: what these leave in their corners is not worth the last one.
+    pub(super) rounds_beside_rings: usize,
     /// Cost to enter and leave a lane, in radians of turning, added to the time of a lane. Besides the turns it covers
     /// braking and the path between lanes.
     pub(super) enter_rad: f64,
@@ -17,6 +19,7 @@ pub(super) struct LaneParameters {
 pub(super) const LANES: LaneParameters = LaneParameters {
     border_cells: 1,
     round_shares: [0.35, 0.07, 0.03],
+    rounds_beside_rings: 2,
     enter_rad: 6.0,
 };
 

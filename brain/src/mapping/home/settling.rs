@@ -146,3 +146,73 @@ impl RunSoFar {
         merged(&self.kept, &self.grid, budget).await
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::PlaceTrust;
+    use crate::mapping::home::HomeMap;
+    use crate::mapping::kept_home::KeptHome;
+    use crate::mapping::occupancy_grid::Flag;
+    use crate::mapping::{Cell, CellKnowledge};
+    use crate::model::config::BrainConfig;
+    use crate::model::gradual::{StepBudget, at_once};
+
+    const SECOND_US: u64 = 1_000_000;
+
+    /// A home of which nothing is known but that it is known.
+    fn home() -> HomeMap {
+        let config = BrainConfig::of_tests();
+        let mut home = HomeMap::new(config.body, config.sensors);
+        let budget = &mut StepBudget::unlimited();
+        let kept = at_once(KeptHome::of(&home.grid, &home.derived.knowledge, budget));
+        home.known = Some(Box::new(super::KnownHome::begun(kept)));
+        home
+    }
+
+    /// The robot is sure for so long, and marks a cell of its own each second.
+    fn drive(home: &mut HomeMap, seconds: core::ops::Range<i32>, trust: PlaceTrust) {
+        for second in seconds {
+            home.grid
+                .change(Cell { x: second, y: 0 }, |evidence| evidence.set(Flag::Body));
+            home.note_trust(trust, second as u64 * SECOND_US);
+        }
+    }
+
+    /// Seconds of which the grid knows.
+    fn known(home: &HomeMap) -> Vec<i32> {
+        let is_known =
+            |second: &i32| home.grid.at(Cell { x: *second, y: 0 }).knowledge() == CellKnowledge::Free;
+        (0..1_000).filter(is_known).collect()
+    }
+
+    fn left(home: &HomeMap) -> usize {
+        let run = home.run_so_far().expect("the home is known");
+        at_once(run.left_home(&mut StepBudget::unlimited()))
+            .gathered()
+            .count()
+    }
+
+    #[test]
+    fn a_doubt_takes_back_the_minute_before_it_and_at_most_half_a_minute_more() {
+        let mut home = home();
+        drive(&mut home, 0..300, PlaceTrust::Sure);
+        assert_eq!((known(&home).len(), left(&home)), (300, 300));
+        drive(&mut home, 300..301, PlaceTrust::Doubtful);
+        let kept = known(&home).len();
+        assert!((210..=241).contains(&kept), "{kept}");
+        assert_eq!(left(&home), kept);
+    }
+
+    #[test]
+    fn what_is_drawn_in_doubt_is_not_left_and_goes_when_the_robot_is_sure_again() {
+        let mut home = home();
+        drive(&mut home, 0..300, PlaceTrust::Sure);
+        drive(&mut home, 300..400, PlaceTrust::Doubtful);
+        let settled = left(&home);
+        assert!(settled <= 241 && known(&home).len() > settled, "{settled}");
+        drive(&mut home, 400..401, PlaceTrust::Sure);
+        assert_eq!(known(&home).len(), settled);
+        drive(&mut home, 401..500, PlaceTrust::Sure);
+        assert_eq!((known(&home).len(), left(&home)), (settled + 99, settled + 99));
+    }
+}
