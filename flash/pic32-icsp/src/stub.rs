@@ -154,7 +154,7 @@ mod tests {
     fn the_build_assembles_as_binutils_do() {
         assert_eq!(
             STUB[..5],
-            [0x3C13_FF20, 0x3C14_BF81, 0x3C15_A000, 0x36B5_1000, 0x8E68_0000]
+            [0x3C13_FF20, 0x3C14_BF81, 0x3C15_A000, 0x36B5_1000, 0x340D_4000]
         );
         assert_eq!(LOADER[0], 0x3C13_FF20);
         // `lui t6, 0xaa99`, `ori t7, zero, 0x4003` and 0x4004.
