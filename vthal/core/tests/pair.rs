@@ -234,6 +234,7 @@ fn identity() -> RobotIdentity {
         binary: BinaryKinds::ALL,
         description: Description {
             capabilities: Capabilities {
+                encoders: true,
                 bumpers: 2,
                 wheel_drops: 2,
                 buttons: 1,
