@@ -39,7 +39,7 @@ fn in_twins(scene: &Scene, seed: u64) -> Household {
 }
 
 /// It cleans in both rooms for so long.
-const CLEANED_MS: u64 = 3 * MINUTE_MS;
+const CLEANED_MS: u64 = 5 * MINUTE_MS;
 /// A robot that was carried may look for its place for so long, seconds. Of twelve with beacons the slowest took 80 s, and of twelve without
 /// the first one thought after 123 s that it knew.
 const SOUGHT_S: u64 = 100;
