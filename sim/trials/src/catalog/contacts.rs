@@ -5,7 +5,7 @@ use pic32::board::Contact;
 use rvac_protocol::message::Inhibit;
 use rvac_units::{AngularSpeed, Speed, Throttle};
 
-use super::{fault, flood, hold};
+use super::{fault, flood, hold, press};
 use crate::limits;
 use crate::scene::OperatingState::{Cleaning, Driving, Standing, Turning};
 use crate::testbed::Testbed;
@@ -158,17 +158,15 @@ fn hands() -> Vec<Trial> {
             },
         )
         .expects(Off(MotorGroup::All), limits::S10_OFF),
-        Trial::new("button", "button", Cleaning, |testbed, cycle| {
-            hold(testbed, Contact::AnyButton, cycle)
-        })
-        .expects(OffSaying(MotorGroup::All, Inhibit::ButtonStop), limits::S28_STOP),
+        Trial::new("button", "button", Cleaning, |testbed, _| press(testbed))
+            .expects(OffSaying(MotorGroup::All, Inhibit::ButtonStop), limits::S28_STOP),
         Trial::new(
             "flood-button",
             "button, and edges flood the receive pin",
             Cleaning,
             |testbed, cycle| {
                 flood(testbed, cycle);
-                hold(testbed, Contact::AnyButton, cycle)
+                press(testbed)
             },
         )
         .expects(Off(MotorGroup::All), limits::S28_STOP),

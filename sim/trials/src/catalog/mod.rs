@@ -39,6 +39,14 @@ fn fault(testbed: &mut Testbed, sensor: SensorId, fault: SensorFault) -> u64 {
     testbed.robot().cycle()
 }
 
+/// One button of several.
+const BUTTON: u8 = 1;
+
+/// A person presses it: both the line of all buttons and its own level on the ladder show that.
+fn press(testbed: &mut Testbed) -> u64 {
+    fault(testbed, SensorId::Button(BUTTON), SensorFault::StuckAt(1))
+}
+
 /// Another sender on the wire to the robot, from this cycle on: 750,000 edges a second, for longer than a trial looks.
 fn flood(testbed: &mut Testbed, cycle: u64) -> u64 {
     testbed.robot_mut().flood_line(1_500_000, cycle, 1_000);

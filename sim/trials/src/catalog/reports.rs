@@ -2,15 +2,14 @@
 
 use home::{SensorFault, SensorId};
 
-use super::fault;
+use super::{fault, press};
 use crate::limits;
 use crate::scene::OperatingState::{Cleaning, Driving, Standing};
 use crate::trial::Expectation::Lawful;
 use crate::trial::Trial;
 
-/// A proximity sensor beside the front, and one button of several.
+/// A proximity sensor beside the front.
 const NEAR: u8 = 2;
-const BUTTON: u8 = 1;
 /// The battery is told once a second, and must be told wrongly three times.
 const WATCH_MS: u64 = 4_000;
 
@@ -39,7 +38,7 @@ pub(super) fn trials() -> Vec<Trial> {
             "button-named",
             "a button is pressed, and told by its number",
             Standing,
-            |testbed, _| fault(testbed, SensorId::Button(BUTTON), SensorFault::StuckAt(1)),
+            |testbed, _| press(testbed),
         )
         .expects(Lawful, limits::REPORTS_TOLD)
         .watched_for(500),
