@@ -5,23 +5,23 @@ use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
 use scenarios::{generated, household, settings};
 
-/// A job in a known home, up to when it believes to have swept this share.
-fn swept(share: f64) -> Household {
+/// A job in a known home, up to when it believes to have swept this share; none if it is over before.
+fn swept(share: f64) -> Option<Household> {
     let mut household = household(&generated(6), &settings(3, 0)).with_known_map();
     assert!(start_cleaning(&mut household, StrategyName::Systematic));
-    work_up_to(share - 0.02, &mut household);
+    work_up_to(share - 0.02, &mut household)?;
     // Below half of its charge it looks now and then how far its dock is.
     household.robot_mut().world_mut().set_battery_charge(0.45);
-    work_up_to(share, &mut household);
-    household
+    work_up_to(share, &mut household)?;
+    Some(household)
 }
 
-fn work_up_to(share: f64, household: &mut Household) {
+fn work_up_to(share: f64, household: &mut Household) -> Option<()> {
     let swept = household.pass_until(2 * 60 * 60, |household| {
         let brain = household.host().and_then(Host::brain).expect("a brain");
         brain.swept_share().is_some_and(|swept| swept.share >= share)
     });
-    assert!(swept.is_some(), "it never sweeps so much");
+    swept.map(drop)
 }
 
 fn reason(household: &Household) -> &'static str {
@@ -44,10 +44,11 @@ fn reasons_at_low_battery(household: &mut Household) -> Vec<&'static str> {
 #[test]
 #[ignore = "campaign: hours of work and charge; cargo xtask test --all"]
 fn a_job_whose_rest_is_crumbs_is_over_when_the_pack_is_low_and_any_other_waits_for_charge() {
-    let much = reasons_at_low_battery(&mut swept(0.93));
+    let much = reasons_at_low_battery(&mut swept(0.93).expect("it sweeps so much"));
     assert!(much.contains(&"recharging"), "{much:?}");
     // When only crumbs are left differs by a hundredth from run to run, and a job may be finished before the pack is low.
-    let little = [0.951, 0.96, 0.965, 0.97].map(|share| reasons_at_low_battery(&mut swept(share)));
+    let jobs = [0.94, 0.951, 0.96, 0.965].into_iter().filter_map(swept);
+    let little: Vec<Vec<&str>> = jobs.map(|mut job| reasons_at_low_battery(&mut job)).collect();
     let over = |reasons: &Vec<&str>| reasons.contains(&"crumbs-left");
     assert!(little.iter().any(over), "{little:?}");
     for reasons in little.iter().filter(|reasons| over(reasons)) {

@@ -183,6 +183,9 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
 /// Sentences for refusals whose English sentence comes from the robot itself.
 #[rustfmt::skip]
 pub(super) const REFUSALS: &[(&str, &str)] = &[
+    ("link-lent", "Keegi teine kasutab praegu roboti jadaliini: oota, kuni ta lõpetab."),
+    ("robot-moves", "Robot liigub: peata see ja saada dokki."),
+    ("not-docked", "Robot ei ole dokis: saada see dokki, et aku ei saaks poole kirjutamise peal tühjaks."),
     ("no-such-floor", "Sellist korrust ei ole: vaata loetelu."),
     ("no-archive", "See ei ole korruste fail: võta fail, mille salvestas paneel või „rvac floor export“. Midagi ei muudetud."),
     ("archive-too-new", "Korruste faili on kirjutanud uuem tarkvara: uuenda roboti tarkvara. Midagi ei muudetud."),
