@@ -127,7 +127,7 @@ fn run_all(stages: &[&'static Stage], extent: Extent) -> Vec<Outcome> {
     let mut ahead = None;
     let mut outcomes = Vec::new();
     for stage in stages {
-        if stage.name == "panel" && browser_follows {
+        if stage.name == "tests" && browser_follows {
             ahead = told(Ahead::begin(Page::Release));
         }
         if stage.wants_the_machine
