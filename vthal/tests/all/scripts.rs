@@ -2,9 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::{Duration, Instant};
 
+use rvac_api::Update;
 use rvac_protocol::message::BinaryKinds;
-use vthal_bench::{Daemon, LivingRobot, Scratch, SyntheticRobot};
+use vthal_bench::{Client, Daemon, LivingRobot, Scratch, SyntheticRobot};
+
+/// Generous: the machine may be busy with other tests.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 fn script(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -20,7 +25,12 @@ fn run(interpreter: &str, name: &str) -> Vec<String> {
     let _robot = LivingRobot::new(robot);
     let _daemon = Daemon::start(Path::new(env!("CARGO_BIN_EXE_vthal")), &scratch, &["--seed", "1"])
         .expect("gets ready");
-    std::thread::sleep(std::time::Duration::from_secs(2));
+    let mut client = Client::watching(&scratch.join("vthal.sock"), r#"["status"]"#).expect("connects");
+    let is_ready = |update: &Update| matches!(update, Update::Status(status) if status.state == "idle");
+    let ready = client
+        .wait_for(Instant::now() + PATIENCE, is_ready)
+        .expect("reads");
+    assert!(ready.is_some(), "the robot does not answer");
     let output = Command::new(interpreter)
         .arg(script(name))
         .arg(scratch.join("vthal.sock"))

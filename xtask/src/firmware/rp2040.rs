@@ -1,7 +1,7 @@
 //! Firmware for an RP2040: builds it, tells its size, and lets it say hello in an emulator.
 
 use super::elf::Elf;
-use crate::{process, system, toolchain, workspace};
+use crate::{fetched, process, system, toolchain, workspace};
 use anyhow::{Context, bail};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -14,6 +14,8 @@ const FLASH_BYTES: u64 = 2 << 20;
 const RAM_BYTES: u64 = 256 << 10;
 /// Where the memory begins.
 const RAM_START: u32 = 0x2000_0000;
+/// The emulator of the chip, which comes from npm, and the program that drives it.
+const EMULATOR: &str = "firmware/rp2040-reference/emulator";
 /// How long the emulated chip runs, and what it is asked in the middle of that.
 const RUN_MS: u32 = 1_000;
 const QUESTION: &str = r#"{"c":"info"}"#;
@@ -131,20 +133,10 @@ fn build(port: &Port) -> anyhow::Result<PathBuf> {
 /// Everything that it says on its link, a packet a line.
 fn run_emulated(port: &Port, file: &Path) -> anyhow::Result<String> {
     system::need("node", &["nodejs"])?;
-    system::need("npm", &["npm"])?;
     // Every port uses the emulator of the reference.
-    let lists = workspace::root().join("firmware/rp2040-reference/emulator");
-    let folder = workspace::target().join("rp2040js");
-    std::fs::create_dir_all(&folder)?;
-    for name in ["package.json", "package-lock.json", "run.mjs"] {
-        std::fs::copy(lists.join(name), folder.join(name))?;
-    }
-    if !folder.join("node_modules/rp2040js").is_dir() {
-        let mut npm = Command::new("npm");
-        npm.current_dir(&folder)
-            .args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"]);
-        process::run("fetch rp2040js, the emulator of the RP2040", &mut npm)?;
-    }
+    let folder = fetched::npm("rp2040js", EMULATOR)?;
+    let script = workspace::root().join(EMULATOR).join("run.mjs");
+    std::fs::copy(script, folder.join("run.mjs"))?;
     process::say(&format!(
         "let {} run for {RUN_MS} ms in the emulated chip",
         port.name

@@ -1,10 +1,9 @@
 //! Compiles the programs for a board's processor: Zig is linker and C compiler for all of them, the standard library is compiled along.
 
 use super::machine::Machine;
-use crate::{process, system, toolchain};
+use crate::{fetched, process, toolchain};
 use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Crates whose programs go into the package, and the programs.
 const PROGRAMS: [(&str, &str); 3] = [
@@ -21,7 +20,7 @@ const FLAGS: &str = "-Clink-self-contained=no -Cstrip=symbols";
 
 /// Builds the programs for `machine`; gives their paths.
 pub(super) fn programs(machine: Machine) -> anyhow::Result<Vec<PathBuf>> {
-    let environment = zig()?;
+    let environment = fetched::python(&super::folder().join("zig"), &ZIG, "cargo-zigbuild")?;
     let out = super::folder().join("target");
     let mut cargo = toolchain::source_cargo()?;
     cargo
@@ -46,31 +45,6 @@ pub(super) fn programs(machine: Machine) -> anyhow::Result<Vec<PathBuf>> {
     if let Some(missing) = programs.iter().find(|program| !program.is_file()) {
         bail!("{} was not built", missing.display());
     }
-    Ok(programs)
-}
-
-/// The folder of programs of a Python environment with Zig; made when there is none.
-fn zig() -> anyhow::Result<PathBuf> {
-    let environment = super::folder().join("zig");
-    let programs = environment.join("bin");
-    if programs.join("cargo-zigbuild").is_file() {
-        return Ok(programs);
-    }
-    system::need("python3", &["python3"])?;
-    let make = |python: &Path| {
-        let mut command = Command::new(python);
-        command.args(["-m", "venv"]).arg(&environment);
-        command
-    };
-    let python = system::find("python3").context("python3")?;
-    if process::run("make a Python environment for Zig", &mut make(&python)).is_err() {
-        system::install(&["python3-venv"])?;
-        process::run("make a Python environment for Zig", &mut make(&python))?;
-    }
-    let mut pip = Command::new(programs.join("pip"));
-    pip.args(["install", "--quiet", "--disable-pip-version-check"])
-        .args(ZIG);
-    process::run("install Zig, the linker for other processors (100 MB)", &mut pip)?;
     Ok(programs)
 }
 

@@ -1,19 +1,26 @@
 //! The licences of everything that is linked into the programs and into the page, with their texts, as most of them demand.
 
-use crate::workspace;
+use crate::metadata::{self, Package, Workspace};
 use anyhow::Context;
-use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// What is linked: a workspace and the packages in it that make the programs.
-const SOURCES: [(&str, &str, &[&str]); 2] = [
+/// What is linked: a workspace for its platform, and the packages in it that make the programs.
+const SOURCES: [(Workspace, &[&str]); 2] = [
     (
-        "Cargo.toml",
-        "arm-unknown-linux-musleabihf",
+        Workspace {
+            manifest: "Cargo.toml",
+            platform: "arm-unknown-linux-musleabihf",
+        },
         &["vthal", "panel-server", "rvac-cli"],
     ),
-    ("clients/panel/Cargo.toml", "wasm32-unknown-unknown", &["panel"]),
+    (
+        Workspace {
+            manifest: "clients/panel/Cargo.toml",
+            platform: "wasm32-unknown-unknown",
+        },
+        &["panel"],
+    ),
 ];
 
 /// Beginnings of names of files that hold a licence.
@@ -31,62 +38,28 @@ struct Linked {
 /// Writes `THIRD-PARTY.txt` into `folder`; gives the folder.
 pub(super) fn gather(folder: &Path) -> anyhow::Result<PathBuf> {
     let mut linked = BTreeSet::new();
-    for (manifest, triple, programs) in SOURCES {
-        linked.extend(of_workspace(manifest, triple, programs)?);
+    for (workspace, programs) in SOURCES {
+        let packages = metadata::packages(&workspace)?;
+        for program in programs {
+            let others = metadata::linked(&packages, program);
+            let others = others.into_iter().filter(|package| !package.ours);
+            linked.extend(others.map(Linked::of));
+        }
     }
     std::fs::create_dir_all(folder)?;
     std::fs::write(folder.join("THIRD-PARTY.txt"), text(&linked)?)?;
     Ok(folder.to_path_buf())
 }
 
-fn of_workspace(manifest: &str, triple: &str, programs: &[&str]) -> anyhow::Result<BTreeSet<Linked>> {
-    let mut cargo = workspace::cargo();
-    cargo.args(["metadata", "--format-version", "1", "--locked"]);
-    cargo.args(["--manifest-path", manifest, "--filter-platform", triple]);
-    let metadata: Value = serde_json::from_str(&crate::process::capture(&mut cargo)?)
-        .with_context(|| format!("cargo's metadata of {manifest}"))?;
-    let packages: BTreeMap<&str, &Value> = list(&metadata["packages"])
-        .filter_map(|package| Some((package["id"].as_str()?, package)))
-        .collect();
-    let needs: BTreeMap<&str, Vec<&str>> = list(&metadata["resolve"]["nodes"])
-        .filter_map(|node| Some((node["id"].as_str()?, linked_by(node))))
-        .collect();
-    let mut seen = BTreeSet::new();
-    let mut open: Vec<&str> = packages
-        .iter()
-        .filter(|(_, package)| {
-            package["name"]
-                .as_str()
-                .is_some_and(|name| programs.contains(&name))
-        })
-        .map(|(id, _)| *id)
-        .collect();
-    while let Some(id) = open.pop() {
-        if seen.insert(id) {
-            open.extend(needs.get(id).into_iter().flatten());
+impl Linked {
+    fn of(package: &Package) -> Self {
+        Self {
+            name: package.name.clone(),
+            version: package.version.clone(),
+            licence: package.licence.clone(),
+            folder: package.folder.clone(),
         }
     }
-    Ok(seen
-        .iter()
-        .filter_map(|id| packages.get(id))
-        .filter(|package| !package["source"].is_null())
-        .map(|package| Linked {
-            name: string(&package["name"]),
-            version: string(&package["version"]),
-            licence: string(&package["license"]),
-            folder: Path::new(&string(&package["manifest_path"]))
-                .parent()
-                .map(Path::to_path_buf)
-                .unwrap_or_default(),
-        })
-        .collect())
-}
-
-fn linked_by(node: &Value) -> Vec<&str> {
-    list(&node["deps"])
-        .filter(|dependency| list(&dependency["dep_kinds"]).any(|kind| kind["kind"].is_null()))
-        .filter_map(|dependency| dependency["pkg"].as_str())
-        .collect()
 }
 
 fn text(linked: &BTreeSet<Linked>) -> anyhow::Result<String> {
@@ -123,12 +96,4 @@ fn texts(folder: &Path) -> anyhow::Result<BTreeMap<String, String>> {
         }
     }
     Ok(texts)
-}
-
-fn list(value: &Value) -> impl Iterator<Item = &Value> {
-    value.as_array().into_iter().flatten()
-}
-
-fn string(value: &Value) -> String {
-    value.as_str().unwrap_or_default().to_owned()
 }

@@ -4,9 +4,8 @@ use super::extent::Extent;
 use super::runner::{Result, cargo, tests};
 use crate::panel::{self, Page};
 use crate::workspace::{self, Profile};
-use crate::{firmware, process, system};
+use crate::{fetched, firmware, system};
 use std::path::PathBuf;
-use std::process::Command;
 
 /// Other engines, their driver, and a screen with a pointer for them, with Debian's packages.
 const ENGINES: [(&str, &str); 4] = [
@@ -47,18 +46,8 @@ pub(super) fn browser(extent: Extent) -> Result {
 
 /// Fetches axe-core, which looks for faults of accessibility; the lock file beside its manifest names version and checksum.
 fn axe() -> anyhow::Result<PathBuf> {
-    system::need("npm", &["npm"])?;
-    let folder = workspace::target().join("axe");
+    let folder = fetched::npm("axe", "clients/panel-server/tests/axe")?;
     let script = folder.join("node_modules/axe-core/axe.min.js");
-    std::fs::create_dir_all(&folder)?;
-    let lists = workspace::root().join("clients/panel-server/tests/axe");
-    for list in ["package.json", "package-lock.json"] {
-        std::fs::copy(lists.join(list), folder.join(list))?;
-    }
-    let mut npm = Command::new("npm");
-    npm.args(["ci", "--ignore-scripts", "--no-audit", "--no-fund"])
-        .current_dir(&folder);
-    process::run("fetch axe-core", &mut npm)?;
     if !script.is_file() {
         anyhow::bail!("npm has fetched axe-core but {} is missing", script.display());
     }

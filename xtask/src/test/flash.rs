@@ -3,8 +3,7 @@
 use super::extent::Extent;
 use super::runner::{Result, check};
 use crate::workspace::{self, Profile, program};
-use crate::{process, system};
-use anyhow::Context;
+use crate::{fetched, process};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -35,26 +34,8 @@ fn campaign(extent: Extent) -> anyhow::Result<Command> {
     Ok(command)
 }
 
-/// stcgal in an environment of its own below the build's folder; made when it is not there yet.
+/// The program, in an environment of its own below the build's folder.
 fn stcgal() -> anyhow::Result<PathBuf> {
-    let folder = workspace::target().join("stcgal");
-    let installed = folder.join("bin/stcgal");
-    if installed.is_file() {
-        return Ok(installed);
-    }
-    system::need("python3", &["python3", "python3-venv"])?;
-    let make = || {
-        let mut command = Command::new("python3");
-        command.args(["-m", "venv", "--clear"]).arg(&folder);
-        process::run("make a Python environment for stcgal", &mut command)
-    };
-    if make().is_err() {
-        system::install(&["python3-venv"])?;
-        make()?;
-    }
-    let mut command = Command::new(folder.join("bin/pip"));
-    command.args(["install", "--quiet", STCGAL]);
-    process::run(&format!("install {STCGAL} from PyPI"), &mut command)
-        .context("the stage flash lets stcgal write the simulated loader, and it comes from PyPI")?;
-    Ok(installed)
+    let programs = fetched::python(&workspace::target().join("stcgal"), &[STCGAL], "stcgal")?;
+    Ok(programs.join("stcgal"))
 }

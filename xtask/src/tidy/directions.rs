@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::files::Files;
-use super::metadata::{Packages, WORKSPACES, packages, reach};
+use crate::metadata::{Packages, WORKSPACES, packages, reach};
 
 /// A crate of ours, the crates of ours it may depend on directly, and foreign crates it may not even reach.
 struct Direction {
@@ -197,7 +197,7 @@ impl Direction {
 #[cfg(test)]
 mod tests {
     use super::judge;
-    use crate::tidy::metadata::{Package, Packages};
+    use crate::metadata::{Package, Packages};
 
     fn package(name: &str, needs: &[&str]) -> (String, Package) {
         let ours = name != "tokio" && name != "middle";

@@ -2,7 +2,7 @@
 
 use super::Finding;
 use super::files::Files;
-use super::metadata::{Package, WORKSPACES, packages};
+use crate::metadata::{Package, WORKSPACES, packages};
 
 /// Licences that may be joined with code under GPL-3.0-or-later and AGPL-3.0-or-later.
 const FITTING: [&str; 14] = [

@@ -10,7 +10,6 @@ mod kinds;
 mod layers;
 mod length;
 mod licences;
-mod metadata;
 mod rust_text;
 mod specification;
 mod vocabulary;

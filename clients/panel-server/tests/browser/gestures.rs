@@ -105,6 +105,16 @@ impl Mouse<'_> {
     }
 }
 
+/// Of `count()` gestures in an engine so many moved the robot with no button pressed, and all of them moved it so often.
+pub(crate) fn judge(engine: &str, wrong: u32, motions: u32) {
+    println!(
+        "{engine}: {} random gestures: {wrong} moved without a pressed button, {motions} motions in all",
+        count()
+    );
+    assert_eq!(wrong, 0);
+    assert!(motions > count(), "a pressed button drives: {motions}");
+}
+
 #[tokio::test]
 async fn random_gestures_move_nothing_without_a_pressed_button() {
     let Some((visit, _)) = ready_to_drive(Screen::Desktop).await else {
@@ -132,12 +142,7 @@ async fn random_gestures_move_nothing_without_a_pressed_button() {
         .await
         .parse()
         .unwrap();
-    println!(
-        "{} random gestures: {wrong} moved without a pressed button, {motions} motions in all",
-        count()
-    );
-    assert_eq!(wrong, 0);
-    assert!(motions > count(), "a pressed button drives: {motions}");
+    judge("Chromium", wrong, motions);
 }
 
 /// A hover, a selection and a native drag: what WebKit does with a knob that is dragged beyond the pad twice.

@@ -3,32 +3,37 @@
 use crate::process;
 use anyhow::Context;
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
 /// A package.
 #[derive(Debug, Default)]
-pub(super) struct Package {
+pub(crate) struct Package {
     /// Its name.
-    pub(super) name: String,
+    pub(crate) name: String,
+    /// Its version.
+    pub(crate) version: String,
+    /// The folder of its source.
+    pub(crate) folder: PathBuf,
     /// Its licence expression; empty when it has none.
-    pub(super) licence: String,
+    pub(crate) licence: String,
     /// Whether its source lies in this repository.
-    pub(super) ours: bool,
+    pub(crate) ours: bool,
     /// Identities of the packages it is linked with; not those that its build script or its tests need.
-    pub(super) needs: Vec<String>,
+    pub(crate) needs: Vec<String>,
 }
 
 /// A workspace of this repository and what it is compiled for.
 #[derive(Debug)]
-pub(super) struct Workspace {
+pub(crate) struct Workspace {
     /// Its manifest.
-    pub(super) manifest: &'static str,
+    pub(crate) manifest: &'static str,
     /// Dependencies for other platforms are left out.
-    platform: &'static str,
+    pub(crate) platform: &'static str,
 }
 
 /// All of them. The first four hold what users and robots run.
-pub(super) const WORKSPACES: [Workspace; 6] = [
+pub(crate) const WORKSPACES: [Workspace; 6] = [
     Workspace {
         manifest: "Cargo.toml",
         platform: "x86_64-unknown-linux-gnu",
@@ -56,10 +61,10 @@ pub(super) const WORKSPACES: [Workspace; 6] = [
 ];
 
 /// All packages of a workspace by their identity.
-pub(super) type Packages = BTreeMap<String, Package>;
+pub(crate) type Packages = BTreeMap<String, Package>;
 
 /// Asks cargo about a workspace.
-pub(super) fn packages(workspace: &Workspace) -> anyhow::Result<Packages> {
+pub(crate) fn packages(workspace: &Workspace) -> anyhow::Result<Packages> {
     let mut cargo = crate::workspace::cargo();
     cargo.args([
         "metadata",
@@ -76,6 +81,11 @@ pub(super) fn packages(workspace: &Workspace) -> anyhow::Result<Packages> {
     for package in list(&metadata["packages"]) {
         let entry = packages.entry(text(&package["id"])).or_default();
         entry.name = text(&package["name"]);
+        entry.version = text(&package["version"]);
+        entry.folder = Path::new(&text(&package["manifest_path"]))
+            .parent()
+            .map(Path::to_path_buf)
+            .unwrap_or_default();
         entry.licence = text(&package["license"]);
         entry.ours = package["source"].is_null();
     }
@@ -96,8 +106,25 @@ fn text(value: &Value) -> String {
     value.as_str().unwrap_or_default().to_owned()
 }
 
+/// Every package that `from` is linked with.
+pub(crate) fn linked<'a>(packages: &'a Packages, from: &str) -> Vec<&'a Package> {
+    let start = packages
+        .iter()
+        .filter(|(_, package)| package.ours && package.name == from);
+    let mut open: Vec<&str> = start.map(|(id, _)| id.as_str()).collect();
+    let mut seen = BTreeSet::new();
+    while let Some(id) = open.pop() {
+        if seen.insert(id)
+            && let Some(package) = packages.get(id)
+        {
+            open.extend(package.needs.iter().map(String::as_str));
+        }
+    }
+    seen.iter().filter_map(|id| packages.get(*id)).collect()
+}
+
 /// Every package that `from` reaches, with the way to it as names, nearest first.
-pub(super) fn reach(packages: &Packages, from: &str) -> Vec<Vec<String>> {
+pub(crate) fn reach(packages: &Packages, from: &str) -> Vec<Vec<String>> {
     let start = packages
         .iter()
         .find(|(_, package)| package.ours && package.name == from)
