@@ -103,54 +103,74 @@ pub(crate) struct Toolchain {
 
 /// Takes the first way that this machine offers; installs Debian's packages when it offers none.
 pub(crate) fn choose(target: &'static Target) -> anyhow::Result<Toolchain> {
-    let sysroot = PathBuf::from(process::capture(rustc().args(["--print", "sysroot"]))?.trim());
-    if let Some(found) = active(target, &sysroot) {
-        return Ok(found);
-    }
-    if !debian_is_complete(target) {
-        process::say(&format!(
-            "this machine has no compiler for {} yet: installing Debian's",
-            target.what
-        ));
-        system::install(&PACKAGES).with_context(|| {
-            format!(
-                "a compiler for {} is needed; with rustup: {}; {SOURCE}",
-                target.triple, target.remedy
-            )
-        })?;
-    }
-    if debian_is_complete(target) {
-        return Ok(Toolchain {
-            target,
-            way: Way::Debian,
-        });
-    }
-    anyhow::bail!(
-        "Debian's packages {} are installed but {DEBIAN_RUSTC}, {DEBIAN_LIBRARY} or {} is missing; with rustup: {}",
-        PACKAGES.join(" "),
-        target.linker,
-        target.remedy
-    )
-}
-
-fn active(target: &'static Target, sysroot: &Path) -> Option<Toolchain> {
-    let rustlib = sysroot.join("lib/rustlib");
-    let library = rustlib.join("src/rust/library");
-    let way = if rustlib.join(target.triple).join("lib").is_dir() {
-        Way::Installed
-    } else if library.join("std/Cargo.toml").is_file() {
-        Way::Source
-    } else {
-        return None;
+    let way = match active(target, &sysroot()?) {
+        Some(way) => way,
+        None => {
+            need_debian(target.what, Some(target.linker), target.remedy)?;
+            Way::Debian
+        }
     };
-    Some(Toolchain { target, way })
+    Ok(Toolchain { target, way })
 }
 
-fn debian_is_complete(target: &Target) -> bool {
+/// A cargo of a compiler that has the source of its standard library, without a target: the caller names it, what of the library is
+/// compiled along, and brings the linker.
+pub(crate) fn source_cargo() -> anyhow::Result<Command> {
+    let mut command = if has_source(&sysroot()?) {
+        workspace::cargo()
+    } else {
+        need_debian("boards' processors", None, "rustup component add rust-src")?;
+        debian_cargo()
+    };
+    command.env("RUSTC_BOOTSTRAP", "1");
+    Ok(command)
+}
+
+fn sysroot() -> anyhow::Result<PathBuf> {
+    let path = process::capture(rustc().args(["--print", "sysroot"]))?;
+    Ok(PathBuf::from(path.trim()))
+}
+
+fn active(target: &Target, sysroot: &Path) -> Option<Way> {
+    let installed = sysroot.join("lib/rustlib").join(target.triple).join("lib");
+    if installed.is_dir() {
+        Some(Way::Installed)
+    } else {
+        has_source(sysroot).then_some(Way::Source)
+    }
+}
+
+/// Whether the active toolchain has the source of its standard library.
+fn has_source(sysroot: &Path) -> bool {
+    sysroot
+        .join("lib/rustlib/src/rust/library/std/Cargo.toml")
+        .is_file()
+}
+
+/// Makes sure that Debian's compiler is there, with a linker if the caller brings none.
+fn need_debian(what: &str, linker: Option<&str>, remedy: &str) -> anyhow::Result<()> {
+    if debian_is_complete(linker) {
+        return Ok(());
+    }
+    process::say(&format!(
+        "this machine has no compiler for {what} yet: installing Debian's"
+    ));
+    system::install(&PACKAGES)
+        .with_context(|| format!("a compiler for {what} is needed; with rustup: {remedy}; {SOURCE}"))?;
+    anyhow::ensure!(
+        debian_is_complete(linker),
+        "Debian's packages {} are installed but {DEBIAN_RUSTC}, {DEBIAN_LIBRARY} or {} is missing; with rustup: {remedy}",
+        PACKAGES.join(" "),
+        linker.unwrap_or(DEBIAN_CARGO)
+    );
+    Ok(())
+}
+
+fn debian_is_complete(linker: Option<&str>) -> bool {
     [DEBIAN_RUSTC, DEBIAN_CARGO, DEBIAN_LIBRARY]
         .iter()
         .all(|path| Path::new(path).exists())
-        && system::find(target.linker).is_some()
+        && linker.is_none_or(|linker| system::find(linker).is_some())
 }
 
 fn rustc() -> Command {
@@ -159,24 +179,21 @@ fn rustc() -> Command {
     command
 }
 
-/// A cargo of a compiler that has the source of its standard library, without a target: the caller names it and what of the library is
-/// compiled along.
-pub(crate) fn source_cargo() -> anyhow::Result<Command> {
-    let sysroot = PathBuf::from(process::capture(rustc().args(["--print", "sysroot"]))?.trim());
-    let mut command = if sysroot
-        .join("lib/rustlib/src/rust/library/std/Cargo.toml")
-        .is_file()
-    {
-        workspace::cargo()
-    } else {
-        let toolchain = choose(&MIPS)?;
-        match toolchain.way {
-            Way::Debian => toolchain.debian_cargo(),
-            Way::Installed | Way::Source => workspace::cargo(),
-        }
-    };
-    command.env("RUSTC_BOOTSTRAP", "1");
-    Ok(command)
+fn debian_cargo() -> Command {
+    let mut command = Command::new(DEBIAN_CARGO);
+    command.current_dir(workspace::root());
+    // cargo gives its children the toolchain it was started with; Debian's must not inherit rustup's.
+    for name in [
+        "RUSTUP_TOOLCHAIN",
+        "CARGO",
+        "RUSTDOC",
+        "RUSTFLAGS",
+        "CARGO_ENCODED_RUSTFLAGS",
+    ] {
+        command.env_remove(name);
+    }
+    command.env("RUSTC", DEBIAN_RUSTC);
+    command
 }
 
 impl Toolchain {
@@ -193,7 +210,11 @@ impl Toolchain {
     pub(crate) fn cargo(&self) -> Command {
         let mut command = match self.way {
             Way::Installed | Way::Source => workspace::cargo(),
-            Way::Debian => self.debian_cargo(),
+            Way::Debian => {
+                let mut command = debian_cargo();
+                command.env(self.target.linker_variable, self.target.linker);
+                command
+            }
         };
         if self.way != Way::Installed {
             command.env("RUSTC_BOOTSTRAP", "1");
@@ -218,23 +239,5 @@ impl Toolchain {
             .args(flags.split(' '))
             .args(["--print", "cfg"]);
         process::finish(&mut command).is_ok_and(|output| output.status.success())
-    }
-
-    fn debian_cargo(&self) -> Command {
-        let mut command = Command::new(DEBIAN_CARGO);
-        command.current_dir(workspace::root());
-        // cargo gives its children the toolchain it was started with; Debian's must not inherit rustup's.
-        for name in [
-            "RUSTUP_TOOLCHAIN",
-            "CARGO",
-            "RUSTDOC",
-            "RUSTFLAGS",
-            "CARGO_ENCODED_RUSTFLAGS",
-        ] {
-            command.env_remove(name);
-        }
-        command.env("RUSTC", DEBIAN_RUSTC);
-        command.env(self.target.linker_variable, self.target.linker);
-        command
     }
 }
