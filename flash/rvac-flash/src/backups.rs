@@ -147,12 +147,12 @@ impl Backups {
                 .ok_or_else(|| BackupError::None(self.folder.clone()))?,
         };
         let (label_path, bytes_path) = (self.path(&name, "toml"), self.path(&name, "bin"));
-        let text = file(&label_path, std::fs::read_to_string(&label_path))?;
+        let text = file(&label_path, kept_file::read_text(&label_path))?;
         let label: Label = toml::from_str(&text).map_err(|error| BackupError::Label {
             path: label_path,
             error: error.to_string(),
         })?;
-        let bytes = file(&bytes_path, std::fs::read(&bytes_path))?;
+        let bytes = file(&bytes_path, kept_file::read(&bytes_path))?;
         let is_whole =
             label.format == FORMAT && bytes.len() == label.bytes && hash_of(&bytes) == label.sha256;
         let image = (is_whole && bytes.len() == PROGRAM_BYTES + BOOT_BYTES)

@@ -44,7 +44,7 @@ impl Journal {
 
     /// The last write; none when there was none, or when the file says nothing that is understood.
     pub fn last(&self) -> Option<JournalEntry> {
-        let text = std::fs::read_to_string(&self.path).ok()?;
+        let text = kept_file::read_text(&self.path).ok()?;
         toml::from_str(&text).ok()
     }
 

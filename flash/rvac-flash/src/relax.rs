@@ -126,7 +126,7 @@ impl KeptImages {
     /// The last image that was verified in this robot, if it is still here and whole.
     pub fn way_back(&self) -> Option<Vec<u8>> {
         let sha256 = self.journal.last()?.last_verified?;
-        let bytes = std::fs::read(self.path(&sha256)).ok()?;
+        let bytes = kept_file::read(&self.path(&sha256)).ok()?;
         (hash_of(&bytes) == sha256).then_some(bytes)
     }
 

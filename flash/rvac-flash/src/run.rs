@@ -67,7 +67,7 @@ pub fn run(job: &FlashJob, socket: &DaemonSocket) -> anyhow::Result<ExitCode> {
 }
 
 fn read_hex(path: &Path) -> anyhow::Result<Vec<hex::Piece>> {
-    let text = std::fs::read_to_string(path).with_context(|| path.display().to_string())?;
+    let text = kept_file::read_text(path).with_context(|| path.display().to_string())?;
     hex::parse(&text).with_context(|| path.display().to_string())
 }
 

@@ -100,7 +100,7 @@ impl FlashSettings {
     /// # Errors
     /// What is wrong with it.
     pub fn read(path: &Path) -> Result<Self, SettingsError> {
-        let text = std::fs::read_to_string(path).map_err(|error| SettingsError::Unreadable {
+        let text = kept_file::read_text(path).map_err(|error| SettingsError::Unreadable {
             path: path.to_owned(),
             error,
         })?;
