@@ -131,6 +131,18 @@ named_enum! {
         DockMissed => "dock-missed",
         /// On the contacts, and no current flows.
         NoChargeCurrent => "no-charge-current",
+        /// The dock was touched several times, and its contacts did not close.
+        DockNoContact => "dock-no-contact",
+        /// The contacts of the dock lost their voltage while the robot stood on them.
+        DockContactLost => "dock-contact-lost",
+        /// The same, and the dock's beams fell silent with them.
+        DockPowerLost => "dock-power-lost",
+        /// Something stands in front of the dock.
+        DockObstructed => "dock-obstructed",
+        /// Somebody pushed the robot off its dock.
+        PushedOff => "pushed-off",
+        /// Somebody lifted the robot off its dock.
+        LiftedOff => "lifted-off",
         /// No beam of the dock is heard where one should be.
         NoBeam => "no-beam",
         /// Nobody knows where the dock is.

@@ -44,8 +44,23 @@ impl Behavior {
         if self.slips_left() {
             self.announce(Reason::DockMissed, context);
         } else {
-            self.give_up_home(Reason::DockMissed, context);
+            self.give_up_home(Reason::DockNoContact, context);
         }
+    }
+
+    /// Whether the contacts, which had lost their voltage while the robot stood on them, can be relied upon again.
+    pub(super) fn is_back_on_contacts(&self) -> bool {
+        !is_loss(self.reason) || self.contact_watch.is_closed_for_good(self.facts.now_us)
+    }
+
+    /// Whether the robot stands on its dock, with the contacts closed or just dead.
+    pub(super) fn is_on_dock(&self) -> bool {
+        self.facts.docked || self.contact_watch.stands_on_dock()
+    }
+
+    /// Whether the job waited on the dock for charge until somebody took the robot away.
+    pub(super) fn was_taken_off(&self) -> bool {
+        matches!(self.reason, Reason::PushedOff | Reason::LiftedOff) && !self.facts.wheel_drop
     }
 
     /// Whether the robot waits on the contacts for current.
@@ -65,4 +80,9 @@ impl Behavior {
             .as_ref()
             .is_some_and(crate::behavior::job::Job::is_departing)
     }
+}
+
+/// Whether this is what the robot says of contacts that lost their voltage under it.
+pub(super) fn is_loss(reason: Reason) -> bool {
+    matches!(reason, Reason::DockPowerLost | Reason::DockContactLost)
 }
