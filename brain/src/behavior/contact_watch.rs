@@ -9,11 +9,12 @@ use crate::behavior::parameters::CONTACTS;
 use crate::model::advance::Advance;
 use crate::model::reason::Reason;
 
-/// Follows the contacts, and the robot's motion while they are open.
+/// Follows the contacts, and the robot's motion just before they open and while they are open.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ContactWatch {
     opened_us: Option<u64>,
     closed_us: u64,
+    moving_us: u64,
     moved_m: f64,
     turned_rad: f64,
     is_moved: bool,
@@ -29,9 +30,9 @@ impl ContactWatch {
     /// Follows one step.
     pub(super) fn follow(&mut self, facts: &Facts, advance: &Advance, receives_dock: bool) {
         self.receives = receives_dock;
+        self.sense_motion(facts, advance);
         if !facts.docked {
             self.opened_us.get_or_insert(facts.now_us);
-            self.sense_motion(facts, advance);
             return;
         }
         if self.opened_us.take().is_some() {
@@ -42,20 +43,28 @@ impl ContactWatch {
             };
             *self = Self {
                 closed_us: facts.now_us,
+                moving_us: facts.now_us,
                 losses,
                 receives: receives_dock,
                 ..Self::default()
             };
         }
         self.received_on_contacts |= receives_dock;
+        if facts.now_us.saturating_sub(self.moving_us) > CONTACTS.at_rest_us && !facts.wheel_drop {
+            (self.moved_m, self.turned_rad) = (0.0, 0.0);
+            (self.is_moved, self.is_lifted) = (false, false);
+        }
     }
 
     fn sense_motion(&mut self, facts: &Facts, advance: &Advance) {
-        self.is_lifted |= facts.wheel_drop;
-        self.moved_m += advance.distance_m;
         let gyro_rad = advance.gyro_turn_rad.unwrap_or(0.0);
         // A slower turn is the bias of the gyro.
         let is_turning = gyro_rad.abs() > CONTACTS.turning_rad_per_s * advance.time_s;
+        if advance.distance_m != 0.0 || advance.wheel_turn_rad != 0.0 || is_turning {
+            self.moving_us = facts.now_us;
+        }
+        self.is_lifted |= facts.wheel_drop;
+        self.moved_m += advance.distance_m;
         self.turned_rad += if is_turning {
             gyro_rad
         } else {

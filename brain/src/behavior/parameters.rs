@@ -56,7 +56,7 @@ pub(super) struct ChargingParameters {
 pub(super) const CHARGING: ChargingParameters = ChargingParameters {
     return_check_below: 0.5,
     return_check_us: 20_000_000,
-    slips_off_us: 1_000_000,
+    slips_off_us: 2_000_000,
     settles_off_us: 30_000_000,
     slips_max: 3,
     flow_within_us: 20_000_000,
@@ -77,6 +77,8 @@ pub(super) struct ContactParameters {
     pub(super) moved_m: f64,
     /// Turn that shows the same, radians.
     pub(super) turned_rad: f64,
+    /// Motion that ended this long before the contacts opened, microseconds, has nothing to do with it.
+    pub(super) at_rest_us: u64,
     /// Slower turns are bias of the gyro, rad/s.
     pub(super) turning_rad_per_s: f64,
 }
@@ -87,6 +89,7 @@ pub(super) const CONTACTS: ContactParameters = ContactParameters {
     doublings_max: 4,
     moved_m: 0.015,
     turned_rad: 0.1,
+    at_rest_us: 1_000_000,
     turning_rad_per_s: 0.1,
 };
 
@@ -113,11 +116,14 @@ pub(super) struct DepartureParameters {
     /// Reverse travel from the dock before turning away, metres. No more, because contacts may close without a dock, and
     /// the ground behind is unknown then.
     pub(super) back_m: f64,
+    /// Reverse travel from what is touched when a job ends, metres.
+    pub(super) end_back_m: f64,
     /// Random turn away from the dock, radians.
     pub(super) turn_rad: Range<f64>,
 }
 
 pub(super) const DEPARTURE: DepartureParameters = DepartureParameters {
     back_m: 0.15,
+    end_back_m: 0.04,
     turn_rad: 2.2..3.1,
 };

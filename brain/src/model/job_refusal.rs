@@ -26,6 +26,8 @@ named_enum! {
         BatteryLow => "battery-low",
         /// It is on the dock already.
         Docked => "docked",
+        /// Something presses the bumper of a robot on its dock.
+        Bumper => "bumper",
         /// The stick must come back to the centre before it drives again (S23).
         CentreFirst => "centre-first",
         /// Values that this robot needs to move safely were never measured.

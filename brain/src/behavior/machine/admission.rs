@@ -80,6 +80,10 @@ impl Behavior {
         if kind == JobKind::Clean(StrategyName::Systematic) && !self.facts.knows_heading {
             return Err(JobRefusal::NoHeading);
         }
+        if self.facts.docked && self.facts.touching {
+            // The dock ahead touches nothing for long, or the bumper would be taken for stuck (S7).
+            return Err(JobRefusal::Bumper);
+        }
         if self.facts.battery_low {
             Err(JobRefusal::BatteryLow)
         } else {

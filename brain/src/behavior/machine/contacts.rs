@@ -58,9 +58,19 @@ impl Behavior {
         self.facts.docked || self.contact_watch.stands_on_dock()
     }
 
-    /// Whether the job waited on the dock for charge until somebody took the robot away.
-    pub(super) fn was_taken_off(&self) -> bool {
-        matches!(self.reason, Reason::PushedOff | Reason::LiftedOff) && !self.facts.wheel_drop
+    /// Whether the job needs charge, did not get any because of the dock or of a person, and is on the contacts now.
+    pub(super) fn gets_charge_at_last(&self) -> bool {
+        let needs_charge = match self.reason {
+            Reason::NoChargeCurrent => self.facts.charge_flow == Some(ChargeFlow::Flowing),
+            Reason::PushedOff | Reason::LiftedOff => true,
+            reason => is_dock_trouble(reason),
+        };
+        needs_charge && self.facts.docked && !self.facts.wheel_drop
+    }
+
+    /// Whether the job needs charge and stands before a dock that was silent and sends beams again.
+    pub(super) fn hears_dock_again(&self) -> bool {
+        self.reason == Reason::NoBeam && self.contact_watch.receives() && !self.facts.wheel_drop
     }
 
     /// Whether the robot waits on the contacts for current.
@@ -85,4 +95,16 @@ impl Behavior {
 /// Whether this is what the robot says of contacts that lost their voltage under it.
 pub(super) fn is_loss(reason: Reason) -> bool {
     matches!(reason, Reason::DockPowerLost | Reason::DockContactLost)
+}
+
+/// Whether a way home ends for this reason at the dock or on the way there.
+fn is_dock_trouble(reason: Reason) -> bool {
+    matches!(
+        reason,
+        Reason::DockNoContact
+            | Reason::DockObstructed
+            | Reason::NoBeam
+            | Reason::WayBlocked
+            | Reason::DockNotFound
+    )
 }

@@ -144,8 +144,13 @@ impl Behavior {
             Mode::Docked => self.watch_dry_dock(context),
             Mode::Working if !self.facts.docked && self.waits_for_current() => self.lose_contacts(context),
             Mode::Recharging => self.watch_charge(situation, context),
-            // The job waited there for charge before somebody took it away.
-            Mode::Paused if self.facts.docked && self.was_taken_off() => self.arrive_for_charge(context),
+            Mode::Paused if self.put_off.is_none() && self.gets_charge_at_last() => {
+                self.arrive_for_charge(context);
+            }
+            Mode::Paused if self.put_off.is_none() && self.hears_dock_again() => {
+                self.put_off_again();
+                self.announce(Reason::DockBeam, context);
+            }
             // A person carried it to the dock.
             Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
                 self.arrive(context);

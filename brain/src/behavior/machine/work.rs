@@ -170,8 +170,20 @@ impl Behavior {
             {
                 TaskStatus::Trouble(Reason::ShutIn)
             }
+            TaskStatus::Finished(reason) => self.end_untouched(reason, situation),
             TaskStatus::Go(motion) if traction == Traction::Slipping => TaskStatus::Go(slowed(motion)),
             other => other,
+        }
+    }
+
+    /// The task has ended. Where the robot touches something it backs off before the job ends.
+    fn end_untouched(&mut self, reason: Reason, situation: &Situation<'_>) -> TaskStatus {
+        match &mut self.job {
+            Some(job) if situation.touching && situation.reverse_budget_m > 0.0 && job.ending.is_none() => {
+                job.back_off_at_the_end(reason);
+                TaskStatus::Go(Motion::Halt)
+            }
+            _ => TaskStatus::Finished(reason),
         }
     }
 
@@ -184,6 +196,9 @@ impl Behavior {
                 return TaskStatus::Go(motion);
             }
             job.detour = None;
+            if let Some(reason) = job.ending {
+                return TaskStatus::Finished(reason);
+            }
             job.pen.try_again();
             job.task.interrupted();
             // Motion since the last step belongs to the detour.
