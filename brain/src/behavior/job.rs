@@ -38,6 +38,8 @@ pub(super) struct Job {
     /// Returning to where it was postponed: brushes stay off over floor that is swept already.
     pub(super) returns: bool,
     pub(super) dock_retry: DockRetry,
+    /// Over floor that nobody asked for, on the way to a part of the order.
+    pub(super) crosses: bool,
     /// The task has ended for this reason while something was touched: the job ends once the robot has backed off.
     pub(super) ending: Option<Reason>,
 }
@@ -86,6 +88,7 @@ impl Job {
             brushes: false,
             returns: false,
             dock_retry: DockRetry::default(),
+            crosses: false,
             ending: None,
         }
     }
@@ -121,7 +124,9 @@ impl Job {
     pub(super) fn back_off_at_the_end(&mut self, reason: Reason) {
         self.ending = Some(reason);
         self.detour = Some(Detour {
-            sequence: ManoeuvreSequence::new(vec![Manoeuvre::Back(BackOff::from_contact(DEPARTURE.end_back_m))]),
+            sequence: ManoeuvreSequence::new(vec![Manoeuvre::Back(BackOff::from_contact(
+                DEPARTURE.end_back_m,
+            ))]),
             purpose: Purpose::Escape,
         });
     }

@@ -217,7 +217,7 @@ impl Behavior {
         self.contact_watch
             .follow(&self.facts, &situation.advance, receives_dock);
         for command in commands {
-            match self.admit(command, situation.map) {
+            match self.admit(command, (situation.map, situation.estimate)) {
                 Ok(()) => self.obey(command, context),
                 Err(refusal) => context.refuse_job(refusal),
             }
@@ -311,7 +311,11 @@ impl Behavior {
     pub(super) fn runs_cleaners(&self) -> bool {
         match self.mode {
             Mode::Working => self.job.as_ref().is_some_and(|job| {
-                job.kind != JobKind::Dock && job.brushes && !job.returns && !job.is_departing()
+                job.kind != JobKind::Dock
+                    && job.brushes
+                    && !job.returns
+                    && !job.crosses
+                    && !job.is_departing()
             }),
             Mode::Manual(drive) => drive.cleaners,
             _ => false,

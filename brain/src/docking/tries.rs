@@ -85,7 +85,10 @@ mod tests {
         for (failed, reason) in [
             (vec![(NoContact, 4), (Obstructed, 3)], None),
             (vec![(NoContact, 5)], Some(Reason::DockNoContact)),
-            (vec![(NoContact, 4), (Obstructed, 5)], Some(Reason::DockObstructed)),
+            (
+                vec![(NoContact, 4), (Obstructed, 5)],
+                Some(Reason::DockObstructed),
+            ),
             (vec![(Passed, 9)], None),
             (vec![(Passed, 9), (NoContact, 1)], Some(Reason::DockNoContact)),
         ] {

@@ -34,6 +34,8 @@ named_enum! {
         NotCalibrated => "not-calibrated",
         /// The robot can reach nothing of what is ordered.
         RestOutOfReach => "rest-out-of-reach",
+        /// A no-go zone or virtual wall shuts off what is ordered.
+        NoGoInTheWay => "no-go-in-the-way",
     }
     nested {
         /// A fault stands.

@@ -95,6 +95,10 @@ named_enum! {
         NoHeading => "no-heading",
         /// What is not swept yet cannot be reached.
         RestOutOfReach => "rest-out-of-reach",
+        /// Less than half of what was asked could be swept.
+        MostOutOfReach => "most-out-of-reach",
+        /// A no-go zone or virtual wall shuts off most of what was asked.
+        NoGoInTheWay => "no-go-in-the-way",
         /// The pack is low, and what is left is not worth another charge.
         CrumbsLeft => "crumbs-left",
         /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.

@@ -111,7 +111,10 @@ fn who_took_it_off_its_dock_is_told_by_what_was_sensed() {
         ("silence\n undocked", "docked dock-power-lost"),
         ("undocked", "starting dock-missed"),
     ] {
-        check(&format!("{ON_THE_DOCK} {IN_THE_BEAMS} {}\n wait 3 => {end}", what.replace('\n', "\n ")));
+        check(&format!(
+            "{ON_THE_DOCK} {IN_THE_BEAMS} {}\n wait 3 => {end}",
+            what.replace('\n', "\n ")
+        ));
     }
     let pushed = format!("{ON_THE_DOCK} {IN_THE_BEAMS} push -0.1\n undocked\n wait 3 => paused pushed-off\n");
     check(&format!(

@@ -3,16 +3,22 @@
 use super::manual::ManualDrive;
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
+use crate::coverage;
 use crate::mapping::Map;
 use crate::model::command::{JobCommand, StrategyName};
 use crate::model::job_refusal::JobRefusal;
 use crate::model::order::CleaningOrder;
+use crate::model::pose_estimate::PoseEstimate;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
 
 impl Behavior {
-    /// Whether `command` may be obeyed now, in the home of this map.
-    pub(crate) fn admit(&self, command: &JobCommand, map: &Map) -> Result<(), JobRefusal> {
+    /// Whether `command` may be obeyed now, in the home of this map and from this place.
+    pub(crate) fn admit(
+        &self,
+        command: &JobCommand,
+        (map, estimate): (&Map, PoseEstimate),
+    ) -> Result<(), JobRefusal> {
         match command {
             JobCommand::Stop | JobCommand::ManualEnd => Ok(()),
             JobCommand::Clean { strategy } => {
@@ -20,7 +26,13 @@ impl Behavior {
             }
             JobCommand::CleanParts { order } => {
                 map.admit_order(order)?;
-                self.admit_job(JobKind::Clean(StrategyName::Systematic), order)
+                self.admit_job(JobKind::Clean(StrategyName::Systematic), order)?;
+                // A robot that does not know its place does not know what it can reach from there.
+                if !estimate.is_sure() {
+                    return Ok(());
+                }
+                let from = estimate.pose.position();
+                coverage::admit_reach(order, map, from, self.config.body.radius_m)
             }
             JobCommand::Spot => self.admit_job(JobKind::Spot, &CleaningOrder::default()),
             JobCommand::Dock => self.admit_dock(),
@@ -110,9 +122,7 @@ impl Behavior {
         let is_held = matches!(self.mode, Mode::Disconnected { .. } | Mode::Error { .. });
         match (&self.put_off, &self.job) {
             (Some(_), _) if is_under_way => true,
-            (_, Some(job)) => {
-                self.facts.docked && !is_held && !(job.kind == JobKind::Dock && is_under_way)
-            }
+            (_, Some(job)) => self.facts.docked && !is_held && !(job.kind == JobKind::Dock && is_under_way),
             (_, None) => false,
         }
     }

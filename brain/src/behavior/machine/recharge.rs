@@ -11,6 +11,7 @@ use super::{Behavior, Mode};
 use crate::behavior::job::Job;
 use crate::behavior::parameters::CHARGING;
 use crate::behavior::{JobCheckpoint, JobKind};
+use crate::coverage;
 use crate::docking;
 use crate::model::command::StrategyName;
 use crate::model::energy::{Activity, EnergyLearner, EnergyModel, RemainingWork};
@@ -122,6 +123,11 @@ impl Behavior {
         if has_cleaned && self.retries_from_dock(reason, situation) {
             return self.turn_home(Reason::LookAgain, context);
         }
+        let reason = if has_cleaned {
+            self.honest(reason, situation)
+        } else {
+            reason
+        };
         let is_whole_home = self.order().is_some_and(CleaningOrder::is_for_whole_home);
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
@@ -131,6 +137,18 @@ impl Behavior {
         } else {
             self.give_up_home(reason, context);
         }
+    }
+
+    /// The reason for the end of a cleaning job, which is another one when less than half of what was asked is swept.
+    fn honest(&self, reason: Reason, situation: &Situation<'_>) -> Reason {
+        let is_done = matches!(reason, Reason::Finished | Reason::RestOutOfReach);
+        let plans = self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
+        let order = self.order().filter(|_| is_done && plans);
+        let from = situation.pose.position();
+        let radius_m = self.config.body.radius_m;
+        order
+            .and_then(|order| coverage::left_most(order, situation.map, from, radius_m))
+            .unwrap_or(reason)
     }
 
     /// It has docked at the end of the path home.
@@ -154,7 +172,10 @@ impl Behavior {
     /// Whether the robot, which has lost the contacts in this way, has slipped off by itself and should dock again.
     pub(super) fn slips_off(&mut self, loss: Reason) -> bool {
         let opened_us = self.contact_watch.opened_us().unwrap_or(self.facts.now_us);
-        let held_us = self.home_us.take().map(|home_us| opened_us.saturating_sub(home_us));
+        let held_us = self
+            .home_us
+            .take()
+            .map(|home_us| opened_us.saturating_sub(home_us));
         let slipped = match loss {
             Reason::PushedOff => held_us.is_some_and(|held_us| held_us < CHARGING.slips_off_us),
             Reason::DockContactLost => held_us.is_some_and(|held_us| held_us < CHARGING.settles_off_us),
@@ -217,8 +238,8 @@ impl Behavior {
     /// so the contacts may close better the next time.
     fn leaves_contacts(&mut self, loss: Reason, context: &mut TaskContext) -> bool {
         let has_power = self.contact_watch.receives();
-        let docks_again = self.slips_off(loss)
-            || (loss == Reason::DockContactLost && has_power && self.slips_left());
+        let docks_again =
+            self.slips_off(loss) || (loss == Reason::DockContactLost && has_power && self.slips_left());
         if docks_again {
             self.put_off_again();
             self.announce(Reason::DockMissed, context);

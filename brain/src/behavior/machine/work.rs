@@ -5,6 +5,7 @@ use crate::behavior::JobKind;
 use crate::behavior::gyro_rest::RestPace;
 use crate::behavior::job::{Detour, Job, Purpose};
 use crate::behavior::parameters::{ARMING, GYRO_SETTLING};
+use crate::coverage;
 use crate::mapping::Map;
 use crate::model::action::Motion;
 use crate::model::advance::Advance;
@@ -42,6 +43,7 @@ impl Behavior {
         job.figures.time_s += situation.advance.time_s;
         job.figures.path_m += situation.advance.distance_m.abs();
         job.brushes |= !self.facts.touching;
+        job.crosses = coverage::is_off_order(&job.order, situation);
         job.returns &= situation.map.is_swept(situation.pose.position());
         if situation.advance.onsets.is_held_by_cliff {
             job.edges.note_cliff(self.facts.now_us);

@@ -189,12 +189,7 @@ impl WornTrial {
 }
 
 /// The home with what stands around its dock.
-fn worn_home(
-    wear: Wear,
-    home: &DockingHome,
-    model: &RobotModel,
-    random: &mut Pcg,
-) -> anyhow::Result<Home> {
+fn worn_home(wear: Wear, home: &DockingHome, model: &RobotModel, random: &mut Pcg) -> anyhow::Result<Home> {
     let (name, text) = match home {
         DockingHome::Generated(number) => {
             let generated = GeneratedHome::number(*number);
