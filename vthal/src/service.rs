@@ -130,9 +130,10 @@ fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Re
         Some(path) => robot_file::load(path)?,
         None => RobotFacts::default(),
     };
+    let (zone, zone_complaint) = system_zone();
     let mut core_config = kept.fill(CoreConfig {
         make: MAKE,
-        zone: system_zone(),
+        zone,
         sensors: robot.sensors,
         calibration: robot.calibration,
         seed: config.seed.unwrap_or_else(seed_from_clock),
@@ -152,7 +153,9 @@ fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Re
         version: env!("CARGO_PKG_VERSION").to_owned(),
         ..CoreConfig::default()
     });
-    core_config.complaints.splice(..0, complaints);
+    core_config
+        .complaints
+        .splice(..0, complaints.into_iter().chain(zone_complaint));
     for complaint in &core_config.complaints {
         tracing::error!(part = "vthal", "{complaint}");
     }
