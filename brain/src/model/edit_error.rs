@@ -13,7 +13,7 @@ named_enum! {
         BadZone => "bad-zone",
         /// The edges of a zone cross, fold back or touch.
         ZoneCrosses => "zone-crosses",
-        /// A zone has less than half a square decimetre, or is narrower than 2 cm on the whole.
+        /// A zone is smaller than a square of 5 cm, or narrower than 1 cm on the whole.
         ZoneTooThin => "zone-too-thin",
         /// The map has no room with this identity.
         NoSuchRoom => "no-such-room",

@@ -10,8 +10,8 @@ pub const COORDINATE_MAX_M: f64 = 500.0;
 
 /// Corners closer than this are one corner, metres.
 const SAME_M: f64 = 0.001;
-/// Least floor of a zone, square metres.
-const LEAST_M2: f64 = 0.005;
+/// Least floor of a zone, square metres: a little less than that of a square of 5 cm.
+const LEAST_M2: f64 = 0.0024;
 /// Least floor for each metre of the outline, metres: half of the width of a long zone.
 const LEAST_HALF_WIDTH_M: f64 = 0.01;
 
@@ -253,7 +253,7 @@ mod tests {
             ),
             (vec![(1.0, 1.0), (1.0, 1.0), (2.0, 1.0)], Some(ZoneTooThin)),
             (
-                vec![(0.0, 0.0), (0.05, 0.0), (0.05, 0.05), (0.0, 0.05)],
+                vec![(0.0, 0.0), (0.04, 0.0), (0.04, 0.04), (0.0, 0.04)],
                 Some(ZoneTooThin),
             ),
             // Corners that are pressed twice do no harm, nor does one in the middle of an edge.

@@ -16,7 +16,7 @@ use crate::model::room_settings::RoomSettings;
 use crate::model::zone::{COORDINATE_MAX_M, Zone};
 
 /// Length of the strip in front of the dock that must stay open, cells: from its end the robot can drive in.
-const DOCK_STRIP_CELLS: u32 = 16;
+const DOCK_STRIP_CELLS: u32 = 32;
 
 impl Map {
     pub(super) fn admit_no_go_edit(&self, edit: &NoGoEdit) -> Result<(), EditError> {

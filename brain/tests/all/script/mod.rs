@@ -217,16 +217,22 @@ impl Stage {
             }
             "beams" => seen.dock_beams = vec![4, 4, 0, 0],
             "silence" => seen.dock_beams = Vec::new(),
-            "push" => {
-                seen.travel_left_m += number(0);
-                seen.travel_right_m += number(0);
-            }
+            "push" => return self.push(number(0)),
             "block" => self.blocked = true,
             "unblock" => self.blocked = false,
             "deaf" => self.deaf = true,
             other => panic!("{other} is no verb"),
         }
         self.seconds(0.04);
+    }
+
+    /// Somebody rolls it so far.
+    fn push(&mut self, metres: f64) {
+        for _ in 0..20 {
+            self.observation.travel_left_m += metres / 20.0;
+            self.observation.travel_right_m += metres / 20.0;
+            self.step(&[]);
+        }
     }
 
     fn parse_command(&self, verb: &str, arguments: &[&str]) -> Option<JobCommand> {
