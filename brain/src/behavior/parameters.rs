@@ -66,7 +66,7 @@ pub(super) const CHARGING: ChargingParameters = ChargingParameters {
 };
 
 /// When the contacts of the dock count as lost, and as closed again.
-pub(super) struct ContactParameters {
+pub(super) struct DockContactParameters {
     /// Contacts must be open for this long, microseconds, before a loss is told: dirt makes them flicker once a second.
     pub(super) judged_after_us: u64,
     /// After a loss the contacts must hold for this long, microseconds. It doubles with each further loss.
@@ -83,7 +83,7 @@ pub(super) struct ContactParameters {
     pub(super) turning_rad_per_s: f64,
 }
 
-pub(super) const CONTACTS: ContactParameters = ContactParameters {
+pub(super) const CONTACTS: DockContactParameters = DockContactParameters {
     judged_after_us: 2_000_000,
     holds_us: 5_000_000,
     doublings_max: 4,

@@ -63,12 +63,7 @@ impl Core {
             DeviceEvent::Refused { number, reason } => {
                 let number = number.map_or_else(String::new, |number| format!(" {number}"));
                 let text = format!("the robot refused command{number}: {reason}");
-                // A bumper or the dock stops the wheels before the brain hears of it: the commands under way are refused, as they should be.
-                let level = match reason {
-                    "inhibited" => LogLevel::Debug,
-                    _ => LogLevel::Warn,
-                };
-                (level, LogSource::Firmware, text)
+                (refusal_level(reason), LogSource::Firmware, text)
             }
             DeviceEvent::Unanswered(number) => {
                 let text = format!("the robot did not answer command {number}");
@@ -231,5 +226,14 @@ impl Core {
             self.history.order(RunAsker::Button, &command, brain);
             self.command_brain(now_us, command.into(), outputs);
         }
+    }
+}
+
+/// How much it matters that the robot refused a command. A bumper or the dock stops the wheels before the brain hears of it, so commands
+/// under way are inhibited as they should be.
+fn refusal_level(reason: &str) -> LogLevel {
+    match reason {
+        "inhibited" => LogLevel::Debug,
+        _ => LogLevel::Warn,
     }
 }
