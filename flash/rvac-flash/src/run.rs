@@ -15,10 +15,10 @@ use crate::gpio_lines::GpioLines;
 use crate::hex;
 use crate::journal::Journal;
 use crate::line_loan::{LineLoan, RobotAnswers};
-use crate::wired_robot::entry_of;
 use crate::progress_line::progress_line;
 use crate::serial_line::SerialLine;
 use crate::settings::{FlashSettings, RobotName};
+use crate::wired_robot::entry_of;
 use crate::{relax, sr8730};
 
 /// Where the daemon listens.

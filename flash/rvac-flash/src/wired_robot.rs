@@ -208,11 +208,16 @@ impl WiredRobot {
         let images = self.images();
         let mut shown = shown_on_terminal();
         self.on_relax(answers, |line, entry| {
-            relax::write(line, (image, safeguards, entry), &images, &mut |step, progress| {
-                if matches!(step, Step::Write { .. }) {
-                    shown("write", progress);
-                }
-            })
+            relax::write(
+                line,
+                (image, safeguards, entry),
+                &images,
+                &mut |step, progress| {
+                    if matches!(step, Step::Write { .. }) {
+                        shown("write", progress);
+                    }
+                },
+            )
             .map(drop)
         })
     }

@@ -37,8 +37,8 @@ pub fn run(job: &UpdateJob, socket: &Path) -> anyhow::Result<ExitCode> {
         Some(settings) => Some(settings.robot.name().to_owned()),
         None => board.greet().and_then(|greeting| greeting.robot),
     };
-    let mut chip = settings
-        .map(|settings| WiredChip(WiredRobot::new(settings, DaemonSocket(socket.to_owned()))));
+    let mut chip =
+        settings.map(|settings| WiredChip(WiredRobot::new(settings, DaemonSocket(socket.to_owned()))));
     let mut updater = Updater {
         slots: slots.clone(),
         disk: &mut RealDisk,
@@ -137,7 +137,9 @@ fn say(step: UpdateStep) {
     let words = match step {
         UpdateStep::Verify => "checks the file ...",
         UpdateStep::Unpack => "unpacks it ...",
-        UpdateStep::TryPrograms => "starts the new programs and waits until they answer, a minute at most ...",
+        UpdateStep::TryPrograms => {
+            "starts the new programs and waits until they answer, a minute at most ..."
+        }
         UpdateStep::KeepFirmware => "keeps what is in the robot's chip ...",
         UpdateStep::WriteFirmware => "writes the robot's firmware: leave it on its dock ...",
         UpdateStep::TryFirmware => "waits until the robot answers ...",
@@ -176,7 +178,10 @@ fn show(slots: &Slots, json: bool) -> anyhow::Result<()> {
         )?,
     }
     if report.pending.is_some() {
-        writeln!(out, "an update was cut off: rvac update --settle brings it to an end")?;
+        writeln!(
+            out,
+            "an update was cut off: rvac update --settle brings it to an end"
+        )?;
     }
     Ok(())
 }

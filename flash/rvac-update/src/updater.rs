@@ -7,7 +7,7 @@ use update_bundle::{
 };
 
 use crate::board::{Board, Health};
-use crate::chip::{Chip, Attempt};
+use crate::chip::{Attempt, Chip};
 use crate::disk::Disk;
 use crate::error::UpdateError;
 use crate::journal::{Installed, InstalledFirmware, Pending, PendingStep};
@@ -350,8 +350,7 @@ impl<D: Disk, B: Board, C: Chip> Updater<'_, D, B, C> {
             PendingStep::Flashing { path, kept: None } => {
                 say(UpdateStep::WriteFirmware);
                 let place = self.slots.folder(pending.slot).join(path);
-                let hex =
-                    std::fs::read(&place).map_err(|error| UpdateError::File { path: place, error })?;
+                let hex = std::fs::read(&place).map_err(|error| UpdateError::File { path: place, error })?;
                 let chip = self.chip.as_mut().ok_or(UpdateError::NoWiring)?;
                 chip.write(&hex, Attempt::Again)?;
                 self.confirm(&pending)?;

@@ -250,7 +250,8 @@ fn a_watchdog_that_is_always_on_waits_for_the_programmer() {
         assert_eq!(write(&mut lines, &guarded(2), erased), Ok(()), "{erased:?}");
         assert_eq!(content_of(lines.machine()), guarded(2));
         lines.run_ms(5);
-        let barked = |reset: &pic32::machine::ResetEvent| reset.source == pic32::peripheral::ResetSource::Watchdog;
+        let barked =
+            |reset: &pic32::machine::ResetEvent| reset.source == pic32::peripheral::ResetSource::Watchdog;
         assert!(
             lines.machine().resets().iter().any(barked),
             "once it runs, the watchdog barks: {erased:?}"

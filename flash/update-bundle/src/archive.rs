@@ -83,10 +83,7 @@ fn unpack_counted(
 ) -> Result<(), BundleError> {
     let mut archive = Archive::new(&mut *counted);
     let mut entries = archive.entries().map_err(BundleError::Unreadable)?;
-    let known = [
-        (MANIFEST, &bundle.manifest_bytes),
-        (SIGNATURE, &bundle.signature),
-    ];
+    let known = [(MANIFEST, &bundle.manifest_bytes), (SIGNATURE, &bundle.signature)];
     for (name, wanted) in known {
         if small(&mut entries, name, MANIFEST_BYTES_MAX)? != *wanted {
             return Err(BundleError::WrongHash(name.to_owned()));
@@ -131,11 +128,7 @@ fn not_a_bundle(wanted: &str, found: &str) -> BundleError {
 }
 
 /// An entry that is read before anything is known to be signed.
-fn small(
-    entries: &mut Entries<'_, impl Read>,
-    wanted: &str,
-    bytes_max: u64,
-) -> Result<Vec<u8>, BundleError> {
+fn small(entries: &mut Entries<'_, impl Read>, wanted: &str, bytes_max: u64) -> Result<Vec<u8>, BundleError> {
     let mut entry = next(entries, wanted)?;
     if entry.size() > bytes_max {
         return Err(BundleError::TooLong {

@@ -9,7 +9,9 @@ pub enum BundleError {
     #[error("the file cannot be read: {0}")]
     Unreadable(std::io::Error),
     /// Its end is missing.
-    #[error("the file is cut off: {found_bytes} bytes, and {wanted_bytes} are needed at least. Copy it again")]
+    #[error(
+        "the file is cut off: {found_bytes} bytes, and {wanted_bytes} are needed at least. Copy it again"
+    )]
     CutOff {
         /// Bytes that are there.
         found_bytes: u64,

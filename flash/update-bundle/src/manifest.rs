@@ -145,9 +145,7 @@ impl Manifest {
         let is_listed = |file: &&ListedFile| file.path == firmware.path && is_firmware(&file.path);
         match self.files.iter().find(is_listed) {
             None => Err(ManifestFault::NoFirmware(firmware.path.clone())),
-            Some(file) if file.bytes > FIRMWARE_BYTES_MAX => {
-                Err(ManifestFault::FileBytes(file.path.clone()))
-            }
+            Some(file) if file.bytes > FIRMWARE_BYTES_MAX => Err(ManifestFault::FileBytes(file.path.clone())),
             Some(_) => Ok(()),
         }
     }
@@ -213,7 +211,18 @@ mod tests {
             assert!(is_plain(path), "{path}");
         }
         let long = "a".repeat(101);
-        for path in ["", "/etc/passwd", "../x", "a/../b", "a//b", "a/", ".ssh/x", "a b", "\u{e4}", &long] {
+        for path in [
+            "",
+            "/etc/passwd",
+            "../x",
+            "a/../b",
+            "a//b",
+            "a/",
+            ".ssh/x",
+            "a b",
+            "\u{e4}",
+            &long,
+        ] {
             assert!(!is_plain(path), "{path}");
         }
     }
@@ -230,14 +239,20 @@ mod tests {
         assert_eq!(twice, Err(ManifestFault::Path("bin/vthal".to_owned())));
         assert_eq!(change(|one| one.files.clear()), Err(ManifestFault::NoDaemon));
         assert_eq!(change(|one| one.format = 2), Err(ManifestFault::Format(2)));
-        assert_eq!(change(|one| one.robot.clear()), Err(ManifestFault::Empty("robot")));
+        assert_eq!(
+            change(|one| one.robot.clear()),
+            Err(ManifestFault::Empty("robot"))
+        );
         let without = change(|one| {
             one.firmware = Some(FirmwareImage {
                 path: "firmware/x.hex".to_owned(),
                 version: "1".to_owned(),
             });
         });
-        assert_eq!(without, Err(ManifestFault::NoFirmware("firmware/x.hex".to_owned())));
+        assert_eq!(
+            without,
+            Err(ManifestFault::NoFirmware("firmware/x.hex".to_owned()))
+        );
         let long = change(|one| one.files.iter_mut().for_each(|file| file.bytes = u64::MAX));
         assert_eq!(long, Err(ManifestFault::FileBytes("bin/vthal".to_owned())));
     }

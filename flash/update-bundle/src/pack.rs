@@ -56,7 +56,11 @@ pub fn pack(
     let mut builder = Builder::new(out);
     append(&mut builder, (MANIFEST, manifest.len() as u64, false), manifest)?;
     let signature = signature.as_bytes();
-    append(&mut builder, (SIGNATURE, signature.len() as u64, false), signature)?;
+    append(
+        &mut builder,
+        (SIGNATURE, signature.len() as u64, false),
+        signature,
+    )?;
     for file in files {
         let content = File::open(root.join(&file.path))?;
         append(&mut builder, (&file.path, file.bytes, file.executable), content)?;

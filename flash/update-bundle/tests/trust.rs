@@ -4,8 +4,8 @@ use std::io::Read;
 
 use minisign::KeyPair;
 use update_bundle::{
-    BundleError, ListedFile, MANIFEST_FORMAT, Manifest, ManifestFault, PublicKeys, hash_of, list_folder, pack,
-    unpack, verify,
+    BundleError, ListedFile, MANIFEST_FORMAT, Manifest, ManifestFault, PublicKeys, hash_of, list_folder,
+    pack, unpack, verify,
 };
 
 /// A folder that goes with the test.
@@ -84,7 +84,11 @@ fn refusal(archive: &[u8], keys: &PublicKeys) -> BundleError {
 fn what_was_packed_comes_out() {
     let (folder, pair, next) = (Folder::new("whole"), key_pair(), key_pair());
     let archive = whole(&folder, &pair);
-    assert_eq!(archive, whole_again(&archive, &folder), "the same files make the same bytes");
+    assert_eq!(
+        archive,
+        whole_again(&archive, &folder),
+        "the same files make the same bytes"
+    );
     let bundle = verify(&archive[..], &accepted(&[&next, &pair]), &mut |_, _| Ok(())).expect("trusted");
     let mut came = Vec::new();
     unpack(&archive[..], &bundle, &mut |listed, content| {
@@ -123,7 +127,11 @@ fn no_byte_of_manifest_or_signature_can_be_changed() {
         .entries()
         .expect("entries")
         .take(2)
-        .map(|entry| entry.map(|entry| (entry.raw_file_position(), entry.size())).expect("an entry"))
+        .map(|entry| {
+            entry
+                .map(|entry| (entry.raw_file_position(), entry.size()))
+                .expect("an entry")
+        })
         .collect();
     let (manifest, signature) = (entries[0], entries[1]);
     let mut flipped = 0;
@@ -131,7 +139,10 @@ fn no_byte_of_manifest_or_signature_can_be_changed() {
         let mut changed = archive.clone();
         changed[at as usize] ^= 1 << (at % 8);
         let refused = refusal(&changed, &keys);
-        assert!(matches!(refused, BundleError::WrongSignature), "byte {at}: {refused}");
+        assert!(
+            matches!(refused, BundleError::WrongSignature),
+            "byte {at}: {refused}"
+        );
         flipped += 1;
     }
     assert_eq!(flipped, manifest.1);
@@ -140,7 +151,10 @@ fn no_byte_of_manifest_or_signature_can_be_changed() {
         changed[at as usize] ^= 1;
         // The first line is for people and is not signed; a newline after the last is no part of it.
         let Err(refused) = verify(&changed[..], &keys, &mut |_, _| Ok(())) else {
-            assert!(at < signature.0 + 60 || at + 2 > signature.0 + signature.1, "byte {at}");
+            assert!(
+                at < signature.0 + 60 || at + 2 > signature.0 + signature.1,
+                "byte {at}"
+            );
             continue;
         };
         assert!(
@@ -181,11 +195,17 @@ fn no_byte_of_a_file_or_header_can_be_changed() {
         .expect("the same");
         assert!(same, "byte {at}");
     }
-    let start = archive.windows(10).position(|text| text == b"the daemon").expect("it is there");
+    let start = archive
+        .windows(10)
+        .position(|text| text == b"the daemon")
+        .expect("it is there");
     let mut changed = archive.clone();
     changed[start] ^= 1;
     let refused = refusal(&changed, &keys);
-    assert!(matches!(&refused, BundleError::WrongHash(path) if path == "bin/vthal"), "{refused}");
+    assert!(
+        matches!(&refused, BundleError::WrongHash(path) if path == "bin/vthal"),
+        "{refused}"
+    );
     let later = unpack(&changed[..], &bundle, &mut |_, _| Ok(())).expect_err("it was changed since");
     assert!(matches!(later, BundleError::WrongHash(_)), "{later}");
 }
@@ -197,7 +217,10 @@ fn a_file_that_is_cut_off_or_longer_is_named() {
     for percent in 0..100 {
         let cut = &archive[..archive.len() * percent / 100];
         let refused = refusal(cut, &keys);
-        assert!(matches!(refused, BundleError::CutOff { .. }), "{percent} %: {refused}");
+        assert!(
+            matches!(refused, BundleError::CutOff { .. }),
+            "{percent} %: {refused}"
+        );
     }
     let refused = refusal(&archive[..archive.len() - 1], &keys);
     assert!(matches!(refused, BundleError::CutOff { .. }), "{refused}");
@@ -222,7 +245,10 @@ fn another_key_other_files_and_other_things_are_named() {
     let mut newer = manifest(listed.clone());
     newer.format = 2;
     let refused = refusal(&archive_of(&newer), &keys);
-    assert!(matches!(refused, BundleError::Manifest(ManifestFault::Format(2))), "{refused}");
+    assert!(
+        matches!(refused, BundleError::Manifest(ManifestFault::Format(2))),
+        "{refused}"
+    );
     // A manifest that lists more than is there, in the place of one that lists less.
     let mut fewer = manifest(listed.clone());
     fewer.files.pop();
