@@ -8,6 +8,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod emulated_update;
 pub mod fixtures;
 mod icsp_pins;
 mod isp_line;

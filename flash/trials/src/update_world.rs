@@ -73,6 +73,12 @@ impl Supply {
         self.lasts.set(lasts);
     }
 
+    /// Fails now: something else has seen the end of it.
+    pub fn fail(&self) {
+        self.lasts.set(Some(0));
+        self.used.set(1);
+    }
+
     /// Steps since it came back.
     pub fn used(&self) -> u64 {
         self.used.get()
@@ -90,6 +96,8 @@ pub struct CutDisk {
     supply: Rc<Supply>,
     /// Bytes that fit still.
     pub room: u64,
+    /// Bytes that are free by what the disk says.
+    pub claimed: u64,
 }
 
 impl Disk for CutDisk {
@@ -138,7 +146,7 @@ impl Disk for CutDisk {
     }
 
     fn free_bytes(&mut self, _: &Path) -> io::Result<u64> {
-        Ok(self.room)
+        Ok(self.claimed)
     }
 }
 
@@ -357,6 +365,8 @@ pub struct UpdateWorld<R, C> {
     pub chip: Option<C>,
     /// Room on the disk.
     pub room: u64,
+    /// What the disk says of it.
+    pub claimed_room: u64,
     runs: Programs,
 }
 
@@ -392,6 +402,7 @@ impl<R: RobotEnd, C: Chip> UpdateWorld<R, C> {
             robot,
             chip: Some(chip),
             room: 1 << 30,
+            claimed_room: 1 << 30,
             runs: Programs::Package,
         })
     }
@@ -405,6 +416,7 @@ impl<R: RobotEnd, C: Chip> UpdateWorld<R, C> {
         let mut disk = CutDisk {
             supply: Rc::clone(&self.supply),
             room: self.room,
+            claimed: self.claimed_room,
         };
         let mut board = ModelBoard {
             supply: Rc::clone(&self.supply),

@@ -1,5 +1,6 @@
 //! Updates on a board whose disk, programs and chip are models, and with the chip that is emulated.
 
+use flash_trials::emulated_update::update_emulated;
 use flash_trials::update_cuts::cut_everywhere;
 use flash_trials::update_world::{ModelChip, ModelChipPort, Release, UpdateWorld, accepted, key_pair};
 use minisign::KeyPair;
@@ -115,7 +116,7 @@ fn a_board_or_chip_that_cannot_take_it_is_named_and_not_touched() {
     let taken = accepted(&pair);
     let next = Release::good(2);
     let mut full = after_one(&pair);
-    full.room = 1 << 20;
+    full.claimed_room = 1 << 20;
     check_refusal(full, (&next, &pair), &taken, |error| {
         matches!(error, UpdateError::DiskFull { .. })
     });
@@ -222,19 +223,22 @@ fn what_does_not_answer_is_undone() {
 fn a_disk_that_fills_in_between_is_undone() {
     let pair = key_pair();
     let mut world = after_one(&pair);
-    // Room by what the disk says, and less than that in truth.
-    let long = Release {
-        daemon: "daemon 2".repeat(3 << 20),
-        ..Release::good(2)
+    // The disk says that there is room, and another program takes it.
+    world.room = 12;
+    let archive = Release::good(2).packed(&pair).expect("packed");
+    let error = world
+        .install(&archive, &accepted(&pair))
+        .expect_err("it does not fit");
+    let UpdateError::WentBack(cause) = &error else {
+        panic!("{error}");
     };
-    world.room = 40 << 20;
-    let archive = long.packed(&pair).expect("packed");
-    let taken = accepted(&pair);
-    world
-        .install(&archive, &taken)
-        .expect_err("24 MiB and 16 do not fit");
+    let is_full = matches!(&**cause, UpdateError::Bundle(BundleError::Kept { error, .. })
+        if error.kind() == std::io::ErrorKind::StorageFull);
+    assert!(is_full, "{cause:?}");
     assert_eq!(world.daemon().as_deref(), Some("daemon 1"));
     assert_eq!(world.settle().expect("settled"), Settled::Nothing);
+    let spare = world.slots().folder(world.slots().current().spare());
+    assert!(!spare.exists(), "no half update stays");
 }
 
 #[test]
@@ -257,6 +261,13 @@ fn a_chip_that_cannot_be_read_needs_its_owner_s_word() {
         ..accepted(&pair)
     };
     world.install(&archive, &bold).expect("its owner can do without");
+}
+
+#[test]
+fn with_the_emulated_chip_a_calibration_stays_and_cuts_and_silent_firmware_are_undone() {
+    let cuts = update_emulated(2, 1).expect("trials");
+    assert_eq!(cuts.cut, 2);
+    assert_eq!((cuts.broken, cuts.mixed, cuts.stuck), (0, 0, 0), "{cuts:?}");
 }
 
 #[test]

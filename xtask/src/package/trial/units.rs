@@ -10,6 +10,8 @@ use std::process::Command;
 const EXPOSURE_MAX: f64 = 2.5;
 /// The services.
 const UNITS: [&str; 2] = ["vthal.service", "rvac-panel.service"];
+/// Runs once, as root, and only after an update that was cut off: its exposure is not judged.
+const SETTLE: &str = "rvac-settle.service";
 
 /// A service and how much it exposes.
 #[derive(Debug, Serialize)]
@@ -25,11 +27,12 @@ pub(super) fn check(root: &Path) -> anyhow::Result<Vec<Exposure>> {
     lay(root, &judged)?;
     let mut verify = Command::new("systemd-analyze");
     verify.arg("--root").arg(&judged).args(["--man=no", "verify"]);
-    verify.args(UNITS.map(|unit| format!("/lib/systemd/system/{unit}")));
+    let all = || UNITS.into_iter().chain([SETTLE]);
+    verify.args(all().map(|unit| format!("/lib/systemd/system/{unit}")));
     let output = process::finish(&mut verify)?;
     let complaints: Vec<String> = String::from_utf8_lossy(&output.stderr)
         .lines()
-        .filter(|line| UNITS.iter().any(|unit| line.contains(unit)))
+        .filter(|line| all().any(|unit| line.contains(unit)))
         .map(str::to_owned)
         .collect();
     if !output.status.success() || !complaints.is_empty() {
