@@ -36,6 +36,9 @@ pub struct UpdateJob {
     /// Port of the panel's plain page; 0 for a board without a panel.
     #[arg(long, value_name = "PORT", default_value_t = 80)]
     pub page_port: u16,
+    /// How long daemon, robot and panel may take to answer.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..=600))]
+    pub patience_s: u64,
     /// Command that starts daemon and panel again, its words separated by spaces.
     #[arg(
         long,

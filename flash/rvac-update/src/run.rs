@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Duration;
 
 use anyhow::{Context as _, bail};
 use rustix::fs::{FlockOperation, flock};
@@ -69,6 +70,7 @@ fn services(job: &UpdateJob, socket: &Path) -> Services {
         },
         socket: socket.to_owned(),
         page_port: Some(job.page_port).filter(|port| *port != 0),
+        patience: Duration::from_secs(job.patience_s),
     }
 }
 
@@ -137,9 +139,7 @@ fn say(step: UpdateStep) {
     let words = match step {
         UpdateStep::Verify => "checks the file ...",
         UpdateStep::Unpack => "unpacks it ...",
-        UpdateStep::TryPrograms => {
-            "starts the new programs and waits until they answer, a minute at most ..."
-        }
+        UpdateStep::TryPrograms => "starts the new programs and waits until they answer ...",
         UpdateStep::KeepFirmware => "keeps what is in the robot's chip ...",
         UpdateStep::WriteFirmware => "writes the robot's firmware: leave it on its dock ...",
         UpdateStep::TryFirmware => "waits until the robot answers ...",

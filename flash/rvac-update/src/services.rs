@@ -11,8 +11,6 @@ use rvac_api::{Request, RequestBody, SEPARATOR, Update};
 
 use crate::board::{Board, BoardError, Health};
 
-/// A panel makes its certificate at its first start, and a robot greets within seconds.
-const PATIENCE: Duration = Duration::from_secs(60);
 /// One look.
 const LOOK: Duration = Duration::from_secs(3);
 const PAUSE: Duration = Duration::from_millis(500);
@@ -35,6 +33,8 @@ pub(crate) struct Services {
     pub(crate) socket: PathBuf,
     /// Port of the panel's plain page; none without a panel.
     pub(crate) page_port: Option<u16>,
+    /// A panel makes its certificate at its first start, and a robot greets within seconds.
+    pub(crate) patience: Duration,
 }
 
 /// What the daemon says when it is greeted.
@@ -72,7 +72,7 @@ impl Board for Services {
     }
 
     fn wait_for(&mut self, wanted: Health) -> Health {
-        let deadline = Instant::now() + PATIENCE;
+        let deadline = Instant::now() + self.patience;
         loop {
             let health = self.look();
             if health.covers(wanted) || Instant::now() >= deadline {

@@ -231,6 +231,8 @@ impl<D: Disk, B: Board, C: Chip> Updater<'_, D, B, C> {
         if let (Some(hex), Some(file)) = (&offer.hex, offer.bundle.manifest.firmware_file()) {
             self.flash((hex, file), pending, (way_back, &mut *say))?;
             say(UpdateStep::TryFirmware);
+            // A daemon that starts knows no robot from before.
+            self.board.restart()?;
             self.await_health(Health {
                 robot: true,
                 ..offer.healthy

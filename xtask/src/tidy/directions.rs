@@ -114,7 +114,7 @@ const DIRECTIONS: [Direction; 39] = [
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units", "vthal-core"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
-    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update"], never: &[] },
+    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "update-bundle"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api"],          never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
