@@ -7,7 +7,8 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use anyhow::{Context as _, bail};
-use rustix::fs::{FlockOperation, flock};
+use rustix::fs::{FlockOperation, Mode, flock};
+use rustix::process::umask;
 use rvac_flash::{DaemonSocket, FlashSettings, WiredRobot};
 use serde::Serialize;
 use update_bundle::PublicKeys;
@@ -30,6 +31,8 @@ pub fn run(job: &UpdateJob, socket: &Path) -> anyhow::Result<ExitCode> {
         show(&slots, job.json)?;
         return Ok(ExitCode::SUCCESS);
     }
+    // The services' users read all of it, whatever the habits of whoever runs this.
+    umask(Mode::from_raw_mode(0o022));
     std::fs::create_dir_all(&job.folder).with_context(|| job.folder.display().to_string())?;
     let _lock = lock(&job.folder)?;
     let settings = wiring(&job.wiring)?;

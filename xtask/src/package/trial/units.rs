@@ -9,9 +9,7 @@ use std::process::Command;
 /// systemd's measure goes from 0 to 10; what it calls fine ends here.
 const EXPOSURE_MAX: f64 = 2.5;
 /// The services.
-const UNITS: [&str; 2] = ["vthal.service", "rvac-panel.service"];
-/// Runs once, as root, and only after an update that was cut off: its exposure is not judged.
-const SETTLE: &str = "rvac-settle.service";
+const UNITS: [&str; 3] = ["vthal.service", "rvac-panel.service", "rvac-settle.service"];
 
 /// A service and how much it exposes.
 #[derive(Debug, Serialize)]
@@ -27,12 +25,11 @@ pub(super) fn check(root: &Path) -> anyhow::Result<Vec<Exposure>> {
     lay(root, &judged)?;
     let mut verify = Command::new("systemd-analyze");
     verify.arg("--root").arg(&judged).args(["--man=no", "verify"]);
-    let all = || UNITS.into_iter().chain([SETTLE]);
-    verify.args(all().map(|unit| format!("/lib/systemd/system/{unit}")));
+    verify.args(UNITS.map(|unit| format!("/lib/systemd/system/{unit}")));
     let output = process::finish(&mut verify)?;
     let complaints: Vec<String> = String::from_utf8_lossy(&output.stderr)
         .lines()
-        .filter(|line| all().any(|unit| line.contains(unit)))
+        .filter(|line| UNITS.iter().any(|unit| line.contains(unit)))
         .map(str::to_owned)
         .collect();
     if !output.status.success() || !complaints.is_empty() {
