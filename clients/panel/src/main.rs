@@ -24,8 +24,10 @@ mod link;
 mod log_view;
 mod map;
 mod mixes;
+mod news;
 mod parts_view;
 mod places_view;
+mod press;
 mod rename_form;
 mod room_settings_view;
 mod rooms_view;
@@ -33,8 +35,10 @@ mod row_tools;
 mod schedules;
 mod status_view;
 mod store;
+mod summary_view;
 mod tabs;
 mod theme;
+mod toasts;
 mod why_view;
 
 fn main() {

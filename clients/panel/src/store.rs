@@ -3,10 +3,11 @@
 use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{
-    DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, carpet_sentence, room_rows, top_speeds,
+    Currency, DecisionBook, Driver, LogBook, News, Offers, Presses, RoomRow, Wait, carpet_sentence,
+    room_rows, route_length_m, top_speeds,
 };
 use rvac_api::{
-    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, JobOrder, KeptMap,
+    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap,
     LearntPart, LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status,
     Topic,
 };
@@ -22,6 +23,8 @@ use crate::language::words;
 use crate::link::Link;
 use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
+use crate::news::{no_news, now_ms};
+use crate::press::NO_ANSWER;
 use crate::schedules::ScheduleDesk;
 
 /// The reason code of a button that waits. No robot gives it.
@@ -50,9 +53,6 @@ const LEARNT_ID: u32 = 8;
 
 /// Number of the requests with lent inputs, so that a refusal of one is recognized.
 const LEND_ID: u32 = 9;
-
-/// Number of the requests that have what is chosen cleaned.
-const CLEAN_ID: u32 = 10;
 
 /// Number of all other requests.
 const OTHER_ID: u32 = 2;
@@ -104,6 +104,17 @@ pub(crate) struct Store {
     pub(crate) history: HistoryDesk,
     /// The log.
     pub(crate) log: RwSignal<LogBook>,
+    /// Whether what is shown is true now.
+    pub(crate) currency: RwSignal<Currency>,
+    pub(crate) news: StoredValue<News>,
+    /// Presses of job buttons that wait for their answer.
+    pub(crate) presses: RwSignal<Presses>,
+    /// What became of the last one, where that is not seen otherwise.
+    pub(crate) note: RwSignal<Option<&'static str>>,
+    /// Strategy by which a job of the whole home is started; empty as long as the robot chooses.
+    pub(crate) strategy: RwSignal<String>,
+    /// Length of the planned path, metres.
+    pub(crate) route_m: RwSignal<f64>,
     /// The last refusal, until it is dismissed.
     pub(crate) refusal: RwSignal<Option<Failure>>,
     /// Sensor readings and attempts at the time of a question about that refusal.
@@ -145,6 +156,12 @@ impl Store {
             learnt: RwSignal::new(Vec::new()),
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
+            currency: RwSignal::new(Currency::Current),
+            news: no_news(),
+            presses: RwSignal::new(Presses::default()),
+            note: RwSignal::new(None),
+            strategy: RwSignal::new(String::new()),
+            route_m: RwSignal::new(0.0),
             refusal: RwSignal::new(None),
             evidence: RwSignal::new(None),
             seat: Seat::new(),
@@ -158,6 +175,12 @@ impl Store {
     /// Connects to the server, for ever.
     pub(crate) fn connect(self) {
         self.link.with_value(|link| link.connect(self));
+        self.watch_news();
+    }
+
+    /// Gives up a connection that is silent, and makes a new one.
+    pub(crate) fn reconnect(self) {
+        self.link.with_value(|link| link.abandon(self));
     }
 
     /// The offers of the moment; a view that asks follows them.
@@ -190,7 +213,7 @@ impl Store {
     /// Whether the robot itself refused, and not this page.
     pub(crate) fn robot_refused(self) -> bool {
         self.refusal.with(|refusal| {
-            let is_robots = |told: &Failure| !matches!(told.reason.as_str(), NOT_NOW | NOT_DRAWN);
+            let is_robots = |told: &Failure| !matches!(told.reason.as_str(), NOT_NOW | NOT_DRAWN | NO_ANSWER);
             refusal.as_ref().is_some_and(is_robots)
         })
     }
@@ -254,15 +277,6 @@ impl Store {
         }
     }
 
-    /// Has what is chosen cleaned.
-    pub(crate) fn clean(self, order: JobOrder) {
-        let body = RequestBody::Clean(order);
-        if self.admits_request(&body) {
-            self.refusal.set(None);
-            self.send(Some(CLEAN_ID), body);
-        }
-    }
-
     /// Says that a part was cleaned.
     pub(crate) fn reset_health(self, component: String) {
         let body = RequestBody::ResetHealth { component };
@@ -283,8 +297,8 @@ impl Store {
     }
 
     fn on_done(self, id: u32) {
+        self.end_press(id, true);
         match id {
-            CLEAN_ID => self.on_choice_sent(),
             HEALTH_ID => self.send(None, RequestBody::Health),
             LEARNT_ID => self.send(None, RequestBody::Learnt),
             _ => {}
@@ -314,6 +328,7 @@ impl Store {
 
     /// The connection is open: introduces the page.
     pub(crate) fn on_open(self) {
+        self.news.update_value(|news| news.on_open(now_ms()));
         self.log.update(LogBook::clear);
         self.decisions.update(DecisionBook::clear);
         self.estimate.set(None);
@@ -341,6 +356,7 @@ impl Store {
         ];
         self.send(None, RequestBody::Watch { topics });
         self.send(None, RequestBody::Mixes);
+        self.ask_for_last_run();
     }
 
     /// The connection is lost.
@@ -351,13 +367,8 @@ impl Store {
         self.edits.on_lost();
         self.seat.driver.update_value(Driver::forget_inputs);
         self.floor_desk.on_close();
-        let status = Status {
-            state: "disconnected".to_owned(),
-            reason: "no-server".to_owned(),
-            ..Status::default()
-        };
-        self.status.set(Some(status));
-        self.device.set(None);
+        // The state stays as it was for the moment that a glitch takes.
+        self.news.update_value(News::on_close);
     }
 
     /// A message came.
@@ -393,7 +404,11 @@ impl Store {
                 self.map.with_value(|map| map.on_estimate(&estimate));
                 self.estimate.set(Some(estimate));
             }
-            Message::PlannedPath(path) => self.map.with_value(|map| map.on_planned_path(&path)),
+            Message::PlannedPath(path) => {
+                set_if_changed(self.route_m, route_length_m(&path));
+                self.map.with_value(|map| map.on_planned_path(&path));
+            }
+            Message::Heartbeat { silent_ms } => self.on_heartbeat(silent_ms),
             Message::Evidence { evidence, .. } => self.evidence.set(Some(evidence)),
             Message::Standstill(told) => self.standstill.set(Some(*told)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
@@ -417,6 +432,7 @@ impl Store {
             Message::RunTrack(track) => self.history.on_track(*track),
             Message::Inputs { inputs } => self.seat.on_inputs(&inputs),
             Message::Packet { .. }
+            | Message::Piece { .. }
             | Message::RunFile { .. }
             | Message::FloorArchive { .. }
             | Message::Button { .. } => {}
@@ -461,6 +477,9 @@ impl Store {
     }
 
     fn on_failed(self, failure: Failure) {
+        if let Some(id) = failure.id {
+            self.end_press(id, false);
+        }
         self.edits.on_failed(&failure);
         if self.orders.on_failed(&failure)
             || self.schedules.on_failed(&failure)

@@ -172,6 +172,22 @@ pub enum Update {
         /// The address it came from, or `console`.
         from: String,
     },
+    /// The server of the panel is there: once a second to whoever asked for it with the connection.
+    Heartbeat {
+        /// Since when nothing has come from the daemon, in ms; absent while there is no connection to it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        silent_ms: Option<u64>,
+    },
+    /// A piece of an update that is long, from the server of the panel to whoever asked for it with the connection. Short updates come
+    /// between two pieces.
+    Piece {
+        /// Which of the updates that come in pieces at the same time.
+        lane: u8,
+        /// The update is whole with it.
+        last: bool,
+        /// The next part of its JSON.
+        text: String,
+    },
     /// Only with a simulated robot: the floor plan.
     SimulatedPlan(SimulatedPlan),
     /// Only with a simulated robot: where it really is.

@@ -1288,6 +1288,25 @@ fn a_new_device() {
     );
 }
 
+#[test]
+fn what_the_server_of_the_panel_adds_for_pages() {
+    let beats = [
+        (Some(40), r#"{"e":"heartbeat","silent_ms":40}"#),
+        (None, r#"{"e":"heartbeat"}"#),
+    ];
+    for (silent_ms, text) in beats {
+        check(&Update::Heartbeat { silent_ms }, text);
+    }
+    check(
+        &Update::Piece {
+            lane: 1,
+            last: true,
+            text: "0]}".to_owned(),
+        },
+        r#"{"e":"piece","lane":1,"last":true,"text":"0]}"}"#,
+    );
+}
+
 fn standstill() {
     let felt = EvidenceSample {
         at_s: -0.2,

@@ -13,6 +13,7 @@ screen! {
         battery: "Battery", "Aku";
         connected: "Connected", "Ühendatud";
         not_connected: "Not connected", "Ühendamata";
+        not_current: "Not current", "Ei ole ajakohane";
         details: "Details", "Üksikasjad";
         drive: "Drive", "Juhi";
         home: "Home", "Kodu";
@@ -66,6 +67,12 @@ screen! {
         dock: "Dock", "Dokki";
         find: "Find", "Leia";
         clear: "Clear the fault", "Tühista rike";
+        pending: "Sent, waiting for the robot", "Saadetud, ootan roboti vastust";
+        found: "The robot beeps. Listen for it.", "Robot piiksub. Kuula, kust heli tuleb.";
+        no_answer[1]: "{0}: no answer yet. To stop the robot at once, press a button on it.",
+            "{0}: vastust veel ei ole. Roboti saab kohe peatada selle enda nupust.";
+        not_sent[1]: "{0} was not sent: there is no connection. To stop the robot, press a button on it.",
+            "{0}: ei saadetud, sest ühendust ei ole. Roboti saab peatada selle enda nupust.";
         cleaning_pattern: "Cleaning pattern", "Koristusmuster";
         robot_chooses: "The robot chooses", "Robot valib ise";
         random: "Random", "Juhuslik";
@@ -88,6 +95,7 @@ screen! {
         docked: "The robot is on the dock.", "Robot on dokis.";
         not_allowed: "Not allowed for this device: an administrator can give it another role.",
             "Sellel seadmel ei ole selleks õigust: haldusõigusega seadmes saab anda sellele teise rolli.";
+        drawing: "Finish the drawing on the map first, or cancel it.", "Lõpeta enne joonis kaardil või loobu sellest.";
         only_looks: "This device may not change anything here: an administrator can give it another role.",
             "See seade ei tohi siin midagi muuta: haldusõigusega seadmes saab anda sellele teise rolli.";
     }
