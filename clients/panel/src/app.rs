@@ -5,6 +5,7 @@ use panel_logic::Currency;
 
 use crate::access::{Access, NewcomerView, PairView};
 use crate::actions::Actions;
+use crate::focus::keep_focus;
 use crate::header::Header;
 use crate::language::words;
 use crate::map::MapView;
@@ -20,6 +21,7 @@ pub(crate) fn App() -> impl IntoView {
     let theme = RwSignal::new(Theme::at_start());
     store.map.with_value(|map| map.set_theme(theme.get_untracked()));
     store.connect();
+    keep_focus();
     let is_stranger = Memo::new(move |_| store.entrance.access.with(|access| *access == Access::Stranger));
     let is_current = Memo::new(move |_| store.currency.get() == Currency::Current);
     view! {

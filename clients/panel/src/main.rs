@@ -1,6 +1,7 @@
 //! The web page that shows and drives the robot. What can be decided without a browser is in `panel-logic`.
 #![forbid(unsafe_code)]
 
+mod about_view;
 mod access;
 mod actions;
 mod app;
@@ -39,6 +40,7 @@ mod summary_view;
 mod tabs;
 mod theme;
 mod toasts;
+mod wall_clock;
 mod why_view;
 
 fn main() {

@@ -3,6 +3,7 @@
 use leptos::ev::SubmitEvent;
 use leptos::prelude::*;
 
+use crate::focus::focus_on;
 use crate::language::words;
 
 /// Longest name, in characters; the robot refuses longer ones.
@@ -15,11 +16,14 @@ pub(crate) fn RenameForm(
     field_id: &'static str,
     button_id: &'static str,
     name: String,
+    /// The button that has opened it, which gets the focus back.
+    opener: String,
     on_save: impl Fn(Option<String>) + 'static,
 ) -> impl IntoView {
     let text = RwSignal::new(name);
     let save = move |event: SubmitEvent| {
         event.prevent_default();
+        focus_on(&opener);
         on_save(Some(text.get_untracked()).filter(|name| !name.trim().is_empty()));
     };
     view! {

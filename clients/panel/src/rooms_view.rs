@@ -147,6 +147,7 @@ fn Room(
                 <button
                     type="button"
                     class="small"
+                    id=format!("rename-room-{id}")
                     aria-label=rename_label
                     aria-expanded=move || if is_renamed() { "true" } else { "false" }
                     on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(id)).then_some(id))
@@ -174,6 +175,7 @@ fn Room(
                 field_id="room-name"
                 button_id="save-name"
                 name=name.clone()
+                opener=format!("rename-room-{id}")
                 on_save=move |name| {
                     rename(store, id, name);
                     renamed.set(None);
@@ -277,6 +279,7 @@ fn no_go(store: Store, row: NoGoRow, renamed: RwSignal<Option<u16>>) -> impl Int
                 field_id="no-go-name"
                 button_id="save-no-go-name"
                 name=name.clone()
+                opener=format!("rename-no-go-{number}")
                 on_save=move |name| {
                     rename_no_go(store, number, name);
                     renamed.set(None);

@@ -26,6 +26,7 @@ use crate::mixes::Bench;
 use crate::news::{no_news, now_ms};
 use crate::press::NO_ANSWER;
 use crate::schedules::ScheduleDesk;
+use crate::toasts::Undo;
 
 /// The reason code of a button that waits. No robot gives it.
 const NOT_NOW: &str = "not-now";
@@ -111,6 +112,10 @@ pub(crate) struct Store {
     pub(crate) presses: RwSignal<Presses>,
     /// What became of the last one, where that is not seen otherwise.
     pub(crate) note: RwSignal<Option<&'static str>>,
+    /// When the daemon began, seconds since 1970 by the clock of this device.
+    pub(crate) daemon_began_s: StoredValue<Option<f64>>,
+    /// What was removed last and can be taken back.
+    pub(crate) undo: RwSignal<Option<Undo>>,
     /// Strategy by which a job of the whole home is started; empty as long as the robot chooses.
     pub(crate) strategy: RwSignal<String>,
     /// Length of the planned path, metres.
@@ -160,6 +165,8 @@ impl Store {
             news: no_news(),
             presses: RwSignal::new(Presses::default()),
             note: RwSignal::new(None),
+            daemon_began_s: StoredValue::new(None),
+            undo: RwSignal::new(None),
             strategy: RwSignal::new(String::new()),
             route_m: RwSignal::new(0.0),
             refusal: RwSignal::new(None),
@@ -394,6 +401,7 @@ impl Store {
                 self.home.set(Some(plan.name));
             }
             Message::Pose(pose) => {
+                self.set_wall_clock(pose.t);
                 self.seat.on_pose(pose);
                 self.map.with_value(|map| map.on_pose(pose));
             }

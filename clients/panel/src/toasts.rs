@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use leptos::prelude::*;
 use panel_logic::failure_text;
+use rvac_api::RequestBody;
 
 use crate::evidence_view::RecentEvidenceView;
 use crate::icons::{Icon, icon};
@@ -19,6 +20,40 @@ pub(crate) fn Toasts(store: Store) -> impl IntoView {
         <div class="toasts">
             <RefusalView store />
             <NoteView store />
+            <UndoView store />
+        </div>
+    }
+}
+
+/// A removal that can be taken back.
+#[derive(Clone, Debug)]
+pub(crate) struct Undo {
+    /// What was removed, as a sentence.
+    pub(crate) what: String,
+    /// What brings it back.
+    pub(crate) body: RequestBody,
+}
+
+/// Something was removed; here it comes back.
+#[component]
+fn UndoView(store: Store) -> impl IntoView {
+    let take_back = move |_| {
+        if let Some(undo) = store.undo.get_untracked() {
+            store.ask(undo.body);
+        }
+        store.undo.set(None);
+    };
+    view! {
+        <div role="status">
+            <Show when=move || store.undo.with(Option::is_some)>
+                <div class="alert calm" id="undo-toast">
+                    <p>{move || store.undo.get().map(|undo| undo.what)}</p>
+                    <button type="button" class="small strong" id="undo-removal" on:click=take_back>{words().home.take_back}</button>
+                    <button type="button" class="round" aria-label=words().frame.dismiss on:click=move |_| store.undo.set(None)>
+                        {icon(Icon::Close)}
+                    </button>
+                </div>
+            </Show>
         </div>
     }
 }

@@ -14,6 +14,7 @@ use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 use crate::access::{EDITS_SCHEDULES, Needs, OnlyLooks};
 use crate::language::words;
 use crate::store::{SCHEDULE_ID, Store};
+use crate::toasts::Undo;
 use form::FormView;
 use quiet::QuietView;
 use zone::ZoneView;
@@ -223,7 +224,7 @@ fn EntryTools(store: Store, number: u32, row: Memo<Option<ScheduleRow>>) -> impl
                     class="small"
                     id=format!("remove-{number}")
                     aria-label=labelled(words().schedule.remove_named)
-                    on:click=move |_| store.ask(RequestBody::RemoveSchedule { number })
+                    on:click=move |_| store.remove_schedule(number)
                 >
                     {words().frame.remove}
                 </button>
@@ -238,6 +239,16 @@ impl Store {
         if self.admits(EDITS_SCHEDULES) {
             self.schedules.open(form);
         }
+    }
+
+    /// Removes a schedule; for a while it can be taken back.
+    fn remove_schedule(self, number: u32) {
+        let removed = self.schedules.view_of(number);
+        self.ask(RequestBody::RemoveSchedule { number });
+        self.undo.set(removed.map(|view| Undo {
+            what: words().schedule.was_removed.fill([&view.entry.name]),
+            body: RequestBody::AddSchedule(view.entry),
+        }));
     }
 
     /// Asks for what is filled in, or says what is missing.

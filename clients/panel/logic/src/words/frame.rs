@@ -43,7 +43,6 @@ screen! {
         square_metres[1]: "{0} m²", "{0} m²";
         percent[1]: "{0} %", "{0} %";
         percent_said[1]: "{0} percent", "{0} protsenti";
-        frames[1]: "{0} frames/s", "{0} kaadrit/s";
         // From Monday on, with blanks between.
         weekdays: "Mon Tue Wed Thu Fri Sat Sun", "E T K N R L P";
         months: "Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec",
@@ -122,6 +121,7 @@ screen! {
 screen! {
     /// The log. Its entries are the robot's own and stay English.
     LogWords {
+        since_start[1]: "{0} after the daemon's start", "{0} pärast deemoni käivitumist";
         level: "Level", "Tase";
         everything: "Everything", "Kõik";
         information: "Information", "Teated";

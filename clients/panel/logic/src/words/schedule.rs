@@ -5,6 +5,7 @@ use super::screen;
 screen! {
     /// Schedules, their form, quiet hours.
     ScheduleWords {
+        was_removed[1]: "Removed: {0}.", "Eemaldatud: {0}.";
         schedules: "Schedules", "Ajakavad";
         none: "Nothing starts by itself.", "Midagi ei alga iseenesest.";
         add: "Add a schedule", "Lisa ajakava";
