@@ -20,7 +20,7 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
         <ul id="rooms" class="rows" aria-labelledby="rooms-title">
             <For
                 each=move || store.rooms.get()
-                key=|row| (row.id, row.name.clone(), row.words.clone())
+                key=|row| (row.id, row.name.clone())
                 let:row
             >
                 <Room store row renamed set />
@@ -118,11 +118,12 @@ fn Room(
     /// The room whose form for settings is open.
     set: RwSignal<Option<u16>>,
 ) -> impl IntoView {
-    let RoomRow {
-        id,
-        name,
-        words: extent,
-    } = row;
+    let RoomRow { id, name, .. } = row;
+    // It changes while the row stays: what is typed into a form below it must not be lost.
+    let extent = move || {
+        let rows = store.rooms.read();
+        rows.iter().find(|row| row.id == id).map(|row| row.words.clone())
+    };
     let choice = store.orders.choice;
     let place = Memo::new(move |_| choice.with(|choice| choice.place(id)));
     let is_renamed = move || renamed.get() == Some(id);

@@ -988,8 +988,17 @@ fn requests_of_schedules() {
         RequestBody::ChangeSchedule {
             number: 3,
             entry: once.clone(),
+            was: None,
         },
         r#"{"c":"change-schedule","number":3,"name":"All","enabled":true,"job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}},"late_min":0,"in_quiet":"refuse"}"#,
+    );
+    request(
+        RequestBody::ChangeSchedule {
+            number: 3,
+            entry: once.clone(),
+            was: Some(Box::new(once.clone())),
+        },
+        r#"{"c":"change-schedule","number":3,"name":"All","enabled":true,"job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}},"late_min":0,"in_quiet":"refuse","was":{"name":"All","enabled":true,"job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}},"late_min":0,"in_quiet":"refuse"}}"#,
     );
     let short = r#"{"c":"add-schedule","name":"All","job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}}}"#;
     let read: Request = serde_json::from_str(short).unwrap();

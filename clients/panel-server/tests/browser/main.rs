@@ -40,6 +40,7 @@ mod rival;
 mod robot;
 mod roles;
 mod schedules;
+mod slow_wire;
 #[path = "../stack/mod.rs"]
 mod stack;
 mod stands;

@@ -10,6 +10,7 @@ use serde_json::json;
 
 use crate::Visit;
 use crate::browser::{Browser, Screen};
+use crate::slow_wire::SlowWire;
 
 /// Widths and heights on which everything must be in reach: desktops, a phone upright and on its side, the narrowest one, and a desktop
 /// that is enlarged to twice its size.
@@ -274,4 +275,107 @@ async fn a_silent_network_is_seen_within_seconds_and_a_glitch_is_not() {
         "null",
         "figures of nothing are shown"
     );
+}
+
+/// 400 kbit/s, 300 ms there and back.
+const SLOW_BYTES_PER_S: u64 = 50_000;
+const LATE: Duration = Duration::from_millis(150);
+
+/// Presses Start as soon as it can be pressed, and gives after how many ms the robot has answered and the state is another one.
+const PRESS_START: &str = "
+    return new Promise(done => {
+        let pressed;
+        const look = () => {
+            const start = document.getElementById('start');
+            if (pressed === undefined && start?.getAttribute('aria-disabled') === 'false') {
+                pressed = performance.now();
+                start.click();
+            }
+            const state = document.getElementById('now')?.dataset.state;
+            if (pressed !== undefined && ['starting', 'cleaning'].includes(state)) done(String(Math.round(performance.now() - pressed)));
+            else requestAnimationFrame(look);
+        };
+        look();
+    })";
+
+#[tokio::test]
+async fn on_a_slow_network_a_press_does_not_wait_behind_the_map() {
+    let Some(visit) = Visit::begin_at_home(Screen::Phone).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let wire = SlowWire::before(&visit.stack.address, LATE);
+    browser.goto(&wire.address).await;
+    browser.until_state(&["idle", "docked"]).await;
+    browser.until("return navigator.serviceWorker?.controller?.state === 'activated'").await;
+    wire.slow_down(SLOW_BYTES_PER_S);
+    browser.reload().await;
+    let after_ms: u64 = browser.text(PRESS_START).await.parse().unwrap();
+    println!("on a slow network a press was answered after {after_ms} ms");
+    assert!(after_ms <= 2_500, "{after_ms}");
+    browser.click("#stop").await;
+    browser.until_state(&["idle", "docked"]).await;
+}
+
+/// Gives a schedule another time, in the form that is open.
+async fn save_at(browser: &Browser, at: &str) {
+    let fill = format!(
+        "const at = document.getElementById('schedule-at'); at.value = '{at}'; \
+         at.dispatchEvent(new Event('input', {{ bubbles: true }})); return ''"
+    );
+    browser.text(&fill).await;
+    browser.click("#save-schedule").await;
+}
+
+/// Somebody else takes this schedule in the meantime.
+fn change_elsewhere(socket: &Path, at: &str) {
+    let days = json!(["mo"]);
+    let request = json!({
+        "c": "change-schedule", "number": 1, "name": "Theirs", "job": { "start": {} },
+        "when": { "weekly": { "days": days, "at": at } },
+    });
+    ask(socket, &request.to_string());
+}
+
+#[tokio::test]
+async fn two_people_who_change_one_schedule_see_it_and_a_removed_one_comes_back() {
+    let Some(visit) = Visit::begin(Screen::Phone).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    let socket = visit.stack.daemon_socket();
+    ask(
+        &socket,
+        r#"{"c":"add-schedule","name":"Ours","job":{"start":{}},"when":{"weekly":{"days":["mo"],"at":"07:00"}}}"#,
+    );
+    browser.click("#tab-schedules").await;
+    browser.says("schedules", "Ours").await;
+    browser.click("#edit-1").await;
+    change_elsewhere(&socket, "08:00");
+    browser.says("schedules", "Theirs").await;
+    save_at(browser, "09:00").await;
+    browser.says("conflict", "Theirs").await;
+    browser.shot("owner-conflict").await;
+    browser.click("#keep-mine").await;
+    browser.says("schedules", "09:00").await;
+    browser.says("schedules", "Ours").await;
+
+    browser.click("#edit-1").await;
+    change_elsewhere(&socket, "10:00");
+    browser.says("schedules", "Theirs").await;
+    save_at(browser, "11:00").await;
+    browser.click("#take-theirs").await;
+    browser
+        .until("return document.getElementById('schedule-at')?.value === '10:00'")
+        .await;
+    browser.click("#cancel-schedule").await;
+
+    // The tab is open again after the page was loaded anew.
+    browser.reload().await;
+    browser.says("schedules", "10:00").await;
+    browser.click("#remove-1").await;
+    browser.says("undo-toast", "Removed: Theirs.").await;
+    browser.shot("owner-undo").await;
+    browser.click("#undo-removal").await;
+    browser.says("schedules", "Theirs").await;
 }

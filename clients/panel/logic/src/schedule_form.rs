@@ -38,6 +38,8 @@ pub struct ScheduleForm {
     /// The floor of its rooms; none for a new one, whose floor is that on which the robot is.
     pub floor: Option<u16>,
     enabled: bool,
+    /// What it was when the change began.
+    was: Option<Box<ScheduleEntry>>,
     /// What it starts, with all that these fields cannot say.
     job: ScheduledJob,
 }
@@ -58,6 +60,7 @@ impl Default for ScheduleForm {
             waits: false,
             floor: None,
             enabled: true,
+            was: None,
             job: ScheduledJob::Start { strategy: None },
         }
     }
@@ -87,6 +90,7 @@ impl ScheduleForm {
             waits: entry.in_quiet == InQuiet::Wait,
             floor: entry.floor,
             enabled: entry.enabled,
+            was: Some(Box::new(entry.clone())),
             job: entry.job.clone(),
         }
     }
@@ -124,6 +128,13 @@ impl ScheduleForm {
         self.parts.iter().filter_map(drawn).collect()
     }
 
+    /// The person has seen what somebody else has made of it, and keeps what is filled in.
+    pub fn keep_mine(&mut self, theirs: &ScheduleView) {
+        self.was = Some(Box::new(theirs.entry.clone()));
+        // Whether it starts by itself is no field of the form: the last word on it stands.
+        self.enabled = theirs.entry.enabled;
+    }
+
     /// What is asked of the daemon.
     ///
     /// # Errors
@@ -131,7 +142,11 @@ impl ScheduleForm {
     pub fn request(&self, words: &Words) -> Result<RequestBody, &'static str> {
         let entry = self.entry(words)?;
         Ok(match self.number {
-            Some(number) => RequestBody::ChangeSchedule { number, entry },
+            Some(number) => RequestBody::ChangeSchedule {
+                number,
+                entry,
+                was: self.was.clone(),
+            },
             None => RequestBody::AddSchedule(entry),
         })
     }
@@ -309,8 +324,30 @@ mod tests {
         });
         assert_eq!(
             form.request(ENGLISH),
-            Ok(RequestBody::ChangeSchedule { number: 3, entry })
+            Ok(RequestBody::ChangeSchedule {
+                number: 3,
+                entry: entry.clone(),
+                was: Some(Box::new(entry.clone())),
+            })
         );
+        let theirs = ScheduleView {
+            number: 3,
+            entry: ScheduleEntry {
+                name: "Theirs".to_owned(),
+                enabled: true,
+                ..entry.clone()
+            },
+            skip_next: false,
+            next: vec![],
+            refused_now: None,
+        };
+        let mut mine = form.clone();
+        mine.keep_mine(&theirs);
+        let Ok(RequestBody::ChangeSchedule { entry: saved, was, .. }) = mine.request(ENGLISH) else {
+            panic!("is whole");
+        };
+        assert_eq!(was.as_deref(), Some(&theirs.entry));
+        assert!(saved.enabled && saved.name == entry.name);
         form.settings.choose_power("quiet");
         let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
             panic!("is whole");

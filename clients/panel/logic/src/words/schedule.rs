@@ -5,6 +5,9 @@ use super::screen;
 screen! {
     /// Schedules, their form, quiet hours.
     ScheduleWords {
+        theirs[1]: "Now it is: {0}", "Praegu on see: {0}";
+        take_theirs: "Take theirs", "Võta nende oma";
+        keep_mine: "Keep mine", "Jäta minu oma";
         was_removed[1]: "Removed: {0}.", "Eemaldatud: {0}.";
         schedules: "Schedules", "Ajakavad";
         none: "Nothing starts by itself.", "Midagi ei alga iseenesest.";
