@@ -282,7 +282,8 @@ impl Browser {
 
     fn on_heartbeat(&self) -> Result<(), Parting> {
         if self.shared.manner == Manner::Live {
-            self.shared.push(heartbeat(self.heard_daemon.map(|heard| heard.elapsed())))?;
+            self.shared
+                .push(heartbeat(self.heard_daemon.map(|heard| heard.elapsed())))?;
         }
         Ok(())
     }

@@ -270,7 +270,11 @@ mod tests {
         assert_eq!(outbox.pop().as_deref(), Some(done));
         while !join(outbox.pop().unwrap()) {}
         assert_eq!(joined, map);
-        assert_eq!(outbox.pop().as_deref(), Some(delta), "what follows the map stays behind it");
+        assert_eq!(
+            outbox.pop().as_deref(),
+            Some(delta),
+            "what follows the map stays behind it"
+        );
         assert_eq!(outbox.pop(), None);
         assert_eq!(outbox.lossless_bytes, 0);
     }

@@ -22,7 +22,9 @@ thread_local! {
 /// tab has.
 pub(crate) fn keep_focus() {
     window_event_listener(ev::focusin, |event: FocusEvent| {
-        let element = event.target().and_then(|target| target.dyn_into::<HtmlElement>().ok());
+        let element = event
+            .target()
+            .and_then(|target| target.dyn_into::<HtmlElement>().ok());
         let by_keys = element.filter(|element| element.matches(":focus-visible").unwrap_or(false));
         LAST.set(by_keys.map(|element| (element, 0)));
     });

@@ -46,7 +46,8 @@ impl Store {
 
     /// The server says that it is there, and since when the daemon is silent.
     pub(crate) fn on_heartbeat(self, silent_ms: Option<u64>) {
-        self.news.update_value(|news| news.on_heartbeat(now_ms(), silent_ms));
+        self.news
+            .update_value(|news| news.on_heartbeat(now_ms(), silent_ms));
     }
 
     /// The server is not to be had: the state says so, once a glitch has become a loss.

@@ -53,7 +53,10 @@ impl Store {
         if self.presses.with_untracked(panel_logic::Presses::is_empty) {
             return;
         }
-        let given_up = self.presses.try_update(|presses| presses.give_up(now_ms())).flatten();
+        let given_up = self
+            .presses
+            .try_update(|presses| presses.give_up(now_ms()))
+            .flatten();
         if let Some(verb) = given_up {
             self.say_missing(words().action.no_answer, label_of(&verb));
         }

@@ -118,6 +118,7 @@ fn Room(
     /// The room whose form for settings is open.
     set: RwSignal<Option<u16>>,
 ) -> impl IntoView {
+    let for_tools = row.clone();
     let RoomRow { id, name, .. } = row;
     // It changes while the row stays: what is typed into a form below it must not be lost.
     let extent = move || {
@@ -128,8 +129,6 @@ fn Room(
     let place = Memo::new(move |_| choice.with(|choice| choice.place(id)));
     let is_renamed = move || renamed.get() == Some(id);
     let is_set = move || set.get() == Some(id);
-    let set_label = words().home.set_room_named.fill([&name]);
-    let rename_label = words().home.rename_named.fill([&name]);
     let (shown, for_form) = (name.clone(), name.clone());
     view! {
         <li>
@@ -144,28 +143,7 @@ fn Room(
                 {shown}
             </button>
             <span class="words">{extent}</span>
-            <Needs store verb=EDITS_HOME>
-                <button
-                    type="button"
-                    class="small"
-                    id=format!("rename-room-{id}")
-                    aria-label=rename_label
-                    aria-expanded=move || if is_renamed() { "true" } else { "false" }
-                    on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(id)).then_some(id))
-                >
-                    {words().frame.rename}
-                </button>
-                <button
-                    type="button"
-                    class="small"
-                    id=format!("room-{id}-settings")
-                    aria-label=set_label
-                    aria-expanded=move || if is_set() { "true" } else { "false" }
-                    on:click=move |_| set.update(|set| *set = (*set != Some(id)).then_some(id))
-                >
-                    {words().home.set_room}
-                </button>
-            </Needs>
+            <RoomTools store row=for_tools renamed set />
         </li>
         <Show when=is_set>
             <SettingsForm store id name=for_form.clone() opened=set />
@@ -183,6 +161,38 @@ fn Room(
                 }
             />
         </Show>
+    }
+}
+
+/// The buttons that open the forms of a room.
+#[component]
+fn RoomTools(
+    store: Store,
+    row: RoomRow,
+    renamed: RwSignal<Option<u16>>,
+    set: RwSignal<Option<u16>>,
+) -> impl IntoView {
+    let RoomRow { id, name, .. } = row;
+    let opener = move |button: String, label: String, text: &'static str, open: RwSignal<Option<u16>>| {
+        view! {
+            <button
+                type="button"
+                class="small"
+                id=button
+                aria-label=label
+                aria-expanded=move || if open.get() == Some(id) { "true" } else { "false" }
+                on:click=move |_| open.update(|open| *open = (*open != Some(id)).then_some(id))
+            >
+                {text}
+            </button>
+        }
+    };
+    let texts = &words().home;
+    view! {
+        <Needs store verb=EDITS_HOME>
+            {opener(format!("rename-room-{id}"), texts.rename_named.fill([&name]), words().frame.rename, renamed)}
+            {opener(format!("room-{id}-settings"), texts.set_room_named.fill([&name]), texts.set_room, set)}
+        </Needs>
     }
 }
 

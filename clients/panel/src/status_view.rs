@@ -37,7 +37,9 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
     let title = Memo::new(move |_| {
         store.status.with(|status| {
             let title = || state_title(words(), "disconnected").to_owned();
-            status.as_ref().map_or_else(title, |status| headline(words(), status))
+            status
+                .as_ref()
+                .map_or_else(title, |status| headline(words(), status))
         })
     });
     let is_away = Memo::new(move |_| state.get() == "disconnected");
@@ -74,9 +76,9 @@ fn Progress(store: Store) -> impl IntoView {
         let route_m = store.route_m.get();
         store.status.with(|status| {
             let of = |estimate: &Option<_>| {
-                status
-                    .as_ref()
-                    .map_or_else(JobProgress::default, |status| JobProgress::of(status, route_m, estimate.as_ref()))
+                status.as_ref().map_or_else(JobProgress::default, |status| {
+                    JobProgress::of(status, route_m, estimate.as_ref())
+                })
             };
             store.estimate.with(of)
         })

@@ -7,9 +7,8 @@ use panel_logic::{
     room_rows, route_length_m, top_speeds,
 };
 use rvac_api::{
-    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap,
-    LearntPart, LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status,
-    Topic,
+    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, LearntPart,
+    LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status, Topic,
 };
 
 use rvac_api::Update as Message;

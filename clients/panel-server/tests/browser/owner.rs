@@ -40,7 +40,8 @@ const PLACES: &str = "
     }).join(' ')";
 
 /// How much wider the page is than the screen.
-const TOO_WIDE: &str = "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
+const TOO_WIDE: &str =
+    "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
 
 /// What is said of a refusal is wholly in view.
 const REFUSAL_IN_VIEW: &str = "
@@ -52,7 +53,9 @@ async fn resize(browser: &Browser, (width, height): (u32, u32)) {
     let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
     browser.devtools("Emulation.setDeviceMetricsOverride", &size);
     browser
-        .until(&format!("return innerWidth === {width} && innerHeight === {height}"))
+        .until(&format!(
+            "return innerWidth === {width} && innerHeight === {height}"
+        ))
         .await;
 }
 
@@ -61,7 +64,9 @@ async fn places(browser: &Browser, state: &str) -> Vec<String> {
     let mut places = Vec::new();
     for (width, height) in SIZES {
         resize(browser, (width, height)).await;
-        browser.until(&OUT_OF_REACH.replace(".join(' ')", ".length === 0")).await;
+        browser
+            .until(&OUT_OF_REACH.replace(".join(' ')", ".length === 0"))
+            .await;
         assert_eq!(browser.text(TOO_WIDE).await, "0", "{width} x {height}");
         browser.shot(&format!("owner-{width}x{height}-{state}")).await;
         places.push(browser.text(PLACES).await);
@@ -154,7 +159,9 @@ async fn refusals_are_seen(browser: &Browser) {
             .await;
         browser.click("#set-zone").await;
         browser.until(REFUSAL_IN_VIEW).await;
-        browser.shot(&format!("owner-refusal-{}x{}", size.0, size.1)).await;
+        browser
+            .shot(&format!("owner-refusal-{}x{}", size.0, size.1))
+            .await;
         browser.click("#refusal .round").await;
         browser
             .until("return document.getElementById('refusal') === null")
@@ -175,10 +182,14 @@ async fn what_is_chosen_is_cleaned(browser: &Browser) {
     browser.click("#sketch-cancel").await;
     browser.click("#rooms .choose").await;
     browser
-        .until("return document.querySelector('#clean-chosen.primary .label')?.textContent === 'Clean selected'")
+        .until(
+            "return document.querySelector('#clean-chosen.primary .label')?.textContent === 'Clean selected'",
+        )
         .await;
     assert_eq!(
-        browser.text("return String(document.getElementById('start'))").await,
+        browser
+            .text("return String(document.getElementById('start'))")
+            .await,
         "null",
         "no button would clean the whole home now"
     );
@@ -271,7 +282,10 @@ async fn a_silent_network_is_seen_within_seconds_and_a_glitch_is_not() {
     visit.stack.stop_server();
     visit.browser.until_state(&["disconnected"]).await;
     assert_eq!(
-        visit.browser.text("return String(document.getElementById('swept'))").await,
+        visit
+            .browser
+            .text("return String(document.getElementById('swept'))")
+            .await,
         "null",
         "figures of nothing are shown"
     );
@@ -307,7 +321,9 @@ async fn on_a_slow_network_a_press_does_not_wait_behind_the_map() {
     let wire = SlowWire::before(&visit.stack.address, LATE);
     browser.goto(&wire.address).await;
     browser.until_state(&["idle", "docked"]).await;
-    browser.until("return navigator.serviceWorker?.controller?.state === 'activated'").await;
+    browser
+        .until("return navigator.serviceWorker?.controller?.state === 'activated'")
+        .await;
     wire.slow_down(SLOW_BYTES_PER_S);
     browser.reload().await;
     let after_ms: u64 = browser.text(PRESS_START).await.parse().unwrap();

@@ -56,7 +56,9 @@ impl News {
         let Some(heard_ms) = self.heard_ms else {
             return Currency::Away;
         };
-        let oldest_ms = self.daemon_ms.map_or(heard_ms, |daemon_ms| daemon_ms.min(heard_ms));
+        let oldest_ms = self
+            .daemon_ms
+            .map_or(heard_ms, |daemon_ms| daemon_ms.min(heard_ms));
         let silent_ms = now_ms - oldest_ms;
         if silent_ms < CURRENT_MS {
             Currency::Current
@@ -70,7 +72,10 @@ impl News {
     /// Whether an open connection has been silent for so long that a new one is the better chance.
     #[must_use]
     pub fn gives_up(&self, now_ms: f64) -> bool {
-        self.is_open && self.heard_ms.is_some_and(|heard_ms| now_ms - heard_ms > GIVE_UP_MS)
+        self.is_open
+            && self
+                .heard_ms
+                .is_some_and(|heard_ms| now_ms - heard_ms > GIVE_UP_MS)
     }
 }
 
@@ -128,7 +133,11 @@ mod tests {
         assert_eq!(news.currency(5_000.0), Currency::Silent(5));
         news.on_heartbeat(6_000.0, None);
         news.on_heard(6_000.0);
-        assert_eq!(news.currency(6_000.0), Currency::Current, "the state itself says it");
+        assert_eq!(
+            news.currency(6_000.0),
+            Currency::Current,
+            "the state itself says it"
+        );
     }
 
     #[test]

@@ -147,7 +147,10 @@ mod tests {
             state: "idle".to_owned(),
             ..Status::default()
         };
-        assert_eq!(JobProgress::of(&idle, 30.0, Some(&covered(0.5))), JobProgress::default());
+        assert_eq!(
+            JobProgress::of(&idle, 30.0, Some(&covered(0.5))),
+            JobProgress::default()
+        );
     }
 
     #[test]
@@ -192,7 +195,8 @@ mod tests {
         let summary = |share| run_summary(ENGLISH, &run(share, RunJob::Spot)).unwrap();
         assert!(summary(None).ends_with("23.4 m² in 18:11."), "{}", summary(None));
         assert!(
-            summary(Some(0.93)).ends_with("23.4 m² in 18:11: 93 % of the floor. 7 % could not be reached or was left."),
+            summary(Some(0.93))
+                .ends_with("23.4 m² in 18:11: 93 % of the floor. 7 % could not be reached or was left."),
             "{}",
             summary(Some(0.93))
         );

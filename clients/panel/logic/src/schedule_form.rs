@@ -330,24 +330,6 @@ mod tests {
                 was: Some(Box::new(entry.clone())),
             })
         );
-        let theirs = ScheduleView {
-            number: 3,
-            entry: ScheduleEntry {
-                name: "Theirs".to_owned(),
-                enabled: true,
-                ..entry.clone()
-            },
-            skip_next: false,
-            next: vec![],
-            refused_now: None,
-        };
-        let mut mine = form.clone();
-        mine.keep_mine(&theirs);
-        let Ok(RequestBody::ChangeSchedule { entry: saved, was, .. }) = mine.request(ENGLISH) else {
-            panic!("is whole");
-        };
-        assert_eq!(was.as_deref(), Some(&theirs.entry));
-        assert!(saved.enabled && saved.name == entry.name);
         form.settings.choose_power("quiet");
         let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
             panic!("is whole");
@@ -368,5 +350,34 @@ mod tests {
         let zone = job.places().0[0].clone();
         assert_eq!(entry.job.places().0, [zone, JobPart::Room(2), JobPart::Place(9)]);
         assert_eq!(entry.floor, Some(2));
+    }
+    #[test]
+    fn what_somebody_else_has_changed_meanwhile_is_seen_and_then_replaced() {
+        let view = |name: &str, enabled: bool| ScheduleView {
+            number: 3,
+            entry: ScheduleEntry {
+                name: name.to_owned(),
+                enabled,
+                ..match filled().request(ENGLISH) {
+                    Ok(RequestBody::AddSchedule(entry)) => entry,
+                    other => panic!("{other:?}"),
+                }
+            },
+            skip_next: false,
+            next: vec![],
+            refused_now: None,
+        };
+        let (ours, theirs) = (view("Ours", false), view("Theirs", true));
+        let mut form = ScheduleForm::of(&ours);
+        let saved = |form: &ScheduleForm| match form.request(ENGLISH) {
+            Ok(RequestBody::ChangeSchedule { entry, was, .. }) => (entry, was.map(|was| *was)),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(saved(&form).1, Some(ours.entry.clone()));
+        form.keep_mine(&theirs);
+        let (entry, was) = saved(&form);
+        assert_eq!(was, Some(theirs.entry));
+        assert_eq!(entry.name, "Ours");
+        assert!(entry.enabled, "the last word on that stands");
     }
 }

@@ -1,9 +1,9 @@
 //! Checks of the texts themselves.
 
 use super::{
-    AboutWords, AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords, HistoryWords,
-    HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords, StateWords,
-    StatusWords, Template, UnitWords,
+    AboutWords, AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords,
+    HistoryWords, HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords,
+    StateWords, StatusWords, Template, UnitWords,
 };
 
 type Texts = [(&'static str, usize, [&'static str; 2])];
