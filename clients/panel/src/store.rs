@@ -470,11 +470,12 @@ impl Store {
         self.status.set(Some(status));
     }
 
-    /// What was not possible in another state may be now.
+    /// What was not possible in another state may be now, and a press without an answer has come after all.
     fn forget_why_not(self, status: &Status) {
-        let was_told = self
-            .refusal
-            .with_untracked(|refusal| refusal.as_ref().is_some_and(|told| told.reason == NOT_NOW));
+        let was_told = self.refusal.with_untracked(|refusal| {
+            let passes = |told: &Failure| matches!(told.reason.as_str(), NOT_NOW | NO_ANSWER);
+            refusal.as_ref().is_some_and(passes)
+        });
         let is_other = self
             .status
             .with_untracked(|now| now.as_ref().is_none_or(|now| now.state != status.state));
