@@ -99,7 +99,7 @@ fn Progress(store: Store) -> impl IntoView {
                 aria-valuemax="100"
                 aria-valuenow=percent
             >
-                <span style:width=move || percent().map(|percent| format!("{percent}%"))></span>
+                <span style:width=move || format!("{}%", percent().unwrap_or_default())></span>
             </div>
         </Show>
     }
