@@ -79,7 +79,7 @@ impl KeptPaths {
         let found = now.and_then(|now| checkpoint_file::newest(&self.checkpoint, &now));
         let run = found.as_ref().and_then(|found| found.checkpoint.run.as_ref());
         let left = run.map_or(0, |run| run.run.number);
-        let next_run = self.runs.newest().max(left) + 1;
+        let next_run = self.runs.newest().max(left).saturating_add(1);
         let Some(Found { checkpoint, is_young }) = found else {
             return (None, next_run);
         };

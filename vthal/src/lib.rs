@@ -26,6 +26,7 @@ mod logging;
 mod map_folder;
 mod mix_folder;
 mod newest_file;
+mod numbered;
 mod outbox;
 pub mod radio;
 pub mod recording;
