@@ -29,6 +29,7 @@ mod news;
 mod parts_view;
 mod places_view;
 mod press;
+mod refusals;
 mod rename_form;
 mod room_settings_view;
 mod rooms_view;

@@ -3,8 +3,8 @@
 use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{
-    Currency, DecisionBook, Driver, LogBook, News, Offers, Presses, RoomRow, Wait, carpet_sentence,
-    room_rows, route_length_m, top_speeds,
+    Currency, DecisionBook, Driver, LogBook, News, Offers, Presses, RoomRow, carpet_sentence, room_rows,
+    route_length_m, top_speeds,
 };
 use rvac_api::{
     ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, LearntPart,
@@ -23,14 +23,9 @@ use crate::link::Link;
 use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
 use crate::news::{no_news, now_ms};
-use crate::press::NO_ANSWER;
 use crate::schedules::ScheduleDesk;
 use crate::toasts::Undo;
 
-/// The reason code of a button that waits. No robot gives it.
-const NOT_NOW: &str = "not-now";
-/// The reason code of an edit of the map that cannot be made.
-pub(crate) const NOT_DRAWN: &str = "edit";
 /// The reason of the state while the daemon behind the server does not answer.
 const NO_DAEMON: &str = "no-daemon";
 /// Number of the drive requests, so that a refusal of one is known as such.
@@ -216,14 +211,6 @@ impl Store {
         self.send(Some(OTHER_ID), RequestBody::Evidence);
     }
 
-    /// Whether the robot itself refused, and not this page.
-    pub(crate) fn robot_refused(self) -> bool {
-        self.refusal.with(|refusal| {
-            let is_robots = |told: &Failure| !matches!(told.reason.as_str(), NOT_NOW | NOT_DRAWN | NO_ANSWER);
-            refusal.as_ref().is_some_and(is_robots)
-        })
-    }
-
     /// Asks under a number of its own.
     pub(crate) fn ask_as(self, id: u32, body: RequestBody) {
         self.send(Some(id), body);
@@ -262,15 +249,6 @@ impl Store {
         self.seat
             .driver
             .with_value(|driver| self.bench.step(now_us, driver.readings()));
-    }
-
-    /// Tells why what a person pressed is not possible now: a touch shows no tooltip.
-    pub(crate) fn tell_why_not(self, why: Wait) {
-        self.refusal.set(Some(Failure {
-            id: None,
-            reason: NOT_NOW.to_owned(),
-            text: why.text(words()).to_owned(),
-        }));
     }
 
     /// Asks the robot to keep the mix that is edited.
@@ -468,20 +446,6 @@ impl Store {
         }
         self.forget_why_not(&status);
         self.status.set(Some(status));
-    }
-
-    /// What was not possible in another state may be now, and a press without an answer has come after all.
-    fn forget_why_not(self, status: &Status) {
-        let was_told = self.refusal.with_untracked(|refusal| {
-            let passes = |told: &Failure| matches!(told.reason.as_str(), NOT_NOW | NO_ANSWER);
-            refusal.as_ref().is_some_and(passes)
-        });
-        let is_other = self
-            .status
-            .with_untracked(|now| now.as_ref().is_none_or(|now| now.state != status.state));
-        if was_told && is_other {
-            self.refusal.set(None);
-        }
     }
 
     fn on_failed(self, failure: Failure) {

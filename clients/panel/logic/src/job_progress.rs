@@ -124,10 +124,14 @@ mod tests {
     }
 
     fn covered(share: f64) -> Estimate {
-        serde_json::from_value(serde_json::json!({
-            "sigma_m": 0.0, "sigma_rad": 0.0, "lost": false, "covered": share,
-        }))
-        .unwrap()
+        Estimate {
+            sigma_m: 0.0,
+            sigma_rad: 0.0,
+            lost: false,
+            agreement: None,
+            covered: Some(share),
+            covered_low: None,
+        }
     }
 
     #[test]
