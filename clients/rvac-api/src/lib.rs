@@ -16,6 +16,7 @@ mod health;
 mod history;
 mod home;
 mod learnt;
+mod name;
 mod order;
 mod reasons;
 mod request;
@@ -40,6 +41,7 @@ pub use history::{
 };
 pub use home::{CarpetView, DoorView, HomeView, KeptMap, RoomView, SurenessView, WallView};
 pub use learnt::{EnergyLearnt, GyroLearnt, LearntPart, LearntView};
+pub use name::{NAME_CHARS_MAX, NameProblem, name_problem};
 pub use order::{
     CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView,
     RoomChangeView, RoomNaming, RoomSettings, RoomSplitting, SPOT_RADIUS_M,

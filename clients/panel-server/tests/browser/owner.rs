@@ -146,6 +146,34 @@ async fn long_names_fit(visit: &Visit) {
     browser.has_no_order().await;
 }
 
+/// What is wrong with a name is said at its field, and what was typed stays.
+async fn names_are_checked_at_the_field(browser: &Browser) {
+    resize(browser, (390, 844)).await;
+    browser.click("#tab-home").await;
+    browser.click("#rename-room-2").await;
+    for (typed, told) in [
+        ("W".repeat(60), "60 characters"),
+        ("6".to_owned(), "A number alone"),
+    ] {
+        let fill = format!(
+            "const field = document.getElementById('room-name'); field.value = '{typed}'; \
+             field.dispatchEvent(new Event('input', {{ bubbles: true }})); return ''"
+        );
+        browser.text(&fill).await;
+        browser.click("#save-name").await;
+        browser.says("room-name-wrong", told).await;
+        assert_eq!(
+            browser
+                .text("return document.getElementById('room-name').value")
+                .await,
+            typed,
+            "nothing is cut or lost"
+        );
+    }
+    browser.shot("owner-name-wrong").await;
+    browser.click("#rename-room-2").await;
+}
+
 /// A refusal is seen wherever the page is scrolled to, with what to do.
 async fn refusals_are_seen(browser: &Browser) {
     for size in [(1440, 900), (390, 844), (844, 390), (320, 640)] {
@@ -209,6 +237,7 @@ async fn long_names_refusals_and_choices_do_what_an_owner_expects() {
         return;
     };
     long_names_fit(&visit).await;
+    names_are_checked_at_the_field(&visit.browser).await;
     refusals_are_seen(&visit.browser).await;
     resize(&visit.browser, (390, 844)).await;
     what_is_chosen_is_cleaned(&visit.browser).await;

@@ -33,6 +33,7 @@ mod lending;
 mod log_book;
 mod map_palette;
 mod mixes;
+mod names;
 mod offers;
 mod orbit;
 mod plan;
@@ -91,6 +92,7 @@ pub use mixes::{
     CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve, LinePart, MixDraft,
     MixProblem, OutputPart, SwitchPart, profile_problem_text, robot_has,
 };
+pub use names::name_problem_text;
 pub use offers::{Offer, Offers, PauseKind, Wait};
 pub use orbit::{Orbit, Projection};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};

@@ -2,7 +2,7 @@
 
 use rvac_api::{
     InQuiet, JobOrder, JobPart, PlaceShape, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView,
-    ScheduledJob, Weekday,
+    ScheduledJob, Weekday, name_problem,
 };
 
 use crate::job_settings::JobSettings;
@@ -155,6 +155,9 @@ impl ScheduleForm {
         let texts = &words.schedule;
         if self.name.trim().is_empty() {
             return Err(texts.need_name);
+        }
+        if name_problem(&self.name).is_some() {
+            return Err(texts.bad_name);
         }
         if self.at.is_empty() {
             return Err(texts.need_time);

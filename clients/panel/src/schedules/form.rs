@@ -87,7 +87,6 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
                 {words().schedule.name}
                 <input
                     id="schedule-name"
-                    maxlength="40"
                     autocomplete="off"
                     prop:value=text(form, |form| form.name.clone())
                     on:input=write(form, |form, typed| form.name = typed)

@@ -38,6 +38,8 @@ screen! {
         waits: "Wait for the end of the quiet hours", "Oota vaikse aja lõppu";
         may_be_late[1]: "up to {0} minutes late", "kuni {0} minutit hiljem";
         may_wait: "waits for the end of the quiet hours", "ootab vaikse aja lõppu";
+        bad_name: "The name must have at most 40 visible characters, and not only digits.",
+            "Nimes peab olema kuni 40 nähtavat tähemärki, ja mitte ainult numbrid.";
         need_name: "Give it a name.", "Anna ajakavale nimi.";
         need_time: "Say at what time it starts.", "Määra kellaaeg, millal see algab.";
         need_date: "Choose the day on which it starts.", "Vali päev, millal see algab.";
