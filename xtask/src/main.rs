@@ -52,8 +52,8 @@ enum Command {
     NewRobot(new_robot::NewRobotArguments),
     /// Packs the programs for the Linux board, for Debian and as archives.
     Package(package::PackageArguments),
-    /// Builds the panel for the browser and packs it.
-    Panel,
+    /// Builds the panel for the browser and packs it; with --json tells what a first visit brings over the network.
+    Panel(panel::PanelArguments),
     /// Makes the pictures of the book's measurements with today's code.
     BookPictures,
 }
@@ -74,8 +74,7 @@ fn main() -> ExitCode {
         Command::NewRobot(arguments) => new_robot::run(&arguments),
         Command::Package(arguments) => package::run(&arguments),
         Command::BookPictures => book_pictures::run(),
-        Command::Panel => panel::build(panel::Page::Release)
-            .map(|folder| process::say(&format!("the panel is in {}", folder.display()))),
+        Command::Panel(arguments) => panel::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
