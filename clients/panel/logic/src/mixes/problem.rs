@@ -70,10 +70,15 @@ fn source_problem_text(words: &Words, error: &SourceError) -> String {
 #[must_use]
 pub fn profile_problem_text(words: &Words, error: &ProfileError) -> String {
     // What was typed is no number; the mixer would call it NaN.
-    if let ProfileError::Range { place, found, .. } = error
+    if let ProfileError::Range {
+        place,
+        found,
+        low,
+        high,
+    } = error
         && found.is_nan()
     {
-        return words.mix.no_number.fill([place]);
+        return words.mix.no_number.fill([place, low, high]);
     }
     if words.language == Language::English {
         return error.to_string();
