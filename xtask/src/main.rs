@@ -55,8 +55,8 @@ enum Command {
     Package(package::PackageArguments),
     /// Makes a signed update of daemon, panel and firmware for one robot and one processor; or a pair of keys.
     Bundle(bundle::BundleArguments),
-    /// Builds the panel for the browser and packs it.
-    Panel,
+    /// Builds the panel for the browser and packs it; with --json tells what a first visit brings over the network.
+    Panel(panel::PanelArguments),
     /// Makes the pictures of the book's measurements with today's code.
     BookPictures,
 }
@@ -78,8 +78,7 @@ fn main() -> ExitCode {
         Command::Package(arguments) => package::run(&arguments),
         Command::Bundle(arguments) => bundle::run(&arguments),
         Command::BookPictures => book_pictures::run(),
-        Command::Panel => panel::build(panel::Page::Release)
-            .map(|folder| process::say(&format!("the panel is in {}", folder.display()))),
+        Command::Panel(arguments) => panel::run(&arguments),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
