@@ -10,7 +10,7 @@ use axum::Router;
 use axum::body::Body;
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{Extension, Path, Request, State};
-use axum::http::{HeaderName, HeaderValue, Response, header};
+use axum::http::{HeaderName, HeaderValue, Response, Uri, header};
 use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
@@ -27,7 +27,7 @@ use tracing::{debug, error, warn};
 
 use crate::announcement::announce;
 use crate::api::{self, Peer};
-use crate::browser;
+use crate::browser::{self, Manner};
 use crate::buttons::watch_buttons;
 use crate::download::{self, Wanted};
 use crate::gate::Gate;
@@ -380,8 +380,13 @@ fn trust_file(gate: &Gate, path: &str) -> Option<Response<Body>> {
 async fn open_socket(
     State(site): State<Arc<Site>>,
     known: Option<Extension<Known>>,
+    uri: Uri,
     upgrade: WebSocketUpgrade,
 ) -> Response<Body> {
+    let manner = match uri.query() {
+        Some("live") => Manner::Live,
+        _ => Manner::Whole,
+    };
     let pass = match (&site.gate, known) {
         (None, _) => None,
         (Some(gate), Some(Extension(known))) => Some(Pass::new(Arc::clone(gate), known)),
@@ -392,5 +397,5 @@ async fn open_socket(
     upgrade
         .max_message_size(MESSAGE_BYTES_MAX)
         .max_frame_size(MESSAGE_BYTES_MAX)
-        .on_upgrade(move |socket| browser::relay(socket, vthal, simulator, pass))
+        .on_upgrade(move |socket| browser::relay(socket, (vthal, simulator), pass, manner))
 }

@@ -223,6 +223,7 @@ pub(super) const REFUSALS: &[(&str, &str)] = &[
     ("schedule-wrong", "Sellist ajakava ei saa olla: paranda päevad ja kellaaeg."),
     ("schedule-past", "See aeg on juba möödas: vali hilisem."),
     ("schedule-decided", "Selle päeva töö on juba olnud: vali teine päev või tee uus ajakava."),
+    ("changed-meanwhile", "Keegi teine on seda vahepeal muutnud: vaata üle ja salvesta uuesti."),
     ("too-many-schedules", "Ajakavasid on nii palju, kui võib olla: eemalda enne mõni."),
     ("schedules-unwritable", "Ajakavasid ei saa kirjutada: kontrolli roboti ketast. Kõik on nii, nagu enne."),
     ("no-such-zone", "Sellist ajavööndit ei ole: vali loetelust."),
