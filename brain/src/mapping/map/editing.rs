@@ -101,7 +101,8 @@ impl Map {
                 *kind = CellKnowledge::NoGo;
             }
         }
-        if 2 * floor(&with_zone) < floor(self.knowledge()) {
+        // Two fifths: a wall that keeps one of two rooms of a size is a wish, not a mistake.
+        if 5 * floor(&with_zone) < 2 * floor(self.knowledge()) {
             return Err(EditError::DockShutOff);
         }
         Ok(())
