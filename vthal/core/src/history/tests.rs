@@ -54,18 +54,6 @@ fn results_follow_from_the_last_words() {
             "dock-not-found",
         ),
         (words("command", None), Stopped, "command"),
-        (words("command", Some("finished")), Finished, "finished"),
-        (words("command", Some("battery-low")), Stopped, "command"),
-        (
-            words("docked", Some("no-go-in-the-way")),
-            GaveUp,
-            "no-go-in-the-way",
-        ),
-        (
-            words("docked", Some("most-out-of-reach")),
-            GaveUp,
-            "most-out-of-reach",
-        ),
         (words("docked", Some("command")), Stopped, "command"),
         (words("docked", Some("task-budget")), GaveUp, "task-budget"),
         (
@@ -111,4 +99,25 @@ fn results_follow_from_the_last_words() {
         Ending::of(words("dock-not-found", Some("finished"))).text,
         "Finished, but did not come home: it did not find the dock in time."
     );
+}
+
+#[test]
+fn a_job_that_was_done_stays_finished_when_another_order_ends_its_way_home() {
+    use RunResult::{Finished, GaveUp, Stopped};
+    let clean = clean();
+    for (reason, turned_home, result, told) in [
+        ("command", "finished", Finished, "finished"),
+        ("command", "battery-low", Stopped, "command"),
+        ("docked", "no-go-in-the-way", GaveUp, "no-go-in-the-way"),
+        ("docked", "most-out-of-reach", GaveUp, "most-out-of-reach"),
+    ] {
+        let ending = Ending::of(LastWords {
+            job: &clean,
+            reason,
+            turned_home: Some(turned_home),
+            trouble: None,
+            by: None,
+        });
+        assert_eq!((ending.result, ending.reason.as_str()), (result, told));
+    }
 }
