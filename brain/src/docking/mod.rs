@@ -29,7 +29,7 @@ use beam_goals::{FailedPlace, goals};
 use dock_search::DockSearch;
 use parameters::DOCKING;
 use travel::{Travel, TravelStep};
-use tries::FailedTries;
+use tries::{FailedTries, FailedTry};
 
 /// The task.
 #[derive(Debug, Default)]
@@ -91,7 +91,7 @@ impl Task for Docking {
             DockingPhase::Approach(approach) => {
                 let step = approach.step(situation, context);
                 if let Some(failed) = approach.take_failed_try() {
-                    self.failed_tries.count(failed);
+                    self.count_failed(failed, situation);
                 }
                 self.after_approach(step, situation, context)
             }
@@ -214,6 +214,13 @@ impl Docking {
             }
         }
         TaskStatus::Go(Motion::Halt)
+    }
+
+    /// What stands in the way of a robot that searches for a dock of unknown place need not stand before the dock.
+    fn count_failed(&mut self, failed: FailedTry, situation: &Situation<'_>) {
+        if failed == FailedTry::NoContact || known_dock(situation).is_ok() {
+            self.failed_tries.count(failed);
+        }
     }
 
     fn after_approach(
