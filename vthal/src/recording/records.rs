@@ -38,7 +38,7 @@ pub(super) enum AfterDamage {
 }
 
 /// The next record of the file itself.
-enum Step {
+enum TopRecord {
     /// It stands here, behind its head.
     Record(u8, Range<usize>),
     /// Its head is none, or it reaches beyond the file.
@@ -67,9 +67,9 @@ impl<R: Read> Records<R> {
     pub(super) fn next<T>(&mut self, take: impl FnOnce(&Record<'_>) -> T) -> io::Result<Option<T>> {
         self.check_magic()?;
         while !self.is_over {
-            match self.step()? {
-                Step::Record(op::CHUNK, range) => self.open_chunk(range.end)?,
-                Step::Record(opcode, range) => {
+            match self.top_record()? {
+                TopRecord::Record(op::CHUNK, range) => self.open_chunk(range.end)?,
+                TopRecord::Record(opcode, range) => {
                     self.begin = range.end;
                     if let Some(record) = parsed(opcode, self.bytes.get(range).unwrap_or_default()) {
                         self.is_over = opcode == op::FOOTER;
@@ -78,8 +78,8 @@ impl<R: Read> Records<R> {
                     self.is_whole = false;
                     self.is_over = self.after_damage == AfterDamage::End;
                 }
-                Step::Damaged => self.find_chunk()?,
-                Step::Over => {
+                TopRecord::Damaged => self.find_chunk()?,
+                TopRecord::Over => {
                     // A whole recording has a footer.
                     self.is_whole = false;
                     self.is_over = true;
@@ -106,21 +106,21 @@ impl<R: Read> Records<R> {
         Ok(())
     }
 
-    fn step(&mut self) -> io::Result<Step> {
+    fn top_record(&mut self) -> io::Result<TopRecord> {
         self.fill(HEAD_BYTES)?;
         let Some((&opcode, rest)) = self.unread().split_first() else {
-            return Ok(Step::Over);
+            return Ok(TopRecord::Over);
         };
         let Some(length) = u64_at(rest, 0).filter(|length| *length <= RECORD_BYTES_MAX) else {
-            return Ok(Step::Damaged);
+            return Ok(TopRecord::Damaged);
         };
         let is_known = (op::HEADER..=op::DATA_END).contains(&opcode);
         let wanted = HEAD_BYTES + length as usize;
         self.fill(wanted)?;
         if !is_known || self.unread().len() < wanted {
-            return Ok(Step::Damaged);
+            return Ok(TopRecord::Damaged);
         }
-        Ok(Step::Record(opcode, self.begin + HEAD_BYTES..self.begin + wanted))
+        Ok(TopRecord::Record(opcode, self.begin + HEAD_BYTES..self.begin + wanted))
     }
 
     /// Goes into a chunk that is whole: its records stand in it as those of the file do.
