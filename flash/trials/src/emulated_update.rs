@@ -13,7 +13,8 @@ use rvac_update::{Attempt, Chip, ChipError, UpdateError};
 use crate::fixtures::{chip_with, content_of, flash_image, hex_of};
 use crate::icsp_pins::{Interruption, LinesLost, SimulatedIcsp, WireFaults};
 use crate::update_cuts::UpdateCuts;
-use crate::update_world::{Release, RobotEnd, Supply, UpdateFolder, UpdateWorld, accepted, key_pair};
+use crate::update_model::RobotEnd;
+use crate::update_world::{Release, Supply, UpdateFolder, UpdateWorld, accepted, key_pair};
 
 const CLOCK_HZ: u64 = 1_000_000;
 /// Where our firmware keeps a calibration, and how one begins.

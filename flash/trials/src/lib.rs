@@ -14,6 +14,7 @@ mod icsp_pins;
 mod isp_line;
 mod loader_terminal;
 pub mod update_cuts;
+pub mod update_model;
 pub mod update_world;
 
 pub use icsp_pins::{Interruption, LinesLost, SimulatedIcsp, WireFaults};

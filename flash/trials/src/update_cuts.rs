@@ -3,9 +3,8 @@
 use minisign::KeyPair;
 use rvac_update::{Accepted, UpdateError, WayBack};
 
-use crate::update_world::{
-    ModelChip, ModelChipPort, Release, RobotEnd as _, UpdateWorld, accepted, key_pair,
-};
+use crate::update_model::{ModelChip, ModelChipPort, RobotEnd as _};
+use crate::update_world::{Release, UpdateWorld, accepted, key_pair};
 
 /// A board with a chip that is a text.
 type ModelWorld = UpdateWorld<ModelChip, ModelChipPort>;

@@ -2,7 +2,8 @@
 
 use flash_trials::emulated_update::update_emulated;
 use flash_trials::update_cuts::cut_everywhere;
-use flash_trials::update_world::{ModelChip, ModelChipPort, Release, UpdateWorld, accepted, key_pair};
+use flash_trials::update_model::{ModelChip, ModelChipPort};
+use flash_trials::update_world::{Release, UpdateWorld, accepted, key_pair};
 use minisign::KeyPair;
 use rvac_update::{Accepted, ChipError, Settled, UpdateError, WayBack};
 use update_bundle::BundleError;

@@ -8,7 +8,7 @@ use toml::Table;
 
 const FOLDER: &str = "docs/book/src/images";
 /// Around the package, for what is written beside pins. All lengths are pixels.
-const MARGIN: i32 = 150;
+const MARGIN: i32 = 190;
 /// From pin to pin of the package.
 const PITCH: i32 = 16;
 const SIDE_PINS: i32 = 25;
@@ -157,7 +157,7 @@ fn connector(pinout: &Table) -> anyhow::Result<String> {
     let last = contacts.chain(supply).chain(ground).max().unwrap_or(0);
     let height = CONTACT_PITCH * (last + 2);
     let mut text = format!(
-        "{HEAD}<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 560 {height}\" role=\"img\">\n<title>The connector between main \
+        "{HEAD}<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 600 {height}\" role=\"img\">\n<title>The connector between main \
          board and button board</title>\n{STYLE}<rect class=\"body\" x=\"60\" y=\"{top}\" width=\"50\" height=\"{length}\"/>\n",
         top = CONTACT_PITCH / 2,
         length = CONTACT_PITCH * last + CONTACT_PITCH / 2,

@@ -161,7 +161,7 @@ fn killed_while_it_starts_programs_it_is_undone_at_the_next_boot() {
     let first = board.update(1, "daemon 1");
     assert!(board.rvac(&[&first.to_string_lossy()]).status.success());
     // Until somebody kills it.
-    board.restart_by("exec sleep 600");
+    board.restart_by("exec sleep 60 >/dev/null 2>&1");
     let second = board.update(2, "daemon 2");
     let mut update = Command::new(env!("CARGO_BIN_EXE_rvac"))
         .args(board.arguments(&[&second.to_string_lossy()]))
