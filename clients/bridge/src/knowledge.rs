@@ -60,7 +60,10 @@ impl Knowledge {
         match update {
             Update::Hello { versions, robot, .. } => {
                 self.versions = versions.clone();
-                self.robot.clone_from(robot);
+                // A daemon that has just started does not know its robot yet.
+                if robot.is_some() {
+                    self.robot.clone_from(robot);
+                }
                 Change::Robot
             }
             Update::Status(status) => {
