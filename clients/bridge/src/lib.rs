@@ -2,11 +2,12 @@
 //! a broker, a collector of measurements, a service for notifications.
 //!
 //! [`Daemon`] is the connection, made again for ever. [`Knowledge`] is the newest of what came over it. [`picture`] draws the map of it.
-//! [`service`] is how such a program starts and ends.
+//! [`dial`] is the way to others. [`service`] is how such a program starts and ends.
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 mod daemon;
+pub mod dial;
 mod knowledge;
 pub mod picture;
 pub mod rle;

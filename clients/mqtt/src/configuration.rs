@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use bridge::dial::{Dial, TlsFiles, host_and_port};
 use bridge::service::ConfigurationError;
 use serde::Deserialize;
 
@@ -45,6 +46,9 @@ pub(crate) struct Configuration {
     /// First level of Home Assistant's topics; empty for none.
     #[serde(default = "usual_discovery")]
     pub(crate) discovery: String,
+    /// First level of topics in the dialect of Valetudo's clients; empty for none.
+    #[serde(default)]
+    pub(crate) dialect_prefix: String,
     /// Least seconds between two pictures of the map; 0 for none.
     #[serde(default = "usual_map_every_s")]
     pub(crate) map_every_s: u16,
@@ -72,15 +76,15 @@ fn usual_map_every_s() -> u16 {
 
 /// Where the broker is.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct BrokerPlace {
-    pub(crate) host: String,
-    pub(crate) port: u16,
-    pub(crate) is_tls: bool,
+struct BrokerPlace {
+    host: String,
+    port: u16,
+    is_tls: bool,
 }
 
 impl Configuration {
-    /// Checks what a file of the right form may still say wrong; gives the place of the broker.
-    pub(crate) fn check(&self) -> Result<BrokerPlace, ConfigurationError> {
+    /// Checks what a file of the right form may still say wrong; gives the way to the broker.
+    pub(crate) fn check(&self) -> Result<Dial, ConfigurationError> {
         let unfit = |text: &str| Err(ConfigurationError::Unfit(text.to_owned()));
         let is_word = |word: &str| {
             (1..=64).contains(&word.len())
@@ -97,6 +101,13 @@ impl Configuration {
         if !(self.discovery.is_empty() || is_word(&self.discovery)) {
             return unfit("discovery must be 1 to 64 letters, digits, - and _, or empty");
         }
+        if !self.dialect_prefix.is_empty() && !is_word(&self.dialect_prefix) {
+            return unfit("dialect_prefix must be 1 to 64 letters, digits, - and _, or empty");
+        }
+        // A robot that says it were another project's misleads people who look for help.
+        if self.dialect_prefix.eq_ignore_ascii_case("valetudo") || self.dialect_prefix == self.prefix {
+            return unfit("dialect_prefix must be a word of its own, and not another project's name");
+        }
         if self.certificate.is_some() != self.key.is_some() {
             return unfit("certificate and key belong together: name both");
         }
@@ -110,7 +121,14 @@ impl Configuration {
         if !place.is_tls && (self.ca.is_some() || self.certificate.is_some()) {
             return unfit("ca and certificate are for mqtts://");
         }
-        Ok(place)
+        if !place.is_tls {
+            return Ok(Dial::plain(&place.host, place.port));
+        }
+        let files = TlsFiles {
+            ca: self.ca.clone(),
+            own: self.certificate.clone().zip(self.key.clone()),
+        };
+        Dial::secured(&place.host, place.port, &files)
     }
 }
 
@@ -121,27 +139,8 @@ fn broker_place(text: &str) -> Option<BrokerPlace> {
         "mqtts" => (true, 8883),
         _ => return None,
     };
-    let rest = rest.trim_end_matches('/');
-    let (host, port) = match rest.strip_prefix('[') {
-        Some(address) => {
-            let (host, after) = address.split_once(']')?;
-            (host, after.strip_prefix(':'))
-        }
-        None => match rest.split_once(':') {
-            Some((host, port)) => (host, Some(port)),
-            None => (rest, None),
-        },
-    };
-    let port = match port {
-        Some(port) => port.parse().ok()?,
-        None => usual_port,
-    };
-    let fits = !host.is_empty() && host.len() <= 253 && !host.contains(['/', '@', ' ']);
-    fits.then(|| BrokerPlace {
-        host: host.to_owned(),
-        port,
-        is_tls,
-    })
+    let (host, port) = host_and_port(rest.trim_end_matches('/'), usual_port)?;
+    Some(BrokerPlace { host, port, is_tls })
 }
 
 #[cfg(test)]

@@ -12,28 +12,15 @@ use crate::configuration::Configuration;
 use crate::discovery::Device;
 use crate::documents;
 use crate::fan_speed::FanSpeed;
+use crate::limiter::Limiter;
 use crate::topics::{Hearing, Saying, Topics};
+use crate::voice::{Output, Voice};
 use crate::wire::{Incoming, Publish};
 
 /// Least pause between readings that changed by and by, such as the swept area.
 const READINGS_EVERY: Duration = Duration::from_secs(10);
 /// Pause between questions about wear.
 const WEAR_EVERY: Duration = Duration::from_secs(15 * 60);
-/// Commands in a burst, and the pause that allows one more.
-const COMMANDS_MAX: u32 = 10;
-const COMMAND_EVERY: Duration = Duration::from_millis(500);
-
-/// What the shell shall do.
-#[derive(Debug, PartialEq)]
-pub(crate) enum Output {
-    /// Say a state, in place of an older one that waits.
-    State(Publish),
-    /// Say an event.
-    Event(Publish),
-    /// Ask the daemon.
-    Ask(RequestBody),
-}
-
 /// The bridge.
 #[derive(Debug)]
 pub(crate) struct Core {
@@ -82,35 +69,10 @@ impl Core {
         }
     }
 
-    /// What the broker says when this client is gone without a word.
-    pub(crate) fn will(&self) -> Publish {
-        self.state_message(Saying::Availability, b"offline".to_vec())
-    }
-
-    /// All topics that are heard.
-    pub(crate) fn heard_topics(&self) -> Vec<String> {
-        let mut topics: Vec<String> = Hearing::ALL
-            .map(|hearing| self.topics.of_command(hearing))
-            .to_vec();
-        topics.extend(self.birth_topic());
-        topics
-    }
-
     /// Where Home Assistant says that it has started.
     fn birth_topic(&self) -> Option<String> {
         let prefix = &self.configuration.discovery;
         (!prefix.is_empty()).then(|| format!("{prefix}/status"))
-    }
-
-    /// The broker has let us in: everything is said anew.
-    pub(crate) fn broker_came(&mut self, now: Duration, out: &mut Vec<Output>) {
-        self.broker_is_up = true;
-        self.say_all_anew(now, out);
-    }
-
-    /// The broker is gone, and with it what it was told.
-    pub(crate) fn broker_went(&mut self) {
-        self.broker_is_up = false;
     }
 
     fn say_all_anew(&mut self, now: Duration, out: &mut Vec<Output>) {
@@ -121,52 +83,6 @@ impl Core {
         self.say_changes(now, out);
     }
 
-    /// The daemon is there.
-    pub(crate) fn daemon_came(&mut self, out: &mut Vec<Output>) {
-        self.daemon_is_up = true;
-        out.push(Output::Ask(RequestBody::Runs {
-            before: None,
-            count: Some(1),
-        }));
-        self.wear_at = None;
-    }
-
-    /// The daemon is gone.
-    pub(crate) fn daemon_went(&mut self, now: Duration, out: &mut Vec<Output>) {
-        self.daemon_is_up = false;
-        self.known.forget_state();
-        self.say_changes(now, out);
-    }
-
-    /// The daemon says something.
-    pub(crate) fn update(&mut self, update: &Update, now: Duration, out: &mut Vec<Output>) {
-        match update {
-            Update::RunKept(run) => {
-                self.last_run = Some((**run).clone());
-                self.event(Saying::RunEnded, &documents::run(run), out);
-            }
-            Update::Runs { runs, .. } => self.last_run = runs.first().cloned(),
-            Update::Health { components, .. } => self.wear.clone_from(components),
-            Update::Done { .. } => return,
-            Update::Failed(failure) => {
-                let event = json!({"event_type": "refused", "reason": failure.reason, "text": failure.text});
-                self.event(Saying::Refused, &event, out);
-            }
-            update => match self.known.take(update) {
-                Change::Nothing => return,
-                Change::Map => {
-                    self.map_is_new = true;
-                    // The picture has a time of its own.
-                    return;
-                }
-                Change::Home => self.map_is_new = true,
-                Change::Status => self.watch_room(out),
-                _ => {}
-            },
-        }
-        self.say_changes(now, out);
-    }
-
     fn watch_room(&mut self, out: &mut Vec<Output>) {
         let room = self.known.status.as_ref().and_then(|status| status.room.clone());
         let Some(room) = room else { return };
@@ -174,37 +90,6 @@ impl Core {
         if before.is_some_and(|before| before != room.id) {
             let event = json!({"event_type": "entered", "room": room.title(), "room_id": room.id});
             self.event(Saying::RoomEntered, &event, out);
-        }
-    }
-
-    /// A message came.
-    pub(crate) fn message(&mut self, message: &Incoming, now: Duration, out: &mut Vec<Output>) {
-        if message.retained {
-            // Nobody knows when that was said: a robot that starts because it restarted is none that people want.
-            tracing::warn!(
-                topic = message.topic,
-                "a kept message is no command and is passed over"
-            );
-            return;
-        }
-        if !self.limiter.allows(now) {
-            return;
-        }
-        if Some(&message.topic) == self.birth_topic().as_ref() {
-            if message.payload == b"online" {
-                self.say_all_anew(now, out);
-            }
-            return;
-        }
-        let Some(hearing) = self.topics.heard(&message.topic) else {
-            return;
-        };
-        match commands::read(hearing, &message.payload) {
-            Ok(order) => self.order(order, now, out),
-            Err(error) => {
-                let topic: String = message.topic.chars().take(80).collect();
-                tracing::warn!(topic, %error, "a message is no command and is passed over");
-            }
         }
     }
 
@@ -264,36 +149,10 @@ impl Core {
         Some(floor.number)
     }
 
-    /// The time has come that [`Self::wake_at`] named.
-    pub(crate) fn wake(&mut self, now: Duration, out: &mut Vec<Output>) {
-        if self.daemon_is_up && self.wear_at.is_none_or(|at| now >= at) {
-            self.wear_at = Some(now + WEAR_EVERY);
-            out.push(Output::Ask(RequestBody::Health));
-        }
-        self.say_changes(now, out);
-        if self.map_is_due(now) {
-            self.map_is_new = false;
-            self.map_at = Some(now);
-            if let Some(file) = picture::png(&self.known, &[]) {
-                let message = Publish {
-                    acknowledged: false,
-                    ..self.state_message(Saying::Map, file)
-                };
-                out.push(Output::State(message));
-            }
-        }
-    }
-
     fn map_is_due(&self, now: Duration) -> bool {
         let every = Duration::from_secs(self.configuration.map_every_s.into());
         let due = self.map_at.is_none_or(|at| now >= at + every);
         self.broker_is_up && self.map_is_new && !every.is_zero() && due
-    }
-
-    /// When to wake at the latest.
-    pub(crate) fn wake_at(&self, now: Duration) -> Duration {
-        // Readings and pictures are looked at once a second: nothing of them is more urgent.
-        now + Duration::from_secs(1)
     }
 
     /// Says what is otherwise than it was said.
@@ -380,33 +239,120 @@ impl Core {
     }
 }
 
-/// How many commands a flood of them may be.
-#[derive(Debug)]
-struct Limiter {
-    left: u32,
-    filled_at: Duration,
-}
+impl Voice for Core {
+    const NAME: &'static str = "";
 
-impl Default for Limiter {
-    fn default() -> Self {
-        Self {
-            left: COMMANDS_MAX,
-            filled_at: Duration::ZERO,
+    fn will(&self) -> Publish {
+        self.state_message(Saying::Availability, b"offline".to_vec())
+    }
+
+    fn heard_topics(&self) -> Vec<String> {
+        let mut topics: Vec<String> = Hearing::ALL
+            .map(|hearing| self.topics.of_command(hearing))
+            .to_vec();
+        topics.extend(self.birth_topic());
+        topics
+    }
+
+    fn broker_came(&mut self, now: Duration, out: &mut Vec<Output>) {
+        self.broker_is_up = true;
+        self.say_all_anew(now, out);
+    }
+
+    fn broker_went(&mut self) {
+        self.broker_is_up = false;
+    }
+
+    fn daemon_came(&mut self, out: &mut Vec<Output>) {
+        self.daemon_is_up = true;
+        out.push(Output::Ask(RequestBody::Runs {
+            before: None,
+            count: Some(1),
+        }));
+        self.wear_at = None;
+    }
+
+    fn daemon_went(&mut self, now: Duration, out: &mut Vec<Output>) {
+        self.daemon_is_up = false;
+        self.known.forget_state();
+        self.say_changes(now, out);
+    }
+
+    fn update(&mut self, update: &Update, now: Duration, out: &mut Vec<Output>) {
+        match update {
+            Update::RunKept(run) => {
+                self.last_run = Some((**run).clone());
+                self.event(Saying::RunEnded, &documents::run(run), out);
+            }
+            Update::Runs { runs, .. } => self.last_run = runs.first().cloned(),
+            Update::Health { components, .. } => self.wear.clone_from(components),
+            Update::Done { .. } => return,
+            Update::Failed(failure) => {
+                let event = json!({"event_type": "refused", "reason": failure.reason, "text": failure.text});
+                self.event(Saying::Refused, &event, out);
+            }
+            update => match self.known.take(update) {
+                Change::Nothing => return,
+                Change::Map => {
+                    self.map_is_new = true;
+                    // The picture has a time of its own.
+                    return;
+                }
+                Change::Home => self.map_is_new = true,
+                Change::Status => self.watch_room(out),
+                _ => {}
+            },
+        }
+        self.say_changes(now, out);
+    }
+
+    fn message(&mut self, message: &Incoming, now: Duration, out: &mut Vec<Output>) {
+        if message.retained {
+            // Nobody knows when that was said: a robot that starts because it restarted is none that people want.
+            tracing::warn!(
+                topic = message.topic,
+                "a kept message is no command and is passed over"
+            );
+            return;
+        }
+        if !self.limiter.allows(now) {
+            return;
+        }
+        if Some(&message.topic) == self.birth_topic().as_ref() {
+            if message.payload == b"online" {
+                self.say_all_anew(now, out);
+            }
+            return;
+        }
+        let Some(hearing) = self.topics.heard(&message.topic) else {
+            return;
+        };
+        match commands::read(hearing, &message.payload) {
+            Ok(order) => self.order(order, now, out),
+            Err(error) => {
+                let topic: String = message.topic.chars().take(80).collect();
+                tracing::warn!(topic, %error, "a message is no command and is passed over");
+            }
         }
     }
-}
 
-impl Limiter {
-    fn allows(&mut self, now: Duration) -> bool {
-        let since = now.saturating_sub(self.filled_at);
-        let more = u32::try_from(since.as_millis() / COMMAND_EVERY.as_millis()).unwrap_or(u32::MAX);
-        if more > 0 {
-            self.left = self.left.saturating_add(more).min(COMMANDS_MAX);
-            self.filled_at = now;
+    fn wake(&mut self, now: Duration, out: &mut Vec<Output>) {
+        if self.daemon_is_up && self.wear_at.is_none_or(|at| now >= at) {
+            self.wear_at = Some(now + WEAR_EVERY);
+            out.push(Output::Ask(RequestBody::Health));
         }
-        let allowed = self.left > 0;
-        self.left = self.left.saturating_sub(1);
-        allowed
+        self.say_changes(now, out);
+        if self.map_is_due(now) {
+            self.map_is_new = false;
+            self.map_at = Some(now);
+            if let Some(file) = picture::png(&self.known, &[]) {
+                let message = Publish {
+                    acknowledged: false,
+                    ..self.state_message(Saying::Map, file)
+                };
+                out.push(Output::State(message));
+            }
+        }
     }
 }
 

@@ -2,7 +2,9 @@ use std::time::Duration;
 
 use rvac_api::{DeviceTable, Failure, RequestBody, RoomHere, Status, Update};
 
-use super::{COMMANDS_MAX, Core, Output};
+use super::Core;
+use crate::limiter::COMMANDS_MAX;
+use crate::voice::{Output, Voice as _};
 use crate::wire::Incoming;
 
 fn core() -> Core {

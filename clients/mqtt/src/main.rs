@@ -1,16 +1,18 @@
 //! `rvac-mqtt`: the bridge from the daemon to a broker of MQTT, and to Home Assistant behind it.
 #![forbid(unsafe_code)]
 
-mod broker;
 mod commands;
 mod configuration;
 mod core;
+mod dialect;
 mod discovery;
 mod documents;
 mod fan_speed;
+mod limiter;
 mod session;
 mod shell;
 mod topics;
+mod voice;
 mod wire;
 
 use std::path::PathBuf;

@@ -2,15 +2,17 @@
 
 use std::time::Duration;
 
+use bridge::dial::{Dial, Stream};
 use bridge::{Daemon, News, service};
 use rvac_api::Topic;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::time::{Instant, sleep_until, timeout};
 
-use crate::broker::{Broker, Stream};
 use crate::configuration::Configuration;
-use crate::core::{Core, Output};
+use crate::core::Core;
+use crate::dialect::Dialect;
 use crate::session::{Session, SessionNews};
+use crate::voice::{Output, Voice};
 use crate::wire::Login;
 
 /// Pauses between attempts: from the first to the last, twice as long each time. The last is short, because a home wants its robot back.
@@ -20,6 +22,9 @@ const RETRY_LAST: Duration = Duration::from_secs(8);
 const KEEP_ALIVE_S: u16 = 30;
 /// A broker that does not take bytes for so long is as good as gone.
 const WRITE_LIMIT: Duration = Duration::from_secs(8);
+
+/// Readings and pictures are looked at so often: nothing of them is more urgent.
+const WAKE_EVERY: Duration = Duration::from_secs(1);
 
 const TOPICS: [Topic; 7] = [
     Topic::Status,
@@ -33,24 +38,37 @@ const TOPICS: [Topic; 7] = [
 
 /// Runs the bridge for ever.
 pub(crate) async fn run(configuration: Configuration) -> anyhow::Result<()> {
-    let broker = Broker::new(&configuration)?;
+    let broker = configuration.check()?;
+    service::tell_ready();
+    let own = speak(&broker, Core::new(configuration.clone()), &configuration);
+    match configuration.dialect_prefix.is_empty() {
+        true => own.await,
+        false => {
+            let dialect = speak(&broker, Dialect::new(&configuration), &configuration);
+            tokio::join!(own, dialect);
+        }
+    }
+    Ok(())
+}
+
+/// Lets one side speak for ever, over a connection of its own: a broker says one will for each.
+async fn speak(broker: &Dial, voice: impl Voice, configuration: &Configuration) {
     let mut shell = Shell {
         begun: Instant::now(),
         daemon: Daemon::new(configuration.vthal.clone(), "rvac-mqtt", &TOPICS),
-        core: Core::new(configuration.clone()),
+        voice,
         configuration,
     };
-    service::tell_ready();
     let mut pause = RETRY_FIRST;
     loop {
         let began = Instant::now();
-        if let Err(error) = shell.one_connection(&broker).await {
+        if let Err(error) = shell.one_connection(broker).await {
             tracing::warn!(
                 broker = shell.configuration.broker,
                 "{error:#}; the next attempt follows"
             );
         }
-        shell.core.broker_went();
+        shell.voice.broker_went();
         pause = if began.elapsed() > RETRY_LAST {
             RETRY_FIRST
         } else {
@@ -60,14 +78,14 @@ pub(crate) async fn run(configuration: Configuration) -> anyhow::Result<()> {
     }
 }
 
-struct Shell {
+struct Shell<'a, V> {
     begun: Instant,
     daemon: Daemon,
-    core: Core,
-    configuration: Configuration,
+    voice: V,
+    configuration: &'a Configuration,
 }
 
-impl Shell {
+impl<V: Voice> Shell<'_, V> {
     fn now(&self) -> Duration {
         self.begun.elapsed()
     }
@@ -86,9 +104,9 @@ impl Shell {
         }
     }
 
-    async fn one_connection(&mut self, broker: &Broker) -> anyhow::Result<()> {
+    async fn one_connection(&mut self, broker: &Dial) -> anyhow::Result<()> {
         let mut stream = self.connected(broker).await?;
-        let (mut session, hello) = Session::begin(self.login(), self.core.heard_topics(), self.now());
+        let (mut session, hello) = Session::begin(self.login(), self.voice.heard_topics(), self.now());
         stream.write_all(&hello).await?;
         let mut received = vec![0; 8 << 10];
         loop {
@@ -98,7 +116,7 @@ impl Shell {
                 timeout(WRITE_LIMIT, stream.write_all(&bytes)).await??;
                 stream.flush().await?;
             }
-            let wake_at = session_at.min(self.core.wake_at(self.now()));
+            let wake_at = session_at.min(self.now() + WAKE_EVERY);
             let mut out = Vec::new();
             tokio::select! {
                 news = self.daemon.next() => self.take_news(news, &mut out),
@@ -112,14 +130,14 @@ impl Shell {
                 }
                 () = sleep_until(self.begun + wake_at) => {
                     let now = self.now();
-                    self.core.wake(now, &mut out);
+                    self.voice.wake(now, &mut out);
                 }
             }
             self.ask(out, Some(&mut session)).await;
         }
     }
 
-    async fn connected(&mut self, broker: &Broker) -> anyhow::Result<Box<dyn Stream>> {
+    async fn connected(&mut self, broker: &Dial) -> anyhow::Result<Box<dyn Stream>> {
         let connecting = broker.connect();
         tokio::pin!(connecting);
         loop {
@@ -135,13 +153,13 @@ impl Shell {
     }
 
     fn login(&self) -> Login {
-        let configuration = &self.configuration;
+        let configuration = self.configuration;
         Login {
             version: configuration.version,
-            client_id: format!("rvac-{}", configuration.id),
+            client_id: format!("rvac-{}{}", configuration.id, V::NAME),
             user: configuration.user.clone(),
             password: configuration.password.clone(),
-            will: self.core.will(),
+            will: self.voice.will(),
             keep_alive_s: KEEP_ALIVE_S,
         }
     }
@@ -149,9 +167,9 @@ impl Shell {
     fn take_news(&mut self, news: News, out: &mut Vec<Output>) {
         let now = self.now();
         match news {
-            News::Connected => self.core.daemon_came(out),
-            News::Lost => self.core.daemon_went(now, out),
-            News::Update(update) => self.core.update(&update, now, out),
+            News::Connected => self.voice.daemon_came(out),
+            News::Lost => self.voice.daemon_went(now, out),
+            News::Update(update) => self.voice.update(&update, now, out),
         }
     }
 
@@ -171,9 +189,9 @@ impl Shell {
                 SessionNews::Open => {
                     tracing::info!(broker = self.configuration.broker, "connected");
                     first = session.subscriptions();
-                    self.core.broker_came(now, out);
+                    self.voice.broker_came(now, out);
                 }
-                SessionNews::Message(message) => self.core.message(&message, now, out),
+                SessionNews::Message(message) => self.voice.message(&message, now, out),
             }
         }
         Ok(first)
