@@ -94,6 +94,15 @@ impl Daemon {
         }
     }
 
+    /// Says once more who this is, to hear who the robot is; see [`crate::Knowledge::wants_hello`].
+    ///
+    /// # Errors
+    /// [`NotSent`] when the daemon is away.
+    pub async fn hello(&mut self) -> Result<(), NotSent> {
+        let name = self.name.to_owned();
+        self.request(RequestBody::Hello { name }).await.map(drop)
+    }
+
     /// Asks for something; gives the number that the answer will carry.
     ///
     /// # Errors

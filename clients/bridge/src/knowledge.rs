@@ -1,8 +1,8 @@
 //! The newest of what the daemon has said.
 
 use rvac_api::{
-    DeviceTable, FloorsView, HomeView, MapDelta, MapSnapshot, Pose, RobotDescription, Schedules, Status,
-    Update, Versions,
+    Activity, DeviceTable, FloorsView, HomeView, MapDelta, MapSnapshot, Pose, RobotDescription, Schedules,
+    Status, Update, Versions,
 };
 
 /// A map of a home of 400 square metres has 160 000 cells of 5 cm; what grows beyond that is not kept.
@@ -52,9 +52,19 @@ pub struct Knowledge {
     pub schedules: Option<Schedules>,
     /// The pose.
     pub pose: Option<Pose>,
+    /// A robot answers, and nobody has asked who it is.
+    is_new: bool,
+    /// Of the last status.
+    is_connected: bool,
 }
 
 impl Knowledge {
+    /// Whether it is time to say `hello` again: the daemon describes the robot in its answer alone, and a robot may come later than its
+    /// daemon, or be another one. Once for each robot that comes.
+    pub fn wants_hello(&mut self) -> bool {
+        std::mem::take(&mut self.is_new)
+    }
+
     /// Takes what an update tells.
     pub fn take(&mut self, update: &Update) -> Change {
         match update {
@@ -67,6 +77,9 @@ impl Knowledge {
                 Change::Robot
             }
             Update::Status(status) => {
+                let is_connected = Activity::from_name(&status.state) != Some(Activity::Disconnected);
+                self.is_new |= is_connected && !self.is_connected;
+                self.is_connected = is_connected;
                 self.status = Some(status.clone());
                 Change::Status
             }
@@ -103,6 +116,7 @@ impl Knowledge {
     /// The daemon is gone: what it said of the robot's state holds no more. The home does.
     pub fn forget_state(&mut self) {
         self.status = None;
+        self.is_connected = false;
         self.device = None;
         self.pose = None;
     }
@@ -147,9 +161,23 @@ fn end_of(path_mm: &[i32]) -> Option<Pose> {
 
 #[cfg(test)]
 mod tests {
-    use rvac_api::{MapDelta, MapSnapshot, Update};
+    use rvac_api::{MapDelta, MapSnapshot, Status, Update};
 
     use super::{Change, Knowledge};
+
+    #[test]
+    fn a_robot_that_comes_is_asked_once_who_it_is() {
+        let mut known = Knowledge::default();
+        let mut asked = |state: &str| {
+            known.take(&Update::Status(Status {
+                state: state.to_owned(),
+                ..Status::default()
+            }));
+            known.wants_hello()
+        };
+        let states = ["disconnected", "idle", "cleaning", "disconnected", "idle"];
+        assert_eq!(states.map(&mut asked), [false, true, false, false, true]);
+    }
 
     #[test]
     fn a_delta_belongs_to_its_own_map_alone() {

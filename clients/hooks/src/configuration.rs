@@ -41,7 +41,6 @@ pub(crate) struct CalendarPlace {
 
 /// Who is told, and when.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(crate) struct Target {
     /// How.
     #[serde(flatten)]

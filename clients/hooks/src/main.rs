@@ -151,7 +151,12 @@ async fn follow(configuration: Configuration, diary: Shared) {
                 }
                 News::Update(update) => {
                     write_down(&mut lock(&diary), &update);
-                    watcher.update(&update, begun.elapsed())
+                    let notice = watcher.update(&update, begun.elapsed());
+                    if watcher.known.wants_hello() {
+                        // A daemon that is away says it when it is there again.
+                        daemon.hello().await.ok();
+                    }
+                    notice
                 }
             },
             _ = ticks.tick() => watcher.wake(begun.elapsed()),

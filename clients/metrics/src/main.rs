@@ -119,7 +119,17 @@ async fn follow(socket: PathBuf, figures: Shared) {
                     wear.reset_immediately();
                 }
                 News::Lost => lock(&figures).daemon(false),
-                News::Update(update) => lock(&figures).take(&update),
+                News::Update(update) => {
+                    let is_new = {
+                        let mut figures = lock(&figures);
+                        figures.take(&update);
+                        figures.known.wants_hello()
+                    };
+                    if is_new {
+                        // A daemon that is away says it when it is there again.
+                        daemon.hello().await.ok();
+                    }
+                }
             },
             _ = wear.tick() => {
                 // Without a daemon there is nobody to ask; it is asked when it comes.

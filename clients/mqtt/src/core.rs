@@ -299,7 +299,12 @@ impl Voice for Core {
                     return;
                 }
                 Change::Home => self.map_is_new = true,
-                Change::Status => self.watch_room(out),
+                Change::Status => {
+                    if self.known.wants_hello() {
+                        out.push(Output::Hello);
+                    }
+                    self.watch_room(out);
+                }
                 _ => {}
             },
         }

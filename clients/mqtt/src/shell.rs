@@ -205,6 +205,10 @@ impl<V: Voice> Shell<'_, V> {
                         tracing::warn!(%error, "a request is lost");
                     }
                 }
+                (Output::Hello, _) => {
+                    // A daemon that is away says it when it is asked again.
+                    self.daemon.hello().await.ok();
+                }
                 (Output::State(message), Some(session)) => session.set(message),
                 (Output::Event(message), Some(session)) => session.add(message),
                 (_, None) => {}

@@ -13,6 +13,8 @@ pub(crate) enum Output {
     State(Publish),
     /// Say an event.
     Event(Publish),
+    /// Ask the daemon who its robot is.
+    Hello,
     /// Ask the daemon.
     Ask(RequestBody),
 }

@@ -27,13 +27,13 @@ struct Hub {
     server: Site,
 }
 
-pub(crate) fn trial(arguments: &Arguments) -> anyhow::Result<Verdict> {
+pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {
     let hass = arguments
         .hass
         .clone()
         .context("--hass names the program of Home Assistant")?;
     let version = output(Command::new(&hass).arg("--version"))?;
-    let mut verdict = Verdict::of("home-assistant", version.trim());
+    verdict.version(Some(version.trim()));
     let rig = Rig::start(Door::Open, "5")?;
     let folder = rig.home.scratch.join("hass");
     std::fs::create_dir_all(&folder)?;
@@ -51,10 +51,10 @@ pub(crate) fn trial(arguments: &Arguments) -> anyhow::Result<Verdict> {
     };
     hub.start()?;
     verdict.check("it is set up, and the broker joined to it", hub.set_up());
-    shown(&hub, &mut verdict);
-    ordered(&hub, &mut verdict)?;
-    broken(&mut hub, if arguments.long { 20 } else { 2 }, &mut verdict)?;
-    Ok(verdict)
+    shown(&hub, verdict);
+    ordered(&hub, verdict)?;
+    broken(&mut hub, if arguments.long { 20 } else { 2 }, verdict)?;
+    Ok(())
 }
 
 impl Hub {

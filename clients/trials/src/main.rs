@@ -41,7 +41,7 @@ struct Arguments {
 }
 
 /// A peer, and how it is tried.
-type Trial = (&'static str, fn(&Arguments) -> anyhow::Result<Verdict>);
+type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
 const TRIALS: [Trial; 5] = [
     ("mosquitto", mosquitto::trial),
@@ -77,7 +77,10 @@ fn try_all(arguments: &Arguments) -> anyhow::Result<()> {
             arguments.only.iter().any(|only| only == name)
         };
         if wanted {
-            let verdict = trial(arguments).unwrap_or_else(|error| Verdict::broken(name, &error));
+            let mut verdict = Verdict::of(name);
+            if let Err(error) = trial(arguments, &mut verdict) {
+                verdict.ended_early(&error);
+            }
             eprintln!("{verdict}");
             verdicts.push(verdict);
         }

@@ -11,7 +11,7 @@ use crate::Arguments;
 use crate::broker::{Broker, Door, Heard, Listener};
 use crate::home::Home;
 use crate::process::{beside, resident_mib};
-use crate::program::{Program, output, server};
+use crate::program::{Program, server, version_in};
 use crate::verdict::Verdict;
 
 /// Within this time everything is back after a break.
@@ -60,20 +60,15 @@ impl Rig {
 }
 
 /// All of it.
-pub(crate) fn trial(arguments: &Arguments) -> anyhow::Result<Verdict> {
-    let told =
-        output(Command::new(server("mosquitto")).arg("-h")).unwrap_or_else(|error| format!("{error:#}"));
-    let version = told
-        .split_whitespace()
-        .skip_while(|word| *word != "version")
-        .nth(1);
-    let mut verdict = Verdict::of("mosquitto", version.unwrap_or("unknown"));
+pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {
+    let version = version_in(Command::new(server("mosquitto")).arg("-h"))?;
+    verdict.version(version.as_deref());
     let mut rig = Rig::start(Door::Open, "5")?;
-    sayings(&rig, &mut verdict)?;
-    commands(&rig, &mut verdict)?;
-    hostile(&mut rig, &mut verdict)?;
+    sayings(&rig, verdict)?;
+    commands(&rig, verdict)?;
+    hostile(&mut rig, verdict)?;
     let breaks = if arguments.long { 20 } else { 2 };
-    broken(&mut rig, breaks, &mut verdict)?;
+    broken(&mut rig, breaks, verdict)?;
     drop(rig);
     let guarded = Rig::start(Door::Guarded, "3.1.1")?;
     let listener = guarded.broker.listen(&["librervac/#"])?;
@@ -82,7 +77,7 @@ pub(crate) fn trial(arguments: &Arguments) -> anyhow::Result<Verdict> {
         "3.1.1 over TLS with a client's certificate, user and password",
         state.map(drop),
     );
-    Ok(verdict)
+    Ok(())
 }
 
 /// The state of a vacuum with this word.
@@ -208,7 +203,7 @@ fn commands(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
     let clean = rig.broker.publish("librervac/robo/rooms/clean", r#"["1"]"#, &[]);
     let cleans = clean.and_then(|()| listener.wait_for("cleaning", SOON, is_state("cleaning")));
     verdict.check("a room is cleaned", cleans.map(drop));
-    let zone = r#"{"command":"clean","parts":[{"zone":[[0.2,0.2],[0.8,0.2],[0.8,0.8]]}],"passes":2}"#;
+    let zone = r#"{"command":"clean","parts":[{"zone":[[-1.0,-0.4],[-0.4,-0.4],[-0.4,0.2]]}],"passes":2}"#;
     rig.command("stop")?;
     listener.wait_for("idle", SOON, is_state("idle"))?;
     let clean = rig.broker.publish("librervac/robo/request", zone, &[]);

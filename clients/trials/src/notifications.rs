@@ -29,10 +29,10 @@ fn read(python: &Path, kind: &str, file: &Path) -> anyhow::Result<Value> {
     Ok(serde_json::from_str(told.trim())?)
 }
 
-pub(crate) fn trial(arguments: &Arguments) -> anyhow::Result<Verdict> {
+pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {
     let python = arguments.python.clone().unwrap_or_else(|| "python3".into());
     let version = output(Command::new(&python).arg("--version"))?;
-    let mut verdict = Verdict::of("python", version.trim().trim_start_matches("Python "));
+    verdict.version(Some(version.trim().trim_start_matches("Python ")));
     let home = Home::start()?;
     let port = free_port()?;
     let heard = home.scratch.join("heard");
@@ -103,7 +103,7 @@ pub(crate) fn trial(arguments: &Arguments) -> anyhow::Result<Verdict> {
         "the calendar has the past run and those to come",
         calendar(&home, &python, bridge.port()?),
     );
-    Ok(verdict)
+    Ok(())
 }
 
 fn bridge(home: &Home, port: u16) -> anyhow::Result<process::Server> {

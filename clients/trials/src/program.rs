@@ -77,6 +77,15 @@ pub(crate) fn wait_for<T>(
     }
 }
 
+/// The word after `version` in what a program says of itself, whatever code it ends with.
+pub(crate) fn version_in(command: &mut Command) -> anyhow::Result<Option<String>> {
+    let said = command.stdin(Stdio::null()).output()?;
+    let text = [said.stdout, said.stderr].concat();
+    let text = String::from_utf8_lossy(&text).into_owned();
+    let mut words = text.split_whitespace().skip_while(|word| *word != "version");
+    Ok(words.nth(1).map(|word| word.trim_end_matches(',').to_owned()))
+}
+
 /// The output of a program that ends by itself.
 pub(crate) fn output(command: &mut Command) -> anyhow::Result<String> {
     let output = command

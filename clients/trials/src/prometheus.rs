@@ -12,7 +12,7 @@ use crate::Arguments;
 use crate::home::Home;
 use crate::http::Site;
 use crate::process::{self, beside};
-use crate::program::{Program, free_port, output, wait_for};
+use crate::program::{Program, free_port, version_in, wait_for};
 use crate::verdict::Verdict;
 
 /// Dashboard whose every question must be one that Prometheus answers.
@@ -20,13 +20,9 @@ const DASHBOARD: &str = "../../packaging/grafana/librervac.json";
 /// Figures of this that have an answer only after a stop or a day.
 const LATER: [&str; 2] = ["rvac_stops_total", "rvac_wear_ratio"];
 
-pub(crate) fn trial(_arguments: &Arguments) -> anyhow::Result<Verdict> {
-    let told = output(Command::new("prometheus").arg("--version"))?;
-    let version = told
-        .split_whitespace()
-        .skip_while(|word| *word != "version")
-        .nth(1);
-    let mut verdict = Verdict::of("prometheus", version.unwrap_or("unknown"));
+pub(crate) fn trial(_arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {
+    let version = version_in(Command::new("prometheus").arg("--version"))?;
+    verdict.version(version.as_deref());
     let home = Home::start()?;
     let mut command = Command::new(beside("rvac-metrics")?);
     command.arg("--vthal").arg(home.socket()).args(["--port", "0"]);
@@ -76,7 +72,7 @@ pub(crate) fn trial(_arguments: &Arguments) -> anyhow::Result<Verdict> {
             Ok(up.filter(|up| *up < 0.5).map(drop))
         }),
     );
-    Ok(verdict)
+    Ok(())
 }
 
 fn linted(home: &Home, page: &str) -> anyhow::Result<()> {

@@ -18,21 +18,26 @@ pub(crate) struct Verdict {
 }
 
 impl Verdict {
-    pub(crate) fn of(name: &'static str, version: impl Into<String>) -> Self {
+    pub(crate) fn of(name: &'static str) -> Self {
         Self {
             name,
-            version: version.into(),
+            version: "unknown".to_owned(),
             checks: Vec::new(),
             failed: Vec::new(),
             figures: BTreeMap::new(),
         }
     }
 
-    /// A trial that did not come to its end.
-    pub(crate) fn broken(name: &'static str, error: &anyhow::Error) -> Self {
-        let mut verdict = Self::of(name, "");
-        verdict.failed.push(format!("the trial ended early: {error:#}"));
-        verdict
+    /// The version of the peer, once it is known.
+    pub(crate) fn version(&mut self, version: Option<&str>) {
+        if let Some(version) = version {
+            version.clone_into(&mut self.version);
+        }
+    }
+
+    /// The trial did not come to its end.
+    pub(crate) fn ended_early(&mut self, error: &anyhow::Error) {
+        self.failed.push(format!("the trial ended early: {error:#}"));
     }
 
     /// A check passes or fails; an error says why.

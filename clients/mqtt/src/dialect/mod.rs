@@ -236,6 +236,9 @@ impl Voice for Dialect {
             }
             _ => self.say_changes(out),
         }
+        if self.known.wants_hello() {
+            out.push(Output::Hello);
+        }
     }
 
     fn message(&mut self, message: &Incoming, now: Duration, out: &mut Vec<Output>) {
