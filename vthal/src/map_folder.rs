@@ -10,10 +10,14 @@ use brain::{CELL_M, CellKnowledge, StoredMap};
 use rvac_api::KeptMap;
 use vthal_core::stored_map;
 
+use crate::numbered::number;
+
 /// Versions kept: a map that was spoilt is noticed within some runs, and each change that a person makes is a version, too.
 const VERSIONS_MAX: usize = 40;
 /// Largest file that is read. A home of 150 square metres takes some ten kilobytes.
 const BYTES_MAX: u64 = 16 << 20;
+/// Ending of the files.
+const ENDING: &str = ".map";
 
 /// The folder.
 #[derive(Clone, Debug)]
@@ -81,8 +85,7 @@ impl MapFolder {
         if newest.is_some_and(|number| self.read(number).is_ok_and(|present| present == bytes)) {
             return Ok(());
         }
-        let number = newest.unwrap_or(0).checked_add(1);
-        let number = number.ok_or_else(|| io::Error::other("the numbers of maps are used up"))?;
+        let number = newest.unwrap_or(0).saturating_add(1);
         kept_file::replace(&self.file(number), bytes)?;
         for oldest in numbers.iter().skip(VERSIONS_MAX - 1) {
             self.discard(*oldest)?;
@@ -134,8 +137,19 @@ impl MapFolder {
         let home = self
             .load(number)
             .map_err(|what| RestoreError::Broken { number, what })?;
+        let home = self.numbered_after_all(home);
         self.save(&home)?;
         Ok(home)
+    }
+
+    /// A room, zone or place of this map that is new from now on gets a number that no version has given to another one: schedules and
+    /// scripts keep numbers.
+    fn numbered_after_all(&self, home: StoredMap) -> StoredMap {
+        let others = self
+            .numbers()
+            .into_iter()
+            .filter_map(|other| self.load(other).ok());
+        others.fold(home, |home, other| home.numbered_after(&other))
     }
 
     /// Deletes a version for good.
@@ -151,10 +165,9 @@ impl MapFolder {
         let Ok(entries) = fs::read_dir(&self.path) else {
             return Vec::new();
         };
-        let number = |name: &str| name.strip_suffix(".map")?.parse::<u64>().ok();
         let mut numbers: Vec<u64> = entries
             .flatten()
-            .filter_map(|entry| number(entry.file_name().to_str()?))
+            .filter_map(|entry| number(entry.file_name().to_str()?, ENDING))
             // What a person named otherwise is not ours.
             .filter(|number| self.file(*number).is_file())
             .collect();
@@ -163,7 +176,7 @@ impl MapFolder {
     }
 
     fn file(&self, number: u64) -> PathBuf {
-        self.path.join(format!("{number:06}.map"))
+        self.path.join(format!("{number:06}{ENDING}"))
     }
 
     fn read(&self, number: u64) -> io::Result<Vec<u8>> {
@@ -282,8 +295,11 @@ mod tests {
         for width in 2..=VERSIONS_MAX + 3 {
             scratch.0.save(&home(width)).expect("saves");
         }
-        let newest = VERSIONS_MAX as u64 + 3;
-        assert_eq!(scratch.numbers(), (4..=newest).rev().collect::<Vec<_>>());
+        // A number that leaves none above it is not ours, either.
+        fs::write(scratch.0.path().join(format!("{}.map", u64::MAX)), b"not ours").expect("writes");
+        scratch.0.save(&home(1)).expect("saves");
+        let newest = VERSIONS_MAX as u64 + 4;
+        assert_eq!(scratch.numbers(), (5..=newest).rev().collect::<Vec<_>>());
         assert!(foreign.exists());
     }
 }

@@ -77,13 +77,14 @@ impl RunDesk {
         })))
     }
 
-    /// A piece of all recordings as one file.
+    /// A piece of all recordings as one file. One that was cut short is read again for this, too: without the index at its end
+    /// other programs refuse it.
     fn piece(&mut self, number: u64, from: u64) -> Result<Update, RunError> {
-        if self.folder.recording_count(number)? == 1 {
-            return self.folder.piece(number, 0, from);
-        }
         let is_it = |file: &OpenFile| (file.number, file.read) == (number, from);
         let place = self.open.iter().position(is_it);
+        if place.is_none() && self.folder.has_one_with_its_end(number)? {
+            return self.folder.piece(number, 0, from);
+        }
         let mut file = match place.and_then(|place| self.open.remove(place)) {
             Some(file) => file,
             None => self.open_at(number, from)?,

@@ -11,6 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use rvac_api::{RUN_PIECE_BYTES, Run, RunRecord, RunRecording, Update};
 use serde::Deserialize;
 
+use crate::numbered::number;
 use crate::recording::Part;
 
 /// Records kept.
@@ -168,13 +169,25 @@ impl RunFolder {
         is_plain.then(|| self.recordings.join(name))
     }
 
-    /// How many recordings a run has, also those that were removed.
+    /// Whether a run has one recording, and that was ended with its index.
     ///
     /// # Errors
     /// See [`RunError`].
-    pub(crate) fn recording_count(&self, number: u64) -> Result<usize, RunError> {
+    pub(crate) fn has_one_with_its_end(&self, number: u64) -> Result<bool, RunError> {
         let Head { run } = self.load(number)?;
-        Ok(run.recordings.len())
+        let [recording] = run.recordings.as_slice() else {
+            return Ok(false);
+        };
+        let mut end = [0; mcap::MAGIC.len()];
+        let mut read_end = |file: PathBuf| {
+            let mut file = File::open(file)?;
+            file.seek(SeekFrom::End(-(mcap::MAGIC.len() as i64)))?;
+            file.read_exact(&mut end)
+        };
+        let is_read = self
+            .recording(&recording.name)
+            .is_some_and(|file| read_end(file).is_ok());
+        Ok(is_read && end == mcap::MAGIC)
     }
 
     /// Opens a recording of a run.
@@ -242,10 +255,9 @@ impl RunFolder {
         let Ok(entries) = fs::read_dir(&self.path) else {
             return Vec::new();
         };
-        let number = |file: &str| file.strip_suffix(ENDING)?.parse::<u64>().ok();
         let mut numbers: Vec<u64> = entries
             .flatten()
-            .filter_map(|entry| number(entry.file_name().to_str()?))
+            .filter_map(|entry| number(entry.file_name().to_str()?, ENDING))
             .filter(|number| self.has(*number))
             .collect();
         numbers.sort_unstable_by(|one, other| other.cmp(one));

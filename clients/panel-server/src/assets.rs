@@ -43,12 +43,13 @@ pub struct Assets {
 struct File {
     plain: Bytes,
     gzip: Option<Bytes>,
+    brotli: Option<Bytes>,
     media_type: &'static str,
     cache: &'static str,
 }
 
 impl Assets {
-    /// Reads the regular files of `folder`; `x.gz` is the packed twin of `x`.
+    /// Reads the regular files of `folder`; `x.gz` and `x.br` are the packed twins of `x`.
     ///
     /// # Errors
     /// When the folder cannot be read or is not a packed panel.
@@ -89,16 +90,21 @@ impl Assets {
         let Some(file) = self.files.get(path) else {
             return not_found();
         };
-        let zipped = file.gzip.as_ref().filter(|_| accepts_gzip(request));
-        let mut response = Response::new(Body::from(zipped.unwrap_or(&file.plain).clone()));
+        let twins = [("br", &file.brotli), ("gzip", &file.gzip)];
+        let packed = twins
+            .into_iter()
+            .filter(|(coding, _)| accepts(request, coding))
+            .find_map(|(coding, bytes)| Some((coding, bytes.as_ref()?)));
+        let bytes = packed.map_or(&file.plain, |(_, bytes)| bytes);
+        let mut response = Response::new(Body::from(bytes.clone()));
         let headers = response.headers_mut();
         headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(file.media_type));
         headers.insert(header::CACHE_CONTROL, HeaderValue::from_static(file.cache));
-        if file.gzip.is_some() {
+        if file.gzip.is_some() || file.brotli.is_some() {
             headers.insert(header::VARY, HeaderValue::from_static("accept-encoding"));
         }
-        if zipped.is_some() {
-            headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static("gzip"));
+        if let Some((coding, _)) = packed {
+            headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static(coding));
         }
         response
     }
@@ -118,12 +124,14 @@ fn table(found: &BTreeMap<String, Bytes>) -> BTreeMap<String, File> {
             "public, max-age=31536000, immutable"
         };
         let gzip = found.get(&format!("{name}.gz")).cloned();
+        let brotli = found.get(&format!("{name}.br")).cloned();
         let key = if page { "/".to_owned() } else { format!("/{name}") };
         files.insert(
             key,
             File {
                 plain: plain.clone(),
                 gzip,
+                brotli,
                 media_type,
                 cache,
             },
@@ -145,16 +153,16 @@ fn media_type(name: &str) -> Option<&'static str> {
     }
 }
 
-fn accepts_gzip(request: &HeaderMap) -> bool {
+fn accepts(request: &HeaderMap, wanted: &str) -> bool {
     request
         .get_all(header::ACCEPT_ENCODING)
         .iter()
         .filter_map(|value| value.to_str().ok())
         .any(|value| {
-            value
-                .split(',')
-                .map(str::trim)
-                .any(|coding| coding == "gzip" || (coding.starts_with("gzip;") && !coding.ends_with("q=0")))
+            value.split(',').any(|offer| {
+                let (coding, quality) = offer.split_once(';').unwrap_or((offer, ""));
+                coding.trim() == wanted && !quality.trim().ends_with("q=0")
+            })
         })
 }
 

@@ -1,5 +1,6 @@
 //! One browser: relays its messages until it goes away.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -10,7 +11,7 @@ use tokio::sync::Notify;
 use tokio::time::{Instant, Interval, interval, timeout};
 use tracing::{debug, info, warn};
 
-use crate::courtesy::{Courtesy, disconnected, is_one_message, is_stop, new_device, refused};
+use crate::courtesy::{Courtesy, disconnected, heartbeat, is_one_message, is_stop, new_device, refused};
 use crate::outbox::{Outbox, Stalled};
 use crate::pass::{Change, Judged, Pass};
 use crate::upstream::{Event, Upstream};
@@ -21,18 +22,27 @@ const SEND_LIMIT: Duration = Duration::from_secs(10);
 /// A browser is asked for a sign of life this often and dropped after three of them in silence.
 const PING_EVERY: Duration = Duration::from_secs(10);
 
+/// A page that asked for it hears this often that the server is there.
+const HEARTBEAT_EVERY: Duration = Duration::from_secs(1);
+
+/// Bytes that may be on the way to such a page without a sign that they came: the answer to a press waits behind no more than these.
+const ON_THE_WAY_MAX: u64 = 24 << 10;
+
+/// Bytes after which it is asked for such a sign.
+const ASK_EVERY: u64 = 4 << 10;
+
 /// Ten drive commands a second and some clicks need a tenth of this.
 const MESSAGES_PER_S_MAX: u32 = 200;
 
 /// Relays between one browser and its upstreams until the browser goes away or misbehaves.
 pub(crate) async fn relay(
     socket: WebSocket,
-    vthal: Upstream,
-    simulator: Option<Upstream>,
+    (vthal, simulator): (Upstream, Option<Upstream>),
     pass: Option<Pass>,
+    manner: Manner,
 ) {
     let (sink, stream) = socket.split();
-    let shared = Arc::new(Shared::default());
+    let shared = Arc::new(Shared::new(manner));
     let writer = tokio::spawn(write_all(sink, Arc::clone(&shared)));
     let mut browser = Browser {
         shared,
@@ -42,6 +52,7 @@ pub(crate) async fn relay(
         courtesy: Courtesy::default(),
         budget: Budget::default(),
         heard: Instant::now(),
+        heard_daemon: None,
     };
     let parting = browser.run(stream).await;
     info!(?parting, "browser gone");
@@ -51,6 +62,15 @@ pub(crate) async fn relay(
         debug!("vthal went away before the driver's seat could be released; the lease ends by itself");
     }
     writer.abort();
+}
+
+/// How a client wants its updates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Manner {
+    /// Each as a message of its own.
+    Whole,
+    /// In pieces, with few bytes on the way and a heartbeat.
+    Live,
 }
 
 /// Why the relay ended.
@@ -71,15 +91,35 @@ impl From<Stalled> for Parting {
     }
 }
 
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Shared {
+    manner: Manner,
     outbox: Mutex<Outbox>,
+    /// Bytes that were sent, and those of them that have come.
+    sent: AtomicU64,
+    came: AtomicU64,
     filled: Notify,
     ping_due: Notify,
     failed: Notify,
 }
 
 impl Shared {
+    fn new(manner: Manner) -> Self {
+        let outbox = match manner {
+            Manner::Whole => Outbox::default(),
+            Manner::Live => Outbox::in_pieces(),
+        };
+        Self {
+            manner,
+            outbox: Mutex::new(outbox),
+            sent: AtomicU64::new(0),
+            came: AtomicU64::new(0),
+            filled: Notify::new(),
+            ping_due: Notify::new(),
+            failed: Notify::new(),
+        }
+    }
+
     fn push(&self, text: String) -> Result<(), Stalled> {
         self.outbox
             .lock()
@@ -89,8 +129,27 @@ impl Shared {
         Ok(())
     }
 
+    /// The next message, unless enough is on the way.
     fn pop(&self) -> Option<String> {
+        let on_the_way = self.sent.load(Ordering::Relaxed) - self.came.load(Ordering::Relaxed);
+        if self.manner == Manner::Live && on_the_way > ON_THE_WAY_MAX {
+            return None;
+        }
         self.outbox.lock().unwrap_or_else(PoisonError::into_inner).pop()
+    }
+
+    /// The browser answers that everything up to so many bytes has come; whether that is news.
+    fn on_came(&self, payload: &[u8]) -> bool {
+        let Ok(bytes) = payload.try_into().map(u64::from_be_bytes) else {
+            return false;
+        };
+        // A number that was never sent counts for nothing.
+        let is_news = bytes <= self.sent.load(Ordering::Relaxed)
+            && bytes > self.came.fetch_max(bytes, Ordering::Relaxed);
+        if is_news {
+            self.filled.notify_one();
+        }
+        is_news
     }
 }
 
@@ -103,11 +162,14 @@ struct Browser {
     courtesy: Courtesy,
     budget: Budget,
     heard: Instant,
+    /// When the daemon was heard last; none while there is no connection to it.
+    heard_daemon: Option<Instant>,
 }
 
 impl Browser {
     async fn run(&mut self, mut stream: SplitStream<WebSocket>) -> Parting {
         let mut pulse = interval(PING_EVERY);
+        let mut heartbeat = interval(HEARTBEAT_EVERY);
         // The first request must not find the connection half made.
         let first = self.vthal.next().await;
         let mut turn = self.on_vthal(first).await;
@@ -115,14 +177,14 @@ impl Browser {
             if let Err(parting) = turn {
                 return parting;
             }
-            turn = self.turn(&mut stream, &mut pulse).await;
+            turn = self.turn(&mut stream, [&mut pulse, &mut heartbeat]).await;
         }
     }
 
     async fn turn(
         &mut self,
         stream: &mut SplitStream<WebSocket>,
-        pulse: &mut Interval,
+        [pulse, heartbeat]: [&mut Interval; 2],
     ) -> Result<(), Parting> {
         let shared = Arc::clone(&self.shared);
         tokio::select! {
@@ -132,6 +194,7 @@ impl Browser {
             change = change_of(&mut self.pass) => self.on_change(change),
             () = shared.failed.notified() => Err(Parting::Stalled),
             _ = pulse.tick() => self.on_pulse(),
+            _ = heartbeat.tick() => self.on_heartbeat(),
         }
     }
 
@@ -140,6 +203,10 @@ impl Browser {
             return Err(Parting::Closed);
         };
         self.heard = Instant::now();
+        // A page on a fast network is asked often.
+        if matches!(&message, Message::Pong(payload) if self.shared.on_came(payload)) {
+            return Ok(());
+        }
         // Stop is passed on however often it is said.
         let says_stop = || matches!(&message, Message::Text(text) if is_stop(text.as_str()));
         if !self.budget.spend(self.heard) && !says_stop() {
@@ -183,6 +250,7 @@ impl Browser {
     }
 
     async fn on_vthal(&mut self, event: Event) -> Result<(), Parting> {
+        self.heard_daemon = (event != Event::Lost).then(Instant::now);
         match event {
             Event::Connected => {
                 for text in self.courtesy.introduction() {
@@ -212,6 +280,14 @@ impl Browser {
         }
     }
 
+    fn on_heartbeat(&self) -> Result<(), Parting> {
+        if self.shared.manner == Manner::Live {
+            self.shared
+                .push(heartbeat(self.heard_daemon.map(|heard| heard.elapsed())))?;
+        }
+        Ok(())
+    }
+
     fn on_pulse(&mut self) -> Result<(), Parting> {
         if self.heard.elapsed() > 3 * PING_EVERY {
             return Err(Parting::Silent);
@@ -237,6 +313,7 @@ async fn change_of(pass: &mut Option<Pass>) -> Change {
 
 /// Sends what the outbox holds, and a ping when one is due, until the browser takes no more.
 async fn write_all(mut sink: SplitSink<WebSocket, Message>, shared: Arc<Shared>) {
+    let mut asked = 0;
     loop {
         tokio::select! {
             () = shared.filled.notified() => {}
@@ -246,14 +323,29 @@ async fn write_all(mut sink: SplitSink<WebSocket, Message>, shared: Arc<Shared>)
                 }
             }
         }
-        while let Some(text) = shared.pop() {
-            if !send(&mut sink, Message::Text(text.into())).await {
-                shared.failed.notify_one();
-                return;
-            }
+        if !send_waiting(&mut sink, &shared, &mut asked).await {
+            break;
         }
     }
     shared.failed.notify_one();
+}
+
+/// Sends what waits as far as it may be on the way; `asked` = the bytes after which the browser was asked last whether they came.
+async fn send_waiting(sink: &mut SplitSink<WebSocket, Message>, shared: &Shared, asked: &mut u64) -> bool {
+    while let Some(text) = shared.pop() {
+        let bytes = text.len() as u64;
+        if !send(sink, Message::Text(text.into())).await {
+            return false;
+        }
+        let sent = shared.sent.fetch_add(bytes, Ordering::Relaxed) + bytes;
+        if shared.manner == Manner::Live && sent - *asked >= ASK_EVERY {
+            *asked = sent;
+            if !send(sink, Message::Ping(sent.to_be_bytes().to_vec().into())).await {
+                return false;
+            }
+        }
+    }
+    true
 }
 
 /// Whether the browser took the message in time.

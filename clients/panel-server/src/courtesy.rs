@@ -1,5 +1,7 @@
 //! What the server itself says and remembers on behalf of one browser: the little it must know about the messages it relays.
 
+use std::time::Duration;
+
 use crate::guarded::Newcomer;
 use rvac_api::{Failure, Request, RequestBody, SEPARATOR, Status, Update};
 
@@ -70,6 +72,12 @@ pub(crate) fn new_device(newcomer: Newcomer) -> String {
         role: newcomer.role.name().to_owned(),
         from: newcomer.from,
     })
+}
+
+/// The sign of life to a page, with the time since the daemon was heard.
+pub(crate) fn heartbeat(silent: Option<Duration>) -> String {
+    let silent_ms = silent.map(|silent| u64::try_from(silent.as_millis()).unwrap_or(u64::MAX));
+    text_of(&Update::Heartbeat { silent_ms })
 }
 
 /// The message to a browser while vthal is not connected.

@@ -120,6 +120,7 @@ fn rename_form(store: Store, number: u16, name: String, renamed: RwSignal<Option
             field_id="floor-name"
             button_id="save-floor-name"
             name
+            opener=format!("rename-floor-{number}")
             on_save=move |name| {
                 store.ask(RequestBody::NameFloor { floor: number, name });
                 renamed.set(None);

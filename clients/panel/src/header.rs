@@ -1,7 +1,7 @@
 //! The bar at the top: name of the robot, connection, charge, and the theme.
 
 use leptos::prelude::*;
-use panel_logic::percent_text;
+use panel_logic::{Currency, percent_text};
 
 use crate::icons::{Icon, icon};
 use crate::language::{LanguageChoice, words};
@@ -88,10 +88,16 @@ fn Presence(store: Store) -> impl IntoView {
                 .is_some_and(|status| status.state != "disconnected")
         })
     });
+    let current = Memo::new(move |_| store.currency.get() == Currency::Current);
+    let text = move || match (connected.get(), current.get()) {
+        (true, true) => words().frame.connected,
+        (true, false) => words().frame.not_current,
+        (false, _) => words().frame.not_connected,
+    };
     view! {
-        <span class="presence" id="presence" class:up=move || connected.get()>
+        <span class="presence" id="presence" class:up=move || connected.get() && current.get()>
             <span class="dot" aria-hidden="true"></span>
-            {move || if connected.get() { words().frame.connected } else { words().frame.not_connected }}
+            {text}
         </span>
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use leptos::prelude::*;
 use pairing::wire::Greeting;
-use panel_logic::Backoff;
+use panel_logic::{Backoff, PieceJoiner};
 use rvac_api::{Request, RequestBody, Update};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
@@ -29,6 +29,7 @@ struct Inner {
     socket: Option<WebSocket>,
     listeners: Option<Listeners>,
     backoff: Backoff,
+    pieces: PieceJoiner,
 }
 
 /// Kept alive as long as the socket that calls them.
@@ -91,15 +92,15 @@ impl Link {
         let greeting = nonce.and_then(|nonce| serde_json::to_string(&Greeting { nonce }).ok());
         let open = Closure::<dyn FnMut(Event)>::new(move |_| {
             link.inner.borrow_mut().backoff.succeeded();
+            link.inner.borrow_mut().pieces.clear();
             link.greet(greeting.as_deref());
             store.on_open();
         });
+        let link = self.clone();
         let message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
+            store.on_heard();
             let text = event.data().as_string().unwrap_or_default();
-            match serde_json::from_str::<Update>(&text) {
-                Ok(update) => store.on_update(update),
-                Err(error) => leptos::logging::warn!("a message could not be read: {error}"),
-            }
+            link.take(store, &text);
         });
         let link = self.clone();
         let close = Closure::<dyn FnMut(Event)>::new(move |_| {
@@ -114,6 +115,32 @@ impl Link {
             _message: message,
             _close: close,
         }
+    }
+
+    /// Reads an update, or the next piece of one.
+    fn take(&self, store: Store, text: &str) {
+        match serde_json::from_str::<Update>(text) {
+            Ok(Update::Piece { lane, last, text }) => {
+                let whole = self.inner.borrow_mut().pieces.push(lane, &text, last);
+                if let Some(whole) = whole {
+                    self.take(store, &whole);
+                }
+            }
+            Ok(update) => store.on_update(update),
+            Err(error) => leptos::logging::warn!("a message could not be read: {error}"),
+        }
+    }
+
+    /// Gives the connection up: its own close would come minutes later on a network that is gone.
+    pub(crate) fn abandon(&self, store: Store) {
+        let socket = self.inner.borrow_mut().socket.take();
+        let Some(socket) = socket else { return };
+        socket.set_onopen(None);
+        socket.set_onmessage(None);
+        socket.set_onclose(None);
+        socket.close().ok(); // It may be closing already.
+        store.on_close();
+        self.retry(store);
     }
 
     fn greet(&self, greeting: Option<&str>) {
@@ -141,5 +168,5 @@ fn address() -> String {
     } else {
         "ws"
     };
-    format!("{scheme}://{host}/api/ws")
+    format!("{scheme}://{host}/api/ws?live")
 }

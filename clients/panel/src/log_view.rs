@@ -53,7 +53,7 @@ pub(crate) fn LogView(store: Store) -> impl IntoView {
             </div>
             <ol class="entries" id="log-entries" tabindex="0" aria-label=words().log.entries>
                 <For each=entries key=|entry| entry.number let:entry>
-                    {line(entry)}
+                    {line(store, entry)}
                 </For>
             </ol>
             <Show when=move || entries().is_empty()>
@@ -72,7 +72,7 @@ fn level_named(name: &str) -> LogLevel {
     }
 }
 
-fn line(entry: LogEntry) -> impl IntoView {
+fn line(store: Store, entry: LogEntry) -> impl IntoView {
     let (class, level) = match entry.level {
         LogLevel::Debug => ("debug", words().log.debug),
         LogLevel::Info => ("info", words().log.info),
@@ -82,7 +82,7 @@ fn line(entry: LogEntry) -> impl IntoView {
     let (text, is_told) = log_text(words(), &entry);
     view! {
         <li class=class>
-            <span class="when">{clock_text(entry.t)}</span>
+            <span class="when" title=words().log.since_start.fill([&clock_text(entry.t)])>{store.wall_text(entry.t)}</span>
             <span class="level">{level}</span>
             <span class="part">{entry.part}</span>
             <span class="what" lang=(!is_told).then_some("en")>{text}</span>

@@ -1,6 +1,7 @@
 //! The web page that shows and drives the robot. What can be decided without a browser is in `panel-logic`.
 #![forbid(unsafe_code)]
 
+mod about_view;
 mod access;
 mod actions;
 mod app;
@@ -24,8 +25,11 @@ mod link;
 mod log_view;
 mod map;
 mod mixes;
+mod news;
 mod parts_view;
 mod places_view;
+mod press;
+mod refusals;
 mod rename_form;
 mod room_settings_view;
 mod rooms_view;
@@ -33,8 +37,11 @@ mod row_tools;
 mod schedules;
 mod status_view;
 mod store;
+mod summary_view;
 mod tabs;
 mod theme;
+mod toasts;
+mod wall_clock;
 mod why_view;
 
 fn main() {

@@ -69,6 +69,7 @@ fn Place(store: Store, row: PlaceRow, renamed: RwSignal<Option<u16>>) -> impl In
                 field_id="new-place-name"
                 button_id="save-place-name"
                 name=for_form.clone()
+                opener=format!("rename-place-{number}")
                 on_save={
                     let before = for_form.clone();
                     move |name| {
@@ -128,6 +129,7 @@ fn Drawn(store: Store) -> impl IntoView {
                     field_id="place-name"
                     button_id="keep-place"
                     name=String::new()
+                    opener=format!("keep-part-{place}")
                     on_save={
                         let shape = shape.clone();
                         move |name| {

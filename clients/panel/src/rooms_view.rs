@@ -20,7 +20,7 @@ pub(crate) fn RoomList(store: Store) -> impl IntoView {
         <ul id="rooms" class="rows" aria-labelledby="rooms-title">
             <For
                 each=move || store.rooms.get()
-                key=|row| (row.id, row.name.clone(), row.words.clone())
+                key=|row| (row.id, row.name.clone())
                 let:row
             >
                 <Room store row renamed set />
@@ -118,17 +118,17 @@ fn Room(
     /// The room whose form for settings is open.
     set: RwSignal<Option<u16>>,
 ) -> impl IntoView {
-    let RoomRow {
-        id,
-        name,
-        words: extent,
-    } = row;
+    let for_tools = row.clone();
+    let RoomRow { id, name, .. } = row;
+    // It changes while the row stays: what is typed into a form below it must not be lost.
+    let extent = move || {
+        let rows = store.rooms.read();
+        rows.iter().find(|row| row.id == id).map(|row| row.words.clone())
+    };
     let choice = store.orders.choice;
     let place = Memo::new(move |_| choice.with(|choice| choice.place(id)));
     let is_renamed = move || renamed.get() == Some(id);
     let is_set = move || set.get() == Some(id);
-    let set_label = words().home.set_room_named.fill([&name]);
-    let rename_label = words().home.rename_named.fill([&name]);
     let (shown, for_form) = (name.clone(), name.clone());
     view! {
         <li>
@@ -143,27 +143,7 @@ fn Room(
                 {shown}
             </button>
             <span class="words">{extent}</span>
-            <Needs store verb=EDITS_HOME>
-                <button
-                    type="button"
-                    class="small"
-                    aria-label=rename_label
-                    aria-expanded=move || if is_renamed() { "true" } else { "false" }
-                    on:click=move |_| renamed.update(|renamed| *renamed = (*renamed != Some(id)).then_some(id))
-                >
-                    {words().frame.rename}
-                </button>
-                <button
-                    type="button"
-                    class="small"
-                    id=format!("room-{id}-settings")
-                    aria-label=set_label
-                    aria-expanded=move || if is_set() { "true" } else { "false" }
-                    on:click=move |_| set.update(|set| *set = (*set != Some(id)).then_some(id))
-                >
-                    {words().home.set_room}
-                </button>
-            </Needs>
+            <RoomTools store row=for_tools renamed set />
         </li>
         <Show when=is_set>
             <SettingsForm store id name=for_form.clone() opened=set />
@@ -174,12 +154,45 @@ fn Room(
                 field_id="room-name"
                 button_id="save-name"
                 name=name.clone()
+                opener=format!("rename-room-{id}")
                 on_save=move |name| {
                     rename(store, id, name);
                     renamed.set(None);
                 }
             />
         </Show>
+    }
+}
+
+/// The buttons that open the forms of a room.
+#[component]
+fn RoomTools(
+    store: Store,
+    row: RoomRow,
+    renamed: RwSignal<Option<u16>>,
+    set: RwSignal<Option<u16>>,
+) -> impl IntoView {
+    let RoomRow { id, name, .. } = row;
+    let opener = move |button: String, label: String, text: &'static str, open: RwSignal<Option<u16>>| {
+        view! {
+            <button
+                type="button"
+                class="small"
+                id=button
+                aria-label=label
+                aria-expanded=move || if open.get() == Some(id) { "true" } else { "false" }
+                on:click=move |_| open.update(|open| *open = (*open != Some(id)).then_some(id))
+            >
+                {text}
+            </button>
+        }
+    };
+    let texts = &words().home;
+    view! {
+        <Needs store verb=EDITS_HOME>
+            {opener(format!("rename-room-{id}"), texts.rename_named.fill([&name]), words().frame.rename, renamed)}
+            {opener(format!("room-{id}-settings"), texts.set_room_named.fill([&name]), texts.set_room, set)}
+        </Needs>
     }
 }
 
@@ -277,6 +290,7 @@ fn no_go(store: Store, row: NoGoRow, renamed: RwSignal<Option<u16>>) -> impl Int
                 field_id="no-go-name"
                 button_id="save-no-go-name"
                 name=name.clone()
+                opener=format!("rename-no-go-{number}")
                 on_save=move |name| {
                     rename_no_go(store, number, name);
                     renamed.set(None);

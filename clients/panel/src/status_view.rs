@@ -2,15 +2,23 @@
 
 use leptos::prelude::*;
 use panel_logic::{
-    Explanation, area_text, clock_text, decision_text, distance_text, explain, failure_text, percent_text,
-    place_text, room_here_text, state_title, strategy_title,
+    Explanation, JobProgress, area_text, clock_text, decision_text, distance_text, explain, headline,
+    percent_text, place_text, state_title, strategy_title,
 };
 use rvac_api::Status;
 
-use crate::evidence_view::{RecentEvidenceView, StandstillView};
+use crate::actions::PatternChoice;
+use crate::evidence_view::StandstillView;
 use crate::icons::{Icon, icon};
 use crate::language::words;
+use crate::news::SilenceView;
 use crate::store::Store;
+use crate::summary_view::SummaryView;
+
+/// A robot that has driven less stands still yet, metres.
+const DRIVEN_M: f64 = 0.05;
+/// Getting ready takes no longer, seconds.
+const READY_AFTER_S: f64 = 60.0;
 
 #[component]
 pub(crate) fn StatusView(store: Store) -> impl IntoView {
@@ -26,17 +34,74 @@ pub(crate) fn StatusView(store: Store) -> impl IntoView {
             .status
             .with(|status| status.as_ref().map(reason_text).unwrap_or_default())
     });
+    let title = Memo::new(move |_| {
+        store.status.with(|status| {
+            let title = || state_title(words(), "disconnected").to_owned();
+            status
+                .as_ref()
+                .map_or_else(title, |status| headline(words(), status))
+        })
+    });
+    let is_away = Memo::new(move |_| state.get() == "disconnected");
+    let rests = Memo::new(move |_| matches!(state.get().as_str(), "idle" | "docked"));
     view! {
         <section class="card now" aria-labelledby="state" data-state=move || state.get() id="now">
             <div role="status" aria-live="polite">
-                <h2 id="state">{move || state_title(words(), &state.get())}</h2>
+                <h2 id="state">{move || title.get()}</h2>
                 <p id="reason">{move || reason.get()}</p>
             </div>
+            <SilenceView store />
+            <Progress store />
             <Inhibits store />
             <StandstillView store />
             <Lately store />
-            <Figures store />
+            <SummaryView store />
+            <Show when=move || rests.get()>
+                <PatternChoice store />
+            </Show>
+            <Show when=move || !is_away.get()>
+                <details class="folded figures-fold">
+                    <summary>{words().status.figures}</summary>
+                    <Figures store />
+                </details>
+            </Show>
         </section>
+    }
+}
+
+/// How far the job is, and how long it takes yet.
+#[component]
+fn Progress(store: Store) -> impl IntoView {
+    let job = Memo::new(move |_| {
+        let route_m = store.route_m.get();
+        store.status.with(|status| {
+            let of = |estimate: &Option<_>| {
+                status.as_ref().map_or_else(JobProgress::default, |status| {
+                    JobProgress::of(status, route_m, estimate.as_ref())
+                })
+            };
+            store.estimate.with(of)
+        })
+    });
+    let text = Memo::new(move |_| job.get().text(words()));
+    let share = move || job.get().share;
+    let percent = move || share().map(|share| format!("{:.0}", 100.0 * share));
+    view! {
+        <Show when=move || text.get().is_some()>
+            <p id="remaining">{move || text.get()}</p>
+        </Show>
+        <Show when=move || share().is_some()>
+            <div
+                class="progress"
+                role="progressbar"
+                aria-label=words().status.progress
+                aria-valuemin="0"
+                aria-valuemax="100"
+                aria-valuenow=percent
+            >
+                <span style:width=move || format!("{}%", percent().unwrap_or_default())></span>
+            </div>
+        </Show>
     }
 }
 
@@ -54,27 +119,21 @@ fn reason_text(status: &Status) -> String {
             .driver
             .as_ref()
             .map_or_else(String::new, |driver| words().status.in_control.fill([driver])),
+        (true, "cleaning") if status.path_m < DRIVEN_M && status.job_s < READY_AFTER_S => {
+            words().status.getting_ready.to_owned()
+        }
         (true, "cleaning") => cleaning_text(status),
         (true, _) => String::new(),
         (false, _) => code_text(&status.reason),
     }
 }
 
-/// How it cleans, and where.
+/// How it cleans. Where it does is in the headline.
 fn cleaning_text(status: &Status) -> String {
-    let strategy = status
-        .strategy
-        .as_ref()
-        .map(|name| words().status.strategy.fill([&strategy_title(words(), name)]));
-    let room = status
-        .room
-        .as_ref()
-        .map(|room| words().status.now_in.fill([&room_here_text(words(), room)]));
-    [room, strategy]
-        .into_iter()
-        .flatten()
-        .collect::<Vec<_>>()
-        .join(" ")
+    let strategy = status.strategy.as_ref();
+    strategy.map_or_else(String::new, |name| {
+        words().status.strategy.fill([&strategy_title(words(), name)])
+    })
 }
 
 /// The sentences for a code; a code without any is shown as it is.
@@ -178,37 +237,5 @@ fn Figures(store: Store) -> impl IntoView {
                 </div>
             </Show>
         </dl>
-    }
-}
-
-/// The last refusal, in words.
-#[component]
-pub(crate) fn RefusalView(store: Store) -> impl IntoView {
-    let text = move || {
-        store
-            .refusal
-            .with(|refusal| refusal.as_ref().map(|refusal| failure_text(words(), refusal)))
-    };
-    Effect::new(move |_| {
-        store.refusal.track();
-        store.evidence.set(None);
-    });
-    view! {
-        <div role="alert" class="alert-place">
-            <Show when=move || text().is_some()>
-                <div class="alert" id="refusal">
-                    {icon(Icon::Warning)}
-                    <div>
-                        <p>{text}</p>
-                        <Show when=move || store.robot_refused()>
-                            <RecentEvidenceView store />
-                        </Show>
-                    </div>
-                    <button type="button" class="round" aria-label=words().frame.dismiss on:click=move |_| store.refusal.set(None)>
-                        {icon(Icon::Close)}
-                    </button>
-                </div>
-            </Show>
-        </div>
     }
 }

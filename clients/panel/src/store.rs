@@ -3,12 +3,12 @@
 use leptos::prelude::*;
 use mixer::Steered;
 use panel_logic::{
-    DecisionBook, Driver, LogBook, Offers, RoomRow, Wait, carpet_sentence, room_rows, top_speeds,
+    Currency, DecisionBook, Driver, LogBook, News, Offers, Presses, RoomRow, carpet_sentence, room_rows,
+    route_length_m, top_speeds,
 };
 use rvac_api::{
-    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, JobOrder, KeptMap,
-    LearntPart, LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status,
-    Topic,
+    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, LearntPart,
+    LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status, Topic,
 };
 
 use rvac_api::Update as Message;
@@ -22,12 +22,10 @@ use crate::language::words;
 use crate::link::Link;
 use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
+use crate::news::{no_news, now_ms};
 use crate::schedules::ScheduleDesk;
+use crate::toasts::Undo;
 
-/// The reason code of a button that waits. No robot gives it.
-const NOT_NOW: &str = "not-now";
-/// The reason code of an edit of the map that cannot be made.
-pub(crate) const NOT_DRAWN: &str = "edit";
 /// The reason of the state while the daemon behind the server does not answer.
 const NO_DAEMON: &str = "no-daemon";
 /// Number of the drive requests, so that a refusal of one is known as such.
@@ -50,9 +48,6 @@ const LEARNT_ID: u32 = 8;
 
 /// Number of the requests with lent inputs, so that a refusal of one is recognized.
 const LEND_ID: u32 = 9;
-
-/// Number of the requests that have what is chosen cleaned.
-const CLEAN_ID: u32 = 10;
 
 /// Number of all other requests.
 const OTHER_ID: u32 = 2;
@@ -104,6 +99,21 @@ pub(crate) struct Store {
     pub(crate) history: HistoryDesk,
     /// The log.
     pub(crate) log: RwSignal<LogBook>,
+    /// Whether what is shown is true now.
+    pub(crate) currency: RwSignal<Currency>,
+    pub(crate) news: StoredValue<News>,
+    /// Presses of job buttons that wait for their answer.
+    pub(crate) presses: RwSignal<Presses>,
+    /// What became of the last one, where that is not seen otherwise.
+    pub(crate) note: RwSignal<Option<&'static str>>,
+    /// When the daemon began, seconds since 1970 by the clock of this device.
+    pub(crate) daemon_began_s: StoredValue<Option<f64>>,
+    /// What was removed last and can be taken back.
+    pub(crate) undo: RwSignal<Option<Undo>>,
+    /// Strategy by which a job of the whole home is started; empty as long as the robot chooses.
+    pub(crate) strategy: RwSignal<String>,
+    /// Length of the planned path, metres.
+    pub(crate) route_m: RwSignal<f64>,
     /// The last refusal, until it is dismissed.
     pub(crate) refusal: RwSignal<Option<Failure>>,
     /// Sensor readings and attempts at the time of a question about that refusal.
@@ -145,6 +155,14 @@ impl Store {
             learnt: RwSignal::new(Vec::new()),
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
+            currency: RwSignal::new(Currency::Current),
+            news: no_news(),
+            presses: RwSignal::new(Presses::default()),
+            note: RwSignal::new(None),
+            daemon_began_s: StoredValue::new(None),
+            undo: RwSignal::new(None),
+            strategy: RwSignal::new(String::new()),
+            route_m: RwSignal::new(0.0),
             refusal: RwSignal::new(None),
             evidence: RwSignal::new(None),
             seat: Seat::new(),
@@ -158,6 +176,12 @@ impl Store {
     /// Connects to the server, for ever.
     pub(crate) fn connect(self) {
         self.link.with_value(|link| link.connect(self));
+        self.watch_news();
+    }
+
+    /// Gives up a connection that is silent, and makes a new one.
+    pub(crate) fn reconnect(self) {
+        self.link.with_value(|link| link.abandon(self));
     }
 
     /// The offers of the moment; a view that asks follows them.
@@ -185,14 +209,6 @@ impl Store {
     /// Requests the sensor readings and attempts up to now; the refusal that they explain stays.
     pub(crate) fn ask_for_evidence(self) {
         self.send(Some(OTHER_ID), RequestBody::Evidence);
-    }
-
-    /// Whether the robot itself refused, and not this page.
-    pub(crate) fn robot_refused(self) -> bool {
-        self.refusal.with(|refusal| {
-            let is_robots = |told: &Failure| !matches!(told.reason.as_str(), NOT_NOW | NOT_DRAWN);
-            refusal.as_ref().is_some_and(is_robots)
-        })
     }
 
     /// Asks under a number of its own.
@@ -235,15 +251,6 @@ impl Store {
             .with_value(|driver| self.bench.step(now_us, driver.readings()));
     }
 
-    /// Tells why what a person pressed is not possible now: a touch shows no tooltip.
-    pub(crate) fn tell_why_not(self, why: Wait) {
-        self.refusal.set(Some(Failure {
-            id: None,
-            reason: NOT_NOW.to_owned(),
-            text: why.text(words()).to_owned(),
-        }));
-    }
-
     /// Asks the robot to keep the mix that is edited.
     pub(crate) fn save_mix(self) {
         if self.admits(EDITS_MIXES)
@@ -251,15 +258,6 @@ impl Store {
         {
             self.refusal.set(None);
             self.send(Some(MIX_ID), RequestBody::SaveMix { profile });
-        }
-    }
-
-    /// Has what is chosen cleaned.
-    pub(crate) fn clean(self, order: JobOrder) {
-        let body = RequestBody::Clean(order);
-        if self.admits_request(&body) {
-            self.refusal.set(None);
-            self.send(Some(CLEAN_ID), body);
         }
     }
 
@@ -283,8 +281,8 @@ impl Store {
     }
 
     fn on_done(self, id: u32) {
+        self.end_press(id, true);
         match id {
-            CLEAN_ID => self.on_choice_sent(),
             HEALTH_ID => self.send(None, RequestBody::Health),
             LEARNT_ID => self.send(None, RequestBody::Learnt),
             _ => {}
@@ -314,6 +312,7 @@ impl Store {
 
     /// The connection is open: introduces the page.
     pub(crate) fn on_open(self) {
+        self.news.update_value(|news| news.on_open(now_ms()));
         self.log.update(LogBook::clear);
         self.decisions.update(DecisionBook::clear);
         self.estimate.set(None);
@@ -341,6 +340,7 @@ impl Store {
         ];
         self.send(None, RequestBody::Watch { topics });
         self.send(None, RequestBody::Mixes);
+        self.ask_for_last_run();
     }
 
     /// The connection is lost.
@@ -351,13 +351,8 @@ impl Store {
         self.edits.on_lost();
         self.seat.driver.update_value(Driver::forget_inputs);
         self.floor_desk.on_close();
-        let status = Status {
-            state: "disconnected".to_owned(),
-            reason: "no-server".to_owned(),
-            ..Status::default()
-        };
-        self.status.set(Some(status));
-        self.device.set(None);
+        // The state stays as it was for the moment that a glitch takes.
+        self.news.update_value(News::on_close);
     }
 
     /// A message came.
@@ -383,6 +378,7 @@ impl Store {
                 self.home.set(Some(plan.name));
             }
             Message::Pose(pose) => {
+                self.set_wall_clock(pose.t);
                 self.seat.on_pose(pose);
                 self.map.with_value(|map| map.on_pose(pose));
             }
@@ -393,7 +389,11 @@ impl Store {
                 self.map.with_value(|map| map.on_estimate(&estimate));
                 self.estimate.set(Some(estimate));
             }
-            Message::PlannedPath(path) => self.map.with_value(|map| map.on_planned_path(&path)),
+            Message::PlannedPath(path) => {
+                set_if_changed(self.route_m, route_length_m(&path));
+                self.map.with_value(|map| map.on_planned_path(&path));
+            }
+            Message::Heartbeat { silent_ms } => self.on_heartbeat(silent_ms),
             Message::Evidence { evidence, .. } => self.evidence.set(Some(evidence)),
             Message::Standstill(told) => self.standstill.set(Some(*told)),
             Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
@@ -417,6 +417,7 @@ impl Store {
             Message::RunTrack(track) => self.history.on_track(*track),
             Message::Inputs { inputs } => self.seat.on_inputs(&inputs),
             Message::Packet { .. }
+            | Message::Piece { .. }
             | Message::RunFile { .. }
             | Message::FloorArchive { .. }
             | Message::Button { .. } => {}
@@ -447,20 +448,10 @@ impl Store {
         self.status.set(Some(status));
     }
 
-    /// What was not possible in another state may be now.
-    fn forget_why_not(self, status: &Status) {
-        let was_told = self
-            .refusal
-            .with_untracked(|refusal| refusal.as_ref().is_some_and(|told| told.reason == NOT_NOW));
-        let is_other = self
-            .status
-            .with_untracked(|now| now.as_ref().is_none_or(|now| now.state != status.state));
-        if was_told && is_other {
-            self.refusal.set(None);
-        }
-    }
-
     fn on_failed(self, failure: Failure) {
+        if let Some(id) = failure.id {
+            self.end_press(id, false);
+        }
         self.edits.on_failed(&failure);
         if self.orders.on_failed(&failure)
             || self.schedules.on_failed(&failure)

@@ -3,6 +3,7 @@
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
+use crate::about_view::AboutView;
 use crate::access::{Access, DevicesView};
 use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
@@ -33,9 +34,28 @@ fn titles() -> [&'static str; 7] {
     ]
 }
 
+/// Under this name the browser keeps which tab was open, as long as its own tab is.
+const KEY: &str = "tab";
+
+/// The tab that was open before the page was loaded again.
+fn kept_tab() -> usize {
+    let storage = window().session_storage().ok().flatten();
+    let kept = storage.and_then(|storage| storage.get_item(KEY).ok().flatten());
+    TABS.iter()
+        .position(|tab| kept.as_deref() == Some(*tab))
+        .unwrap_or_default()
+}
+
+fn keep_tab(open: usize) {
+    if let (Ok(Some(storage)), Some(tab)) = (window().session_storage(), TABS.get(open)) {
+        storage.set_item(KEY, tab).ok(); // Without storage the first tab opens again.
+    }
+}
+
 #[component]
 pub(crate) fn Tabs(store: Store) -> impl IntoView {
-    let open = RwSignal::new(0_usize);
+    let open = RwSignal::new(kept_tab());
+    Effect::new(move |_| keep_tab(open.get()));
     let manages = Memo::new(move |_| store.entrance.access.with(Access::manages));
     let on_key = move |event: KeyboardEvent| {
         let now = open.get_untracked();
@@ -92,6 +112,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                     <PartsView store />
                     <LearntSection store />
                     <Show when=move || manages.get()><DevicesView entrance=store.entrance /></Show>
+                    <AboutView store />
                 </Show>
             </div>
             <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 6>

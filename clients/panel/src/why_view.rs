@@ -17,7 +17,7 @@ pub(crate) fn WhyView(store: Store) -> impl IntoView {
     view! {
         <ol class="entries why" id="decisions" tabindex="0" aria-label=words().frame.decisions>
             <For each=decisions key=|entry| entry.number let:entry>
-                {line(entry)}
+                {line(store, entry)}
             </For>
         </ol>
         <Show when=move || decisions().is_empty()>
@@ -26,10 +26,10 @@ pub(crate) fn WhyView(store: Store) -> impl IntoView {
     }
 }
 
-fn line(entry: Decision) -> impl IntoView {
+fn line(store: Store, entry: Decision) -> impl IntoView {
     view! {
         <li>
-            <span class="when">{clock_text(entry.t)}</span>
+            <span class="when" title=words().log.since_start.fill([&clock_text(entry.t)])>{store.wall_text(entry.t)}</span>
             <span class="told">{decision_text(words(), &entry)}</span>
         </li>
     }

@@ -11,11 +11,13 @@ extern crate alloc;
 mod activity;
 mod cleaning_power;
 mod client_input;
+mod device;
 mod floor;
 mod health;
 mod history;
 mod home;
 mod learnt;
+mod name;
 mod order;
 mod reasons;
 mod request;
@@ -31,6 +33,7 @@ mod update;
 pub use activity::{Activity, ActivityWords};
 pub use cleaning_power::CleaningPower;
 pub use client_input::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MAX, is_mix_name};
+pub use device::{BatteryReading, ChargerReading, DeviceTable, LinkReading};
 pub use floor::{
     ARCHIVE_BYTES_MAX, ARCHIVE_PIECE_BYTES, ARCHIVE_UPLOAD_BYTES, FloorQuestion, FloorView, FloorsView,
 };
@@ -41,6 +44,7 @@ pub use history::{
 };
 pub use home::{CarpetView, DoorView, HomeView, KeptMap, RoomView, SurenessView, WallView};
 pub use learnt::{EnergyLearnt, GyroLearnt, LearntPart, LearntView};
+pub use name::{NAME_CHARS_MAX, NameProblem, name_problem};
 pub use order::{
     CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView,
     RoomChangeView, RoomNaming, RoomSettings, RoomSplitting, SPOT_RADIUS_M,
@@ -58,8 +62,8 @@ pub use thought::{Decision, Estimate, PlannedPath};
 pub use topic::Topic;
 pub use trouble::{Gravity, Trouble, TroubleWords};
 pub use update::{
-    BatteryReading, BumpMark, ChargerReading, DeviceTable, Failure, Gesture, Lacking, LinkReading, LogEntry,
-    LogLevel, MapDelta, MapSnapshot, Pose, Rle, RobotDescription, RoomHere, Status, Update, Versions,
+    BumpMark, Failure, Gesture, Lacking, LogEntry, LogLevel, MapDelta, MapSnapshot, Pose, Rle,
+    RobotDescription, RoomHere, Status, Update, Versions,
 };
 
 /// Version of this interface. Raised when a message changes its meaning; additions need no new version.

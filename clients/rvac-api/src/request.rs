@@ -1,5 +1,6 @@
 //! What a client asks.
 
+use alloc::boxed::Box;
 use alloc::collections::BTreeMap;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -296,6 +297,9 @@ pub enum RequestBody {
         /// What it shall be.
         #[serde(flatten)]
         entry: ScheduleEntry,
+        /// What it was when the change began: refused as `changed-meanwhile` if it is another one now. Absent = whatever it is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        was: Option<Box<ScheduleEntry>>,
     },
     /// Removes a schedule.
     RemoveSchedule {

@@ -311,6 +311,17 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("input-taken", None),
     ("too-many-inputs", None),
     ("raw-syntax", None),
+    ("dock-no-contact", Some(Trouble::Charger)),
+    ("dock-contact-lost", Some(Trouble::Charger)),
+    ("dock-power-lost", Some(Trouble::Charger)),
+    ("dock-obstructed", Some(Trouble::Dock)),
+    ("pushed-off", Some(Trouble::Dock)),
+    ("lifted-off", Some(Trouble::Lifted)),
+    ("most-out-of-reach", Some(Trouble::Route)),
+    ("no-go-in-the-way", Some(Trouble::Route)),
+    ("zone-crosses", None),
+    ("zone-too-thin", None),
+    ("dock-shut-off", None),
 ];
 
 // A code that stands in the catalogue and not in this table is an error of the compiler: say here what it stands for.

@@ -6,8 +6,9 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ClientInput, ComponentHealth, Decision, Estimate, Evidence, FloorsView, HomeView, JobEstimate, KeptMap,
-    LearntView, PlannedPath, Run, RunRecord, RunTrack, Schedules, SimulatedPlan, SimulatedTruth, Standstill,
+    ClientInput, ComponentHealth, Decision, DeviceTable, Estimate, Evidence, FloorsView, HomeView,
+    JobEstimate, KeptMap, LearntView, PlannedPath, Run, RunRecord, RunTrack, Schedules, SimulatedPlan,
+    SimulatedTruth, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -172,6 +173,22 @@ pub enum Update {
         /// The address it came from, or `console`.
         from: String,
     },
+    /// The server of the panel is there: once a second to whoever asked for it with the connection.
+    Heartbeat {
+        /// Since when nothing has come from the daemon, in ms; absent while there is no connection to it.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        silent_ms: Option<u64>,
+    },
+    /// A piece of an update that is long, from the server of the panel to whoever asked for it with the connection. Short updates come
+    /// between two pieces.
+    Piece {
+        /// Which of the updates that come in pieces at the same time.
+        lane: u8,
+        /// The update is whole with it.
+        last: bool,
+        /// The next part of its JSON.
+        text: String,
+    },
     /// Only with a simulated robot: the floor plan.
     SimulatedPlan(SimulatedPlan),
     /// Only with a simulated robot: where it really is.
@@ -319,103 +336,6 @@ pub struct Pose {
     pub heading: f64,
     /// Host time in seconds since the daemon's start.
     pub t: f64,
-}
-
-/// The device information table of the panel. What is not measured is absent.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
-pub struct DeviceTable {
-    /// Versions of all parts.
-    pub versions: Versions,
-    /// Battery.
-    #[serde(default)]
-    pub battery: Option<BatteryReading>,
-    /// Passes of the firmware's main loop per second.
-    #[serde(default)]
-    pub main_loop_hz: Option<u32>,
-    /// Bytes per second, Linux board to robot.
-    pub bytes_out_per_s: f64,
-    /// Bytes per second, robot to Linux board.
-    pub bytes_in_per_s: f64,
-    /// Link quality.
-    pub link: LinkReading,
-    /// Speed of the left wheel, m/s.
-    pub wheel_left_m_per_s: f64,
-    /// Speed of the right wheel, m/s.
-    pub wheel_right_m_per_s: f64,
-    /// Left and right bumper pressed.
-    pub bumpers: [bool; 2],
-    /// Left, middle and right cliff sensors see no floor.
-    pub cliffs: [bool; 3],
-    /// Left and right wheel hang.
-    pub wheel_drops: [bool; 2],
-    /// Proximity 0..1 from the right side counter-clockwise.
-    pub proximity: Vec<f32>,
-    /// Motor currents in amperes: left wheel, right wheel, main brush. One that the robot lists as `unmeasured` is 0.
-    #[serde(default)]
-    pub currents_a: Option<[f32; 3]>,
-    /// Main brush, side brushes, suction run.
-    pub cleaners: [bool; 3],
-    /// Dust box is in; `null` where nothing watches it.
-    #[serde(default)]
-    pub dust_box: Option<bool>,
-    /// On the dock.
-    pub docked: bool,
-}
-
-/// Battery readings.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
-pub struct BatteryReading {
-    /// 0..1.
-    pub charge: f64,
-    /// Volts.
-    pub voltage_v: f64,
-    /// Amperes, into the pack positive.
-    pub current_a: f64,
-    /// Degrees Celsius; absent when it cannot be measured.
-    pub temperature_c: Option<f64>,
-    /// `discharging`, `charging`, `full`, `fault`.
-    pub state: String,
-    /// The charger, where the firmware controls it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub charger: Option<ChargerReading>,
-}
-
-/// What the charger does. Names are those of the protocol.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
-pub struct ChargerReading {
-    /// `idle`, `precharge`, `fast`, `top-off`, `maintain`, `fault`.
-    pub phase: String,
-    /// How the last charge ended, for example `slope`.
-    pub end: Option<String>,
-    /// What is wrong, for example `thermistor-open`.
-    pub fault: Option<String>,
-}
-
-/// Link quality.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schemars", derive(schemars::JsonSchema))]
-pub struct LinkReading {
-    /// Telemetry is fresh.
-    pub up: bool,
-    /// Age of the newest telemetry in ms.
-    pub age_ms: u32,
-    /// Share of bad packets over the last 5 s, both directions, 0..1.
-    pub bad_share: f64,
-    /// Median round trip in ms.
-    #[serde(default)]
-    pub round_trip_ms: Option<f64>,
-    /// Robot resets since the daemon's start.
-    pub resets: u32,
-    /// Cause of the robot's last reset.
-    #[serde(default)]
-    pub reset_cause: Option<String>,
-    /// Times the serial device was lost and found again.
-    pub reconnects: u32,
-    /// Binary telemetry is in use.
-    pub binary: bool,
 }
 
 /// Cells of a grid, row by row from the lowest y, as pairs of value and run length: `[v0,n0,v1,n1,...]`.

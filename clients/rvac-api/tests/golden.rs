@@ -968,6 +968,29 @@ fn a_schedule_of_one_floor() {
 }
 
 #[test]
+fn a_change_of_a_schedule_that_says_what_it_was() {
+    let once = ScheduleEntry {
+        name: "All".to_owned(),
+        job: ScheduledJob::Start { strategy: None },
+        when: ScheduleTime::Once {
+            date: "2026-11-23".to_owned(),
+            at: "09:00".to_owned(),
+        },
+        late_min: 0,
+        in_quiet: InQuiet::Refuse,
+        ..weekday_entry()
+    };
+    request(
+        RequestBody::ChangeSchedule {
+            number: 3,
+            entry: once.clone(),
+            was: Some(Box::new(once.clone())),
+        },
+        r#"{"c":"change-schedule","number":3,"name":"All","enabled":true,"job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}},"late_min":0,"in_quiet":"refuse","was":{"name":"All","enabled":true,"job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}},"late_min":0,"in_quiet":"refuse"}}"#,
+    );
+}
+
+#[test]
 fn requests_of_schedules() {
     request(
         RequestBody::AddSchedule(weekday_entry()),
@@ -988,6 +1011,7 @@ fn requests_of_schedules() {
         RequestBody::ChangeSchedule {
             number: 3,
             entry: once.clone(),
+            was: None,
         },
         r#"{"c":"change-schedule","number":3,"name":"All","enabled":true,"job":{"start":{}},"when":{"once":{"date":"2026-11-23","at":"09:00"}},"late_min":0,"in_quiet":"refuse"}"#,
     );
@@ -1285,6 +1309,25 @@ fn a_new_device() {
             from: "192.168.1.7".to_owned(),
         },
         r#"{"e":"new-device","name":"Mari's phone","role":"drive","from":"192.168.1.7"}"#,
+    );
+}
+
+#[test]
+fn what_the_server_of_the_panel_adds_for_pages() {
+    let beats = [
+        (Some(40), r#"{"e":"heartbeat","silent_ms":40}"#),
+        (None, r#"{"e":"heartbeat"}"#),
+    ];
+    for (silent_ms, text) in beats {
+        check(&Update::Heartbeat { silent_ms }, text);
+    }
+    check(
+        &Update::Piece {
+            lane: 1,
+            last: true,
+            text: "0]}".to_owned(),
+        },
+        r#"{"e":"piece","lane":1,"last":true,"text":"0]}"}"#,
     );
 }
 

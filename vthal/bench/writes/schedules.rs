@@ -38,7 +38,11 @@ impl Store for Schedules {
             },
             Some(of) if number % 4 == 1 => Change {
                 after: replaced(kept, Some(&of.to_string()), text),
-                request: RequestBody::ChangeSchedule { number: of, entry },
+                request: RequestBody::ChangeSchedule {
+                    number: of,
+                    entry,
+                    was: None,
+                },
             },
             _ => Change {
                 after: replaced(kept, None, text),

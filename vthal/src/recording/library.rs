@@ -5,6 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use crate::numbered::number;
+
 /// Bounds of the folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LibraryLimits {
@@ -40,17 +42,17 @@ impl Library {
         self.limits
     }
 
-    /// A path for a new recording that begins at `now`: names sort by time.
-    #[must_use]
-    pub fn new_path(&self, now: SystemTime) -> PathBuf {
-        let stem = format!("run-{}", date_and_time(now));
-        (0..u32::MAX)
-            .map(|number| match number {
-                0 => self.folder.join(format!("{stem}.mcap")),
-                _ => self.folder.join(format!("{stem}-{number:03}.mcap")),
-            })
-            .find(|path| !path.exists())
-            .unwrap_or_else(|| self.folder.join(stem))
+    /// A path for a new recording that begins when the clock says `now`. The number in it is one higher than all before and gives
+    /// the order: a clock may go back, or begin in 1970. The date is for people, and keeps names apart from those of recordings
+    /// that are gone.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn new_path(&self, now: SystemTime) -> io::Result<PathBuf> {
+        let newest = self.recordings()?.pop().map_or(0, |(name, _)| name.number());
+        let number = newest.saturating_add(1);
+        let name = format!("{PREFIX}{number:06}-{}{ENDING}", date_and_time(now));
+        Ok(self.folder.join(name))
     }
 
     /// Removes the oldest recordings until the bounds hold. The newest one always stays.
@@ -58,30 +60,68 @@ impl Library {
     /// # Errors
     /// What the file system says.
     pub fn tidy(&self) -> io::Result<()> {
-        let mut files: Vec<(PathBuf, u64)> = Vec::new();
-        for entry in fs::read_dir(&self.folder)? {
-            let entry = entry?;
-            let name = entry.file_name();
-            let is_ours = name
-                .to_str()
-                .is_some_and(|name| name.starts_with("run-") && name.ends_with(".mcap"));
-            if is_ours {
-                files.push((entry.path(), entry.metadata()?.len()));
-            }
-        }
-        files.sort();
+        let files = self.recordings()?;
         let mut bytes: u64 = files.iter().map(|(_, size)| size).sum();
         let mut count = files.len();
-        for (path, size) in files {
+        for (name, size) in files {
             let within = count <= self.limits.files_max && bytes <= self.limits.bytes_max;
             if within || count <= 1 {
                 break;
             }
-            fs::remove_file(path)?;
+            fs::remove_file(self.folder.join(name.text()))?;
             bytes -= size;
             count -= 1;
         }
         Ok(())
+    }
+
+    /// The recordings with their bytes, the oldest first. What a person named otherwise is not ours.
+    fn recordings(&self) -> io::Result<Vec<(Name, u64)>> {
+        let mut found = Vec::new();
+        for entry in fs::read_dir(&self.folder)? {
+            let entry = entry?;
+            if let Some(name) = entry.file_name().to_str().and_then(Name::read) {
+                found.push((name, entry.metadata()?.len()));
+            }
+        }
+        found.sort();
+        Ok(found)
+    }
+}
+
+/// Beginning and ending of names.
+const PREFIX: &str = "recording-";
+const ENDING: &str = ".mcap";
+
+/// The name of a recording, in the order of their age.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Name {
+    /// As earlier versions named them, by date.
+    Dated(String),
+    /// By number.
+    Numbered(u64, String),
+}
+
+impl Name {
+    fn read(text: &str) -> Option<Self> {
+        if text.starts_with("run-") && text.ends_with(ENDING) {
+            return Some(Self::Dated(text.to_owned()));
+        }
+        let (digits, _) = text.strip_prefix(PREFIX)?.split_once('-')?;
+        let number = number(digits, "").filter(|_| text.ends_with(ENDING))?;
+        Some(Self::Numbered(number, text.to_owned()))
+    }
+
+    fn number(&self) -> u64 {
+        match self {
+            Self::Dated(_) => 0,
+            Self::Numbered(number, _) => *number,
+        }
+    }
+
+    fn text(&self) -> &str {
+        let (Self::Dated(text) | Self::Numbered(_, text)) = self;
+        text
     }
 }
 
@@ -134,37 +174,55 @@ mod tests {
         );
     }
 
+    fn library(scratch: &Scratch, files_max: usize, bytes_max: u64) -> Library {
+        let limits = LibraryLimits { files_max, bytes_max };
+        Library::open(&scratch.join("recordings"), limits).expect("opens")
+    }
+
+    fn left(scratch: &Scratch) -> Vec<String> {
+        let entries = fs::read_dir(scratch.join("recordings")).expect("reads");
+        let name = |entry: std::io::Result<fs::DirEntry>| entry.expect("reads").file_name().into_string();
+        let mut left: Vec<String> = entries.map(|entry| name(entry).expect("is text")).collect();
+        left.sort();
+        left
+    }
+
     #[test]
     fn the_oldest_go_first_and_strangers_stay() {
         let scratch = Scratch::new().expect("creates");
-        let folder = scratch.join("recordings");
-        let library = Library::open(
-            &folder,
-            LibraryLimits {
-                files_max: 3,
-                bytes_max: 25,
-            },
-        )
-        .expect("opens");
+        let library = library(&scratch, 3, 25);
         for name in [
-            "run-1.mcap",
-            "run-2.mcap",
-            "run-3.mcap",
-            "run-4.mcap",
+            "run-20260101-000000.mcap",
+            "run-20260102-000000.mcap",
+            "recording-000001-20260103-000000.mcap",
+            "recording-000002-19700101-000000.mcap",
             "notes.txt",
         ] {
-            fs::write(folder.join(name), [0; 10]).expect("writes");
+            fs::write(scratch.join("recordings").join(name), [0; 10]).expect("writes");
         }
         library.tidy().expect("tidies");
-        let mut left: Vec<_> = fs::read_dir(&folder)
-            .expect("reads")
-            .map(|entry| entry.expect("reads").file_name())
-            .collect();
-        left.sort();
-        assert_eq!(
-            left,
-            ["notes.txt", "run-3.mcap", "run-4.mcap"],
-            "25 bytes hold two files"
-        );
+        let kept = [
+            "notes.txt",
+            "recording-000001-20260103-000000.mcap",
+            "recording-000002-19700101-000000.mcap",
+        ];
+        assert_eq!(left(&scratch), kept, "25 bytes hold two files");
+    }
+
+    /// A board without a clock begins in 1970, gets the time from the network, and begins in 1970 again.
+    #[test]
+    fn a_clock_that_goes_back_never_costs_the_newest() {
+        let scratch = Scratch::new().expect("creates");
+        let library = library(&scratch, 2, u64::MAX);
+        for seconds in [1_000_000_000, 5, 1_000_000_001, 5] {
+            let path = library.new_path(UNIX_EPOCH + Duration::from_secs(seconds));
+            fs::write(path.expect("reads"), b"a run").expect("writes");
+            library.tidy().expect("tidies");
+        }
+        let kept = [
+            "recording-000003-20010909-014641.mcap",
+            "recording-000004-19700101-000005.mcap",
+        ];
+        assert_eq!(left(&scratch), kept);
     }
 }

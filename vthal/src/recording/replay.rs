@@ -1,16 +1,17 @@
 //! Runs a recording through the brain again and compares every answer; also one that was made of several.
 
-use std::fs;
+use std::collections::BTreeMap;
+use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use brain::{Brain, Command};
-use mcap::MessageStream;
-use mcap::read::Options;
+use mcap::records::Record;
 use vthal_core::RunCause;
 
 use super::false_refusals::{ReplayedStep, written};
 use super::format::{FORMAT, FORMAT_WITH_FALSE_REFUSALS, Given, RunHeader, Seen};
+use super::records::{AfterDamage, Records};
 use super::{COMMANDS, DECISIONS, OBSERVATIONS, RUN};
 
 /// Why a recording cannot be replayed.
@@ -40,7 +41,7 @@ pub enum ReplayError {
 pub struct Replay {
     /// Observations that the brain was shown.
     pub steps: u64,
-    /// The file ends in the middle, as after a kill; all whole records were used.
+    /// The file ends in the middle, as after a kill, or is damaged there; all records before that were used.
     pub truncated: bool,
     /// The first answer that was another one than in the recording.
     pub difference: Option<Difference>,
@@ -64,35 +65,29 @@ pub struct Difference {
 /// # Errors
 /// See [`ReplayError`].
 pub fn replay(path: &Path) -> Result<Replay, ReplayError> {
-    let bytes = fs::read(path).map_err(|error| ReplayError::Unreadable {
+    let unreadable = |error| ReplayError::Unreadable {
         path: path.to_owned(),
         error,
-    })?;
+    };
     let not_a_run = |what: String| ReplayError::NotARun {
         path: path.to_owned(),
         what,
     };
-    let stream = MessageStream::new_with_options(&bytes, Options::IgnoreEndMagic.into())
-        .map_err(|error| not_a_run(error.to_string()))?;
+    // What follows damage follows from observations that are not there.
+    let file = File::open(path).map_err(unreadable)?;
+    let mut records = Records::new(file, AfterDamage::End);
+    let mut topics = BTreeMap::new();
     let mut player: Option<Player> = None;
-    let truncated = !bytes.ends_with(mcap::MAGIC);
-    for message in stream {
-        let message = match message {
-            Ok(message) => message,
-            Err(_) if truncated => break,
-            Err(error) => return Err(not_a_run(error.to_string())),
-        };
-        let topic = message.channel.topic.as_str();
-        match (&mut player, topic) {
-            (None, RUN) => player = Some(Player::new(&message.data).map_err(not_a_run)?),
-            (None, _) => {}
-            (Some(player), RUN) => player.begin_anew(&message.data).map_err(not_a_run)?,
-            (Some(player), _) => player.take(topic, &message.data).map_err(not_a_run)?,
-        }
+    while let Some(shown) = records
+        .next(|record| show(record, &mut topics, &mut player))
+        .map_err(unreadable)?
+    {
+        shown.map_err(not_a_run)?;
         if player.as_ref().is_some_and(|player| player.difference.is_some()) {
             break;
         }
     }
+    let truncated = !records.is_whole();
     let mut player = player.ok_or_else(|| not_a_run("it has no run in it".to_owned()))?;
     // The answer to the last observation may be what a kill cut off.
     if !truncated {
@@ -103,6 +98,30 @@ pub fn replay(path: &Path) -> Result<Replay, ReplayError> {
         truncated,
         difference: player.difference,
     })
+}
+
+/// Shows a record to the player; the first message of a run makes it.
+fn show(
+    record: &Record<'_>,
+    topics: &mut BTreeMap<u16, String>,
+    player: &mut Option<Player>,
+) -> Result<(), String> {
+    match record {
+        Record::Channel(channel) => {
+            topics.insert(channel.id, channel.topic.clone());
+        }
+        Record::Message { header, data } => {
+            let topic = topics.get(&header.channel_id).map(String::as_str);
+            match (player.as_mut(), topic.unwrap_or_default()) {
+                (None, RUN) => *player = Some(Player::new(data)?),
+                (None, _) => {}
+                (Some(player), RUN) => player.begin_anew(data)?,
+                (Some(player), topic) => player.take(topic, data)?,
+            }
+        }
+        _ => {}
+    }
+    Ok(())
 }
 
 /// Cause of a run that continues the run of a killed daemon.

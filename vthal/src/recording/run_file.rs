@@ -36,6 +36,9 @@ pub enum RecordError {
         #[source]
         error: io::Error,
     },
+    /// The folder of recordings cannot be read, so that the next name is not known.
+    #[error("cannot read the folder of recordings: {0}")]
+    Folder(#[source] io::Error),
     /// The record cannot be spelled.
     #[error("a record cannot be spelled as JSON: {0}")]
     Spell(#[from] serde_json::Error),

@@ -106,6 +106,7 @@ impl Recorder {
             Record::RunStarted(start) => {
                 self.end_run()?;
                 let path = self.library.new_path(SystemTime::now());
+                let path = path.map_err(RecordError::Folder)?;
                 self.run = Some(RunFile::create(&path, start, &self.settings)?);
                 tracing::info!("records to {}", path.display());
                 if let Some(name) = path.file_name().and_then(|name| name.to_str()) {

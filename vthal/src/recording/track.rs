@@ -7,7 +7,7 @@ use mcap::records::Record;
 use rvac_api::{DeviceTable, RunTrack, TrackPose, TrackReading};
 use serde::Deserialize;
 
-use super::records::Records;
+use super::records::{AfterDamage, Records};
 use super::{DEVICE, POSE, Part};
 
 /// Most poses and readings in a summary. Of a longer run every second one is left out, repeatedly.
@@ -25,7 +25,7 @@ pub fn track<R: Read>(parts: impl IntoIterator<Item = Part<R>>) -> io::Result<Ru
     let mut collector = Collector::default();
     let mut is_whole = true;
     for part in parts {
-        let mut records = Records::new(part.file);
+        let mut records = Records::new(part.file, AfterDamage::GoOn);
         collector.begin(part.zero_s);
         while records.next(|record| collector.take(record))?.is_some() {}
         is_whole &= records.is_whole();

@@ -15,7 +15,7 @@ use mcap::write::NoSeek;
 use mcap::{Attachment, WriteOptions, Writer};
 
 use super::foxglove;
-use super::records::Records;
+use super::records::{AfterDamage, Records};
 
 /// A part begins so much after the end of the one before at least: the checkpoint from which a daemon went on may be some seconds
 /// older than the last words of the daemon before.
@@ -82,7 +82,7 @@ impl<R: Read> Whole<R> {
         match self.parts.pop_front() {
             Some(part) => {
                 joiner.begin(&part.name, self.zero_s - part.zero_s);
-                self.reading = Some(Records::new(part.file));
+                self.reading = Some(Records::new(part.file, AfterDamage::GoOn));
             }
             // It writes its end when it goes.
             None => self.joiner = None,

@@ -1,6 +1,7 @@
 //! Builds the panel: WebAssembly by whatever compiler this machine has for it, then packed into one folder of files.
 
 mod ahead;
+mod first_load;
 mod page;
 
 use crate::{process, toolchain, workspace};
@@ -10,6 +11,24 @@ use std::process::Command;
 
 pub(crate) use ahead::Ahead;
 pub(crate) use page::Page;
+
+/// Options of the subcommand.
+#[derive(Debug, clap::Args)]
+pub(crate) struct PanelArguments {
+    /// Print what a first visit brings over the network as one JSON object
+    #[arg(long)]
+    json: bool,
+}
+
+/// Builds the page of a release, and says where it is or how large.
+pub(crate) fn run(arguments: &PanelArguments) -> anyhow::Result<()> {
+    let folder = build(Page::Release)?;
+    if arguments.json {
+        return first_load::print(&folder);
+    }
+    process::say(&format!("the panel is in {}", folder.display()));
+    Ok(())
+}
 
 /// Builds and packs the panel; gives the folder that the panel server serves.
 pub(crate) fn build(page: Page) -> anyhow::Result<PathBuf> {

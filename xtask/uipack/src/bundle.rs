@@ -5,6 +5,7 @@ use std::num::NonZeroU64;
 use std::path::Path;
 
 use anyhow::{Context, Result};
+use brotli::enc::BrotliEncoderParams;
 use zopfli::{Format, Options};
 
 /// Files in the order they were added.
@@ -17,7 +18,8 @@ pub(crate) struct Bundle {
 struct File {
     name: String,
     plain: Vec<u8>,
-    packed: Vec<u8>,
+    gzip: Vec<u8>,
+    brotli: Vec<u8>,
 }
 
 impl Bundle {
@@ -40,27 +42,33 @@ impl Bundle {
         format!("{:016x}", fnv1a_64(&all))
     }
 
-    /// Name, bytes and packed bytes of each file.
-    pub(crate) fn sizes(&self) -> impl Iterator<Item = (&str, usize, usize)> {
-        self.files
-            .iter()
-            .map(|file| (file.name.as_str(), file.plain.len(), file.packed.len()))
+    /// Name of each file, and its bytes: plain, as gzip, as Brotli.
+    pub(crate) fn sizes(&self) -> impl Iterator<Item = (&str, [usize; 3])> {
+        self.files.iter().map(|file| {
+            let sizes = [&file.plain, &file.gzip, &file.brotli].map(Vec::len);
+            (file.name.as_str(), sizes)
+        })
     }
 
-    /// Writes all files and their gzip twins into an existing folder.
+    /// Writes all files and their packed twins into an existing folder.
     pub(crate) fn write(&self, folder: &Path) -> Result<()> {
         for file in &self.files {
-            let path = folder.join(&file.name);
-            fs::write(&path, &file.plain).with_context(|| format!("cannot write {}", path.display()))?;
-            let path = folder.join(format!("{}.gz", file.name));
-            fs::write(&path, &file.packed).with_context(|| format!("cannot write {}", path.display()))?;
+            for (ending, bytes) in [("", &file.plain), (".gz", &file.gzip), (".br", &file.brotli)] {
+                let path = folder.join(format!("{}{ending}", file.name));
+                fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
+            }
         }
         Ok(())
     }
 
     fn push(&mut self, name: String, plain: Vec<u8>) {
-        let packed = gzip(&plain);
-        self.files.push(File { name, plain, packed });
+        let (gzip, brotli) = (gzip(&plain), brotli(&plain));
+        self.files.push(File {
+            name,
+            plain,
+            gzip,
+            brotli,
+        });
     }
 }
 
@@ -75,6 +83,19 @@ fn gzip(plain: &[u8]) -> Vec<u8> {
     };
     let mut packed = Vec::new();
     zopfli::compress(options, Format::Gzip, plain, &mut packed).expect("writing to memory does not fail");
+    packed
+}
+
+/// A quarter smaller than gzip. Browsers take it over HTTPS and from their own computer.
+fn brotli(plain: &[u8]) -> Vec<u8> {
+    let parameters = BrotliEncoderParams {
+        quality: 11,
+        lgwin: 22,
+        size_hint: plain.len(),
+        ..BrotliEncoderParams::default()
+    };
+    let mut packed = Vec::new();
+    brotli::BrotliCompress(&mut &*plain, &mut packed, &parameters).expect("writing to memory does not fail");
     packed
 }
 

@@ -1,7 +1,7 @@
 //! Packs the panel: `uipack IN.wasm OUTDIR`.
 //!
 //! IN.wasm is what cargo made of clients/panel. It goes through wasm-bindgen; the result, the page, the style sheet and the icons
-//! of clients/panel/static go to OUTDIR under names that carry a hash of their content, each with a gzip twin. The page
+//! of clients/panel/static go to OUTDIR under names that carry a hash of their content, each with a gzip and a Brotli twin. The page
 //! and the service worker alone keep their names: they are what a browser asks for first. OUTDIR is replaced as a whole.
 #![forbid(unsafe_code)]
 
@@ -80,8 +80,12 @@ fn pack(wasm: &Path, folder: &Path) -> Result<()> {
     let worker = service_worker(&read("sw.js")?, &bundle)?;
     bundle.add_named("sw.js", worker.into_bytes());
     replace(folder, &bundle)?;
-    for (name, plain, packed) in bundle.sizes() {
-        writeln!(std::io::stdout(), "{name} {plain} bytes, {packed} gzip").ok(); // Nobody may be listening.
+    for (name, [plain, gzip, brotli]) in bundle.sizes() {
+        writeln!(
+            std::io::stdout(),
+            "{name} {plain} bytes, {gzip} gzip, {brotli} brotli"
+        )
+        .ok(); // Nobody may be listening.
     }
     Ok(())
 }

@@ -132,11 +132,14 @@ async fn nothing_is_wrong_for_those_who_hear_or_type() {
         };
         let browser = &visit.browser;
         let mut all = String::new();
-        for language in ["en", "et"] {
-            for look in ["light", "dark"] {
-                dress(browser, language, look).await;
-                all += &walk(browser, &format!("{screen_name}-{language}-{look}")).await;
-            }
+        // Words and colours have nothing to do with each other: each of them once on each screen, and each pair on one.
+        let dresses = match screen {
+            Screen::Phone => [("en", "light"), ("et", "dark")],
+            _ => [("en", "dark"), ("et", "light")],
+        };
+        for (language, look) in dresses {
+            dress(browser, language, look).await;
+            all += &walk(browser, &format!("{screen_name}-{language}-{look}")).await;
         }
         assert!(all.is_empty(), "{all}");
     }

@@ -29,6 +29,7 @@ mod lending;
 mod losses;
 mod mixes;
 mod offline;
+mod owner;
 mod pairing;
 mod parts;
 mod pictures;
@@ -39,6 +40,7 @@ mod rival;
 mod robot;
 mod roles;
 mod schedules;
+mod slow_wire;
 #[path = "../stack/mod.rs"]
 mod stack;
 mod stands;
@@ -142,16 +144,13 @@ async fn start_cleans_and_stop_stands() {
         .await;
     browser.shot("desktop-ready").await;
 
-    browser.click("#pause").await;
-    browser
-        .until("return document.getElementById('refusal')?.innerText.includes('No job is running') === true")
-        .await;
-    browser.shot("desktop-not-now").await;
     browser.press_start().await;
     browser.until_state(&["cleaning"]).await;
+    browser.click("#spot").await;
     browser
-        .until("return document.getElementById('refusal') === null")
+        .until("return document.getElementById('refusal')?.innerText.includes('A job is running') === true")
         .await;
+    browser.shot("desktop-not-now").await;
     let first = browser
         .text("return document.getElementById('map').dataset.pose")
         .await;
@@ -171,6 +170,9 @@ async fn start_cleans_and_stop_stands() {
 
     browser.click("#stop").await;
     browser.until_state(&["idle"]).await;
+    browser
+        .until("return document.getElementById('refusal') === null")
+        .await;
     let witness = Observer::watch(&visit.stack.simulator_socket());
     let stood = witness.stands_within(Duration::from_secs(3));
     assert!(stood.is_some(), "the robot still moves three seconds after Stop");

@@ -26,7 +26,10 @@ fn later_version(of: &Path) -> Folder {
     let folder = Folder::new();
     for entry in fs::read_dir(of).unwrap() {
         let path = entry.unwrap().path();
-        if path.extension().is_none_or(|ending| ending != "gz") {
+        if path
+            .extension()
+            .is_none_or(|ending| ending != "gz" && ending != "br")
+        {
             fs::copy(&path, folder.join(path.file_name().unwrap())).unwrap();
         }
     }

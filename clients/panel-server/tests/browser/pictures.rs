@@ -22,7 +22,7 @@ async fn at_work(browser: &Browser, tab: &str) {
     browser.until_within(minutes, &swept).await;
     // The pressed element has scrolled into view.
     browser
-        .text("window.scrollTo(0, 0); document.querySelector('.side').scrollTo(0, 0); return ''")
+        .text("window.scrollTo(0, 0); document.querySelector('.sheets').scrollTo(0, 0); return ''")
         .await;
 }
 

@@ -10,6 +10,7 @@ use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdout, Command, Stdio};
 
+use rustix::process::{Pid, Signal, kill_process};
 use rvac_api::SEPARATOR;
 
 use crate::folder::Folder;
@@ -65,6 +66,31 @@ impl Drop for Process {
     fn drop(&mut self) {
         self.child.kill().ok(); // It may have ended by itself.
         self.child.wait().ok();
+    }
+}
+
+/// A process that does not go on until this is dropped.
+#[derive(Debug)]
+pub(crate) struct Stopped(Option<Pid>);
+
+impl Stopped {
+    fn new(process: u32) -> Self {
+        let pid = i32::try_from(process).ok().and_then(Pid::from_raw);
+        let stopped = Self(pid);
+        stopped.tell(Signal::STOP);
+        stopped
+    }
+
+    fn tell(&self, signal: Signal) {
+        if let Some(pid) = self.0 {
+            kill_process(pid, signal).ok(); // It may have ended meanwhile.
+        }
+    }
+}
+
+impl Drop for Stopped {
+    fn drop(&mut self) {
+        self.tell(Signal::CONT);
     }
 }
 
@@ -365,6 +391,18 @@ impl Stack {
     /// Ends the server, as if its computer were switched off.
     pub(crate) fn stop_server(&mut self) {
         self.processes.pop();
+    }
+
+    /// The server stops in the middle of a word until the value is dropped: its connections stay open and are silent.
+    pub(crate) fn freeze_server(&self) -> Stopped {
+        let server = self.processes.last().expect("the server was started last");
+        Stopped::new(server.child.id())
+    }
+
+    /// The server ends and is there again at once, as after an update.
+    pub(crate) fn restart_server(&mut self) {
+        self.stop_server();
+        self.serve_again(&packed_panel());
     }
 
     fn port(&self) -> String {

@@ -10,6 +10,7 @@ mod camera;
 mod carpet;
 mod codes;
 mod connection;
+mod currency;
 mod device_rows;
 mod dock_place;
 mod driver;
@@ -23,6 +24,7 @@ mod grip;
 mod health;
 mod history;
 mod home;
+mod job_progress;
 mod job_settings;
 mod kept_places;
 mod latency;
@@ -31,11 +33,14 @@ mod lending;
 mod log_book;
 mod map_palette;
 mod mixes;
+mod names;
 mod offers;
 mod orbit;
 mod plan;
 mod playout;
 mod point;
+mod pressing;
+mod primary;
 mod qr;
 mod reshape;
 mod room_changes;
@@ -58,6 +63,7 @@ pub use codes::{
     state_title, strategy_title,
 };
 pub use connection::Backoff;
+pub use currency::{Currency, News, PieceJoiner};
 pub use device_rows::{Row, Section, device_sections};
 pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
 pub use driver::{Driver, keys_of, knob_place, silent_text, top_speeds};
@@ -74,6 +80,7 @@ pub use history::{
     stop_rows,
 };
 pub use home::{ITEMS_MAX, ROOM_TINTS, RoomRow, has_carpet, home_plan, room_name, room_rows, wall_strokes};
+pub use job_progress::{JobProgress, headline, route_length_m, run_summary};
 pub use job_settings::{JobSettings, SettingChoice};
 pub use kept_places::{PlaceRow, place_rows};
 pub use latency::LatencyMeter;
@@ -85,11 +92,14 @@ pub use mixes::{
     CalibrationRun, Field, FieldError, FieldKind, Group, InputPart, Learning, LineCurve, LinePart, MixDraft,
     MixProblem, OutputPart, SwitchPart, profile_problem_text, robot_has,
 };
+pub use names::name_problem_text;
 pub use offers::{Offer, Offers, PauseKind, Wait};
 pub use orbit::{Orbit, Projection};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
 pub use playout::Playout;
 pub use point::{MapPoint, Pixel};
+pub use pressing::Presses;
+pub use primary::{Primary, Wishes};
 pub use qr::QrPicture;
 pub use reshape::{HANDLE_FINE_STEP_M, HANDLE_STEP_M, Handle, Outline, Reshape, Reshaped, Target};
 pub use room_changes::{RoomChangeRow, joinable, room_change_rows};

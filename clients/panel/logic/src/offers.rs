@@ -36,6 +36,8 @@ pub enum Wait {
     Docked,
     /// The role of this device is too low.
     NotAllowed,
+    /// What is being drawn is not finished.
+    Drawing,
 }
 
 impl Wait {
@@ -53,6 +55,7 @@ impl Wait {
             Self::Docking => texts.docking,
             Self::Docked => texts.docked,
             Self::NotAllowed => texts.not_allowed,
+            Self::Drawing => texts.drawing,
         }
     }
 }

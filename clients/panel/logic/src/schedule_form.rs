@@ -2,7 +2,7 @@
 
 use rvac_api::{
     InQuiet, JobOrder, JobPart, PlaceShape, RequestBody, ScheduleEntry, ScheduleTime, ScheduleView,
-    ScheduledJob, Weekday,
+    ScheduledJob, Weekday, name_problem,
 };
 
 use crate::job_settings::JobSettings;
@@ -38,6 +38,8 @@ pub struct ScheduleForm {
     /// The floor of its rooms; none for a new one, whose floor is that on which the robot is.
     pub floor: Option<u16>,
     enabled: bool,
+    /// What it was when the change began.
+    was: Option<Box<ScheduleEntry>>,
     /// What it starts, with all that these fields cannot say.
     job: ScheduledJob,
 }
@@ -58,6 +60,7 @@ impl Default for ScheduleForm {
             waits: false,
             floor: None,
             enabled: true,
+            was: None,
             job: ScheduledJob::Start { strategy: None },
         }
     }
@@ -87,6 +90,7 @@ impl ScheduleForm {
             waits: entry.in_quiet == InQuiet::Wait,
             floor: entry.floor,
             enabled: entry.enabled,
+            was: Some(Box::new(entry.clone())),
             job: entry.job.clone(),
         }
     }
@@ -124,6 +128,13 @@ impl ScheduleForm {
         self.parts.iter().filter_map(drawn).collect()
     }
 
+    /// The person has seen what somebody else has made of it, and keeps what is filled in.
+    pub fn keep_mine(&mut self, theirs: &ScheduleView) {
+        self.was = Some(Box::new(theirs.entry.clone()));
+        // Whether it starts by itself is no field of the form: the last word on it stands.
+        self.enabled = theirs.entry.enabled;
+    }
+
     /// What is asked of the daemon.
     ///
     /// # Errors
@@ -131,7 +142,11 @@ impl ScheduleForm {
     pub fn request(&self, words: &Words) -> Result<RequestBody, &'static str> {
         let entry = self.entry(words)?;
         Ok(match self.number {
-            Some(number) => RequestBody::ChangeSchedule { number, entry },
+            Some(number) => RequestBody::ChangeSchedule {
+                number,
+                entry,
+                was: self.was.clone(),
+            },
             None => RequestBody::AddSchedule(entry),
         })
     }
@@ -140,6 +155,9 @@ impl ScheduleForm {
         let texts = &words.schedule;
         if self.name.trim().is_empty() {
             return Err(texts.need_name);
+        }
+        if name_problem(&self.name).is_some() {
+            return Err(texts.bad_name);
         }
         if self.at.is_empty() {
             return Err(texts.need_time);
@@ -309,7 +327,11 @@ mod tests {
         });
         assert_eq!(
             form.request(ENGLISH),
-            Ok(RequestBody::ChangeSchedule { number: 3, entry })
+            Ok(RequestBody::ChangeSchedule {
+                number: 3,
+                entry: entry.clone(),
+                was: Some(Box::new(entry.clone())),
+            })
         );
         form.settings.choose_power("quiet");
         let Ok(RequestBody::ChangeSchedule { entry, .. }) = form.request(ENGLISH) else {
@@ -331,5 +353,34 @@ mod tests {
         let zone = job.places().0[0].clone();
         assert_eq!(entry.job.places().0, [zone, JobPart::Room(2), JobPart::Place(9)]);
         assert_eq!(entry.floor, Some(2));
+    }
+    #[test]
+    fn what_somebody_else_has_changed_meanwhile_is_seen_and_then_replaced() {
+        let view = |name: &str, enabled: bool| ScheduleView {
+            number: 3,
+            entry: ScheduleEntry {
+                name: name.to_owned(),
+                enabled,
+                ..match filled().request(ENGLISH) {
+                    Ok(RequestBody::AddSchedule(entry)) => entry,
+                    other => panic!("{other:?}"),
+                }
+            },
+            skip_next: false,
+            next: vec![],
+            refused_now: None,
+        };
+        let (ours, theirs) = (view("Ours", false), view("Theirs", true));
+        let mut form = ScheduleForm::of(&ours);
+        let saved = |form: &ScheduleForm| match form.request(ENGLISH) {
+            Ok(RequestBody::ChangeSchedule { entry, was, .. }) => (entry, was.map(|was| *was)),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(saved(&form).1, Some(ours.entry.clone()));
+        form.keep_mine(&theirs);
+        let (entry, was) = saved(&form);
+        assert_eq!(was, Some(theirs.entry));
+        assert_eq!(entry.name, "Ours");
+        assert!(entry.enabled, "the last word on that stands");
     }
 }

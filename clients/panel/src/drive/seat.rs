@@ -12,6 +12,7 @@ use super::gamepads::{self, Plugged};
 
 use crate::changes::set_if_changed;
 use crate::language::words;
+use crate::news::now_ms;
 
 /// An input that is older than this is not what begins to drive now: a slow or a delay of the mix does.
 const FRESH_MS: f64 = 100.0;
@@ -207,11 +208,6 @@ impl Seat {
             }
         });
     }
-}
-
-/// Milliseconds since the page was opened.
-fn now_ms() -> f64 {
-    window().performance().map_or(0.0, |clock| clock.now())
 }
 
 fn micros(time_ms: f64) -> u64 {

@@ -52,6 +52,11 @@ impl HistoryDesk {
         self.extends.set(false);
     }
 
+    /// The run that ended last; a view that asks follows it.
+    pub(crate) fn newest(self) -> Option<Run> {
+        self.runs.with(|runs| runs.first().cloned())
+    }
+
     /// A run is over.
     pub(crate) fn on_kept(self, run: Run) {
         self.runs.update(|known| {

@@ -9,7 +9,8 @@ use wasm_bindgen::JsCast;
 use crate::access::EDITS_HOME;
 use crate::icons::{Icon, icon};
 use crate::language::words;
-use crate::store::{NOT_DRAWN, Store};
+use crate::refusals::NOT_DRAWN;
+use crate::store::Store;
 
 /// What was edited on this page; cheap to copy.
 #[derive(Clone, Copy, Debug)]

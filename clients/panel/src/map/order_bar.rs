@@ -1,7 +1,7 @@
 //! Over the map: the chosen rooms, zones and spots with what cleaning them takes, and what to do next while something is drawn.
 
 use leptos::prelude::*;
-use panel_logic::{DrawnPart, Offer, PASSES_MAX, RoomChoice, Target, Tool};
+use panel_logic::{DrawnPart, PASSES_MAX, RoomChoice, Target, Tool};
 
 use super::reshape_view::ReshapeBar;
 use crate::access::{EDITS_HOME, Needs};
@@ -69,18 +69,7 @@ fn ChosenRooms(store: Store) -> impl IntoView {
             .get()
             .unwrap_or_else(|| words().map.reckons.to_owned())
     };
-    let offer = Memo::new(move |_| store.offers().start);
-    let waits = move || match offer.get() {
-        Offer::NotNow(why) => Some(why.text(words())),
-        Offer::Ready | Offer::Absent => None,
-    };
     let joinable = Memo::new(move |_| store.joinable_rooms());
-    let clean = move |_| {
-        let order = orders.choice.with_untracked(RoomChoice::order);
-        if let (Some(order), Offer::Ready) = (order, offer.get_untracked()) {
-            store.clean(order);
-        }
-    };
     view! {
         <div class="order-bar" id="order-bar" role="group" aria-label=words().map.chosen>
             <p><strong id="chosen-rooms">{names}</strong></p>
@@ -100,17 +89,6 @@ fn ChosenRooms(store: Store) -> impl IntoView {
                 </Show>
                 <button type="button" class="small" id="keep-out" on:click=move |_| store.take_tool(Tool::AvoidZone)>
                     {words().map.keep_out}
-                </button>
-                <button
-                    type="button"
-                    class="small strong"
-                    id="clean-chosen"
-                    aria-disabled=move || if waits().is_some() { "true" } else { "false" }
-                    title=waits
-                    on:click=clean
-                >
-                    {words().map.clean_selected}
-                    <span class="visually-hidden">{move || waits().map(|why| words().frame.not_now.fill([&why]))}</span>
                 </button>
             </div>
         </div>

@@ -167,7 +167,6 @@ fn GroundSwitch(store: Store, shown: RwSignal<Ground>) -> impl IntoView {
 struct Footer {
     scale_name: String,
     scale_px: f64,
-    frames: String,
     /// A planned path, or doors, are visible.
     plans: bool,
     /// The robot's map is shown, and with it its border.
@@ -182,9 +181,20 @@ struct Footer {
 #[component]
 fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
     let simulated = move || store.home.with(Option::is_some);
+    let unfolded = RwSignal::new(false);
     view! {
         <div class="map-footer">
-            <ul class="legend" aria-label=words().map.legend>
+            <button
+                type="button"
+                class="small legend-fold"
+                id="legend-fold"
+                aria-expanded=move || if unfolded.get() { "true" } else { "false" }
+                aria-controls="legend"
+                on:click=move |_| unfolded.update(|unfolded| *unfolded = !*unfolded)
+            >
+                {words().map.legend}
+            </button>
+            <ul class="legend" id="legend" class:unfolded=move || unfolded.get() aria-label=words().map.legend>
                 <li><span class="key swept" aria-hidden="true"></span>{words().map.swept}</li>
                 <li><span class="key path" aria-hidden="true"></span>{words().map.path}</li>
                 <li><span class="key bump" aria-hidden="true"></span>{words().map.bump}</li>
@@ -205,7 +215,6 @@ fn MapFooter(store: Store, footer: RwSignal<Footer>) -> impl IntoView {
                 </Show>
             </ul>
             <span class="spring"></span>
-            <span class="frames" id="frames">{move || footer.get().frames}</span>
             <span class="scale">
                 <span class="scale-bar" aria-hidden="true" style:width=move || format!("{:.0}px", footer.get().scale_px)></span>
                 {move || footer.get().scale_name}
@@ -223,14 +232,9 @@ fn refresh(store: Store, (mode, ground, orbit): Shown, footer: RwSignal<Footer>)
         store.map.with_value(|map| {
             map.publish_figures();
             let (name, width) = scale_bar(words(), map.with(|scene| scene.camera.scale()));
-            let frames = map
-                .frames_per_second()
-                .map(|rate| words().unit.frames.fill([&words().number(rate, 0)]))
-                .unwrap_or_default();
             let next = Footer {
                 scale_name: name,
                 scale_px: width,
-                frames,
                 unsure: map.with(|scene| scene.ground() == Ground::Known && scene.plan().is_some()),
                 carpet: map
                     .with(|scene| scene.ground() == Ground::Known && scene.plan().is_some_and(has_carpet)),

@@ -42,6 +42,28 @@ fn check(form: Form, change: fn(&mut ScheduleForm, bool)) -> impl Fn(Event) + Co
     }
 }
 
+/// Somebody else has changed the same schedule: what it is now, and the choice between the two.
+#[component]
+fn Conflict(store: Store) -> impl IntoView {
+    let theirs = move || {
+        store.schedules.known.track();
+        store.their_words()
+    };
+    view! {
+        <div class="conflict" id="conflict">
+            <p>{move || words().schedule.theirs.fill([&theirs()])}</p>
+            <div class="order-tools">
+                <button type="button" class="small" id="take-theirs" on:click=move |_| store.take_theirs()>
+                    {words().schedule.take_theirs}
+                </button>
+                <button type="button" class="small strong" id="keep-mine" on:click=move |_| store.keep_mine()>
+                    {words().schedule.keep_mine}
+                </button>
+            </div>
+        </div>
+    }
+}
+
 #[component]
 pub(super) fn FormView(store: Store) -> impl IntoView {
     let desk = store.schedules;
@@ -65,7 +87,6 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
                 {words().schedule.name}
                 <input
                     id="schedule-name"
-                    maxlength="40"
                     autocomplete="off"
                     prop:value=text(form, |form| form.name.clone())
                     on:input=write(form, |form, typed| form.name = typed)
@@ -103,6 +124,9 @@ pub(super) fn FormView(store: Store) -> impl IntoView {
             <Rooms store />
             <Terms store />
             <p role="alert" id="schedule-wrong" class="wrong">{move || desk.wrong.get()}</p>
+            <Show when=move || desk.conflicts.get()>
+                <Conflict store />
+            </Show>
             <div class="order-tools">
                 <button type="submit" class="small strong" id="save-schedule">{words().frame.save}</button>
                 <button type="button" class="small" id="cancel-schedule" on:click=move |_| form.set(None)>{words().frame.cancel}</button>

@@ -14,9 +14,13 @@ use rvac_api::{Failure, RequestBody, ScheduleView, Schedules};
 use crate::access::{EDITS_SCHEDULES, Needs, OnlyLooks};
 use crate::language::words;
 use crate::store::{SCHEDULE_ID, Store};
+use crate::toasts::Undo;
 use form::FormView;
 use quiet::QuietView;
 use zone::ZoneView;
+
+/// The reason of the robot for a change of something that somebody else has changed.
+const CHANGED_MEANWHILE: &str = "changed-meanwhile";
 
 /// Handles on all of it; cheap to copy.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +30,8 @@ pub(crate) struct ScheduleDesk {
     form: RwSignal<Option<ScheduleForm>>,
     /// What is wrong with it.
     wrong: RwSignal<Option<String>>,
+    /// Somebody else has changed the schedule meanwhile: a person chooses which one stays.
+    conflicts: RwSignal<bool>,
 }
 
 impl ScheduleDesk {
@@ -34,6 +40,7 @@ impl ScheduleDesk {
             known: RwSignal::new(None),
             form: RwSignal::new(None),
             wrong: RwSignal::new(None),
+            conflicts: RwSignal::new(false),
         }
     }
 
@@ -46,6 +53,7 @@ impl ScheduleDesk {
         if id == SCHEDULE_ID {
             self.form.set(None);
             self.wrong.set(None);
+            self.conflicts.set(false);
         }
     }
 
@@ -53,6 +61,7 @@ impl ScheduleDesk {
     pub(crate) fn on_failed(self, failure: &Failure) -> bool {
         let is_ours = failure.id == Some(SCHEDULE_ID);
         if is_ours {
+            self.conflicts.set(failure.reason == CHANGED_MEANWHILE);
             self.wrong
                 .set(Some(refusal_text(words(), &failure.reason, &failure.text)));
         }
@@ -61,12 +70,29 @@ impl ScheduleDesk {
 
     fn open(self, form: ScheduleForm) {
         self.wrong.set(None);
+        self.conflicts.set(false);
         self.form.set(Some(form));
     }
 
     fn with<T: Default>(self, read: impl FnOnce(&Schedules) -> T) -> T {
         self.known
             .with(|known| known.as_ref().map(read).unwrap_or_default())
+    }
+
+    /// The schedules for people; a view that asks follows them.
+    fn rows_of(self, store: Store) -> Vec<ScheduleRow> {
+        let places = store.orders.places.get();
+        let rows_of = |rooms: &Vec<_>, floors: &_| {
+            let home = HomeRows {
+                rooms,
+                places: &places,
+                floors,
+            };
+            self.with(|known| schedule_rows(words(), known, home))
+        };
+        store
+            .rooms
+            .with(|rooms| store.floors.with(|floors| rows_of(rooms, floors)))
     }
 
     fn view_of(self, number: u32) -> Option<ScheduleView> {
@@ -78,20 +104,7 @@ impl ScheduleDesk {
 #[component]
 pub(crate) fn ScheduleSheet(store: Store) -> impl IntoView {
     let desk = store.schedules;
-    let rows = Memo::new(move |_| {
-        let places = store.orders.places.get();
-        let rows_of = |rooms: &Vec<_>, floors: &_| {
-            let home = HomeRows {
-                rooms,
-                places: &places,
-                floors,
-            };
-            desk.with(|known| schedule_rows(words(), known, home))
-        };
-        store
-            .rooms
-            .with(|rooms| store.floors.with(|floors| rows_of(rooms, floors)))
-    });
+    let rows = Memo::new(move |_| desk.rows_of(store));
     view! {
         <div class="home" id="schedule-sheet">
             <OnlyLooks store verb=EDITS_SCHEDULES />
@@ -223,7 +236,7 @@ fn EntryTools(store: Store, number: u32, row: Memo<Option<ScheduleRow>>) -> impl
                     class="small"
                     id=format!("remove-{number}")
                     aria-label=labelled(words().schedule.remove_named)
-                    on:click=move |_| store.ask(RequestBody::RemoveSchedule { number })
+                    on:click=move |_| store.remove_schedule(number)
                 >
                     {words().frame.remove}
                 </button>
@@ -238,6 +251,55 @@ impl Store {
         if self.admits(EDITS_SCHEDULES) {
             self.schedules.open(form);
         }
+    }
+
+    /// The schedule as somebody else has left it.
+    fn their_schedule(self) -> Option<ScheduleView> {
+        let number = self
+            .schedules
+            .form
+            .with_untracked(|form| form.as_ref().and_then(|form| form.number));
+        self.schedules.view_of(number?)
+    }
+
+    /// The same for people.
+    fn their_words(self) -> String {
+        let Some(theirs) = self.their_schedule() else {
+            return String::new();
+        };
+        let rows = self.schedules.rows_of(self);
+        let row = rows.into_iter().find(|row| row.number == theirs.number);
+        row.map_or(theirs.entry.name, |row| format!("{}: {}", row.name, row.words))
+    }
+
+    /// Lays what is filled in aside for what somebody else has made of it.
+    fn take_theirs(self) {
+        if let Some(theirs) = self.their_schedule() {
+            self.open_schedule(ScheduleForm::of(&theirs));
+        }
+    }
+
+    /// Saves what is filled in, whatever somebody else has made of it.
+    fn keep_mine(self) {
+        if let Some(theirs) = self.their_schedule() {
+            self.schedules.conflicts.set(false);
+            self.schedules.form.update(|form| {
+                if let Some(form) = form {
+                    form.keep_mine(&theirs);
+                }
+            });
+            self.save_schedule();
+        }
+    }
+
+    /// Removes a schedule; for a while it can be taken back.
+    fn remove_schedule(self, number: u32) {
+        let removed = self.schedules.view_of(number);
+        self.ask(RequestBody::RemoveSchedule { number });
+        self.undo.set(removed.map(|view| Undo {
+            what: words().schedule.was_removed.fill([&view.entry.name]),
+            body: RequestBody::AddSchedule(view.entry),
+        }));
     }
 
     /// Asks for what is filled in, or says what is missing.

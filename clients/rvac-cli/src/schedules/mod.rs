@@ -55,6 +55,8 @@ fn request(job: &ScheduleJob, connection: &mut Connection) -> anyhow::Result<Opt
             RequestBody::ChangeSchedule {
                 number: *number,
                 entry: changed(entry, options, connection)?,
+                // It was read a moment ago.
+                was: None,
             }
         }
         ScheduleVerb::Remove { number } => RequestBody::RemoveSchedule { number: *number },

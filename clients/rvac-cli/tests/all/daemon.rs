@@ -641,6 +641,7 @@ fn schedules_are_asked_for_under_their_names() {
             RequestBody::ChangeSchedule {
                 number: 3,
                 entry: hall_at("08:00"),
+                was: None,
             },
         ),
         (
@@ -718,7 +719,11 @@ fn a_schedule_takes_how_its_runs_clean_and_keeps_what_they_clean() {
             job: ScheduledJob::Clean(order),
             ..hall_at("07:30")
         };
-        let body = RequestBody::ChangeSchedule { number: 3, entry };
+        let body = RequestBody::ChangeSchedule {
+            number: 3,
+            entry,
+            was: None,
+        };
         assert!(asked.contains(&Request { id: Some(1), body }), "{asked:?}");
     }
 }
@@ -777,7 +782,11 @@ fn a_schedule_is_for_the_floor_that_is_named() {
         let arguments = [&["schedule", "change", "3"], options].concat();
         let (output, asked) = Daemon::start(on_the_ground).rvac(&arguments, "");
         assert!(output.status.success(), "{arguments:?}: {output:?}");
-        let body = RequestBody::ChangeSchedule { number: 3, entry };
+        let body = RequestBody::ChangeSchedule {
+            number: 3,
+            entry,
+            was: None,
+        };
         assert!(
             asked.contains(&Request { id: Some(1), body }),
             "{arguments:?}: {asked:?}"

@@ -89,6 +89,10 @@ impl BrainSession {
             Some(home) => self.brain.restore_at(home, &checkpoint),
             None => self.brain.restore(&checkpoint),
         }
+        // A daemon that starts while nothing is to be done has nothing to record.
+        if cause == RunCause::ResumedAfterRestart && checkpoint.job.is_none() {
+            return;
+        }
         self.run = Some(RecordedRun {
             resting_since_us: None,
         });

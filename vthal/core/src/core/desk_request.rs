@@ -158,7 +158,7 @@ impl DeskRequest {
             Body::ExportFloors { floor, from } => archive(ArchiveTask::Export { floor, from }),
             Body::ImportFloors { from, size, data } => archive(ArchiveTask::Import { from, size, data }),
             Body::AddSchedule(entry) => Self::Schedules(ScheduleRequest::Add(entry)),
-            Body::ChangeSchedule { number, entry } => Self::Schedules(ScheduleRequest::Change { number, entry }),
+            Body::ChangeSchedule { number, entry, was } => Self::Schedules(ScheduleRequest::Change { number, entry, was }),
             Body::RemoveSchedule { number } => schedule(ScheduleEdit::Remove(number)),
             Body::EnableSchedule { number, enabled } => schedule(ScheduleEdit::Enable(number, enabled)),
             Body::SkipNext { number, skip } => schedule(ScheduleEdit::SkipNext(number, skip)),

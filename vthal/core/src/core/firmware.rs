@@ -63,7 +63,12 @@ impl Core {
             DeviceEvent::Refused { number, reason } => {
                 let number = number.map_or_else(String::new, |number| format!(" {number}"));
                 let text = format!("the robot refused command{number}: {reason}");
-                (LogLevel::Warn, LogSource::Firmware, text)
+                // A bumper or the dock stops the wheels before the brain hears of it: the commands under way are refused, as they should be.
+                let level = match reason {
+                    "inhibited" => LogLevel::Debug,
+                    _ => LogLevel::Warn,
+                };
+                (level, LogSource::Firmware, text)
             }
             DeviceEvent::Unanswered(number) => {
                 let text = format!("the robot did not answer command {number}");

@@ -10,7 +10,7 @@ use super::reply::Reply;
 use super::scheduler::{Scheduler, Task};
 use super::words::to_order;
 use crate::refusal::Refusal;
-use crate::schedule::{Book, Entry, Outcome, Plan, ScheduleEdit, ScheduleError, Verdict, Zone};
+use crate::schedule::{Book, EditError, Entry, Outcome, Plan, ScheduleEdit, ScheduleError, Verdict, Zone};
 
 /// Readiness changes without an event; followers receive it within this time.
 const SEND_PERIOD_US: u64 = 5_000_000;
@@ -20,8 +20,12 @@ const SEND_PERIOD_US: u64 = 5_000_000;
 pub(crate) enum ScheduleRequest {
     /// A new one.
     Add(ScheduleEntry),
-    /// Another one in its place.
-    Change { number: u32, entry: ScheduleEntry },
+    /// Another one in its place, if it still is what it was when the change began.
+    Change {
+        number: u32,
+        entry: ScheduleEntry,
+        was: Option<Box<ScheduleEntry>>,
+    },
     /// What needs no look at the home.
     Edit(ScheduleEdit),
 }
@@ -99,7 +103,8 @@ impl ScheduleDesk {
     ) -> Result<Reply, Refusal> {
         let edit = match request {
             ScheduleRequest::Add(entry) => ScheduleEdit::Add(plan(Plan::from_api(entry)?, readiness)?),
-            ScheduleRequest::Change { number, entry } => {
+            ScheduleRequest::Change { number, entry, was } => {
+                self.is_unchanged(number, was.as_deref())?;
                 ScheduleEdit::Change(number, plan(Plan::from_api(entry)?, readiness)?)
             }
             ScheduleRequest::Edit(edit) => edit,
@@ -109,6 +114,15 @@ impl ScheduleDesk {
         }
         self.run(readiness, teller);
         Ok(Reply::WhenKept)
+    }
+
+    /// The entry still is what a client has seen of it.
+    fn is_unchanged(&self, number: u32, was: Option<&ScheduleEntry>) -> Result<(), Refusal> {
+        let Some(was) = was else { return Ok(()) };
+        if self.entry(number)?.plan().to_api() == *was {
+            return Ok(());
+        }
+        Err(ScheduleError::from(EditError::ChangedMeanwhile { number }).into())
     }
 
     /// The entry of this number.

@@ -85,6 +85,12 @@ pub enum EditError {
         /// The date.
         date: Date,
     },
+    /// Somebody else has changed the entry since the client has seen it.
+    #[error("Schedule {number} was changed by somebody else meanwhile: look at it, then save again.")]
+    ChangedMeanwhile {
+        /// Number of the entry.
+        number: u32,
+    },
 }
 
 impl EditError {
@@ -97,6 +103,7 @@ impl EditError {
             Self::Past(_) => "schedule-past",
             Self::NoSuchDate(_) => "schedule-wrong",
             Self::Decided { .. } => "schedule-decided",
+            Self::ChangedMeanwhile { .. } => "changed-meanwhile",
         }
     }
 }

@@ -69,6 +69,17 @@ fn source_problem_text(words: &Words, error: &SourceError) -> String {
 /// What the mixer does not take, for people. In English it says it itself.
 #[must_use]
 pub fn profile_problem_text(words: &Words, error: &ProfileError) -> String {
+    // What was typed is no number; the mixer would call it NaN.
+    if let ProfileError::Range {
+        place,
+        found,
+        low,
+        high,
+    } = error
+        && found.is_nan()
+    {
+        return words.mix.no_number.fill([place, low, high]);
+    }
     if words.language == Language::English {
         return error.to_string();
     }

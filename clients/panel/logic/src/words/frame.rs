@@ -13,6 +13,7 @@ screen! {
         battery: "Battery", "Aku";
         connected: "Connected", "Ühendatud";
         not_connected: "Not connected", "Ühendamata";
+        not_current: "Not current", "Ei ole ajakohane";
         details: "Details", "Üksikasjad";
         drive: "Drive", "Juhi";
         home: "Home", "Kodu";
@@ -42,7 +43,6 @@ screen! {
         square_metres[1]: "{0} m²", "{0} m²";
         percent[1]: "{0} %", "{0} %";
         percent_said[1]: "{0} percent", "{0} protsenti";
-        frames[1]: "{0} frames/s", "{0} kaadrit/s";
         // From Monday on, with blanks between.
         weekdays: "Mon Tue Wed Thu Fri Sat Sun", "E T K N R L P";
         months: "Jan Feb Mar Apr May Jun Jul Aug Sep Oct Nov Dec",
@@ -66,6 +66,12 @@ screen! {
         dock: "Dock", "Dokki";
         find: "Find", "Leia";
         clear: "Clear the fault", "Tühista rike";
+        pending: "Sent, waiting for the robot", "Saadetud, ootan roboti vastust";
+        found: "The robot beeps. Listen for it.", "Robot piiksub. Kuula, kust heli tuleb.";
+        no_answer[1]: "{0}: no answer yet. To stop the robot at once, press a button on it.",
+            "{0}: vastust veel ei ole. Roboti saab kohe peatada selle enda nupust.";
+        not_sent[1]: "{0} was not sent: there is no connection. To stop the robot, press a button on it.",
+            "{0}: ei saadetud, sest ühendust ei ole. Roboti saab peatada selle enda nupust.";
         cleaning_pattern: "Cleaning pattern", "Koristusmuster";
         robot_chooses: "The robot chooses", "Robot valib ise";
         random: "Random", "Juhuslik";
@@ -88,6 +94,7 @@ screen! {
         docked: "The robot is on the dock.", "Robot on dokis.";
         not_allowed: "Not allowed for this device: an administrator can give it another role.",
             "Sellel seadmel ei ole selleks õigust: haldusõigusega seadmes saab anda sellele teise rolli.";
+        drawing: "Finish the drawing on the map first, or cancel it.", "Lõpeta enne joonis kaardil või loobu sellest.";
         only_looks: "This device may not change anything here: an administrator can give it another role.",
             "See seade ei tohi siin midagi muuta: haldusõigusega seadmes saab anda sellele teise rolli.";
     }
@@ -114,6 +121,7 @@ screen! {
 screen! {
     /// The log. Its entries are the robot's own and stay English.
     LogWords {
+        since_start[1]: "{0} after the daemon's start", "{0} pärast deemoni käivitumist";
         level: "Level", "Tase";
         everything: "Everything", "Kõik";
         information: "Information", "Teated";

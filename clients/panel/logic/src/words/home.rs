@@ -5,6 +5,11 @@ use super::screen;
 screen! {
     /// The sheet with all of it.
     HomeWords {
+        name_long[2]: "{0} characters: at most {1}.", "{0} tähemärki: kõige rohkem {1}.";
+        name_invisible: "The name holds a character that nobody sees. Type it instead of pasting.",
+            "Nimes on märk, mida ei ole näha. Kirjuta nimi ise, ära kleebi.";
+        name_digits: "A number alone is taken for another room. Add a word.",
+            "Ainult arv tähendab teist tuba. Lisa mõni sõna.";
         maps: "Map backups", "Kaartide varukoopiad";
         no_maps: "None yet: a map backup is made when a run ends.", "Veel ühtegi: varukoopia tehakse, kui töö lõpeb.";
         room_one: "1 room", "1 tuba";

@@ -98,6 +98,7 @@ screen! {
         new_switch: "switch", "lüliti";
         ends[3]: "Move it to both ends: {0} to {1}, at rest {2}.", "Liiguta mõlema otsani: {0} kuni {1}, puhkeasendis {2}.";
         not_moved[1]: "{0} was not moved: begin again, and move it to both ends", "{0} ei liikunud: alusta uuesti ja liiguta mõlema otsani";
+        no_number[3]: "{0}: write a number from {1} to {2}", "{0}: kirjuta arv vahemikust {1} kuni {2}";
         no_time[1]: "`{0}` is no time: write whole milliseconds from 0 to 5000", "„{0}“ ei ole aeg: kirjuta täisarv millisekundeid, 0 kuni 5000";
         no_point[1]: "`{0}` is no point: write two numbers, and a comma before the next, like -1 -1, 0 0.2, 1 1",
             "„{0}“ ei ole punkt: kirjuta kaks arvu ja järgmise ette koma, nagu -1 -1, 0 0.2, 1 1";

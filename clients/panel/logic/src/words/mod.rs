@@ -4,6 +4,7 @@
 //! a text without its translation does not compile. A text that takes values is a [`Template`] with the number of its values in
 //! its type; `{0}` is the place of the first one.
 
+mod about;
 mod access;
 mod device;
 mod drive;
@@ -22,6 +23,7 @@ mod tests;
 
 use std::fmt::Display;
 
+pub use about::AboutWords;
 pub use access::AccessWords;
 pub use device::DeviceWords;
 pub use drive::DriveWords;
@@ -137,6 +139,7 @@ pub(crate) use screen;
 pub struct Words {
     /// The language that they are in.
     pub language: Language,
+    pub about: AboutWords,
     pub access: AccessWords,
     pub action: ActionWords,
     pub device: DeviceWords,
@@ -173,6 +176,7 @@ macro_rules! all_screens {
     ($language:ident, $which:ident) => {
         Words {
             language: Language::$language,
+            about: AboutWords::$which,
             access: AccessWords::$which,
             action: ActionWords::$which,
             device: DeviceWords::$which,

@@ -5,6 +5,10 @@ use super::screen;
 screen! {
     /// Schedules, their form, quiet hours.
     ScheduleWords {
+        theirs[1]: "Now it is: {0}", "Praegu on see: {0}";
+        take_theirs: "Take theirs", "Võta nende oma";
+        keep_mine: "Keep mine", "Jäta minu oma";
+        was_removed[1]: "Removed: {0}.", "Eemaldatud: {0}.";
         schedules: "Schedules", "Ajakavad";
         none: "Nothing starts by itself.", "Midagi ei alga iseenesest.";
         add: "Add a schedule", "Lisa ajakava";
@@ -34,6 +38,8 @@ screen! {
         waits: "Wait for the end of the quiet hours", "Oota vaikse aja lõppu";
         may_be_late[1]: "up to {0} minutes late", "kuni {0} minutit hiljem";
         may_wait: "waits for the end of the quiet hours", "ootab vaikse aja lõppu";
+        bad_name: "The name must have at most 40 visible characters, and not only digits.",
+            "Nimes peab olema kuni 40 nähtavat tähemärki, ja mitte ainult numbrid.";
         need_name: "Give it a name.", "Anna ajakavale nimi.";
         need_time: "Say at what time it starts.", "Määra kellaaeg, millal see algab.";
         need_date: "Choose the day on which it starts.", "Vali päev, millal see algab.";

@@ -10,8 +10,23 @@ screen! {
         waits_for_resume: "The job waits until you resume it.", "Töö ootab, kuni seda jätkad.";
         in_control[1]: "In control: {0}.", "Juhib: {0}.";
         strategy[1]: "Cleaning pattern: {0}.", "Koristusmuster: {0}.";
-        now_in[1]: "Now in {0}.", "Praegu: {0}.";
         reason[1]: "Reason: {0}.", "Põhjus: {0}.";
+        left_and_done[2]: "About {0} min left, {1} done.", "Jäänud umbes {0} min, tehtud {1}.";
+        minutes_left[1]: "About {0} min left.", "Jäänud umbes {0} min.";
+        done_so_far[1]: "{0} of the mapped floor done.", "Kaardistatud põrandast tehtud {0}.";
+        progress: "Progress", "Edenemine";
+        getting_ready: "Getting ready: it stands still to calibrate its gyro.",
+            "Valmistub: seisab paigal, et güroskoopi kalibreerida.";
+        summary[2]: "{0} in {1}.", "{0}, aeg {1}.";
+        summary_whole[2]: "{0} in {1}: all of the floor.", "{0}, aeg {1}: kogu põrand.";
+        summary_left[4]: "{0} in {1}: {2} of the floor. {3} could not be reached or was left.",
+            "{0}, aeg {1}: {2} põrandast. {3} jäi koristamata või ei olnud ligipääsetav.";
+        last_job: "Last job", "Viimane töö";
+        figures: "Figures", "Näitajad";
+        silent[1]: "No news for {0} s: what you see is that old.",
+            "Uudiseid pole olnud {0} s: kõik siin nähtav on nii vana.";
+        silent_remedy: "The robot goes on with what it does. Check the Wi-Fi of this device; to stop the robot, press a button on it.",
+            "Robot jätkab oma tööd. Kontrolli selle seadme Wi-Fi ühendust; roboti saab peatada selle enda nupust.";
         swept: "Cleaned", "Koristatud";
         time: "Time", "Aeg";
         distance: "Distance", "Teekond";

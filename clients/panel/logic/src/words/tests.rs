@@ -1,14 +1,15 @@
 //! Checks of the texts themselves.
 
 use super::{
-    AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords, HistoryWords,
-    HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords, StateWords,
-    StatusWords, Template, UnitWords,
+    AboutWords, AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords,
+    HistoryWords, HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords,
+    StateWords, StatusWords, Template, UnitWords,
 };
 
 type Texts = [(&'static str, usize, [&'static str; 2])];
 
-const SCREENS: [&Texts; 18] = [
+const SCREENS: [&Texts; 19] = [
+    AboutWords::ALL,
     AccessWords::ALL,
     ActionWords::ALL,
     DeviceWords::ALL,
