@@ -44,6 +44,12 @@ pub struct Dial {
     tls: Option<TlsConnector>,
 }
 
+impl std::fmt::Debug for Dial {
+    fn fmt(&self, to: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(to, "{}:{}", self.host, self.port)
+    }
+}
+
 impl Dial {
     /// A host that is spoken to in the clear.
     #[must_use]

@@ -57,6 +57,7 @@ async fn speak(broker: &Dial, voice: impl Voice, configuration: &Configuration) 
         begun: Instant::now(),
         daemon: Daemon::new(configuration.vthal.clone(), "rvac-mqtt", &TOPICS),
         voice,
+        wake_at: Duration::ZERO,
         configuration,
     };
     let mut pause = RETRY_FIRST;
@@ -82,6 +83,7 @@ struct Shell<'a, V> {
     begun: Instant,
     daemon: Daemon,
     voice: V,
+    wake_at: Duration,
     configuration: &'a Configuration,
 }
 
@@ -116,7 +118,8 @@ impl<V: Voice> Shell<'_, V> {
                 timeout(WRITE_LIMIT, stream.write_all(&bytes)).await??;
                 stream.flush().await?;
             }
-            let wake_at = session_at.min(self.now() + WAKE_EVERY);
+            // Not from now on: updates come more often than that.
+            let wake_at = session_at.min(self.wake_at);
             let mut out = Vec::new();
             tokio::select! {
                 news = self.daemon.next() => self.take_news(news, &mut out),
@@ -128,10 +131,12 @@ impl<V: Voice> Shell<'_, V> {
                     let hello = self.take_bytes(bytes, &mut session, &mut out)?;
                     stream.write_all(&hello).await?;
                 }
-                () = sleep_until(self.begun + wake_at) => {
-                    let now = self.now();
-                    self.voice.wake(now, &mut out);
-                }
+                () = sleep_until(self.begun + wake_at) => {}
+            }
+            let now = self.now();
+            if now >= self.wake_at {
+                self.wake_at = now + WAKE_EVERY;
+                self.voice.wake(now, &mut out);
             }
             self.ask(out, Some(&mut session)).await;
         }

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Takes requests and writes each as a line of JSON: receiver.py PORT FILE. Reads mails and calendars: receiver.py mail|calendar FILE"""
+"""Takes requests and writes each as a line of JSON: receiver.py PORT FILE. Reads mails, calendars and maps: receiver.py mail|calendar|card FILE"""
 import base64
 import email
 import email.policy
 import http.server
 import json
+import struct
 import sys
+import zlib
 
 
 def picture(data):
@@ -49,7 +51,43 @@ def calendar(path):
     return {"name": str(whole["X-WR-CALNAME"]), "errors": len(whole.errors), "events": events}
 
 
-if sys.argv[1] in ("mail", "calendar"):
+def card(path):
+    """What a card for Valetudo's maps looks for in such a picture; an error where it is not as they read it."""
+    with open(path, "rb") as file:
+        rest = file.read()[8:]
+    whole = None
+    while rest:
+        length, kind = struct.unpack(">I4s", rest[:8])
+        data, crc = rest[8:8 + length], rest[8 + length:12 + length]
+        assert zlib.crc32(kind + data) == struct.unpack(">I", crc)[0], kind
+        if kind == b"zTXt" and data.startswith(b"ValetudoMap\0\0"):
+            whole = json.loads(zlib.decompress(data[13:]))
+        rest = rest[12 + length:]
+    assert whole["__class"] == "ValetudoMap" and whole["metaData"]["version"] == 2 and whole["pixelSize"] == 5
+    total = 0
+    for layer in whole["layers"]:
+        assert layer["__class"] == "MapLayer" and layer["pixels"] == [], layer["type"]
+        runs = layer["compressedPixels"]
+        assert len(runs) % 3 == 0 and runs, layer["type"]
+        pixels = [(x + along, y) for x, y, count in zip(runs[::3], runs[1::3], runs[2::3]) for along in range(count)]
+        assert pixels == sorted(set(pixels), key=lambda pixel: (pixel[1], pixel[0])), "each pixel once, row by row"
+        for axis, side in enumerate("xy"):
+            values = [pixel[axis] for pixel in pixels]
+            there = layer["dimensions"][side]
+            assert (there["min"], there["max"]) == (min(values), max(values)), there
+            assert max(values) * 5 < whole["size"][side], there
+        assert layer["dimensions"]["pixelCount"] == len(pixels)
+        assert layer["metaData"]["area"] == len(pixels) * 25
+        total += len(pixels) * 25
+    assert whole["metaData"]["totalLayerArea"] == total and whole["metaData"]["nonce"]
+    for entity in whole["entities"]:
+        assert isinstance(entity["metaData"], dict) and len(entity["points"]) % 2 == 0
+        assert all(isinstance(value, int) for value in entity["points"])
+    return {"layers": sorted(layer["type"] for layer in whole["layers"]),
+            "entities": sorted(entity["type"] for entity in whole["entities"])}
+
+
+if sys.argv[1] in ("mail", "calendar", "card"):
     print(json.dumps(globals()[sys.argv[1]](sys.argv[2])))
 else:
     http.server.HTTPServer(("127.0.0.1", int(sys.argv[1])), Receiver).serve_forever()

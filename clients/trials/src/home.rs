@@ -5,6 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::Duration;
 
 use crate::process::{Scratch, Server, ask, beside};
+use crate::program::wait_for;
 use anyhow::ensure;
 
 /// An answer comes within this time.
@@ -64,7 +65,16 @@ impl Home {
             _simulator: simulator,
         };
         home.start_daemon()?;
+        home.wait_for_robot()?;
         Ok(home)
+    }
+
+    /// The daemon is ready before its robot answers.
+    fn wait_for_robot(&self) -> anyhow::Result<()> {
+        wait_for("the robot answers the daemon", Duration::from_secs(20), || {
+            let status = ask(&self.socket(), r#"{"c":"watch","topics":["status"]}"#, PATIENCE)?;
+            Ok((!status.contains(r#""state":"disconnected""#)).then_some(()))
+        })
     }
 
     pub(crate) fn socket(&self) -> PathBuf {

@@ -11,8 +11,8 @@ use crate::mosquitto::{Rig, is_state};
 use crate::process::{ran_s, resident_mib};
 use crate::verdict::Verdict;
 
-/// A board of a robot has little of both.
-const RESIDENT_MIB_MAX: f64 = 12.0;
+/// A board of a robot has little of both. These are for a development build, which is larger than what a package holds.
+const RESIDENT_MIB_MAX: f64 = 16.0;
 const SHARE_MAX: f64 = 0.02;
 
 pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {

@@ -10,6 +10,7 @@ use serde_json::Value;
 use crate::Arguments;
 use crate::broker::{Broker, Door, Heard, Listener};
 use crate::home::Home;
+use crate::notifications;
 use crate::process::{beside, resident_mib};
 use crate::program::{Program, server, version_in};
 use crate::verdict::Verdict;
@@ -31,7 +32,7 @@ impl Rig {
         let home = Home::start()?;
         let broker = Broker::start(home.scratch.join("").as_path(), door)?;
         let configuration = format!(
-            "{}version = {version:?}\nvthal = {:?}\nid = \"robo\"\nname = \"Robo\"\nmap_every_s = 1\n",
+            "{}version = {version:?}\nvthal = {:?}\nid = \"robo\"\nname = \"Robo\"\nmap_every_s = 1\ndialect_prefix = \"kaart\"\n",
             broker.for_bridge(),
             home.socket().display().to_string(),
         );
@@ -65,6 +66,7 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
     verdict.version(version.as_deref());
     let mut rig = Rig::start(Door::Open, "5")?;
     sayings(&rig, verdict)?;
+    dialect(&rig, arguments, verdict)?;
     commands(&rig, verdict)?;
     hostile(&mut rig, verdict)?;
     let breaks = if arguments.long { 20 } else { 2 };
@@ -173,19 +175,25 @@ fn sayings(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
     Ok(())
 }
 
+fn order(rig: &Rig, listener: &Listener, (word, state): (&str, &str), verdict: &mut Verdict) {
+    let result = rig
+        .command(word)
+        .and_then(|()| listener.wait_for(state, SOON, is_state(state)));
+    verdict.check(&format!("{word} leads to {state}"), result.map(drop));
+}
+
 fn commands(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
     let listener = rig.broker.listen(&["librervac/#"])?;
-    let mut order = |word: &str, state: &str| {
-        let result = rig
-            .command(word)
-            .and_then(|()| listener.wait_for(state, SOON, is_state(state)));
-        verdict.check(&format!("{word} leads to {state}"), result.map(drop));
-    };
-    order("start", "cleaning");
-    order("pause", "paused");
-    order("start", "cleaning");
-    order("return_to_base", "returning");
-    order("stop", "idle");
+    for step in [("start", "cleaning"), ("pause", "paused"), ("start", "cleaning")] {
+        order(rig, &listener, step, verdict);
+    }
+    listener.wait_for("off the dock", SOON, |heard| {
+        let text = heard.text();
+        text.contains("\"activity\":\"cleaning\"") && text.contains("\"docked\":false")
+    })?;
+    for step in [("return_to_base", "returning"), ("stop", "idle")] {
+        order(rig, &listener, step, verdict);
+    }
     let ended = listener.wait_for("the end of the run", SOON, |heard| {
         heard.topic.ends_with("event/run")
     });
@@ -200,6 +208,10 @@ fn commands(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
             Ok(())
         }),
     );
+    parts_of_the_home(rig, &listener, verdict)
+}
+
+fn parts_of_the_home(rig: &Rig, listener: &Listener, verdict: &mut Verdict) -> anyhow::Result<()> {
     let clean = rig.broker.publish("librervac/robo/rooms/clean", r#"["1"]"#, &[]);
     let cleans = clean.and_then(|()| listener.wait_for("cleaning", SOON, is_state("cleaning")));
     verdict.check("a room is cleaned", cleans.map(drop));
@@ -224,6 +236,41 @@ fn commands(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
             Ok(())
         }),
     );
+    Ok(())
+}
+
+/// The map as clients of Valetudo read it, and their commands.
+fn dialect(rig: &Rig, arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {
+    let listener = rig.broker.listen(&["kaart/robo/#"])?;
+    let picture = listener.wait_for("a map for cards", SOON, |heard| {
+        heard.topic.ends_with("map-data-hass")
+    });
+    let python = arguments.python.clone().unwrap_or_else(|| "python3".into());
+    verdict.check(
+        "the picture for map cards holds a map as they read it",
+        picture.and_then(|heard| {
+            let file = rig.home.scratch.join("card.png");
+            std::fs::write(&file, &heard.payload)?;
+            let map = notifications::read(&python, "card", &file)?;
+            ensure!(map["layers"].to_string().contains("segment"), "{map}");
+            ensure!(map["entities"].to_string().contains("robot_position"), "{map}");
+            Ok(())
+        }),
+    );
+    let is = |end: &'static str, text: &'static str| {
+        move |heard: &Heard| heard.topic.ends_with(end) && heard.text() == text
+    };
+    rig.broker
+        .publish("kaart/robo/BasicControlCapability/operation/set", "START", &[])?;
+    let cleans = listener.wait_for("cleaning", SOON, is("StatusStateAttribute/status", "cleaning"));
+    verdict.check("their START leads to cleaning", cleans.map(drop));
+    rig.broker
+        .publish("kaart/robo/BasicControlCapability/operation/set", "STOP", &[])?;
+    let stands = listener.wait_for("idle", SOON, |heard: &Heard| {
+        heard.topic.ends_with("StatusStateAttribute/status")
+            && ["idle", "docked"].contains(&heard.text().as_str())
+    });
+    verdict.check("their STOP leads to rest", stands.map(drop));
     Ok(())
 }
 

@@ -24,7 +24,7 @@ fn script() -> PathBuf {
 }
 
 /// What a mail or calendar says, as Python reads it.
-fn read(python: &Path, kind: &str, file: &Path) -> anyhow::Result<Value> {
+pub(crate) fn read(python: &Path, kind: &str, file: &Path) -> anyhow::Result<Value> {
     let told = output(Command::new(python).arg(script()).arg(kind).arg(file))?;
     Ok(serde_json::from_str(told.trim())?)
 }
