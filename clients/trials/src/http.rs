@@ -7,11 +7,10 @@ use std::time::Duration;
 use anyhow::{Context as _, bail, ensure};
 use serde_json::Value;
 
-/// Who is asked, and by which right.
+/// Who is asked.
 #[derive(Clone, Debug)]
 pub(crate) struct Site {
     pub(crate) port: u16,
-    pub(crate) token: Option<String>,
 }
 
 /// An answer.
@@ -29,38 +28,22 @@ impl Answer {
 }
 
 impl Site {
-    pub(crate) fn get(&self, path: &str) -> anyhow::Result<Answer> {
-        self.ask(&format!("GET {path}"), "application/json", "")
-    }
-
     /// The JSON of an answer that went well.
     pub(crate) fn get_json(&self, path: &str) -> anyhow::Result<Value> {
-        of_json(path, &self.get(path)?)
+        let answer = self.get(path)?;
+        ensure!(
+            (200..300).contains(&answer.code),
+            "{path}: {} {}",
+            answer.code,
+            answer.text()
+        );
+        serde_json::from_slice(&answer.body).with_context(|| format!("{path}: {}", answer.text()))
     }
 
-    pub(crate) fn post_json(&self, path: &str, body: &Value) -> anyhow::Result<Value> {
-        of_json(
-            path,
-            &self.ask(&format!("POST {path}"), "application/json", &body.to_string())?,
-        )
-    }
-
-    pub(crate) fn post_form(&self, path: &str, body: &str) -> anyhow::Result<Value> {
-        let form = "application/x-www-form-urlencoded";
-        of_json(path, &self.ask(&format!("POST {path}"), form, body)?)
-    }
-
-    fn ask(&self, line: &str, kind: &str, body: &str) -> anyhow::Result<Answer> {
+    pub(crate) fn get(&self, path: &str) -> anyhow::Result<Answer> {
         let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
         stream.set_read_timeout(Some(Duration::from_secs(30)))?;
-        let token = self
-            .token
-            .as_ref()
-            .map_or_else(String::new, |token| format!("Authorization: Bearer {token}\r\n"));
-        let request = format!(
-            "{line} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\nContent-Type: {kind}\r\nContent-Length: {}\r\n{token}\r\n{body}",
-            body.len()
-        );
+        let request = format!("GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");
         stream.write_all(request.as_bytes())?;
         let mut answer = Vec::new();
         stream.read_to_end(&mut answer)?;
@@ -82,16 +65,6 @@ impl Site {
         };
         Ok(Answer { code, head, body })
     }
-}
-
-fn of_json(path: &str, answer: &Answer) -> anyhow::Result<Value> {
-    ensure!(
-        (200..300).contains(&answer.code),
-        "{path}: {} {}",
-        answer.code,
-        answer.text()
-    );
-    serde_json::from_slice(&answer.body).with_context(|| format!("{path}: {}", answer.text()))
 }
 
 fn joined(mut chunks: &[u8]) -> anyhow::Result<Vec<u8>> {

@@ -3,7 +3,6 @@
 
 mod broker;
 mod home;
-mod home_assistant;
 mod http;
 mod load;
 mod mosquitto;
@@ -32,9 +31,6 @@ struct Arguments {
     /// Only this peer; may be given several times
     #[arg(long, value_name = "PEER")]
     only: Vec<String>,
-    /// Program of Home Assistant; it is tried when it is named
-    #[arg(long, value_name = "FILE")]
-    hass: Option<PathBuf>,
     /// A Python that has the package icalendar
     #[arg(long, value_name = "FILE")]
     python: Option<PathBuf>,
@@ -43,12 +39,11 @@ struct Arguments {
 /// A peer, and how it is tried.
 type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
-const TRIALS: [Trial; 5] = [
+const TRIALS: [Trial; 4] = [
     ("mosquitto", mosquitto::trial),
     ("load", load::trial),
     ("prometheus", prometheus::trial),
     ("python", notifications::trial),
-    ("home-assistant", home_assistant::trial),
 ];
 
 fn main() -> ExitCode {
@@ -71,11 +66,7 @@ fn try_all(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let mut verdicts = Vec::new();
     for (name, trial) in TRIALS {
-        let wanted = if arguments.only.is_empty() {
-            name != "home-assistant" || arguments.hass.is_some()
-        } else {
-            arguments.only.iter().any(|only| only == name)
-        };
+        let wanted = arguments.only.is_empty() || arguments.only.iter().any(|only| only == name);
         if wanted {
             let mut verdict = Verdict::of(name);
             if let Err(error) = trial(arguments, &mut verdict) {

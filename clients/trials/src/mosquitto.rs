@@ -16,7 +16,7 @@ use crate::program::{Program, server, version_in};
 use crate::verdict::Verdict;
 
 /// Within this time everything is back after a break.
-pub(crate) const BACK: Duration = Duration::from_secs(10);
+const BACK: Duration = Duration::from_secs(10);
 /// Within this time a command shows.
 const SOON: Duration = Duration::from_secs(10);
 
@@ -97,19 +97,7 @@ fn sayings(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
     sleep(Duration::from_secs(1));
     let late = rig.broker.listen(&["librervac/#", "homeassistant/#"])?;
     let kept = late.all_within(Duration::from_secs(2));
-    let find = |end: &str| {
-        kept.iter()
-            .find(|heard| heard.topic.ends_with(end))
-            .with_context(|| format!("no {end}"))
-    };
-    let at_least_once = |heard: &Heard| -> anyhow::Result<()> {
-        ensure!(
-            heard.retained && heard.quality == 1,
-            "{} is not kept with quality 1",
-            heard.topic
-        );
-        Ok(())
-    };
+    let find = |end: &str| find(&kept, end);
     verdict.check(
         "the device's description is kept and whole",
         find("device/robo/config").and_then(|heard| {
@@ -154,6 +142,27 @@ fn sayings(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
             Ok(())
         }),
     );
+    picture_and_presence(&kept, verdict);
+    Ok(())
+}
+
+fn find<'a>(kept: &'a [Heard], end: &str) -> anyhow::Result<&'a Heard> {
+    let heard = kept.iter().find(|heard| heard.topic.ends_with(end));
+    heard.with_context(|| format!("no {end}"))
+}
+
+/// Kept by the broker, and delivered at least once.
+fn at_least_once(heard: &Heard) -> anyhow::Result<()> {
+    ensure!(
+        heard.retained && heard.quality == 1,
+        "{} is not kept with quality 1",
+        heard.topic
+    );
+    Ok(())
+}
+
+fn picture_and_presence(kept: &[Heard], verdict: &mut Verdict) {
+    let find = |end: &str| find(kept, end);
     verdict.check(
         "the map is a picture with quality 0",
         find("/map").and_then(|heard| {
@@ -172,7 +181,6 @@ fn sayings(rig: &Rig, verdict: &mut Verdict) -> anyhow::Result<()> {
             at_least_once(heard)
         }),
     );
-    Ok(())
 }
 
 fn order(rig: &Rig, listener: &Listener, (word, state): (&str, &str), verdict: &mut Verdict) {

@@ -44,8 +44,36 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
     home.order(r#"{"c":"start"}"#)?;
     std::thread::sleep(Duration::from_secs(3));
     home.order(r#"{"c":"stop"}"#)?;
+    told_over_http(&heard, verdict);
+    let mail = home.scratch.join("mail");
+    let mail = wait_for("a mail", SOON, || Ok(mail.is_file().then(|| mail.clone())));
+    verdict.check(
+        "a mail has text and picture",
+        mail.and_then(|file| {
+            let mail = read(&python, "mail", &file)?;
+            ensure!(
+                mail["picture"] == true && mail["to"] == "me@home.example",
+                "{mail}"
+            );
+            ensure!(mail["defects"].as_array().is_some_and(Vec::is_empty), "{mail}");
+            ensure!(
+                mail["text"].as_str().is_some_and(|text| text.contains("m²")),
+                "{mail}"
+            );
+            Ok(())
+        }),
+    );
+    verdict.check(
+        "the calendar has the past run and those to come",
+        calendar(&home, &python, bridge.port()?),
+    );
+    Ok(())
+}
+
+/// What the two targets of HTTP were sent.
+fn told_over_http(heard: &Path, verdict: &mut Verdict) {
     let requests = wait_for("two requests", SOON, || {
-        let text = std::fs::read_to_string(&heard).unwrap_or_default();
+        let text = std::fs::read_to_string(heard).unwrap_or_default();
         let requests: Vec<Value> = text
             .lines()
             .map_while(|line| serde_json::from_str(line).ok())
@@ -81,29 +109,6 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
             Ok(())
         }),
     );
-    let mail = home.scratch.join("mail");
-    let mail = wait_for("a mail", SOON, || Ok(mail.is_file().then(|| mail.clone())));
-    verdict.check(
-        "a mail has text and picture",
-        mail.and_then(|file| {
-            let mail = read(&python, "mail", &file)?;
-            ensure!(
-                mail["picture"] == true && mail["to"] == "me@home.example",
-                "{mail}"
-            );
-            ensure!(mail["defects"].as_array().is_some_and(Vec::is_empty), "{mail}");
-            ensure!(
-                mail["text"].as_str().is_some_and(|text| text.contains("m²")),
-                "{mail}"
-            );
-            Ok(())
-        }),
-    );
-    verdict.check(
-        "the calendar has the past run and those to come",
-        calendar(&home, &python, bridge.port()?),
-    );
-    Ok(())
 }
 
 fn bridge(home: &Home, port: u16) -> anyhow::Result<process::Server> {
@@ -125,11 +130,11 @@ fn bridge(home: &Home, port: u16) -> anyhow::Result<process::Server> {
     std::fs::write(&file, configuration)?;
     let mut command = Command::new(beside("rvac-hooks")?);
     command.arg("--config").arg(&file);
-    Ok(process::Server::start(command)?)
+    process::Server::start(command)
 }
 
 fn calendar(home: &Home, python: &Path, port: u16) -> anyhow::Result<()> {
-    let server = Site { port, token: None };
+    let server = Site { port };
     let answer = server.get("/runs.ics")?;
     ensure!(
         answer.head.to_ascii_lowercase().contains("text/calendar"),

@@ -120,7 +120,7 @@ pub(super) const STAGES: [Stage; 20] = [
     },
     Stage {
         name: "joined",
-        does: "the bridges work with mosquitto, Prometheus and Python; with --long or --json with Home Assistant, too",
+        does: "the bridges work with mosquitto, Prometheus and Python",
         from: Extent::All,
         wants_the_machine: true,
         run: joined::joined,
