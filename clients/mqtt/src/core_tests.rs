@@ -1,3 +1,5 @@
+//! Tests of the core.
+
 use std::time::Duration;
 
 use rvac_api::{DeviceTable, Failure, RequestBody, RoomHere, Status, Update};

@@ -251,18 +251,18 @@ impl Voice for Dialect {
             .and_then(|rest| rest.strip_prefix('/'));
         let Some(topic) = topic else { return };
         match orders::read(topic, &message.payload, self.frame.as_ref()) {
-            Some(orders::Order::Speed(speed)) => {
+            Some(orders::DialectOrder::Speed(speed)) => {
                 self.speed = speed;
                 self.say_changes(out);
             }
-            Some(orders::Order::Clean(order)) => {
+            Some(orders::DialectOrder::Clean(order)) => {
                 let power = order.power.or(self.speed.power());
                 out.push(Output::Ask(RequestBody::Clean(rvac_api::JobOrder {
                     power,
                     ..order
                 })));
             }
-            Some(orders::Order::Ask(RequestBody::Start { .. })) => {
+            Some(orders::DialectOrder::Ask(RequestBody::Start { .. })) => {
                 let status = self.known.status.as_ref();
                 let waits = status.is_some_and(|status| status.state == Activity::Paused.name());
                 let start = match self.speed.power() {
@@ -275,7 +275,7 @@ impl Voice for Dialect {
                 };
                 out.push(Output::Ask(start));
             }
-            Some(orders::Order::Ask(body)) => out.push(Output::Ask(body)),
+            Some(orders::DialectOrder::Ask(body)) => out.push(Output::Ask(body)),
             None => tracing::warn!(topic, "a message is no command and is passed over"),
         }
     }

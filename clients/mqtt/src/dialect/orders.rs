@@ -20,7 +20,7 @@ pub(crate) const TOPICS: [&str; 5] = [OPERATION, PRESET, SEGMENTS, ZONES, LOCATE
 
 /// What a command asks for.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Order {
+pub(crate) enum DialectOrder {
     /// To clean so from the next job on.
     Speed(FanSpeed),
     /// To clean this.
@@ -40,13 +40,13 @@ pub(crate) const fn preset(speed: FanSpeed) -> &'static str {
 }
 
 /// Reads a command; places in it are those of the map of this frame.
-pub(crate) fn read(topic: &str, payload: &[u8], frame: Option<&Frame>) -> Option<Order> {
+pub(crate) fn read(topic: &str, payload: &[u8], frame: Option<&Frame>) -> Option<DialectOrder> {
     if payload.len() > COMMAND_BYTES_MAX {
         return None;
     }
     let text = std::str::from_utf8(payload).ok()?;
     match topic {
-        OPERATION => Some(Order::Ask(match text {
+        OPERATION => Some(DialectOrder::Ask(match text {
             "START" => RequestBody::Start { strategy: None },
             "STOP" => RequestBody::Stop,
             "PAUSE" => RequestBody::Pause,
@@ -56,10 +56,10 @@ pub(crate) fn read(topic: &str, payload: &[u8], frame: Option<&Frame>) -> Option
         PRESET => FanSpeed::ALL
             .into_iter()
             .find(|speed| preset(*speed) == text)
-            .map(Order::Speed),
-        SEGMENTS => segments(&serde_json::from_str(text).ok()?).map(Order::Clean),
-        ZONES => zones(&serde_json::from_str(text).ok()?, *frame?).map(Order::Clean),
-        LOCATE => (text == "PERFORM").then_some(Order::Ask(RequestBody::Locate)),
+            .map(DialectOrder::Speed),
+        SEGMENTS => segments(&serde_json::from_str(text).ok()?).map(DialectOrder::Clean),
+        ZONES => zones(&serde_json::from_str(text).ok()?, *frame?).map(DialectOrder::Clean),
+        LOCATE => (text == "PERFORM").then_some(DialectOrder::Ask(RequestBody::Locate)),
         _ => None,
     }
 }
@@ -115,18 +115,21 @@ fn number(value: &Value) -> Option<f64> {
 mod tests {
     use rvac_api::{JobPart, RequestBody};
 
-    use super::{Order, TOPICS, read};
+    use super::{DialectOrder, TOPICS, read};
 
     #[test]
     fn commands_are_exactly_what_they_are() {
         let text = |topic: &str, text: &str| read(topic, text.as_bytes(), None);
-        assert_eq!(text(TOPICS[0], "HOME"), Some(Order::Ask(RequestBody::Dock)));
+        assert_eq!(
+            text(TOPICS[0], "HOME"),
+            Some(DialectOrder::Ask(RequestBody::Dock))
+        );
         assert_eq!(text(TOPICS[0], "home"), None);
         let rooms = text(
             TOPICS[2],
             r#"{"segment_ids":["2",3],"iterations":2,"customOrder":true}"#,
         );
-        let Some(Order::Clean(order)) = rooms else {
+        let Some(DialectOrder::Clean(order)) = rooms else {
             panic!("{rooms:?}");
         };
         assert_eq!(
