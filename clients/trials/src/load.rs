@@ -13,7 +13,7 @@ use crate::verdict::Verdict;
 
 /// A board of a robot has little of both. These are for a development build, which is larger than what a package holds.
 const RESIDENT_MIB_MAX: f64 = 16.0;
-const SHARE_MAX: f64 = 0.02;
+const SHARE_MAX: f64 = 0.05;
 
 pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {
     let time = Duration::from_secs(if arguments.long { 60 } else { 10 });
