@@ -103,14 +103,4 @@ impl Home {
         ensure!(answer == r#"{"e":"done","id":1}"#, "{request}: {answer}");
         Ok(())
     }
-
-    /// Does what the hand of a person does, at the simulator.
-    pub(crate) fn hand(&self, request: &str) -> anyhow::Result<()> {
-        let answer = ask(&self.scratch.join("simulator.sock"), request, PATIENCE)?;
-        ensure!(
-            answer == r#"{"e":"done"}"#,
-            "the simulator does not do {request}: {answer}"
-        );
-        Ok(())
-    }
 }
