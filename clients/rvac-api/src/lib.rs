@@ -8,6 +8,7 @@
 
 extern crate alloc;
 
+mod activity;
 mod cleaning_power;
 mod client_input;
 mod device;
@@ -26,8 +27,10 @@ mod simulated;
 mod stop;
 mod thought;
 mod topic;
+mod trouble;
 mod update;
 
+pub use activity::{Activity, ActivityWords};
 pub use cleaning_power::CleaningPower;
 pub use client_input::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MAX, is_mix_name};
 pub use device::{BatteryReading, ChargerReading, DeviceTable, LinkReading};
@@ -57,6 +60,7 @@ pub use simulated::{SimulatedPlan, SimulatedTruth};
 pub use stop::{Evidence, EvidenceSample, Standstill};
 pub use thought::{Decision, Estimate, PlannedPath};
 pub use topic::Topic;
+pub use trouble::{Gravity, Trouble, TroubleWords};
 pub use update::{
     BumpMark, Failure, Gesture, Lacking, LogEntry, LogLevel, MapDelta, MapSnapshot, Pose, Rle,
     RobotDescription, RoomHere, Status, Update, Versions,

@@ -6,10 +6,13 @@ use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
 
 /// Crates whose programs go into the package, and the programs.
-const PROGRAMS: [(&str, &str); 3] = [
+const PROGRAMS: [(&str, &str); 6] = [
     ("vthal", "vthal"),
     ("panel-server", "panel-server"),
     ("rvac-cli", "rvac"),
+    ("rvac-mqtt", "rvac-mqtt"),
+    ("rvac-metrics", "rvac-metrics"),
+    ("rvac-hooks", "rvac-hooks"),
 ];
 
 /// Zig as a C compiler and linker, and what starts it for cargo: both are published on PyPI.

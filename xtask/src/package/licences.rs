@@ -12,7 +12,14 @@ const SOURCES: [(Workspace, &[&str]); 2] = [
             manifest: "Cargo.toml",
             platform: "arm-unknown-linux-musleabihf",
         },
-        &["vthal", "panel-server", "rvac-cli"],
+        &[
+            "vthal",
+            "panel-server",
+            "rvac-cli",
+            "rvac-mqtt",
+            "rvac-metrics",
+            "rvac-hooks",
+        ],
     ),
     (
         Workspace {

@@ -13,10 +13,13 @@ const SHELLS: [(&str, &str); 3] = [
     ("fish", "usr/share/fish/vendor_completions.d/rvac.fish"),
 ];
 
+/// Programs that print one page of their own.
+const SERVICES: [&str; 5] = ["vthal", "panel-server", "rvac-mqtt", "rvac-metrics", "rvac-hooks"];
+
 /// Writes them below `folder` where they belong in a system; gives the folder.
 pub(super) fn make(folder: &Path) -> anyhow::Result<PathBuf> {
     system::need("gzip", &["gzip"])?;
-    workspace::build(&["vthal", "panel-server", "rvac"], Profile::Dev)?;
+    workspace::build(&[&["rvac"], &SERVICES[..]].concat(), Profile::Dev)?;
     if folder.exists() {
         std::fs::remove_dir_all(folder)?;
     }
@@ -24,7 +27,7 @@ pub(super) fn make(folder: &Path) -> anyhow::Result<PathBuf> {
     std::fs::create_dir_all(&pages).with_context(|| format!("cannot make {}", pages.display()))?;
     let rvac = workspace::program("rvac", Profile::Dev);
     process::capture(Command::new(&rvac).arg("manual").arg(&pages))?;
-    for program in ["vthal", "panel-server"] {
+    for program in SERVICES {
         let page = process::capture(Command::new(workspace::program(program, Profile::Dev)).arg("manual"))?;
         std::fs::write(pages.join(format!("{program}.1")), page)?;
     }

@@ -8,7 +8,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
 /// Files of the repository, and where they go.
-const FILES: [(&str, &str); 9] = [
+const FILES: [(&str, &str); 16] = [
     (
         "packaging/systemd/vthal.service",
         "lib/systemd/system/vthal.service",
@@ -28,6 +28,34 @@ const FILES: [(&str, &str); 9] = [
     (
         "packaging/udev/60-librervac.rules",
         "lib/udev/rules.d/60-librervac.rules",
+    ),
+    (
+        "packaging/systemd/rvac-mqtt.service",
+        "lib/systemd/system/rvac-mqtt.service",
+    ),
+    (
+        "packaging/systemd/rvac-hooks.service",
+        "lib/systemd/system/rvac-hooks.service",
+    ),
+    (
+        "packaging/systemd/rvac-metrics.service",
+        "lib/systemd/system/rvac-metrics.service",
+    ),
+    (
+        "packaging/grafana/librervac.json",
+        "usr/share/doc/librervac/grafana.json",
+    ),
+    (
+        "packaging/prometheus/librervac.yml",
+        "usr/share/doc/librervac/prometheus.yml",
+    ),
+    (
+        "clients/mqtt/example.toml",
+        "usr/share/doc/librervac/rvac-mqtt.toml",
+    ),
+    (
+        "clients/hooks/example.toml",
+        "usr/share/doc/librervac/rvac-hooks.toml",
     ),
     ("vthal/example.toml", "usr/share/doc/librervac/example.toml"),
     ("SAFETY.md", "usr/share/doc/librervac/SAFETY.md"),

@@ -6,6 +6,7 @@ mod code;
 mod count;
 mod extent;
 mod flash;
+mod joined;
 mod packages;
 mod processor;
 mod programs;
@@ -30,7 +31,7 @@ pub(crate) struct TestArguments {
     /// Run only this stage; may be given several times.
     #[arg(long, value_name = "STAGE")]
     only: Vec<String>,
-    /// Print what the stage `attacks`, `flash` or `packages` saw as JSON, and nothing else.
+    /// Print what the stage `attacks`, `flash`, `joined` or `packages` saw as JSON, and nothing else.
     #[arg(long)]
     json: bool,
     /// Print the names of the stages, which of them run without --all, and what each does.
@@ -74,8 +75,11 @@ pub(crate) fn run(arguments: &TestArguments) -> anyhow::Result<()> {
         return match names.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
             ["attacks"] => programs::attacks_as_json(),
             ["flash"] => flash::as_json(arguments.extent().max(Extent::All)),
+            ["joined"] => joined::as_json(),
             ["packages"] => packages::as_json(arguments.extent()),
-            _ => bail!("--json is for one stage: cargo xtask test attacks --json, or flash, or packages"),
+            _ => {
+                bail!("--json is for one stage: cargo xtask test attacks --json, or flash, joined, packages")
+            }
         };
     }
     let extent = arguments.extent();

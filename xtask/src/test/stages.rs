@@ -2,7 +2,7 @@
 
 use super::extent::Extent;
 use super::runner::Result;
-use super::{browser, campaigns, code, flash, packages, programs, robot};
+use super::{browser, campaigns, code, flash, joined, packages, programs, robot};
 
 /// One stage.
 pub(super) struct Stage {
@@ -19,7 +19,7 @@ pub(super) struct Stage {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 19] = [
+pub(super) const STAGES: [Stage; 20] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -117,6 +117,13 @@ pub(super) const STAGES: [Stage; 19] = [
         from: Extent::All,
         wants_the_machine: true,
         run: flash::flash,
+    },
+    Stage {
+        name: "joined",
+        does: "the bridges work with mosquitto, Prometheus and Python",
+        from: Extent::All,
+        wants_the_machine: true,
+        run: joined::joined,
     },
     Stage {
         name: "headless",

@@ -4,7 +4,7 @@ use super::{Explanation, entry};
 
 /// Codes of the brain, of the firmware, of the daemon and of the panel.
 #[rustfmt::skip]
-pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
+pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("no-daemon", "The robot's software is not running.", "The panel connects by itself as soon as it is."),
     entry("no-server", "The robot cannot be reached.", "Check that it is switched on and that this device is on its network; the panel tries again by itself."),
     entry("no-robot", "No robot answers.", "Check its cable and whether it is switched on."),

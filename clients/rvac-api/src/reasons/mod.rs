@@ -7,7 +7,7 @@ use alloc::borrow::ToOwned as _;
 use alloc::format;
 use alloc::string::String;
 
-use catalogue::CATALOGUE;
+pub(crate) use catalogue::CATALOGUE;
 
 /// What a code means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

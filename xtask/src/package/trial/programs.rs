@@ -8,7 +8,14 @@ use std::process::Command;
 
 /// Builds what the tests build anyway, and leaves out what is only for a debugger: packing it takes minutes.
 pub(crate) fn of_this_host() -> anyhow::Result<Vec<PathBuf>> {
-    let names = ["vthal", "panel-server", "rvac"];
+    let names = [
+        "vthal",
+        "panel-server",
+        "rvac",
+        "rvac-mqtt",
+        "rvac-metrics",
+        "rvac-hooks",
+    ];
     workspace::build(&names, Profile::Dev)?;
     let stripped = folder().join("host");
     std::fs::create_dir_all(&stripped)?;

@@ -1,0 +1,121 @@
+//! How a bridge starts and ends: its configuration, its words to systemd, its signals.
+
+use std::future::pending;
+use std::path::Path;
+use std::process::ExitCode;
+
+use sd_notify::NotifyState;
+use serde::de::DeserializeOwned;
+use tokio::signal::unix::{SignalKind, signal};
+use tokio::time::{MissedTickBehavior, interval};
+
+/// What must be changed before another start can go better.
+const EXIT_REFUSED: u8 = 2;
+
+/// Why a bridge does not start.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigurationError {
+    /// The file cannot be read.
+    #[error("cannot read {path}: {source}")]
+    Unreadable {
+        /// Which.
+        path: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// It says something that cannot be.
+    #[error("{path}: {source}")]
+    Wrong {
+        /// Which.
+        path: String,
+        /// What.
+        source: Box<toml::de::Error>,
+    },
+    /// It names something that does not fit.
+    #[error("{0}")]
+    Unfit(String),
+}
+
+/// Reads a configuration.
+///
+/// # Errors
+/// [`ConfigurationError`].
+pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigurationError> {
+    let named = || path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|source| ConfigurationError::Unreadable {
+        path: named(),
+        source,
+    })?;
+    toml::from_str(&text).map_err(|source| ConfigurationError::Wrong {
+        path: named(),
+        source: Box::new(source),
+    })
+}
+
+/// Runs a bridge until a signal ends it. What refuses its configuration ends with 2, so that systemd does not try again.
+pub fn run(name: &str, work: impl Future<Output = anyhow::Result<()>>) -> ExitCode {
+    let filter = tracing_subscriber::EnvFilter::try_from_default_env()
+        .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("info"));
+    tracing_subscriber::fmt()
+        .with_writer(std::io::stderr)
+        .with_env_filter(filter)
+        .init();
+    let runtime = match tokio::runtime::Builder::new_current_thread().enable_all().build() {
+        Ok(runtime) => runtime,
+        Err(error) => return fail(name, &error.into()),
+    };
+    match runtime.block_on(until_signal(work)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail(name, &error),
+    }
+}
+
+fn fail(name: &str, error: &anyhow::Error) -> ExitCode {
+    eprintln!("{name}: {error:#}");
+    let refused = error.downcast_ref::<ConfigurationError>().is_some();
+    if refused {
+        ExitCode::from(EXIT_REFUSED)
+    } else {
+        ExitCode::FAILURE
+    }
+}
+
+async fn until_signal(work: impl Future<Output = anyhow::Result<()>>) -> anyhow::Result<()> {
+    let mut terminate = signal(SignalKind::terminate())?;
+    let mut interrupt = signal(SignalKind::interrupt())?;
+    let ended = tokio::select! {
+        ended = work => ended,
+        () = show_life() => Ok(()),
+        _ = terminate.recv() => Ok(()),
+        _ = interrupt.recv() => Ok(()),
+    };
+    tell(NotifyState::Stopping);
+    ended
+}
+
+/// The bridge works from now on.
+pub fn tell_ready() {
+    tell(NotifyState::Ready);
+}
+
+/// Shows twice in the time of systemd's watchdog that the one thread still turns. Never ends.
+async fn show_life() {
+    match sd_notify::watchdog_enabled() {
+        Some(time) if !(time / 2).is_zero() => {
+            let mut ticks = interval(time / 2);
+            ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
+            loop {
+                ticks.tick().await;
+                tell(NotifyState::Watchdog);
+            }
+        }
+        _ => pending().await,
+    }
+}
+
+/// Without systemd there is nobody to tell, which is no error.
+fn tell(state: NotifyState<'_>) {
+    if let Err(error) = sd_notify::notify(&[state]) {
+        tracing::debug!("systemd could not be told: {error}");
+    }
+}

@@ -1,0 +1,58 @@
+//! `rvac-mqtt`: the bridge from the daemon to a broker of MQTT, and to Home Assistant behind it.
+#![forbid(unsafe_code)]
+
+mod commands;
+mod configuration;
+mod core;
+mod dialect;
+mod discovery;
+mod documents;
+mod fan_speed;
+mod limiter;
+mod session;
+mod shell;
+mod topics;
+mod voice;
+mod wire;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use bridge::service;
+use clap::{CommandFactory as _, Parser};
+
+/// Shows the robot to a broker of MQTT and to Home Assistant, and takes their commands.
+#[derive(Debug, Parser)]
+#[command(version)]
+struct Arguments {
+    /// Configuration
+    #[arg(long, value_name = "FILE", default_value = "/etc/rvac-mqtt.toml")]
+    config: PathBuf,
+    #[command(subcommand)]
+    job: Option<Job>,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Job {
+    /// Prints the manual page, for packages
+    #[command(hide = true)]
+    Manual,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    if arguments.job.is_some() {
+        return manual();
+    }
+    service::run("rvac-mqtt", async move {
+        shell::run(service::read(&arguments.config)?).await
+    })
+}
+
+fn manual() -> ExitCode {
+    let page = clap_mangen::Man::new(Arguments::command());
+    match page.render(&mut std::io::stdout()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
+}

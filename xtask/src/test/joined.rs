@@ -1,0 +1,58 @@
+//! The stage that tries the bridges against the software that homes have.
+
+use super::extent::Extent;
+use super::runner::{Result, check};
+use crate::workspace::{self, Profile, program};
+use crate::{fetched, process, system};
+use std::path::Path;
+use std::process::Command;
+
+/// Programs of ours that are tried, and what they stand on.
+const PROGRAMS: [&str; 6] = [
+    "rvac-sim",
+    "vthal",
+    "rvac-mqtt",
+    "rvac-metrics",
+    "rvac-hooks",
+    "try-joined",
+];
+
+/// A reader of calendars that nobody here wrote.
+const ICALENDAR: &str = "icalendar==6.3.1";
+
+/// mosquitto, Prometheus and Python; with `--long` each connection is broken more often.
+pub(super) fn joined(extent: Extent) -> Result {
+    check(&mut trials(extent)?)
+}
+
+/// The same, with what they saw as one JSON object on the output stream.
+pub(super) fn as_json() -> anyhow::Result<()> {
+    let seen = process::finish(
+        trials(Extent::Long)?
+            .arg("--json")
+            .stderr(std::process::Stdio::inherit()),
+    )?;
+    process::print(String::from_utf8_lossy(&seen.stdout).trim());
+    anyhow::ensure!(seen.status.success(), "some checks failed");
+    Ok(())
+}
+
+fn trials(extent: Extent) -> anyhow::Result<Command> {
+    // Debian keeps it where only root looks for programs.
+    if !Path::new("/usr/sbin/mosquitto").is_file() {
+        system::install(&["mosquitto"])?;
+    }
+    system::need("mosquitto_sub", &["mosquitto-clients"])?;
+    system::need("promtool", &["prometheus"])?;
+    system::need("python3", &["python3"])?;
+    workspace::build(&PROGRAMS, Profile::Dev)?;
+    let trials = program("try-joined", Profile::Dev);
+    let calendar = workspace::target().join("joined/calendar");
+    let python = fetched::python(&calendar, &[ICALENDAR], "icalendar")?.join("python");
+    let mut command = Command::new(trials);
+    if extent == Extent::Long {
+        command.arg("--long");
+    }
+    command.arg("--python").arg(python);
+    Ok(command)
+}
