@@ -171,7 +171,7 @@ impl Brain {
     /// # Errors
     /// Why it would be refused.
     pub fn admit(&self, command: &JobCommand) -> Result<(), JobRefusal> {
-        self.behavior.admit(command, &self.map)
+        self.behavior.admit(command, (&self.map, self.estimate()))
     }
 
     /// Pose in the map frame. The origin is the pose at the start, x points forward there.

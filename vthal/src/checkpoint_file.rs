@@ -103,6 +103,18 @@ pub fn newest(path: &Path, now: &BootTime) -> Option<Found> {
         .find_map(|path| load_one(path, now))
 }
 
+/// What is wrong with the newest checkpoint, for people; `None` when it is whole, or there is none.
+#[must_use]
+pub fn complaint(path: &Path, now: &BootTime) -> Option<String> {
+    let is_damaged = path.exists() && load_one(path, now).is_none();
+    is_damaged.then(|| {
+        format!(
+            "the checkpoint {} cannot be read: what the robot did last is taken from the one before it, if that is whole",
+            path.display()
+        )
+    })
+}
+
 fn load_one(path: &Path, now: &BootTime) -> Option<Found> {
     let bytes = kept_file::read(path).ok()?;
     let end = bytes.iter().position(|byte| *byte == b'\n')?;

@@ -3,9 +3,8 @@
 use std::io;
 use std::path::Path;
 
+use kept_file::{Newest, newest_json, replace_json};
 use vthal_core::health::{Health, StoredHealth};
-
-use crate::newest_file::{Newest, newest_json, replace_json};
 
 /// The loads as they were kept, and what is wrong with what was kept, for the log.
 pub(crate) fn load(path: &Path) -> (Health, Vec<String>) {

@@ -1,7 +1,7 @@
 //! One daemon per state folder.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, Read, Write};
+use std::fs::File;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use rustix::fs::{FlockOperation, flock};
@@ -9,60 +9,57 @@ use rustix::fs::{FlockOperation, flock};
 /// Held as long as the daemon lives; the lock ends with the process, however it ends.
 #[derive(Debug)]
 pub(crate) struct InstanceLock {
-    _file: File,
+    /// `None` where there is no folder, so nothing that two daemons could spoil.
+    _folder: Option<File>,
+    /// Why nothing can be kept.
+    pub(crate) complaint: Option<String>,
 }
 
-/// Why the state folder is not ours.
+/// Another daemon uses the state folder.
 #[derive(Debug, thiserror::Error)]
-pub enum InstanceError {
-    /// Another daemon uses it.
-    #[error("another vthal (process {pid}) uses the state folder {}: stop it, or choose another folder with --state", .folder.display())]
-    Taken {
-        /// The folder.
-        folder: PathBuf,
-        /// Its process, as it wrote it down.
-        pid: String,
-    },
-    /// The folder cannot be used.
-    #[error("cannot use the state folder {}: {error}; check that it may be written", .folder.display())]
-    Unusable {
-        /// The folder.
-        folder: PathBuf,
-        /// Why.
-        #[source]
-        error: io::Error,
-    },
+#[error("another vthal (process {pid}) uses the state folder {}: stop it, or choose another folder with --state", .folder.display())]
+pub struct InstanceTaken {
+    /// The folder.
+    folder: PathBuf,
+    /// Its process, as it wrote it down.
+    pid: String,
 }
 
-/// Takes the state folder, creating it when it is missing.
+/// Takes the state folder, creating it when it is missing. The lock is on the folder itself, which may be on a card that nobody can
+/// write any more: the robot can be driven all the same.
 ///
 /// # Errors
-/// See [`InstanceError`].
-pub(crate) fn take(folder: &Path) -> Result<InstanceLock, InstanceError> {
-    let unusable = |error| InstanceError::Unusable {
-        folder: folder.to_owned(),
-        error,
+/// See [`InstanceTaken`].
+pub(crate) fn take(folder: &Path) -> Result<InstanceLock, InstanceTaken> {
+    let made = std::fs::create_dir_all(folder);
+    let opened = made.and_then(|()| File::open(folder));
+    let pid_file = folder.join("vthal.pid");
+    let complaint = |error: io::Error| {
+        format!(
+            "the state folder {} cannot be written: {error}. Maps, schedules, runs and what was learnt are not kept. Make room, or replace the card",
+            folder.display()
+        )
     };
-    std::fs::create_dir_all(folder).map_err(unusable)?;
-    let path = folder.join("vthal.pid");
-    let mut file = OpenOptions::new()
-        .create(true)
-        .read(true)
-        .write(true)
-        .truncate(false)
-        .open(path)
-        .map_err(unusable)?;
-    if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {
-        let mut pid = String::new();
+    let opened = match opened {
+        Ok(opened) => opened,
+        Err(error) => {
+            return Ok(InstanceLock {
+                _folder: None,
+                complaint: Some(complaint(error)),
+            });
+        }
+    };
+    if flock(&opened, FlockOperation::NonBlockingLockExclusive).is_err() {
         // Only for the message; a number that cannot be read is left out.
-        file.read_to_string(&mut pid).ok();
-        return Err(InstanceError::Taken {
+        let pid = kept_file::read_text(&pid_file).unwrap_or_default();
+        return Err(InstanceTaken {
             folder: folder.to_owned(),
             pid: pid.trim().to_owned(),
         });
     }
-    file.set_len(0)
-        .and_then(|()| writeln!(file, "{}", std::process::id()))
-        .map_err(unusable)?;
-    Ok(InstanceLock { _file: file })
+    let written = std::fs::write(&pid_file, format!("{}\n", std::process::id()));
+    Ok(InstanceLock {
+        _folder: Some(opened),
+        complaint: written.err().map(complaint),
+    })
 }

@@ -140,6 +140,8 @@ impl KeptStore {
         let (health, health_complaints) = health_file::load(&kept.health);
         let (learnt, learnt_complaints) = learnt_file::load(&kept.learnt);
         let (floors, floor_complaints) = kept.floors.load();
+        let now = BootTime::now().ok();
+        let checkpoint_complaint = now.and_then(|now| checkpoint_file::complaint(&kept.checkpoint, &now));
         let (resume, next_run) = kept.left_over();
         CoreConfig {
             schedules: found.book,
@@ -152,6 +154,8 @@ impl KeptStore {
                 health_complaints,
                 learnt_complaints,
                 floor_complaints,
+                kept.mixes.put_damaged_aside(),
+                checkpoint_complaint.into_iter().collect(),
             ]
             .concat(),
             resume,

@@ -3,9 +3,8 @@
 use std::io;
 use std::path::Path;
 
+use kept_file::{Newest, newest_json, replace_json};
 use vthal_core::learnt::{Learnings, StoredLearnings};
-
-use crate::newest_file::{Newest, newest_json, replace_json};
 
 /// What was kept, and what is wrong with it, for the log.
 pub(crate) fn load(path: &Path) -> (Learnings, Vec<String>) {

@@ -25,7 +25,6 @@ mod learnt_file;
 mod logging;
 mod map_folder;
 mod mix_folder;
-mod newest_file;
 mod numbered;
 mod outbox;
 pub mod radio;

@@ -14,25 +14,31 @@ use crate::rotation::{RotatingFile, RotationLimits};
 /// Starts the log. Call it once.
 ///
 /// # Errors
-/// When the log file cannot be opened.
+/// When the log file cannot be opened; then the log goes to standard error alone.
 pub(crate) fn start(folder: &Path, config: &LogConfig) -> io::Result<()> {
     let limits = RotationLimits {
         size_max: u64::from(config.size_mib) << 20,
         files_max: config.files,
     };
-    let file = RotatingFile::open(&folder.join("vthal.log"), limits)?;
+    let (file, result) = match RotatingFile::open(&folder.join("vthal.log"), limits) {
+        Ok(file) => (Some(file), Ok(())),
+        Err(error) => (None, Err(error)),
+    };
     let to_stderr = fmt::layer()
         .with_target(false)
         .with_ansi(false)
         .without_time()
         .with_writer(io::stderr);
-    let to_file = fmt::layer()
-        .with_target(false)
-        .with_ansi(false)
-        .with_writer(Mutex::new(file));
+    let to_file = file.map(|file| {
+        fmt::layer()
+            .with_target(false)
+            .with_ansi(false)
+            .with_writer(Mutex::new(file))
+            .with_filter(config.level)
+    });
     tracing_subscriber::registry()
         .with(to_stderr.with_filter(config.level))
-        .with(to_file.with_filter(config.level))
+        .with(to_file)
         .init();
-    Ok(())
+    result
 }

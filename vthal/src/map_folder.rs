@@ -137,8 +137,19 @@ impl MapFolder {
         let home = self
             .load(number)
             .map_err(|what| RestoreError::Broken { number, what })?;
+        let home = self.numbered_after_all(home);
         self.save(&home)?;
         Ok(home)
+    }
+
+    /// A room, zone or place of this map that is new from now on gets a number that no version has given to another one: schedules and
+    /// scripts keep numbers.
+    fn numbered_after_all(&self, home: StoredMap) -> StoredMap {
+        let others = self
+            .numbers()
+            .into_iter()
+            .filter_map(|other| self.load(other).ok());
+        others.fold(home, |home, other| home.numbered_after(&other))
     }
 
     /// Deletes a version for good.

@@ -4,8 +4,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use kept_file::newest;
 use mixer::{Name, PROFILE_BYTES_MAX, Profile, ProfileError};
 
 /// Profiles kept: some for each person of a household.
@@ -58,6 +59,15 @@ impl MixFolder {
     pub(crate) fn list(&self) -> Vec<String> {
         let profiles = self.names().into_iter().filter_map(|name| self.load(&name));
         profiles.map(|profile| profile.to_json()).collect()
+    }
+
+    /// Puts aside what cannot be read, and says what that was.
+    pub(crate) fn put_damaged_aside(&self) -> Vec<String> {
+        let complaints = |name: &Name| {
+            let what = format!("the control mix {name}");
+            newest(&self.file(name), &what, |text| parse(text, name)).complaints
+        };
+        self.names().iter().flat_map(complaints).collect()
     }
 
     /// Keeps a profile in place of the one with the same name.
@@ -113,17 +123,22 @@ impl MixFolder {
 
     fn load(&self, name: &Name) -> Option<Profile> {
         let versions = kept_file::versions(&self.file(name));
-        let mut profiles = versions.iter().filter_map(|path| read(path));
-        profiles.find(|profile| profile.name == *name)
+        versions
+            .iter()
+            .find_map(|path| parse(&kept_file::read_text(path).ok()?, name).ok())
     }
 }
 
-fn read(path: &Path) -> Option<Profile> {
-    let length = usize::try_from(fs::metadata(path).ok()?.len()).ok()?;
-    if length > PROFILE_BYTES_MAX {
-        return None;
+fn parse(text: &str, name: &Name) -> Result<Profile, String> {
+    if text.len() > PROFILE_BYTES_MAX {
+        return Err(format!("it is longer than {PROFILE_BYTES_MAX} bytes"));
     }
-    Profile::parse(&kept_file::read_text(path).ok()?).ok()
+    let profile = Profile::parse(text).map_err(|error| error.to_string())?;
+    if profile.name == *name {
+        Ok(profile)
+    } else {
+        Err(format!("it is that of {}", profile.name))
+    }
 }
 
 #[cfg(test)]
@@ -209,6 +224,15 @@ mod tests {
             ["Anna"],
             "a file under another name is not that profile"
         );
+        let complaints = scratch.0.put_damaged_aside();
+        assert_eq!(complaints.len(), 2, "{complaints:?}");
+        assert!(
+            complaints[0].contains("the control mix Anna in"),
+            "{complaints:?}"
+        );
+        assert!(scratch.0.path.join("Anna.json.damaged-1").exists());
+        assert_eq!(scratch.names(), ["Anna"]);
+        assert!(scratch.0.put_damaged_aside().is_empty(), "told once");
     }
 
     #[test]

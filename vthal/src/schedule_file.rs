@@ -3,9 +3,8 @@
 use std::io;
 use std::path::Path;
 
+use kept_file::{Newest, newest_json};
 use vthal_core::schedule::{Book, StoredBook};
-
-use crate::newest_file::{Newest, newest_json};
 
 /// What a daemon finds at its start.
 #[derive(Debug, Default)]

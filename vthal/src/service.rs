@@ -13,7 +13,7 @@ use crate::clock::Clock;
 use crate::config::Config;
 use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
-use crate::instance::{self, InstanceError};
+use crate::instance::{self, InstanceTaken};
 use crate::kept_store::{self, KeptStore};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFacts, RobotFileError};
@@ -35,16 +35,10 @@ const TO_ROBOT_MAX: usize = 64;
 pub enum ServeError {
     /// The state folder is taken.
     #[error(transparent)]
-    Instance(#[from] InstanceError),
+    Instance(#[from] InstanceTaken),
     /// There is no socket.
     #[error(transparent)]
     Socket(#[from] SocketError),
-    /// The log cannot be written.
-    #[error("cannot write the log in the state folder: {0}; check that it may be written")]
-    Log(#[source] io::Error),
-    /// The folder of recordings cannot be used.
-    #[error("cannot use the folder of recordings: {0}; check that the state folder may be written")]
-    Recordings(#[source] io::Error),
     /// The description of the robot cannot be used.
     #[error(transparent)]
     Robot(#[from] RobotFileError),
@@ -58,19 +52,25 @@ pub enum ServeError {
 /// # Errors
 /// See [`ServeError`].
 pub fn serve(config: &Config, speed: f64) -> Result<(), ServeError> {
-    let _lock = instance::take(&config.state)?;
+    let lock = instance::take(&config.state)?;
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_all()
         .build()?;
-    LocalSet::new().block_on(&runtime, start(config, speed))
+    LocalSet::new().block_on(&runtime, start(config, speed, lock.complaint.clone()))
 }
 
-async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
+/// `unkept` is why the state folder cannot be written, if it cannot: the daemon serves all the same, and says so.
+async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<(), ServeError> {
     let listener = socket::listen(&config.socket)?;
-    logging::start(&config.state.join("log"), &config.log).map_err(ServeError::Log)?;
+    let log_file = logging::start(&config.state.join("log"), &config.log);
     let kept = KeptStore::new(&config.state);
-    let core_config = core_config(config, &kept)?;
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
+    let (recorder, unrecorded) = recorder(config, &event_sender)?;
+    let unlogged = log_file
+        .err()
+        .map(|error| format!("cannot write the log in the state folder: {error}"));
+    let complaints = [unkept, unlogged, unrecorded].into_iter().flatten();
+    let core_config = core_config(config, &kept, complaints.collect())?;
     let (to_robot, robot_queue) = mpsc::channel(TO_ROBOT_MAX);
     let (line_holder, holder) = watch::channel(LineHolder::Daemon);
     let lights = match &config.board {
@@ -83,7 +83,7 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
         event_sender: event_sender.clone(),
         to_robot,
         line_holder,
-        recorder: recorder(config, &event_sender)?,
+        recorder,
         runs: run_thread::start(kept.paths().runs.clone(), event_sender.clone())?,
         checkpoints: checkpoint_thread::start(kept.into_paths(), event_sender.clone())?,
         socket: config.socket.clone(),
@@ -124,15 +124,16 @@ async fn start(config: &Config, speed: f64) -> Result<(), ServeError> {
     Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
 }
 
-/// Settings of the core, with what is kept in the state folder.
-fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeError> {
+/// Settings of the core, with what is kept in the state folder, and what is wrong with that.
+fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Result<CoreConfig, ServeError> {
     let robot = match &config.description {
         Some(path) => robot_file::load(path)?,
         None => RobotFacts::default(),
     };
-    let core_config = kept.fill(CoreConfig {
+    let (zone, zone_complaint) = system_zone();
+    let mut core_config = kept.fill(CoreConfig {
         make: MAKE,
-        zone: system_zone(),
+        zone,
         sensors: robot.sensors,
         calibration: robot.calibration,
         seed: config.seed.unwrap_or_else(seed_from_clock),
@@ -152,6 +153,9 @@ fn core_config(config: &Config, kept: &KeptStore) -> Result<CoreConfig, ServeErr
         version: env!("CARGO_PKG_VERSION").to_owned(),
         ..CoreConfig::default()
     });
+    core_config
+        .complaints
+        .splice(..0, complaints.into_iter().chain(zone_complaint));
     for complaint in &core_config.complaints {
         tracing::error!(part = "vthal", "{complaint}");
     }
@@ -165,20 +169,30 @@ fn announce() -> io::Result<()> {
     writeln!(stdout, "ready").and_then(|()| stdout.flush())
 }
 
-fn recorder(config: &Config, events: &mpsc::Sender<Event>) -> Result<Option<RecorderHandle>, ServeError> {
+/// The recorder, or why there is none although there should be one.
+fn recorder(
+    config: &Config,
+    events: &mpsc::Sender<Event>,
+) -> io::Result<(Option<RecorderHandle>, Option<String>)> {
     if !config.recording.enabled {
-        return Ok(None);
+        return Ok((None, None));
     }
     let limits = LibraryLimits {
         files_max: config.recording.files as usize,
         bytes_max: u64::from(config.recording.total_mib) << 20,
     };
-    let library =
-        Library::open(&config.state.join(kept_store::RECORDINGS), limits).map_err(ServeError::Recordings)?;
+    let library = match Library::open(&config.state.join(kept_store::RECORDINGS), limits) {
+        Ok(library) => library,
+        Err(error) => {
+            let complaint = format!("runs are not recorded: cannot use the folder of recordings: {error}");
+            return Ok((None, Some(complaint)));
+        }
+    };
     let events = events.clone();
     // A daemon that ends has no use for the name.
     let opened = move |run, name| drop(events.blocking_send(Event::RecordingOpened(run, name)));
-    Ok(Some(recording::start(library, format!("{config:?}"), opened)?))
+    let handle = recording::start(library, format!("{config:?}"), opened)?;
+    Ok((Some(handle), None))
 }
 
 fn watch_signals(events: &mpsc::Sender<Event>) -> io::Result<()> {

@@ -5,6 +5,7 @@
 
 mod bench;
 mod book_pictures;
+mod bundle;
 mod codegen;
 mod demo;
 mod fetched;
@@ -52,6 +53,8 @@ enum Command {
     NewRobot(new_robot::NewRobotArguments),
     /// Packs the programs for the Linux board, for Debian and as archives.
     Package(package::PackageArguments),
+    /// Makes a signed update of daemon, panel and firmware for one robot and one processor; or a pair of keys.
+    Bundle(bundle::BundleArguments),
     /// Builds the panel for the browser and packs it; with --json tells what a first visit brings over the network.
     Panel(panel::PanelArguments),
     /// Makes the pictures of the book's measurements with today's code.
@@ -73,6 +76,7 @@ fn main() -> ExitCode {
         Command::Codegen(arguments) => codegen::run(&arguments),
         Command::NewRobot(arguments) => new_robot::run(&arguments),
         Command::Package(arguments) => package::run(&arguments),
+        Command::Bundle(arguments) => bundle::run(&arguments),
         Command::BookPictures => book_pictures::run(),
         Command::Panel(arguments) => panel::run(&arguments),
     };

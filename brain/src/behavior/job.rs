@@ -11,6 +11,7 @@ use crate::model::geometry::TurnSide;
 use crate::model::no_go::NoGo;
 use crate::model::order::CleaningOrder;
 use crate::model::random::Random;
+use crate::model::reason::Reason;
 use crate::navigation::{BackOff, Manoeuvre, ManoeuvreSequence, Task, Turn};
 use crate::recovery::{CliffWatch, Pen, ProgressWatch, RecoverySequence, SlipWatch};
 
@@ -37,6 +38,10 @@ pub(super) struct Job {
     /// Returning to where it was postponed: brushes stay off over floor that is swept already.
     pub(super) returns: bool,
     pub(super) dock_retry: DockRetry,
+    /// Over floor that nobody asked for, on the way to a part of the order.
+    pub(super) crosses: bool,
+    /// The task has ended for this reason while something was touched: the job ends once the robot has backed off.
+    pub(super) ending: Option<Reason>,
 }
 
 /// Movements that come before the task.
@@ -83,6 +88,8 @@ impl Job {
             brushes: false,
             returns: false,
             dock_retry: DockRetry::default(),
+            crosses: false,
+            ending: None,
         }
     }
 
@@ -97,6 +104,7 @@ impl Job {
         self.progress = ProgressWatch::default();
         self.slip = SlipWatch::default();
         self.detour = None;
+        self.ending = None;
         self.brushes = false;
     }
 
@@ -109,6 +117,18 @@ impl Job {
     pub(super) fn reset_recovery(&mut self) {
         self.recovery = RecoverySequence::default();
         self.pen = Pen::default();
+    }
+
+    /// The task ends while something is touched. A bumper that stays pressed while the robot rests would be taken for stuck (S7), so the
+    /// robot backs off first.
+    pub(super) fn back_off_at_the_end(&mut self, reason: Reason) {
+        self.ending = Some(reason);
+        self.detour = Some(Detour {
+            sequence: ManoeuvreSequence::new(vec![Manoeuvre::Back(BackOff::from_contact(
+                DEPARTURE.end_back_m,
+            ))]),
+            purpose: Purpose::Escape,
+        });
     }
 
     pub(super) fn is_departing(&self) -> bool {

@@ -9,6 +9,7 @@ mod recharge;
 mod start;
 mod work;
 
+use super::contact_watch::ContactWatch;
 use super::facts::Facts;
 use super::job::Job;
 use super::{BehaviorState, JobFigures, JobKind, Status};
@@ -104,6 +105,7 @@ pub(crate) struct Behavior {
     /// Since when it waits on contacts without current, and how often it has docked again for that.
     pub(super) contacts_us: Option<u64>,
     pub(super) no_current_tries: u32,
+    pub(super) contact_watch: ContactWatch,
     /// When it docked, and how often it has slipped off since it was sent.
     pub(super) home_us: Option<u64>,
     pub(super) slips: u32,
@@ -142,6 +144,7 @@ impl Behavior {
             pocket: None,
             contacts_us: None,
             no_current_tries: 0,
+            contact_watch: ContactWatch::default(),
             home_us: None,
             slips: 0,
             has_covered_home: false,
@@ -210,8 +213,11 @@ impl Behavior {
         self.facts = Facts::read(situation.observation, self.config.battery_low);
         self.facts.knows_heading = situation.knows_heading;
         self.facts.fault = self.fault();
+        let receives_dock = situation.beams.current().is_any();
+        self.contact_watch
+            .follow(&self.facts, &situation.advance, receives_dock);
         for command in commands {
-            match self.admit(command, situation.map) {
+            match self.admit(command, (situation.map, situation.estimate)) {
                 Ok(()) => self.obey(command, context),
                 Err(refusal) => context.refuse_job(refusal),
             }
@@ -305,7 +311,11 @@ impl Behavior {
     pub(super) fn runs_cleaners(&self) -> bool {
         match self.mode {
             Mode::Working => self.job.as_ref().is_some_and(|job| {
-                job.kind != JobKind::Dock && job.brushes && !job.returns && !job.is_departing()
+                job.kind != JobKind::Dock
+                    && job.brushes
+                    && !job.returns
+                    && !job.crosses
+                    && !job.is_departing()
             }),
             Mode::Manual(drive) => drive.cleaners,
             _ => false,

@@ -3,6 +3,7 @@
 //! Each step has the same order. Commands are admitted or refused and change the *mode*. The observation may change it again, the most
 //! severe cause first. The mode then determines the motion. A last check removes every motion that the firmware would have to refuse.
 
+mod contact_watch;
 mod dock_retry;
 mod facts;
 mod gyro_rest;

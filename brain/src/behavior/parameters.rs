@@ -35,8 +35,10 @@ pub(super) struct ChargingParameters {
     pub(super) return_check_below: f32,
     /// Time until it is searched again, microseconds, because each search is a plan.
     pub(super) return_check_us: u64,
-    /// Contacts that open this soon after they have closed, microseconds, touched at their edge.
+    /// Contacts that open this soon after they have closed, microseconds, touched at their edge, though the robot rolled.
     pub(super) slips_off_us: u64,
+    /// The same while the robot stood still: springs of the contacts settle, and a dirty one burns free or not.
+    pub(super) settles_off_us: u64,
     /// How often the robot docks again after that.
     pub(super) slips_max: u32,
     /// Current must flow within this time, microseconds, if it can be expected at all. The firmware checks dock and pack
@@ -54,12 +56,41 @@ pub(super) struct ChargingParameters {
 pub(super) const CHARGING: ChargingParameters = ChargingParameters {
     return_check_below: 0.5,
     return_check_us: 20_000_000,
-    slips_off_us: 1_000_000,
+    slips_off_us: 2_000_000,
+    settles_off_us: 30_000_000,
     slips_max: 3,
     flow_within_us: 20_000_000,
     no_current_tries_max: 2,
     retry_left_share: 0.1,
     retry_charge: 0.5,
+};
+
+/// When the contacts of the dock count as lost, and as closed again.
+pub(super) struct ContactParameters {
+    /// Contacts must be open for this long, microseconds, before a loss is told: dirt makes them flicker once a second.
+    pub(super) judged_after_us: u64,
+    /// After a loss the contacts must hold for this long, microseconds. It doubles with each further loss.
+    pub(super) holds_us: u64,
+    /// Doublings at most.
+    pub(super) doublings_max: u32,
+    /// Travel that shows that somebody has moved the robot, metres: the contacts of a dock close over some 2 cm.
+    pub(super) moved_m: f64,
+    /// Turn that shows the same, radians.
+    pub(super) turned_rad: f64,
+    /// Motion that ended this long before the contacts opened, microseconds, has nothing to do with it.
+    pub(super) at_rest_us: u64,
+    /// Slower turns are bias of the gyro, rad/s.
+    pub(super) turning_rad_per_s: f64,
+}
+
+pub(super) const CONTACTS: ContactParameters = ContactParameters {
+    judged_after_us: 2_000_000,
+    holds_us: 5_000_000,
+    doublings_max: 4,
+    moved_m: 0.015,
+    turned_rad: 0.1,
+    at_rest_us: 1_000_000,
+    turning_rad_per_s: 0.1,
 };
 
 /// How well the bias of the gyro must be measured before the first motion of a job.
@@ -85,11 +116,14 @@ pub(super) struct DepartureParameters {
     /// Reverse travel from the dock before turning away, metres. No more, because contacts may close without a dock, and
     /// the ground behind is unknown then.
     pub(super) back_m: f64,
+    /// Reverse travel from what is touched when a job ends, metres.
+    pub(super) end_back_m: f64,
     /// Random turn away from the dock, radians.
     pub(super) turn_rad: Range<f64>,
 }
 
 pub(super) const DEPARTURE: DepartureParameters = DepartureParameters {
     back_m: 0.15,
+    end_back_m: 0.04,
     turn_rad: 2.2..3.1,
 };

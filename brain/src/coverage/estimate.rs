@@ -1,5 +1,6 @@
 //! What a job will take, estimated before it begins.
 
+use super::order_reach::admit_reach;
 use super::parameters::{ESTIMATE, MARGINS};
 use super::plan::{Area, CoveragePlan, Departure, PlanSettings, plan_area};
 use super::target_floor::TargetFloor;
@@ -55,6 +56,7 @@ pub(crate) fn estimate(
         energy,
     } = conditions;
     map.admit_order(order)?;
+    admit_reach(order, map, start.position(), config.body.radius_m)?;
     let settings = PlanSettings {
         swath_m: config.body.swath_m,
         sigma_m: MARGINS.sigma_min_m,

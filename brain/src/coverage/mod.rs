@@ -3,6 +3,7 @@
 mod bounce;
 mod escape_bounce;
 mod estimate;
+mod order_reach;
 mod parameters;
 mod perimeter;
 pub mod plan;
@@ -18,6 +19,7 @@ mod whole_turns;
 pub(crate) use bounce::Bounce;
 pub use estimate::JobEstimate;
 pub(crate) use estimate::{JobConditions, estimate};
+pub(crate) use order_reach::{admit_reach, is_off_order, left_most};
 pub(crate) use perimeter::{LapStep, Perimeter};
 pub(crate) use spot::Spot;
 use statistical::Statistical;

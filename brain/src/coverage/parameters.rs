@@ -219,3 +219,19 @@ pub(super) const ESCAPE_BOUNCE: EscapeBounceParameters = EscapeBounceParameters 
     away_m: 0.6,
     time_max_s: 20.0,
 };
+
+/// How much of an order must be within reach.
+pub(super) struct ReachParameters {
+    /// Less floor than this within reach is no job, square metres: not twice the body.
+    pub(super) least_m2: f64,
+    /// A smaller share of the ordered floor within reach is no job either.
+    pub(super) least_share: f64,
+    /// A job that swept a smaller share of what was asked is not finished.
+    pub(super) finished_share: f64,
+}
+
+pub(super) const REACH: ReachParameters = ReachParameters {
+    least_m2: 0.2,
+    least_share: 0.02,
+    finished_share: 0.5,
+};

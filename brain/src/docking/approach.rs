@@ -7,8 +7,9 @@
 use core::f64::consts::PI;
 
 use super::centreline::CentrelineDrive;
-use super::parameters::APPROACH;
+use super::parameters::{APPROACH, TRIES};
 use super::scan::{Scan, ScanStep};
+use super::tries::FailedTry;
 use crate::mapping::Lobe;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
@@ -28,6 +29,10 @@ pub(super) struct Approach {
     wiggle_side: f64,
     /// Paths to the centreline that were tried.
     asides: usize,
+    /// Forward travel in the near field, metres.
+    depth_m: f64,
+    /// How the last try failed.
+    failed: Option<FailedTry>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -91,11 +96,18 @@ impl Approach {
             wiggles: 0,
             wiggle_side: 1.0,
             asides: 0,
+            depth_m: 0.0,
+            failed: None,
         }
     }
 
     pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> ApproachStep {
         self.heading_rad += situation.advance.turn_rad;
+        self.depth_m = if situation.beams.current().is_near() {
+            (self.depth_m + situation.advance.distance_m).max(0.0)
+        } else {
+            0.0
+        };
         match self.phase {
             ApproachPhase::Evade(evasion, after) => self.evade(evasion, after, situation),
             _ if situation.at_cliff => {
@@ -106,6 +118,11 @@ impl Approach {
             ApproachPhase::Centreline(line) => self.drive_centreline(line, situation, context),
             ApproachPhase::Straight(drive) => self.drive_straight(drive, situation, context),
         }
+    }
+
+    /// How a try has failed since the last step, if one has.
+    pub(super) fn take_failed_try(&mut self) -> Option<FailedTry> {
+        self.failed.take()
     }
 
     fn evade(
@@ -235,6 +252,7 @@ impl Approach {
         );
         self.phase = ApproachPhase::Centreline(line);
         if line.is_missed() {
+            self.failed = Some(FailedTry::Passed);
             return self.leave(line.base_rad(), context);
         }
         let error_rad = normalize_rad(line.setpoint_rad() - self.heading_rad);
@@ -255,9 +273,15 @@ impl Approach {
         let reason = Reason::of_contacts(situation.observation.contacts).unwrap_or(Reason::BumpFront);
         if !situation.beams.current().is_near() {
             // An obstacle is in the path.
+            self.failed = Some(FailedTry::Obstructed);
             return self.retry_elsewhere(Evasion::from_contact, reason, context);
         }
         if self.wiggles >= APPROACH.wiggles_max {
+            self.failed = Some(if self.depth_m < TRIES.dock_depth_m {
+                FailedTry::Obstructed
+            } else {
+                FailedTry::NoContact
+            });
             return self.leave(line.base_rad(), context);
         }
         self.wiggles += 1;

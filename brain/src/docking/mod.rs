@@ -16,6 +16,7 @@ mod parameters;
 mod roam;
 mod scan;
 mod travel;
+mod tries;
 
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
@@ -28,6 +29,7 @@ use beam_goals::{FailedPlace, goals};
 use dock_search::DockSearch;
 use parameters::DOCKING;
 use travel::{Travel, TravelStep};
+use tries::FailedTries;
 
 /// The task.
 #[derive(Debug, Default)]
@@ -37,6 +39,7 @@ pub(crate) struct Docking {
     failed_places: Vec<FailedPlace>,
     back_to_beams: u32,
     approaches: u32,
+    failed_tries: FailedTries,
     elapsed_s: f64,
     /// Beams are ignored for this long.
     ignore_s: f64,
@@ -69,6 +72,12 @@ impl Task for Docking {
         if self.elapsed_s > situation.config.dock_budget_s {
             return TaskStatus::Finished(Reason::DockNotFound);
         }
+        // A bumper that stays pressed while the robot rests would be taken for stuck (S7).
+        if let Some(reason) = self.failed_tries.verdict()
+            && situation.is_free()
+        {
+            return TaskStatus::Finished(reason);
+        }
         self.reconsider(situation, context);
         match &mut self.phase {
             DockingPhase::Travel(travel) => {
@@ -81,6 +90,9 @@ impl Task for Docking {
             }
             DockingPhase::Approach(approach) => {
                 let step = approach.step(situation, context);
+                if let Some(failed) = approach.take_failed_try() {
+                    self.failed_tries.count(failed);
+                }
                 self.after_approach(step, situation, context)
             }
             DockingPhase::Search => self.search.step(situation, context),
@@ -181,6 +193,7 @@ impl Docking {
                 self.phase = DockingPhase::Approach(Approach::from_map(bearing_rad));
             }
             TravelStep::Blocked => {
+                self.failed_tries.count_blocked();
                 self.search_s = DOCKING.search_s;
                 self.begin_search(Reason::WayBlocked, context);
             }
@@ -227,8 +240,12 @@ impl Docking {
             },
             time_us: situation.observation.time_us,
         });
+        let known = known_dock(situation);
+        if reason == Reason::NoBeam && known.is_ok() {
+            self.failed_tries.count_silent();
+        }
         self.ignore_s = DOCKING.ignore_beams_s;
-        self.search_s = match (reason, known_dock(situation)) {
+        self.search_s = match (reason, known) {
             (Reason::NoBeam, Ok(_)) => DOCKING.search_s,
             (Reason::NoBeam, Err(_)) => 0.0,
             _ => DOCKING.ignore_beams_s,

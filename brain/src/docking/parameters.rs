@@ -31,6 +31,28 @@ pub(super) const DOCKING: DockingParameters = DockingParameters {
     beside_detour_m: 0.5,
 };
 
+/// When docking ends because too much has failed.
+pub(super) struct TriesParameters {
+    /// Tries that touched the dock without contact, and tries that met something in front of it.
+    pub(super) contact_max: u32,
+    /// Tries that failed in any way.
+    pub(super) all_max: u32,
+    /// Visits of the dock of the map without any beam.
+    pub(super) silent_max: u32,
+    /// Searches for a path to the dock of the map that found none.
+    pub(super) blocked_max: u32,
+    /// The near field begins 0.36 m before the contacts. What is touched less than this far into it, metres, is not the dock.
+    pub(super) dock_depth_m: f64,
+}
+
+pub(super) const TRIES: TriesParameters = TriesParameters {
+    contact_max: 5,
+    all_max: 10,
+    silent_max: 4,
+    blocked_max: 4,
+    dock_depth_m: 0.2,
+};
+
 /// The approach by the beams.
 pub(super) struct ApproachParameters {
     /// Speed beside the centreline, m/s.

@@ -144,7 +144,7 @@ impl Tracker {
         self.global_localizer = None;
         self.unconfirmed = 0;
         // A person who has placed it there does not carry it away.
-        self.lift = Lift::OnFloor;
+        self.lift.settle();
         self.lost = false;
     }
 

@@ -119,6 +119,13 @@ impl Annotations {
         says_nothing_of_rooms && self.no_go.is_empty() && self.places.kept.is_empty()
     }
 
+    /// New items get numbers that the other annotations have not given either.
+    pub(super) fn number_after(&mut self, other: &Self) {
+        self.next_no_go = self.next_no_go.max(other.next_no_go);
+        self.rooms.next = self.rooms.next.max(other.rooms.next);
+        self.places.next = self.places.next.max(other.places.next);
+    }
+
     pub(super) fn add(&mut self, no_go: NoGo) -> Result<(), EditError> {
         self.has_room_for_another()?;
         let number = self.next_no_go;

@@ -11,6 +11,10 @@ named_enum! {
         BadOrder => "bad-order",
         /// A zone has 3 to 64 corners near the home.
         BadZone => "bad-zone",
+        /// The edges of a zone cross, fold back or touch.
+        ZoneCrosses => "zone-crosses",
+        /// A zone has less than half a square decimetre, or is narrower than 2 cm on the whole.
+        ZoneTooThin => "zone-too-thin",
         /// The map has no room with this identity.
         NoSuchRoom => "no-such-room",
         /// There is no no-go zone or virtual wall of this number.
@@ -23,6 +27,8 @@ named_enum! {
         TooManyPlaces => "too-many-places",
         /// The robot could not reach its dock any more.
         DockInside => "dock-inside",
+        /// Most of the floor would be shut off from the dock.
+        DockShutOff => "dock-shut-off",
         /// A name is one line of 1 to 40 characters.
         BadName => "bad-name",
         /// Another room is called so.

@@ -26,12 +26,16 @@ named_enum! {
         BatteryLow => "battery-low",
         /// It is on the dock already.
         Docked => "docked",
+        /// Something presses the bumper of a robot on its dock.
+        Bumper => "bumper",
         /// The stick must come back to the centre before it drives again (S23).
         CentreFirst => "centre-first",
         /// Values that this robot needs to move safely were never measured.
         NotCalibrated => "not-calibrated",
         /// The robot can reach nothing of what is ordered.
         RestOutOfReach => "rest-out-of-reach",
+        /// A no-go zone or virtual wall shuts off what is ordered.
+        NoGoInTheWay => "no-go-in-the-way",
     }
     nested {
         /// A fault stands.

@@ -42,7 +42,7 @@ impl KeptPlace {
         let shape = match shape {
             PlaceShape::Zone(zone) => {
                 let corners = zone.corners().iter().copied().map(in_micrometres);
-                PlaceShape::Zone(Zone::new(corners.collect())?)
+                PlaceShape::Zone(Zone::of_stored(corners.collect())?)
             }
             PlaceShape::Spot(place)
                 if place.x_m.abs() < COORDINATE_MAX_M && place.y_m.abs() < COORDINATE_MAX_M =>

@@ -40,7 +40,7 @@ impl NoGo {
         let corners = zone.corners().iter().copied().map(in_micrometres).collect();
         Ok(Self {
             shape: NoGoShape::Zone,
-            area: Zone::new(corners)?,
+            area: Zone::of_stored(corners)?,
             name: None,
         })
     }
@@ -94,7 +94,7 @@ fn thin_zone(from: Point2, to: Point2) -> Result<Zone, EditError> {
         x_m: end.x_m + ahead * along_x - left * along_y,
         y_m: end.y_m + ahead * along_y + left * along_x,
     };
-    Zone::new(vec![
+    Zone::of_stored(vec![
         corner(from, -1.0, 1.0),
         corner(from, -1.0, -1.0),
         corner(to, 1.0, -1.0),

@@ -95,6 +95,10 @@ named_enum! {
         NoHeading => "no-heading",
         /// What is not swept yet cannot be reached.
         RestOutOfReach => "rest-out-of-reach",
+        /// Less than half of what was asked could be swept.
+        MostOutOfReach => "most-out-of-reach",
+        /// A no-go zone or virtual wall shuts off most of what was asked.
+        NoGoInTheWay => "no-go-in-the-way",
         /// The pack is low, and what is left is not worth another charge.
         CrumbsLeft => "crumbs-left",
         /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.
@@ -131,6 +135,18 @@ named_enum! {
         DockMissed => "dock-missed",
         /// On the contacts, and no current flows.
         NoChargeCurrent => "no-charge-current",
+        /// The dock was touched several times, and its contacts did not close.
+        DockNoContact => "dock-no-contact",
+        /// The contacts of the dock lost their voltage while the robot stood on them.
+        DockContactLost => "dock-contact-lost",
+        /// The same, and the dock's beams fell silent with them.
+        DockPowerLost => "dock-power-lost",
+        /// Something stands in front of the dock.
+        DockObstructed => "dock-obstructed",
+        /// Somebody pushed the robot off its dock.
+        PushedOff => "pushed-off",
+        /// Somebody lifted the robot off its dock.
+        LiftedOff => "lifted-off",
         /// No beam of the dock is heard where one should be.
         NoBeam => "no-beam",
         /// Nobody knows where the dock is.

@@ -216,7 +216,7 @@ fn the_dock_ends_the_search_and_undocking_begins_the_job() {
         stage.brain.pose()
     );
     check("up\n clean\n wait 4 => cleaning\n docked => cleaning\n undocked\n wait 6 => cleaning");
-    check("up\n docked => docked\n undocked => idle");
+    check("up\n docked => docked\n undocked => docked\n wait 3 => idle dock-contact-lost");
 }
 
 #[test]

@@ -4,8 +4,8 @@ use crate::plane::{Rectangle, Room, World, config, edit, run};
 use brain::mapping::DockLocation;
 use brain::{
     BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart, JobCommand,
-    MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName, RoomPower, RoomSettings,
-    StoredMap, Zone,
+    JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName, RoomPower,
+    RoomSettings, StoredMap, Zone,
 };
 
 /// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
@@ -447,4 +447,126 @@ fn a_job_that_is_taken_up_again_still_avoids() {
     }
     assert!(stage.swept((4.2, 1.0), (5.2, 3.0)) < 0.3);
     assert!(stage.swept((0.3, 0.3), (2.7, 3.7)) > 0.9);
+}
+
+/// A virtual wall between two places of the room.
+fn wall(from: (f64, f64), to: (f64, f64)) -> NoGo {
+    let [from, to] = [from, to].map(|(x_m, y_m)| Point2 {
+        x_m: x_m - START.x_m,
+        y_m: y_m - START.y_m,
+    });
+    NoGo::wall(from, to).expect("two places")
+}
+
+/// What estimate and admission say of a zone, which must be the same.
+fn judged(brain: &Brain, order: CleaningOrder) -> Result<(), JobRefusal> {
+    let estimated = brain.estimate_order(&order).map(|_| ());
+    let admitted = brain.admit(&JobCommand::CleanParts { order });
+    assert_eq!(estimated, admitted);
+    admitted
+}
+
+#[test]
+fn estimate_and_admission_are_one_judgement_that_names_what_shuts_floor_off() {
+    let other_room = |avoid: Vec<NoGo>| {
+        let part = HomePart::Zone(zone((3.5, 0.5), (5.5, 3.5)));
+        CleaningOrder::new(vec![part], 1)
+            .unwrap()
+            .avoiding(avoid)
+            .unwrap()
+    };
+    let stage = Stage::new();
+    assert_eq!(judged(&stage.brain, other_room(Vec::new())), Ok(()));
+    // Across the door, and so that a crumb beside the door is left.
+    let lines = [wall((3.05, 1.3), (3.05, 2.6)), wall((3.55, 0.0), (3.55, 4.0))];
+    for line in lines {
+        let mut stage = Stage::new();
+        forbid(&mut stage, line.clone());
+        assert_eq!(
+            judged(&stage.brain, other_room(Vec::new())),
+            Err(JobRefusal::NoGoInTheWay)
+        );
+        let stage = Stage::new();
+        assert_eq!(
+            judged(&stage.brain, other_room(vec![line])),
+            Err(JobRefusal::NoGoInTheWay)
+        );
+    }
+    let shut = Room::empty((6.1, 4.0)).with(&[Rectangle::new((3.0, 0.0), (3.1, 4.0))]);
+    let mut brain = Brain::with_map(config(), 1, &known(&shut));
+    run(&mut World::new(shut, START), &mut brain, None, 1.0);
+    assert_eq!(
+        judged(&brain, other_room(Vec::new())),
+        Err(JobRefusal::RestOutOfReach)
+    );
+}
+
+#[test]
+fn a_job_that_finds_its_floor_shut_off_is_not_finished() {
+    let mut stage = Stage::new();
+    let part = HomePart::Zone(zone((3.5, 0.5), (5.5, 3.5)));
+    let order = CleaningOrder::new(vec![part], 1).unwrap();
+    let command = JobCommand::CleanParts { order };
+    run(&mut stage.world, &mut stage.brain, Some(command), 4.0);
+    forbid(&mut stage, wall((3.05, 1.3), (3.05, 2.6)));
+    let mut seconds = 0;
+    while stage.brain.status().state != BehaviorState::Idle && seconds < 600 {
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        seconds += 1;
+    }
+    assert_eq!(stage.brain.status().reason, Reason::NoGoInTheWay);
+}
+
+#[test]
+fn the_way_to_the_dock_stays_open() {
+    let dock = Pose2 {
+        x_m: 0.2 - START.x_m,
+        y_m: 2.0 - START.y_m,
+        heading_rad: core::f64::consts::PI,
+    };
+    let map = known(&flat()).with_dock_location(DockLocation::converged(dock));
+    let brain = Brain::with_map(config(), 1, &map);
+    let admit = |no_go: NoGo| brain.map().admit(&MapEdit::NoGo(NoGoEdit::Add(no_go)));
+    let box_before =
+        |near_m: f64, far_m: f64| NoGo::zone(&zone((0.2 + near_m, 1.6), (0.2 + far_m, 2.4))).unwrap();
+    assert_eq!(admit(box_before(0.25, 0.8)), Err(EditError::DockInside));
+    assert_eq!(admit(box_before(0.6, 0.9)), Err(EditError::DockInside));
+    assert_eq!(admit(wall((1.5, 0.0), (1.5, 4.0))), Err(EditError::DockShutOff));
+    assert_eq!(
+        admit(wall((3.05, 1.3), (3.05, 2.6))),
+        Ok(()),
+        "it keeps half of the floor"
+    );
+    assert_eq!(admit(box_before(1.3, 1.8)), Ok(()));
+}
+
+#[test]
+fn a_map_that_comes_back_gives_no_number_again() {
+    let plain = known(&flat());
+    let mut later = plain.parts();
+    (later.next_room, later.no_go.next, later.places.next) = (9, 5, 7);
+    later.room_changes.next = 3;
+    let later = StoredMap::from_parts(later).expect("a map");
+    let back = plain.numbered_after(&later).parts();
+    assert_eq!(
+        (
+            back.next_room,
+            back.no_go.next,
+            back.places.next,
+            back.room_changes.next
+        ),
+        (9, 5, 7, 3)
+    );
+    let kept = later.clone().numbered_after(&known(&flat())).parts();
+    assert_eq!(kept.next_room, 9);
+}
+
+#[test]
+fn brushes_rest_on_the_way_through_a_room_that_nobody_chose() {
+    let mut stage = Stage::new();
+    let part = HomePart::Zone(zone((4.0, 0.5), (5.5, 2.0)));
+    let order = CleaningOrder::new(vec![part], 1).unwrap();
+    stage.clean(&order);
+    assert!(stage.swept((4.0, 0.5), (5.5, 2.0)) > 0.9);
+    assert_eq!(stage.swept((0.2, 0.2), (2.8, 3.8)), 0.0, "nobody asked for this");
 }

@@ -48,9 +48,11 @@ fn a_person_decides_over_a_job_that_waits_for_charge() {
         ("resume", "docked recharging"),
         ("pause\n charge 0.95\n wait 5", "paused command"),
         ("stop\n charge 0.95\n wait 5", "docked command"),
-        ("wait 1.1\n undocked", "paused released"),
-        ("undocked", "starting dock-missed"),
-        ("undocked\n wait 4", "docking dock-missed"),
+        ("dock\n charge 0.95\n wait 5", "docked command"),
+        ("pause\n dock\n charge 0.95\n wait 5", "docked command"),
+        ("charge 0.95\n dock\n wait 5", "docked command"),
+        ("undocked\n wait 2", "starting dock-missed"),
+        ("undocked\n wait 6", "docking dock-missed"),
         ("lift\n charge 0.95\n wait 1", "docked recharging"),
     ] {
         check(&format!("{ON_THE_DOCK}\n {} => {end}", line.replace('\n', "\n ")));
@@ -74,11 +76,84 @@ fn a_job_that_ran_out_of_time_or_was_sent_home_does_not_go_on() {
 
 #[test]
 fn contacts_that_open_again_at_once_are_tried_a_few_times() {
-    let slip = "docked => docked docked\n undocked => starting dock-missed\n wait 4 => docking\n";
+    let slip = "docked => docked docked\n undocked\n wait 2 => starting dock-missed\n wait 4 => docking\n";
     check(&format!(
-        "up\n dock\n wait 4 => docking\n {slip} {slip} {slip} docked => docked docked\n undocked => idle released"
+        "up\n dock\n wait 4 => docking\n {slip} {slip} {slip} docked => docked docked\n undocked\n wait 2 => idle dock-contact-lost"
     ));
-    check("up\n dock\n wait 4\n docked\n wait 1.1\n undocked => idle released");
+    check("up\n dock\n wait 4\n docked\n wait 31\n undocked\n wait 2 => idle dock-contact-lost");
+}
+
+/// A job that waits for charge on a dock whose beams it receives.
+const IN_THE_BEAMS: &str = "beams\n wait 40 => docked recharging\n";
+
+#[test]
+fn a_dock_without_power_is_told_once_and_the_job_goes_on_when_power_returns() {
+    check(&format!(
+        "{ON_THE_DOCK} {IN_THE_BEAMS} undocked\n silence\n wait 1 => docked recharging
+         wait 2 => docked dock-power-lost\n wait 3600 => docked dock-power-lost
+         docked\n beams\n wait 6 => docked recharging\n charge 0.9 => starting charged"
+    ));
+    // It is charged well enough already.
+    check(&format!(
+        "{ON_THE_DOCK} {IN_THE_BEAMS} undocked\n silence\n wait 3 => docked dock-power-lost\n charge 0.9 => starting charged"
+    ));
+    check(
+        "up\n docked => docked\n beams\n wait 3\n undocked\n silence\n wait 3 => idle dock-power-lost
+         docked\n wait 1 => idle dock-power-lost\n wait 5 => docked docked",
+    );
+}
+
+#[test]
+fn who_took_it_off_its_dock_is_told_by_what_was_sensed() {
+    for (what, end) in [
+        ("push -0.1\n undocked", "paused pushed-off"),
+        ("lift\n undocked", "paused lifted-off"),
+        ("silence\n undocked", "docked dock-power-lost"),
+        ("undocked", "starting dock-missed"),
+    ] {
+        check(&format!(
+            "{ON_THE_DOCK} {IN_THE_BEAMS} {}\n wait 3 => {end}",
+            what.replace('\n', "\n ")
+        ));
+    }
+    let pushed = format!("{ON_THE_DOCK} {IN_THE_BEAMS} push -0.1\n undocked\n wait 3 => paused pushed-off\n");
+    check(&format!(
+        "{pushed} push 0.1\n docked => docked recharging\n charge 0.9 => starting charged"
+    ));
+}
+
+/// Gives how often the state changes in a minute in which the contacts open and close again.
+fn changes_in_a_minute(stage: &mut Stage, period_s: f64) -> u32 {
+    let mut changes = 0;
+    let mut before = stage.brain.status();
+    for step in 0..50 * 60_u32 {
+        let phase_s = f64::from(step) * 0.02 % period_s;
+        stage.observation.docked = phase_s < 0.5 * period_s;
+        stage.step(&[]);
+        changes += u32::from(stage.brain.status() != before);
+        before = stage.brain.status();
+    }
+    changes
+}
+
+#[test]
+fn contacts_that_flicker_are_told_at_most_once() {
+    for (period_s, most) in [(0.4, 0), (1.0, 0), (3.0, 0), (6.0, 1), (20.0, 3)] {
+        let mut stage = check(&format!("{ON_THE_DOCK} wait 40"));
+        let changes = changes_in_a_minute(&mut stage, period_s);
+        assert!(changes <= most, "{changes} changes with a period of {period_s} s");
+        assert_eq!(stage.brain.status().state, BehaviorState::Docked);
+    }
+}
+
+#[test]
+fn a_person_who_sends_it_to_the_dock_ends_the_job_that_waits() {
+    check(
+        "up\n charge 0.5\n clean\n wait 4\n charge 0.1 => docking battery-low\n dock => docking command
+         docked => docked docked\n charge 0.95\n wait 5 => docked docked",
+    );
+    check("up\n charge 0.5\n docked\n clean => starting\n dock => docked command\n wait 9 => docked command");
+    check("up\n dock\n wait 4 => docking command\n dock => docking command");
 }
 
 #[test]

@@ -31,6 +31,7 @@ mod seats;
 mod server;
 mod settings;
 mod upstream;
+mod write_deadline;
 
 pub use assets::{Assets, AssetsError};
 pub use gate::GateError;

@@ -36,8 +36,9 @@ use crate::page;
 use crate::pass::Pass;
 use crate::reset_file;
 use crate::rules::in_authority;
-use crate::seats::Seats;
+use crate::seats::{SeatMark, Seats};
 use crate::upstream::Upstream;
+use crate::write_deadline::WriteDeadline;
 use crate::{Assets, Guard, Rules, Scheme, Settings, StartError};
 
 /// Bytes of a request's head, the least that hyper accepts.
@@ -45,6 +46,8 @@ const HEAD_BYTES_MAX: usize = 8 << 10;
 
 /// A client that takes longer for the head of a request is dropped.
 const HEAD_TIME_MAX: Duration = Duration::from_secs(10);
+/// A peer that takes nothing of an answer for so long is gone.
+const WRITE_TIME_MAX: Duration = Duration::from_secs(10);
 
 /// Bytes of one WebSocket message from a browser.
 const MESSAGE_BYTES_MAX: usize = 64 << 10;
@@ -233,18 +236,26 @@ fn plain_rules(address: SocketAddr, host_names: &[String]) -> Rules {
 
 /// Takes connections for ever, each with its seat.
 async fn accept(listener: TcpListener, tls: Option<TlsAcceptor>, router: Router, seats: Seats) {
-    while let Some(room) = seats.room().await {
+    loop {
         match listener.accept().await {
             Ok((stream, peer)) => {
-                let Some(seat) = seats.take(room, peer.ip()) else {
-                    debug!(%peer, "too many connections from one address");
-                    continue;
+                let seat = match seats.take(peer.ip()) {
+                    Ok(seat) => seat,
+                    Err(reason) => {
+                        debug!(%peer, ?reason, "no seat for a connection");
+                        continue;
+                    }
                 };
-                let router = router.clone().layer(Extension(Peer(peer.ip())));
+                let router = router
+                    .clone()
+                    .layer(Extension(Peer(peer.ip())))
+                    .layer(Extension(seat.mark()));
                 let tls = tls.clone();
                 tokio::spawn(async move {
-                    welcome(stream, tls, router).await;
-                    drop(seat);
+                    tokio::select! {
+                        () = welcome(stream, tls, router) => {}
+                        () = seat.parting() => debug!(%peer, "a stranger leaves for somebody else"),
+                    }
                 });
             }
             Err(error) => {
@@ -257,6 +268,7 @@ async fn accept(listener: TcpListener, tls: Option<TlsAcceptor>, router: Router,
 
 async fn welcome(stream: TcpStream, tls: Option<TlsAcceptor>, router: Router) {
     stream.set_nodelay(true).ok(); // Only costs latency when it fails.
+    let stream = WriteDeadline::new(stream, WRITE_TIME_MAX);
     let Some(tls) = tls else {
         return serve(stream, router).await;
     };
@@ -308,7 +320,10 @@ async fn guard(State(site): State<Arc<Site>>, request: Request, next: Next) -> R
 
 /// Asks the gate, where there is one.
 async fn admit(site: &Site, mut request: Request, next: Next) -> Response<Body> {
+    let mark = request.extensions().get::<SeatMark>().cloned();
+    let is_known = || mark.iter().for_each(SeatMark::is_known);
     let Some(gate) = &site.gate else {
+        is_known();
         return next.run(request).await;
     };
     let known = gate.guarded.identify(request.headers());
@@ -316,6 +331,7 @@ async fn admit(site: &Site, mut request: Request, next: Next) -> Response<Body> 
         return known.map_or_else(api::not_paired, |known| api::not_allowed(known.role));
     }
     if let Some(known) = known {
+        is_known();
         request.extensions_mut().insert(known);
     }
     next.run(request).await

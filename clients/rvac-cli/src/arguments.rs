@@ -104,6 +104,19 @@ pub(crate) enum Subcommand {
         )]
         socket: PathBuf,
     },
+    /// Put a signed update of daemon, panel and firmware in use, or go back to what was there.
+    Update {
+        #[command(flatten)]
+        job: rvac_update::UpdateJob,
+        /// Unix socket of vthal.
+        #[arg(
+            long,
+            value_name = "PATH",
+            env = "RVAC_SOCKET",
+            default_value = "/run/vthal/vthal.sock"
+        )]
+        socket: PathBuf,
+    },
     /// Print what a shell needs to complete rvac's commands.
     Completions {
         /// The shell.

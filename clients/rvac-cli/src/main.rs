@@ -72,6 +72,7 @@ fn main() -> ExitCode {
         Subcommand::Clients(job) => devices::clients(&job),
         Subcommand::Trust(options) => devices::trust(&options),
         Subcommand::Flash { job, socket } => rvac_flash::run(&job, &rvac_flash::DaemonSocket(socket)),
+        Subcommand::Update { job, socket } => rvac_update::run(&job, &socket),
         Subcommand::Completions { shell } => manual::completions(shell),
         Subcommand::Manual { folder } => manual::write(&folder),
         Subcommand::Start { strategy, daemon } => control::start(strategy, &daemon),

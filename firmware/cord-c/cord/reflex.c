@@ -250,7 +250,8 @@ static void judge_wheel(uint8_t side) {
     uint8_t is_still = magnitude(cord_duty[side]) > HARD_DUTY && cord_period_counts[side] == 0;
     /* Goals are below 1 m/s: half as much again and a count fit into 16 bits. */
     int16_t most = (int16_t)(goal + (goal >> 1) + SLACK + CORD_COUNT_UM);
-    if (holds(TIMER_STILL + side, is_still, CORD_STALL_STANDSTILL_MS / PERIOD_MS)) {
+    /* Up to two periods late by the rule's own count, and a third because a period on this chip may begin late. */
+    if (holds(TIMER_STILL + side, is_still, CORD_STALL_STANDSTILL_MS / PERIOD_MS - 1)) {
         cord_stalled |= (uint8_t)(1 << side);
         cord_latch(CORD_INHIBIT_WHEEL_STALL);
     }

@@ -18,12 +18,15 @@ mod run;
 mod serial_line;
 mod settings;
 pub mod sr8730;
+mod wired_robot;
 
 pub use arguments::{FlashJob, FlashVerb, Safeguards};
 pub use backups::{Backup, BackupError, Backups};
 pub use hex::{HexError, Piece, parse as parse_hex};
 pub use journal::{Journal, JournalEntry, WriteState};
+pub use line_loan::{LoanError, RobotAnswers};
 pub use progress_line::progress_line;
 pub use run::{DaemonSocket, run};
-pub use serial_line::SerialLine;
-pub use settings::{FlashSettings, RobotName};
+pub use serial_line::{SerialLine, SerialLineError};
+pub use settings::{FlashSettings, RobotName, SettingsError};
+pub use wired_robot::{WiredError, WiredRobot};

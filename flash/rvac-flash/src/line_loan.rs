@@ -26,7 +26,7 @@ pub(crate) struct LineLoan {
 
 /// Why the line is not ours.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum LoanError {
+pub enum LoanError {
     /// No daemon answers.
     #[error(
         "the daemon does not answer at {}: {error}. It knows whether the robot stands on its dock. If it does not run, look at the \
@@ -58,7 +58,7 @@ pub(crate) enum LoanError {
 
 /// Whether the robot can be asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum RobotAnswers {
+pub enum RobotAnswers {
     /// The daemon knows where it stands.
     Expected,
     /// It is silent, and the owner has looked.

@@ -125,8 +125,12 @@ impl KeptImages {
 
     /// The last image that was verified in this robot, if it is still here and whole.
     pub fn way_back(&self) -> Option<Vec<u8>> {
-        let sha256 = self.journal.last()?.last_verified?;
-        let bytes = kept_file::read(&self.path(&sha256)).ok()?;
+        self.load(&self.journal.last()?.last_verified?)
+    }
+
+    /// The image with this hash, if it is here and whole.
+    pub fn load(&self, sha256: &str) -> Option<Vec<u8>> {
+        let bytes = kept_file::read(&self.path(sha256)).ok()?;
         (hash_of(&bytes) == sha256).then_some(bytes)
     }
 

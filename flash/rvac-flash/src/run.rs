@@ -18,6 +18,7 @@ use crate::line_loan::{LineLoan, RobotAnswers};
 use crate::progress_line::progress_line;
 use crate::serial_line::SerialLine;
 use crate::settings::{FlashSettings, RobotName};
+use crate::wired_robot::entry_of;
 use crate::{relax, sr8730};
 
 /// Where the daemon listens.
@@ -56,11 +57,11 @@ pub fn run(job: &FlashJob, socket: &DaemonSocket) -> anyhow::Result<ExitCode> {
         RobotName::Relax => {
             let _loan = LineLoan::take(&socket.0, &settings.serial, answers)?;
             let mut line = SerialLine::open(&settings.serial, settings.power.as_ref())?;
-            let entry = match settings.power {
-                Some(_) => Entry::PowerSwitch,
-                None => Entry::Person,
-            };
-            on_relax(&mut line, (&job.verb, &pieces, entry), &settings.folder)?;
+            on_relax(
+                &mut line,
+                (&job.verb, &pieces, entry_of(&settings)),
+                &settings.folder,
+            )?;
         }
     }
     Ok(ExitCode::SUCCESS)
@@ -71,7 +72,7 @@ fn read_hex(path: &Path) -> anyhow::Result<Vec<hex::Piece>> {
     hex::parse(&text).with_context(|| path.display().to_string())
 }
 
-fn now() -> String {
+pub(crate) fn now() -> String {
     jiff::Timestamp::now()
         .round(jiff::Unit::Second)
         .map_or_else(|_| String::from("1970-01-01T00:00:00Z"), |now| now.to_string())
@@ -185,7 +186,7 @@ fn say(report: &Report) {
 }
 
 /// Shows progress on a terminal, and nothing elsewhere.
-fn shown_on_terminal() -> impl FnMut(&str, (usize, usize)) {
+pub(crate) fn shown_on_terminal() -> impl FnMut(&str, (usize, usize)) {
     let is_terminal = std::io::stderr().is_terminal();
     let mut task = (String::new(), Instant::now());
     let mut last = String::new();

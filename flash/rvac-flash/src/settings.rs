@@ -14,6 +14,16 @@ pub enum RobotName {
     Relax,
 }
 
+impl RobotName {
+    /// As the robot's firmware names itself.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sr8730 => "sr8730",
+            Self::Relax => "relax",
+        }
+    }
+}
+
 /// The wiring.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -195,6 +195,32 @@ where
     put(pins, (&backup.image, safeguards), keeping, shown)
 }
 
+/// The same for a chip that a write which was cut off may have left in any state: pages or configuration words that refuse are erased with
+/// the whole chip.
+///
+/// # Errors
+/// See [`JobError`].
+pub fn bring_back<P: IcspPins>(
+    pins: &mut P,
+    backup: &Backup,
+    keeping: &Keeping,
+    shown: Shown<'_>,
+) -> Result<(), JobError<P::Error>>
+where
+    P::Error: std::fmt::Debug + std::fmt::Display,
+{
+    let whole = Safeguards {
+        erase_chip: true,
+        ..Safeguards::default()
+    };
+    match restore(pins, (backup, Safeguards::default()), keeping, &mut *shown) {
+        Err(JobError::Chip(
+            IcspError::CodeProtected | IcspError::FlashRefused { .. } | IcspError::Differs { .. },
+        )) => restore(pins, (backup, whole), keeping, shown),
+        outcome => outcome,
+    }
+}
+
 /// Our firmware keeps the owner's calibration in the last page of program flash, behind this word.
 const CALIBRATION_PAGE: u32 = PROGRAM_START + (PROGRAM_BYTES - PAGE_BYTES) as u32;
 const CALIBRATION_MAGIC: u32 = 0x4C41_4352;

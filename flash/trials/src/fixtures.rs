@@ -31,6 +31,36 @@ pub fn flash_image(program_bytes: usize, boot_bytes: usize, seed: u64) -> FlashI
     image
 }
 
+/// The image as an Intel HEX file.
+pub fn hex_of(image: &FlashImage) -> String {
+    let mut text = String::new();
+    for (start, bytes) in [(0x1D00_0000_u32, image.program()), (0x1FC0_0000, image.boot())] {
+        let mut upper = None;
+        for (index, row) in bytes.chunks(16).enumerate() {
+            if row.iter().all(|byte| *byte == 0xFF) {
+                continue;
+            }
+            let address = start + 16 * index as u32;
+            if upper != Some(address >> 16) {
+                upper = Some(address >> 16);
+                text += &record(0, 4, &((address >> 16) as u16).to_be_bytes());
+            }
+            text += &record(address as u16, 0, row);
+        }
+    }
+    text + &record(0, 1, &[])
+}
+
+fn record(address: u16, kind: u8, data: &[u8]) -> String {
+    let [high, low] = address.to_be_bytes();
+    let mut bytes = vec![data.len() as u8, high, low, kind];
+    bytes.extend_from_slice(data);
+    let sum = bytes.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
+    bytes.push(sum.wrapping_neg());
+    let digits: String = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
+    format!(":{digits}\n")
+}
+
 /// A chip that holds this image.
 ///
 /// # Panics

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
+use flash_trials::{emulated_update, update_cuts};
 use serde::Serialize;
 
 /// Flashes simulated chips.
@@ -44,6 +45,10 @@ struct FlashReport {
     power_cuts: u32,
     /// Chips that the next run did not bring back.
     bricked: u32,
+    /// Updates that were cut off, at each step with a modelled chip and while the emulated one was read or written.
+    update_cuts: u32,
+    /// Those after which programs or robot did not run, or were of different updates, or took no further update.
+    update_cuts_bad: u32,
     /// Whether the real firmware ran after it was written; absent when none was given.
     firmware_runs: Option<bool>,
     /// Whether stcgal wrote the simulated loader; absent when it was not given.
@@ -62,6 +67,7 @@ impl FlashReport {
     fn is_good(&self) -> bool {
         self.round_trips_identical == self.round_trips
             && self.bricked == 0
+            && self.update_cuts_bad == 0
             && self.firmware_runs != Some(false)
             && self.stcgal_programmed != Some(false)
             && self.own_flasher_programmed
@@ -93,6 +99,13 @@ fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     }
     relax_campaign::round_trip(&mut report)?;
     relax_campaign::cuts((arguments.moments, arguments.seed), &mut report)?;
+    let modelled = update_cuts::cut_everywhere()?;
+    // Each takes seconds: two readings, a write and a way back.
+    let emulated = emulated_update::update_emulated(arguments.moments.div_ceil(5), arguments.seed)?;
+    for cuts in [modelled, emulated] {
+        report.update_cuts += cuts.cut;
+        report.update_cuts_bad += cuts.broken + cuts.mixed + cuts.stuck;
+    }
     report.own_flasher_programmed = relax_campaign::own_flasher_programs()?;
     if let Some(stcgal) = &arguments.stcgal {
         report.stcgal_programmed = Some(relax_campaign::stcgal_programs(stcgal)?);
@@ -112,13 +125,15 @@ fn described(report: &FlashReport) -> String {
         None => "not tried",
     };
     format!(
-        "round trips {}, identical {}\ncut off {}, bricked {}\n256 KiB at 1 MHz: written in {:.2} s, verified in {:.2} s; the \
+        "round trips {}, identical {}\ncut off {}, bricked {}\nupdates cut off {}, bad ends {}\n256 KiB at 1 MHz: written in {:.2} s, verified in {:.2} s; the \
          wire alone takes {:.2} s (x {:.2})\nthe real firmware runs: {}\nour flasher writes on a terminal: {}\nstcgal writes on \
          the same terminal: {}",
         report.round_trips,
         report.round_trips_identical,
         report.power_cuts,
         report.bricked,
+        report.update_cuts,
+        report.update_cuts_bad,
         report.write_256_kib_s,
         report.verify_256_kib_s,
         report.wire_limit_s,

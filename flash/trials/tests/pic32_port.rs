@@ -233,6 +233,32 @@ fn a_line_that_is_too_noisy_is_named() {
     assert!(is_named, "{refused:?}");
 }
 
+/// FWDTEN with a period of 1 ms, far less than a page takes on the wire.
+#[test]
+fn a_watchdog_that_is_always_on_waits_for_the_programmer() {
+    let guarded = |seed| {
+        let mut image = small(seed);
+        assert!(image.write(0x1FC0_2FF8, &0xFFE0_CED8_u32.to_le_bytes()));
+        image
+    };
+    for erased in [ErasedFirst::Pages, ErasedFirst::Chip] {
+        let mut lines = lines(
+            chip_with(&guarded(1)),
+            PortFaults::default(),
+            WireFaults::default(),
+        );
+        assert_eq!(write(&mut lines, &guarded(2), erased), Ok(()), "{erased:?}");
+        assert_eq!(content_of(lines.machine()), guarded(2));
+        lines.run_ms(5);
+        let barked =
+            |reset: &pic32::machine::ResetEvent| reset.source == pic32::peripheral::ResetSource::Watchdog;
+        assert!(
+            lines.machine().resets().iter().any(barked),
+            "once it runs, the watchdog barks: {erased:?}"
+        );
+    }
+}
+
 #[test]
 fn after_a_power_cut_or_a_kill_the_next_run_writes() {
     let write =

@@ -26,3 +26,4 @@ mod second_job;
 mod standoff;
 mod told_share;
 mod visitor;
+mod worn_docks;

@@ -40,6 +40,6 @@ pub use plan::{Cell, Grid};
 pub use pose::{Pose, wrap_angle};
 pub use thermistor::Thermistor;
 pub use world::{
-    Actuation, BeamStrengths, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, OddCell,
-    Pack, PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World, WorldSeeds,
+    Actuation, BeamStrengths, Bridge, DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, DockContacts, GyroReading, LidarScan,
+    OddCell, Pack, PackMake, SensorFault, SensorId, Sensors, Supply, Truth, World, WorldSeeds,
 };

@@ -36,7 +36,8 @@ pub(crate) fn charge_a<O>(switch: ChargeSwitch, pins: &PackPins<O>, world: &Worl
 /// Readings of the converter. The shunt lies in the charge path only, so the robot's load is not measured.
 pub(crate) fn readings(charge_a: f64, world: &World) -> ChargerReadings {
     let sensors = world.sensors();
-    let through_a = if sensors.dock_contacts { charge_a } else { 0.0 };
+    let flows = sensors.dock_contacts && world.dock_gives_current();
+    let through_a = if flows { charge_a } else { 0.0 };
     let pack_mv = sensors.battery_voltage.0;
     let since_ms = (world.truth().time_ms + BATTERY_MS - BATTERY_PHASE_MS) % BATTERY_MS;
     ChargerReadings {

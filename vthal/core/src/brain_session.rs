@@ -194,6 +194,15 @@ impl BrainSession {
         self.next.is_some()
     }
 
+    /// Whether a job was commanded about that the brain has not heard yet, and would hear with a step.
+    pub(crate) fn owes_a_step(&self) -> bool {
+        let is_about_job = |command: &Command| match command {
+            Command::Job(JobCommand::Manual { .. }) | Command::Edit(_) => false,
+            Command::Job(_) => true,
+        };
+        !self.holds_commands() && self.waiting.iter().any(is_about_job)
+    }
+
     /// Forgets these learned values. The robot rests and is not recorded.
     pub(crate) fn forget(&mut self, parts: &[LearntPart]) {
         for part in parts {

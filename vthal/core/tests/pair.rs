@@ -13,8 +13,8 @@ use rvac_protocol::message::{
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
 use vthal_core::{
-    ClientId, Core, CoreConfig, EditedMap, FloorHome, FloorOrder, FloorTask, Input, KeptFloor, Lights,
-    MapOrder, Outputs, Record, Recording,
+    ClientId, Core, CoreConfig, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder, Input, KeptFloor,
+    Lights, MapOrder, Outputs, Record, Recording,
 };
 
 const ANNA: ClientId = ClientId(1);
@@ -41,6 +41,8 @@ struct Pair {
     orders: Vec<MapOrder>,
     /// Maps that clients have changed.
     edits: Vec<EditedMap>,
+    /// Loads of motors that it should keep.
+    healths: Vec<HealthOrder>,
     to_robot: Vec<u8>,
     /// Whether `stop` reaches the robot's inhibits.
     hears_stop: bool,
@@ -79,6 +81,7 @@ impl Pair {
             floor_orders: Vec::new(),
             orders: Vec::new(),
             edits: Vec::new(),
+            healths: Vec::new(),
             to_robot: Vec::new(),
             hears_stop: true,
         };
@@ -107,6 +110,7 @@ impl Pair {
         self.floor_orders.extend(outputs.floor_orders);
         self.orders.extend(outputs.map_orders);
         self.edits.extend(outputs.map_edits);
+        self.healths.extend(outputs.health);
     }
 
     /// Asks and gives the reason of a refusal.
@@ -640,6 +644,78 @@ fn a_start_is_announced_before_anything_moves() {
     });
     assert_eq!(beeps.count(), 3, "S24: three beeps");
     assert!(first_move_ms >= asked_ms + 2000, "S24: two seconds");
+    assert_eq!(pair.core.status().state, "cleaning");
+}
+
+/// Answers to requests of this component, in order: the reason of a refusal, or nothing.
+fn answers(pair: &Pair) -> Vec<Option<&str>> {
+    let mut answers = Vec::new();
+    for update in &pair.updates {
+        match update {
+            Update::Done { .. } => answers.push(None),
+            Update::Failed(failure) => answers.push(Some(failure.reason.as_str())),
+            _ => {}
+        }
+    }
+    answers
+}
+
+/// The disk is handed one change after the other, and what it refuses is all that was asked for meanwhile.
+#[test]
+fn what_is_answered_of_changes_is_what_the_disk_has() {
+    let mut pair = Pair::new();
+    let reset = || RequestBody::ResetHealth {
+        component: "wheel-left".to_owned(),
+    };
+    pair.updates.clear();
+    for _ in 0..24 {
+        assert_eq!(pair.ask(ANNA, reset()), None);
+    }
+    assert_eq!((pair.healths.len(), answers(&pair).len()), (1, 0));
+    let kept = |pair: &mut Pair, result| {
+        let number = pair.healths.last().expect("was handed over").number;
+        pair.handle(Input::HealthKept { number, result });
+    };
+    kept(&mut pair, Ok(()));
+    assert_eq!((pair.healths.len(), answers(&pair).len()), (2, 1));
+    kept(&mut pair, Ok(()));
+    assert_eq!(answers(&pair), [None; 24]);
+    assert_eq!(pair.healths.len(), 2, "nothing is left to hand over");
+
+    pair.updates.clear();
+    for _ in 0..3 {
+        assert_eq!(pair.ask(ANNA, reset()), None);
+    }
+    kept(&mut pair, Err("the disk is full".to_owned()));
+    assert_eq!(answers(&pair), [Some("health-unwritable"); 3]);
+    assert_eq!(pair.healths.len(), 3, "what rests on it is not handed over");
+    assert_eq!(pair.ask(ANNA, reset()), None);
+    kept(&mut pair, Ok(()));
+    assert_eq!(answers(&pair).last(), Some(&None));
+}
+
+/// A shell script sends both in one write, so no telemetry comes between them.
+#[test]
+fn each_request_sees_what_the_one_before_it_did() {
+    let mut pair = Pair::new();
+    let start = || RequestBody::Start {
+        strategy: Some("bounce".to_owned()),
+    };
+    assert_eq!(pair.ask(ANNA, start()), None);
+    assert_eq!(pair.ask(ANNA, start()).as_deref(), Some("already-running"));
+    pair.run_ms(6000);
+    for _ in 0..20 {
+        assert_eq!(pair.ask(ANNA, RequestBody::Stop), None);
+        assert_eq!(pair.ask(ANNA, RequestBody::Pause).as_deref(), Some("no-job"));
+        assert_eq!(pair.ask(ANNA, RequestBody::Resume).as_deref(), Some("no-job"));
+        assert_eq!(pair.ask(ANNA, start()), None);
+        assert_eq!(pair.ask(ANNA, RequestBody::Pause), None);
+        assert_eq!(pair.ask(ANNA, RequestBody::Resume), None);
+        assert_eq!(pair.ask(ANNA, start()).as_deref(), Some("already-running"));
+        pair.run_ms(37);
+        assert_ne!(pair.core.status().state, "idle");
+    }
+    pair.run_ms(6000);
     assert_eq!(pair.core.status().state, "cleaning");
 }
 

@@ -4,10 +4,14 @@
 //! cards lie about flushing, and so that a person can go back.
 #![forbid(unsafe_code)]
 
+mod newest;
+
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::os::unix::fs::{OpenOptionsExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
+
+pub use newest::{Newest, newest, newest_json, replace_json};
 
 /// Mode of a file that nobody but its owner reads.
 const SECRET: u32 = 0o600;

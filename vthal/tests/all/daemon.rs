@@ -106,6 +106,33 @@ fn has_text(update: &Update, wanted: &str) -> bool {
     matches!(update, Update::Log(LogEntry { text, .. }) if text.contains(wanted))
 }
 
+/// As on a card that went read-only: the robot is served, and each thing that is not kept is said.
+#[test]
+fn a_daemon_that_can_write_nothing_serves_and_says_what_it_cannot_keep() {
+    let scratch = Scratch::new().expect("creates");
+    let state = scratch.join("state");
+    fs::create_dir_all(state.join("vthal.pid")).expect("creates");
+    for name in ["log", "runs"] {
+        fs::write(state.join(name), "where a folder belongs").expect("writes");
+    }
+    let _daemon = start(&scratch);
+    let mut client = follow(&scratch);
+    for complaint in [
+        "state folder",
+        "cannot write the log in the state folder",
+        "runs are not recorded",
+    ] {
+        let told = client.wait_for(soon(), |update| has_text(update, complaint));
+        assert!(told.expect("reads").is_some(), "{complaint}");
+    }
+    let mut robot = robot(&scratch, 1);
+    wait_for_state(&mut robot, &mut client, "idle");
+    client.send(r#"{"c":"start","id":7}"#).expect("sends");
+    wait_until(&mut robot, &mut client, |update| {
+        matches!(update, Update::Done { .. })
+    });
+}
+
 #[test]
 fn a_robot_may_come_late_go_and_come_back_as_another_one() {
     let scratch = Scratch::new().expect("creates");

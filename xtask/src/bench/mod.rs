@@ -73,6 +73,9 @@ pub(crate) struct BenchArguments {
     /// Of `safety`: fail when a figure is worse than what protocol/measured.toml keeps.
     #[arg(long)]
     check: bool,
+    /// Of `docking`: docks that are dirty, dead, moved, turned, recessed, without power, or with a shoe before them.
+    #[arg(long)]
+    worn: bool,
     /// Arguments for the measuring program itself, for example `--homes report --seeds 5` of `navigation`.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<String>,
@@ -125,6 +128,9 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
     }
     if arguments.long {
         command.args(longer(arguments.subject));
+    }
+    if arguments.worn {
+        command.arg("--worn");
     }
     if matches!(arguments.subject, Subject::Safety) {
         command.args(safety::compared(arguments)?);

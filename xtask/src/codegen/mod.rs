@@ -1,6 +1,7 @@
 //! `cargo xtask codegen`: files that are made from data. With --check it writes nothing and names what is stale.
 
 pub(crate) mod board;
+mod drawings;
 mod header;
 pub(crate) mod robots;
 mod rules;
@@ -31,7 +32,13 @@ pub(crate) fn run(arguments: &CodegenArguments) -> anyhow::Result<()> {
     let root = workspace::root();
     let mut stale = Vec::new();
     // The header of cordlib is made by a program that contains what the steps before it make.
-    for step in [rules::files, board::files, robots::files, header::files] {
+    for step in [
+        rules::files,
+        board::files,
+        robots::files,
+        drawings::files,
+        header::files,
+    ] {
         stale.extend(renew(&root, step(&root)?, arguments)?);
     }
     if arguments.check && !stale.is_empty() {

@@ -65,6 +65,14 @@ impl RobotFirmware {
         board(robot).map(Self::InRust)
     }
 
+    /// The file that is flashed, built if it is not fresh.
+    pub(crate) fn hex(self) -> anyhow::Result<PathBuf> {
+        match self {
+            Self::InRust(board) => Ok(build(board, &Options::default(), None)?.hex),
+            Self::InC => sdcc::image(),
+        }
+    }
+
     /// The image, built if it is not fresh, with the measured values of a file if there is one.
     pub(crate) fn image(self, calibration: Option<&Path>) -> anyhow::Result<PathBuf> {
         match self {

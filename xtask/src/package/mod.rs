@@ -3,7 +3,7 @@
 mod archive;
 mod compile;
 mod licences;
-mod machine;
+pub(crate) mod machine;
 mod manuals;
 mod tree;
 pub(crate) mod trial;
@@ -86,6 +86,23 @@ pub(crate) fn version() -> &'static str {
 /// Where packages are made.
 pub(crate) fn folder() -> PathBuf {
     workspace::target().join("package")
+}
+
+/// The programs of the board: this host's own, for trials, or those that are given out.
+pub(crate) fn programs(machine: Machine, origin: Origin) -> anyhow::Result<Vec<PathBuf>> {
+    match origin {
+        Origin::Released => compile::programs(machine),
+        Origin::Host => trial::programs::of_this_host(),
+    }
+}
+
+/// Where programs come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// Static programs of the release profile.
+    Released,
+    /// This host's development programs, quickly.
+    Host,
 }
 
 /// What all machines get alike: made once.

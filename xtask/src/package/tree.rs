@@ -8,7 +8,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
 /// Files of the repository, and where they go.
-const FILES: [(&str, &str); 8] = [
+const FILES: [(&str, &str); 9] = [
     (
         "packaging/systemd/vthal.service",
         "lib/systemd/system/vthal.service",
@@ -16,6 +16,10 @@ const FILES: [(&str, &str); 8] = [
     (
         "packaging/systemd/rvac-panel.service",
         "lib/systemd/system/rvac-panel.service",
+    ),
+    (
+        "packaging/systemd/rvac-settle.service",
+        "lib/systemd/system/rvac-settle.service",
     ),
     (
         "packaging/systemd/librervac.tmpfiles",
@@ -71,6 +75,8 @@ pub(super) fn lay(common: &Common, machine: Machine, programs: &[PathBuf]) -> an
         let place = root.join("usr/bin").join(program.file_name().unwrap_or_default());
         copy(program, &place, 0o755)?;
     }
+    let run = workspace::root().join("packaging/run");
+    copy(&run, &root.join("usr/lib/librervac/run"), 0o755)?;
     for (from, to) in FILES {
         copy(&workspace::root().join(from), &root.join(to), 0o644)?;
     }

@@ -3,7 +3,7 @@
 use super::extent::Extent;
 use super::runner::{Result, check};
 use crate::workspace::{self, Profile, program};
-use crate::{fetched, process};
+use crate::{fetched, firmware, process};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -23,12 +23,15 @@ pub(super) fn as_json(extent: Extent) -> anyhow::Result<()> {
 }
 
 fn campaign(extent: Extent) -> anyhow::Result<Command> {
+    let elf = firmware::usual_elf()?;
     let stcgal = stcgal()?;
     workspace::build(&["bench-flash"], Profile::Dev)?;
     let mut command = Command::new(program("bench-flash", Profile::Dev));
     command
         .current_dir(workspace::root())
         .args(["--moments", extent.pick("20", "20", "1000")])
+        .arg("--firmware")
+        .arg(elf)
         .arg("--stcgal")
         .arg(stcgal);
     Ok(command)

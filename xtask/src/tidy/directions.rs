@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 37] = [
+const DIRECTIONS: [Direction; 39] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -114,7 +114,7 @@ const DIRECTIONS: [Direction; 37] = [
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units", "vthal-core"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
-    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "rvac-flash", "rvac-protocol", "rvac-units"], never: &[] },
+    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "update-bundle"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api"],          never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
@@ -126,14 +126,16 @@ const DIRECTIONS: [Direction; 37] = [
     Direction { of: "pic32-icsp",    knows: &[],                                            never: OUTSIDE },
     Direction { of: "stc-isp",       knows: &[],                                            never: OUTSIDE },
     Direction { of: "rvac-flash",    knows: &["kept-file", "pic32-icsp", "rvac-api", "stc-isp"], never: &["tokio"] },
-    Direction { of: "flash-trials",  knows: &["home", "pic32", "pic32-icsp", "rvac-flash", "stc-isp", "stc90"], never: &["tokio", "cordlib"] },
+    Direction { of: "update-bundle", knows: &[],                                            never: &["tokio", "minisign"] },
+    Direction { of: "rvac-update",   knows: &["rvac-api", "rvac-flash", "update-bundle"],   never: &["tokio", "minisign"] },
+    Direction { of: "flash-trials",  knows: &["home", "pic32", "pic32-icsp", "rvac-flash", "rvac-update", "stc-isp", "stc90", "update-bundle"], never: &["tokio", "cordlib"] },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units", "stc90"], never: EMULATOR },
     Direction { of: "life",          knows: &["brain", "home", "robot", "rvac-sim", "vthal", "vthal-core"], never: &["axum"] },
     Direction { of: "content-hash",  knows: &["brain"],                                     never: OUTSIDE },
     Direction { of: "scenarios",     knows: SCENARIOS,                                      never: &["vthal", "axum", "tokio"] },
-    Direction { of: "xtask",         knows: &["rvac-api"],                                  never: &["tokio"] },
+    Direction { of: "xtask",         knows: &["rvac-api", "update-bundle"],                 never: &["tokio"] },
 ];
 
 /// Most crates in what runs on a robot, ours included: the library for every board, and a board with its chip.

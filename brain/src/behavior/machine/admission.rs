@@ -3,16 +3,22 @@
 use super::manual::ManualDrive;
 use super::{Behavior, Mode};
 use crate::behavior::JobKind;
+use crate::coverage;
 use crate::mapping::Map;
 use crate::model::command::{JobCommand, StrategyName};
 use crate::model::job_refusal::JobRefusal;
 use crate::model::order::CleaningOrder;
+use crate::model::pose_estimate::PoseEstimate;
 use crate::model::reason::Reason;
 use crate::navigation::TaskContext;
 
 impl Behavior {
-    /// Whether `command` may be obeyed now, in the home of this map.
-    pub(crate) fn admit(&self, command: &JobCommand, map: &Map) -> Result<(), JobRefusal> {
+    /// Whether `command` may be obeyed now, in the home of this map and from this place.
+    pub(crate) fn admit(
+        &self,
+        command: &JobCommand,
+        (map, estimate): (&Map, PoseEstimate),
+    ) -> Result<(), JobRefusal> {
         match command {
             JobCommand::Stop | JobCommand::ManualEnd => Ok(()),
             JobCommand::Clean { strategy } => {
@@ -20,7 +26,13 @@ impl Behavior {
             }
             JobCommand::CleanParts { order } => {
                 map.admit_order(order)?;
-                self.admit_job(JobKind::Clean(StrategyName::Systematic), order)
+                self.admit_job(JobKind::Clean(StrategyName::Systematic), order)?;
+                // A robot that does not know its place does not know what it can reach from there.
+                if !estimate.is_sure() {
+                    return Ok(());
+                }
+                let from = estimate.pose.position();
+                coverage::admit_reach(order, map, from, self.config.body.radius_m)
             }
             JobCommand::Spot => self.admit_job(JobKind::Spot, &CleaningOrder::default()),
             JobCommand::Dock => self.admit_dock(),
@@ -80,6 +92,10 @@ impl Behavior {
         if kind == JobKind::Clean(StrategyName::Systematic) && !self.facts.knows_heading {
             return Err(JobRefusal::NoHeading);
         }
+        if self.facts.docked && self.facts.touching {
+            // The dock ahead touches nothing for long, or the bumper would be taken for stuck (S7).
+            return Err(JobRefusal::Bumper);
+        }
         if self.facts.battery_low {
             Err(JobRefusal::BatteryLow)
         } else {
@@ -88,6 +104,9 @@ impl Behavior {
     }
 
     fn admit_dock(&self) -> Result<(), JobRefusal> {
+        if self.ends_at_dock() {
+            return Ok(());
+        }
         if self.runs(JobKind::Dock, &CleaningOrder::default()) {
             return Err(JobRefusal::AlreadyRunning);
         }
@@ -95,6 +114,17 @@ impl Behavior {
             return Err(JobRefusal::Docked);
         }
         self.startable()
+    }
+
+    /// Whether a job waits that must not go on once a person has sent the robot to its dock: it is on the way there for charge, or on it.
+    fn ends_at_dock(&self) -> bool {
+        let is_under_way = matches!(self.mode, Mode::Starting { .. } | Mode::Working);
+        let is_held = matches!(self.mode, Mode::Disconnected { .. } | Mode::Error { .. });
+        match (&self.put_off, &self.job) {
+            (Some(_), _) if is_under_way => true,
+            (_, Some(job)) => self.facts.docked && !is_held && !(job.kind == JobKind::Dock && is_under_way),
+            (_, None) => false,
+        }
     }
 
     fn admit_pause(&self) -> Result<(), JobRefusal> {
@@ -147,8 +177,7 @@ impl Behavior {
                 self.begin(kind, order.clone(), context);
             }
             JobCommand::Spot => self.begin(JobKind::Spot, whole, context),
-            JobCommand::Dock if self.mode == Mode::Working => self.turn_home(Reason::Command, context),
-            JobCommand::Dock => self.begin(JobKind::Dock, whole, context),
+            JobCommand::Dock => self.send_home(context),
             JobCommand::Pause => self.pause(context),
             JobCommand::Resume => {
                 if let Some(job) = &mut self.job {
@@ -176,6 +205,22 @@ impl Behavior {
             }
             JobCommand::ManualEnd => self.release_wheel(context),
             JobCommand::ClearError => self.mode = Mode::Error { acknowledged: true },
+        }
+    }
+
+    /// A person sends the robot to its dock, where it stays.
+    fn send_home(&mut self, context: &mut TaskContext) {
+        let drives_home = self.job.as_ref().is_some_and(|job| job.kind == JobKind::Dock);
+        let is_under_way = matches!(self.mode, Mode::Starting { .. } | Mode::Working);
+        if self.facts.docked && self.job.is_some() && !(drives_home && is_under_way) {
+            self.end_job(Reason::Command, context);
+        } else if drives_home && is_under_way {
+            self.put_off = None;
+            self.enter(self.mode, Reason::Command, context);
+        } else if self.mode == Mode::Working {
+            self.turn_home(Reason::Command, context);
+        } else {
+            self.begin(JobKind::Dock, CleaningOrder::default(), context);
         }
     }
 

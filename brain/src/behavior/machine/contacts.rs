@@ -44,8 +44,33 @@ impl Behavior {
         if self.slips_left() {
             self.announce(Reason::DockMissed, context);
         } else {
-            self.give_up_home(Reason::DockMissed, context);
+            self.give_up_home(Reason::DockNoContact, context);
         }
+    }
+
+    /// Whether the contacts, which had lost their voltage while the robot stood on them, can be relied upon again.
+    pub(super) fn is_back_on_contacts(&self) -> bool {
+        !is_loss(self.reason) || self.contact_watch.is_closed_for_good(self.facts.now_us)
+    }
+
+    /// Whether the robot stands on its dock, with the contacts closed or just dead.
+    pub(super) fn is_on_dock(&self) -> bool {
+        self.facts.docked || self.contact_watch.stands_on_dock()
+    }
+
+    /// Whether the job needs charge, did not get any because of the dock or of a person, and is on the contacts now.
+    pub(super) fn gets_charge_at_last(&self) -> bool {
+        let needs_charge = match self.reason {
+            Reason::NoChargeCurrent => self.facts.charge_flow == Some(ChargeFlow::Flowing),
+            Reason::PushedOff | Reason::LiftedOff => true,
+            reason => is_dock_trouble(reason),
+        };
+        needs_charge && self.facts.docked && !self.facts.wheel_drop
+    }
+
+    /// Whether the job needs charge and stands before a dock that was silent and sends beams again.
+    pub(super) fn hears_dock_again(&self) -> bool {
+        self.reason == Reason::NoBeam && self.contact_watch.receives() && !self.facts.wheel_drop
     }
 
     /// Whether the robot waits on the contacts for current.
@@ -65,4 +90,21 @@ impl Behavior {
             .as_ref()
             .is_some_and(crate::behavior::job::Job::is_departing)
     }
+}
+
+/// Whether this is what the robot says of contacts that lost their voltage under it.
+pub(super) fn is_loss(reason: Reason) -> bool {
+    matches!(reason, Reason::DockPowerLost | Reason::DockContactLost)
+}
+
+/// Whether a way home ends for this reason at the dock or on the way there.
+fn is_dock_trouble(reason: Reason) -> bool {
+    matches!(
+        reason,
+        Reason::DockNoContact
+            | Reason::DockObstructed
+            | Reason::NoBeam
+            | Reason::WayBlocked
+            | Reason::DockNotFound
+    )
 }

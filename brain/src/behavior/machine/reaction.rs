@@ -137,11 +137,20 @@ impl Behavior {
 
     fn react_to_dock(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
         match self.mode {
-            Mode::Idle if self.facts.docked => self.enter(Mode::Docked, Reason::Docked, context),
+            Mode::Idle if self.facts.docked && self.is_back_on_contacts() => {
+                self.enter(Mode::Docked, Reason::Docked, context);
+            }
             Mode::Docked if !self.facts.docked => self.come_off(context),
             Mode::Docked => self.watch_dry_dock(context),
             Mode::Working if !self.facts.docked && self.waits_for_current() => self.lose_contacts(context),
             Mode::Recharging => self.watch_charge(situation, context),
+            Mode::Paused if self.put_off.is_none() && self.gets_charge_at_last() => {
+                self.arrive_for_charge(context);
+            }
+            Mode::Paused if self.put_off.is_none() && self.hears_dock_again() => {
+                self.put_off_again();
+                self.announce(Reason::DockBeam, context);
+            }
             // A person carried it to the dock.
             Mode::Paused if self.facts.docked && self.put_off.is_some() && self.drives_home() => {
                 self.arrive(context);
@@ -157,13 +166,16 @@ impl Behavior {
         }
     }
 
-    /// It left the dock without a command.
+    /// The contacts opened without a command.
     fn come_off(&mut self, context: &mut TaskContext) {
-        if self.slips_off() {
+        let Some(loss) = self.contact_watch.loss(self.facts.now_us) else {
+            return;
+        };
+        if self.slips_off(loss) {
             self.job = Some(Job::new(JobKind::Dock, self.figures()));
             self.announce(Reason::DockMissed, context);
         } else {
-            self.enter(Mode::Idle, Reason::Released, context);
+            self.enter(Mode::Idle, loss, context);
         }
     }
 

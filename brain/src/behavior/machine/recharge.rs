@@ -6,10 +6,12 @@
 
 use core::task::Poll;
 
+use super::contacts::is_loss;
 use super::{Behavior, Mode};
 use crate::behavior::job::Job;
 use crate::behavior::parameters::CHARGING;
 use crate::behavior::{JobCheckpoint, JobKind};
+use crate::coverage;
 use crate::docking;
 use crate::model::command::StrategyName;
 use crate::model::energy::{Activity, EnergyLearner, EnergyModel, RemainingWork};
@@ -121,6 +123,11 @@ impl Behavior {
         if has_cleaned && self.retries_from_dock(reason, situation) {
             return self.turn_home(Reason::LookAgain, context);
         }
+        let reason = if has_cleaned {
+            self.honest(reason, situation)
+        } else {
+            reason
+        };
         let is_whole_home = self.order().is_some_and(CleaningOrder::is_for_whole_home);
         self.has_covered_home |=
             has_cleaned && is_whole_home && self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
@@ -132,6 +139,18 @@ impl Behavior {
         }
     }
 
+    /// The reason for the end of a cleaning job, which is another one when less than half of what was asked is swept.
+    fn honest(&self, reason: Reason, situation: &Situation<'_>) -> Reason {
+        let is_done = matches!(reason, Reason::Finished | Reason::RestOutOfReach);
+        let plans = self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
+        let order = self.order().filter(|_| is_done && plans);
+        let from = situation.pose.position();
+        let radius_m = self.config.body.radius_m;
+        order
+            .and_then(|order| coverage::left_most(order, situation.map, from, radius_m))
+            .unwrap_or(reason)
+    }
+
     /// It has docked at the end of the path home.
     pub(super) fn arrive(&mut self, context: &mut TaskContext) {
         let figures = self.figures();
@@ -140,17 +159,29 @@ impl Behavior {
             None => self.end_job(Reason::Docked, context),
             Some(job) => {
                 self.job = Some(Job { figures, ..job });
-                self.enter(Mode::Recharging, Reason::Recharging, context);
+                self.arrive_for_charge(context);
             }
         }
     }
 
-    /// Whether the robot, which has left the dock, has slipped off by itself and should dock again.
-    pub(super) fn slips_off(&mut self) -> bool {
-        let since_us = self.home_us.take().map(|home_us| self.facts.now_us - home_us);
-        since_us.is_some_and(|since_us| since_us < CHARGING.slips_off_us)
-            && !self.facts.wheel_drop
-            && self.slips_left()
+    /// The job waits on the dock for charge.
+    pub(super) fn arrive_for_charge(&mut self, context: &mut TaskContext) {
+        self.enter(Mode::Recharging, Reason::Recharging, context);
+    }
+
+    /// Whether the robot, which has lost the contacts in this way, has slipped off by itself and should dock again.
+    pub(super) fn slips_off(&mut self, loss: Reason) -> bool {
+        let opened_us = self.contact_watch.opened_us().unwrap_or(self.facts.now_us);
+        let held_us = self
+            .home_us
+            .take()
+            .map(|home_us| opened_us.saturating_sub(home_us));
+        let slipped = match loss {
+            Reason::PushedOff => held_us.is_some_and(|held_us| held_us < CHARGING.slips_off_us),
+            Reason::DockContactLost => held_us.is_some_and(|held_us| held_us < CHARGING.settles_off_us),
+            _ => false,
+        };
+        slipped && self.slips_left()
     }
 
     /// A person stopped it: it does not return to the contacts by itself.
@@ -183,30 +214,52 @@ impl Behavior {
         }
     }
 
-    /// Resumes when the pack is charged; waits for a person when somebody took the robot off its dock.
+    /// Resumes when the pack is charged; waits for a person when somebody took the robot off its dock. Without power or contact it goes on
+    /// waiting where it is.
     pub(super) fn watch_charge(&mut self, situation: &Situation<'_>, context: &mut TaskContext) {
-        self.tell_of_charger(context);
+        let loss = self.contact_watch.loss(self.facts.now_us);
+        if let Some(loss) = loss
+            && self.leaves_contacts(loss, context)
+        {
+            return;
+        }
+        self.tell_of_charger(loss, context);
         let may_start = !self.facts.battery_low && !self.facts.wheel_drop;
         let charge = situation.observation.battery_charge;
         let charged = charge.is_some_and(|charge| charge >= self.config.battery_charged);
-        if !self.facts.docked && self.slips_off() {
-            self.put_off_again();
-            self.announce(Reason::DockMissed, context);
-        } else if !self.facts.docked {
-            self.hold(Reason::Released, context);
-        } else if may_start && self.may_retry(charge) {
+        if may_start && self.may_retry(charge) {
             self.announce(Reason::LookAgain, context);
         } else if may_start && charged {
             self.announce(Reason::Charged, context);
         }
     }
 
-    /// Reports when the charger has stopped because of a fault. The job keeps waiting, because current flows again once a person has
-    /// removed the cause.
-    fn tell_of_charger(&mut self, context: &mut TaskContext) {
-        let reason = match self.facts.charger_fault {
-            true => Reason::ChargerFault,
-            false => Reason::Recharging,
+    /// Whether the robot, which has lost the contacts in this way, docks again or waits for a person. A dock that sends beams has power,
+    /// so the contacts may close better the next time.
+    fn leaves_contacts(&mut self, loss: Reason, context: &mut TaskContext) -> bool {
+        let has_power = self.contact_watch.receives();
+        let docks_again =
+            self.slips_off(loss) || (loss == Reason::DockContactLost && has_power && self.slips_left());
+        if docks_again {
+            self.put_off_again();
+            self.announce(Reason::DockMissed, context);
+        } else if matches!(loss, Reason::PushedOff | Reason::LiftedOff) {
+            self.hold(loss, context);
+        } else {
+            return false;
+        }
+        true
+    }
+
+    /// Reports when the dock lost its power or its contact, or the charger has stopped because of a fault. The job keeps waiting, because
+    /// current flows again once a person has removed the cause.
+    fn tell_of_charger(&mut self, loss: Option<Reason>, context: &mut TaskContext) {
+        let reason = match (loss, self.facts.charger_fault) {
+            (Some(loss), _) => loss,
+            // The contacts flicker.
+            (None, _) if is_loss(self.reason) && !self.is_back_on_contacts() => return,
+            (None, true) => Reason::ChargerFault,
+            (None, false) => Reason::Recharging,
         };
         if self.reason != reason {
             self.enter(Mode::Recharging, reason, context);

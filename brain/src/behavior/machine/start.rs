@@ -30,7 +30,7 @@ impl Behavior {
         let asked_yet = self.armed_us.is_some();
         if asked_yet && !self.facts.disarmed.any() {
             let reason = self.reason;
-            if self.facts.docked
+            if self.is_on_dock()
                 && let Some(job) = &mut self.job
             {
                 job.depart(&mut context.random);

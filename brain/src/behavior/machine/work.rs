@@ -5,6 +5,7 @@ use crate::behavior::JobKind;
 use crate::behavior::gyro_rest::RestPace;
 use crate::behavior::job::{Detour, Job, Purpose};
 use crate::behavior::parameters::{ARMING, GYRO_SETTLING};
+use crate::coverage;
 use crate::mapping::Map;
 use crate::model::action::Motion;
 use crate::model::advance::Advance;
@@ -42,6 +43,7 @@ impl Behavior {
         job.figures.time_s += situation.advance.time_s;
         job.figures.path_m += situation.advance.distance_m.abs();
         job.brushes |= !self.facts.touching;
+        job.crosses = coverage::is_off_order(&job.order, situation);
         job.returns &= situation.map.is_swept(situation.pose.position());
         if situation.advance.onsets.is_held_by_cliff {
             job.edges.note_cliff(self.facts.now_us);
@@ -170,8 +172,20 @@ impl Behavior {
             {
                 TaskStatus::Trouble(Reason::ShutIn)
             }
+            TaskStatus::Finished(reason) => self.end_untouched(reason, situation),
             TaskStatus::Go(motion) if traction == Traction::Slipping => TaskStatus::Go(slowed(motion)),
             other => other,
+        }
+    }
+
+    /// The task has ended. Where the robot touches something it backs off before the job ends.
+    fn end_untouched(&mut self, reason: Reason, situation: &Situation<'_>) -> TaskStatus {
+        match &mut self.job {
+            Some(job) if situation.touching && situation.reverse_budget_m > 0.0 && job.ending.is_none() => {
+                job.back_off_at_the_end(reason);
+                TaskStatus::Go(Motion::Halt)
+            }
+            _ => TaskStatus::Finished(reason),
         }
     }
 
@@ -184,6 +198,9 @@ impl Behavior {
                 return TaskStatus::Go(motion);
             }
             job.detour = None;
+            if let Some(reason) = job.ending {
+                return TaskStatus::Finished(reason);
+            }
             job.pen.try_again();
             job.task.interrupted();
             // Motion since the last step belongs to the detour.

@@ -88,6 +88,14 @@ impl StoredMap {
         Self { dock, ..self }
     }
 
+    /// The same map, whose new rooms, changes, zones and places get numbers that neither map has given yet.
+    #[must_use]
+    pub fn numbered_after(mut self, other: &Self) -> Self {
+        self.next_room = self.next_room.max(other.next_room);
+        self.annotations.number_after(&other.annotations);
+        self
+    }
+
     /// Everything that people added to the map.
     #[must_use]
     pub fn annotations(&self) -> &Annotations {

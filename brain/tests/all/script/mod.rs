@@ -7,7 +7,7 @@
 //! Verbs: `up`, `down` (link); `wait SECONDS`; `clean`, `spot`, `dock`, `pause`, `resume`, `stop`, `clear`; `drive V W`,
 //! `release`; `press left|right|both|none`; `cliff`, `floor`; `lift`, `put`; `inhibit NAME`, `free NAME`; `docked`,
 //! `undocked`; `charge SHARE`;
-//! `current flows|withheld|missing`; `block`, `unblock` (wheels do not turn); `deaf` (the firmware ignores `arm`).
+//! `current flows|withheld|missing`; `beams`, `silence` (the dock's near field); `push METRES` (somebody rolls it); `block`, `unblock` (wheels do not turn); `deaf` (the firmware ignores `arm`).
 
 use brain::action::Tone;
 use brain::observation::{ChargeFlow, Cliffs, Contacts};
@@ -214,6 +214,12 @@ impl Stage {
                     "withheld" => ChargeFlow::Withheld,
                     _ => ChargeFlow::Missing,
                 });
+            }
+            "beams" => seen.dock_beams = vec![4, 4, 0, 0],
+            "silence" => seen.dock_beams = Vec::new(),
+            "push" => {
+                seen.travel_left_m += number(0);
+                seen.travel_right_m += number(0);
             }
             "block" => self.blocked = true,
             "unblock" => self.blocked = false,

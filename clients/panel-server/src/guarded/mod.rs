@@ -18,7 +18,7 @@ use pairing::{
     Wanted,
 };
 use tokio::sync::{Notify, broadcast, watch};
-use tracing::{info, warn};
+use tracing::{error, info, warn};
 
 pub(crate) use console::{listen as listen_console, refused, serve_console};
 pub(crate) use cookie::set_cookie;
@@ -30,19 +30,11 @@ const NOTICES_MAX: usize = 16;
 /// Why the clients cannot be known.
 #[derive(Debug, thiserror::Error)]
 pub enum ClientsError {
-    /// The file cannot be read or written.
-    #[error("cannot keep the list of devices in {path}: {source}; choose another folder with --state")]
-    File {
-        /// Which.
-        path: PathBuf,
-        /// Why.
-        source: io::Error,
-    },
-    /// The file is damaged.
+    /// A newer version wrote the file.
     #[error(
-        "{path} does not hold a list of devices ({source}): put back a copy of it, or remove it, after which devices must pair anew"
+        "{path} cannot be used as the list of devices ({source}): install the version that wrote it, or remove it, after which devices must pair anew"
     )]
-    Damaged {
+    Newer {
         /// Which.
         path: PathBuf,
         /// Why.
@@ -97,14 +89,26 @@ pub(crate) struct Guarded {
 impl Guarded {
     /// The clients as they are kept at `path`.
     pub(crate) fn at(path: &Path, robot: RobotId) -> Result<Self, ClientsError> {
-        let stored = crate::identity::kept_text(path).map_err(|source| ClientsError::File {
+        let unsound = |source| ClientsError::Newer {
             path: path.to_owned(),
             source,
-        })?;
-        let door = Door::new(0, robot, stored.as_deref()).map_err(|source| ClientsError::Damaged {
-            path: path.to_owned(),
-            source,
-        })?;
+        };
+        // What a newer version wrote is not damaged, and stays.
+        let present = kept_file::read_text(path).ok();
+        let opened = present.map(|text| Door::new(0, robot.clone(), Some(&text)));
+        if let Some(Err(error @ StoredError::Version(_))) = opened {
+            return Err(unsound(error));
+        }
+        let found = kept_file::newest(path, "the list of devices", |text| {
+            Door::new(0, robot.clone(), Some(text)).map_err(|error| error.to_string())
+        });
+        for complaint in &found.complaints {
+            error!("{complaint}. Look whether the list has a device that you have removed");
+        }
+        let door = match found.value {
+            Some(door) => door,
+            None => Door::new(0, robot, None).map_err(unsound)?,
+        };
         random::<8>()?;
         Ok(Self {
             path: path.to_owned(),
@@ -392,4 +396,35 @@ pub fn unix_s() -> u64 {
     std::time::SystemTime::now()
         .duration_since(std::time::UNIX_EPOCH)
         .map_or(0, |since| since.as_secs())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use pairing::{Door, RobotId};
+
+    use super::{ClientsError, Guarded};
+
+    #[test]
+    fn a_damaged_list_is_put_aside_for_the_one_before_and_a_newer_versions_stays() {
+        let folder = std::env::temp_dir().join(format!("panel-server-guarded-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("clients.json");
+        let robot = RobotId::of_public_key(b"a key");
+        let whole = Door::new(0, robot.clone(), None).unwrap().stored();
+        kept_file::replace(&path, whole.as_bytes()).unwrap();
+        kept_file::replace(&path, b"{ zeroes").unwrap();
+        Guarded::at(&path, robot.clone()).unwrap();
+        let aside = fs::read(folder.join("clients.json.damaged-1")).unwrap();
+        assert_eq!(aside, b"{ zeroes");
+        let newer = whole.replace("\"version\": 1", "\"version\": 99");
+        assert_ne!(newer, whole);
+        kept_file::replace(&path, newer.as_bytes()).unwrap();
+        let error = Guarded::at(&path, robot).unwrap_err();
+        assert!(matches!(error, ClientsError::Newer { .. }), "{error}");
+        assert!(error.to_string().contains("version 99"), "{error}");
+        assert_eq!(fs::read_to_string(&path).unwrap(), newer);
+        fs::remove_dir_all(&folder).unwrap();
+    }
 }

@@ -165,7 +165,7 @@ fn damaged(path: &Path, why: &dyn std::fmt::Display) -> IdentityError {
 }
 
 /// The text of a kept file. A crash can leave the predecessor alone; the file that was to replace it was not confirmed to anybody.
-pub(crate) fn kept_text(path: &Path) -> io::Result<Option<String>> {
+fn kept_text(path: &Path) -> io::Result<Option<String>> {
     for version in kept_file::versions(path) {
         match kept_file::read_text(&version) {
             Ok(text) => return Ok(Some(text)),

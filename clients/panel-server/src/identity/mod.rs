@@ -8,6 +8,6 @@ mod authority;
 mod leaf;
 
 pub(crate) use addresses::own_addresses;
+pub(crate) use authority::Authority;
 pub use authority::IdentityError;
-pub(crate) use authority::{Authority, kept_text};
 pub(crate) use leaf::{Leaf, Subjects, reckoned_now_s};

@@ -1,11 +1,12 @@
 //! A18: too many connections, too much in one, and too slow ones, while another client is served.
 
+use std::net::Ipv4Addr;
 use std::time::Duration;
 
 use futures_util::SinkExt as _;
 use pairing::Role;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
-use tokio::net::TcpStream;
+use tokio::net::{TcpSocket, TcpStream};
 use tokio::time::timeout;
 use tokio_tungstenite::tungstenite::Message;
 
@@ -35,6 +36,7 @@ pub(crate) async fn try_all(report: &mut Report) {
     flood(&rig, &cookie, report).await;
     pings(&rig, &cookie, report).await;
     packed(&rig, &cookie, report).await;
+    strangers(&rig, &cookie, report).await;
     crowd(&rig, &cookie, report).await;
     let grown = resident_kib().saturating_sub(before);
     let seen = if grown < GROWTH_KIB_MAX {
@@ -183,6 +185,21 @@ async fn packed(rig: &Rig, cookie: &str, report: &mut Report) {
         "101, false",
         seen,
     );
+}
+
+/// All connections that are served at one time, from four addresses, each of which stays for as long as it is let.
+async fn strangers(rig: &Rig, cookie: &str, report: &mut Report) {
+    let mut held = Vec::new();
+    for last in 2..6 {
+        for _ in 0..32 {
+            let socket = TcpSocket::new_v4().unwrap();
+            socket.bind((Ipv4Addr::new(127, 0, 0, last), 0).into()).unwrap();
+            held.push(socket.connect(rig.address).await.unwrap());
+        }
+    }
+    let owner = timeout(Duration::from_secs(5), rig.get("/api/session", cookie)).await;
+    let seen = owner.map_or_else(|_| "waits".to_owned(), |answer| answer.status.to_string());
+    report.row(("A18", "the owner while strangers hold all seats"), "200", seen);
 }
 
 async fn crowd(rig: &Rig, cookie: &str, report: &mut Report) {

@@ -7,3 +7,4 @@ mod folder;
 mod packet;
 mod program;
 mod term;
+mod update;

@@ -45,6 +45,18 @@ impl BeamStrengths {
     };
 }
 
+/// What the contacts of a dock do when the robot stands on them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum DockContacts {
+    /// They carry voltage and current.
+    #[default]
+    Clean,
+    /// Dirt: this share of the times that they close they carry the voltage, but no current.
+    Dirty(f64),
+    /// They carry nothing.
+    Dead,
+}
+
 /// The dock as an obstacle and a sender of beams.
 #[derive(Clone, Debug)]
 pub(crate) struct Dock {
@@ -54,6 +66,10 @@ pub(crate) struct Dock {
     docked: Pose,
     beams: BeamStrengths,
     random: Pcg,
+    contacts: DockContacts,
+    is_powered: bool,
+    /// The contacts carried no current when they closed last.
+    is_insulated: bool,
     /// Symbols of the receivers.
     pub(crate) symbols: [u8; 4],
     /// The contacts touch.
@@ -70,6 +86,9 @@ impl Dock {
             docked: pose,
             beams: BeamStrengths::default(),
             random,
+            contacts: DockContacts::default(),
+            is_powered: true,
+            is_insulated: false,
             symbols: [0; 4],
             docked_now: false,
         };
@@ -112,14 +131,43 @@ impl Dock {
     pub(crate) fn sample_contacts(&mut self, body: &Body) {
         let (along, aside) = self.relative(body.x_m, body.y_m);
         let (rest, _) = self.relative(self.docked.x_m, self.docked.y_m);
+        let was_docked = self.docked_now;
         self.docked_now = (along - rest).abs() <= CONTACT_ALONG_M
             && aside.abs() <= CONTACT_ASIDE_M
             && wrap_angle(body.heading_rad - self.docked.heading_rad).abs() <= CONTACT_RAD;
+        if let DockContacts::Dirty(share) = self.contacts
+            && self.docked_now
+            && !was_docked
+        {
+            self.is_insulated = self.random.unit() < share;
+        }
+    }
+
+    pub(crate) fn set_contacts(&mut self, contacts: DockContacts) {
+        self.contacts = contacts;
+        self.is_insulated = false;
+    }
+
+    pub(crate) fn set_power(&mut self, is_powered: bool) {
+        self.is_powered = is_powered;
+    }
+
+    /// Whether a robot on the contacts finds voltage there.
+    pub(crate) fn gives_voltage(&self) -> bool {
+        self.docked_now && self.is_powered && self.contacts != DockContacts::Dead
+    }
+
+    /// Whether current flows into a robot on the contacts that lets it in.
+    pub(crate) fn gives_current(&self) -> bool {
+        self.gives_voltage() && !self.is_insulated
     }
 
     /// Samples the receivers.
     pub(crate) fn sample_beams(&mut self, model: &RobotModel, solid: Solid<'_>, body: &Body) {
         self.symbols = [0; 4];
+        if !self.is_powered {
+            return;
+        }
         let (along, aside) = self.relative(body.x_m, body.y_m);
         let (along, aside) = self.ragged(along - EMITTER_M, aside);
         let symbol = beams_at(along, aside);

@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 pub use actuation::{Actuation, Bridge};
 pub use battery::{OddCell, Pack, PackMake, Supply};
-pub use dock::BeamStrengths;
+pub use dock::{BeamStrengths, DockContacts};
 pub use fault::{SensorFault, SensorId};
 pub use sensors::{DOCK_LEFT, DOCK_NEAR, DOCK_RIGHT, GyroReading, LidarScan, Sensors};
 pub use truth::Truth;
@@ -253,6 +253,26 @@ impl World {
         if let Some(dock) = &mut self.dock {
             dock.set_beams(beams);
         }
+    }
+
+    /// What the dock's contacts do.
+    pub fn set_dock_contacts(&mut self, contacts: DockContacts) {
+        if let Some(dock) = &mut self.dock {
+            dock.set_contacts(contacts);
+        }
+    }
+
+    /// Whether the dock has mains.
+    pub fn set_dock_power(&mut self, is_powered: bool) {
+        if let Some(dock) = &mut self.dock {
+            dock.set_power(is_powered);
+        }
+    }
+
+    /// Whether current flows from the dock into a robot that lets it in.
+    #[must_use]
+    pub fn dock_gives_current(&self) -> bool {
+        self.dock.as_ref().is_some_and(Dock::gives_current)
     }
 
     /// The robot.

@@ -284,7 +284,7 @@ impl World {
         let vacuum_a = if actuation.vacuum { cleaners.vacuum_a } else { 0.0 };
         let motors_a = self.left.current_a + self.right.current_a + brush_a + sides_a + vacuum_a;
         let dock_a = match &self.dock {
-            Some(dock) if dock.docked_now && !self.is_in_air() => {
+            Some(dock) if dock.gives_current() && !self.is_in_air() => {
                 let battery = &self.model.battery;
                 let offered_a = if actuation.dock_signal {
                     battery.charge_a
@@ -348,8 +348,8 @@ impl World {
         }
         if let Some(dock) = &self.dock {
             self.sensors.dock_receivers = dock.symbols;
-            self.sensors.dock_contacts = dock.docked_now && !in_air;
-            self.truth.docked = self.sensors.dock_contacts;
+            self.sensors.dock_contacts = dock.gives_voltage() && !in_air;
+            self.truth.docked = dock.docked_now && !in_air;
         }
         self.truth.pose = self.body.pose();
         self.truth.rim_left_m_per_s = self.left.rim_m_per_s;

@@ -68,6 +68,11 @@ impl Cpu {
         self.continue_at(DEBUG_VECTOR);
     }
 
+    /// Whether the core is in debug mode.
+    pub(crate) fn is_debugging(&self) -> bool {
+        self.system.is_debugging()
+    }
+
     /// The access that waits for the probe.
     pub(crate) fn probe_access(&self) -> Option<ProbeAccess> {
         self.probe.pending.filter(|_| self.probe.answer.is_none())

@@ -350,9 +350,14 @@ impl Coprocessor0 {
         BOOT_VECTORS + 0x280
     }
 
+    /// Whether the core is in debug mode.
+    pub(super) fn is_debugging(&self) -> bool {
+        self.debug & DEBUG_DM != 0
+    }
+
     /// Leaves debug mode; gives the address to go on at, or nothing outside of debug mode.
     pub(super) fn leave_debug(&mut self) -> Option<u32> {
-        if self.debug & DEBUG_DM == 0 {
+        if !self.is_debugging() {
             return None;
         }
         self.debug = 0;

@@ -36,6 +36,8 @@ use view::View;
 const KEPT: usize = 64;
 /// Physical address of DEVCFG3, the first of the four configuration words.
 const CONFIGURATION: u32 = BOOT_START + 0x2FF0;
+/// Until when the core stands still while reset is held.
+const HELD: u64 = u64::MAX;
 
 /// Why [`Machine::run_until`] returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -223,6 +225,7 @@ impl Machine {
     fn obey(&mut self, order: Order) {
         match order {
             Order::Reset(source) => self.reset(source),
+            Order::Bark if self.is_watchdog_suspended() => self.chip.restart_watchdog(self.cycle),
             Order::Bark if self.cpu.is_waiting() => {
                 self.accounting.forget_active(self.cycle);
                 self.chip.bark_at_idle(self.cycle);
@@ -239,6 +242,12 @@ impl Machine {
             }
             Order::Flash(operation) => self.program(operation),
         }
+    }
+
+    /// While reset is held, and in debug mode (Microchip's text for sister parts), the watchdog does not count: a programmer takes
+    /// as long as it takes.
+    fn is_watchdog_suspended(&self) -> bool {
+        self.stalled_until == HELD || self.cpu.is_debugging()
     }
 
     /// Flash changes when the operation begins, so that a reset in its midst finds it done, as the chip would have it.

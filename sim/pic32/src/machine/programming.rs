@@ -1,6 +1,6 @@
 //! What a programmer does to the chip besides driving pins: reset held and released, debug mode, erasure, power.
 
-use super::{FLASH_PAGES, Machine, configuration_of};
+use super::{FLASH_PAGES, HELD, Machine, configuration_of};
 use crate::cpu::ProbeAccess;
 use crate::memory::{BOOT_BYTES, BOOT_START, FLASH_START};
 use crate::peripheral::{NvmOperation, PAGE_BYTES, ROW_BYTES, ResetSource};
@@ -16,7 +16,7 @@ impl Machine {
     /// Resets the chip and holds it there: nothing runs until one of the two releases.
     pub fn hold_in_reset(&mut self) {
         self.reset(ResetSource::MasterClear);
-        self.stalled_until = u64::MAX;
+        self.stalled_until = HELD;
     }
 
     /// Ends a reset that was held: the program starts.

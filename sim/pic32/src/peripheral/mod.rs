@@ -273,6 +273,11 @@ impl Chip {
             system::IDLE_BIT
         };
         self.system.note_cause(system::WATCHDOG_BIT | state);
+        self.restart_watchdog(cycle);
+    }
+
+    /// The watchdog begins its period anew.
+    pub(crate) fn restart_watchdog(&mut self, cycle: u64) {
         self.watchdog.restart(cycle);
         self.schedule.set(Slot::Watchdog, self.watchdog.barks_at());
     }

@@ -224,7 +224,7 @@ impl Watchdog {
         }
     }
 
-    /// It has barked without a reset (out of Idle): it starts again.
+    /// It has barked without a reset (out of Idle, or in debug mode): it starts again.
     pub(crate) fn restart(&mut self, cycle: u64) {
         self.fed_at = cycle;
     }

@@ -18,6 +18,14 @@ const AFTER_CHANGE_US: u64 = 500_000;
 /// What the log calls commands that the robot did not answer.
 const UNANSWERED: &str = "no answer";
 
+/// A bumper or the dock stops the wheels before the brain hears of it: the commands under way are refused, as they should be.
+fn level_of_refusal(reason: &str) -> LogLevel {
+    match reason {
+        "inhibited" => LogLevel::Debug,
+        _ => LogLevel::Warn,
+    }
+}
+
 impl Core {
     pub(super) fn take_events(&mut self, now_us: u64, mut events: Vec<DeviceEvent>, outputs: &mut Outputs) {
         for event in events.drain(..) {
@@ -63,7 +71,7 @@ impl Core {
             DeviceEvent::Refused { number, reason } => {
                 let number = number.map_or_else(String::new, |number| format!(" {number}"));
                 let text = format!("the robot refused command{number}: {reason}");
-                (LogLevel::Warn, LogSource::Firmware, text)
+                (level_of_refusal(reason), LogSource::Firmware, text)
             }
             DeviceEvent::Unanswered(number) => {
                 let text = format!("the robot did not answer command {number}");

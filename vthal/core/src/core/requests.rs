@@ -152,6 +152,10 @@ impl Core {
         Asking { asker, request }: Asking<JobRequest>,
         outputs: &mut Outputs,
     ) -> Result<Reply, Refusal> {
+        // Each request sees what the one before it did, also within one telemetry report.
+        if self.brain_session.as_ref().is_some_and(BrainSession::owes_a_step) {
+            self.think(now_us, outputs);
+        }
         let command = match request {
             JobRequest::Start(name) => {
                 let strategy = self.readiness().strategy_named(name.as_deref())?;

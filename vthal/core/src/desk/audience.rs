@@ -100,12 +100,13 @@ pub(crate) struct Teller<'a> {
 impl Teller<'_> {
     /// Writes a line of the log, for all who read it.
     pub(crate) fn log(&mut self, level: LogLevel, part: LogSource, text: String) {
-        let entry = self.journal.write(self.now_us, level, (part, text));
-        if self.clients.any(Topic::Log) {
-            self.tell(Topic::Log, Update::Log(entry.clone()));
+        for entry in self.journal.write(self.now_us, level, (part, text)) {
+            if self.clients.any(Topic::Log) {
+                self.tell(Topic::Log, Update::Log(entry.clone()));
+            }
+            self.record(|| Record::Log(entry.clone()));
+            self.outputs.log.push(entry);
         }
-        self.record(|| Record::Log(entry.clone()));
-        self.outputs.log.push(entry);
     }
 
     /// Writes into the recording of the run that goes on, if one is recorded.

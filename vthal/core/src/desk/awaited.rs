@@ -7,65 +7,83 @@ use super::journal::LogSource;
 use super::reply::Reply;
 use crate::refusal::Refusal;
 
-/// Numbers of what is handed to the disk, and who waits for it, each with how it was before.
+/// What is handed to the disk, one after the other, and who waits for it, each with how it was before. While the disk has one, changes
+/// gather for the next: so what is answered, and what is taken back, is what the disk has.
 #[derive(Debug)]
 pub(super) struct Awaited<T> {
     orders: u64,
+    /// The disk has the newest order and has not answered.
+    is_under_way: bool,
+    /// Something changed since.
+    is_stale: bool,
+    /// Each with the order that contains it.
     waiting: Vec<(u64, Asker, T)>,
+}
+
+/// What follows from an answer of the disk.
+#[derive(Debug)]
+pub(super) struct Settled<T> {
+    /// What must be taken back, the newest first.
+    pub(super) undone: Vec<T>,
+    /// Whether what changed meanwhile is to be handed over.
+    pub(super) hands_over: bool,
 }
 
 impl<T> Default for Awaited<T> {
     fn default() -> Self {
         Self {
             orders: 0,
+            is_under_way: false,
+            is_stale: false,
             waiting: Vec::new(),
         }
     }
 }
 
 impl<T> Awaited<T> {
-    /// The number of what is handed over now.
-    pub(super) fn next_order(&mut self) -> u64 {
+    /// Something has changed: the number under which it is handed over now; `None` while the disk has not answered, then it is handed
+    /// over after that.
+    pub(super) fn change(&mut self) -> Option<u64> {
+        self.is_stale = self.is_under_way;
+        if self.is_under_way {
+            return None;
+        }
+        self.is_under_way = true;
         self.orders += 1;
-        self.orders
+        Some(self.orders)
     }
 
-    /// Somebody waits for what was handed over last.
+    /// Somebody waits for what was changed last.
     pub(super) fn wait(&mut self, asker: Asker, before: T) {
-        self.waiting.push((self.orders, asker, before));
+        let order = self.orders + u64::from(self.is_stale);
+        self.waiting.push((order, asker, before));
     }
 
-    /// The disk has what was handed over under this number, or will not have it. Who waited for that or for what came before, the
-    /// newest first.
-    fn settle(&mut self, number: u64) -> impl Iterator<Item = (Asker, T)> {
-        let (settled, waiting) = core::mem::take(&mut self.waiting)
-            .into_iter()
-            .partition::<Vec<_>, _>(|(order, ..)| *order <= number);
-        self.waiting = waiting;
-        settled
-            .into_iter()
-            .rev()
-            .map(|(_, asker, before)| (asker, before))
-    }
-
-    /// The disk has what it was given under this number, or says why it has not; the client that waits is answered. Gives what must be
-    /// taken back, the newest first.
+    /// The disk has what it was given under this number, or says why it has not; the clients that wait are answered. When it has not,
+    /// what changed meanwhile is refused as well: it rests on that.
     pub(super) fn kept(
         &mut self,
         number: u64,
         result: Result<(), Refusal>,
         teller: &mut Teller<'_>,
-    ) -> Vec<T> {
+    ) -> Settled<T> {
+        self.is_under_way = false;
+        let hands_over = core::mem::take(&mut self.is_stale) && result.is_ok();
         if let Err(refusal) = &result {
             teller.log(LogLevel::Error, LogSource::Vthal, refusal.text.clone());
         }
+        let is_settled = |(order, ..): &(u64, Asker, T)| *order <= number || result.is_err();
+        let (settled, waiting) = core::mem::take(&mut self.waiting)
+            .into_iter()
+            .partition(is_settled);
+        self.waiting = waiting;
         let mut undone = Vec::new();
-        for (asker, before) in self.settle(number) {
+        for (_, asker, before) in Vec::into_iter(settled).rev() {
             teller.answer(asker, result.clone().map(|()| Reply::Done));
             if result.is_err() {
                 undone.push(before);
             }
         }
-        undone
+        Settled { undone, hands_over }
     }
 }

@@ -4,7 +4,7 @@ use brain::{BehaviorState, JobCommand, Status, StrategyName};
 use rvac_api::{Gesture, LogLevel, Topic, Update};
 
 use super::audience::Teller;
-use super::buttons::{Buttons, START};
+use super::buttons::{Buttons, DOCK, START};
 use super::journal::LogSource;
 use crate::device::Report;
 use crate::{ClientId, to_api};
@@ -78,9 +78,13 @@ impl ButtonDesk {
         }
         if gesture == Some(Gesture::Press) {
             tell_gesture(Gesture::Press, button, teller);
-            if button == START && !self.buttons.are_claimed(teller.now_us) {
-                command = self.start_was_pressed(doing);
-            }
+            command = match button {
+                _ if self.buttons.are_claimed(teller.now_us) => command,
+                START => self.start_was_pressed(doing),
+                // The firmware has stopped what ran when the button went down.
+                DOCK => doing.map(|_| JobCommand::Dock),
+                _ => command,
+            };
         }
         command
     }

@@ -4,7 +4,7 @@
 use rvac_api::{ComponentHealth, LogLevel, Update};
 
 use super::audience::{Asking, Teller};
-use super::awaited::Awaited;
+use super::awaited::{Awaited, Settled};
 use super::journal::LogSource;
 use super::reply::Reply;
 use crate::Outputs;
@@ -72,10 +72,12 @@ impl HealthDesk {
     }
 
     fn keep(&mut self, outputs: &mut Outputs) {
-        outputs.health = Some(HealthOrder {
-            number: self.resets.next_order(),
-            health: StoredHealth::from(&self.health),
-        });
+        if let Some(number) = self.resets.change() {
+            outputs.health = Some(HealthOrder {
+                number,
+                health: StoredHealth::from(&self.health),
+            });
+        }
     }
 
     /// Takes in what the motors draw in a step in which the robot cleans.
@@ -134,8 +136,12 @@ impl HealthDesk {
             reason: "health-unwritable",
             text,
         });
-        for (component, before) in self.resets.kept(number, result, teller) {
+        let Settled { undone, hands_over } = self.resets.kept(number, result, teller);
+        for (component, before) in undone {
             self.health.put_back(component, before);
+        }
+        if hands_over {
+            self.keep(teller.outputs);
         }
     }
 }

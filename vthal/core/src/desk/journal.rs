@@ -35,20 +35,62 @@ impl LogSource {
     }
 }
 
+/// The same line about a client is written again after this time; until then it is counted. So many different ones are watched.
+const COUNTED_US: u64 = 5_000_000;
+const COUNTED_MAX: usize = 8;
+
 /// The newest lines.
 #[derive(Debug, Default)]
 pub(crate) struct Journal {
     newest: Newest<LogEntry, KEPT>,
+    /// Lines about clients of the last seconds.
+    counted: Vec<CountedLine>,
+}
+
+/// A line that was written, and how often it would have been since.
+#[derive(Debug)]
+struct CountedLine {
+    at_us: u64,
+    level: LogLevel,
+    text: String,
+    times: u32,
 }
 
 impl Journal {
-    /// Numbers a line and keeps it.
+    /// Numbers a line and keeps it. Gives what is new in the log: how often lines about clients came meanwhile, and this one, unless
+    /// it is only counted. Somebody who sends the same thing thousands of times must not drive everything else out of the log.
     pub(crate) fn write(
         &mut self,
         now_us: u64,
         level: LogLevel,
         (part, text): (LogSource, String),
-    ) -> LogEntry {
+    ) -> Vec<LogEntry> {
+        let is_over = |line: &mut CountedLine| now_us.saturating_sub(line.at_us) >= COUNTED_US;
+        let over: Vec<CountedLine> = self.counted.extract_if(.., is_over).collect();
+        let mut entries = Vec::new();
+        for line in over.into_iter().filter(|line| line.times > 0) {
+            let text = format!("{} ({} times more)", line.text, line.times);
+            entries.push(self.keep(now_us, line.level, (LogSource::Client, text)));
+        }
+        if part == LogSource::Client {
+            if let Some(line) = self.counted.iter_mut().find(|line| line.text == text) {
+                line.times = line.times.saturating_add(1);
+                return entries;
+            }
+            if self.counted.len() < COUNTED_MAX {
+                self.counted.push(CountedLine {
+                    at_us: now_us,
+                    level,
+                    text: text.clone(),
+                    times: 0,
+                });
+            }
+        }
+        entries.push(self.keep(now_us, level, (part, text)));
+        entries
+    }
+
+    fn keep(&mut self, now_us: u64, level: LogLevel, (part, text): (LogSource, String)) -> LogEntry {
         self.newest.keep(|number| LogEntry {
             number,
             t: to_api::seconds(now_us),
@@ -79,5 +121,27 @@ mod tests {
         let numbers: Vec<u64> = journal.entries().map(|entry| entry.number).collect();
         assert_eq!(numbers.len(), KEPT);
         assert_eq!((numbers[0], numbers[KEPT - 1]), (6, KEPT as u64 + 5));
+    }
+
+    #[test]
+    fn what_a_client_does_without_end_is_counted() {
+        let mut journal = Journal::default();
+        journal.write(0, LogLevel::Info, (LogSource::Vthal, "begins".to_owned()));
+        for at_us in 0..9_000 {
+            journal.write(
+                100 * at_us,
+                LogLevel::Info,
+                (LogSource::Client, "stopped by anna".to_owned()),
+            );
+        }
+        journal.write(6_000_000, LogLevel::Warn, (LogSource::Brain, "slips".to_owned()));
+        let texts: Vec<&str> = journal.entries().map(|entry| entry.text.as_str()).collect();
+        let expected = [
+            "begins",
+            "stopped by anna",
+            "stopped by anna (8999 times more)",
+            "slips",
+        ];
+        assert_eq!(texts, expected);
     }
 }

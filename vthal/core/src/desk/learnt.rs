@@ -5,7 +5,7 @@ use brain::{Learnt, LearntPart};
 use rvac_api::{EnergyLearnt, GyroLearnt, LearntView, LogLevel, Update};
 
 use super::audience::{Asker, Asking, Teller};
-use super::awaited::Awaited;
+use super::awaited::{Awaited, Settled};
 use super::journal::LogSource;
 use crate::Outputs;
 use crate::learnt::{Learnings, RobotRecord, StoredLearnings, summary};
@@ -78,10 +78,12 @@ impl LearntDesk {
     }
 
     fn write(&mut self, outputs: &mut Outputs) {
-        outputs.learnt = Some(LearntOrder {
-            number: self.forgetting.next_order(),
-            learnt: StoredLearnings::from(&self.learnings),
-        });
+        if let Some(number) = self.forgetting.change() {
+            outputs.learnt = Some(LearntOrder {
+                number,
+                learnt: StoredLearnings::from(&self.learnings),
+            });
+        }
     }
 
     /// What is kept; `here` is the robot that is attached.
@@ -121,8 +123,12 @@ impl LearntDesk {
             reason: "learnt-unwritable",
             text,
         });
-        for before in self.forgetting.kept(number, result, teller) {
+        let Settled { undone, hands_over } = self.forgetting.kept(number, result, teller);
+        for before in undone {
             self.learnings.take(before);
+        }
+        if hands_over {
+            self.write(teller.outputs);
         }
     }
 }

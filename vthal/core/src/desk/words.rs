@@ -51,6 +51,9 @@ fn with_settings(whole: CleaningOrder, order: &JobOrder) -> Result<CleaningOrder
 pub(crate) fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal> {
     let points = corners.iter().map(|&[x_m, y_m]| Point2 { x_m, y_m });
     Zone::new(points.collect()).map_err(|reason| {
+        if reason != EditError::BadZone {
+            return Refusal::from(reason);
+        }
         let far = corners
             .iter()
             .find(|[x, y]| !(x.abs() < COORDINATE_MAX_M && y.abs() < COORDINATE_MAX_M));

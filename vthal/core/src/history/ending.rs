@@ -62,6 +62,14 @@ impl Ending {
         }
     }
 
+    /// The ending of a job that somebody stopped or replaced. One that was done already, and on its way home, is finished.
+    pub(super) fn replaced(turned_home: Option<&str>, by: Option<&RunAsker>) -> Self {
+        match turned_home {
+            Some(home) if is_done(home) => Self::finished(home),
+            _ => Self::stopped(by),
+        }
+    }
+
     /// The ending of a job that the brain has no more.
     pub(super) fn of(words: LastWords<'_>) -> Self {
         let LastWords {
@@ -72,9 +80,9 @@ impl Ending {
             by,
         } = words;
         match (reason, turned_home) {
-            ("command", _) => match trouble {
-                Some(trouble) => Self::gave_up(trouble),
-                None => Self::stopped(by),
+            ("command", home) => match (trouble, home) {
+                (Some(trouble), _) => Self::gave_up(trouble),
+                (None, home) => Self::replaced(home, by),
             },
             ("docked", None) => Self::finished("docked"),
             ("docked", Some("command")) => Self {

@@ -129,7 +129,9 @@ impl RunFollower {
         let begins = moment.decisions.iter().any(has_begun);
         match asked {
             Some(asked) if begins => {
-                step.over.extend(self.end(moment, Ending::stopped(hand.as_ref())));
+                let turned_home = self.open.as_ref().and_then(OpenRun::turned_home);
+                let ending = Ending::replaced(turned_home, hand.as_ref());
+                step.over.extend(self.end(moment, ending));
                 self.begin(asked, moment);
             }
             _ => {

@@ -305,6 +305,11 @@ impl OpenRun {
         self.tell(ending);
     }
 
+    /// Why the job became a return to the dock, if it did.
+    pub(super) fn turned_home(&self) -> Option<&'static str> {
+        self.turned_home
+    }
+
     /// Ends it from outside, unless it has ended by itself.
     pub(super) fn end_as(&mut self, now_us: u64, ending: Ending) {
         if self.over_us.is_none() {

@@ -54,6 +54,18 @@ fn results_follow_from_the_last_words() {
             "dock-not-found",
         ),
         (words("command", None), Stopped, "command"),
+        (words("command", Some("finished")), Finished, "finished"),
+        (words("command", Some("battery-low")), Stopped, "command"),
+        (
+            words("docked", Some("no-go-in-the-way")),
+            GaveUp,
+            "no-go-in-the-way",
+        ),
+        (
+            words("docked", Some("most-out-of-reach")),
+            GaveUp,
+            "most-out-of-reach",
+        ),
         (words("docked", Some("command")), Stopped, "command"),
         (words("docked", Some("task-budget")), GaveUp, "task-budget"),
         (

@@ -33,10 +33,9 @@ pub enum ScheduleError {
     NoSpan(String),
     /// No zone.
     #[error(
-        "There is no time zone `{0}`: give a name of the IANA database, for example Europe/Tallinn, or none for the \
-         system's."
+        "There is no time zone `{0}`: give a name of the IANA database, for example {1}, or none for the system's."
     )]
-    Zone(String),
+    Zone(String, String),
     /// The book refuses.
     #[error(transparent)]
     Edit(#[from] EditError),
@@ -48,7 +47,7 @@ impl ScheduleError {
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Edit(error) => error.name(),
-            Self::Zone(_) => "no-such-zone",
+            Self::Zone(..) => "no-such-zone",
             _ => "schedule-wrong",
         }
     }
@@ -107,7 +106,11 @@ pub(super) fn quiet_hours(quiet: Option<&QuietHours>) -> Result<Option<Quiet>, S
 }
 
 pub(super) fn zone_named(name: Option<&str>) -> Result<Option<Zone>, ScheduleError> {
-    let find = |name: &str| Zone::named(name).ok_or_else(|| ScheduleError::Zone(name.to_owned()));
+    let unknown = |name: &str| {
+        let example = Zone::name_like(name).unwrap_or_else(|| "Europe/Tallinn".to_owned());
+        ScheduleError::Zone(name.to_owned(), example)
+    };
+    let find = |name: &str| Zone::named(name.trim()).ok_or_else(|| unknown(name));
     name.map(find).transpose()
 }
 

@@ -4,6 +4,32 @@ use jiff::civil::{Date, DateTime, Time};
 use jiff::tz::{AmbiguousOffset, Offset, TimeZone, TimeZoneDatabase};
 use jiff::{SignedDuration, Timestamp};
 
+/// Names that share as much as this are meant to be the same: `Talinn` and `Tallinn`, but not `Tallinn` and `Dublin`.
+const LIKE: f64 = 0.6;
+
+/// How many of their pairs of letters two names share, 0..1 (Sørensen 1948, Dice 1945), in any case.
+fn likeness(one: &str, other: &str) -> f64 {
+    let pairs = |text: &str| -> Vec<(char, char)> {
+        let letters: Vec<char> = text.to_lowercase().chars().collect();
+        letters
+            .iter()
+            .copied()
+            .zip(letters.iter().copied().skip(1))
+            .collect()
+    };
+    let (ones, mut others) = (pairs(one), pairs(other));
+    let all = ones.len() + others.len();
+    let is_shared = |pair: &(char, char)| match others.iter().position(|other| other == pair) {
+        Some(place) => {
+            others.swap_remove(place);
+            true
+        }
+        None => false,
+    };
+    let shared = ones.iter().copied().filter(is_shared).count();
+    2.0 * shared as f64 / all.max(1) as f64
+}
+
 /// A time zone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Zone {
@@ -33,6 +59,18 @@ impl Zone {
         let rules = TimeZoneDatabase::bundled().get(name).ok()?;
         let name = rules.iana_name()?.to_owned();
         Some(Self { name, rules })
+    }
+
+    /// The name that is most like one which no zone has; `None` when no name is like it.
+    #[must_use]
+    pub fn name_like(name: &str) -> Option<String> {
+        let zones = TimeZoneDatabase::bundled();
+        let alike = zones.available().map(|known| {
+            let known = known.as_str().to_owned();
+            (likeness(&known, name), known)
+        });
+        let (best, known) = alike.max_by(|(one, _), (other, _)| one.total_cmp(other))?;
+        (best >= LIKE).then_some(known)
     }
 
     /// The zone of those who have none.
@@ -108,6 +146,17 @@ mod tests {
         let zone = Zone::named(zone).expect("a zone");
         let instant = zone.first_instant(date(year, month, day), time(hour, minute, 0, 0))?;
         Some(zone.format_local(instant))
+    }
+
+    #[test]
+    fn a_name_that_is_nearly_one_is_found() {
+        let like = |name: &str| Zone::name_like(name);
+        assert_eq!(like("Europe/Talinn").as_deref(), Some("Europe/Tallinn"));
+        assert_eq!(like("europe/tallin").as_deref(), Some("Europe/Tallinn"));
+        assert_eq!(like("America/New York").as_deref(), Some("America/New_York"));
+        for name in ["Moon", "", "/"] {
+            assert_eq!(like(name), None, "{name}");
+        }
     }
 
     #[test]

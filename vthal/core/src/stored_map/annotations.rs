@@ -139,7 +139,7 @@ fn corners(zone: &Zone) -> Vec<Point> {
 
 /// The zone of these corners, if any zone has them.
 fn zone(corners: Vec<Point>) -> Option<Zone> {
-    Zone::new(corners.into_iter().map(to_point).collect()).ok()
+    Zone::of_stored(corners.into_iter().map(to_point).collect()).ok()
 }
 
 pub(super) fn room_name(text: &str) -> Result<RoomName, StoredMapError> {

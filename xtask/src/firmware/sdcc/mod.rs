@@ -129,8 +129,8 @@ fn report(built: &Built, reproducible: Option<bool>) -> anyhow::Result<ChipUse> 
 
 /// Lets the image run in the emulated chip with a host that drives it.
 fn pace(built: &Built) -> anyhow::Result<Pace> {
-    workspace::build(&["relax-pace"], Profile::Release)?;
-    let mut command = Command::new(workspace::program("relax-pace", Profile::Release));
+    workspace::build(&["relax-pace"], Profile::Dev)?;
+    let mut command = Command::new(workspace::program("relax-pace", Profile::Dev));
     command.arg(&built.image).arg(built.address_of("_cord_pass")?);
     let told = process::capture(&mut command)?;
     serde_json::from_str(&told).with_context(|| format!("relax-pace said {told}"))

@@ -1,7 +1,7 @@
 //! Whether a package does what its owner expects: it is installed, set up, used, upgraded, removed and purged in a bare Debian.
 
 mod chroot;
-mod programs;
+pub(super) mod programs;
 mod steps;
 mod units;
 

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// Builds what the tests build anyway, and leaves out what is only for a debugger: packing it takes minutes.
-pub(super) fn of_this_host() -> anyhow::Result<Vec<PathBuf>> {
+pub(crate) fn of_this_host() -> anyhow::Result<Vec<PathBuf>> {
     let names = ["vthal", "panel-server", "rvac"];
     workspace::build(&names, Profile::Dev)?;
     let stripped = folder().join("host");

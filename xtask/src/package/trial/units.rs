@@ -9,7 +9,7 @@ use std::process::Command;
 /// systemd's measure goes from 0 to 10; what it calls fine ends here.
 const EXPOSURE_MAX: f64 = 2.5;
 /// The services.
-const UNITS: [&str; 2] = ["vthal.service", "rvac-panel.service"];
+const UNITS: [&str; 3] = ["vthal.service", "rvac-panel.service", "rvac-settle.service"];
 
 /// A service and how much it exposes.
 #[derive(Debug, Serialize)]

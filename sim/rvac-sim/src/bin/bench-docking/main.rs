@@ -7,6 +7,7 @@ mod place;
 mod progress;
 mod run;
 mod table;
+mod worn;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -22,6 +23,7 @@ use low_battery::{JobOutcome, JobsSummary};
 use progress::Progress;
 use run::{DockingRun, DockingStart, Obstacle};
 use table::DockingTable;
+use worn::{WornSummary, WornTrial};
 
 /// Measures docking in generated homes.
 #[derive(Debug, Parser)]
@@ -46,6 +48,9 @@ struct Arguments {
     /// Instead: jobs of `systematic` for which one charge is not enough, in a known home.
     #[arg(long)]
     low_battery: bool,
+    /// Instead: docks that are dirty, dead, moved, turned, recessed, without power, or with a shoe before them, in homes that are known.
+    #[arg(long, conflicts_with = "low_battery")]
+    worn: bool,
     /// How many times as fast the pack fills in those.
     #[arg(long, default_value_t = 20.0)]
     charging_speed: f64,
@@ -75,13 +80,18 @@ fn main() -> anyhow::Result<()> {
         };
         Ok(Scene::new(Arc::new(home), model.clone(), noise))
     };
-    let output = if arguments.low_battery {
+    let output = if arguments.worn {
+        worn_docks(&arguments, &homes, &model)?
+    } else if arguments.low_battery {
         low_batteries(&arguments, homes.len(), scene_of)?
     } else {
         trips_home(&arguments, homes.len(), obstacle, &scene_of)?
     };
     writeln!(io::stdout(), "{output}").context("cannot write to standard output")
 }
+
+/// Trials with worn docks that follow each other in one home.
+const WEARS_IN_A_HOME: usize = 7;
 
 /// Where a home comes from.
 enum DockingHome {
@@ -147,6 +157,30 @@ fn trips_home(
         .to_string()
     } else {
         table.to_string()
+    })
+}
+
+fn worn_docks(arguments: &Arguments, homes: &[DockingHome], model: &RobotModel) -> anyhow::Result<String> {
+    let progress = Progress::new("worn docks");
+    let mut trials = Vec::new();
+    for number in arguments.first..arguments.first + arguments.runs {
+        let index = usize::try_from(number)? / WEARS_IN_A_HOME % homes.len();
+        let home = homes.get(index).context("a home of the set")?;
+        let trial = WornTrial::of(number, home, model)?;
+        if arguments.explain {
+            writeln!(io::stderr(), "{trial:?}")?;
+        }
+        trials.push(trial);
+        progress.show(trials.len() as f64 / arguments.runs as f64);
+    }
+    progress.clear();
+    let summary = WornSummary::of(&trials);
+    Ok(if arguments.json {
+        let mut object = serde_json::to_value(&summary)?;
+        object["runs"] = serde_json::to_value(&trials)?;
+        object.to_string()
+    } else {
+        summary.to_string()
     })
 }
 

@@ -8,23 +8,23 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
+use crate::{read_text, replace, versions};
+
 /// What was found.
 #[derive(Debug)]
-pub(crate) struct Newest<T> {
+pub struct Newest<T> {
     /// The newest that is whole.
-    pub(crate) value: Option<T>,
+    pub value: Option<T>,
     /// What is wrong with newer ones, a sentence each.
-    pub(crate) complaints: Vec<String>,
+    pub complaints: Vec<String>,
 }
 
 /// Reads versions of `path`, the newest first, until one is whole. `what` is in the file, for people.
-pub(crate) fn newest<T>(path: &Path, what: &str, parse: impl Fn(&str) -> Result<T, String>) -> Newest<T> {
+#[must_use]
+pub fn newest<T>(path: &Path, what: &str, parse: impl Fn(&str) -> Result<T, String>) -> Newest<T> {
     let mut complaints = Vec::new();
-    for version in kept_file::versions(path)
-        .iter()
-        .filter(|version| version.exists())
-    {
-        let text = kept_file::read_text(version).map_err(|error| error.to_string());
+    for version in versions(path).iter().filter(|version| version.exists()) {
+        let text = read_text(version).map_err(|error| error.to_string());
         match text.and_then(|text| parse(&text)) {
             Ok(value) => {
                 return Newest {
@@ -48,7 +48,8 @@ pub(crate) fn newest<T>(path: &Path, what: &str, parse: impl Fn(&str) -> Result<
 }
 
 /// The same for JSON, which is read as `Stored` and then believed or not.
-pub(crate) fn newest_json<Stored, T>(path: &Path, what: &str) -> Newest<T>
+#[must_use]
+pub fn newest_json<Stored, T>(path: &Path, what: &str) -> Newest<T>
 where
     Stored: DeserializeOwned,
     T: TryFrom<Stored, Error: Display>,
@@ -63,9 +64,9 @@ where
 ///
 /// # Errors
 /// What the file system says.
-pub(crate) fn replace_json(path: &Path, stored: &impl Serialize) -> io::Result<()> {
+pub fn replace_json(path: &Path, stored: &impl Serialize) -> io::Result<()> {
     let text = serde_json::to_string(stored).map_err(io::Error::other)?;
-    kept_file::replace(path, text.as_bytes())
+    replace(path, text.as_bytes())
 }
 
 /// Renames a damaged file to a name that nothing has; says how that went.

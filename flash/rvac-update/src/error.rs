@@ -1,0 +1,109 @@
+//! Why an update is not in use.
+
+use std::path::PathBuf;
+
+use update_bundle::{BundleError, KeyError};
+
+use crate::board::BoardError;
+use crate::chip::ChipError;
+
+/// Why an update is not in use. Unless it says otherwise, everything is as it was before.
+#[derive(Debug, thiserror::Error)]
+pub enum UpdateError {
+    /// The file.
+    #[error("refused: {0}")]
+    Bundle(#[from] BundleError),
+    /// Who may sign.
+    #[error("refused: {0}")]
+    Keys(#[from] KeyError),
+    /// It is older than what is there, or the same.
+    #[error("refused: its epoch is {offered}, and {installed} is installed: only a higher one is accepted")]
+    OldEpoch {
+        /// What is installed.
+        installed: u64,
+        /// Of the update.
+        offered: u64,
+    },
+    /// It is for another robot.
+    #[error("refused: it is for the robot {offered:?}, and this one is {here:?}")]
+    OtherRobot {
+        /// This one.
+        here: String,
+        /// Of the update.
+        offered: String,
+    },
+    /// Which robot this is could not be found out.
+    #[error(
+        "refused: no robot answers the daemon, and no wiring file says which one this is: write /etc/rvac-flash.toml"
+    )]
+    RobotUnknown,
+    /// It is for another board.
+    #[error("refused: its programs are for {offered}, and this board is {here}")]
+    OtherMachine {
+        /// This one.
+        here: String,
+        /// Of the update.
+        offered: String,
+    },
+    /// Its firmware cannot be written here.
+    #[error(
+        "refused: it brings firmware, and nothing says how this board is wired to the chip. --without-firmware takes the programs alone"
+    )]
+    NoWiring,
+    /// What is in the chip would be lost.
+    #[error(
+        "refused: this chip cannot be read, and no image of ours is known to run on this robot. If you can do without a way back, say so \
+         with --i-have-no-way-back"
+    )]
+    NoWayBack,
+    /// It does not fit.
+    #[error("refused: it needs {needed_bytes} bytes on the disk, and {free_bytes} are free")]
+    DiskFull {
+        /// With some space left for others.
+        needed_bytes: u64,
+        /// What is free.
+        free_bytes: u64,
+    },
+    /// The chip, before anything was touched.
+    #[error("refused: {0}")]
+    Chip(#[from] ChipError),
+    /// A file of ours.
+    #[error("{}: {error}", .path.display())]
+    File {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        error: std::io::Error,
+    },
+    /// A note of ours is not understood.
+    #[error("{}: {error}", .path.display())]
+    Journal {
+        /// Which.
+        path: PathBuf,
+        /// Why.
+        error: String,
+    },
+    /// Programs were not started.
+    #[error("{0}")]
+    Board(#[from] BoardError),
+    /// It did not work, and everything is as it was before.
+    #[error("it did not work, and everything is as it was before: {0}")]
+    WentBack(Box<UpdateError>),
+    /// It did not work, and there was no way back.
+    #[error("without a way back the update was finished once more, but: {0}")]
+    WentOn(Box<UpdateError>),
+    /// It did not work, and going back did not, either.
+    #[error(
+        "it did not work ({cause}), and going back is not finished: {error}. `rvac update --settle` tries again"
+    )]
+    NotSettled {
+        /// Why it did not work.
+        cause: Box<UpdateError>,
+        /// Why going back did not.
+        error: Box<UpdateError>,
+    },
+    /// Something does not answer.
+    #[error("{0} does not answer with the update")]
+    Silent(&'static str),
+}
