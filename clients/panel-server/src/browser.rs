@@ -39,10 +39,10 @@ pub(crate) async fn relay(
     socket: WebSocket,
     (vthal, simulator): (Upstream, Option<Upstream>),
     pass: Option<Pass>,
-    manner: Manner,
+    delivery: Delivery,
 ) {
     let (sink, stream) = socket.split();
-    let shared = Arc::new(Shared::new(manner));
+    let shared = Arc::new(Shared::new(delivery));
     let writer = tokio::spawn(write_all(sink, Arc::clone(&shared)));
     let mut browser = Browser {
         shared,
@@ -66,7 +66,7 @@ pub(crate) async fn relay(
 
 /// How a client wants its updates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Manner {
+pub(crate) enum Delivery {
     /// Each as a message of its own.
     Whole,
     /// In pieces, with few bytes on the way and a heartbeat.
@@ -93,7 +93,7 @@ impl From<Stalled> for Parting {
 
 #[derive(Debug)]
 struct Shared {
-    manner: Manner,
+    delivery: Delivery,
     outbox: Mutex<Outbox>,
     /// Bytes that were sent, and those of them that have come.
     sent: AtomicU64,
@@ -104,13 +104,13 @@ struct Shared {
 }
 
 impl Shared {
-    fn new(manner: Manner) -> Self {
-        let outbox = match manner {
-            Manner::Whole => Outbox::default(),
-            Manner::Live => Outbox::in_pieces(),
+    fn new(delivery: Delivery) -> Self {
+        let outbox = match delivery {
+            Delivery::Whole => Outbox::default(),
+            Delivery::Live => Outbox::in_pieces(),
         };
         Self {
-            manner,
+            delivery,
             outbox: Mutex::new(outbox),
             sent: AtomicU64::new(0),
             came: AtomicU64::new(0),
@@ -132,7 +132,7 @@ impl Shared {
     /// The next message, unless enough is on the way.
     fn pop(&self) -> Option<String> {
         let on_the_way = self.sent.load(Ordering::Relaxed) - self.came.load(Ordering::Relaxed);
-        if self.manner == Manner::Live && on_the_way > ON_THE_WAY_MAX {
+        if self.delivery == Delivery::Live && on_the_way > ON_THE_WAY_MAX {
             return None;
         }
         self.outbox.lock().unwrap_or_else(PoisonError::into_inner).pop()
@@ -281,7 +281,7 @@ impl Browser {
     }
 
     fn on_heartbeat(&self) -> Result<(), Parting> {
-        if self.shared.manner == Manner::Live {
+        if self.shared.delivery == Delivery::Live {
             self.shared
                 .push(heartbeat(self.heard_daemon.map(|heard| heard.elapsed())))?;
         }
@@ -338,7 +338,7 @@ async fn send_waiting(sink: &mut SplitSink<WebSocket, Message>, shared: &Shared,
             return false;
         }
         let sent = shared.sent.fetch_add(bytes, Ordering::Relaxed) + bytes;
-        if shared.manner == Manner::Live && sent - *asked >= ASK_EVERY {
+        if shared.delivery == Delivery::Live && sent - *asked >= ASK_EVERY {
             *asked = sent;
             if !send(sink, Message::Ping(sent.to_be_bytes().to_vec().into())).await {
                 return false;

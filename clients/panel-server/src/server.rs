@@ -27,7 +27,7 @@ use tracing::{debug, error, warn};
 
 use crate::announcement::announce;
 use crate::api::{self, Peer};
-use crate::browser::{self, Manner};
+use crate::browser::{self, Delivery};
 use crate::buttons::watch_buttons;
 use crate::download::{self, Wanted};
 use crate::gate::Gate;
@@ -383,9 +383,9 @@ async fn open_socket(
     uri: Uri,
     upgrade: WebSocketUpgrade,
 ) -> Response<Body> {
-    let manner = match uri.query() {
-        Some("live") => Manner::Live,
-        _ => Manner::Whole,
+    let delivery = match uri.query() {
+        Some("live") => Delivery::Live,
+        _ => Delivery::Whole,
     };
     let pass = match (&site.gate, known) {
         (None, _) => None,
@@ -397,5 +397,5 @@ async fn open_socket(
     upgrade
         .max_message_size(MESSAGE_BYTES_MAX)
         .max_frame_size(MESSAGE_BYTES_MAX)
-        .on_upgrade(move |socket| browser::relay(socket, (vthal, simulator), pass, manner))
+        .on_upgrade(move |socket| browser::relay(socket, (vthal, simulator), pass, delivery))
 }

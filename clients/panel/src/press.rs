@@ -55,7 +55,7 @@ impl Store {
         }
         let given_up = self
             .presses
-            .try_update(|presses| presses.give_up(now_ms()))
+            .try_update(|presses| presses.expire(now_ms()))
             .flatten();
         if let Some(verb) = given_up {
             self.say_missing(words().action.no_answer, label_of(&verb));

@@ -52,9 +52,9 @@ impl SlowWire {
 }
 
 /// How fast, and what is said for what in it.
-type Manner = (Arc<AtomicU64>, Option<(String, String)>);
+type Delivery = (Arc<AtomicU64>, Option<(String, String)>);
 
-fn carry(mut from: TcpStream, to: TcpStream, late: Duration, (rate, renames): Manner) {
+fn carry(mut from: TcpStream, to: TcpStream, late: Duration, (rate, renames): Delivery) {
     let (sender, chunks) = sync_channel(CHUNKS);
     std::thread::spawn(move || {
         let mut bytes = vec![0; CHUNK];

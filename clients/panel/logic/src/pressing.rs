@@ -49,7 +49,7 @@ impl Presses {
     }
 
     /// Takes out what waits in vain; gives what it asked for.
-    pub fn give_up(&mut self, now_ms: f64) -> Option<String> {
+    pub fn expire(&mut self, now_ms: f64) -> Option<String> {
         let place = self
             .waiting
             .iter()
@@ -78,8 +78,8 @@ mod tests {
         assert_eq!(presses.end(start).as_deref(), Some("start"));
         assert_eq!(presses.end(start), None, "once");
         assert!(!presses.is_pending("start"));
-        assert_eq!(presses.give_up(2_900.0), None);
-        assert_eq!(presses.give_up(3_100.0).as_deref(), Some("stop"));
+        assert_eq!(presses.expire(2_900.0), None);
+        assert_eq!(presses.expire(3_100.0).as_deref(), Some("stop"));
         assert!(presses.is_empty());
     }
 
