@@ -120,7 +120,10 @@ impl<R: Read> Records<R> {
         if !is_known || self.unread().len() < wanted {
             return Ok(TopRecord::Damaged);
         }
-        Ok(TopRecord::Record(opcode, self.begin + HEAD_BYTES..self.begin + wanted))
+        Ok(TopRecord::Record(
+            opcode,
+            self.begin + HEAD_BYTES..self.begin + wanted,
+        ))
     }
 
     /// Goes into a chunk that is whole: its records stand in it as those of the file do.
