@@ -82,7 +82,8 @@ async fn save(browser: &Browser) {
     let saved = browser.text("return window.saved").await;
     // The magic of MCAP.
     assert!(
-        saved.starts_with("attachment; filename=\"run-") && saved.ends_with(" 137 77 67 65 80 48 13 10"),
+        saved.starts_with("attachment; filename=\"recording-")
+            && saved.ends_with(" 137 77 67 65 80 48 13 10"),
         "{saved}"
     );
 }

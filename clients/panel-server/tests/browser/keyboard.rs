@@ -262,7 +262,10 @@ async fn nothing_moves_by_itself_for_people_who_asked_for_that() {
     browser.devtools("Emulation.setEmulatedMedia", &still);
     browser.click("#tab-home").await;
     browser.click("#rooms .choose").await;
-    browser.press_start().await;
+    browser
+        .until("return document.getElementById('clean-chosen')?.getAttribute('aria-disabled') === 'false'")
+        .await;
+    browser.click("#clean-chosen").await;
     browser.until_state(&["cleaning"]).await;
     browser.click("#theme").await;
     for tab in ["drive", "home", "schedules", "history", "why", "device", "log"] {
