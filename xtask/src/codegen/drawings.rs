@@ -19,6 +19,9 @@ const HEAD: &str = "<!-- Made by cargo xtask codegen from robots/. Do not edit. 
 const STYLE: &str = "<style>text{font:13px sans-serif;fill:#222}.small{font-size:11px}.body{fill:#fff;stroke:#222;stroke-width:2}\
                      .pin{fill:#bbb}.used{fill:#d33}.ground{fill:#333}.supply{fill:#e90}</style>\n";
 
+/// Names of both drawings.
+pub(crate) const DRAWINGS: [&str; 2] = ["way-in-sr8730.svg", "way-in-relax.svg"];
+
 /// Both drawings.
 pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
     let robots = root.join("robots");
@@ -29,9 +32,10 @@ pub(super) fn files(root: &Path) -> anyhow::Result<Vec<Generated>> {
         path: root.join(FOLDER).join(name),
         text,
     };
+    let [of_sr8730, of_relax] = DRAWINGS;
     Ok(vec![
-        drawing("way-in-sr8730.svg", package(&chip, &sr8730)?),
-        drawing("way-in-relax.svg", connector(&relax)?),
+        drawing(of_sr8730, package(&chip, &sr8730)?),
+        drawing(of_relax, connector(&relax)?),
     ])
 }
 

@@ -1,7 +1,7 @@
 //! `cargo xtask codegen`: files that are made from data. With --check it writes nothing and names what is stale.
 
 pub(crate) mod board;
-mod drawings;
+pub(crate) mod drawings;
 mod header;
 pub(crate) mod robots;
 mod rules;
