@@ -17,6 +17,26 @@ pub(super) struct Edition {
     pub(super) version: String,
     /// The moment that all its files carry, seconds since 1970.
     pub(super) epoch_s: u64,
+    pub(super) packing: Packing,
+}
+
+/// How hard a package is packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Packing {
+    /// As small as xz makes it by default: what is given out.
+    Small,
+    /// Hardly: large programs that a trial installs once, for which the other takes minutes.
+    Quick,
+}
+
+impl Packing {
+    /// Level for xz.
+    const fn option(self) -> &'static str {
+        match self {
+            Self::Small => "-z6",
+            Self::Quick => "-z0",
+        }
+    }
 }
 
 /// Makes the Debian package.
@@ -27,6 +47,7 @@ pub(super) fn debian(root: &Path, machine: Machine, epoch_s: u64) -> anyhow::Res
         &Edition {
             version: version().to_owned(),
             epoch_s,
+            packing: Packing::Small,
         },
     )
 }
@@ -56,6 +77,7 @@ pub(super) fn debian_of_version(root: &Path, machine: Machine, edition: &Edition
     let mut pack = Command::new("dpkg-deb");
     // xz, because the dpkg of Debian 11 knows nothing newer; one thread, because the bytes depend on their number.
     pack.args(["--build", "--root-owner-group", "-Zxz", "--uniform-compression"])
+        .arg(edition.packing.option())
         .arg(&staged)
         .arg(&file)
         .env("DPKG_DEB_THREADS_MAX", "1")

@@ -5,8 +5,9 @@ pub(super) mod programs;
 mod steps;
 mod units;
 
+use super::archive::{self, Edition, Packing};
 use super::machine::Machine;
-use super::{Common, archive, compile, folder, tree, version};
+use super::{Common, compile, folder, tree, version};
 use crate::{process, system};
 use anyhow::{Context, bail};
 use chroot::Chroot;
@@ -104,22 +105,20 @@ struct Editions {
 }
 
 fn packages(common: &Common, machine: Machine, scope: Scope) -> anyhow::Result<Editions> {
-    let programs = match scope {
-        Scope::Scripts => programs::of_this_host()?,
-        Scope::Released => compile::programs(machine)?,
+    let (programs, packing) = match scope {
+        Scope::Scripts => (programs::of_this_host()?, Packing::Quick),
+        Scope::Released => (compile::programs(machine)?, Packing::Small),
     };
     let root = tree::lay(common, machine, &programs)?;
-    let first = archive::debian(&root, machine, common.epoch_s)?;
+    let edition = |version: String| Edition {
+        version,
+        epoch_s: common.epoch_s,
+        packing,
+    };
+    let first = archive::debian_of_version(&root, machine, &edition(version().to_owned()))?;
     let kept = folder().join(format!("{}-first.deb", machine.name()));
     std::fs::copy(&first, &kept).with_context(|| format!("cannot copy {}", first.display()))?;
-    let next = archive::debian_of_version(
-        &root,
-        machine,
-        &archive::Edition {
-            version: format!("{}+next", version()),
-            epoch_s: common.epoch_s,
-        },
-    )?;
+    let next = archive::debian_of_version(&root, machine, &edition(format!("{}+next", version())))?;
     Ok(Editions {
         machine,
         first: kept,
