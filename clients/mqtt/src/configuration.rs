@@ -35,6 +35,10 @@ pub(crate) struct Configuration {
     /// PEM file of its key.
     #[serde(default)]
     pub(crate) key: Option<PathBuf>,
+    /// Whether the robot obeys what comes over the broker; absent = only where the broker asks who this client is. On a broker that
+    /// lets everybody in everybody could drive the robot.
+    #[serde(default)]
+    pub(crate) commands: Option<bool>,
     /// First level of all topics.
     #[serde(default = "usual_prefix")]
     pub(crate) prefix: String,
@@ -83,6 +87,12 @@ struct BrokerPlace {
 }
 
 impl Configuration {
+    /// See [`Self::commands`].
+    pub(crate) fn takes_commands(&self) -> bool {
+        let is_known = self.user.is_some() || self.certificate.is_some();
+        self.commands.unwrap_or(is_known)
+    }
+
     /// Checks what a file of the right form may still say wrong; gives the way to the broker.
     pub(crate) fn check(&self) -> Result<Dial, ConfigurationError> {
         let unfit = |text: &str| Err(ConfigurationError::Unfit(text.to_owned()));

@@ -247,11 +247,11 @@ impl Voice for Core {
     }
 
     fn heard_topics(&self) -> Vec<String> {
-        let mut topics: Vec<String> = Hearing::ALL
-            .map(|hearing| self.topics.of_command(hearing))
-            .to_vec();
-        topics.extend(self.birth_topic());
-        topics
+        let commands = Hearing::ALL.map(|hearing| self.topics.of_command(hearing));
+        let commands = commands
+            .into_iter()
+            .filter(|_| self.configuration.takes_commands());
+        commands.chain(self.birth_topic()).collect()
     }
 
     fn broker_came(&mut self, now: Duration, out: &mut Vec<Output>) {
@@ -332,6 +332,13 @@ impl Voice for Core {
         let Some(hearing) = self.topics.heard(&message.topic) else {
             return;
         };
+        if !self.configuration.takes_commands() {
+            tracing::warn!(
+                topic = message.topic,
+                "the broker lets everybody in, so commands are passed over: give user and password, or set commands = true"
+            );
+            return;
+        }
         match commands::read(hearing, &message.payload) {
             Ok(order) => self.order(order, now, out),
             Err(error) => {

@@ -10,7 +10,10 @@ use crate::voice::{Output, Voice as _};
 use crate::wire::Incoming;
 
 fn core() -> Core {
-    let text = r#"{"broker": "mqtt://b", "id": "robo"}"#;
+    core_of(r#"{"broker": "mqtt://b", "id": "robo", "user": "robo", "password": "word"}"#)
+}
+
+fn core_of(text: &str) -> Core {
     let mut core = Core::new(serde_json::from_str(text).expect("a configuration"));
     core.daemon_came(&mut Vec::new());
     core.broker_came(Duration::ZERO, &mut Vec::new());
@@ -102,6 +105,21 @@ fn commands_reach_the_daemon_and_kept_ones_do_not() {
         matches!(with_power.as_slice(), [RequestBody::Clean(order)] if order.power.is_some()),
         "{with_power:?}"
     );
+}
+
+#[test]
+fn on_a_broker_that_lets_everybody_in_nobody_commands_unless_the_owner_says_so() {
+    let start = message("librervac/robo/command", "start");
+    let mut open = core_of(r#"{"broker": "mqtt://b", "id": "robo"}"#);
+    assert_eq!(asked(&mut open, &start), []);
+    assert_eq!(open.heard_topics(), ["homeassistant/status"]);
+    let mut allowed = core_of(r#"{"broker": "mqtt://b", "id": "robo", "commands": true}"#);
+    assert_eq!(
+        asked(&mut allowed, &start),
+        [RequestBody::Start { strategy: None }]
+    );
+    let refused = r#"{"broker": "mqtt://b", "id": "robo", "user": "a", "password": "b", "commands": false}"#;
+    assert_eq!(asked(&mut core_of(refused), &start), []);
 }
 
 #[test]

@@ -32,7 +32,7 @@ impl Rig {
         let home = Home::start()?;
         let broker = Broker::start(home.scratch.join("").as_path(), door)?;
         let configuration = format!(
-            "{}version = {version:?}\nvthal = {:?}\nid = \"robo\"\nname = \"Robo\"\nmap_every_s = 1\ndialect_prefix = \"kaart\"\n",
+            "{}version = {version:?}\nvthal = {:?}\nid = \"robo\"\nname = \"Robo\"\ncommands = true\nmap_every_s = 1\ndialect_prefix = \"kaart\"\n",
             broker.for_bridge(),
             home.socket().display().to_string(),
         );

@@ -26,6 +26,7 @@ const MAP_EVERY: Duration = Duration::from_secs(2);
 #[derive(Debug)]
 pub(crate) struct Dialect {
     base: String,
+    takes_commands: bool,
     name: String,
     known: Knowledge,
     speed: FanSpeed,
@@ -44,6 +45,7 @@ impl Dialect {
         let name = configuration.name.clone();
         Self {
             base: format!("{}/{}", configuration.dialect_prefix, configuration.id),
+            takes_commands: configuration.takes_commands(),
             name: name.unwrap_or_else(|| format!("LibreRVAC {}", configuration.id)),
             known: Knowledge::default(),
             speed: FanSpeed::default(),
@@ -199,9 +201,8 @@ impl Voice for Dialect {
     }
 
     fn heard_topics(&self) -> Vec<String> {
-        orders::TOPICS
-            .map(|topic| format!("{}/{topic}", self.base))
-            .to_vec()
+        let topics = orders::TOPICS.map(|topic| format!("{}/{topic}", self.base));
+        topics.into_iter().filter(|_| self.takes_commands).collect()
     }
 
     fn broker_came(&mut self, _now: Duration, out: &mut Vec<Output>) {
@@ -242,7 +243,7 @@ impl Voice for Dialect {
     }
 
     fn message(&mut self, message: &Incoming, now: Duration, out: &mut Vec<Output>) {
-        if message.retained || !self.limiter.allows(now) {
+        if message.retained || !self.takes_commands || !self.limiter.allows(now) {
             return;
         }
         let topic = message
