@@ -42,7 +42,7 @@ pub enum ConfigurationError {
 /// [`ConfigurationError`].
 pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigurationError> {
     let named = || path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|source| ConfigurationError::Unreadable {
+    let text = kept_file::read_text(path).map_err(|source| ConfigurationError::Unreadable {
         path: named(),
         source,
     })?;
@@ -50,6 +50,15 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigurationError> {
         path: named(),
         source: Box::new(source),
     })
+}
+
+/// Prints the manual page of a bridge, for packages.
+#[must_use]
+pub fn print_manual(command: clap::Command) -> ExitCode {
+    match clap_mangen::Man::new(command).render(&mut std::io::stdout()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(_) => ExitCode::FAILURE,
+    }
 }
 
 /// Runs a bridge until a signal ends it. What refuses its configuration ends with 2, so that systemd does not try again.

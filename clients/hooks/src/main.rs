@@ -70,11 +70,7 @@ type Shared = Arc<Mutex<Diary>>;
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if arguments.job.is_some() {
-        let page = clap_mangen::Man::new(Arguments::command());
-        return match page.render(&mut std::io::stdout()) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(_) => ExitCode::FAILURE,
-        };
+        return service::print_manual(Arguments::command());
     }
     service::run("rvac-hooks", async move {
         run(service::read(&arguments.config)?).await

@@ -304,7 +304,7 @@ impl Figures {
 
     fn counters(&self, page: &mut Page) {
         let counted = &self.counted;
-        let runs = RESULTS.into_iter().map(|result| {
+        let runs = RunResult::ALL.into_iter().map(|result| {
             let name = result_name(result);
             (name, f64::from(counted.runs.get(name).copied().unwrap_or(0)))
         });
@@ -345,15 +345,6 @@ impl Figures {
         }
     }
 }
-
-const RESULTS: [RunResult; 6] = [
-    RunResult::Finished,
-    RunResult::Stopped,
-    RunResult::GaveUp,
-    RunResult::DaemonEnded,
-    RunResult::CutShort,
-    RunResult::OtherRobot,
-];
 
 fn result_name(result: RunResult) -> &'static str {
     match result {

@@ -63,11 +63,7 @@ type Shared = Arc<Mutex<Figures>>;
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if arguments.job.is_some() {
-        let page = clap_mangen::Man::new(Arguments::command());
-        return match page.render(&mut std::io::stdout()) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(_) => ExitCode::FAILURE,
-        };
+        return service::print_manual(Arguments::command());
     }
     service::run("rvac-metrics", run(arguments))
 }

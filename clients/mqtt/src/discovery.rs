@@ -3,11 +3,11 @@
 //! A part that this robot lacks stands there with its platform alone, by which Home Assistant removes what an earlier message said.
 
 use bridge::Knowledge;
-use rvac_api::{Activity, ComponentHealth, Trouble};
+use rvac_api::{Activity, ComponentHealth, RunResult, Trouble};
 use serde_json::{Map, Value, json};
 
 use crate::configuration::Configuration;
-use crate::documents::{RUN_EVENTS, run_event};
+use crate::documents::run_event;
 use crate::fan_speed::FanSpeed;
 use crate::topics::{Hearing, Saying, Topics};
 
@@ -246,7 +246,7 @@ impl Device<'_> {
             });
             entity(key, "event", content)
         };
-        let ends = RUN_EVENTS.into_iter().map(run_event).collect();
+        let ends = RunResult::ALL.into_iter().map(run_event).collect();
         vec![
             event(
                 "room_entered",

@@ -114,16 +114,6 @@ pub(crate) fn run_event(result: RunResult) -> &'static str {
     }
 }
 
-/// All of them.
-pub(crate) const RUN_EVENTS: [RunResult; 6] = [
-    RunResult::Finished,
-    RunResult::Stopped,
-    RunResult::GaveUp,
-    RunResult::DaemonEnded,
-    RunResult::CutShort,
-    RunResult::OtherRobot,
-];
-
 /// A run that is over.
 pub(crate) fn run(run: &Run) -> Value {
     json!({

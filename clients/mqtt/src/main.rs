@@ -42,17 +42,9 @@ enum Job {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if arguments.job.is_some() {
-        return manual();
+        return service::print_manual(Arguments::command());
     }
     service::run("rvac-mqtt", async move {
         shell::run(service::read(&arguments.config)?).await
     })
-}
-
-fn manual() -> ExitCode {
-    let page = clap_mangen::Man::new(Arguments::command());
-    match page.render(&mut std::io::stdout()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(_) => ExitCode::FAILURE,
-    }
 }

@@ -129,6 +129,18 @@ pub enum RunResult {
     OtherRobot,
 }
 
+impl RunResult {
+    /// All of them.
+    pub const ALL: [Self; 6] = [
+        Self::Finished,
+        Self::Stopped,
+        Self::GaveUp,
+        Self::DaemonEnded,
+        Self::CutShort,
+        Self::OtherRobot,
+    ];
+}
+
 /// A recording of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunRecording {

@@ -967,9 +967,8 @@ fn a_schedule_of_one_floor() {
     );
 }
 
-#[test]
-fn a_change_of_a_schedule_that_says_what_it_was() {
-    let once = ScheduleEntry {
+fn once_entry() -> ScheduleEntry {
+    ScheduleEntry {
         name: "All".to_owned(),
         job: ScheduledJob::Start { strategy: None },
         when: ScheduleTime::Once {
@@ -979,7 +978,12 @@ fn a_change_of_a_schedule_that_says_what_it_was() {
         late_min: 0,
         in_quiet: InQuiet::Refuse,
         ..weekday_entry()
-    };
+    }
+}
+
+#[test]
+fn a_change_of_a_schedule_that_says_what_it_was() {
+    let once = once_entry();
     request(
         RequestBody::ChangeSchedule {
             number: 3,
@@ -996,17 +1000,7 @@ fn requests_of_schedules() {
         RequestBody::AddSchedule(weekday_entry()),
         r#"{"c":"add-schedule","name":"Köök","enabled":true,"job":{"clean":{"parts":[{"room":4}],"passes":2}},"when":{"weekly":{"days":["mo","su"],"at":"07:30"}},"late_min":15,"in_quiet":"wait"}"#,
     );
-    let once = ScheduleEntry {
-        name: "All".to_owned(),
-        job: ScheduledJob::Start { strategy: None },
-        when: ScheduleTime::Once {
-            date: "2026-11-23".to_owned(),
-            at: "09:00".to_owned(),
-        },
-        late_min: 0,
-        in_quiet: InQuiet::Refuse,
-        ..weekday_entry()
-    };
+    let once = once_entry();
     request(
         RequestBody::ChangeSchedule {
             number: 3,

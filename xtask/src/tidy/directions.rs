@@ -113,7 +113,7 @@ const DIRECTIONS: [Direction; 44] = [
     Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "vthal-bench", "content-hash"], never: &[] },
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units", "vthal-core"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
-    Direction { of: "bridge",        knows: &["rvac-api"],                                  never: &["axum"] },
+    Direction { of: "bridge",        knows: &["kept-file", "rvac-api"],                     never: &["axum"] },
     Direction { of: "rvac-mqtt",     knows: &["bridge", "rvac-api"],                        never: &["axum"] },
     Direction { of: "rvac-metrics",  knows: &["bridge", "rvac-api"],                        never: &[] },
     Direction { of: "rvac-hooks",    knows: &["bridge", "rvac-api"],                        never: &[] },
