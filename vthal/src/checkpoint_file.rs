@@ -82,6 +82,7 @@ pub fn save(path: &Path, checkpoint: &Checkpoint, now: BootTime) -> io::Result<(
 #[must_use]
 pub fn load(path: &Path, now: &BootTime) -> Option<Checkpoint> {
     newest(path, now)
+        .0
         .filter(|found| found.is_young)
         .map(|found| found.checkpoint)
 }
@@ -95,24 +96,20 @@ pub struct Found {
     pub is_young: bool,
 }
 
-/// The newest whole checkpoint, however old.
+/// The newest whole checkpoint, however old, and what is wrong with a newer one, for people.
 #[must_use]
-pub fn newest(path: &Path, now: &BootTime) -> Option<Found> {
-    kept_file::versions(path)
-        .iter()
-        .find_map(|path| load_one(path, now))
-}
-
-/// What is wrong with the newest checkpoint, for people; `None` when it is whole, or there is none.
-#[must_use]
-pub fn complaint(path: &Path, now: &BootTime) -> Option<String> {
-    let is_damaged = path.exists() && load_one(path, now).is_none();
-    is_damaged.then(|| {
+pub fn newest(path: &Path, now: &BootTime) -> (Option<Found>, Option<String>) {
+    let [present, before] = kept_file::versions(path);
+    if let Some(found) = load_one(&present, now) {
+        return (Some(found), None);
+    }
+    let complaint = present.exists().then(|| {
         format!(
             "the checkpoint {} cannot be read: what the robot did last is taken from the one before it, if that is whole",
-            path.display()
+            present.display()
         )
-    })
+    });
+    (load_one(&before, now), complaint)
 }
 
 fn load_one(path: &Path, now: &BootTime) -> Option<Found> {

@@ -27,7 +27,7 @@ use crate::radio::RadioEvent;
 use crate::recording::RecorderHandle;
 use crate::run_thread::RunHandle;
 use crate::serial::LineOrder;
-use crate::{socket, systemd};
+use crate::socket;
 
 /// Longest wait for the wheels to stop when the daemon ends.
 const STOP_WAIT: Duration = Duration::from_millis(500);
@@ -140,7 +140,7 @@ impl Daemon {
     fn take(&mut self, event: Event) {
         match event {
             Event::Wake => self.handle(Input::Wake),
-            Event::WatchdogDue => systemd::tell_alive(),
+            Event::WatchdogDue => systemd_notice::tell_alive(),
             Event::Serial(SerialEvent::Opened) => self.handle(Input::LinkOpened),
             Event::Serial(SerialEvent::Bytes(bytes)) => self.handle(Input::LinkBytes(&bytes)),
             Event::Serial(SerialEvent::Closed(reason)) => self.handle(Input::LinkClosed { reason }),
@@ -232,7 +232,7 @@ impl Daemon {
     fn terminate(&mut self, signal: &'static str) {
         if self.ends_at.is_none() {
             tracing::info!(part = "vthal", "{signal}: stops the wheels and ends");
-            systemd::tell_stopping();
+            systemd_notice::tell_stopping();
             self.ends_at = Some(Instant::now() + STOP_WAIT);
             self.handle(Input::Shutdown);
         }

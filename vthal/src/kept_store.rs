@@ -74,9 +74,7 @@ impl KeptPaths {
     }
 
     /// The job that goes on, and the number of the next run. A run that is not continued is stored as cut short.
-    fn left_over(&self) -> (Option<Checkpoint>, u64) {
-        let now = BootTime::now().ok();
-        let found = now.and_then(|now| checkpoint_file::newest(&self.checkpoint, &now));
+    fn left_over(&self, found: Option<Found>) -> (Option<Checkpoint>, u64) {
         let run = found.as_ref().and_then(|found| found.checkpoint.run.as_ref());
         let left = run.map_or(0, |run| run.run.number);
         let next_run = self.runs.newest().max(left).saturating_add(1);
@@ -141,8 +139,9 @@ impl KeptStore {
         let (learnt, learnt_complaints) = learnt_file::load(&kept.learnt);
         let (floors, floor_complaints) = kept.floors.load();
         let now = BootTime::now().ok();
-        let checkpoint_complaint = now.and_then(|now| checkpoint_file::complaint(&kept.checkpoint, &now));
-        let (resume, next_run) = kept.left_over();
+        let newest = now.map(|now| checkpoint_file::newest(&kept.checkpoint, &now));
+        let (checkpoint, checkpoint_complaint) = newest.unwrap_or_default();
+        let (resume, next_run) = kept.left_over(checkpoint);
         CoreConfig {
             schedules: found.book,
             schedules_distrusted: found.distrusted,

@@ -164,7 +164,7 @@ fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Re
 
 /// Tells whoever started the daemon that its socket is open.
 fn announce() -> io::Result<()> {
-    systemd::tell_ready();
+    systemd_notice::tell_ready();
     let mut stdout = io::stdout().lock();
     writeln!(stdout, "ready").and_then(|()| stdout.flush())
 }

@@ -2,7 +2,7 @@
 //! of a job ask the same question here, so that they never disagree.
 
 use super::parameters::REACH;
-use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, reachable};
+use crate::mapping::{CELL_M, Cell, CellKnowledge, Map, Raster, covered, reachable};
 use crate::model::geometry::Point2;
 use crate::model::job_refusal::JobRefusal;
 use crate::model::order::CleaningOrder;
@@ -129,23 +129,11 @@ fn floor_of(
     knowledge: &Raster<CellKnowledge>,
     (from, radius_m): (Point2, f64),
 ) -> OrderFloor {
-    let reached = reachable(knowledge, from, radius_m);
-    let cells = (radius_m / CELL_M) as i32;
-    let is_passed = |cell: Cell| {
-        (-cells..=cells).any(|dy| {
-            (-cells..=cells).any(|dx| {
-                dx * dx + dy * dy <= cells * cells
-                    && reached.get(Cell {
-                        x: cell.x + dx,
-                        y: cell.y + dy,
-                    }) == Some(&true)
-            })
-        })
-    };
+    let passed = covered(&reachable(knowledge, from, radius_m), radius_m);
     let mut floor = OrderFloor::default();
     for cell in asked_cells(order, map) {
         floor.asked_m2 += CELL_M * CELL_M;
-        if is_passed(cell) {
+        if passed.get(cell) == Some(&true) {
             floor.reached_m2 += CELL_M * CELL_M;
         }
     }

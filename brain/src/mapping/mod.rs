@@ -60,7 +60,7 @@ pub use occupancy_grid::CellKnowledge;
 pub(crate) use path_and_hazards::StampedOdometry;
 pub use path_and_hazards::{Hazard, HazardKind, PathPoint};
 pub use raster::Raster;
-pub use reach::reachable;
+pub use reach::{covered, reachable};
 pub use room_changes::{RoomChange, RoomChanges, RoomJoin, RoomSplit};
 pub use room_cut::PartSide;
 pub use rooms::{Room, Rooms};

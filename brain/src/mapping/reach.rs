@@ -20,6 +20,23 @@ pub fn reachable(knowledge: &Raster<CellKnowledge>, from: Point2, clearance_m: f
     })
 }
 
+/// Cells that a body of this radius covers while its centre takes the `reached` ones.
+#[must_use]
+pub fn covered(reached: &Raster<bool>, radius_m: f64) -> Raster<bool> {
+    let mut covered = Raster::filled(reached.origin(), reached.width(), reached.height(), false);
+    let Some(all) = window(reached) else {
+        return covered;
+    };
+    let cells = (radius_m / CELL_M).floor();
+    let most = (cells * cells) as f32;
+    let is_reached = |cell: Cell| reached.get(cell) == Some(&true);
+    let squared = at_once(squared_cells(all, is_reached, &mut StepBudget::unlimited()));
+    for (place, away) in covered.values_mut().iter_mut().zip(&squared) {
+        *place = *away <= most;
+    }
+    covered
+}
+
 /// Work to find whether a cell is passable, and to reach one.
 const READ_WORK: usize = 1;
 const REACH_WORK: usize = 8;
@@ -87,4 +104,27 @@ fn nearest(from: Cell, fits: &impl Fn(Cell) -> bool) -> Option<Cell> {
         }
     }
     best.map(|(_, cell)| cell)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::covered;
+    use crate::mapping::{Cell, Raster};
+
+    /// Beside a disc laid over each cell by itself.
+    #[test]
+    fn a_body_covers_what_a_disc_around_its_places_does() {
+        let mut reached = Raster::filled(Cell { x: -3, y: 5 }, 23, 17, false);
+        for (index, place) in reached.values_mut().iter_mut().enumerate() {
+            *place = index % 37 == 3 || index == 390;
+        }
+        let covered = covered(&reached, 0.1);
+        let near = |one: Cell, other: Cell| (one.x - other.x).pow(2) + (one.y - other.y).pow(2) <= 16;
+        for (index, is_covered) in covered.values().iter().enumerate() {
+            let here = covered.cell(index);
+            let mut places = (0..reached.values().len()).filter(|index| reached.values()[*index]);
+            let expected = places.any(|place| near(here, reached.cell(place)));
+            assert_eq!(*is_covered, expected, "{here:?}");
+        }
+    }
 }

@@ -1,13 +1,12 @@
 //! How a bridge starts and ends: its configuration, its words to systemd, its signals.
 
-use std::future::pending;
 use std::path::Path;
 use std::process::ExitCode;
 
-use sd_notify::NotifyState;
 use serde::de::DeserializeOwned;
+pub use systemd_notice::tell_ready;
+use systemd_notice::{show_life, tell_stopping};
 use tokio::signal::unix::{SignalKind, signal};
-use tokio::time::{MissedTickBehavior, interval};
 
 /// What must be changed before another start can go better.
 const EXIT_REFUSED: u8 = 2;
@@ -98,33 +97,6 @@ async fn until_signal(work: impl Future<Output = anyhow::Result<()>>) -> anyhow:
         _ = terminate.recv() => Ok(()),
         _ = interrupt.recv() => Ok(()),
     };
-    tell(NotifyState::Stopping);
+    tell_stopping();
     ended
-}
-
-/// The bridge works from now on.
-pub fn tell_ready() {
-    tell(NotifyState::Ready);
-}
-
-/// Shows twice in the time of systemd's watchdog that the one thread still turns. Never ends.
-async fn show_life() {
-    match sd_notify::watchdog_enabled() {
-        Some(time) if !(time / 2).is_zero() => {
-            let mut ticks = interval(time / 2);
-            ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
-            loop {
-                ticks.tick().await;
-                tell(NotifyState::Watchdog);
-            }
-        }
-        _ => pending().await,
-    }
-}
-
-/// Without systemd there is nobody to tell, which is no error.
-fn tell(state: NotifyState<'_>) {
-    if let Err(error) = sd_notify::notify(&[state]) {
-        tracing::debug!("systemd could not be told: {error}");
-    }
 }

@@ -2,7 +2,6 @@
 #![forbid(unsafe_code)]
 
 mod host_name;
-mod systemd;
 
 use std::io::Write;
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
@@ -128,13 +127,13 @@ async fn run(settings: Settings) -> anyhow::Result<()> {
     let mut terminate = signal(SignalKind::terminate())?;
     let mut interrupt = signal(SignalKind::interrupt())?;
     writeln!(std::io::stdout(), "ready {}", server.url())?;
-    systemd::tell_ready();
+    systemd_notice::tell_ready();
     tokio::select! {
         () = server.run() => {}
-        () = systemd::show_life() => {}
+        () = systemd_notice::show_life() => {}
         _ = terminate.recv() => {}
         _ = interrupt.recv() => {}
     }
-    systemd::tell_stopping();
+    systemd_notice::tell_stopping();
     Ok(())
 }
