@@ -6,6 +6,7 @@ mod code;
 mod count;
 mod extent;
 mod flash;
+mod home_assistant;
 mod joined;
 mod packages;
 mod processor;
