@@ -162,13 +162,15 @@ fn run_one(stage: &'static Stage, extent: Extent) -> Outcome {
         Err(runner::Failed { count, errors }) => (count.with_a_failure(), errors),
     };
     complain_of(stage, &errors);
-    Outcome {
+    let outcome = Outcome {
         stage,
         count,
         errors,
         took: begun.elapsed(),
         processor: processor::of_ended_children().saturating_sub(before),
-    }
+    };
+    process::say(&row(&outcome));
+    outcome
 }
 
 fn complain_of(stage: &Stage, errors: &[anyhow::Error]) {
