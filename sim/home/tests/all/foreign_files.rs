@@ -160,7 +160,6 @@ fn each_wrong_key_is_named_with_its_line_and_remedy() {
             "resolution: [0.05]",
             ["`resolution`", "write one value"],
         ),
-        ("resolution: 0.05", "resolution: 5", ["`resolution`", "metres"]),
     ];
     for (right, written, said) in wrong {
         let yaml = format!("image: usual.pgm\n{}", YAML.replace(right, written));
@@ -169,8 +168,19 @@ fn each_wrong_key_is_named_with_its_line_and_remedy() {
             assert!(text.contains(part), "{written}: {text}");
         }
     }
+}
+
+#[test]
+fn a_yaml_without_an_image_or_without_keys_is_named() {
+    file("usual.pgm", &pgm(&pixels()));
     let empty = complaint("bare.yaml", format!("image:\n{YAML}").as_bytes());
     assert!(empty.contains("`image`") && empty.contains("map.pgm"), "{empty}");
+    let coarse = YAML.replace("resolution: 0.05", "resolution: 5");
+    let coarse = complaint("coarse.yaml", format!("image: usual.pgm\n{coarse}").as_bytes());
+    assert!(
+        coarse.contains("`resolution`") && coarse.contains("metres"),
+        "{coarse}"
+    );
     let list = complaint("list.yaml", b"- image: a\n- resolution: b\n");
     assert!(list.contains("no keys"), "{list}");
 }
