@@ -68,8 +68,10 @@ fn memory_peak_kb() -> u64 {
     number.expect("a number of kB")
 }
 
-/// The seeds: each with the image that it names, if it names one.
-fn seeds() -> Vec<(&'static str, Vec<u8>, Option<Vec<u8>>)> {
+/// A valid home: its file's name and bytes, and the image that it names, if it names one.
+type ValidFiles = (&'static str, Vec<u8>, Option<Vec<u8>>);
+
+fn seeds() -> Vec<ValidFiles> {
     let grey = pixels();
     let yaml = || format!("image: hostile.image\n{YAML}").into_bytes();
     let plan = format!(
