@@ -44,6 +44,8 @@ pub(super) struct Job {
     pub(super) crosses: bool,
     /// The task has ended for this reason while something was touched: the job ends once the robot has backed off.
     pub(super) ending: Option<Reason>,
+    /// The home is so large that the usual budget does not do: seconds of motion after which it is looked at again.
+    pub(super) extended_to_s: f64,
 }
 
 /// Movements that come before the task.
@@ -93,6 +95,7 @@ impl Job {
             dock_retry: DockRetry::default(),
             crosses: false,
             ending: None,
+            extended_to_s: 0.0,
         }
     }
 

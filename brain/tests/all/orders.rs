@@ -3,9 +3,9 @@
 use crate::plane::{Rectangle, Room, World, config, edit, run};
 use brain::mapping::DockLocation;
 use brain::{
-    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart, JobCommand,
-    JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName, RoomPower,
-    RoomSettings, StoredMap, Zone,
+    BehaviorState, Brain, BrainConfig, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart,
+    JobCommand, JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName,
+    RoomPower, RoomSettings, StoredMap, Zone,
 };
 
 /// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
@@ -55,8 +55,12 @@ struct Stage {
 
 impl Stage {
     fn new() -> Self {
+        Self::with(config())
+    }
+
+    fn with(config: BrainConfig) -> Self {
         let room = flat();
-        let mut brain = Brain::with_map(config(), 1, &known(&room));
+        let mut brain = Brain::with_map(config, 1, &known(&room));
         let mut world = World::new(room, START);
         run(&mut world, &mut brain, None, 1.0);
         Self { brain, world }
@@ -569,4 +573,15 @@ fn brushes_rest_on_the_way_through_a_room_that_nobody_chose() {
     stage.clean(&order);
     assert!(stage.swept((4.0, 0.5), (5.5, 2.0)) > 0.9);
     assert_eq!(stage.swept((0.2, 0.2), (2.8, 3.8)), 0.0, "nobody asked for this");
+}
+
+#[test]
+fn a_job_gets_the_time_that_the_floor_of_its_home_takes() {
+    let mut stage = Stage::with(BrainConfig {
+        task_budget_s: 20.0,
+        ..config()
+    });
+    let seconds = stage.clean(&CleaningOrder::default());
+    assert!(seconds > 60.0, "{seconds} s");
+    assert_ne!(stage.brain.status().reason.name(), "task-budget");
 }

@@ -28,6 +28,7 @@ mod map_obstacles;
 mod map_quality;
 pub mod page;
 mod plan;
+pub mod replay;
 mod report;
 mod robot;
 pub mod run;

@@ -44,6 +44,8 @@ enum Subject {
     Coverage,
     /// How fast and how surely the robot covers homes, against the lower bound and against bounce.
     Navigation,
+    /// What one drive perceived, shown to brains with many seeds: how much of the error of the place is chance.
+    Localization,
     /// Run after run in one home, each with what the daemon kept: whether the map gets better or worse.
     Life,
     /// How surely, how fast and how exactly the robot comes home to its dock.
@@ -207,6 +209,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
         Subject::Navigation => &["--bin", "bench-navigation"],
+        Subject::Localization => &["--bin", "bench-localization"],
         Subject::Life => &["--bin", "bench-life"],
         Subject::Docking => &["--bin", "bench-docking"],
         Subject::Floors => &["--bin", "bench-floors"],
@@ -233,6 +236,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
+        | Subject::Localization
         | Subject::Life
         | Subject::Docking
         | Subject::Floors
@@ -253,6 +257,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Navigation => &["--homes", "report", "--seeds", "20"],
+        Subject::Localization => &["--homes", "homes/empty-halls.toml,report", "--seeds", "1..20"],
         Subject::Life => &["--homes", "report", "--seeds", "2"],
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors | Subject::Lifted => &["--seeds", "8"],
