@@ -2,7 +2,7 @@
 
 use std::io;
 use std::os::fd::OwnedFd;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rustix::fs::{FlockOperation, Mode, OFlags, flock};
@@ -13,6 +13,7 @@ use vthal_core::device::Opening;
 use vthal_core::{LineHolder, LinkLoss};
 
 use crate::event::{Event, SerialEvent};
+use crate::serial_identity::{BY_ID, SerialIdentity, links};
 
 /// First pause after a failure to open; it doubles up to [`PAUSE_MAX`].
 const PAUSE_MIN: Duration = Duration::from_millis(20);
@@ -72,7 +73,7 @@ impl LineOrders {
 }
 
 /// Serves the device until the daemon's event queue closes: opens it, passes bytes in both directions, and begins again when it is
-/// lost. Each outage is reported once. While the line is lent to a client, it is closed.
+/// lost. Each cause of an outage is reported once. While the line is lent to a client, it is closed.
 pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: LineOrders) {
     let mut rates = robot.rates_baud.iter().copied().cycle();
     let mut settings = SerialSettings {
@@ -80,12 +81,14 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: L
         baud: rates.next().unwrap_or_default(),
     };
     let mut pause = PAUSE_MIN;
-    let mut is_reported = false;
+    let mut reported: Option<String> = None;
+    let mut identity = None;
     loop {
         orders.await_holder(LineHolder::Daemon).await;
         let event = match open_to_robot(&settings, robot.opening).await {
             Ok(line) => {
-                is_reported = false;
+                reported = None;
+                identity = SerialIdentity::of(&settings.path, Path::new(BY_ID)).or(identity);
                 drain(&mut orders.to_robot);
                 if events.send(Event::Serial(SerialEvent::Opened)).await.is_err() {
                     return;
@@ -103,10 +106,15 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: L
                     }
                 }))
             }
-            Err(_) if is_reported => None,
             Err(error) => {
-                is_reported = true;
-                Some(SerialEvent::Absent(error))
+                settings.path = path_now(&robot.path, identity.as_ref());
+                // A cause that changes while the line is away is news.
+                let text = error.to_string();
+                let is_news = reported.as_ref() != Some(&text);
+                is_news.then(|| {
+                    reported = Some(text);
+                    SerialEvent::Absent(error)
+                })
             }
         };
         if let Some(event) = event
@@ -117,6 +125,21 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: L
         tokio::time::sleep(pause).await;
         pause = (pause * 2).min(PAUSE_MAX);
     }
+}
+
+/// Where the robot's adapter is: where it was configured, or under the name that it has now.
+fn path_now(configured: &Path, identity: Option<&SerialIdentity>) -> PathBuf {
+    let moved = identity.and_then(|identity| identity.elsewhere(configured));
+    let Some(moved) = moved.filter(|_| !configured.exists()) else {
+        return configured.to_owned();
+    };
+    tracing::warn!(
+        part = "link",
+        "{} is gone, and the same adapter is {} now: it is used there; set link.serial to its name in {BY_ID}, which does not change",
+        configured.display(),
+        moved.display()
+    );
+    moved
 }
 
 /// Opens the device and wakes the robot at its other end, if it needs that.
@@ -178,7 +201,7 @@ pub(crate) fn open(settings: &SerialSettings) -> Result<Line, OpenError> {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum OpenError {
     /// The system refuses.
-    #[error("cannot open the serial device {}: {error}; waiting for it", .path.display())]
+    #[error("cannot open the serial device {}: {error}; waiting for it{}", .path.display(), others(.path))]
     Open {
         /// The device.
         path: PathBuf,
@@ -189,6 +212,21 @@ pub(crate) enum OpenError {
     /// Another program has locked it.
     #[error("the serial device {} is locked by another program; waiting for it", .0.display())]
     InUse(PathBuf),
+}
+
+/// Names the adapters that there are, for whoever configured another one.
+fn others(path: &Path) -> String {
+    let links = if path.exists() {
+        Vec::new()
+    } else {
+        links(Path::new(BY_ID))
+    };
+    let names: Vec<String> = links.iter().map(|link| link.display().to_string()).collect();
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!(" (there is: {})", names.join(", "))
+    }
 }
 
 /// Why bytes pass no longer.

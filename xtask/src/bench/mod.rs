@@ -54,6 +54,8 @@ enum Subject {
     Floors,
     /// How soon and how surely a robot that was lifted from its work knows its place again.
     Lifted,
+    /// What fails around the Linux board, drawn: whether people are told, soon and rightly, and whether all that was acknowledged is kept.
+    Board,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -212,6 +214,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Docking => &["--bin", "bench-docking"],
         Subject::Floors => &["--bin", "bench-floors"],
         Subject::Lifted => &["--bin", "bench-lifted"],
+        Subject::Board => &["--bin", "bench-board"],
         Subject::Firmware => &["--bin", "bench-firmware"],
     }
 }
@@ -238,6 +241,7 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Docking
         | Subject::Floors
         | Subject::Lifted
+        | Subject::Board
         | Subject::Coverage => &[],
     }
 }
@@ -258,6 +262,7 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors | Subject::Lifted => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
+        Subject::Board => &["--seeds", "1000"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
         Subject::Cordlib | Subject::Relax | Subject::LogicMutants => &[],
