@@ -8,7 +8,6 @@ mod extent;
 mod flash;
 mod joined;
 mod packages;
-mod processor;
 mod programs;
 mod robot;
 mod runner;
@@ -16,7 +15,7 @@ mod stages;
 mod verdicts;
 
 use crate::panel::{Ahead, Page};
-use crate::process;
+use crate::{process, processor};
 use anyhow::bail;
 use count::Count;
 use extent::Extent;
