@@ -4,6 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use robot_link::{LinkAddress, UartAddress};
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::{mpsc, watch};
 use tokio::task::{LocalSet, spawn_local};
@@ -17,9 +18,9 @@ use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
 use crate::instance::{self, InstanceTaken};
 use crate::kept_store::{self, KeptStore};
+use crate::link::{self, LineOrders, RobotLine};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFacts, RobotFileError};
-use crate::serial::{self, LineOrders, RobotLine};
 use crate::socket::{self, SocketError};
 use crate::told_lines::CORE_LINES;
 use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd};
@@ -29,7 +30,7 @@ const MAKE: Make = cordlib::MAKE;
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
-/// Batches of bytes that may wait for the serial line.
+/// Batches of bytes that may wait for the link.
 const TO_ROBOT_MAX: usize = 64;
 
 /// Why the daemon did not start.
@@ -96,11 +97,11 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
     systemd::watch(&event_sender);
     spawn_local(socket::serve(listener, event_sender.clone()));
     let robot = RobotLine {
-        path: config.serial.clone(),
-        rates_baud: match config.baud {
-            Some(baud) => vec![baud],
-            None => MAKE.opening.rates_baud.to_vec(),
+        rates_baud: match &config.link {
+            LinkAddress::Uart(UartAddress { baud: Some(baud), .. }) => vec![*baud],
+            _ => MAKE.opening.rates_baud.to_vec(),
         },
+        address: config.link.clone(),
         opening: MAKE.opening,
     };
     if let Some(imu) = &config.imu {
@@ -113,7 +114,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
         to_robot: robot_queue,
         holder,
     };
-    spawn_local(serial::serve(robot, event_sender, orders));
+    spawn_local(link::serve(robot, event_sender, orders));
     tracing::info!(
         part = "vthal",
         "version {} listens on {}",
@@ -122,7 +123,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
     );
     announce()?;
     let daemon = Daemon::new(Core::new(core_config), Clock::start(speed), wiring);
-    // As a task among its own kind: what the serial line's task wakes runs in the same round of the scheduler, without a
+    // As a task among its own kind: what the link's task wakes runs in the same round of the scheduler, without a
     // poll the system in between.
     Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
 }

@@ -13,11 +13,11 @@ pub struct ClientId(pub u64);
 /// The closed set of causes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input<'a> {
-    /// The serial device is open; the core starts the handshake.
+    /// The link is open; the core starts the handshake.
     LinkOpened,
     /// Bytes came from the robot.
     LinkBytes(&'a [u8]),
-    /// The serial device is gone.
+    /// The link is gone.
     LinkClosed {
         /// Why, for the log.
         reason: LinkLoss,
@@ -133,7 +133,7 @@ pub enum Input<'a> {
     Shutdown,
 }
 
-/// Why the serial device is gone.
+/// Why the link is gone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LinkLoss {
     /// The other end hung up or the adapter was pulled.

@@ -70,7 +70,15 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 
 /// Tests that need the built firmware, its parts or other people's emulator and debugger. No package is named, so that all is
 /// built once for this stage and for the other tests.
-const BESIDE_OTHERS: [&str; 6] = ["cord_in_chip", "gdb", "hal_examples", "image", "qemu", "ucsim"];
+const BESIDE_OTHERS: [&str; 7] = [
+    "cord_in_chip",
+    "gdb",
+    "hal_examples",
+    "image",
+    "lights_and_keys",
+    "qemu",
+    "ucsim",
+];
 
 /// The emulated chips beside qemu-user and uCsim, and with the programs that are written for them.
 pub(super) fn of_emulator(_extent: Extent) -> Result {
@@ -146,7 +154,7 @@ fn owner(elf: &Path) -> Command {
 }
 
 /// The real firmware under faults, a little of each; `cargo xtask bench safety --long` and its like take more.
-const TRIALS: [(&str, &[&str]); 4] = [
+const TRIALS: [(&str, &[&str]); 5] = [
     ("bench-safety", &["--phases", "4"]),
     (
         "bench-flips",
@@ -154,6 +162,7 @@ const TRIALS: [(&str, &[&str]); 4] = [
     ),
     ("bench-charges", &["--count", "4"]),
     ("bench-flood", &["--count", "2"]),
+    ("bench-links", &["--seconds", "4", "--cuts", "2"]),
 ];
 
 fn trial(name: &str, words: &[&str], elf: &Path) -> Command {

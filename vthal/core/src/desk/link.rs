@@ -1,4 +1,4 @@
-//! The robot on the serial device: bytes to and from it, its last report, and the quality of the link.
+//! The robot at the other end of the link: bytes to and from it, its last report, and the quality of the link.
 
 use brain::{Inhibit, LinkFault};
 use rvac_api::{DeviceTable, LinkReading, LogLevel, Topic, Update, Versions};
@@ -45,7 +45,7 @@ impl LinkDesk {
         });
         self.facts.opened(teller.now_us);
         self.strange.restart(teller.now_us);
-        teller.log(LogLevel::Info, LogSource::Link, "serial device open".to_owned());
+        teller.log(LogLevel::Info, LogSource::Link, "link open".to_owned());
     }
 
     pub(crate) fn closed(&mut self, reason: &LinkLoss, teller: &mut Teller<'_>) {
@@ -53,10 +53,10 @@ impl LinkDesk {
         self.facts.closed();
         self.strange.restart(teller.now_us);
         let text = match reason {
-            LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
+            LinkLoss::HungUp => "link lost: the other end hung up; waiting for it".to_owned(),
             LinkLoss::NoAnswer { baud } => format!("no robot answers at {baud} baud; tries the next rate"),
-            LinkLoss::Lent => "serial device lent: it is used again when the client is done".to_owned(),
-            LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
+            LinkLoss::Lent => "link lent: it is used again when the client is done".to_owned(),
+            LinkLoss::Failed(error) => format!("link lost: {error}; waiting for it"),
         };
         teller.log(LogLevel::Warn, LogSource::Link, text);
     }
