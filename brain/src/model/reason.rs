@@ -100,6 +100,10 @@ named_enum! {
         MostOutOfReach => "most-out-of-reach",
         /// A no-go zone or virtual wall shuts off most of what was asked.
         NoGoInTheWay => "no-go-in-the-way",
+        /// A no-go zone or virtual wall lies ahead in the search for the dock.
+        NoGoAhead => "no-go-ahead",
+        /// Floor was forbidden around the robot: it leaves it on the shortest way first.
+        InsideNoGo => "inside-no-go",
         /// The pack is low, and what is left is not worth another charge.
         CrumbsLeft => "crumbs-left",
         /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.

@@ -327,6 +327,8 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("lifted-off", Some(Trouble::Lifted)),
     ("most-out-of-reach", Some(Trouble::Route)),
     ("no-go-in-the-way", Some(Trouble::Route)),
+    ("inside-no-go", None),
+    ("no-go-ahead", None),
     ("zone-crosses", None),
     ("zone-too-thin", None),
     ("dock-shut-off", None),

@@ -145,6 +145,8 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("lifted-off", "Somebody lifted it off its dock.", "Put it back on its dock, or resume its job."),
     entry("most-out-of-reach", "It could not reach most of what it was to clean.", "Look at doors and at what stands in the way, then send it again."),
     entry("no-go-in-the-way", "A no-go zone or virtual wall shuts off the floor that is to be cleaned.", "Move or remove the zone, or choose other rooms."),
+    entry("no-go-ahead", "A no-go zone or virtual wall lies ahead.", ""),
+    entry("inside-no-go", "It stands in a no-go zone and leaves it on the shortest way.", ""),
     entry("zone-crosses", "The edges of the zone cross, touch or fold back.", "Draw it again, with its corners in order around the floor."),
     entry("zone-too-thin", "The zone is too small or too thin.", "Draw it at least as wide as a hand, or draw a virtual wall."),
     entry("dock-shut-off", "That would shut off most of the floor from the dock.", "Leave a way to the dock open."),

@@ -159,6 +159,8 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("lifted-off", "Keegi tõstis roboti dokist välja.", "Pane ta dokki tagasi või lase tööd jätkata."),
     entry("most-out-of-reach", "Suurem osa koristatavast põrandast jäi kättesaamatuks.", "Vaata uksi ja seda, mis teel ees on, siis saada ta uuesti."),
     entry("no-go-in-the-way", "Keeluala või virtuaalsein sulgeb tee koristatavale põrandale.", "Nihuta ala või kustuta see, või vali teised toad."),
+    entry("no-go-ahead", "Ees on keeluala või virtuaalsein.", ""),
+    entry("inside-no-go", "Robot on keelualal ja lahkub sealt lühimat teed pidi.", ""),
     entry("zone-crosses", "Ala servad ristuvad, puutuvad kokku või pöörduvad tagasi.", "Joonista see uuesti, nurgad järjekorras ümber põranda."),
     entry("zone-too-thin", "Ala on liiga väike või liiga kitsas.", "Joonista see vähemalt käelaiune või tõmba virtuaalsein."),
     entry("dock-shut-off", "See eraldaks suurema osa põrandast dokist.", "Jäta tee dokini vabaks."),
