@@ -1,3 +1,5 @@
+//! Gyros that lie in each way, and a sound one beside wheels that slip.
+
 use super::{GyroChange, GyroMonitor, Totals};
 use crate::model::gyro_fault::GyroFault;
 
