@@ -11,7 +11,7 @@ const CRUMB_M2: f64 = 0.03;
 const NEAR_M: f64 = 5.0;
 
 /// Cells of one piece of floor, and the rectangle around them.
-struct Piece {
+struct FloorPiece {
     cells: Vec<u32>,
     columns: (usize, usize),
     rows: (usize, usize),
@@ -51,7 +51,7 @@ fn gap(one: (usize, usize), other: (usize, usize)) -> usize {
 }
 
 /// The largest piece of floor (without its cells unless it is a crumb itself), and all crumbs but it.
-fn pieces(grid: &Grid, crumb_cells: usize) -> (Option<Piece>, Vec<Piece>) {
+fn pieces(grid: &Grid, crumb_cells: usize) -> (Option<FloorPiece>, Vec<FloorPiece>) {
     let mut seen = vec![false; grid.cells.len()];
     let mut crumbs = Vec::new();
     let (mut largest, mut largest_cells) = (None, 0);
@@ -78,9 +78,9 @@ fn is_floor(grid: &Grid, index: usize) -> bool {
 }
 
 /// The piece around a cell and its size; it keeps no more cells than a crumb has.
-fn flood(grid: &Grid, seen: &mut [bool], start: usize, crumb_cells: usize) -> (Piece, usize) {
+fn flood(grid: &Grid, seen: &mut [bool], start: usize, crumb_cells: usize) -> (FloorPiece, usize) {
     let (column, row) = (start % grid.width, start / grid.width);
-    let mut piece = Piece {
+    let mut piece = FloorPiece {
         cells: Vec::new(),
         columns: (column, column),
         rows: (row, row),
