@@ -28,6 +28,7 @@ use crate::radio::RadioEvent;
 use crate::recording::RecorderHandle;
 use crate::run_thread::RunHandle;
 use crate::socket;
+use crate::told_lines::{CORE_LINES, ToldLine, ToldLines};
 
 /// Longest wait for the wheels to stop when the daemon ends.
 const STOP_WAIT: Duration = Duration::from_millis(500);
@@ -59,6 +60,8 @@ pub(crate) struct Wiring {
     pub socket: PathBuf,
     /// Clients at the same time.
     pub clients_max: usize,
+    /// Warnings and errors of the shell for clients.
+    pub told: ToldLines,
 }
 
 /// The daemon while it runs.
@@ -129,6 +132,9 @@ impl Daemon {
             self.wall_due_us = now_us + WALL_US;
             let utc_s = self.clock.utc_s();
             self.handle(Input::WallClock { utc_s });
+            for ToldLine { level, text } in self.wiring.told.take() {
+                self.handle(Input::Told { level, text });
+            }
         }
     }
 
@@ -455,9 +461,9 @@ fn deliver(core: &Core, clients: &mut BTreeMap<ClientId, Client>, delivery: &Del
 fn log(entry: &LogEntry) {
     let LogEntry { part, text, .. } = entry;
     match entry.level {
-        LogLevel::Debug => tracing::debug!(part, "{text}"),
-        LogLevel::Info => tracing::info!(part, "{text}"),
-        LogLevel::Warn => tracing::warn!(part, "{text}"),
-        LogLevel::Error => tracing::error!(part, "{text}"),
+        LogLevel::Debug => tracing::debug!(target: CORE_LINES, part, "{text}"),
+        LogLevel::Info => tracing::info!(target: CORE_LINES, part, "{text}"),
+        LogLevel::Warn => tracing::warn!(target: CORE_LINES, part, "{text}"),
+        LogLevel::Error => tracing::error!(target: CORE_LINES, part, "{text}"),
     }
 }

@@ -37,10 +37,11 @@ mod run_folder;
 mod run_thread;
 mod schedule_file;
 mod serial;
+mod serial_identity;
 mod service;
 mod socket;
-mod system_zone;
 mod systemd;
+mod told_lines;
 
 pub use clock::Clock;
 pub use kept_store::KeptStore;

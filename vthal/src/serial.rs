@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use rustix::fs::{FlockOperation, Mode, OFlags, flock};
 use serial2_tokio::{SerialPort, Settings};
 
+use crate::serial_identity::{BY_ID, links};
+
 /// Which device and how fast.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SerialSettings {
@@ -59,7 +61,7 @@ pub(crate) fn lock(path: &Path) -> Result<DeviceLock, OpenError> {
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum OpenError {
     /// The system refuses.
-    #[error("cannot open the device {}: {error}; waiting for it", .path.display())]
+    #[error("cannot open the device {}: {error}; waiting for it{}", .path.display(), others(.path))]
     Open {
         /// The device.
         path: PathBuf,
@@ -70,6 +72,21 @@ pub(crate) enum OpenError {
     /// Another program has locked it.
     #[error("the device {} is locked by another program; waiting for it", .0.display())]
     InUse(PathBuf),
+}
+
+/// Names the adapters that there are, for whoever configured another one.
+fn others(path: &Path) -> String {
+    let links = if path.exists() {
+        Vec::new()
+    } else {
+        links(Path::new(BY_ID))
+    };
+    let names: Vec<String> = links.iter().map(|link| link.display().to_string()).collect();
+    if names.is_empty() {
+        String::new()
+    } else {
+        format!(" (there is: {})", names.join(", "))
+    }
 }
 
 impl OpenError {

@@ -8,13 +8,24 @@ use std::process::Command;
 /// A Python environment with these packages, named with their versions; gives its folder of programs, in which `program` is one. What is there
 /// already is taken as it is.
 pub(crate) fn python(environment: &Path, packages: &[&str], program: &str) -> anyhow::Result<PathBuf> {
+    if !environment.join("bin").join(program).is_file() {
+        system::need("python3", &["python3", "python3-venv"])?;
+    }
+    python_of(Path::new("python3"), environment, (packages, program))
+}
+
+/// The same with this Python.
+pub(crate) fn python_of(
+    python: &Path,
+    environment: &Path,
+    (packages, program): (&[&str], &str),
+) -> anyhow::Result<PathBuf> {
     let programs = environment.join("bin");
     if programs.join(program).is_file() {
         return Ok(programs);
     }
-    system::need("python3", &["python3", "python3-venv"])?;
     let make = || {
-        let mut command = Command::new("python3");
+        let mut command = Command::new(python);
         command.args(["-m", "venv", "--clear"]).arg(environment);
         process::run(&format!("make a Python environment for {program}"), &mut command)
     };

@@ -4,6 +4,9 @@ use crate::process;
 use anyhow::{Context, bail};
 use std::path::PathBuf;
 use std::process::Command;
+use std::sync::{Mutex, PoisonError};
+
+static INSTALLING: Mutex<()> = Mutex::new(());
 
 /// Finds a program on the search path.
 pub(crate) fn find(program: &str) -> Option<PathBuf> {
@@ -41,6 +44,8 @@ pub(crate) fn install(packages: &[&str]) -> anyhow::Result<()> {
             "this machine has no apt-get to install {wanted}; install the packages of the same purpose by hand"
         );
     }
+    // Stages that run side by side take turns: apt-get waits for the lock of the packages, and not for that of their lists.
+    let _turn = INSTALLING.lock().unwrap_or_else(PoisonError::into_inner);
     let install = || apt_install(packages);
     if install().is_ok() {
         return Ok(());

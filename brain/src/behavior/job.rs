@@ -31,6 +31,8 @@ pub(super) struct Job {
     pub(super) edges: CliffWatch,
     /// Movements that come before the task: an escape, or leaving the dock.
     pub(super) detour: Option<Detour>,
+    /// Since when only the wheels tell the heading of a job that draws a map.
+    pub(super) without_heading_us: Option<u64>,
     /// When to rest next so that the gyro's bias can be measured.
     pub(super) gyro_rest: GyroRest,
     /// Brushes may run: the bumper was released after the job last started (S29).
@@ -42,6 +44,8 @@ pub(super) struct Job {
     pub(super) crosses: bool,
     /// The task has ended for this reason while something was touched: the job ends once the robot has backed off.
     pub(super) ending: Option<Reason>,
+    /// The home is so large that the usual budget does not do: seconds of motion after which it is looked at again.
+    pub(super) extended_to_s: f64,
 }
 
 /// Movements that come before the task.
@@ -84,12 +88,14 @@ impl Job {
             slip: SlipWatch::default(),
             edges: CliffWatch::default(),
             detour: None,
+            without_heading_us: None,
             gyro_rest: GyroRest::default(),
             brushes: false,
             returns: false,
             dock_retry: DockRetry::default(),
             crosses: false,
             ending: None,
+            extended_to_s: 0.0,
         }
     }
 

@@ -3,7 +3,7 @@
 //! next unknown wall.
 
 use super::parameters::DOCKING;
-use super::roam::Roam;
+use super::roam::{Roam, enters_forbidden};
 use crate::coverage::{LapStep, Perimeter};
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
@@ -55,6 +55,12 @@ impl DockSearch {
     }
 
     fn follow_walls(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
+        if !self.lap.is_evading() && situation.is_free() && enters_forbidden(situation) {
+            context.decide(DecisionKind::LeaveWall, Reason::NoGoAhead, self.lap.driven_m());
+            self.interrupted();
+            self.roam_left_m = Some(DOCKING.roam_m);
+            return self.roam.step(situation, context);
+        }
         match self.lap.step(situation, context) {
             LapStep::Going(motion) => TaskStatus::Go(motion),
             LapStep::Trouble(reason) => TaskStatus::Trouble(reason),

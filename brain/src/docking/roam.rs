@@ -4,7 +4,7 @@
 //! far. *Ray*: a straight line from the robot that no obstacle on the map blocks. Its value is the number of unseen blocks
 //! that it crosses.
 
-use core::f64::consts::{FRAC_PI_3, TAU};
+use core::f64::consts::{FRAC_PI_3, FRAC_PI_6, TAU};
 use std::collections::BTreeSet;
 
 use super::parameters::ROAM;
@@ -63,7 +63,8 @@ impl Roam {
     pub(super) fn step(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         if let Some((bounce, left_s)) = &mut self.bounce {
             *left_s -= situation.advance.time_s;
-            if *left_s > 0.0 || bounce.is_evading() || !situation.is_free() {
+            let bounces = *left_s > 0.0 && !enters_forbidden(situation);
+            if bounces || bounce.is_evading() || !situation.is_free() {
                 return bounce.step(situation, context);
             }
             self.bounce = None;
@@ -91,6 +92,9 @@ impl Roam {
                 self.evasion = Some(Evasion::from_contact(0.0, turn_rad));
                 return TaskStatus::Go(Motion::Halt);
             }
+        }
+        if enters_forbidden(situation) {
+            return self.turn_from(Reason::NoGoAhead, situation, context);
         }
         TaskStatus::Go(ahead(situation))
     }
@@ -209,6 +213,24 @@ fn block(at: Point2) -> (i32, i32) {
         libm::floor(at.x_m / ROAM.block_m) as i32,
         libm::floor(at.y_m / ROAM.block_m) as i32,
     )
+}
+
+/// Whether the next hand's breadth leads into a no-go zone or over a virtual wall. A robot that stands in one already, or that
+/// does not know its place, is not held back.
+pub(super) fn enters_forbidden(situation: &Situation<'_>) -> bool {
+    let is_forbidden = |at| situation.map.is_forbidden(at, &[]);
+    if situation.estimate.lost || is_forbidden(situation.pose.position()) {
+        return false;
+    }
+    let reach_m = situation.config.body.radius_m + ROAM.before_forbidden_m;
+    (-2..=2).any(|step| {
+        let bearing_rad = f64::from(step) * FRAC_PI_6;
+        is_forbidden(
+            situation
+                .pose
+                .transform(Point2::in_direction(bearing_rad, reach_m)),
+        )
+    })
 }
 
 /// Straight ahead, slower when an obstacle is near.

@@ -210,7 +210,7 @@ impl Tracker {
 
     /// Whether the pose is known and confirmed.
     pub(super) fn is_settled(&self) -> bool {
-        !self.lost && self.unconfirmed == 0 && self.lift.hanging_s() <= 0.0
+        !self.lost && self.unconfirmed == 0 && !self.lift.is_in_air()
     }
 
     /// Does a step of the global localization of a lost robot, before each [`Self::follow`] or now and then.

@@ -1,6 +1,7 @@
 //! Why the robot does what it does, by name.
 
 use super::fault::Fault;
+use super::gyro_fault::GyroFault;
 use super::link_fault::LinkFault;
 use super::named_enum::named_enum;
 use super::observation::{Cliffs, Contacts};
@@ -99,6 +100,10 @@ named_enum! {
         MostOutOfReach => "most-out-of-reach",
         /// A no-go zone or virtual wall shuts off most of what was asked.
         NoGoInTheWay => "no-go-in-the-way",
+        /// A no-go zone or virtual wall lies ahead in the search for the dock.
+        NoGoAhead => "no-go-ahead",
+        /// Floor was forbidden around the robot: it leaves it on the shortest way first.
+        InsideNoGo => "inside-no-go",
         /// The pack is low, and what is left is not worth another charge.
         CrumbsLeft => "crumbs-left",
         /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.
@@ -113,6 +118,8 @@ named_enum! {
         GyroScale => "gyro-scale",
         /// The gyro's bias wanders and is measured at rest.
         GyroDrift => "gyro-drift",
+        /// A gyro that was left out agrees with the wheels again, or is heard again.
+        GyroBack => "gyro-back",
         /// The time of the job is used up (S26).
         TaskBudget => "task-budget",
         /// Little charge is left.
@@ -169,6 +176,8 @@ named_enum! {
         Fault(Fault),
         /// The link cannot be relied upon.
         Link(LinkFault),
+        /// The gyro cannot be relied upon.
+        Gyro(GyroFault),
     }
 }
 

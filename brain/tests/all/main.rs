@@ -3,6 +3,7 @@
 mod behavior;
 mod contours;
 mod first_run;
+mod forbidden;
 mod laws;
 mod mapping;
 mod orders;

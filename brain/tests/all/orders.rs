@@ -3,27 +3,27 @@
 use crate::plane::{Rectangle, Room, World, config, edit, run};
 use brain::mapping::DockLocation;
 use brain::{
-    BehaviorState, Brain, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart, JobCommand,
-    JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName, RoomPower,
-    RoomSettings, StoredMap, Zone,
+    BehaviorState, Brain, BrainConfig, CELL_M, Cell, CellKnowledge, CleaningOrder, EditError, HomePart,
+    JobCommand, JobRefusal, MapEdit, NoGo, NoGoEdit, Point2, Pose2, Raster, Reason, RoomEdit, RoomName,
+    RoomPower, RoomSettings, StoredMap, Zone,
 };
 
 /// Two rooms of 3 x 4 m, and a door of 0.9 m in the wall between them.
-fn flat() -> Room {
+pub(crate) fn flat() -> Room {
     Room::empty((6.1, 4.0)).with(&[
         Rectangle::new((3.0, 0.0), (3.1, 1.5)),
         Rectangle::new((3.0, 2.4), (3.1, 4.0)),
     ])
 }
 
-const START: Pose2 = Pose2 {
+pub(crate) const START: Pose2 = Pose2 {
     x_m: 1.0,
     y_m: 1.0,
     heading_rad: 0.0,
 };
 
 /// The flat in the frame of a robot that starts at `START`.
-fn known(room: &Room) -> StoredMap {
+pub(crate) fn known(room: &Room) -> StoredMap {
     let (width, height) = (260, 180);
     let mut knowledge = Raster::filled(Cell { x: -50, y: -50 }, width, height, CellKnowledge::Occupied);
     for index in 0..width * height {
@@ -40,7 +40,7 @@ fn known(room: &Room) -> StoredMap {
 }
 
 /// A rectangle in the frame of the room, as a zone of the map.
-fn zone(low: (f64, f64), high: (f64, f64)) -> Zone {
+pub(crate) fn zone(low: (f64, f64), high: (f64, f64)) -> Zone {
     let corners = [low, (high.0, low.1), high, (low.0, high.1)].map(|(x_m, y_m)| Point2 {
         x_m: x_m - START.x_m,
         y_m: y_m - START.y_m,
@@ -48,15 +48,19 @@ fn zone(low: (f64, f64), high: (f64, f64)) -> Zone {
     Zone::new(corners.to_vec()).expect("a rectangle")
 }
 
-struct Stage {
-    brain: Brain,
-    world: World,
+pub(crate) struct Stage {
+    pub(crate) brain: Brain,
+    pub(crate) world: World,
 }
 
 impl Stage {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
+        Self::with(config())
+    }
+
+    fn with(config: BrainConfig) -> Self {
         let room = flat();
-        let mut brain = Brain::with_map(config(), 1, &known(&room));
+        let mut brain = Brain::with_map(config, 1, &known(&room));
         let mut world = World::new(room, START);
         run(&mut world, &mut brain, None, 1.0);
         Self { brain, world }
@@ -74,6 +78,14 @@ impl Stage {
         }
         assert_eq!(self.world.violations, Vec::<String>::new());
         seconds
+    }
+
+    /// Where the robot truly is, in the frame of its map.
+    pub(crate) fn place(&self) -> Point2 {
+        Point2 {
+            x_m: self.world.pose.x_m - START.x_m,
+            y_m: self.world.pose.y_m - START.y_m,
+        }
     }
 
     /// Share of a rectangle of the room that was swept.
@@ -230,7 +242,7 @@ fn the_estimate_tells_charge_and_share() {
     assert!(estimates[1].share_low > estimates[0].share_low);
 }
 
-fn forbid(stage: &mut Stage, no_go: NoGo) {
+pub(crate) fn forbid(stage: &mut Stage, no_go: NoGo) {
     let adding = MapEdit::NoGo(NoGoEdit::Add(no_go));
     assert_eq!(stage.brain.map().admit(&adding), Ok(()));
     edit(&mut stage.world, &mut stage.brain, adding);
@@ -517,6 +529,43 @@ fn a_job_that_finds_its_floor_shut_off_is_not_finished() {
     assert_eq!(stage.brain.status().reason, Reason::NoGoInTheWay);
 }
 
+/// A zone around the working robot: out of it on the shortest way, then on with the job.
+#[test]
+fn a_zone_drawn_around_the_robot_leads_it_out_first() {
+    let mut stage = Stage::new();
+    let order = CleaningOrder::default();
+    run(
+        &mut stage.world,
+        &mut stage.brain,
+        Some(JobCommand::CleanParts { order }),
+        30.0,
+    );
+    let here = (stage.world.pose.x_m, stage.world.pose.y_m);
+    // The nearest edge lies 0.6 m to the right; elsewhere it is farther.
+    let (low, high) = ((here.0 - 0.9, here.1 - 0.9), (here.0 + 0.6, here.1 + 0.9));
+    let low = (low.0.max(0.0), low.1.max(0.0));
+    let area = zone(low, high);
+    forbid(&mut stage, NoGo::zone(&area).unwrap());
+    let mut inside_m = 0.0;
+    let mut before = stage.place();
+    let mut seconds = 0;
+    while stage.brain.status().state != BehaviorState::Idle && seconds < 30_000 {
+        run(&mut stage.world, &mut stage.brain, None, 0.1);
+        let now = stage.place();
+        if area.contains(now) {
+            inside_m += now.distance_m(before);
+        }
+        before = now;
+        seconds += 1;
+    }
+    assert_eq!(stage.brain.status().reason, Reason::Finished);
+    assert!(inside_m < 1.2, "{inside_m} m inside; 0.6 m would lead out");
+    assert!(
+        stage.swept((3.4, 0.3), (5.9, 3.7)) > 0.9,
+        "the other room is swept"
+    );
+}
+
 #[test]
 fn the_way_to_the_dock_stays_open() {
     let dock = Pose2 {
@@ -569,4 +618,15 @@ fn brushes_rest_on_the_way_through_a_room_that_nobody_chose() {
     stage.clean(&order);
     assert!(stage.swept((4.0, 0.5), (5.5, 2.0)) > 0.9);
     assert_eq!(stage.swept((0.2, 0.2), (2.8, 3.8)), 0.0, "nobody asked for this");
+}
+
+#[test]
+fn a_job_gets_the_time_that_the_floor_of_its_home_takes() {
+    let mut stage = Stage::with(BrainConfig {
+        task_budget_s: 20.0,
+        ..config()
+    });
+    let seconds = stage.clean(&CleaningOrder::default());
+    assert!(seconds > 60.0, "{seconds} s");
+    assert_ne!(stage.brain.status().reason.name(), "task-budget");
 }

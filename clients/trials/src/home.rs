@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-use crate::process::{Scratch, Server, ask, beside};
+use crate::process::{Scratch, Server, ask, ask_for, beside};
 use crate::program::wait_for;
 use anyhow::ensure;
 
@@ -101,6 +101,20 @@ impl Home {
     pub(crate) fn order(&self, request: &str) -> anyhow::Result<()> {
         let answer = ask(&self.socket(), &request.replacen('{', r#"{"id":1,"#, 1), PATIENCE)?;
         ensure!(answer == r#"{"e":"done","id":1}"#, "{request}: {answer}");
+        Ok(())
+    }
+
+    /// Does what the hand of a person does, at the simulator.
+    pub(crate) fn hand(&self, request: &str) -> anyhow::Result<()> {
+        let socket = self.scratch.join("simulator.sock");
+        // It tells everybody the plan of its home first.
+        let answer = ask_for(&socket, (request, PATIENCE), |line| {
+            !line.contains("simulated-plan")
+        })?;
+        ensure!(
+            answer == r#"{"e":"done"}"#,
+            "the simulator does not do {request}: {answer}"
+        );
         Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! A small client of HTTP/1.1: one request a connection.
 
+use std::fmt::Write as _;
 use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::Duration;
@@ -8,9 +9,11 @@ use anyhow::{Context as _, bail, ensure};
 use serde_json::Value;
 
 /// Who is asked.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Site {
     pub(crate) port: u16,
+    /// What the site has given out after a login.
+    pub(crate) token: Option<String>,
 }
 
 /// An answer.
@@ -27,26 +30,19 @@ impl Answer {
     }
 }
 
-impl Site {
+impl Answer {
     /// The JSON of an answer that went well.
-    pub(crate) fn get_json(&self, path: &str) -> anyhow::Result<Value> {
-        let answer = self.get(path)?;
+    fn json(&self, path: &str) -> anyhow::Result<Value> {
         ensure!(
-            (200..300).contains(&answer.code),
+            (200..300).contains(&self.code),
             "{path}: {} {}",
-            answer.code,
-            answer.text()
+            self.code,
+            self.text()
         );
-        serde_json::from_slice(&answer.body).with_context(|| format!("{path}: {}", answer.text()))
+        serde_json::from_slice(&self.body).with_context(|| format!("{path}: {}", self.text()))
     }
 
-    pub(crate) fn get(&self, path: &str) -> anyhow::Result<Answer> {
-        let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
-        stream.set_read_timeout(Some(Duration::from_secs(30)))?;
-        let request = format!("GET {path} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n\r\n");
-        stream.write_all(request.as_bytes())?;
-        let mut answer = Vec::new();
-        stream.read_to_end(&mut answer)?;
+    fn read(answer: &[u8]) -> anyhow::Result<Self> {
         let at = answer
             .windows(4)
             .position(|four| four == b"\r\n\r\n")
@@ -63,7 +59,50 @@ impl Site {
         } else {
             body.to_vec()
         };
-        Ok(Answer { code, head, body })
+        Ok(Self { code, head, body })
+    }
+}
+
+impl Site {
+    /// The JSON of an answer that went well.
+    pub(crate) fn get_json(&self, path: &str) -> anyhow::Result<Value> {
+        self.get(path)?.json(path)
+    }
+
+    pub(crate) fn get(&self, path: &str) -> anyhow::Result<Answer> {
+        self.ask(&format!("GET {path}"), None)
+    }
+
+    pub(crate) fn post_json(&self, path: &str, value: &Value) -> anyhow::Result<Value> {
+        let body = ("application/json", value.to_string());
+        self.ask(&format!("POST {path}"), Some(&body))?.json(path)
+    }
+
+    pub(crate) fn post_form(&self, path: &str, form: &str) -> anyhow::Result<Value> {
+        let body = ("application/x-www-form-urlencoded", form.to_owned());
+        self.ask(&format!("POST {path}"), Some(&body))?.json(path)
+    }
+
+    /// `what` is a method and a path, `body` a kind of medium and its text.
+    fn ask(&self, what: &str, body: Option<&(&str, String)>) -> anyhow::Result<Answer> {
+        let mut request = format!("{what} HTTP/1.1\r\nHost: 127.0.0.1\r\nConnection: close\r\n");
+        if let Some(token) = &self.token {
+            write!(request, "Authorization: Bearer {token}\r\n")?;
+        }
+        match body {
+            None => request.push_str("\r\n"),
+            Some((medium, text)) => write!(
+                request,
+                "Content-Type: {medium}\r\nContent-Length: {}\r\n\r\n{text}",
+                text.len()
+            )?,
+        }
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port))?;
+        stream.set_read_timeout(Some(Duration::from_secs(30)))?;
+        stream.write_all(request.as_bytes())?;
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer)?;
+        Answer::read(&answer)
     }
 }
 

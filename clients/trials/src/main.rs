@@ -3,6 +3,7 @@
 
 mod broker;
 mod home;
+mod home_assistant;
 mod http;
 mod load;
 mod mosquitto;
@@ -34,16 +35,20 @@ struct Arguments {
     /// A Python that has the package icalendar
     #[arg(long, value_name = "FILE")]
     python: Option<PathBuf>,
+    /// The program of Home Assistant, which is tried when it is named
+    #[arg(long, value_name = "FILE")]
+    hass: Option<PathBuf>,
 }
 
 /// A peer, and how it is tried.
 type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
-const TRIALS: [Trial; 4] = [
+const TRIALS: [Trial; 5] = [
     ("mosquitto", mosquitto::trial),
     ("load", load::trial),
     ("prometheus", prometheus::trial),
     ("python", notifications::trial),
+    ("home-assistant", home_assistant::trial),
 ];
 
 fn main() -> ExitCode {
@@ -66,7 +71,11 @@ fn try_all(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let mut verdicts = Vec::new();
     for (name, trial) in TRIALS {
-        let wanted = arguments.only.is_empty() || arguments.only.iter().any(|only| only == name);
+        let wanted = if arguments.only.is_empty() {
+            name != "home-assistant" || arguments.hass.is_some()
+        } else {
+            arguments.only.iter().any(|only| only == name)
+        };
         if wanted {
             let mut verdict = Verdict::of(name);
             if let Err(error) = trial(arguments, &mut verdict) {

@@ -16,7 +16,7 @@ use crate::program::{Program, server, version_in};
 use crate::verdict::Verdict;
 
 /// Within this time everything is back after a break.
-const BACK: Duration = Duration::from_secs(10);
+pub(crate) const BACK: Duration = Duration::from_secs(10);
 /// Within this time a command shows.
 const SOON: Duration = Duration::from_secs(10);
 

@@ -134,7 +134,7 @@ fn bridge(home: &Home, port: u16) -> anyhow::Result<process::Server> {
 }
 
 fn calendar(home: &Home, python: &Path, port: u16) -> anyhow::Result<()> {
-    let server = Site { port };
+    let server = Site { port, token: None };
     let answer = server.get("/runs.ics")?;
     ensure!(
         answer.head.to_ascii_lowercase().contains("text/calendar"),

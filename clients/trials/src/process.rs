@@ -93,6 +93,15 @@ pub(crate) fn beside(name: &str) -> anyhow::Result<PathBuf> {
 
 /// Asks at a socket of ours, and gives the first answer.
 pub(crate) fn ask(socket: &Path, request: &str, patience: Duration) -> anyhow::Result<String> {
+    ask_for(socket, (request, patience), |_| true)
+}
+
+/// The same, past what the socket says of itself: gives the first line that is an answer.
+pub(crate) fn ask_for(
+    socket: &Path,
+    (request, patience): (&str, Duration),
+    is_answer: impl Fn(&str) -> bool,
+) -> anyhow::Result<String> {
     let mut stream = UnixStream::connect(socket)?;
     stream.write_all(request.as_bytes())?;
     stream.write_all(&[SEPARATOR])?;
@@ -103,7 +112,12 @@ pub(crate) fn ask(socket: &Path, request: &str, patience: Duration) -> anyhow::R
     while Instant::now() < end {
         match stream.read(&mut byte) {
             Ok(0) => break,
-            Ok(_) if byte == [SEPARATOR] => return Ok(String::from_utf8_lossy(&answer).into_owned()),
+            Ok(_) if byte == [SEPARATOR] => {
+                let line = String::from_utf8_lossy(&core::mem::take(&mut answer)).into_owned();
+                if is_answer(&line) {
+                    return Ok(line);
+                }
+            }
             Ok(_) => answer.extend_from_slice(&byte),
             Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}
             Err(error) => return Err(error.into()),

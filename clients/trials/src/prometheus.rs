@@ -28,14 +28,17 @@ pub(crate) fn trial(_arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Re
     command.arg("--vthal").arg(home.socket()).args(["--port", "0"]);
     let bridge = process::Server::start(command)?;
     let port = bridge.port()?;
-    let figures = Site { port };
+    let figures = Site { port, token: None };
     let page = wait_for("the battery is on the page", Duration::from_secs(10), || {
         let page = figures.get("/metrics")?.text();
         Ok(page.contains("rvac_battery_charge_ratio ").then_some(page))
     })?;
     verdict.check("promtool finds nothing wrong", linted(&home, &page));
     let prometheus = collecting(&home, port)?;
-    let asked = Site { port: prometheus.1 };
+    let asked = Site {
+        port: prometheus.1,
+        token: None,
+    };
     verdict.check(
         "it collects the figures",
         wait_for("an answer", Duration::from_secs(15), || {

@@ -86,8 +86,8 @@ mod tests {
             assert_eq!(data, Some(byte));
         }
         assert_eq!(encode(b'{').count(), 1);
-        assert_eq!(encode(ESCAPE).collect::<std::vec::Vec<_>>(), [0x1B, 0x4E]);
-        assert_eq!(encode(0x00).collect::<std::vec::Vec<_>>(), [0x1B, 0x55]);
-        assert_eq!(encode(0xFF).collect::<std::vec::Vec<_>>(), [0x1B, 0xAA]);
+        assert!(encode(ESCAPE).eq([0x1B, 0x4E]));
+        assert!(encode(0x00).eq([0x1B, 0x55]));
+        assert!(encode(0xFF).eq([0x1B, 0xAA]));
     }
 }

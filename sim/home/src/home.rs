@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::load::{self, DockWish, Draft, HomeError};
+use crate::load::{self, DockWish, Draft, HomeError, HomeNotice};
 use crate::model::RobotModel;
 use crate::plan::{
     Cell, DistanceField, DockSearch, Door, Grid, Regions, SurfaceMap, WalkerPlan, Ways, blocked_field,
@@ -31,6 +31,7 @@ pub struct Home {
     /// For each cell whether it belongs to a mirror; empty where there is none.
     pub(crate) mirrors: Vec<bool>,
     pub(crate) walkers: Vec<WalkerPlan>,
+    notices: Vec<HomeNotice>,
 }
 
 impl Home {
@@ -70,6 +71,7 @@ impl Home {
             regions: &regions,
             model,
             path,
+            notices: &draft.notices,
         };
         let place = search.place(draft.dock)?;
         let ways = Ways::new(&widest, &blocked);
@@ -109,6 +111,7 @@ impl Home {
             walkers,
             doors: draft.doors,
             grid: draft.grid,
+            notices: draft.notices,
         })
     }
 
@@ -141,6 +144,12 @@ impl Home {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What its file may mean otherwise than its maker thinks: to be told before a robot drives in it.
+    #[must_use]
+    pub fn notices(&self) -> &[HomeNotice] {
+        &self.notices
     }
 
     /// Rooms that its file knows; `None` = it knows of no rooms.
@@ -269,6 +278,7 @@ struct Search<'a> {
     regions: &'a Regions,
     model: &'a RobotModel,
     path: &'a Path,
+    notices: &'a [HomeNotice],
 }
 
 impl Search<'_> {
@@ -332,6 +342,7 @@ impl Search<'_> {
             path: self.path.to_owned(),
             radius_m: self.model.body.radius_m,
             clear_m: f64::from(clear),
+            notices: self.notices.to_vec(),
         }
     }
 }

@@ -29,7 +29,7 @@ mod world;
 pub use digest::Fnv1a;
 pub use home::Home;
 pub use linux_board::{Beacons, BoardGyro, Measured};
-pub use load::HomeError;
+pub use load::{HomeError, HomeNotice};
 pub use model::{
     BatteryModel, BodyModel, BumperModel, Cleaners, CliffMount, Confidence, DriveModel, GyroModel,
     LidarModel, ModelError, ProximityModel, ReceiverMount, RobotModel, WheelMotor, robot_names,

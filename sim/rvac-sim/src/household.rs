@@ -200,6 +200,16 @@ impl Household {
         self
     }
 
+    /// The gyro on the Linux board says nothing from now on.
+    pub fn silence_board_gyro(&mut self) {
+        self.board.gyro_is_silent = true;
+    }
+
+    /// It measures again.
+    pub fn wake_board_gyro(&mut self) {
+        self.board.gyro_is_silent = false;
+    }
+
     /// The same household with beacons for the Linux board's radio.
     #[must_use]
     pub fn with_beacons(mut self, beacons: Beacons) -> Self {
@@ -299,7 +309,7 @@ impl Household {
                 }),
                 awaits_charge: host.brain().is_some_and(brain::Brain::awaits_charge),
             };
-            let truth_in_map = self.map_from_plan.then(truth.pose);
+            let truth_in_map = self.truth_in_map();
             self.figures.sample(truth, truth_in_map, &belief);
             if truth.time_ms.is_multiple_of(TOLD_MS) && belief.state == Some(brain::BehaviorState::Cleaning) {
                 let reported = host.brain().and_then(brain::Brain::swept_share);
@@ -321,6 +331,12 @@ impl Household {
     /// Another host takes over.
     pub fn revive_host(&mut self, host: Host) {
         self.host = Some(host);
+    }
+
+    /// The true pose in the frame of the host's map.
+    #[must_use]
+    pub fn truth_in_map(&self) -> Pose {
+        self.map_from_plan.then(self.robot.world().truth().pose)
     }
 
     /// The robot.

@@ -50,14 +50,24 @@ fn main() -> ExitCode {
     })
 }
 
+/// The scene, and what its home's file may mean otherwise than its maker thinks: told before the robot drives.
+fn told_scene(settings: &SceneSettings) -> anyhow::Result<Scene> {
+    let scene = Scene::load(settings)?;
+    for notice in scene.home().notices() {
+        // If standard error is closed, the notice is lost.
+        writeln!(io::stderr(), "rvac-sim: {notice}").ok();
+    }
+    Ok(scene)
+}
+
 fn serve_robot(arguments: &ServeArguments) -> anyhow::Result<ExitCode> {
-    let scene = Scene::load(&arguments.scene.settings())?;
+    let scene = told_scene(&arguments.scene.settings())?;
     serve(&scene, &arguments.settings())?;
     Ok(ExitCode::SUCCESS)
 }
 
 fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
-    let scene = Scene::load(&arguments.scene.settings())?;
+    let scene = told_scene(&arguments.scene.settings())?;
     let settings = arguments.settings()?;
     let started = Instant::now();
     let progress = Progress::new("simulating");

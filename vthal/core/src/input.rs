@@ -2,7 +2,7 @@
 
 use brain::StoredMap;
 use brain::observation::BeaconSignal;
-use rvac_api::{Failure, Request, Run};
+use rvac_api::{Failure, LogLevel, Request, Run};
 
 use crate::{FloorTask, KeptFloor};
 
@@ -34,6 +34,13 @@ pub enum Input<'a> {
     },
     /// A radio on the Linux board measured how far a beacon is, or how strongly it is received.
     Beacon(BeaconSignal),
+    /// The shell has warned or complained of something in its own log: clients read it too.
+    Told {
+        /// How grave.
+        level: LogLevel,
+        /// The sentence.
+        text: String,
+    },
     /// A client connected.
     ClientConnected(ClientId),
     /// A client asks for something.

@@ -1,6 +1,7 @@
 //! The link to the robot, whatever it is made of: opened for ever, read and written by one task that turns it into events.
 
 mod clocked;
+mod moved;
 mod network;
 mod opening;
 mod shared_wire;
@@ -20,6 +21,7 @@ use vthal_core::{LineHolder, LinkLoss};
 
 use crate::event::{Event, LinkEvent};
 
+use moved::Moved;
 use opening::open_to_robot;
 pub(crate) use opening::{Link, LinkOpenError};
 
@@ -72,17 +74,19 @@ impl LineOrders {
 }
 
 /// Serves the link until the daemon's event queue closes: opens it, passes bytes in both directions, and begins again when it is
-/// lost. Each outage is reported once. While the link is lent to a client, it is closed.
+/// lost. Each cause of an outage is reported once. While the link is lent to a client, it is closed.
 pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: LineOrders) {
     let mut rates = robot.rates_baud.iter().copied().cycle();
     let mut baud = rates.next().unwrap_or_default();
     let mut pause = PAUSE_MIN;
-    let mut is_reported = false;
+    let mut reported: Option<String> = None;
+    let mut place = Moved::new(robot.address.clone());
     loop {
         orders.await_holder(LineHolder::Daemon).await;
-        let event = match open_to_robot(&robot, baud).await {
+        let event = match open_to_robot((place.address(), robot.opening), baud).await {
             Ok(mut link) => {
-                is_reported = false;
+                reported = None;
+                place.opened();
                 drain(&mut orders.to_robot);
                 let opened = LinkEvent::Opened(link.abilities);
                 if events.send(Event::Link(opened)).await.is_err() {
@@ -101,10 +105,15 @@ pub(crate) async fn serve(robot: RobotLine, events: Sender<Event>, mut orders: L
                     }
                 }))
             }
-            Err(_) if is_reported => None,
             Err(error) => {
-                is_reported = true;
-                Some(LinkEvent::Absent(error))
+                place.look();
+                // A cause that changes while the link is away is news.
+                let text = error.to_string();
+                let is_news = reported.as_ref() != Some(&text);
+                is_news.then(|| {
+                    reported = Some(text);
+                    LinkEvent::Absent(error)
+                })
             }
         };
         if let Some(event) = event

@@ -12,7 +12,7 @@ use serial2_tokio::rs4xx::{Rs485Config, TransceiverMode};
 use tokio::io::{AsyncRead, AsyncWrite};
 use vthal_core::device::Opening;
 
-use super::{RobotLine, clocked, network, shared_wire};
+use super::{clocked, network, shared_wire};
 use crate::serial::{self, DeviceLock, Line, OpenError, SerialSettings};
 
 /// Bytes in and out.
@@ -65,20 +65,23 @@ pub(crate) enum LinkOpenError {
 }
 
 /// Opens the link and wakes the robot at its other end, if it needs that.
-pub(super) async fn open_to_robot(robot: &RobotLine, baud: u32) -> Result<Link, LinkOpenError> {
-    let abilities = robot.address.abilities();
+pub(super) async fn open_to_robot(
+    (address, opening): (&LinkAddress, Opening),
+    baud: u32,
+) -> Result<Link, LinkOpenError> {
+    let abilities = address.abilities();
     let link = |stream: Box<dyn ByteStream>, lock, complaint| Link {
         stream,
         abilities,
-        has_rates: matches!(robot.address, LinkAddress::Uart(_)),
+        has_rates: matches!(address, LinkAddress::Uart(_)),
         complaint,
         _lock: lock,
     };
-    match &robot.address {
+    match address {
         LinkAddress::Uart(uart) => {
             let line = open_serial(&uart.path, baud)?;
             let refused = |error| OpenError::refused(&uart.path, error);
-            wake(&line.port, robot.opening).await.map_err(refused)?;
+            wake(&line.port, opening).await.map_err(refused)?;
             match uart.wires {
                 Wires::Two => return Ok(link(Box::new(line.port), Some(line.lock), None)),
                 Wires::One => {}
@@ -90,12 +93,12 @@ pub(super) async fn open_to_robot(robot: &RobotLine, baud: u32) -> Result<Link, 
         }
         LinkAddress::Usb(path) => {
             let line = open_serial(path, baud)?;
-            wake(&line.port, robot.opening)
+            wake(&line.port, opening)
                 .await
                 .map_err(|error| OpenError::refused(path, error))?;
             Ok(link(Box::new(line.port), Some(line.lock), None))
         }
-        _ if robot.opening.wake_pulse_ms > 0 => Err(LinkOpenError::NoPulse),
+        _ if opening.wake_pulse_ms > 0 => Err(LinkOpenError::NoPulse),
         LinkAddress::Tcp(peer) => Ok(link(Box::new(network::connect(peer).await?), None, None)),
         LinkAddress::Tls(peer) => Ok(link(Box::new(network::connect_secured(peer).await?), None, None)),
         LinkAddress::Spi(spi) => {

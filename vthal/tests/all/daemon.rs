@@ -546,7 +546,7 @@ fn control_mixes_are_kept_checked_and_removed_over_the_socket() {
     assert_eq!(refused(&mut desk), None);
     let profile = mixer::standard_profile().to_json();
     let save = |profile: String| {
-        let body = RequestBody::SaveMix { profile };
+        let body = RequestBody::SaveMix { profile, was: None };
         serde_json::to_string(&Request { id: Some(9), body }).expect("JSON")
     };
     desk.client.send(&save(profile.clone())).expect("sends");

@@ -47,6 +47,8 @@ enum Subject {
     Coverage,
     /// How fast and how surely the robot covers homes, against the lower bound and against bounce.
     Navigation,
+    /// What one drive perceived, shown to brains with many seeds: how much of the error of the place is chance.
+    Localization,
     /// Run after run in one home, each with what the daemon kept: whether the map gets better or worse.
     Life,
     /// How surely, how fast and how exactly the robot comes home to its dock.
@@ -55,6 +57,8 @@ enum Subject {
     Floors,
     /// How soon and how surely a robot that was lifted from its work knows its place again.
     Lifted,
+    /// What fails around the Linux board, drawn: whether people are told, soon and rightly, and whether all that was acknowledged is kept.
+    Board,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -224,10 +228,12 @@ fn program(arguments: &BenchArguments) -> &'static [&'static str] {
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
         Subject::Navigation => &["--bin", "bench-navigation"],
+        Subject::Localization => &["--bin", "bench-localization"],
         Subject::Life => &["--bin", "bench-life"],
         Subject::Docking => &["--bin", "bench-docking"],
         Subject::Floors => &["--bin", "bench-floors"],
         Subject::Lifted => &["--bin", "bench-lifted"],
+        Subject::Board => &["--bin", "bench-board"],
         Subject::Firmware => &["--bin", "bench-firmware"],
     }
 }
@@ -249,10 +255,12 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Flood
         | Subject::Charges
         | Subject::Navigation
+        | Subject::Localization
         | Subject::Life
         | Subject::Docking
         | Subject::Floors
         | Subject::Lifted
+        | Subject::Board
         | Subject::Coverage
         | Subject::Scripts => &[],
     }
@@ -270,10 +278,12 @@ fn longer(arguments: &BenchArguments) -> &'static [&'static str] {
         Subject::Charges => &["--count", "100"],
         Subject::Coverage => &["--minutes", "30", "--seeds", "8"],
         Subject::Navigation => &["--homes", "report", "--seeds", "20"],
+        Subject::Localization => &["--homes", "homes/empty-halls.toml,report", "--seeds", "1..20"],
         Subject::Life => &["--homes", "report", "--seeds", "2"],
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors | Subject::Lifted => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
+        Subject::Board => &["--seeds", "1000"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
         Subject::Cordlib | Subject::Relax | Subject::LogicMutants | Subject::Scripts => &[],

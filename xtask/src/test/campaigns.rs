@@ -1,7 +1,7 @@
 //! Stages that look for something rare: many packets, many seeds, many moments at which a process is killed.
 
 use super::extent::Extent;
-use super::runner::{Result, cargo, check, checks};
+use super::runner::{Result, cargo, check, checks, checks_side_by_side};
 use crate::firmware;
 use crate::workspace::{self, Profile, program};
 use std::process::Command;
@@ -62,7 +62,7 @@ pub(super) fn headless(extent: Extent) -> Result {
     if extent.has_campaigns() {
         commands.push(demo(&["--emulated", "--minutes", "0.5"]));
     }
-    checks(&mut commands)
+    checks_side_by_side(commands)
 }
 
 /// A robot stands soon after its daemon was killed.

@@ -1,6 +1,7 @@
 //! The stage that tries the bridges against the software that homes have.
 
 use super::extent::Extent;
+use super::home_assistant;
 use super::runner::{Result, check};
 use crate::workspace::{self, Profile, program};
 use crate::{fetched, process, system};
@@ -20,12 +21,12 @@ const PROGRAMS: [&str; 6] = [
 /// A reader of calendars that nobody here wrote.
 const ICALENDAR: &str = "icalendar==6.3.1";
 
-/// mosquitto, Prometheus and Python; with `--long` each connection is broken more often.
+/// mosquitto, Prometheus and Python; with `--long` Home Assistant, too.
 pub(super) fn joined(extent: Extent) -> Result {
     check(&mut trials(extent)?)
 }
 
-/// The same, with what they saw as one JSON object on the output stream.
+/// All of them, with what they saw as one JSON object on the output stream.
 pub(super) fn as_json() -> anyhow::Result<()> {
     let seen = process::finish(
         trials(Extent::Long)?
@@ -49,10 +50,14 @@ fn trials(extent: Extent) -> anyhow::Result<Command> {
     let trials = program("try-joined", Profile::Dev);
     let calendar = workspace::target().join("joined/calendar");
     let python = fetched::python(&calendar, &[ICALENDAR], "icalendar")?.join("python");
-    let mut command = Command::new(trials);
-    if extent == Extent::Long {
-        command.arg("--long");
-    }
+    let mut command = if extent < Extent::Long {
+        Command::new(trials)
+    } else {
+        let hass = home_assistant::installed()?;
+        let mut command = home_assistant::alone(&trials);
+        command.arg("--long").arg("--hass").arg(hass);
+        command
+    };
     command.arg("--python").arg(python);
     Ok(command)
 }

@@ -6,6 +6,7 @@ mod code;
 mod count;
 mod extent;
 mod flash;
+mod home_assistant;
 mod joined;
 mod packages;
 mod programs;
@@ -19,7 +20,7 @@ use crate::{process, processor};
 use anyhow::bail;
 use count::Count;
 use extent::Extent;
-use stages::{STAGES, Stage};
+use stages::{Company, STAGES, Stage};
 use std::time::{Duration, Instant};
 
 /// Arguments of `cargo xtask test`.
@@ -124,23 +125,46 @@ fn chosen(names: &[String], extent: Extent) -> anyhow::Result<Vec<&'static Stage
     names.iter().map(find).collect()
 }
 
-/// Runs stage after stage. The panel that the browser needs is built beside the stages that measure no time.
+/// Runs stage after stage, a few of them side by side. The panel that the browser needs is built beside the stages that measure no time.
 fn run_all(stages: &[&'static Stage], extent: Extent) -> Vec<Outcome> {
     let browser_follows = stages.iter().any(|stage| stage.name == "browser");
     let mut ahead = None;
     let mut outcomes = Vec::new();
-    for stage in stages {
+    let mut left = stages;
+    while let [stage, after @ ..] = left {
         if stage.name == "tests" && browser_follows {
             ahead = told(Ahead::begin(Page::Release));
         }
-        if stage.wants_the_machine
+        if stage.company != Company::Anything
             && let Some(panel) = ahead.take()
         {
             told(panel.finish());
         }
-        outcomes.push(run_one(stage, extent));
+        left = match after {
+            [next, rest @ ..] if stage.company == Company::TheNext => {
+                outcomes.extend(run_both([*stage, *next], extent));
+                rest
+            }
+            _ => {
+                outcomes.push(run_one(stage, extent));
+                after
+            }
+        };
     }
     outcomes
+}
+
+/// Runs two stages side by side. The processor does not tell for which of them it worked: the first one gets it all.
+fn run_both([one, other]: [&'static Stage; 2], extent: Extent) -> [Outcome; 2] {
+    std::thread::scope(|scope| {
+        let beside = scope.spawn(|| run_one(other, extent));
+        let first = run_one(one, extent);
+        let mut second = beside
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        second.processor = Duration::ZERO;
+        [first, second]
+    })
 }
 
 /// What went right. What did not is said, and the stage that needs it fails by itself.
@@ -160,13 +184,15 @@ fn run_one(stage: &'static Stage, extent: Extent) -> Outcome {
         Err(runner::Failed { count, errors }) => (count.with_a_failure(), errors),
     };
     complain_of(stage, &errors);
-    Outcome {
+    let outcome = Outcome {
         stage,
         count,
         errors,
         took: begun.elapsed(),
         processor: processor::of_ended_children().saturating_sub(before),
-    }
+    };
+    process::say(&row(&outcome));
+    outcome
 }
 
 fn complain_of(stage: &Stage, errors: &[anyhow::Error]) {

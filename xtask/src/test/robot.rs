@@ -2,7 +2,7 @@
 
 use super::count::Count;
 use super::extent::Extent;
-use super::runner::{Failed, Result, all, cargo, check, tests};
+use super::runner::{Failed, Result, all, cargo, check, checks_side_by_side, tests};
 use crate::firmware::build::build_others;
 use crate::workspace::{self, Profile, program};
 use crate::{firmware, system};
@@ -112,16 +112,15 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
     programs.extend(TRIALS.map(|(program, _)| program));
     workspace::build(&programs, Profile::Dev)?;
     let pace = check(&mut pace(&elf)?);
-    let trials = TRIALS.map(|(program, words)| check(&mut trial(program, words, &elf)));
-    let relax = [
-        check(&mut trial("bench-relax", &["--phases", "2"], &relax)),
-        check(&mut damaged_packets(&relax)),
-    ];
-    let owner = tests(&mut owner(&elf));
-    all([tests(&mut command), owner, pace]
+    let mut trials = TRIALS
+        .map(|(program, words)| trial(program, words, &elf))
         .into_iter()
-        .chain(trials)
-        .chain(relax))
+        .collect::<Vec<_>>();
+    trials.push(trial("bench-relax", &["--phases", "2"], &relax));
+    trials.push(damaged_packets(&relax));
+    let trials = checks_side_by_side(trials);
+    let owner = tests(&mut owner(&elf));
+    all([tests(&mut command), owner, pace, trials].into_iter())
 }
 
 /// Damaged packets for the Relax's image; `cargo xtask bench relax --long` sends more.

@@ -5,6 +5,8 @@ use super::verdicts::Verdicts;
 use crate::{process, workspace};
 use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
 
 /// A stage that failed, with what it had counted until then.
 #[derive(Debug)]
@@ -43,6 +45,32 @@ pub(super) fn check(command: &mut Command) -> Result {
 /// Runs several checks and goes on after a failure, so that one run shows them all.
 pub(super) fn checks(commands: &mut [Command]) -> Result {
     all(commands.iter_mut().map(check))
+}
+
+/// Runs checks two at a time: for those that take one core each. All run, whatever fails.
+pub(super) fn checks_side_by_side(commands: Vec<Command>) -> Result {
+    let waiting = Mutex::new(commands.into_iter());
+    let results = Mutex::new(Vec::new());
+    let work = || {
+        while let Some(mut command) = { unpoisoned(&waiting).next() } {
+            let result = check(&mut command);
+            unpoisoned(&results).push(result);
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(work);
+        }
+    });
+    all(results
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner)
+        .into_iter())
+}
+
+/// A list is whole even when a thread ended that held it.
+fn unpoisoned<T>(list: &Mutex<T>) -> MutexGuard<'_, T> {
+    list.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Joins results: all errors are kept, all counts are added.

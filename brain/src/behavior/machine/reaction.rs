@@ -13,6 +13,24 @@ use crate::navigation::{Situation, TaskContext};
 /// A cliff sensor that fails its self-test for this long, microseconds, is a fault. Sunlight or a dark rug cause shorter failures.
 const SENSOR_PATIENCE_US: u64 = 2_000_000;
 
+/// A job in a large home may take so many T0 of its known floor: twice what 95 % of it take. Known homes are swept in 1.5, first runs end
+/// within 2.5.
+const BUDGET_T0: f64 = 3.0;
+
+impl Job {
+    /// Whether its time is used up: the budget, or what the floor that is known by then takes, if that is more. Counting the floor visits all
+    /// of it, so it is done when a limit is reached and not in each step.
+    fn is_past(&mut self, budget_s: f64, situation: &Situation<'_>) -> bool {
+        if self.figures.time_s < budget_s.max(self.extended_to_s) {
+            return false;
+        }
+        let (body, speeds) = (situation.config.body, situation.config.speeds);
+        let t0_s = situation.map.free_m2() / (body.swath_m * speeds.cruise_m_per_s).max(f64::EPSILON);
+        self.extended_to_s = BUDGET_T0 * t0_s;
+        self.figures.time_s >= self.extended_to_s
+    }
+}
+
 impl Behavior {
     /// The fault in this observation, if any.
     pub(super) fn fault(&mut self) -> Option<Fault> {
@@ -197,12 +215,12 @@ impl Behavior {
         if self.mode != Mode::Working || self.waits_for_current() {
             return;
         }
-        let Some(job) = &self.job else { return };
+        let Some(job) = &mut self.job else { return };
         if self.facts.disarmed.not_armed && !job.is_departing() {
             self.announce(Reason::NotArmed, context);
         } else if job.kind == JobKind::Dock {
             // Docking has its own budget.
-        } else if job.figures.time_s >= self.config.task_budget_s {
+        } else if job.is_past(self.config.task_budget_s, situation) {
             self.turn_home(Reason::TaskBudget, context);
         } else if self.must_go_home(situation) {
             self.turn_home_for_charge(situation, context);

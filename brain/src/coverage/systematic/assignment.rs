@@ -2,6 +2,7 @@
 
 use crate::coverage::target_floor::TargetFloor;
 use crate::mapping::Map;
+use crate::model::no_go::NoGo;
 use crate::model::order::{CleaningOrder, HomePart};
 
 /// An order, and its progress.
@@ -27,6 +28,11 @@ impl Assignment {
     /// The current part; `None` = the whole home.
     pub(super) fn part(&self) -> Option<&HomePart> {
         self.order.parts().get(self.part)
+    }
+
+    /// Floor that this job keeps out of.
+    pub(super) fn avoided(&self) -> &[NoGo] {
+        self.order.avoid()
     }
 
     /// Whether the order names no parts.

@@ -26,6 +26,7 @@ mod relocalization;
 mod share;
 mod squeeze;
 mod standoff;
+mod way_out;
 
 use super::escape_bounce::EscapeBounce;
 use super::perimeter::LapStep;
@@ -57,6 +58,7 @@ use relocalization::{RelocalizationLap, RelocalizationStep};
 use share::{PassedFloor, Shares};
 use squeeze::Squeeze;
 use standoff::Standoff;
+use way_out::WayOut;
 
 /// The strategy.
 #[derive(Debug, Default)]
@@ -98,6 +100,7 @@ pub(crate) struct Systematic {
     /// The floor of a known home.
     known_floor: Option<KnownFloor>,
     shares: Shares,
+    way_out: WayOut,
 }
 
 impl Task for Systematic {
@@ -132,6 +135,9 @@ impl Task for Systematic {
         if let Some(reason) = encounter(situation) {
             return self.evade(reason, situation, context);
         }
+        if let Some(plan) = self.lead_out(situation, context) {
+            return plan;
+        }
         self.drive(situation, context)
     }
 
@@ -141,6 +147,7 @@ impl Task for Systematic {
         }
         self.evasion = None;
         self.follower = None;
+        self.way_out = WayOut::default();
         self.plan_progress = None;
         self.relocalization.interrupted();
         if let Some(escape_bounce) = &mut self.escape_bounce {
@@ -250,6 +257,7 @@ impl Systematic {
         self.obstructions.add(reason, situation);
         self.contact_offset.touched(reason);
         self.follower = None;
+        self.way_out = WayOut::default();
         if situation.at_cliff {
             self.evasion = Some(Evasion::from_cliff(EVASION.cliff_back_m, self.away_rad(reason)));
             // At a cliff the plan must begin at the robot's actual position.

@@ -11,6 +11,7 @@ mod reach;
 mod redrawing;
 mod room_editing;
 mod saving;
+mod way_out;
 
 pub use confidence::MapConfidence;
 pub use loader::{LoadedHome, MapLoader};

@@ -225,12 +225,11 @@ fn clock(now_s: u64) -> Finding {
 
 fn zone(board: &Board) -> Finding {
     const CHECK: &str = "zone";
-    let linked = board
-        .link("etc/localtime")
-        .ok()
-        .and_then(|target| Some(target.to_str()?.split_once("/zoneinfo/")?.1.to_owned()));
-    match linked.or_else(|| board.text("etc/timezone")).as_deref() {
-        None | Some("") => Finding::warning(
+    // The daemon's `TZ` is not that of this shell: what the files say counts.
+    let is_known = |name: &str| jiff::tz::TimeZone::get(name).is_ok();
+    let found = system_zone::find(&board.path(""), None, is_known);
+    match found.name.as_deref() {
+        None => Finding::warning(
             CHECK,
             "this board's time zone is not known, so schedules are in UTC",
             "timedatectl set-timezone Europe/Tallinn, or whichever is yours, and restart vthal",

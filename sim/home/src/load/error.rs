@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::HomeNotice;
+
 /// Why a home cannot be loaded: one sentence with the file, the place in it and the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum HomeError {
@@ -12,7 +14,7 @@ pub enum HomeError {
         path: PathBuf,
     },
     /// The file cannot be read.
-    #[error("cannot read the home file {}: {cause}; give a file that you may read", path.display())]
+    #[error("cannot read the home file {}: {}; give a file that you may read", path.display(), reason(cause))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -66,7 +68,7 @@ pub enum HomeError {
         problem: String,
     },
     /// The image that a ROS map names does not exist.
-    #[error("the map {} names the image {}, which cannot be read: {cause}; put the image there or correct `image:`", yaml.display(), image.display())]
+    #[error("the map {} names the image {}, which cannot be read: {}; put the image there or correct `image:`", yaml.display(), image.display(), reason(cause))]
     ImageMissing {
         /// The map.
         yaml: PathBuf,
@@ -82,7 +84,7 @@ pub enum HomeError {
         path: PathBuf,
     },
     /// Floor, but nowhere enough for the robot.
-    #[error("the plan in {} has no place where a robot of {radius_m} m radius fits; the largest clear circle has a radius of {clear_m:.3} m", path.display())]
+    #[error("the plan in {} has no place where a robot of {radius_m} m radius fits; the largest clear circle has a radius of {clear_m:.3} m{}", path.display(), appended(notices))]
     NoPlace {
         /// The file.
         path: PathBuf,
@@ -90,5 +92,20 @@ pub enum HomeError {
         radius_m: f64,
         /// Radius of the largest circle of floor.
         clear_m: f64,
+        /// What else its file may mean otherwise than its maker thinks.
+        notices: Vec<HomeNotice>,
     },
+}
+
+/// What the system says, without the number that only programmers know.
+fn reason(cause: &std::io::Error) -> String {
+    let text = cause.to_string();
+    match text.split_once(" (os error") {
+        Some((said, _)) => said.to_owned(),
+        None => text,
+    }
+}
+
+fn appended(notices: &[HomeNotice]) -> String {
+    notices.iter().map(|notice| format!("; {notice}")).collect()
 }

@@ -69,7 +69,7 @@ impl PnmReader<'_> {
     fn skip_blank(&mut self) {
         while let Some(byte) = self.peek() {
             if byte == b'#' {
-                while self.peek().is_some_and(|byte| byte != b'\n') {
+                while self.peek().is_some_and(|byte| byte != b'\n' && byte != b'\r') {
                     self.position += 1;
                 }
             } else if byte.is_ascii_whitespace() {
@@ -135,8 +135,7 @@ fn binary_pixels(
     white: u64,
 ) -> Result<Vec<Option<u8>>, GreyImageError> {
     let wide = if white > 255 { 2 } else { 1 };
-    // One white space ends the header.
-    let raster = reader.bytes.get(reader.position + 1..).unwrap_or(&[]);
+    let raster = raster(reader, count * wide);
     let Some(raster) = raster.get(..count * wide) else {
         return Err(GreyImageError::Truncated(format!(
             "{} of {} bytes of pixels are there",
@@ -153,6 +152,35 @@ fn binary_pixels(
             )
         })
         .collect())
+}
+
+/// The bytes after the header, which one white space ends. Some programs write two (CR LF) or a comment; what belongs
+/// to the header is what would make the file longer than its pixels.
+fn raster<'a>(reader: &PnmReader<'a>, wanted: usize) -> &'a [u8] {
+    let rest = reader.bytes.get(reader.position..).unwrap_or(&[]);
+    let usual = rest.get(1..).unwrap_or(&[]);
+    let mut header = PnmReader {
+        bytes: rest,
+        position: 0,
+    };
+    let blank = |byte: &u8| matches!(byte, b' ' | b'\t');
+    let comment = rest.iter().find(|byte| !blank(byte)) == Some(&b'#')
+        || usual.iter().find(|byte| !blank(byte)) == Some(&b'#');
+    if comment {
+        while header.peek().is_some_and(|byte| byte != b'#') {
+            header.position += 1;
+        }
+        while header.peek().is_some_and(|byte| byte != b'\n' && byte != b'\r') {
+            header.position += 1;
+        }
+    }
+    let rest = rest.get(header.position..).unwrap_or(&[]);
+    let longest = match rest {
+        [b'\r', b'\n', pixels @ ..] => pixels,
+        [_, pixels @ ..] => pixels,
+        [] => &[],
+    };
+    if longest.len() >= wanted { longest } else { usual }
 }
 
 fn text_pixels(

@@ -3,8 +3,12 @@
 mod error;
 mod floorplan;
 mod image;
+mod map_yaml;
+mod notice;
+mod packed;
 mod raster;
 mod ros;
+mod stray;
 mod valetudo;
 
 use std::io::Read;
@@ -13,6 +17,7 @@ use std::path::Path;
 
 pub use error::HomeError;
 pub(crate) use floorplan::read as read_floorplan;
+pub use notice::HomeNotice;
 
 use crate::plan::{Cell, Door, Grid, SurfaceMap, WalkerKind};
 use crate::pose::Pose;
@@ -33,6 +38,8 @@ pub(crate) struct Draft {
     pub(crate) walkers: Vec<WalkerWish>,
     /// Where the robot starts, if not where it usually does.
     pub(crate) start: Option<Pose>,
+    /// What is told before a robot drives in it.
+    pub(crate) notices: Vec<HomeNotice>,
 }
 
 /// A walker from goal to goal, as read from the file, in the plan frame.
@@ -81,11 +88,19 @@ pub(crate) fn read_draft(path: &Path, climb_m: f64) -> Result<Draft, HomeError> 
             cause,
         },
     })?;
+    let bytes = packed::unpacked(path, &bytes)?;
     let text = text_of(path, &bytes)?;
     match format_of(text) {
         Some(Format::Valetudo) => valetudo::read(path, text),
         Some(Format::Ros) => ros::read(path, text),
         Some(Format::Floorplan) => floorplan::read(path, text, climb_m),
+        // Its name says what it should be, so the answer is about its keys.
+        None if path
+            .extension()
+            .is_some_and(|name| name == "yaml" || name == "yml") =>
+        {
+            ros::read(path, text)
+        }
         None => Err(HomeError::UnknownFormat {
             path: path.to_owned(),
             found: "text without the keys of a home".to_owned(),
@@ -101,13 +116,16 @@ enum Format {
 
 fn format_of(text: &str) -> Option<Format> {
     if text.trim_start().starts_with('{') {
-        return Some(Format::Valetudo);
+        // Braces are YAML as well.
+        let has = |key: &str| text.contains(key);
+        let is_ros = has("resolution") && has("image") && !has("__class");
+        return Some(if is_ros { Format::Ros } else { Format::Valetudo });
     }
     let has_line = |start: &str, mark: char| {
         text.lines().any(|line| {
-            line.trim_start()
+            line.trim_start_matches([' ', '\t', '"', '\''])
                 .strip_prefix(start)
-                .is_some_and(|rest| rest.trim_start().starts_with(mark))
+                .is_some_and(|rest| rest.trim_start_matches([' ', '\t', '"', '\'']).starts_with(mark))
         })
     };
     if has_line("image", ':') || has_line("resolution", ':') {
@@ -128,6 +146,9 @@ fn text_of<'a>(path: &Path, bytes: &'a [u8]) -> Result<&'a str, HomeError> {
     }
     if image::is_image(bytes) {
         return unknown("an image; give the .yaml that belongs to it");
+    }
+    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+        return unknown("not text (byte 0) or text in UTF-16; save it as UTF-8");
     }
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(text),

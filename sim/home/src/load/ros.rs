@@ -3,24 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::image::{GreyImage, GreyImageError};
-use super::{DockWish, Draft, HomeError, ReadError, fit, image, read_limited, stem};
+use super::map_yaml::{MapYaml, shortened};
+use super::{DockWish, Draft, HomeError, HomeNotice, ReadError, fit, image, read_limited, stem, stray};
 use crate::plan::{Cell, Grid, SurfaceMap};
 use crate::pose::Pose;
 
 /// Longest image file.
 const IMAGE_BYTES_MAX: u64 = 64 << 20;
-
-/// The keys that `map_server` defines; others are ignored, as it does.
-#[derive(Default)]
-struct MapYaml {
-    image: Option<String>,
-    resolution_m: Option<f64>,
-    origin: Vec<f64>,
-    negate: Option<f64>,
-    occupied: Option<f64>,
-    free: Option<f64>,
-    mode: Option<String>,
-}
 
 /// How grey becomes floor.
 struct Thresholds {
@@ -37,26 +26,36 @@ enum MapMode {
     Raw,
 }
 
+/// The grey that map savers write where nothing is known.
+const UNKNOWN_GREY: u8 = 205;
+/// Share of a picture from which one grey is suspicious. The wide canvas of a mapper leaves more than this to rooms.
+const ONE_GREY_SHARE: f64 = 0.999;
+/// Share of the picture's edge from which floor there is told: a beam through a window touches it as well.
+const EDGE_SHARE: f64 = 0.02;
+
 pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
-    let yaml = parse(path, text)?;
-    let resolution_m = required(path, yaml.resolution_m, "resolution")?;
+    let yaml = MapYaml::parse(path, text)?;
+    let resolution_m = yaml.number("resolution", "0.05")?;
     if !(0.002..=1.0).contains(&resolution_m) {
-        return Err(invalid(
-            path,
+        return Err(yaml.invalid(
             "resolution",
-            format!("{resolution_m} must lie between 0.002 and 1 m per pixel"),
+            format!("{resolution_m} must lie between 0.002 and 1 m per pixel; write metres, as 0.05"),
         ));
     }
-    let thresholds = thresholds(path, &yaml)?;
-    let origin = origin(path, &yaml.origin)?;
-    let name = required(path, yaml.image.clone(), "image")?;
-    let image = load_image(path, &name)?;
-    let coarse = Grid {
+    let thresholds = thresholds(&yaml)?;
+    let origin = origin(&yaml)?;
+    let found = load_image(path, &yaml)?;
+    let mut coarse = Grid {
         cell_m: resolution_m,
-        width: image.width,
-        height: image.height,
-        cells: cells(&image, &thresholds),
+        width: found.image.width,
+        height: found.image.height,
+        cells: cells(&found.image, &thresholds),
     };
+    if !coarse.cells.iter().any(|cell| cell.is_floor()) {
+        return Err(no_floor(&yaml, &found, &thresholds));
+    }
+    let mut notices = notices(path, &found, &thresholds, &coarse);
+    notices.extend(stray::leave_out(path, &mut coarse));
     let (grid, x_m, y_m) = fit(path, &coarse)?;
     Ok(Draft {
         name: stem(path),
@@ -69,7 +68,107 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
         mirrors: Vec::new(),
         walkers: Vec::new(),
         start: None,
+        notices,
     })
+}
+
+/// How often each grey occurs; transparent pixels count nowhere.
+fn histogram(image: &GreyImage) -> [usize; 256] {
+    let mut counts = [0; 256];
+    for grey in image.pixels.iter().flatten() {
+        if let Some(count) = counts.get_mut(usize::from(*grey)) {
+            *count += 1;
+        }
+    }
+    counts
+}
+
+/// The grey that most pixels have, and its share of all.
+fn commonest(image: &GreyImage) -> (u8, f64) {
+    let counts = histogram(image);
+    let (grey, count) = (0..=u8::MAX)
+        .zip(counts)
+        .max_by_key(|(_, count)| *count)
+        .unwrap_or_default();
+    (grey, count as f64 / image.pixels.len().max(1) as f64)
+}
+
+fn no_floor(yaml: &MapYaml<'_>, found: &FoundImage, thresholds: &Thresholds) -> HomeError {
+    let (grey, share) = commonest(&found.image);
+    let counts = if share > 0.0 {
+        format!("{:.1} % of its pixels have the grey {grey}", share * 100.0)
+    } else {
+        "all of its pixels are transparent".to_owned()
+    };
+    let remedy = match thresholds.mode {
+        MapMode::Raw => {
+            "in `mode: raw` floor has the greys 0 to 49; write `mode: trinary` for a picture of a map saver"
+        }
+        _ if thresholds.negate => "with `negate: 1` floor is dark; look at `negate` and `free_thresh`",
+        _ => "floor is light; look at `negate` and `free_thresh`",
+    };
+    yaml.invalid(
+        "image",
+        format!("{} has no floor at all: {counts}; {remedy}", found.path.display()),
+    )
+}
+
+/// What this map may mean otherwise than its maker thinks.
+fn notices(path: &Path, found: &FoundImage, thresholds: &Thresholds, coarse: &Grid) -> Vec<HomeNotice> {
+    let path = path.to_owned();
+    let mut notices = Vec::new();
+    if let Some(named) = &found.named {
+        notices.push(HomeNotice::ImageBeside {
+            path: path.clone(),
+            named: shortened(named),
+            image: found.path.clone(),
+        });
+    }
+    let (grey, share) = commonest(&found.image);
+    if share > ONE_GREY_SHARE {
+        notices.push(HomeNotice::NearlyOneGrey {
+            path: found.path.clone(),
+            grey,
+            share,
+        });
+    }
+    let counts = histogram(&found.image);
+    let unknown = counts.get(usize::from(UNKNOWN_GREY)).copied().unwrap_or(0);
+    if unknown > 0 && !thresholds.negate && thresholds.cell(Some(UNKNOWN_GREY)).is_floor() {
+        let floor = coarse.cells.iter().filter(|cell| cell.is_floor()).count();
+        notices.push(HomeNotice::UnknownIsFloor {
+            path: path.clone(),
+            free_thresh: thresholds.free,
+            known_m2: (floor - unknown.min(floor)) as f64 * coarse.cell_area_m2(),
+            floor_m2: floor as f64 * coarse.cell_area_m2(),
+        });
+    }
+    let pixels = counts.iter().take(255).skip(101).sum();
+    if thresholds.mode == MapMode::Raw && pixels > 0 {
+        notices.push(HomeNotice::NotRaw {
+            path: path.clone(),
+            pixels,
+        });
+    }
+    let share = floor_share_of_edge(coarse);
+    if share > EDGE_SHARE {
+        notices.push(HomeNotice::FloorAtEdge { path, share });
+    }
+    notices
+}
+
+fn floor_share_of_edge(grid: &Grid) -> f64 {
+    let at_edge = |index: usize| {
+        let (column, row) = (index % grid.width, index / grid.width);
+        column == 0 || row == 0 || column + 1 == grid.width || row + 1 == grid.height
+    };
+    let edge = grid.cells.iter().enumerate().filter(|(index, _)| at_edge(*index));
+    let (mut all, mut floor) = (0, 0);
+    for (_, cell) in edge {
+        all += 1;
+        floor += usize::from(cell.is_floor());
+    }
+    floor as f64 / all.max(1) as f64
 }
 
 /// Image rows run downward from the top; ours run upward.
@@ -111,44 +210,74 @@ impl Thresholds {
     }
 }
 
-fn thresholds(path: &Path, yaml: &MapYaml) -> Result<Thresholds, HomeError> {
-    let occupied = yaml.occupied.unwrap_or(0.65);
-    let free = yaml.free.unwrap_or(0.196);
+fn thresholds(yaml: &MapYaml<'_>) -> Result<Thresholds, HomeError> {
+    let occupied = yaml.number("occupied_thresh", "0.65")?;
+    let free = yaml.number("free_thresh", "0.196")?;
     if !(0.0..=1.0).contains(&occupied) || !(0.0..=1.0).contains(&free) || free > occupied {
-        let problem = format!("free_thresh {free} and occupied_thresh {occupied} must rise within 0 to 1");
-        return Err(invalid(path, "occupied_thresh", problem));
+        let problem = format!(
+            "free_thresh {free} and occupied_thresh {occupied} must rise within 0 to 1; savers write 0.196 and 0.65"
+        );
+        return Err(yaml.invalid("occupied_thresh", problem));
     }
-    let mode = match yaml.mode.as_deref() {
+    let mode = match yaml.optional("mode", "trinary")? {
         None | Some("trinary") => MapMode::Trinary,
         Some("scale") => MapMode::Scale,
         Some("raw") => MapMode::Raw,
         Some(other) => {
-            let problem = format!("`{other}` is not one of trinary, scale, raw");
-            return Err(invalid(path, "mode", problem));
+            let problem = format!(
+                "`{}` is not one of trinary, scale, raw; write one of them",
+                shortened(other)
+            );
+            return Err(yaml.invalid("mode", problem));
         }
     };
     Ok(Thresholds {
         occupied,
         free,
-        negate: yaml.negate.unwrap_or(0.0) != 0.0,
+        negate: yaml.truth("negate")?,
         mode,
     })
 }
 
-fn origin(path: &Path, numbers: &[f64]) -> Result<Pose, HomeError> {
-    match numbers {
-        [] => Ok(Pose::default()),
-        [x, y] => Ok(Pose::new(*x, *y, 0.0)),
+fn origin(yaml: &MapYaml<'_>) -> Result<Pose, HomeError> {
+    match yaml.numbers("origin", "[0.0, 0.0, 0.0]")?.as_slice() {
         [x, y, yaw] => Ok(Pose::new(*x, *y, *yaw)),
-        _ => {
-            let problem = format!("has {} numbers, but must be [x, y, yaw]", numbers.len());
-            Err(invalid(path, "origin", problem))
+        numbers => {
+            let problem = format!("it has {} numbers; write three: [x, y, yaw]", numbers.len());
+            Err(yaml.invalid("origin", problem))
         }
     }
 }
 
-fn load_image(path: &Path, name: &str) -> Result<GreyImage, HomeError> {
-    let file: PathBuf = path.parent().unwrap_or(Path::new("")).join(name);
+/// An image, and where it lay.
+struct FoundImage {
+    path: PathBuf,
+    image: GreyImage,
+    /// What the YAML names, if the image was elsewhere.
+    named: Option<String>,
+}
+
+/// The file that `image:` names: from the folder of the YAML, from `~`, or as a `file://` address.
+fn image_file(path: &Path, name: &str) -> PathBuf {
+    let name = name.strip_prefix("file://").unwrap_or(name);
+    match (name.strip_prefix("~/"), std::env::home_dir()) {
+        (Some(rest), Some(folder)) => folder.join(rest),
+        _ => path.parent().unwrap_or(Path::new("")).join(name),
+    }
+}
+
+fn load_image(path: &Path, yaml: &MapYaml<'_>) -> Result<FoundImage, HomeError> {
+    let name = yaml.text("image", "map.pgm")?;
+    if name.trim().is_empty() || name.contains('\0') {
+        return Err(yaml.invalid("image", "it names no file; write `image: map.pgm`".to_owned()));
+    }
+    let named = image_file(path, name);
+    // A name with its folder is often written as seen from elsewhere: `maps/flat.pgm` in `maps/flat.yaml`.
+    let beside = named.file_name().map(|last| path.with_file_name(last));
+    let (file, named) = match beside {
+        Some(beside) if !named.exists() && beside.is_file() => (beside, Some(name.to_owned())),
+        _ => (named, None),
+    };
     let bytes = read_limited(&file, IMAGE_BYTES_MAX).map_err(|error| match error {
         ReadError::TooLong(bytes) => HomeError::TooLong {
             path: file.clone(),
@@ -161,102 +290,20 @@ fn load_image(path: &Path, name: &str) -> Result<GreyImage, HomeError> {
             cause,
         },
     })?;
-    image::decode(&bytes).map_err(|error| match error {
-        GreyImageError::Truncated(place) => HomeError::Truncated {
-            path: file.clone(),
-            place,
-        },
-        GreyImageError::TooManyPixels(cells, limit) => HomeError::TooManyCells {
-            path: file.clone(),
-            cells,
-            limit,
-        },
-        GreyImageError::Wrong(place, problem) => HomeError::Invalid {
-            path: file.clone(),
-            place,
-            problem,
-        },
-    })
-}
-
-fn invalid(path: &Path, place: &str, problem: String) -> HomeError {
-    HomeError::Invalid {
-        path: path.to_owned(),
-        place: format!("`{place}`"),
-        problem,
-    }
-}
-
-fn required<T>(path: &Path, value: Option<T>, key: &str) -> Result<T, HomeError> {
-    value.ok_or_else(|| {
-        invalid(
-            path,
-            key,
-            "it is missing; add it as the map's maker would".to_owned(),
-        )
-    })
-}
-
-/// The flat YAML that map savers write: `key: value` lines, the origin as `[x, y, yaw]` or as `- x` lines.
-fn parse(path: &Path, text: &str) -> Result<MapYaml, HomeError> {
-    let mut yaml = MapYaml::default();
-    let mut in_origin = false;
-    for (number, line) in text.lines().enumerate() {
-        let line = strip_comment(line);
-        let place = |key: &str| format!("{key}` in line {}", number + 1);
-        if let Some(item) = line.trim_start().strip_prefix("- ").filter(|_| in_origin) {
-            yaml.origin.push(numeral(path, &place("origin"), item)?);
-            continue;
-        }
-        let Some((key, value)) = line.split_once(':') else {
-            continue;
-        };
-        let (key, value) = (key.trim(), value.trim());
-        in_origin = key == "origin" && value.is_empty();
-        match key {
-            "image" => yaml.image = Some(value.trim_matches(['"', '\'']).to_owned()),
-            "mode" => yaml.mode = Some(value.trim_matches(['"', '\'']).to_owned()),
-            "resolution" => yaml.resolution_m = Some(numeral(path, &place(key), value)?),
-            "negate" => yaml.negate = Some(truth(path, &place(key), value)?),
-            "occupied_thresh" => yaml.occupied = Some(numeral(path, &place(key), value)?),
-            "free_thresh" => yaml.free = Some(numeral(path, &place(key), value)?),
-            "origin" if !in_origin => {
-                for item in value.trim_matches(['[', ']']).split(',') {
-                    yaml.origin.push(numeral(path, &place(key), item)?);
-                }
-            }
-            _ => {}
-        }
-        if yaml.origin.len() > 3 {
-            break;
-        }
-    }
-    Ok(yaml)
-}
-
-fn strip_comment(line: &str) -> &str {
-    match line.find(" #") {
-        Some(end) => &line[..end],
-        None if line.trim_start().starts_with('#') => "",
-        None => line,
-    }
-}
-
-fn truth(path: &Path, place: &str, value: &str) -> Result<f64, HomeError> {
-    match value {
-        "true" => Ok(1.0),
-        "false" => Ok(0.0),
-        _ => numeral(path, place, value),
-    }
-}
-
-fn numeral(path: &Path, place: &str, value: &str) -> Result<f64, HomeError> {
-    match value.trim().parse::<f64>() {
-        Ok(number) if number.is_finite() && number.abs() <= 1e6 => Ok(number),
-        _ => Err(HomeError::Invalid {
-            path: path.to_owned(),
-            place: format!("`{place}"),
-            problem: format!("`{}` is not a number of a sensible size", value.trim()),
+    match image::decode(&bytes) {
+        Ok(image) => Ok(FoundImage {
+            path: file,
+            image,
+            named,
         }),
+        Err(error) => Err(image_error(file, error)),
+    }
+}
+
+fn image_error(path: PathBuf, error: GreyImageError) -> HomeError {
+    match error {
+        GreyImageError::Truncated(place) => HomeError::Truncated { path, place },
+        GreyImageError::TooManyPixels(cells, limit) => HomeError::TooManyCells { path, cells, limit },
+        GreyImageError::Wrong(place, problem) => HomeError::Invalid { path, place, problem },
     }
 }

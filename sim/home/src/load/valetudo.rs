@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Deserialize;
 
 use super::raster::{self, Canvas};
-use super::{DockWish, Draft, HomeError, check_cells, fit, stem};
+use super::{DockWish, Draft, HomeError, check_cells, fit, stem, stray};
 use crate::plan::{Cell, Grid, Surface, SurfaceMap};
 use crate::pose::Pose;
 
@@ -68,7 +68,8 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
     let map: RawMap = serde_json::from_str(text).map_err(|error| json_error(path, &error))?;
     check_head(path, &map)?;
     let extent = PixelExtent::of(path, &map)?;
-    let coarse = paint(&map, &extent);
+    let mut coarse = paint(&map, &extent);
+    let notices = stray::leave_out(path, &mut coarse).into_iter().collect();
     let (mut grid, corner_x_m, corner_y_m) = fit(path, &coarse)?;
     let to_plan = |x_cm: f64, y_cm: f64| {
         (
@@ -104,6 +105,7 @@ pub(crate) fn read(path: &Path, text: &str) -> Result<Draft, HomeError> {
         mirrors: Vec::new(),
         walkers: Vec::new(),
         start: None,
+        notices,
     })
 }
 

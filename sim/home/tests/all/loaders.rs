@@ -4,19 +4,19 @@ use crate::scene;
 use crate::scene::{HEAD, file, room, sr8730};
 use home::{Cell, Home, HomeError, Pcg, RobotModel, robot_names};
 
-fn load(name: &str, bytes: &[u8]) -> Result<Home, HomeError> {
+pub(crate) fn load(name: &str, bytes: &[u8]) -> Result<Home, HomeError> {
     Home::load(&file(name, bytes), &sr8730())
 }
 
 /// The complaint about a file, which must name the file and be one line.
-fn complaint(name: &str, bytes: &[u8]) -> String {
+pub(crate) fn complaint(name: &str, bytes: &[u8]) -> String {
     let text = load(name, bytes).expect_err("the file is wrong").to_string();
     assert!(text.contains(name), "{text}");
     assert!(!text.contains('\n'), "{text}");
     text
 }
 
-fn check_area(found_m2: f64, wanted_m2: f64) {
+pub(crate) fn check_area(found_m2: f64, wanted_m2: f64) {
     assert!(
         (found_m2 - wanted_m2).abs() < 1e-6,
         "{found_m2} instead of {wanted_m2}"
@@ -24,7 +24,7 @@ fn check_area(found_m2: f64, wanted_m2: f64) {
 }
 
 /// A grey image of 40 x 20 pixels: an unknown ring, a wall ring, floor inside; the lower left floor quarter is a block.
-fn pixels() -> Vec<u8> {
+pub(crate) fn pixels() -> Vec<u8> {
     let mut pixels = vec![205; 40 * 20];
     for row in 1..19 {
         for column in 1..39 {
@@ -36,7 +36,7 @@ fn pixels() -> Vec<u8> {
     pixels
 }
 
-fn pgm(pixels: &[u8]) -> Vec<u8> {
+pub(crate) fn pgm(pixels: &[u8]) -> Vec<u8> {
     let mut bytes = b"P5\n# made by a test\n40 20\n255\n".to_vec();
     bytes.extend(pixels);
     bytes
@@ -49,7 +49,7 @@ fn wide_pgm(pixels: &[u8]) -> Vec<u8> {
     bytes
 }
 
-fn png_of(pixels: &[u8], color: png::ColorType) -> Vec<u8> {
+pub(crate) fn png_of(pixels: &[u8], color: png::ColorType) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, 40, 20);
     encoder.set_color(color);
@@ -62,10 +62,10 @@ fn png_of(pixels: &[u8], color: png::ColorType) -> Vec<u8> {
     bytes
 }
 
-const YAML: &str =
+pub(crate) const YAML: &str =
     "resolution: 0.05\norigin: [-1.0, -2.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 /// Floor of [`pixels`]: 36 x 16 without a block of 4 x 4, 5 cm each.
-const FLOOR_M2: f64 = (36.0 * 16.0 - 4.0 * 4.0) * 0.0025;
+pub(crate) const FLOOR_M2: f64 = (36.0 * 16.0 - 4.0 * 4.0) * 0.0025;
 
 #[test]
 fn ros_maps_load_from_every_image_format() {
@@ -141,7 +141,7 @@ const VALETUDO: &str = r#"{"__class":"ValetudoMap","metaData":{"version":2},"siz
 "entities":[{"__class":"PointMapEntity","type":"charger_location","points":[600,1198],"metaData":{"angle":90}},
 {"__class":"LineMapEntity","type":"virtual_wall","points":[500,1020,700,1020]}]}"#;
 
-fn valetudo() -> String {
+pub(crate) fn valetudo() -> String {
     let rows: Vec<String> = (202..240).map(|row| format!("100,{row},40")).collect();
     VALETUDO.replace("ROWS", &rows.join(","))
 }
@@ -379,7 +379,7 @@ fn mutated_files_are_refused_or_loaded_but_never_panic() {
 }
 
 /// Flips, cuts, doubles or overwrites a few bytes.
-fn mutate(seed: &[u8], random: &mut Pcg) -> Vec<u8> {
+pub(crate) fn mutate(seed: &[u8], random: &mut Pcg) -> Vec<u8> {
     let mut bytes = seed.to_vec();
     for _ in 0..=random.below(3) {
         let place = random.below(bytes.len().max(1) as u32) as usize;

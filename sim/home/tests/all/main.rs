@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 mod determinism;
+mod foreign_files;
 mod generated;
+mod hostile_files;
 mod loaders;
 mod maps;
 mod odd_things;

@@ -31,9 +31,16 @@ pub(super) fn of_place(error_m: f64, sigma_m: f64) -> f64 {
     0.5 * (error_m / sigma_m.max(LEAST.place_m)).powi(2)
 }
 
+impl Sigma {
+    /// [`of_place`] with this deviation.
+    pub(crate) fn nees_of_place(self, error_m: f64) -> f64 {
+        of_place(error_m, self.place_m)
+    }
+}
+
 impl NeesWatch {
     pub(super) fn sample(&mut self, error_m: f64, error_rad: f64, sigma: Sigma) {
-        self.place += of_place(error_m, sigma.place_m);
+        self.place += sigma.nees_of_place(error_m);
         self.heading += (error_rad / sigma.heading_rad.max(LEAST.heading_rad)).powi(2);
         self.samples += 1;
     }

@@ -63,6 +63,7 @@ pub(crate) fn read(path: &Path, text: &str, climb_m: f64) -> Result<Draft, HomeE
         mirrors,
         walkers,
         start,
+        notices: Vec::new(),
     })
 }
 

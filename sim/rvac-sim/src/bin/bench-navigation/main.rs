@@ -29,16 +29,24 @@ use shared_progress::SharedProgress;
 use table::NavigationTable;
 use traps::{TrapRun, TrapTable};
 
+/// Homes that are measured when none is named.
+const USUAL: &str = "homes/furnished-room.toml,homes/two-room-flat.toml,generated:2..10";
+/// The large floors.
+const LARGE: &str = "homes/empty-halls.toml";
+
 /// Measures coverage and localization in simulated homes.
 #[derive(Debug, Parser)]
 struct Arguments {
     /// Homes, separated by commas: `tuning` and `report` (odd and even numbers of the published set), `published` (both),
     /// `generated:A..B` with B, `generated:N`, `trap:KIND/SEED`, or files.
-    #[arg(
-        long,
-        default_value = "homes/furnished-room.toml,homes/two-room-flat.toml,generated:2..10"
-    )]
+    #[arg(long, default_value_if("large", "true", LARGE), default_value_if("first", "true", "report"), default_value = USUAL)]
     homes: String,
+    /// First runs beside known maps, in the homes of `report`: with `--large`, in the large ones.
+    #[arg(long)]
+    first: bool,
+    /// Large floors with empty halls.
+    #[arg(long)]
+    large: bool,
     /// Measure in drawn traps of every kind instead of homes: whether the robot comes free, and whether it ends. Takes --seeds,
     /// --noise, --modes, --robot, --board-gyro and --threads.
     #[arg(long)]
@@ -53,7 +61,12 @@ struct Arguments {
     /// `old-map` (the same with the map of the first day of a home like generated:7/2+people), `first-run` (systematic
     /// without), `learnt-map` (a first run, a second and a third, each with the map that the one before saved),
     /// `perfect-pose` (with perfect map and pose: what the planner can do).
-    #[arg(long, default_value = "bounce,known-map,first-run")]
+    #[arg(
+        long,
+        default_value_if("first", "true", "known-map,first-run"),
+        default_value_if("large", "true", "known-map"),
+        default_value = "bounce,known-map,first-run"
+    )]
     modes: String,
     /// Robot by name.
     #[arg(long, default_value = "sr8730")]

@@ -9,7 +9,7 @@ use crate::lost::LostShares;
 use crate::mode::CleaningMode;
 use crate::run::NavigationRun;
 
-const FIGURES: [RunFigure<NavigationRun>; 38] = [
+const FIGURES: [RunFigure<NavigationRun>; 48] = [
     RunFigure::less("t80_over_t0", |run| run.figures.t80_over_t0),
     RunFigure::less("t90_over_t0", |run| run.figures.t90_over_t0),
     RunFigure::less("t95_over_t0", |run| run.figures.t95_over_t0),
@@ -20,6 +20,30 @@ const FIGURES: [RunFigure<NavigationRun>; 38] = [
     RunFigure::less("away_s", |run| run.figures.away_s),
     RunFigure::less("turn_deg_per_m2", |run| Some(run.figures.turn_deg_per_m2)),
     RunFigure::less("bumps_per_m2", |run| Some(run.figures.bumps_per_m2)),
+    RunFigure::less("cruise_over_t0", |run| {
+        Some(run.figures.time_spent.cruise_s / run.t0_s)
+    }),
+    RunFigure::less("slow_over_t0", |run| {
+        Some(run.figures.time_spent.slow_s / run.t0_s)
+    }),
+    RunFigure::less("arc_over_t0", |run| Some(run.figures.time_spent.arc_s / run.t0_s)),
+    RunFigure::less("spot_turn_over_t0", |run| {
+        Some(run.figures.time_spent.spot_turn_s / run.t0_s)
+    }),
+    RunFigure::less("back_over_t0", |run| {
+        Some(run.figures.time_spent.back_s / run.t0_s)
+    }),
+    RunFigure::less("still_over_t0", |run| {
+        Some(run.figures.time_spent.still_s / run.t0_s)
+    }),
+    RunFigure::less("contact_over_t0", |run| {
+        Some(run.figures.time_spent.contact_s / run.t0_s)
+    }),
+    RunFigure::less("again_over_t0", |run| {
+        Some(run.figures.time_spent.again_s / run.t0_s)
+    }),
+    RunFigure::less("nees_place", |run| run.figures.nees_place),
+    RunFigure::less("nees_heading", |run| run.figures.nees_heading),
     RunFigure::less("minutes_per_room", |run| run.figures.field.minutes_per_room),
     RunFigure::less("swept_twice", |run| Some(run.figures.field.swept_twice)),
     RunFigure::more("path_efficiency", |run| run.figures.field.path_efficiency),

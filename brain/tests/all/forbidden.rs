@@ -1,0 +1,365 @@
+//! Forbidden floor by chance: outlines, walls and edits are drawn, and another program judges what became of them.
+
+use crate::orders::{START, Stage, flat, forbid, known, zone};
+use crate::plane::{World, config, edit, run};
+use brain::{
+    BehaviorState, Brain, CellKnowledge, CleaningOrder, EditError, HomePart, JobCommand, KeptPlace, MapEdit,
+    NoGo, NoGoEdit, PlaceEdit, PlaceShape, Point2, RoomName, StoredMap, Zone,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Outlines that are drawn.
+const OUTLINES: u32 = 10_000;
+/// Edge of the lattice on which corners lie, metres. On it, two features that do not touch are farther apart than any tolerance.
+const LATTICE_M: f64 = 0.25;
+
+/// A generator of numbers of its own: xorshift.
+struct Draw(u64);
+
+impl Draw {
+    fn below(&mut self, limit: u32) -> u32 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        ((self.0 >> 33) % u64::from(limit)) as u32
+    }
+
+    fn corner(&mut self, side: u32) -> Corner {
+        (i64::from(self.below(side)), i64::from(self.below(side)))
+    }
+}
+
+/// A corner on the lattice.
+type Corner = (i64, i64);
+
+fn turn(a: Corner, b: Corner, c: Corner) -> i64 {
+    ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
+}
+
+fn lies_on(point: Corner, a: Corner, b: Corner) -> bool {
+    turn(a, b, point) == 0
+        && (a.0.min(b.0)..=a.0.max(b.0)).contains(&point.0)
+        && (a.1.min(b.1)..=a.1.max(b.1)).contains(&point.1)
+}
+
+/// Whether two closed edges share a point, in whole numbers.
+fn share_a_point((a, b): (Corner, Corner), (c, d): (Corner, Corner)) -> bool {
+    lies_on(c, a, b)
+        || lies_on(d, a, b)
+        || lies_on(a, c, d)
+        || lies_on(b, c, d)
+        || turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0
+}
+
+/// What a right answer to an outline is: `None` = accepted.
+fn judge(drawn: &[Corner]) -> Option<EditError> {
+    let mut corners = drawn.to_vec();
+    corners.dedup();
+    while corners.len() > 1 && corners.first() == corners.last() {
+        corners.pop();
+    }
+    let count = corners.len();
+    if count < 3 {
+        return Some(EditError::ZoneTooThin);
+    }
+    let edge = |index: usize| (corners[index % count], corners[(index + 1) % count]);
+    for one in 0..count {
+        for other in one + 1..count {
+            let is_next = other == one + 1 || one == 0 && other == count - 1;
+            let (first, second) = if one == 0 && other == count - 1 && count > 2 && other != 1 {
+                (edge(other), edge(one))
+            } else {
+                (edge(one), edge(other))
+            };
+            let folds = lies_on(second.1, first.0, first.1) || lies_on(first.0, second.0, second.1);
+            if is_next && folds || !is_next && share_a_point(first, second) {
+                return Some(EditError::ZoneCrosses);
+            }
+        }
+    }
+    // Twice the area by triangles from the first corner, and the outline.
+    let doubled: i64 = (1..count - 1)
+        .map(|index| {
+            let (a, b, c) = (corners[0], corners[index], corners[index + 1]);
+            (b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)
+        })
+        .sum();
+    let length: f64 = (0..count)
+        .map(|index| {
+            let (a, b) = edge(index);
+            ((a.0 - b.0) as f64).hypot((a.1 - b.1) as f64)
+        })
+        .sum();
+    let half_width_m = doubled.abs() as f64 * LATTICE_M / length;
+    (half_width_m < 0.01).then_some(EditError::ZoneTooThin)
+}
+
+/// Whether an outline goes round a point, by the sum of the angles under which its edges are seen.
+fn goes_round(corners: &[Corner], at: (f64, f64)) -> bool {
+    let seen = |corner: &Corner| (corner.1 as f64 - at.1).atan2(corner.0 as f64 - at.0);
+    let ends = corners.iter().skip(1).chain(corners.first());
+    let sum: f64 = corners
+        .iter()
+        .zip(ends)
+        .map(|(from, to)| {
+            let angle = seen(to) - seen(from);
+            angle - (angle / std::f64::consts::TAU).round() * std::f64::consts::TAU
+        })
+        .sum();
+    sum.abs() > std::f64::consts::PI
+}
+
+/// Whether a point lies so near to an edge that rounding decides on which side.
+fn is_on_edge(corners: &[Corner], at: (f64, f64)) -> bool {
+    let ends = corners.iter().skip(1).chain(corners.first());
+    corners.iter().zip(ends).any(|(from, to)| {
+        let along = ((to.0 - from.0) as f64, (to.1 - from.1) as f64);
+        let off = (at.0 - from.0 as f64, at.1 - from.1 as f64);
+        (along.0 * off.1 - along.1 * off.0).abs() / along.0.hypot(along.1) < 1e-5
+    })
+}
+
+fn in_metres(corner: Corner) -> Point2 {
+    Point2 {
+        x_m: corner.0 as f64 * LATTICE_M,
+        y_m: corner.1 as f64 * LATTICE_M,
+    }
+}
+
+#[test]
+fn each_drawn_outline_is_accepted_without_a_hole_or_refused_rightly() {
+    let mut draw = Draw(38);
+    let (mut accepted, mut refused) = (0, BTreeMap::new());
+    for number in 0..OUTLINES {
+        let count = 3 + draw.below(6) as usize;
+        // Few corners make most outlines simple; a small lattice makes some touch, repeat and fold.
+        let side = 3 + draw.below(10);
+        let corners: Vec<Corner> = (0..count).map(|_| draw.corner(side)).collect();
+        let answer = Zone::new(corners.iter().copied().map(in_metres).collect());
+        assert_eq!(
+            answer.as_ref().err().copied(),
+            judge(&corners),
+            "{number}: {corners:?}"
+        );
+        let Ok(area) = answer else {
+            *refused.entry(format!("{:?}", judge(&corners))).or_insert(0) += 1;
+            continue;
+        };
+        accepted += 1;
+        for _ in 0..40 {
+            // Between the lattice lines, so that no point lies on an edge of small slope by chance of rounding.
+            let at = (
+                f64::from(draw.below(1_000)) / 1_000.0 * f64::from(side) + 0.000_31,
+                f64::from(draw.below(1_000)) / 1_000.0 * f64::from(side) + 0.000_47,
+            );
+            let place = Point2 {
+                x_m: at.0 * LATTICE_M,
+                y_m: at.1 * LATTICE_M,
+            };
+            assert_eq!(
+                area.contains(place),
+                goes_round(&corners, at),
+                "{number}: {corners:?} {at:?}"
+            );
+        }
+    }
+    assert!(
+        accepted > 1_000 && refused.len() == 2,
+        "{accepted} accepted, {refused:?}"
+    );
+}
+
+#[test]
+fn nothing_inside_of_an_accepted_outline_is_open_on_the_map() {
+    let mut draw = Draw(7);
+    let mut painted = 0;
+    while painted < 40 {
+        let corners: Vec<Corner> = (0..5).map(|_| draw.corner(13)).collect();
+        let Ok(area) = Zone::new(corners.iter().copied().map(in_metres).collect()) else {
+            continue;
+        };
+        let mut stage = Stage::new();
+        let adding = MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&area).unwrap()));
+        if stage.brain.map().admit(&adding).is_err() {
+            continue;
+        }
+        edit(&mut stage.world, &mut stage.brain, adding);
+        run(&mut stage.world, &mut stage.brain, None, 1.0);
+        let knowledge = stage.brain.map().knowledge();
+        for (index, kind) in knowledge.values().iter().enumerate() {
+            let middle = knowledge.cell(index).middle();
+            let at = (middle.x_m / LATTICE_M, middle.y_m / LATTICE_M);
+            if is_on_edge(&corners, at) {
+                continue;
+            }
+            assert_eq!(
+                *kind == CellKnowledge::NoGo,
+                goes_round(&corners, at),
+                "{corners:?} {middle:?}"
+            );
+        }
+        painted += 1;
+    }
+}
+
+/// A rectangle of the flat that does not contain the robot's start.
+fn drawn_rectangle(draw: &mut Draw) -> Zone {
+    loop {
+        let low = (f64::from(draw.below(50)) / 10.0, f64::from(draw.below(30)) / 10.0);
+        let high = (
+            low.0 + 0.2 + f64::from(draw.below(15)) / 10.0,
+            low.1 + 0.2 + f64::from(draw.below(15)) / 10.0,
+        );
+        let area = zone(low, high);
+        if !area.contains(Point2::default()) {
+            return area;
+        }
+    }
+}
+
+/// The robot's centre is on forbidden floor only while it leaves it.
+#[test]
+fn a_job_among_drawn_zones_and_walls_keeps_off_forbidden_floor() {
+    let mut draw = Draw(1_938);
+    for home in 0..6 {
+        let mut stage = Stage::new();
+        let mut areas = Vec::new();
+        for _ in 0..=draw.below(3) {
+            let area = drawn_rectangle(&mut draw);
+            let adding = MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&area).unwrap()));
+            if stage.brain.map().admit(&adding).is_ok() {
+                edit(&mut stage.world, &mut stage.brain, adding);
+                areas.push(area);
+            }
+        }
+        let order = CleaningOrder::default();
+        run(
+            &mut stage.world,
+            &mut stage.brain,
+            Some(JobCommand::CleanParts { order }),
+            3.0,
+        );
+        let (mut steps, mut inside) = (0, 0);
+        while stage.brain.status().state != BehaviorState::Idle && steps < 12_000 {
+            run(&mut stage.world, &mut stage.brain, None, 0.1);
+            let place = stage.place();
+            inside += u32::from(areas.iter().any(|area| area.contains(place)));
+            steps += 1;
+        }
+        assert!(steps < 12_000, "home {home} does not end");
+        assert_eq!(inside, 0, "home {home}: steps on forbidden floor");
+    }
+}
+
+/// The search for the dock stays on its side of a virtual wall.
+#[test]
+fn the_search_for_the_dock_does_not_cross_a_virtual_wall() {
+    let mut stage = Stage::new();
+    let ends = [(3.05, 1.3), (3.05, 2.6)].map(|(x_m, y_m)| Point2 {
+        x_m: x_m - START.x_m,
+        y_m: y_m - START.y_m,
+    });
+    forbid(&mut stage, NoGo::wall(ends[0], ends[1]).unwrap());
+    run(&mut stage.world, &mut stage.brain, Some(JobCommand::Dock), 3.0);
+    let mut driven_m = 0.0;
+    let mut before = stage.world.pose.position();
+    for _ in 0..3_000 {
+        run(&mut stage.world, &mut stage.brain, None, 0.1);
+        let now = stage.world.pose.position();
+        driven_m += now.distance_m(before);
+        before = now;
+        assert!(now.x_m < 3.0, "it has crossed the wall after {driven_m} m");
+    }
+    assert!(driven_m > 20.0, "it searches: {driven_m} m");
+}
+
+/// What a number was given for, over all edits and restores.
+#[derive(Default)]
+struct Identities {
+    no_go: BTreeMap<u16, Point2>,
+    places: BTreeMap<u16, RoomName>,
+    given: u32,
+}
+
+impl Identities {
+    /// Every number means what it meant when it was given.
+    fn check(&mut self, brain: &Brain) {
+        for (number, no_go) in brain.map().annotations().no_go() {
+            let first = no_go.area().corners()[0];
+            let meant = self.no_go.entry(number).or_insert_with(|| {
+                self.given += 1;
+                first
+            });
+            assert_eq!(*meant, first, "no-go {number} means two things");
+        }
+        for (number, place) in brain.map().annotations().places() {
+            let meant = self.places.entry(number).or_insert_with(|| {
+                self.given += 1;
+                place.name().clone()
+            });
+            assert_eq!(meant, place.name(), "place {number} means two things");
+        }
+    }
+}
+
+/// One drawn edit; names and corners are never the same twice.
+fn drawn_edit(draw: &mut Draw, serial: u32) -> MapEdit {
+    let number = 1 + draw.below(40) as u16;
+    let shift = f64::from(serial) * 1e-4;
+    let area = zone((1.5 + shift, 2.0), (2.5, 3.0));
+    let place = |name: &str| {
+        let shape = PlaceShape::Zone(zone((0.5 + shift, 0.5), (1.5, 1.5)));
+        KeptPlace::new(RoomName::new(name).unwrap(), &shape).unwrap()
+    };
+    match draw.below(4) {
+        0 => MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&area).unwrap())),
+        1 => MapEdit::NoGo(NoGoEdit::Remove { number }),
+        2 => MapEdit::Place(PlaceEdit::Keep {
+            place: place(&format!("Place {serial}")),
+            number: None,
+        }),
+        _ => MapEdit::Place(PlaceEdit::Forget { number }),
+    }
+}
+
+/// Map edits, restores of earlier maps and orders by number, by chance.
+#[test]
+fn no_number_means_two_things_over_edits_and_restores() {
+    let mut draw = Draw(10_000);
+    let mut brain = Brain::with_map(config(), 1, &known(&flat()));
+    let mut world = World::new(flat(), START);
+    run(&mut world, &mut brain, None, 1.0);
+    let mut kept: Vec<StoredMap> = vec![brain.map().stored()];
+    let mut identities = Identities::default();
+    let mut refused = BTreeSet::new();
+    for serial in 0..3_000 {
+        if draw.below(60) == 0 {
+            let now = brain.map().stored();
+            let back = kept[draw.below(kept.len() as u32) as usize].clone();
+            brain = Brain::with_map(config(), 1, &back.numbered_after(&now));
+            world = World::new(flat(), START);
+            run(&mut world, &mut brain, None, 0.2);
+            kept.push(now);
+        } else {
+            let made = drawn_edit(&mut draw, serial);
+            match brain.map().admit(&made) {
+                Ok(()) => edit(&mut world, &mut brain, made),
+                Err(error) => {
+                    refused.insert(format!("{error:?}"));
+                }
+            }
+        }
+        identities.check(&brain);
+    }
+    assert!(identities.given > 500, "{} numbers given", identities.given);
+    assert!(
+        refused.contains("NoSuchNoGo") && refused.contains("NoSuchPlace"),
+        "{refused:?}"
+    );
+    let gone = HomePart::Room(9_999);
+    let order = CleaningOrder::new(vec![gone], 1).unwrap();
+    assert_eq!(
+        brain.admit(&JobCommand::CleanParts { order }),
+        Err(EditError::NoSuchRoom.into())
+    );
+}
