@@ -86,10 +86,9 @@ my %jobs =
     # Drives two seconds backwards at 0.1 m/s, as from its dock. The lease of 300 ms is renewed; who lets go stops.
     drive => {
         $robot.say('{"c":"watch","topics":["pose"]}');
-        $robot.say('{"c":"drive","v":0,"w":0,"ttl":300,"id":1}');
-        answered(1);
-        for ^20 {
-            $robot.say('{"c":"drive","v":-0.1,"w":0,"ttl":300}');
+        # It begins at rest.
+        for |(0 xx 3), |(-0.1 xx 20) -> $speed {
+            $robot.say('{"c":"drive","v":' ~ $speed ~ ',"w":0,"ttl":300}');
             sleep 0.1;
         }
         $robot.say('{"c":"stop","id":2}');
@@ -131,4 +130,5 @@ if $job ne 'rate' {
     say "robot: {text-of($hello, 'device') || 'none'}";
 }
 %jobs{$job}();
+$robot.process.kill('TERM');
 exit 0;
