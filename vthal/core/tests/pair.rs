@@ -781,26 +781,6 @@ fn the_robots_button_starts_and_stops() {
     assert_eq!(pair.core.status().state, "starting", "it goes on");
 }
 
-/// A person who sends it home means it: the job does not wait for its resumption.
-#[test]
-fn the_robots_dock_button_ends_its_job_and_sends_it_home() {
-    let mut pair = Pair::new();
-    hold(&mut pair, 0, 100);
-    pair.run_ms(5000);
-    assert_eq!(pair.core.status().state, "cleaning");
-    turn(&mut pair, 2, true);
-    pair.run_ms(100);
-    assert_eq!(pair.core.status().state, "paused", "while it is down still");
-    turn(&mut pair, 2, false);
-    pair.run_ms(5000);
-    assert_eq!(pair.core.status().state, "docking");
-    pair.state.docked = true;
-    pair.run_ms(30_000);
-    let status = pair.core.status();
-    assert_eq!(status.state, "docked");
-    assert_eq!(status.reason, "docked", "it waits for nothing");
-}
-
 /// Buttons of the Linux board, on a robot that reports none.
 fn press_on_board(pair: &mut Pair, down: u8, for_ms: u64) {
     pair.handle(Input::BoardButtons { down });
