@@ -285,6 +285,27 @@ fn a_contact_that_never_lets_go_is_not_backed_from_for_ever() {
     assert_eq!(stage.backed_m, 0.0, "driving forward makes it good");
 }
 
+/// A robot that stands against something, or beside its dock, when it is sent off.
+#[test]
+fn a_bumper_pressed_before_the_start_is_left_or_told() {
+    for side in ["left", "both"] {
+        let mut stage = check(&format!("up\n press {side}\n clean\n wait 3.5 => cleaning"));
+        stage.observation.contacts = Contacts::default();
+        for _ in 0..50 * 20 {
+            stage.step(&[]);
+        }
+        assert_eq!(stage.brain.status().state, BehaviorState::Cleaning, "{side}");
+        let held = check(&format!(
+            "up\n press {side}\n clean\n wait 40 => stuck contact-held"
+        ));
+        assert!(
+            held.backed_m > 0.05 && held.backed_m <= 0.15,
+            "{side}: {} m back",
+            held.backed_m
+        );
+    }
+}
+
 #[test]
 fn contacts_that_close_without_a_dock_are_left_by_a_hand_s_breadth_at_a_time() {
     let stage = check(

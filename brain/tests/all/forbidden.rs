@@ -1,6 +1,6 @@
 //! Forbidden floor by chance: outlines, walls and edits are drawn, and another program judges what became of them.
 
-use crate::orders::{START, Stage, flat, known, zone};
+use crate::orders::{START, Stage, flat, forbid, known, zone};
 use crate::plane::{World, config, edit, run};
 use brain::{
     BehaviorState, Brain, CellKnowledge, CleaningOrder, EditError, HomePart, JobCommand, KeptPlace, MapEdit,
@@ -249,6 +249,28 @@ fn a_job_among_drawn_zones_and_walls_keeps_off_forbidden_floor() {
         assert!(steps < 12_000, "home {home} does not end");
         assert_eq!(inside, 0, "home {home}: steps on forbidden floor");
     }
+}
+
+/// The search for the dock stays on its side of a virtual wall.
+#[test]
+fn the_search_for_the_dock_does_not_cross_a_virtual_wall() {
+    let mut stage = Stage::new();
+    let ends = [(3.05, 1.3), (3.05, 2.6)].map(|(x_m, y_m)| Point2 {
+        x_m: x_m - START.x_m,
+        y_m: y_m - START.y_m,
+    });
+    forbid(&mut stage, NoGo::wall(ends[0], ends[1]).unwrap());
+    run(&mut stage.world, &mut stage.brain, Some(JobCommand::Dock), 3.0);
+    let mut driven_m = 0.0;
+    let mut before = stage.world.pose.position();
+    for _ in 0..3_000 {
+        run(&mut stage.world, &mut stage.brain, None, 0.1);
+        let now = stage.world.pose.position();
+        driven_m += now.distance_m(before);
+        before = now;
+        assert!(now.x_m < 3.0, "it has crossed the wall after {driven_m} m");
+    }
+    assert!(driven_m > 20.0, "it searches: {driven_m} m");
 }
 
 /// What a number was given for, over all edits and restores.
