@@ -98,7 +98,7 @@ my %jobs =
             $update.contains('"e":"done"') && $update.contains('"id":2')
         });
         say 'stopped';
-        my ($x, $y) = @poses[*-1] Z- @poses[0];
+        my ($x, $y) = @poses[*-1].list Z- @poses[0].list;
         say sprintf('driven: %.2f m', sqrt($x² + $y²));
     },
     # Cleans the room of this number, or the first one that it knows.
