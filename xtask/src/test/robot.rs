@@ -108,7 +108,13 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
         .env("RVAC_FIRMWARE", &elf)
         .env("RVAC_FIRMWARE_SAMPLED", sampled)
         .env("RVAC_RELAX", relax.with_file_name(""));
-    let mut programs = vec!["rvac", "bench-firmware", "bench-relax", "relax-pace"];
+    let mut programs = vec![
+        "rvac",
+        "bench-firmware",
+        "bench-links",
+        "bench-relax",
+        "relax-pace",
+    ];
     programs.extend(TRIALS.map(|(program, _)| program));
     workspace::build(&programs, Profile::Dev)?;
     let pace = check(&mut pace(&elf)?);
@@ -119,8 +125,14 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
     trials.push(trial("bench-relax", &["--phases", "2"], &relax));
     trials.push(damaged_packets(&relax));
     let trials = checks_side_by_side(trials);
+    // In real time, so nothing runs beside it.
+    let links = check(&mut trial(
+        "bench-links",
+        &["--seconds", "4", "--cuts", "2"],
+        &elf,
+    ));
     let owner = tests(&mut owner(&elf));
-    all([tests(&mut command), owner, pace, trials].into_iter())
+    all([tests(&mut command), owner, pace, trials, links].into_iter())
 }
 
 /// Damaged packets for the Relax's image; `cargo xtask bench relax --long` sends more.
@@ -154,7 +166,7 @@ fn owner(elf: &Path) -> Command {
 }
 
 /// The real firmware under faults, a little of each; `cargo xtask bench safety --long` and its like take more.
-const TRIALS: [(&str, &[&str]); 5] = [
+const TRIALS: [(&str, &[&str]); 4] = [
     ("bench-safety", &["--phases", "4"]),
     (
         "bench-flips",
@@ -162,7 +174,6 @@ const TRIALS: [(&str, &[&str]); 5] = [
     ),
     ("bench-charges", &["--count", "4"]),
     ("bench-flood", &["--count", "2"]),
-    ("bench-links", &["--seconds", "4", "--cuts", "2"]),
 ];
 
 fn trial(name: &str, words: &[&str], elf: &Path) -> Command {
