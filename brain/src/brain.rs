@@ -2,6 +2,7 @@
 
 pub mod checkpoint;
 mod floor_sensing;
+mod gyro_words;
 mod learning;
 mod map_changes;
 mod situation;
@@ -18,6 +19,7 @@ use crate::model::command::{Command, JobCommand, StrategyName};
 use crate::model::config::BrainConfig;
 use crate::model::energy::EnergyModel;
 use crate::model::geometry::{Point2, Pose2};
+use crate::model::gyro_fault::GyroFault;
 use crate::model::job_refusal::JobRefusal;
 use crate::model::learnt::{GyroLearnt, Learnt};
 use crate::model::observation::Observation;
@@ -43,6 +45,8 @@ pub struct Brain {
     carpet: CarpetDetector,
     behavior: Behavior,
     mind: TaskContext,
+    /// What was last said of the gyro.
+    gyro_told: Option<GyroFault>,
 }
 
 impl Brain {
@@ -65,6 +69,7 @@ impl Brain {
                 random: Random::new(seed),
                 journal: Vec::new(),
             },
+            gyro_told: None,
         }
     }
 
@@ -101,6 +106,7 @@ impl Brain {
     /// with each telemetry report, and at least ten times a second while the link is down so that the brain notices.
     pub fn step(&mut self, observation: &Observation, commands: &[Command]) -> Actions {
         let advance = self.localization.update(observation);
+        self.tell_gyro();
         let correction = self.localization.refine(observation, advance);
         self.correct_map(correction);
         let estimate = self.localization.estimate();

@@ -36,6 +36,7 @@ pub use model::edit_error::EditError;
 pub use model::energy::EnergyModel;
 pub use model::fault::Fault;
 pub use model::geometry::{Point2, Pose2};
+pub use model::gyro_fault::GyroFault;
 pub use model::inhibit::{Inhibit, Inhibits};
 pub use model::job_refusal::JobRefusal;
 pub use model::kept_place::{KeptPlace, PlaceShape};

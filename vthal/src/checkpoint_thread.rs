@@ -89,8 +89,8 @@ pub(crate) struct MixAnswer {
 pub(crate) enum MixOutcome {
     /// The profiles.
     Listed(Vec<String>),
-    /// It is kept, or removed.
-    Done,
+    /// One is kept, or removed; those that there are now.
+    Changed(Vec<String>),
 }
 
 /// What came of an order for the kept maps.
@@ -200,7 +200,7 @@ impl CheckpointHandle {
     pub(crate) fn order_mix(&self, order: MixOrder) -> bool {
         match order.task {
             MixTask::List => self.try_ask(Kept::MixOrder(order)),
-            MixTask::Save(_) | MixTask::Remove(_) => self.try_send(Kept::MixOrder(order)),
+            MixTask::Save { .. } | MixTask::Remove(_) => self.try_send(Kept::MixOrder(order)),
         }
     }
 
@@ -429,8 +429,10 @@ fn obey(order: MapOrder, floors: &FloorFolder) -> MapAnswer {
 fn obey_mix(MixOrder { client, id, task }: MixOrder, mixes: &MixFolder) -> MixAnswer {
     let outcome = match task {
         MixTask::List => Ok(MixOutcome::Listed(mixes.list())),
-        MixTask::Save(text) => mixes.save(&text).map(|()| MixOutcome::Done),
-        MixTask::Remove(name) => mixes.remove(&name).map(|()| MixOutcome::Done),
+        MixTask::Save { profile, was } => mixes
+            .save(&profile, was.as_deref())
+            .map(|()| MixOutcome::Changed(mixes.list())),
+        MixTask::Remove(name) => mixes.remove(&name).map(|()| MixOutcome::Changed(mixes.list())),
     };
     MixAnswer { client, id, outcome }
 }

@@ -1,10 +1,15 @@
 //! The configuration: a TOML file, and flags that override it.
 
+mod link_section;
+
 use std::path::{Path, PathBuf};
 
 use brain::StrategyName;
+use robot_link::LinkAddress;
 use serde::Deserialize;
 use toml::Spanned;
+
+use link_section::LinkSection;
 
 use crate::board::{BUTTONS_MAX, BoardSettings, LightLines, PressedLevel};
 use crate::imu::{Axis, ImuSettings, Roots};
@@ -13,10 +18,8 @@ use crate::radio::{BEACONS_MAX, BeaconName, RadioForm, RadioSettings};
 /// A valid configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
-    /// Serial device of the robot.
-    pub serial: PathBuf,
-    /// Bits per second; `None` = what the make of the robot speaks.
-    pub baud: Option<u32>,
+    /// Link to the robot.
+    pub link: LinkAddress,
     /// Path of the Unix socket.
     pub socket: PathBuf,
     /// Clients at the same time.
@@ -90,6 +93,9 @@ pub enum ConfigError {
         /// What is wrong and what to write instead.
         what: String,
     },
+    /// A rate was given for a link that has none.
+    #[error("--baud is for a serial device with a rate, and the link is another: leave it out")]
+    NoRate,
     /// Something that has no default was given nowhere.
     #[error("no {what} is configured: give {flag}, or set {key} in the configuration")]
     Missing {
@@ -105,6 +111,8 @@ pub enum ConfigError {
 /// Values of flags, which override the file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Overrides {
+    /// `--link`
+    pub link: Option<LinkAddress>,
     /// `--serial`
     pub serial: Option<PathBuf>,
     /// `--baud`
@@ -120,7 +128,7 @@ pub struct Overrides {
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct ConfigFile {
-    link: Link,
+    link: Option<Spanned<LinkSection>>,
     socket: Socket,
     robot: Robot,
     imu: Imu,
@@ -129,13 +137,6 @@ struct ConfigFile {
     state: StateSection,
     log: LogSection,
     recording: Recording,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Link {
-    serial: Option<PathBuf>,
-    baud: Option<Spanned<u32>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -294,14 +295,10 @@ impl ConfigText<'_> {
 
 fn validate(file: ConfigFile, flags: Overrides, source: &ConfigText<'_>) -> Result<Config, ConfigError> {
     let missing = |what, flag, key| ConfigError::Missing { what, flag, key };
-    let serial = flags.serial.or(file.link.serial);
     let socket = flags.socket.or(file.socket.path);
     let state = flags.state.or(file.state.dir);
-    let named = file.link.baud.is_some();
-    let baud = source.in_range(file.link.baud, 0, 1_200..=4_000_000)?;
     Ok(Config {
-        serial: serial.ok_or(missing("serial device", "--serial PATH", "link.serial"))?,
-        baud: flags.baud.or(named.then_some(baud)),
+        link: link_section::link(file.link, (flags.link, flags.serial, flags.baud), source)?,
         socket: socket.ok_or(missing("socket path", "--socket PATH", "socket.path"))?,
         clients_max: source.in_range(file.socket.clients_max, 128, 1..=1024)? as usize,
         expert: file.socket.expert.unwrap_or(false),
@@ -490,7 +487,7 @@ mod tests {
             .fold(String::new(), |all, line| all + line + "\n");
         let config = parse(&written_out).expect("valid");
         let mut defaults = parse("").expect("valid");
-        defaults.baud = Some(230_400);
+        defaults.link = "uart:/dev/null?baud=230400".parse().expect("a link");
         defaults.seed = Some(1);
         defaults.description = Some("/usr/share/librervac/robots/samsung-sr8730/robot.toml".into());
         assert_eq!(defaults.strategy, None, "what suits the robot");
@@ -591,6 +588,11 @@ mod tests {
                 "vthal.toml:2: socket.expert: invalid type",
             ),
             ("[link", "vthal.toml:1: syntax: "),
+            ("link = 7", "vthal.toml:1: link: invalid type"),
+            (
+                "\nlink = \"usb:/dev/ttyACM0\"",
+                "vthal.toml:2: link: \"/dev/ttyACM0\" may be another device after the next start",
+            ),
             (
                 "[radio]\nbeacons = [\"hall\", \"the kitchen\"]",
                 "vthal.toml:2: radio.beacons: a beacon's name has 1 to 32 printable letters",
@@ -606,13 +608,36 @@ mod tests {
     }
 
     #[test]
+    fn one_line_names_a_link_and_flags_stand_above_it() {
+        let line = "link = \"tcp:robot.local:4000\"";
+        let source = ConfigText {
+            path: Path::new("vthal.toml"),
+            text: line,
+        };
+        let file = || toml::from_str(line).expect("TOML");
+        let flags = |baud, serial: Option<&str>| Overrides {
+            baud,
+            serial: serial.map(PathBuf::from),
+            socket: Some(PathBuf::from("s")),
+            state: Some(PathBuf::from("d")),
+            ..Overrides::default()
+        };
+        let config = validate(file(), flags(None, None), &source).expect("valid");
+        assert_eq!(config.link, "tcp:robot.local:4000".parse().expect("a link"));
+        let config = validate(file(), flags(Some(9_600), Some("/dev/a")), &source).expect("valid");
+        assert_eq!(config.link, "uart:/dev/a?baud=9600".parse().expect("a link"));
+        let error = validate(file(), flags(Some(9_600), None), &source).expect_err("no rate");
+        assert!(matches!(error, ConfigError::NoRate));
+    }
+
+    #[test]
     fn what_has_no_default_is_asked_for() {
         let message = load(None, Overrides::default())
             .expect_err("nothing given")
             .to_string();
         assert_eq!(
             message,
-            "no serial device is configured: give --serial PATH, or set link.serial in the configuration"
+            "no link to the robot is configured: give --link LINK or --serial PATH, or set link in the configuration"
         );
         let message =
             load(Some(Path::new("/does/not/exist.toml")), Overrides::default()).expect_err("absent");

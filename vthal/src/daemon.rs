@@ -20,14 +20,15 @@ use crate::checkpoint_thread::CheckpointHandle;
 use crate::client::{self, Client, Flushed, Incoming};
 use crate::client_stream::ClientStream;
 use crate::clock::Clock;
-use crate::event::{Event, SerialEvent};
+use crate::event::{Event, LinkEvent};
 use crate::imu::ImuEvent;
+use crate::link::LineOrder;
 use crate::outbox::Class;
 use crate::radio::RadioEvent;
 use crate::recording::RecorderHandle;
 use crate::run_thread::RunHandle;
-use crate::serial::LineOrder;
 use crate::socket;
+use crate::told_lines::{CORE_LINES, ToldLine, ToldLines};
 
 /// Longest wait for the wheels to stop when the daemon ends.
 const STOP_WAIT: Duration = Duration::from_millis(500);
@@ -59,6 +60,8 @@ pub(crate) struct Wiring {
     pub socket: PathBuf,
     /// Clients at the same time.
     pub clients_max: usize,
+    /// Warnings and errors of the shell for clients.
+    pub told: ToldLines,
 }
 
 /// The daemon while it runs.
@@ -129,6 +132,9 @@ impl Daemon {
             self.wall_due_us = now_us + WALL_US;
             let utc_s = self.clock.utc_s();
             self.handle(Input::WallClock { utc_s });
+            for ToldLine { level, text } in self.wiring.told.take() {
+                self.handle(Input::Told { level, text });
+            }
         }
     }
 
@@ -141,10 +147,7 @@ impl Daemon {
         match event {
             Event::Wake => self.handle(Input::Wake),
             Event::WatchdogDue => systemd_notice::tell_alive(),
-            Event::Serial(SerialEvent::Opened) => self.handle(Input::LinkOpened),
-            Event::Serial(SerialEvent::Bytes(bytes)) => self.handle(Input::LinkBytes(&bytes)),
-            Event::Serial(SerialEvent::Closed(reason)) => self.handle(Input::LinkClosed { reason }),
-            Event::Serial(SerialEvent::Absent(error)) => tracing::warn!(part = "link", "{error}"),
+            Event::Link(event) => self.take_link(event),
             Event::Imu(event) => self.take_imu(event),
             Event::Board(event) => self.take_board(event),
             Event::Radio(event) => self.take_radio(event),
@@ -168,6 +171,18 @@ impl Daemon {
             Event::Learnt(number, result) => self.handle(Input::LearntKept { number, result }),
             Event::Schedules(number, result) => self.handle(Input::SchedulesKept { number, result }),
             Event::Terminate(signal) => self.terminate(signal),
+        }
+    }
+
+    fn take_link(&mut self, event: LinkEvent) {
+        match event {
+            LinkEvent::Opened(abilities) => {
+                tracing::debug!(part = "link", "the link passes {abilities}");
+                self.handle(Input::LinkOpened);
+            }
+            LinkEvent::Bytes(bytes) => self.handle(Input::LinkBytes(&bytes)),
+            LinkEvent::Closed(reason) => self.handle(Input::LinkClosed { reason }),
+            LinkEvent::Absent(error) => tracing::warn!(part = "link", "{error}"),
         }
     }
 
@@ -304,7 +319,7 @@ impl Daemon {
             self.wiring.line_holder.send_replace(holder);
         }
         if self.outputs.next_rate && self.wiring.to_robot.try_send(LineOrder::NextRate).is_err() {
-            tracing::warn!(part = "link", "the serial line is too busy to try another rate");
+            tracing::warn!(part = "link", "the link is too busy to try another rate");
         }
     }
 
@@ -315,7 +330,7 @@ impl Daemon {
             if congested && !self.congested {
                 tracing::warn!(
                     part = "link",
-                    "the serial line does not take what is sent: packets are dropped"
+                    "the link does not take what is sent: packets are dropped"
                 );
             }
             self.congested = congested;
@@ -446,9 +461,9 @@ fn deliver(core: &Core, clients: &mut BTreeMap<ClientId, Client>, delivery: &Del
 fn log(entry: &LogEntry) {
     let LogEntry { part, text, .. } = entry;
     match entry.level {
-        LogLevel::Debug => tracing::debug!(part, "{text}"),
-        LogLevel::Info => tracing::info!(part, "{text}"),
-        LogLevel::Warn => tracing::warn!(part, "{text}"),
-        LogLevel::Error => tracing::error!(part, "{text}"),
+        LogLevel::Debug => tracing::debug!(target: CORE_LINES, part, "{text}"),
+        LogLevel::Info => tracing::info!(target: CORE_LINES, part, "{text}"),
+        LogLevel::Warn => tracing::warn!(target: CORE_LINES, part, "{text}"),
+        LogLevel::Error => tracing::error!(target: CORE_LINES, part, "{text}"),
     }
 }

@@ -1,5 +1,6 @@
 //! Everything that can wake the daemon.
 
+use robot_link::Abilities;
 use rvac_api::Run;
 use tokio::net::UnixStream;
 use vthal_core::{ClientId, LinkLoss};
@@ -8,9 +9,9 @@ use crate::archive_desk::ArchiveAnswer;
 use crate::board::BoardEvent;
 use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
+use crate::link::LinkOpenError;
 use crate::radio::RadioEvent;
 use crate::run_thread::RunAnswer;
-use crate::serial::OpenError;
 
 /// Why a thread or task that sends events ends: the daemon receives none any more.
 pub(crate) struct ReceiverGone;
@@ -18,8 +19,8 @@ pub(crate) struct ReceiverGone;
 /// The closed set of causes.
 #[derive(Debug)]
 pub(crate) enum Event {
-    /// From the serial line.
-    Serial(SerialEvent),
+    /// From the link to the robot.
+    Link(LinkEvent),
     /// A client connected.
     Connected(UnixStream),
     /// A client sent bytes.
@@ -64,15 +65,15 @@ pub(crate) enum Event {
     Terminate(&'static str),
 }
 
-/// From the serial line.
+/// From the link to the robot.
 #[derive(Debug)]
-pub(crate) enum SerialEvent {
-    /// The device is open.
-    Opened,
-    /// The device cannot be opened; reported once per outage.
-    Absent(OpenError),
+pub(crate) enum LinkEvent {
+    /// It is open, and can this.
+    Opened(Abilities),
+    /// It cannot be opened; reported once per outage.
+    Absent(LinkOpenError),
     /// Bytes of the robot.
     Bytes(Vec<u8>),
-    /// The device is lost.
+    /// It is lost.
     Closed(LinkLoss),
 }

@@ -73,6 +73,21 @@ impl KeptPaths {
         }
     }
 
+    /// Folders that cannot be listed: what is in them must not be taken for nothing.
+    fn folder_complaints(&self) -> Vec<String> {
+        let state = self.checkpoint.parent().unwrap_or(Path::new("."));
+        let folders = [
+            (MAPS, "maps"),
+            (MIXES, "control mixes"),
+            (HISTORY, "the history"),
+            (RECORDINGS, "recordings"),
+        ];
+        folders
+            .into_iter()
+            .filter_map(|(name, what)| kept_file::folder_complaint(&state.join(name), what))
+            .collect()
+    }
+
     /// The job that goes on, and the number of the next run. A run that is not continued is stored as cut short.
     fn left_over(&self, found: Option<Found>) -> (Option<Checkpoint>, u64) {
         let run = found.as_ref().and_then(|found| found.checkpoint.run.as_ref());
@@ -154,6 +169,7 @@ impl KeptStore {
                 learnt_complaints,
                 floor_complaints,
                 kept.mixes.put_damaged_aside(),
+                kept.folder_complaints(),
                 checkpoint_complaint.into_iter().collect(),
             ]
             .concat(),

@@ -1,6 +1,6 @@
 //! The shell of the vthal daemon: it carries out what `vthal-core` decides, and decides nothing itself.
 //!
-//! One event loop ([`daemon`]) over one closed enum ([`event`]); the serial line ([`serial`]) and each client of the socket
+//! One event loop ([`daemon`]) over one closed enum ([`event`]); the link to the robot ([`link`], [`serial`]) and each client of the socket
 //! ([`socket`], [`client`], [`outbox`]) are tasks that only turn bytes into events; a gyro on the board ([`imu`]), and its buttons and lights ([`board`]), are read by threads. Disks are slow, so recordings
 //! ([`recording`]) and checkpoints ([`checkpoint_file`]) are written by threads of their own.
 #![forbid(unsafe_code)]
@@ -22,6 +22,7 @@ pub mod imu;
 mod instance;
 mod kept_store;
 mod learnt_file;
+mod link;
 mod logging;
 mod map_folder;
 mod mix_folder;
@@ -36,10 +37,11 @@ mod run_folder;
 mod run_thread;
 mod schedule_file;
 mod serial;
+mod serial_identity;
 mod service;
 mod socket;
-mod system_zone;
 mod systemd;
+mod told_lines;
 
 pub use clock::Clock;
 pub use kept_store::KeptStore;

@@ -10,12 +10,11 @@ use tracing_subscriber::{Layer, fmt};
 
 use crate::config::LogConfig;
 use crate::rotation::{RotatingFile, RotationLimits};
+use crate::told_lines::{ToldLines, told_lines};
 
-/// Starts the log. Call it once.
-///
-/// # Errors
-/// When the log file cannot be opened; then the log goes to standard error alone.
-pub(crate) fn start(folder: &Path, config: &LogConfig) -> io::Result<()> {
+/// Starts the log. Call it once. Gives the warnings and errors that clients are to read, and why the log file cannot be opened, if it
+/// cannot: then the log goes to standard error alone.
+pub(crate) fn start(folder: &Path, config: &LogConfig) -> (ToldLines, io::Result<()>) {
     let limits = RotationLimits {
         size_max: u64::from(config.size_mib) << 20,
         files_max: config.files,
@@ -36,9 +35,11 @@ pub(crate) fn start(folder: &Path, config: &LogConfig) -> io::Result<()> {
             .with_writer(Mutex::new(file))
             .with_filter(config.level)
     });
+    let (telling, lines) = told_lines();
     tracing_subscriber::registry()
+        .with(telling)
         .with(to_stderr.with_filter(config.level))
         .with(to_file)
         .init();
-    result
+    (lines, result)
 }

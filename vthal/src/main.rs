@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, bail};
 use clap::{Args, CommandFactory, Parser, Subcommand};
+use robot_link::LinkAddress;
 use vthal::ServeError;
 use vthal::config::{self, Overrides};
 use vthal::recording::replay::{Replay, replay};
@@ -43,6 +44,9 @@ struct Serve {
     /// Configuration (TOML); /etc/vthal.toml if it exists
     #[arg(long)]
     config: Option<PathBuf>,
+    /// Link to the robot, such as uart:/dev/serial0, tcp:HOST:PORT or spi:/dev/spidev0.0
+    #[arg(long, conflicts_with = "serial")]
+    link: Option<LinkAddress>,
     /// Serial device of the robot
     #[arg(long)]
     serial: Option<PathBuf>,
@@ -89,6 +93,7 @@ fn run_daemon(serve: Serve) -> anyhow::Result<ExitCode> {
     let default = Path::new(DEFAULT_CONFIG);
     let path = serve.config.as_deref().or(default.exists().then_some(default));
     let overrides = Overrides {
+        link: serve.link,
         serial: serve.serial,
         baud: serve.baud,
         socket: serve.socket,

@@ -32,6 +32,9 @@ pub(crate) enum MixError {
     /// There is none with this name.
     #[error("No profile has the name `{0}`: ask which are kept.")]
     Absent(String),
+    /// Another client has changed it meanwhile.
+    #[error("The profile `{0}` was changed meanwhile: look at what is kept, and save again.")]
+    ChangedMeanwhile(Name),
     /// The disk refuses.
     #[error("The profile cannot be written: {0}. Check the disk and the state folder.")]
     Unwritable(#[from] io::Error),
@@ -44,6 +47,7 @@ impl MixError {
             Self::Wrong(_) => "mix-wrong",
             Self::Full => "too-many-mixes",
             Self::Absent(_) => "no-such-mix",
+            Self::ChangedMeanwhile(_) => "changed-meanwhile",
             Self::Unwritable(_) => "mix-unwritable",
         }
     }
@@ -70,12 +74,18 @@ impl MixFolder {
         self.names().iter().flat_map(complaints).collect()
     }
 
-    /// Keeps a profile in place of the one with the same name.
+    /// Keeps a profile in place of the one with the same name, if that is what the client has seen before; empty = none was there.
     ///
     /// # Errors
     /// See [`MixError`]; then nothing is changed.
-    pub(crate) fn save(&self, text: &str) -> Result<(), MixError> {
+    pub(crate) fn save(&self, text: &str, was: Option<&str>) -> Result<(), MixError> {
         let profile = Profile::parse(text)?;
+        if let Some(was) = was {
+            let seen = Profile::parse(was).ok();
+            if seen != self.load(&profile.name) {
+                return Err(MixError::ChangedMeanwhile(profile.name));
+            }
+        }
         let names = self.names();
         if !names.contains(&profile.name) && names.len() >= PROFILES_MAX {
             return Err(MixError::Full);
@@ -183,12 +193,15 @@ mod tests {
         let scratch = Scratch::new("kept");
         assert!(scratch.names().is_empty());
         for name in ["Köök", "Anna", "Anna"] {
-            scratch.0.save(&profile(name).to_pretty_json()).expect("saves");
+            scratch
+                .0
+                .save(&profile(name).to_pretty_json(), None)
+                .expect("saves");
         }
         assert_eq!(scratch.names(), ["Anna", "Köök"]);
         let mut changed = profile("Anna");
         changed.outputs.clear();
-        scratch.0.save(&changed.to_json()).expect("saves");
+        scratch.0.save(&changed.to_json(), None).expect("saves");
         assert_eq!(scratch.0.list()[0], changed.to_json());
         scratch.0.remove("Anna").expect("removes");
         assert_eq!(scratch.names(), ["Köök"], "its predecessor is gone too");
@@ -201,11 +214,33 @@ mod tests {
     }
 
     #[test]
+    fn a_stale_copy_replaces_nothing() {
+        let scratch = Scratch::new("stale");
+        let (first, mut second, mut third) = (profile("Anna"), profile("Anna"), profile("Anna"));
+        second.outputs.truncate(2);
+        third.outputs.truncate(1);
+        let save = |profile: &Profile, was: Option<&str>| {
+            let saved = scratch.0.save(&profile.to_json(), was);
+            saved.map_err(|error| error.name())
+        };
+        assert_eq!(save(&first, Some("")), Ok(()), "there was none");
+        assert_eq!(
+            save(&second, Some("")),
+            Err("changed-meanwhile"),
+            "now there is one"
+        );
+        assert_eq!(save(&second, Some(&first.to_pretty_json())), Ok(()));
+        assert_eq!(save(&third, Some(&first.to_json())), Err("changed-meanwhile"));
+        assert_eq!(scratch.0.list(), [second.to_json()]);
+        assert_eq!(save(&third, None), Ok(()), "whatever it is");
+    }
+
+    #[test]
     fn what_is_wrong_is_refused_and_what_is_broken_not_offered() {
         let scratch = Scratch::new("broken");
         let error = scratch
             .0
-            .save(r#"{"version":1,"name":"a/b","outputs":[]}"#)
+            .save(r#"{"version":1,"name":"a/b","outputs":[]}"#, None)
             .expect_err("no name");
         assert_eq!(error.name(), "mix-wrong");
         assert!(error.to_string().contains("`a/b` is no name: take"), "{error}");
@@ -213,7 +248,7 @@ mod tests {
         let (first, mut second) = (profile("Anna"), profile("Anna"));
         second.outputs.clear();
         for version in [&first, &second] {
-            scratch.0.save(&version.to_json()).expect("saves");
+            scratch.0.save(&version.to_json(), None).expect("saves");
         }
         fs::write(scratch.0.path.join("Anna.json"), "{").expect("writes");
         assert_eq!(scratch.0.list(), [first.to_json()], "the predecessor stands in");
@@ -241,20 +276,20 @@ mod tests {
         for number in 0..PROFILES_MAX {
             scratch
                 .0
-                .save(&profile(&format!("p{number}")).to_json())
+                .save(&profile(&format!("p{number}")).to_json(), None)
                 .expect("saves");
         }
         assert_eq!(
             scratch
                 .0
-                .save(&profile("one more").to_json())
+                .save(&profile("one more").to_json(), None)
                 .expect_err("full")
                 .name(),
             "too-many-mixes"
         );
         scratch
             .0
-            .save(&profile("p0").to_json())
+            .save(&profile("p0").to_json(), None)
             .expect("one that is there may change");
     }
 }

@@ -1,12 +1,15 @@
 //! Puts the daemon together and runs it.
 
 use std::io::{self, Write};
+use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
+use robot_link::{LinkAddress, UartAddress};
 use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::{mpsc, watch};
 use tokio::task::{LocalSet, spawn_local};
 use vthal_core::device::{Make, cordlib};
+use vthal_core::schedule::Zone;
 use vthal_core::{Checkpoints, Core, CoreConfig, ExpertAccess, LineHolder, Recording};
 
 use crate::clock::Clock;
@@ -15,11 +18,11 @@ use crate::daemon::{Daemon, Wiring};
 use crate::event::Event;
 use crate::instance::{self, InstanceTaken};
 use crate::kept_store::{self, KeptStore};
+use crate::link::{self, LineOrders, RobotLine};
 use crate::recording::{self, Library, LibraryLimits, RecorderHandle};
 use crate::robot_file::{self, RobotFacts, RobotFileError};
-use crate::serial::{self, LineOrders, RobotLine};
 use crate::socket::{self, SocketError};
-use crate::system_zone::system_zone;
+use crate::told_lines::CORE_LINES;
 use crate::{board, checkpoint_thread, imu, logging, radio, run_thread, systemd};
 
 /// Make of the robot that this daemon serves.
@@ -27,7 +30,7 @@ const MAKE: Make = cordlib::MAKE;
 
 /// Events that may wait for the loop; whoever brings more waits too.
 const EVENTS_MAX: usize = 64;
-/// Batches of bytes that may wait for the serial line.
+/// Batches of bytes that may wait for the link.
 const TO_ROBOT_MAX: usize = 64;
 
 /// Why the daemon did not start.
@@ -62,7 +65,7 @@ pub fn serve(config: &Config, speed: f64) -> Result<(), ServeError> {
 /// `unkept` is why the state folder cannot be written, if it cannot: the daemon serves all the same, and says so.
 async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<(), ServeError> {
     let listener = socket::listen(&config.socket)?;
-    let log_file = logging::start(&config.state.join("log"), &config.log);
+    let (told, log_file) = logging::start(&config.state.join("log"), &config.log);
     let kept = KeptStore::new(&config.state);
     let (event_sender, events) = mpsc::channel(EVENTS_MAX);
     let (recorder, unrecorded) = recorder(config, &event_sender)?;
@@ -88,16 +91,17 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
         checkpoints: checkpoint_thread::start(kept.into_paths(), event_sender.clone())?,
         socket: config.socket.clone(),
         clients_max: config.clients_max,
+        told,
     };
     watch_signals(&event_sender)?;
     systemd::watch(&event_sender);
     spawn_local(socket::serve(listener, event_sender.clone()));
     let robot = RobotLine {
-        path: config.serial.clone(),
-        rates_baud: match config.baud {
-            Some(baud) => vec![baud],
-            None => MAKE.opening.rates_baud.to_vec(),
+        rates_baud: match &config.link {
+            LinkAddress::Uart(UartAddress { baud: Some(baud), .. }) => vec![*baud],
+            _ => MAKE.opening.rates_baud.to_vec(),
         },
+        address: config.link.clone(),
         opening: MAKE.opening,
     };
     if let Some(imu) = &config.imu {
@@ -110,7 +114,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
         to_robot: robot_queue,
         holder,
     };
-    spawn_local(serial::serve(robot, event_sender, orders));
+    spawn_local(link::serve(robot, event_sender, orders));
     tracing::info!(
         part = "vthal",
         "version {} listens on {}",
@@ -119,7 +123,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
     );
     announce()?;
     let daemon = Daemon::new(Core::new(core_config), Clock::start(speed), wiring);
-    // As a task among its own kind: what the serial line's task wakes runs in the same round of the scheduler, without a
+    // As a task among its own kind: what the link's task wakes runs in the same round of the scheduler, without a
     // poll the system in between.
     Ok(spawn_local(daemon.run()).await.map_err(io::Error::other)?)
 }
@@ -130,7 +134,13 @@ fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Re
         Some(path) => robot_file::load(path)?,
         None => RobotFacts::default(),
     };
-    let (zone, zone_complaint) = system_zone();
+    let variable = std::env::var("TZ").ok();
+    let found = system_zone::find(Path::new("/"), variable, |name| Zone::named(name).is_some());
+    let zone = found
+        .name
+        .as_deref()
+        .and_then(Zone::named)
+        .unwrap_or_else(Zone::utc);
     let mut core_config = kept.fill(CoreConfig {
         make: MAKE,
         zone,
@@ -155,9 +165,9 @@ fn core_config(config: &Config, kept: &KeptStore, complaints: Vec<String>) -> Re
     });
     core_config
         .complaints
-        .splice(..0, complaints.into_iter().chain(zone_complaint));
+        .splice(..0, complaints.into_iter().chain(found.complaint));
     for complaint in &core_config.complaints {
-        tracing::error!(part = "vthal", "{complaint}");
+        tracing::error!(target: CORE_LINES, part = "vthal", "{complaint}");
     }
     Ok(core_config)
 }

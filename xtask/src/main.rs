@@ -16,6 +16,7 @@ mod new_robot;
 mod package;
 mod panel;
 mod process;
+mod processor;
 mod system;
 mod test;
 mod tidy;

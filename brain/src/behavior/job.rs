@@ -31,6 +31,8 @@ pub(super) struct Job {
     pub(super) edges: CliffWatch,
     /// Movements that come before the task: an escape, or leaving the dock.
     pub(super) detour: Option<Detour>,
+    /// Since when only the wheels tell the heading of a job that draws a map.
+    pub(super) without_heading_us: Option<u64>,
     /// When to rest next so that the gyro's bias can be measured.
     pub(super) gyro_rest: GyroRest,
     /// Brushes may run: the bumper was released after the job last started (S29).
@@ -86,6 +88,7 @@ impl Job {
             slip: SlipWatch::default(),
             edges: CliffWatch::default(),
             detour: None,
+            without_heading_us: None,
             gyro_rest: GyroRest::default(),
             brushes: false,
             returns: false,

@@ -13,6 +13,8 @@ mod confidence;
 mod drift;
 mod global_localizer;
 mod gyro_estimate;
+mod gyro_monitor;
+mod gyro_presence;
 #[cfg(test)]
 mod known_home;
 #[cfg(test)]

@@ -2,10 +2,12 @@
 
 use super::calibration::Calibration;
 use super::gyro_estimate::BiasMeasurement;
+use super::gyro_monitor::{GyroChange, GyroMonitor};
 use super::stationary::StationaryDetector;
 use super::totals::Totals;
 use crate::model::advance::Advance;
 use crate::model::geometry::Pose2;
+use crate::model::gyro_fault::GyroFault;
 use crate::model::learnt::GyroLearnt;
 use crate::model::observation::Observation;
 
@@ -18,6 +20,9 @@ pub(super) struct Odometry {
     stationary: StationaryDetector,
     /// Bias by the zero-velocity update that the last observation ended.
     bias: Option<BiasMeasurement>,
+    monitor: GyroMonitor,
+    /// What the last observation showed of the gyro.
+    gyro_change: Option<GyroChange>,
     pub(super) calibration: Calibration,
 }
 
@@ -35,6 +40,8 @@ impl Odometry {
             last: None,
             stationary: StationaryDetector::default(),
             bias: None,
+            monitor: GyroMonitor::new(2.0 * rim_max_m_per_s / track_m),
+            gyro_change: None,
             calibration: Calibration::default(),
         }
     }
@@ -57,6 +64,16 @@ impl Odometry {
         });
     }
 
+    /// Why the gyro is left out, if it is.
+    pub(super) fn gyro_fault(&self) -> Option<GyroFault> {
+        self.monitor.fault()
+    }
+
+    /// What the last observation showed of the gyro.
+    pub(super) fn gyro_change(&self) -> Option<GyroChange> {
+        self.gyro_change
+    }
+
     /// Bias by the zero-velocity update that the last observation ended.
     pub(super) fn measured_bias(&self) -> Option<BiasMeasurement> {
         self.bias
@@ -70,11 +87,15 @@ impl Odometry {
             gyro_rad: observation.gyro_heading_rad,
         };
         if let Some(last) = self.last {
+            self.watch_gyro((last, now), observation.wheel_drop);
             self.update_stationary(last, now);
         }
-        let advance = self
+        let mut advance = self
             .last
             .map_or_else(Advance::default, |last| self.advance(last, now));
+        if let Some(GyroChange::Out { missed_rad, .. }) = self.gyro_change {
+            advance.turn_rad += missed_rad;
+        }
         self.last = Some(now);
         self.calibration.count(advance);
         if advance.distance_m != 0.0 || advance.turn_rad != 0.0 {
@@ -85,6 +106,17 @@ impl Odometry {
         advance
     }
 
+    fn watch_gyro(&mut self, (last, now): (Totals, Totals), is_lifted: bool) {
+        self.gyro_change = None;
+        let wheel_rad = (now.right_m - now.left_m - last.right_m + last.left_m) / self.track_m;
+        let is_believable = wheel_rad.abs() <= 2.0 * JUMP_FLOOR_M / self.track_m;
+        if is_lifted || !is_believable {
+            self.monitor.interrupt();
+            return;
+        }
+        self.gyro_change = self.monitor.follow((last, now), wheel_rad);
+    }
+
     fn update_stationary(&mut self, last: Totals, now: Totals) {
         let ended = if last.wheels_agree_with(now) {
             None
@@ -92,6 +124,7 @@ impl Odometry {
             self.stationary.end(last)
         };
         let interval = ended.or(self.stationary.observe(now));
+        let interval = interval.filter(|_| self.monitor.fault().is_none());
         self.bias = interval.map(|interval| self.calibration.update_at_rest(interval));
     }
 
@@ -120,6 +153,9 @@ impl Odometry {
     }
 
     fn gyro_turn(&self, last: Totals, now: Totals, time_s: f64) -> Option<f64> {
+        if self.monitor.fault().is_some() {
+            return None;
+        }
         let seen_rad = now.gyro_rad? - last.gyro_rad?;
         if self.stationary.is_stationary(now, seen_rad, time_s) {
             return Some(0.0);

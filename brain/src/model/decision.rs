@@ -110,6 +110,8 @@ named_enum! {
         KeepNoMap => "keep-no-map",
         /// Begins a lap along the walls.
         Lap => "lap",
+        /// Leaves the gyro out of the estimate of the pose: only the wheels tell the heading.
+        LeaveOutGyro => "leave-out-gyro",
         /// Leaves the wall that it follows.
         LeaveWall => "leave-wall",
         /// Leaves the planned path.
@@ -146,6 +148,8 @@ named_enum! {
         StateStarting => "state-starting",
         /// Enters the state `stuck`.
         StateStuck => "state-stuck",
+        /// Takes the gyro into the estimate of the pose again.
+        TakeUpGyro => "take-up-gyro",
         /// Turns on the spot.
         Turn => "turn",
         /// Goes on with the next part of the order.

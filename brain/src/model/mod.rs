@@ -11,6 +11,7 @@ pub mod energy;
 pub(crate) mod fault;
 pub mod geometry;
 pub(crate) mod gradual;
+pub(crate) mod gyro_fault;
 pub(crate) mod inhibit;
 pub(crate) mod job_refusal;
 pub(crate) mod kept_place;

@@ -1,6 +1,7 @@
 //! Why the robot does what it does, by name.
 
 use super::fault::Fault;
+use super::gyro_fault::GyroFault;
 use super::link_fault::LinkFault;
 use super::named_enum::named_enum;
 use super::observation::{Cliffs, Contacts};
@@ -117,6 +118,8 @@ named_enum! {
         GyroScale => "gyro-scale",
         /// The gyro's bias wanders and is measured at rest.
         GyroDrift => "gyro-drift",
+        /// A gyro that was left out agrees with the wheels again, or is heard again.
+        GyroBack => "gyro-back",
         /// The time of the job is used up (S26).
         TaskBudget => "task-budget",
         /// Little charge is left.
@@ -173,6 +176,8 @@ named_enum! {
         Fault(Fault),
         /// The link cannot be relied upon.
         Link(LinkFault),
+        /// The gyro cannot be relied upon.
+        Gyro(GyroFault),
     }
 }
 

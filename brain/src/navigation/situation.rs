@@ -4,6 +4,7 @@ use crate::mapping::{BeamMemory, Map};
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::Pose2;
+use crate::model::gyro_fault::GyroFault;
 use crate::model::observation::Observation;
 use crate::model::pose_estimate::PoseEstimate;
 
@@ -33,6 +34,8 @@ pub(crate) struct Situation<'step> {
     pub(crate) config: &'step BrainConfig,
     /// A sensor besides the wheels measures the heading; without one, no map is kept.
     pub(crate) knows_heading: bool,
+    /// Why the robot's gyro does not count now; `None` = it does, or there never was one.
+    pub(crate) gyro_fault: Option<GyroFault>,
     /// A bumper is pressed, or the firmware still holds the wheels because of one.
     pub(crate) touching: bool,
     /// A cliff is seen, or the firmware still holds the wheels because of one.

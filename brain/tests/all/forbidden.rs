@@ -309,11 +309,10 @@ fn drawn_edit(draw: &mut Draw, serial: u32) -> MapEdit {
     let area = zone((1.5 + shift, 2.0), (2.5, 3.0));
     let place = |name: &str| {
         let shape = PlaceShape::Zone(zone((0.5 + shift, 0.5), (1.5, 1.5)));
-        let name = RoomName::new(name).expect("a name");
-        KeptPlace::new(name, &shape).expect("a place")
+        KeptPlace::new(RoomName::new(name).expect("a name"), &shape).expect("a shape")
     };
     match draw.below(4) {
-        0 => MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&area).expect("a zone"))),
+        0 => MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&area).expect("an area"))),
         1 => MapEdit::NoGo(NoGoEdit::Remove { number }),
         2 => MapEdit::Place(PlaceEdit::Keep {
             place: place(&format!("Place {serial}")),

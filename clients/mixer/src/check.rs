@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use rvac_api::short_number;
 use serde::Deserialize;
 
 use crate::{Calibration, Condition, Line, Name, Output, OutputKind, Profile, Source, VERSION};
@@ -63,7 +64,7 @@ pub enum ProfileError {
         found: u32,
     },
     /// A number is out of its range, or none.
-    #[error("{place} is {found}: write a number from {low} to {high}")]
+    #[error("{place} is {}: write a number from {low} to {high}", short_number(*found))]
     Range {
         /// Where.
         place: String,
@@ -81,7 +82,7 @@ pub enum ProfileError {
         place: String,
     },
     /// Something would move or press by itself after a loss.
-    #[error("{place} is {found}: it must be 0, so that the robot stands when an input is lost")]
+    #[error("{place} is {}: it must be 0, so that the robot stands when an input is lost", short_number(*found))]
     Failsafe {
         /// Where.
         place: String,
@@ -89,7 +90,7 @@ pub enum ProfileError {
         found: f64,
     },
     /// A slow that is none.
-    #[error("{place} is {found}: write 0 for at once, or {SLOW_PER_S_MIN} to {SLOW_PER_S_MAX} a second")]
+    #[error("{place} is {}: write 0 for at once, or {SLOW_PER_S_MIN} to {SLOW_PER_S_MAX} a second", short_number(*found))]
     Slow {
         /// Where.
         place: String,

@@ -28,6 +28,7 @@ mod place;
 mod profile;
 mod readings;
 mod shape;
+mod stop_buttons;
 mod switch;
 
 pub use bump_watch::BumpWatch;
@@ -38,7 +39,7 @@ pub use defaults::standard_profile;
 pub use helm::{Helm, Order};
 pub use input::{Device, KeyCode, Source, SourceError};
 pub use line::{Line, Mix};
-pub use mixer::{GAP_MAX_US, LineStages, MixState, Mixed, MixedOutput, Mixer, response};
+pub use mixer::{AwayFromRest, GAP_MAX_US, LineStages, MixState, Mixed, MixedOutput, Mixer, response};
 pub use name::{Name, NameError};
 pub use output::{Output, OutputKind, OutputName};
 pub use pad_watch::{PAD_SILENT_US, PadWatch};

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::line::{Line, Mix};
+use crate::stop_buttons::StopButtons;
 use crate::switch::SwitchMemory;
 use crate::{
     Device, Name, OutputKind, OutputName, Profile, ProfileError, Readings, Source, curved, standard_profile,
@@ -34,10 +35,17 @@ pub struct LineStages {
     pub shaped: f64,
     /// After delay, weight and offset; what changes nothing when the line is off.
     pub weighted: f64,
-    /// After slow.
-    pub slowed: f64,
     /// What this line and those before it make together.
     pub total: f64,
+}
+
+/// An input that keeps the mix from being used, and what it reads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AwayFromRest {
+    /// Which.
+    pub input: Source,
+    /// As the device gives it, before calibration.
+    pub reading: f64,
 }
 
 /// What one output made.
@@ -47,7 +55,7 @@ pub struct MixedOutput {
     pub name: OutputName,
     /// Its lines.
     pub lines: Vec<LineStages>,
-    /// What it gives, within its limits.
+    /// What it gives: as slowly as its lines that are on ask for, and within its limits.
     pub value: f64,
 }
 
@@ -60,6 +68,8 @@ pub struct Mixed {
     pub held: bool,
     /// The devices whose inputs are.
     pub pushed: BTreeSet<Device>,
+    /// The inputs that must come to rest before the outputs follow; none while they do.
+    pub away: Vec<AwayFromRest>,
     /// The outputs, in the order of the profile.
     pub outputs: Vec<MixedOutput>,
     /// The switches, in the order of the profile.
@@ -70,13 +80,14 @@ pub struct Mixed {
 
 #[derive(Clone, Debug, Default)]
 struct LineMemory {
-    slowed: Option<f64>,
     moved_since_us: Option<u64>,
 }
 
 #[derive(Clone, Debug, Default)]
 struct OutputMemory {
     lines: Vec<LineMemory>,
+    /// What the lines made together in the last step, after slow.
+    made: Option<f64>,
     /// The button was seen free, so that its next press counts.
     freed: bool,
 }
@@ -91,6 +102,7 @@ pub struct Mixer {
     switches: Vec<SwitchMemory>,
     last_us: Option<u64>,
     state: MixState,
+    stops: StopButtons,
 }
 
 impl Mixer {
@@ -121,7 +133,9 @@ impl Mixer {
             switches: Vec::new(),
             last_us: None,
             state: MixState::Failsafe,
+            stops: StopButtons::default(),
         };
+        mixer.stops = StopButtons::of(&mixer.profile);
         mixer.forget();
         mixer
     }
@@ -154,18 +168,27 @@ impl Mixer {
             now_us,
             span_s: if changed { 0.0 } else { span_us as f64 * 1e-6 },
             held: false,
-            at_rest: true,
+            away: Vec::new(),
             pushed: BTreeSet::new(),
+            is_live: was_live,
         };
         let outputs = self.step_outputs(&mut step, readings);
-        if !changed && step.at_rest {
+        if !changed && step.away.is_empty() {
             self.state = MixState::Live;
         }
-        let fired = self.fire(&outputs, was_live);
+        let mut fired = self.fire(&outputs, was_live);
+        if self.stops.rise(readings) && !fired.contains(&OutputName::Stop) {
+            fired.push(OutputName::Stop);
+        }
+        let away = match self.state {
+            MixState::Live => Vec::new(),
+            MixState::Failsafe => step.away,
+        };
         Mixed {
             state: self.state,
             held: step.held,
             pushed: step.pushed,
+            away,
             outputs: self.limited(outputs),
             switches: self.switches.iter().map(|switch| switch.on).collect(),
             fired,
@@ -176,6 +199,7 @@ impl Mixer {
     fn forget(&mut self) {
         let memory = |output: &crate::Output| OutputMemory {
             lines: vec![LineMemory::default(); output.lines.len()],
+            made: None,
             freed: false,
         };
         self.outputs = self.profile.outputs.iter().map(memory).collect();
@@ -204,8 +228,14 @@ impl Mixer {
         let mut all = Vec::with_capacity(outputs.len());
         for (output, memory) in profile.outputs.iter().zip(outputs) {
             let mut total = 0.0;
+            let mut slows = Slows::default();
             let mut lines = Vec::with_capacity(output.lines.len());
-            for (line, memory) in output.lines.iter().zip(&mut memory.lines) {
+            let OutputMemory {
+                lines: line_memories,
+                made,
+                ..
+            } = memory;
+            for (line, memory) in output.lines.iter().zip(line_memories) {
                 let raw = read(profile, switches, readings, &line.input);
                 let is_permitted = line
                     .when
@@ -213,15 +243,26 @@ impl Mixer {
                     .is_none_or(|name| is_on(profile, switches, name));
                 let input = raw.filter(|_| is_permitted);
                 let stages = step.line((line, memory), input, total);
+                let reading = readings.value(&line.input).or(raw).unwrap_or_default();
                 if output.output.kind() != OutputKind::Button {
-                    step.note((profile, line), &stages, input.is_some());
+                    step.note((profile, line), &stages, input.map(|_| reading));
+                } else if stages.weighted > PRESSED {
+                    step.away_from_rest(&line.input, reading);
+                }
+                if input.is_some() {
+                    slows.tighten(line);
                 }
                 total = stages.total;
                 lines.push(LineStages { input: raw, ..stages });
             }
-            if output.output.kind() == OutputKind::Button && total > PRESSED {
-                step.at_rest = false;
-            }
+            let target = total;
+            total = step.slow(slows, *made, target);
+            *made = Some(total);
+            let moves = output
+                .lines
+                .iter()
+                .any(|line| line.mix != Mix::Multiply && !line.is_background());
+            step.held |= moves && total != target && output.output.kind() != OutputKind::Button;
             all.push(MixedOutput {
                 name: output.output,
                 lines,
@@ -265,10 +306,12 @@ struct Step {
     span_s: f64,
     /// Something that moves or cleans is away from rest, slows included.
     held: bool,
-    /// No input is away from rest.
-    at_rest: bool,
-    /// The devices of those that are.
+    /// The inputs that are.
+    away: Vec<AwayFromRest>,
+    /// Their devices.
     pushed: BTreeSet<Device>,
+    /// The outputs followed the inputs in the step before.
+    is_live: bool,
 }
 
 impl Step {
@@ -289,40 +332,35 @@ impl Step {
         // What is on without a person waits as a whole.
         let is_off = input.is_none() || (line.input == Source::Always && !waited);
         let weighted = if is_off { rest } else { weigh(line, followed) };
-        let slowed = self.slow(line, memory.slowed.unwrap_or(rest), weighted);
-        let replaces = line.mix == Mix::Replace;
-        memory.slowed = (!(replaces && is_off)).then_some(slowed);
-        let slowed = if replaces && is_off { total } else { slowed };
         let total = match line.mix {
-            Mix::Add => total + slowed,
-            Mix::Multiply => total * slowed,
-            Mix::Replace => slowed,
+            Mix::Add => total + weighted,
+            Mix::Multiply => total * weighted,
+            Mix::Replace => weighted,
         };
         LineStages {
             input,
             shaped,
             weighted,
-            slowed,
             total: total.clamp(-TOTAL_MAX, TOTAL_MAX),
         }
     }
 
-    fn slow(&self, line: &Line, from: f64, to: f64) -> f64 {
-        let reach = |per_s: f64| {
-            if per_s > 0.0 {
-                per_s * self.span_s
-            } else {
-                f64::INFINITY
-            }
+    /// What an output makes that made `from` and is to make `to`. While nothing follows the inputs there is nothing to be slow about.
+    fn slow(&self, slows: Slows, from: Option<f64>, to: f64) -> f64 {
+        let Some(from) = from.filter(|_| self.is_live) else {
+            return to;
         };
-        to.clamp(
-            from - reach(line.slow_down_per_s),
-            from + reach(line.slow_up_per_s),
-        )
+        // Without a limit the product with a span of 0 would be none.
+        let reach = |per_s: f64| match per_s.is_finite() {
+            true => per_s * self.span_s,
+            false => f64::INFINITY,
+        };
+        to.clamp(from - reach(slows.down_per_s), from + reach(slows.up_per_s))
     }
 
     /// Notes whether a line makes the person the driver.
-    fn note(&mut self, (profile, line): (&Profile, &Line), stages: &LineStages, is_on: bool) {
+    fn note(&mut self, (profile, line): (&Profile, &Line), stages: &LineStages, reading: Option<f64>) {
+        let Some(reading) = reading else { return };
         if line.mix == Mix::Multiply || line.is_background() {
             return;
         }
@@ -331,14 +369,49 @@ impl Step {
         } else {
             idle(profile, line)
         };
-        let replaced = line.mix == Mix::Replace && !is_on;
-        if is_on && !replaced && stages.weighted != idle {
-            self.at_rest = false;
+        if stages.weighted != idle {
+            self.away_from_rest(&line.input, reading);
             self.pushed.extend(profile.devices_of(line));
+            self.held = true;
         }
-        // A line that has just lost its input still runs down; one without an input makes nothing.
-        let gone = if is_on { idle } else { 0.0 };
-        self.held |= !replaced && stages.slowed != gone;
+    }
+
+    fn away_from_rest(&mut self, input: &Source, reading: f64) {
+        if !self.away.iter().any(|away| away.input == *input) {
+            self.away.push(AwayFromRest {
+                input: input.clone(),
+                reading,
+            });
+        }
+    }
+}
+
+/// The tightest slows of the lines of an output that are on, per second.
+#[derive(Clone, Copy, Debug)]
+struct Slows {
+    up_per_s: f64,
+    down_per_s: f64,
+}
+
+impl Default for Slows {
+    fn default() -> Self {
+        Self {
+            up_per_s: f64::INFINITY,
+            down_per_s: f64::INFINITY,
+        }
+    }
+}
+
+impl Slows {
+    fn tighten(&mut self, line: &Line) {
+        for (limit, per_s) in [
+            (&mut self.up_per_s, line.slow_up_per_s),
+            (&mut self.down_per_s, line.slow_down_per_s),
+        ] {
+            if per_s > 0.0 {
+                *limit = limit.min(per_s);
+            }
+        }
     }
 }
 

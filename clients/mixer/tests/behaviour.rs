@@ -7,6 +7,99 @@ use mixer::{
 
 const STEP_US: u64 = 20_000;
 
+/// Forward by these lines alone.
+fn forward_by(lines: &str) -> Profile {
+    let text = format!(
+        r#"{{"version":1,"name":"one","switches":[{{"name":"a","on":{{"above":{{"input":"pad-0-button-4","level":0.5}}}}}}],
+        "outputs":[{{"output":"forward","low":-1,"high":1,"lines":[{lines}]}}]}}"#
+    );
+    Profile::parse(&text).expect("a profile")
+}
+
+#[test]
+fn a_line_that_is_switched_off_is_off_at_once_and_one_at_rest_runs_down() {
+    let line = r#"{"name":"slow","input":"pad-0-axis-0","when":"a","slow-down-per-s":0.5}"#;
+    let mut hands = Hands::on(forward_by(line));
+    hands.button(4, 1.0);
+    assert_eq!(hands.axis(0, 1.0).outputs[0].value, 1.0);
+    let down = hands.axis(0, 0.0);
+    assert!(
+        (down.outputs[0].value - 0.99).abs() < 1e-9 && down.held,
+        "{down:?}"
+    );
+    assert_eq!(hands.axis(0, 1.0).outputs[0].value, 1.0);
+    let off = hands.button(4, 0.0);
+    assert!(off.outputs[0].value == 0.0 && !off.held, "{off:?}");
+}
+
+#[test]
+fn what_a_replacing_line_leaves_behind_is_taken_up_slowly() {
+    let lines = r#"{"name":"base","input":"pad-0-axis-0","slow-up-per-s":0.5},
+        {"name":"creep","input":"pad-0-axis-1","mix":"replace","when":"a"}"#;
+    let mut hands = Hands::on(forward_by(lines));
+    hands.axis(1, 0.0);
+    hands.axis(0, 0.9);
+    for _ in 0..200 {
+        hands.step();
+    }
+    hands.axis(1, 0.2);
+    assert_eq!(hands.button(4, 1.0).outputs[0].value, 0.2);
+    let mut before = 0.2;
+    hands.button(4, 0.0);
+    for _ in 0..100 {
+        let value = hands.step().outputs[0].value;
+        assert!(
+            value - before <= 0.5 * 0.02 + 0.01 + 1e-9,
+            "{before} to {value} at once"
+        );
+        before = value;
+    }
+    assert!((before - 0.9).abs() < 1e-9, "{before}");
+}
+
+#[test]
+fn a_second_pad_stops_with_the_same_button() {
+    let mut hands = Hands::on(standard_profile());
+    let pad = |pressed: f64| PadReading {
+        axes: vec![0.0; 4],
+        buttons: [0.0, pressed].into_iter().chain([0.0; 15]).collect(),
+        words: 0,
+    };
+    hands.readings.pads.insert(1, pad(1.0));
+    assert_eq!(hands.step().fired, [], "it was down when it came");
+    hands.readings.pads.insert(1, pad(0.0));
+    hands.step();
+    hands.readings.pads.insert(1, pad(1.0));
+    assert_eq!(hands.step().fired, [OutputName::Stop]);
+    assert_eq!(hands.step().fired, []);
+}
+
+#[test]
+fn what_is_not_at_rest_is_named_with_its_reading() {
+    let mut hands = Hands::on(standard_profile());
+    hands.readings.pads.clear();
+    hands.step();
+    let mut pad = PadReading {
+        axes: vec![0.0, 1.28],
+        buttons: vec![0.0; 17],
+        words: 0,
+    };
+    hands.readings.pads.insert(0, pad.clone());
+    hands.step();
+    let waits = hands.step();
+    assert_eq!(waits.state, MixState::Failsafe);
+    let named: Vec<(String, f64)> = waits
+        .away
+        .iter()
+        .map(|away| (away.input.to_string(), away.reading))
+        .collect();
+    assert_eq!(named, [("pad-0-axis-1".to_owned(), 1.28)]);
+    pad.axes[1] = 0.0;
+    hands.readings.pads.insert(0, pad);
+    let live = hands.step();
+    assert!(live.state == MixState::Live && live.away.is_empty(), "{live:?}");
+}
+
 /// Hands on a pad, a keyboard and a stick on the screen.
 struct Hands {
     mixer: Mixer,

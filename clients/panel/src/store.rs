@@ -254,10 +254,10 @@ impl Store {
     /// Asks the robot to keep the mix that is edited.
     pub(crate) fn save_mix(self) {
         if self.admits(EDITS_MIXES)
-            && let Some(profile) = self.bench.profile_to_save()
+            && let Some((profile, was)) = self.bench.profile_to_save()
         {
             self.refusal.set(None);
-            self.send(Some(MIX_ID), RequestBody::SaveMix { profile });
+            self.send(Some(MIX_ID), RequestBody::SaveMix { profile, was });
         }
     }
 
@@ -459,6 +459,9 @@ impl Store {
             || self.floor_desk.on_failed(&failure)
         {
             return;
+        }
+        if failure.id == Some(MIX_ID) && failure.reason == "changed-meanwhile" {
+            self.bench.on_changed_meanwhile();
         }
         if failure.id == Some(LEND_ID) {
             self.on_lending_refused();

@@ -23,6 +23,7 @@ mod reasons;
 mod request;
 mod role;
 mod schedule;
+mod short_number;
 mod simulated;
 mod stop;
 mod thought;
@@ -46,7 +47,7 @@ pub use home::{CarpetView, DoorView, HomeView, KeptMap, RoomView, SurenessView, 
 pub use learnt::{EnergyLearnt, GyroLearnt, LearntPart, LearntView};
 pub use name::{NAME_CHARS_MAX, NameProblem, name_problem};
 pub use order::{
-    CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView,
+    CleaningPattern, JobEstimate, JobOrder, JobPart, NoGoShape, NoGoView, PlaceShape, PlaceView, RoomBefore,
     RoomChangeView, RoomNaming, RoomSettings, RoomSplitting, SPOT_RADIUS_M,
 };
 pub use reasons::{Explanation, explain, explanations, remedy};
@@ -56,6 +57,7 @@ pub use schedule::{
     InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
     ScheduledJob, Schedules, Weekday,
 };
+pub use short_number::short_number;
 pub use simulated::{SimulatedPlan, SimulatedTruth};
 pub use stop::{Evidence, EvidenceSample, Standstill};
 pub use thought::{Decision, Estimate, PlannedPath};

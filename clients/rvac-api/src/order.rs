@@ -157,6 +157,14 @@ pub struct NoGoView {
     pub name: Option<String>,
 }
 
+/// How a room was cleaned before a change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RoomBefore {
+    /// How; absent = as any other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub settings: Option<RoomSettings>,
+}
+
 /// How a room is cleaned.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RoomSettings {

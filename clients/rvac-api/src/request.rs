@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    CleaningPower, JobOrder, LearntPart, NoGoShape, PlaceShape, QuietHours, Role, RoomNaming, RoomSettings,
-    RoomSplitting, ScheduleEntry, Topic,
+    CleaningPower, JobOrder, LearntPart, NoGoShape, PlaceShape, QuietHours, Role, RoomBefore, RoomNaming,
+    RoomSettings, RoomSplitting, ScheduleEntry, Topic,
 };
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
@@ -69,6 +69,9 @@ pub enum RequestBody {
         number: u16,
         /// Where it is from now on.
         shape: NoGoShape,
+        /// Where it was when the change began: refused as `changed-meanwhile` if it is another now. Absent = whatever it is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        was: Option<NoGoShape>,
     },
     /// Allows it again.
     RemoveNoGo {
@@ -98,6 +101,9 @@ pub enum RequestBody {
         number: u16,
         /// Where it is from now on.
         shape: PlaceShape,
+        /// Where it was when the change began: refused as `changed-meanwhile` if it is another now. Absent = whatever it is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        was: Option<PlaceShape>,
     },
     /// Keeps a place no longer.
     ForgetPlace {
@@ -113,6 +119,9 @@ pub enum RequestBody {
         /// How; absent = as any other.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         settings: Option<RoomSettings>,
+        /// How it was cleaned when the change began: refused as `changed-meanwhile` if it is another now. Absent = whatever it is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        was: Option<RoomBefore>,
     },
     /// Cuts a room in two along a line. Answered, as all changes of rooms, when the map with it is on the disk; refused while
     /// a job runs or waits.
@@ -282,6 +291,10 @@ pub enum RequestBody {
     SaveMix {
         /// The profile as JSON text, see the crate `mixer`.
         profile: String,
+        /// What was kept under its name when the change began, as JSON text: refused as `changed-meanwhile` if that is another now.
+        /// Empty = nothing was. Absent = whatever it is.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        was: Option<String>,
     },
     /// Removes a control mix.
     RemoveMix {

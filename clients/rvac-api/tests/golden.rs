@@ -293,6 +293,7 @@ fn requests_to_drive_and_of_mixes() {
     request(
         RequestBody::SaveMix {
             profile: r#"{"version":1}"#.to_owned(),
+            was: None,
         },
         r#"{"c":"save-mix","profile":"{\"version\":1}"}"#,
     );
@@ -591,7 +592,11 @@ fn what_people_say_of_it(home: HomeView) {
 
 #[test]
 fn settings_of_rooms() {
-    let set = |settings| RequestBody::SetRoom { room: 3, settings };
+    let set = |settings| RequestBody::SetRoom {
+        room: 3,
+        settings,
+        was: None,
+    };
     let settings = RoomSettings {
         passes: 2,
         power: CleaningPower {
@@ -912,6 +917,7 @@ fn names_of_places() {
         RequestBody::ReshapePlace {
             number: 3,
             shape: PlaceShape::Spot([2.0, -0.5]),
+            was: None,
         },
         r#"{"c":"reshape-place","number":3,"shape":{"spot":[2.0,-0.5]}}"#,
     );
@@ -919,6 +925,7 @@ fn names_of_places() {
         RequestBody::ReshapeNoGo {
             number: 2,
             shape: NoGoShape::Wall([[0.0, 0.0], [1.5, 0.0]]),
+            was: None,
         },
         r#"{"c":"reshape-no-go","number":2,"shape":{"wall":[[0.0,0.0],[1.5,0.0]]}}"#,
     );

@@ -17,7 +17,7 @@ pub(crate) fn run(job: &MixJob) -> anyhow::Result<ExitCode> {
         Some(MixVerb::Show { name }) => show(job, name.as_deref()),
         Some(MixVerb::Save { file }) => {
             let profile = read_profile(file)?.to_json();
-            control::send(RequestBody::SaveMix { profile }, &job.daemon)
+            control::send(RequestBody::SaveMix { profile, was: None }, &job.daemon)
         }
         Some(MixVerb::Remove { name }) => {
             control::send(RequestBody::RemoveMix { name: name.clone() }, &job.daemon)

@@ -12,6 +12,7 @@ pub mod emulated_update;
 pub mod fixtures;
 mod icsp_pins;
 mod isp_line;
+mod jtag_server;
 mod loader_terminal;
 pub mod update_cuts;
 pub mod update_model;
@@ -19,4 +20,5 @@ pub mod update_world;
 
 pub use icsp_pins::{Interruption, LinesLost, SimulatedIcsp, WireFaults};
 pub use isp_line::{HostFaults, SimulatedLine, SupplyLost};
+pub use jtag_server::serve_jtag;
 pub use loader_terminal::LoaderTerminal;

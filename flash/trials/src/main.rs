@@ -2,6 +2,7 @@
 //! `cargo xtask test flash` builds and runs it.
 #![forbid(unsafe_code)]
 
+mod openocd_campaign;
 mod pic32_campaign;
 mod relax_campaign;
 
@@ -29,6 +30,9 @@ struct Arguments {
     /// The program stcgal, which writes the simulated loader on a pseudo terminal.
     #[arg(long)]
     stcgal: Option<PathBuf>,
+    /// The program OpenOCD, which halts, reads and writes the emulated chip through its test port.
+    #[arg(long)]
+    openocd: Option<PathBuf>,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
@@ -53,6 +57,8 @@ struct FlashReport {
     firmware_runs: Option<bool>,
     /// Whether stcgal wrote the simulated loader; absent when it was not given.
     stcgal_programmed: Option<bool>,
+    /// Whether OpenOCD read and wrote the emulated chip; absent when it was not given.
+    openocd_programmed: Option<bool>,
     /// Whether our flasher did so on the same terminal.
     own_flasher_programmed: bool,
     /// 256 KiB with a clock of 1 MHz, seconds.
@@ -70,6 +76,7 @@ impl FlashReport {
             && self.update_cuts_bad == 0
             && self.firmware_runs != Some(false)
             && self.stcgal_programmed != Some(false)
+            && self.openocd_programmed != Some(false)
             && self.own_flasher_programmed
             && self.write_over_limit <= OVER_LIMIT_MAX
     }
@@ -91,6 +98,9 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> anyhow::Result<bool> {
     let mut report = FlashReport::default();
+    if let Some(openocd) = &arguments.openocd {
+        report.openocd_programmed = Some(openocd_campaign::openocd_agrees(openocd)?);
+    }
     pic32_campaign::round_trip(&mut report)?;
     pic32_campaign::pace(&mut report)?;
     pic32_campaign::cuts((arguments.moments, arguments.seed), &mut report)?;
@@ -127,7 +137,7 @@ fn described(report: &FlashReport) -> String {
     format!(
         "round trips {}, identical {}\ncut off {}, bricked {}\nupdates cut off {}, bad ends {}\n256 KiB at 1 MHz: written in {:.2} s, verified in {:.2} s; the \
          wire alone takes {:.2} s (x {:.2})\nthe real firmware runs: {}\nour flasher writes on a terminal: {}\nstcgal writes on \
-         the same terminal: {}",
+         the same terminal: {}\nOpenOCD reads and writes the chip: {}",
         report.round_trips,
         report.round_trips_identical,
         report.power_cuts,
@@ -141,5 +151,6 @@ fn described(report: &FlashReport) -> String {
         tried(report.firmware_runs),
         tried(Some(report.own_flasher_programmed)),
         tried(report.stcgal_programmed),
+        tried(report.openocd_programmed),
     )
 }

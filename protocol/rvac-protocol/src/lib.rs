@@ -2,7 +2,7 @@
 //!
 //! From the line upwards: [`frame`] splits bytes into packets, [`crc`] detects damaged ones, `text` and `binary`
 //! convert them to the closed types of [`message`] and back, [`session`] keeps the state of each end, [`quality`]
-//! measures the line. No allocation, no recursion, no clock, no panic on any input; work per byte is constant.
+//! measures the line; [`fill`] is for lines that only the host clocks. No allocation, no recursion, no clock, no panic on any input; work per byte is constant.
 #![no_std]
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -10,6 +10,7 @@
 pub mod binary;
 mod buffer;
 pub mod crc;
+pub mod fill;
 pub mod frame;
 pub mod message;
 pub mod quality;

@@ -1,6 +1,7 @@
 //! One program for all scenarios: each is a part of its own, and all are linked once.
 
 mod beacons;
+mod board_faults;
 mod carpets;
 mod determinism;
 mod edges;

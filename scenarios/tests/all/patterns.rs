@@ -76,6 +76,7 @@ fn a_job_for_the_whole_home_sweeps_each_room_by_its_own_pattern() {
             pattern: CleaningPattern::Contour,
             ..RoomSettings::default()
         }),
+        was: None,
     });
     household.pass_ms(1_000);
     household.ask(RequestBody::Start {

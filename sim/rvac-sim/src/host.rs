@@ -46,6 +46,8 @@ pub struct Host {
     writes: Option<Vec<KeptWrite>>,
     /// Its disk accepts writes but never confirms them.
     disk_is_mute: bool,
+    /// Its disk refuses writes with these words.
+    disk_refuses: Option<&'static str>,
     /// Why the newest request was refused, if it was.
     refusal: Option<String>,
 }
@@ -87,6 +89,7 @@ impl Host {
             runs: Vec::new(),
             writes: None,
             disk_is_mute: false,
+            disk_refuses: None,
             refusal: None,
         };
         host.handle(now_us, Input::ClientConnected(CLIENT));
@@ -130,6 +133,17 @@ impl Host {
     /// From now on its disk accepts writes but never confirms them.
     pub fn mute_disk(&mut self) {
         self.disk_is_mute = true;
+    }
+
+    /// From now on its disk refuses writes with these words.
+    pub fn refuse_writes(&mut self, words: &'static str) {
+        self.disk_refuses = Some(words);
+    }
+
+    /// Schedules that a daemon after this one finds on its disk.
+    #[must_use]
+    pub fn kept_schedule_count(&self) -> usize {
+        self.kept_schedules().entries().count()
     }
 
     /// The floors of the home, as clients receive them.
@@ -247,9 +261,12 @@ impl Host {
             self.handle(now_us, input);
         }
         if let Some(order) = schedules {
-            self.schedules = Some(order.book);
+            let result = self.write_result();
+            if result.is_ok() {
+                self.schedules = Some(order.book);
+            }
             if !self.disk_is_mute {
-                let (number, result) = (order.number, Ok(()));
+                let number = order.number;
                 self.handle(now_us, Input::SchedulesKept { number, result });
             }
         }
@@ -263,20 +280,30 @@ impl Host {
 
     fn keep_health(&mut self, now_us: u64, order: HealthOrder) {
         self.note_write(|| KeptWrite::Health(Box::new(order.health.clone())));
-        self.health = Some(order.health);
+        let result = self.write_result();
+        if result.is_ok() {
+            self.health = Some(order.health);
+        }
         if !self.disk_is_mute {
-            let (number, result) = (order.number, Ok(()));
+            let number = order.number;
             self.handle(now_us, Input::HealthKept { number, result });
         }
     }
 
     fn keep_learnt(&mut self, now_us: u64, order: LearntOrder) {
         self.note_write(|| KeptWrite::Learnt(Box::new(order.learnt.clone())));
-        self.learnt = Some(order.learnt);
+        let result = self.write_result();
+        if result.is_ok() {
+            self.learnt = Some(order.learnt);
+        }
         if !self.disk_is_mute {
-            let (number, result) = (order.number, Ok(()));
+            let number = order.number;
             self.handle(now_us, Input::LearntKept { number, result });
         }
+    }
+
+    fn write_result(&self) -> Result<(), String> {
+        self.disk_refuses.map_or(Ok(()), |words| Err(words.to_owned()))
     }
 
     fn keep_run(&mut self, now_us: u64, record: RunRecord) {

@@ -200,6 +200,16 @@ impl Household {
         self
     }
 
+    /// The gyro on the Linux board says nothing from now on.
+    pub fn silence_board_gyro(&mut self) {
+        self.board.gyro_is_silent = true;
+    }
+
+    /// It measures again.
+    pub fn wake_board_gyro(&mut self) {
+        self.board.gyro_is_silent = false;
+    }
+
     /// The same household with beacons for the Linux board's radio.
     #[must_use]
     pub fn with_beacons(mut self, beacons: Beacons) -> Self {

@@ -11,6 +11,8 @@ const GYRO_MS: u64 = 10;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LinuxBoard {
     pub(crate) gyro: Option<BoardGyro>,
+    /// The gyro turns with the robot and says nothing.
+    pub(crate) gyro_is_silent: bool,
     pub(crate) beacons: Option<Beacons>,
 }
 
@@ -20,7 +22,7 @@ impl LinuxBoard {
         let (pose, now_ms) = (robot.world().truth().pose, robot.now_ms());
         if let Some(gyro) = &mut self.gyro {
             gyro.step(pose.heading_rad);
-            if now_ms.is_multiple_of(GYRO_MS) {
+            if now_ms.is_multiple_of(GYRO_MS) && !self.gyro_is_silent {
                 host.board_heading(now_us, gyro.total_urad());
             }
         }

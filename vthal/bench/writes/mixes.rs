@@ -37,7 +37,7 @@ impl Store for Mixes {
         let profile = profile(&name, number);
         Change {
             after: replaced(kept, Some(&name), Some(profile.clone())),
-            request: RequestBody::SaveMix { profile },
+            request: RequestBody::SaveMix { profile, was: None },
         }
     }
 }

@@ -45,7 +45,11 @@ impl Store for Rooms {
                 Some(&format!("{SETTINGS}{room}")),
                 serde_json::to_string(&settings).ok(),
             ),
-            request: RequestBody::SetRoom { room, settings },
+            request: RequestBody::SetRoom {
+                room,
+                settings,
+                was: None,
+            },
         }
     }
 }

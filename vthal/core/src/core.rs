@@ -11,20 +11,23 @@ mod thinking;
 use rvac_api::{LogLevel, Topic};
 
 use crate::brain_session::{BrainSession, Recorder};
-use crate::desk::audience::Audience;
+use crate::desk::audience::{Asking, Audience};
 use crate::desk::button_desk::ButtonDesk;
 use crate::desk::checkpoints::{CheckpointClock, checkpoint_without_job};
 use crate::desk::driver::DriverDesk;
+use crate::desk::estimates::EstimateDesk;
 use crate::desk::feed::Feed;
 use crate::desk::floors::{FloorDesk, KeptFloors, RestoredMap};
 use crate::desk::health::HealthDesk;
 use crate::desk::history::HistoryDesk;
 use crate::desk::home::HomeDesk;
 use crate::desk::input_desk::InputDesk;
+use crate::desk::jobs::estimate;
 use crate::desk::journal::LogSource;
 use crate::desk::learnt::LearntDesk;
 use crate::desk::link::LinkDesk;
 use crate::desk::link_loan::LinkLoan;
+use crate::desk::reply::Reply;
 use crate::desk::schedules::ScheduleDesk;
 use crate::desk::sources::Sources;
 use crate::desk::standstills::StandstillDesk;
@@ -70,6 +73,7 @@ pub struct Core {
     health: HealthDesk,
     learnt: LearntDesk,
     standstills: StandstillDesk,
+    estimates: EstimateDesk,
     checkpoints: CheckpointClock,
     feed: Feed,
 }
@@ -100,6 +104,7 @@ impl Core {
             health: HealthDesk::new(core::mem::take(&mut config.health)),
             learnt: LearntDesk::new(core::mem::take(&mut config.learnt)),
             standstills: StandstillDesk::default(),
+            estimates: EstimateDesk::default(),
             checkpoints: CheckpointClock::default(),
             feed: Feed::default(),
             config,
@@ -144,12 +149,14 @@ impl Core {
                     brain_session.observer.take_beacon(signal);
                 }
             }
+            Input::Told { level, text } => self.teller(now_us, outputs).log_of_shell(level, text),
             Input::ClientConnected(client) => self.audience.clients.connect(client),
             Input::Client { client, request } => self.request(now_us, (client, request), outputs),
             Input::Refused { client, failure } => self.teller(now_us, outputs).refuse(client, failure),
             Input::ClientSilent(client) => self.client_silent(now_us, client, outputs),
             Input::ClientGone(client) => {
                 self.client_silent(now_us, client, outputs);
+                self.estimates.forget(client);
                 self.audience.clients.forget(client);
             }
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
@@ -207,11 +214,17 @@ impl Core {
             .is_some_and(BrainSession::is_preparing);
         let prepare = is_preparing.then_some(self.pace.prepared_us + PREPARE_US);
         let leases = [self.driver.arbiter.lease_end_us(), self.inputs.lease_end_us()];
-        [self.link.next_wake_us(), step, prepare, feed]
-            .into_iter()
-            .chain(leases)
-            .flatten()
-            .min()
+        [
+            self.link.next_wake_us(),
+            step,
+            prepare,
+            feed,
+            self.estimates.next_wake_us(),
+        ]
+        .into_iter()
+        .chain(leases)
+        .flatten()
+        .min()
     }
 
     /// The clients that follow `topic`, in the order in which they connected.
@@ -282,6 +295,16 @@ impl Core {
         if self.brain_session.is_some() && now_us >= self.pace.stepped_us + STEP_MAX_US {
             self.think(now_us, outputs);
         }
+        self.make_estimate(now_us, outputs);
+    }
+
+    /// At most one, so that whatever has come meanwhile is served before the next.
+    fn make_estimate(&mut self, now_us: u64, outputs: &mut Outputs) {
+        let Some(Asking { asker, request }) = self.estimates.next(now_us) else {
+            return;
+        };
+        let answer = estimate(asker.id, &request, self.brain_session.as_ref()).map(Reply::from);
+        self.teller(now_us, outputs).answer(asker, answer);
     }
 
     /// Tells followers, the recording and the disk what is due.

@@ -72,6 +72,8 @@ fn deed(kind: DecisionKind, value: f64) -> String {
         DecisionKind::Turn => "Turned away".to_owned(),
         DecisionKind::Arc => "Drove an arc round the corner".to_owned(),
         DecisionKind::FollowWall => "Began to follow a wall".to_owned(),
+        DecisionKind::LeaveOutGyro => "Left its gyro out of the estimate of its position".to_owned(),
+        DecisionKind::TakeUpGyro => "Uses its gyro again".to_owned(),
         DecisionKind::LeaveWall => "Left the wall".to_owned(),
         DecisionKind::Withdraw => "Undid the last part of the map".to_owned(),
         DecisionKind::Spiral => "Began a spiral".to_owned(),

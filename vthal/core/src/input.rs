@@ -2,7 +2,7 @@
 
 use brain::StoredMap;
 use brain::observation::BeaconSignal;
-use rvac_api::{Failure, Request, Run};
+use rvac_api::{Failure, LogLevel, Request, Run};
 
 use crate::{FloorTask, KeptFloor};
 
@@ -13,11 +13,11 @@ pub struct ClientId(pub u64);
 /// The closed set of causes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input<'a> {
-    /// The serial device is open; the core starts the handshake.
+    /// The link is open; the core starts the handshake.
     LinkOpened,
     /// Bytes came from the robot.
     LinkBytes(&'a [u8]),
-    /// The serial device is gone.
+    /// The link is gone.
     LinkClosed {
         /// Why, for the log.
         reason: LinkLoss,
@@ -34,6 +34,13 @@ pub enum Input<'a> {
     },
     /// A radio on the Linux board measured how far a beacon is, or how strongly it is received.
     Beacon(BeaconSignal),
+    /// The shell has warned or complained of something in its own log: clients read it too.
+    Told {
+        /// How grave.
+        level: LogLevel,
+        /// The sentence.
+        text: String,
+    },
     /// A client connected.
     ClientConnected(ClientId),
     /// A client asks for something.
@@ -126,7 +133,7 @@ pub enum Input<'a> {
     Shutdown,
 }
 
-/// Why the serial device is gone.
+/// Why the link is gone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LinkLoss {
     /// The other end hung up or the adapter was pulled.

@@ -145,8 +145,13 @@ pub struct MixOrder {
 pub enum MixTask {
     /// Tell the client which there are: [`Update::Mixes`].
     List,
-    /// Keep this profile, which is not checked yet.
-    Save(String),
+    /// Keep a profile, which is not checked yet.
+    Save {
+        /// As JSON text.
+        profile: String,
+        /// What the client has seen under its name before, empty for nothing.
+        was: Option<String>,
+    },
     /// Remove the one with this name.
     Remove(String),
 }

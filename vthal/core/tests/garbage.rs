@@ -29,4 +29,15 @@ fn garbage_from_the_start_has_a_name_and_silence_has_another() {
         named("link-garbled")
     );
     assert_eq!(hear(&mut core, (3_000, 6_000), b""), named("no-robot"));
+    let prompt = b"\r\nDebian GNU/Linux 13 robot ttyS0\r\nrobot login: ";
+    assert_eq!(
+        hear(&mut core, (6_000, 10_000), prompt),
+        named("line-has-console")
+    );
+    let noise: Vec<u8> = (0..23_u8).map(|number| number.wrapping_mul(193)).collect();
+    assert_eq!(
+        hear(&mut core, (10_000, 17_000), &noise),
+        named("line-wrong-speed"),
+        "a cause that changes is told"
+    );
 }

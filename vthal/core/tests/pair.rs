@@ -3,7 +3,7 @@
 use brain::{Cell, CellKnowledge, JobCommand, Pose2, Raster, StoredMap};
 use rvac_api::{
     CleaningPattern, CleaningPower, Gesture, JobOrder, JobPart, NoGoShape, PlaceShape, Request, RequestBody,
-    RoomNaming, RoomSettings, RoomSplitting, Topic, Update,
+    RoomBefore, RoomNaming, RoomSettings, RoomSplitting, Topic, Update,
 };
 use rvac_protocol::PacketBuffer;
 use rvac_protocol::message::{
@@ -376,6 +376,7 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
             },
             pattern: CleaningPattern::Lines,
         }),
+        was: None,
     };
     assert_eq!(pair.ask(ANNA, set(0.25, 2)), None);
     pair.run_ms(200);
@@ -393,6 +394,7 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
     let elsewhere = RequestBody::SetRoom {
         room: 9,
         settings: None,
+        was: None,
     };
     assert_eq!(pair.ask(ANNA, elsewhere).as_deref(), Some("no-such-room"));
     let estimate = |pair: &mut Pair, part| {
@@ -417,6 +419,7 @@ fn a_job_cleans_a_room_as_hard_as_its_settings_say() {
     let usual = RequestBody::SetRoom {
         room: 1,
         settings: None,
+        was: None,
     };
     assert_eq!(pair.ask(BERT, usual), None);
     pair.run_ms(200);
@@ -470,6 +473,7 @@ fn what_a_job_says_of_itself_wins_over_the_settings_of_a_room() {
     let set = RequestBody::SetRoom {
         room: 1,
         settings: Some(settings),
+        was: None,
     };
     assert_eq!(pair.ask(ANNA, set), None);
     pair.run_ms(200);
@@ -775,6 +779,23 @@ fn the_robots_button_starts_and_stops() {
     assert_eq!(pair.core.status().state, "paused");
     hold(&mut pair, 0, 100);
     assert_eq!(pair.core.status().state, "starting", "it goes on");
+}
+
+/// A person who sends it home means it: the job waits for nothing. (That the firmware stops the wheels at once is the firmware's test.)
+#[test]
+fn the_robots_dock_button_ends_its_job_and_sends_it_home() {
+    let mut pair = Pair::new();
+    hold(&mut pair, 0, 100);
+    pair.run_ms(5000);
+    assert_eq!(pair.core.status().state, "cleaning");
+    hold(&mut pair, 2, 100);
+    pair.run_ms(5000);
+    assert_eq!(pair.core.status().state, "docking");
+    pair.state.docked = true;
+    pair.run_ms(30_000);
+    let status = pair.core.status();
+    assert_eq!(status.state, "docked");
+    assert_eq!(status.reason, "docked", "it waits for nothing");
 }
 
 /// Buttons of the Linux board, on a robot that reports none.
@@ -1342,7 +1363,11 @@ fn forbidden_floor_is_reshaped_under_its_number_and_name() {
     };
     assert_eq!(pair.ask(ANNA, added), None);
     pair.run_ms(200);
-    let reshaped = |number, shape| RequestBody::ReshapeNoGo { number, shape };
+    let reshaped = |number, shape| RequestBody::ReshapeNoGo {
+        number,
+        shape,
+        was: None,
+    };
     let refused = [
         (reshaped(7, at(3.5)), "no-such-no-go"),
         (reshaped(1, at(90.0)), "no-floor-there"),
@@ -1415,6 +1440,7 @@ fn a_kept_place_is_cleaned_by_its_number_and_comes_back_under_it() {
     let moved = |number, y| RequestBody::ReshapePlace {
         number,
         shape: PlaceShape::Spot([3.0, y]),
+        was: None,
     };
     assert_eq!(pair.ask(ANNA, moved(2, 1.2)).as_deref(), Some("no-such-place"));
     assert_eq!(pair.ask(ANNA, moved(1, 90.0)).as_deref(), Some("no-floor-there"));
@@ -1428,6 +1454,73 @@ fn a_kept_place_is_cleaned_by_its_number_and_comes_back_under_it() {
     let estimate = pair.ask(ANNA, RequestBody::Estimate(cleaning(1)));
     assert_eq!(estimate, None);
     assert_eq!(pair.ask(ANNA, RequestBody::Clean(cleaning(1))), None);
+}
+
+/// Two people began from the same view; the one who is later must see what the other has done.
+#[test]
+fn a_change_of_what_somebody_else_has_changed_meanwhile_is_refused() {
+    let mut pair = on_the_dock();
+    assert_eq!(pair.ask(ANNA, keep("Bowl", [3.0, 1.5])), None);
+    pair.run_ms(200);
+    let spot = |y| PlaceShape::Spot([3.0, y]);
+    let moved = |was: Option<f64>, y| RequestBody::ReshapePlace {
+        number: 1,
+        shape: spot(y),
+        was: was.map(spot),
+    };
+    assert_eq!(pair.ask(ANNA, moved(Some(1.5), 1.2)), None);
+    assert_eq!(
+        pair.ask(BERT, moved(Some(1.5), 1.4)).as_deref(),
+        Some("changed-meanwhile"),
+        "before the next step of the brain"
+    );
+    pair.run_ms(200);
+    assert_eq!(
+        pair.ask(BERT, moved(Some(1.5), 1.4)).as_deref(),
+        Some("changed-meanwhile")
+    );
+    assert_eq!(pair.ask(BERT, moved(Some(1.2), 1.4)), None);
+    pair.run_ms(200);
+    assert_eq!(pair.ask(BERT, moved(None, 1.3)), None, "whatever it is");
+    pair.run_ms(200);
+
+    let twice = RoomSettings {
+        passes: 2,
+        ..RoomSettings::default()
+    };
+    let set = |was, settings| RequestBody::SetRoom {
+        room: 1,
+        settings,
+        was: Some(RoomBefore { settings: was }),
+    };
+    assert_eq!(pair.ask(ANNA, set(None, Some(twice))), None);
+    pair.run_ms(200);
+    assert_eq!(
+        pair.ask(BERT, set(None, None)).as_deref(),
+        Some("changed-meanwhile")
+    );
+    assert_eq!(pair.ask(BERT, set(Some(twice), None)), None);
+}
+
+/// A client that floods the daemon with estimates delays nobody: it is refused, and others are answered at once.
+#[test]
+fn estimates_wait_for_their_turn_and_stop_does_not() {
+    let mut pair = on_the_dock();
+    let whole = JobPart::Zone(vec![[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]]);
+    let ask = |pair: &mut Pair| pair.ask(ANNA, RequestBody::Estimate(clean(vec![whole.clone()], 1)));
+    let answers: Vec<Option<String>> = (0..30).map(|_| ask(&mut pair)).collect();
+    let refused = answers
+        .iter()
+        .filter(|answer| answer.as_deref() == Some("too-many-estimates"));
+    assert_eq!(refused.count(), 24, "two at once, four wait");
+    let made = |pair: &Pair| {
+        let is_estimate = |update: &&Update| matches!(update, Update::JobEstimate(_));
+        pair.updates.iter().filter(is_estimate).count()
+    };
+    assert_eq!(made(&pair), 2);
+    assert_eq!(pair.ask(BERT, RequestBody::Stop), None);
+    pair.run_ms(2_000);
+    assert_eq!(made(&pair), 6, "all that were taken are answered");
 }
 
 fn dock_at(x: f64, y: f64) -> RequestBody {

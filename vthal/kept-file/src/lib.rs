@@ -11,7 +11,7 @@ use std::io::{self, Read, Write};
 use std::os::unix::fs::{OpenOptionsExt as _, PermissionsExt as _};
 use std::path::{Path, PathBuf};
 
-pub use newest::{Newest, newest, newest_json, replace_json};
+pub use newest::{Newest, folder_complaint, newest, newest_json, replace_json};
 
 /// Mode of a file that nobody but its owner reads.
 const SECRET: u32 = 0o600;

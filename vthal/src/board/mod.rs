@@ -146,7 +146,7 @@ fn start_with<L: BoardLines + 'static>(
         events,
         ordered,
         lights: Lights::default(),
-        is_reported: false,
+        reported: None,
     };
     std::thread::Builder::new()
         .name("board".to_owned())
@@ -159,7 +159,7 @@ struct Attendant {
     events: Sender<Event>,
     ordered: Receiver<Lights>,
     lights: Lights,
-    is_reported: bool,
+    reported: Option<String>,
 }
 
 impl Attendant {
@@ -171,9 +171,10 @@ impl Attendant {
         let Err(error) = open().and_then(|lines| self.attend(lines)) else {
             return Err(ReceiverGone);
         };
-        if !self.is_reported {
-            self.is_reported = true;
-            self.send(BoardEvent::Absent(error.to_string()))?;
+        let text = error.to_string();
+        if self.reported.as_ref() != Some(&text) {
+            self.reported = Some(text.clone());
+            self.send(BoardEvent::Absent(text))?;
         }
         // The thread has nothing else to do; lines that another program holds are not free sooner.
         std::thread::sleep(RETRY);
@@ -184,7 +185,7 @@ impl Attendant {
     fn attend(&mut self, mut lines: impl BoardLines) -> Result<(), LinesError> {
         let at_start = lines.buttons(Duration::ZERO)?;
         lines.show(self.lights)?;
-        self.is_reported = false;
+        self.reported = None;
         if self.send(BoardEvent::Opened(at_start)).is_err() {
             return Ok(());
         }

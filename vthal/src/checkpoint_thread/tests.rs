@@ -29,7 +29,10 @@ fn change() -> MixOrder {
     MixOrder {
         client: CHANGER,
         id: None,
-        task: MixTask::Save(standard_profile().to_json()),
+        task: MixTask::Save {
+            profile: standard_profile().to_json(),
+            was: None,
+        },
     }
 }
 
@@ -41,7 +44,7 @@ fn answered_before_the_change(events: &mut Receiver<Event>) -> usize {
             Some(Event::Archive(_)) => answered += 1,
             Some(Event::Mixes(answer)) => {
                 assert_eq!(answer.client, CHANGER);
-                assert!(matches!(answer.outcome, Ok(MixOutcome::Done)), "{answer:?}");
+                assert!(matches!(answer.outcome, Ok(MixOutcome::Changed(_))), "{answer:?}");
                 return answered;
             }
             _ => {}

@@ -1,6 +1,6 @@
 //! What goes to the thread that writes and reads files, and what comes back from it.
 
-use rvac_api::{Failure, RunRecord, Update};
+use rvac_api::{Failure, RunRecord, Topic, Update};
 use vthal_core::{
     ArchiveOrder, ClientId, EditedMap, FloorOrder, HealthOrder, Input, LearntOrder, MapOrder, MixOrder,
     ScheduleOrder,
@@ -80,7 +80,15 @@ impl Daemon {
     pub(super) fn take_mix_answer(&mut self, MixAnswer { client, id, outcome }: MixAnswer) {
         let answer = match outcome {
             Ok(MixOutcome::Listed(mixes)) => Some(Update::Mixes { mixes }),
-            Ok(MixOutcome::Done) => None,
+            Ok(MixOutcome::Changed(mixes)) => {
+                // Whoever drives or edits elsewhere must not work with a stale copy.
+                let update = Update::Mixes { mixes };
+                let followers: Vec<ClientId> = self.core.followers(Topic::Inputs).collect();
+                for client in followers {
+                    self.tell(client, &update);
+                }
+                None
+            }
             Err(error) => {
                 self.refuse(Asker { client, id }, error.name(), error.to_string());
                 return;

@@ -103,7 +103,7 @@ pub(crate) enum ImuEvent {
     Opened(&'static str),
     /// Total turned, microradians, wrapping.
     Turned(i32),
-    /// The sensor is not there or was lost; reported once per outage, with what to do.
+    /// The sensor is not there or was lost; each cause is reported once per outage, with what to do.
     Absent(String),
 }
 
@@ -120,14 +120,14 @@ pub(crate) fn start(settings: ImuSettings, events: Sender<Event>) -> io::Result<
 
 fn serve(settings: &ImuSettings, events: &Sender<Event>) {
     let mut turn = Turn::default();
-    let mut is_reported = false;
+    let mut reported = None;
     loop {
-        match attend(settings, &mut turn, events, &mut is_reported) {
+        match attend(settings, &mut turn, events, &mut reported) {
             Ok(ReceiverGone) => return,
-            Err(_) if is_reported => {}
+            Err(error) if reported.as_ref() == Some(&error.to_string()) => {}
             Err(error) => {
-                is_reported = true;
                 let text = error.to_string();
+                reported = Some(text.clone());
                 if events.blocking_send(Event::Imu(ImuEvent::Absent(text))).is_err() {
                     return;
                 }
@@ -143,7 +143,7 @@ fn attend(
     settings: &ImuSettings,
     turn: &mut Turn,
     events: &Sender<Event>,
-    is_reported: &mut bool,
+    reported: &mut Option<String>,
 ) -> Result<ReceiverGone, ImuError> {
     let mut gyro = Gyro::open(settings)?;
     let start = Instant::now();
@@ -151,8 +151,7 @@ fn attend(
     loop {
         let mut total_urad = None;
         gyro.read(|sample| total_urad = Some(take(turn, sample, start)))?;
-        if *is_reported || sent.is_none() {
-            *is_reported = false;
+        if reported.take().is_some() || sent.is_none() {
             let opened = Event::Imu(ImuEvent::Opened(gyro.manner()));
             if events.blocking_send(opened).is_err() {
                 return Ok(ReceiverGone);

@@ -150,7 +150,7 @@ fn a_robot_may_come_late_go_and_come_back_as_another_one() {
     wait_for_state(&mut first, &mut client, "idle");
     drop(first);
     let lost = client
-        .wait_for(soon(), |update| has_text(update, "serial device lost"))
+        .wait_for(soon(), |update| has_text(update, "link lost"))
         .expect("reads");
     assert!(lost.is_some(), "the loss is told");
     let mut second = robot(&scratch, 2);
@@ -200,7 +200,7 @@ fn the_line_is_lent_to_one_client_and_taken_again_when_it_is_gone() {
     desk.robot.live_until(reported, |_| false).expect("lives");
     let mut flasher = borrow(&desk);
     wait_until(&mut desk.robot, &mut desk.client, |update| {
-        has_text(update, "serial device lent")
+        has_text(update, "link lent")
     });
     let done = flasher.wait_for(soon(), |update| matches!(update, Update::Done { id: 7 }));
     assert!(done.expect("reads").is_some());
@@ -214,7 +214,7 @@ fn the_line_is_lent_to_one_client_and_taken_again_when_it_is_gone() {
     // However the flasher ends, its connection does.
     drop(flasher);
     wait_until(&mut desk.robot, &mut desk.client, |update| {
-        has_text(update, "serial device open")
+        has_text(update, "link open")
     });
     assert!(!is_free(&desk.scratch));
 }
@@ -546,7 +546,7 @@ fn control_mixes_are_kept_checked_and_removed_over_the_socket() {
     assert_eq!(refused(&mut desk), None);
     let profile = mixer::standard_profile().to_json();
     let save = |profile: String| {
-        let body = RequestBody::SaveMix { profile };
+        let body = RequestBody::SaveMix { profile, was: None };
         serde_json::to_string(&Request { id: Some(9), body }).expect("JSON")
     };
     desk.client.send(&save(profile.clone())).expect("sends");

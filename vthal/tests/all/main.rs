@@ -4,6 +4,7 @@ mod daemon;
 mod floors;
 mod kept;
 mod learnt;
+mod links;
 mod radio;
 mod recording;
 mod scripts;

@@ -3,6 +3,7 @@
 mod logic;
 mod relax;
 mod safety;
+mod scripts;
 
 use crate::{codegen, firmware, process, workspace};
 use anyhow::Context;
@@ -12,7 +13,7 @@ use std::path::PathBuf;
 /// What to measure.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Subject {
-    /// Corrupted packets through the bit-level channel; cost of the parser.
+    /// Corrupted packets through the bit-level channel, cost of the parser; with --kinds each kind of link.
     Link,
     /// The daemon as a relay between a robot and 1, 10 and 100 clients.
     Relay,
@@ -24,6 +25,8 @@ enum Subject {
     Writes,
     /// The simulator against real time with each strategy, and where the time goes.
     Sim,
+    /// Packets a second through a script in each language, beside Rust.
+    Scripts,
     /// Size of cordlib's state.
     Cordlib,
     /// Every safety rule on the robot's firmware in the emulated chip: worst reactions.
@@ -54,6 +57,8 @@ enum Subject {
     Floors,
     /// How soon and how surely a robot that was lifted from its work knows its place again.
     Lifted,
+    /// What fails around the Linux board, drawn: whether people are told, soon and rightly, and whether all that was acknowledged is kept.
+    Board,
     /// The robot's firmware in the emulated chip: main loop, interrupts, serial line, memory; speed of the emulator.
     Firmware,
 }
@@ -78,6 +83,9 @@ pub(crate) struct BenchArguments {
     /// Of `docking`: docks that are dirty, dead, moved, turned, recessed, without power, or with a shoe before them.
     #[arg(long)]
     worn: bool,
+    /// Of `link`: the kinds of link to measure against the emulated chip, for example `uart,half-duplex,tcp,usb`.
+    #[arg(long)]
+    kinds: Option<String>,
     /// Arguments for the measuring program itself, for example `--homes report --seeds 5` of `navigation`.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
     rest: Vec<String>,
@@ -85,11 +93,14 @@ pub(crate) struct BenchArguments {
 
 /// Runs the measurement.
 pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
-    if matches!(arguments.subject, Subject::Relax) {
-        return relax::run(arguments);
+    if arguments.kinds.is_some() && !matches!(arguments.subject, Subject::Link) {
+        anyhow::bail!("--kinds is for link: cargo xtask bench link --kinds uart,tcp");
     }
-    if matches!(arguments.subject, Subject::LogicMutants) {
-        return logic::run(arguments);
+    match arguments.subject {
+        Subject::Relax => return relax::run(arguments),
+        Subject::Scripts => return scripts::run(arguments),
+        Subject::LogicMutants => return logic::run(arguments),
+        _ => {}
     }
     if matches!(
         arguments.subject,
@@ -104,19 +115,11 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
         Subject::Firmware => Some(Firmwares::build()?),
         _ => None,
     };
-    let usual = match arguments.subject {
-        Subject::Safety
-        | Subject::Flips
-        | Subject::Mutants
-        | Subject::Flood
-        | Subject::Charges
-        | Subject::Coverage => Some(firmware::usual_elf()?),
-        _ => None,
-    };
+    let usual = usual_firmware(arguments)?;
     let mut command = workspace::cargo();
     command
         .args(["run", "--release", "--quiet", "--locked"])
-        .args(program(arguments.subject))
+        .args(program(arguments))
         .arg("--");
     command.args(fixed(arguments.subject));
     if let Some(firmware) = &firmware {
@@ -129,7 +132,10 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
         command.arg("--json");
     }
     if arguments.long {
-        command.args(longer(arguments.subject));
+        command.args(longer(arguments));
+    }
+    if let Some(kinds) = &arguments.kinds {
+        command.arg("--kinds").arg(kinds);
     }
     if arguments.worn {
         command.arg("--worn");
@@ -150,6 +156,20 @@ pub(crate) fn run(arguments: &BenchArguments) -> anyhow::Result<()> {
         codegen::run(&codegen::CodegenArguments { check: false })?;
     }
     Ok(())
+}
+
+/// The robot's firmware, where it alone is measured.
+fn usual_firmware(arguments: &BenchArguments) -> anyhow::Result<Option<PathBuf>> {
+    Ok(match arguments.subject {
+        Subject::Link if arguments.kinds.is_some() => Some(firmware::usual_elf()?),
+        Subject::Safety
+        | Subject::Flips
+        | Subject::Mutants
+        | Subject::Flood
+        | Subject::Charges
+        | Subject::Coverage => Some(firmware::usual_elf()?),
+        _ => None,
+    })
 }
 
 /// What is measured in the emulated chip: the robot's firmware, and the one whose main loop does not sleep.
@@ -189,8 +209,9 @@ impl Firmwares {
     }
 }
 
-fn program(subject: Subject) -> &'static [&'static str] {
-    match subject {
+fn program(arguments: &BenchArguments) -> &'static [&'static str] {
+    match arguments.subject {
+        Subject::Link if arguments.kinds.is_some() => &["--bin", "bench-links"],
         Subject::Link => &["--bin", "bench-link"],
         Subject::Relay => &["--bin", "bench-relay"],
         Subject::Panel => &["--bin", "bench-panel"],
@@ -202,7 +223,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Relax => &["--bin", "bench-relax"],
         Subject::Flips => &["--bin", "bench-flips"],
         Subject::Mutants => &["--bin", "bench-mutants"],
-        Subject::LogicMutants => &[],
+        Subject::LogicMutants | Subject::Scripts => &[],
         Subject::Flood => &["--bin", "bench-flood"],
         Subject::Charges => &["--bin", "bench-charges"],
         Subject::Coverage => &["--bin", "bench-coverage"],
@@ -212,6 +233,7 @@ fn program(subject: Subject) -> &'static [&'static str] {
         Subject::Docking => &["--bin", "bench-docking"],
         Subject::Floors => &["--bin", "bench-floors"],
         Subject::Lifted => &["--bin", "bench-lifted"],
+        Subject::Board => &["--bin", "bench-board"],
         Subject::Firmware => &["--bin", "bench-firmware"],
     }
 }
@@ -238,12 +260,15 @@ fn fixed(subject: Subject) -> &'static [&'static str] {
         | Subject::Docking
         | Subject::Floors
         | Subject::Lifted
-        | Subject::Coverage => &[],
+        | Subject::Board
+        | Subject::Coverage
+        | Subject::Scripts => &[],
     }
 }
 
-fn longer(subject: Subject) -> &'static [&'static str] {
-    match subject {
+fn longer(arguments: &BenchArguments) -> &'static [&'static str] {
+    match arguments.subject {
+        Subject::Link if arguments.kinds.is_some() => &["--seconds", "3600", "--cuts", "200"],
         Subject::Kill => &["--kills", "200"],
         Subject::Writes => &["--kills", "100000"],
         Subject::Safety => &["--phases", "200"],
@@ -258,8 +283,9 @@ fn longer(subject: Subject) -> &'static [&'static str] {
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors | Subject::Lifted => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
+        Subject::Board => &["--seeds", "1000"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
-        Subject::Cordlib | Subject::Relax | Subject::LogicMutants => &[],
+        Subject::Cordlib | Subject::Relax | Subject::LogicMutants | Subject::Scripts => &[],
     }
 }

@@ -3,14 +3,14 @@
 use super::extent::Extent;
 use super::runner::{Result, check};
 use crate::workspace::{self, Profile, program};
-use crate::{fetched, firmware, process};
+use crate::{fetched, firmware, process, system};
 use std::path::PathBuf;
 use std::process::Command;
 
 /// A flasher that nobody here wrote, from PyPI.
 const STCGAL: &str = "stcgal==1.10";
 
-/// Backup, write, verify, restore; cut power and killed programmers; stcgal on a pseudo terminal.
+/// Backup, write, verify, restore; cut power and killed programmers; stcgal on a pseudo terminal; OpenOCD at the test port.
 pub(super) fn flash(extent: Extent) -> Result {
     check(&mut campaign(extent)?)
 }
@@ -25,6 +25,7 @@ pub(super) fn as_json(extent: Extent) -> anyhow::Result<()> {
 fn campaign(extent: Extent) -> anyhow::Result<Command> {
     let elf = firmware::usual_elf()?;
     let stcgal = stcgal()?;
+    system::need("openocd", &["openocd"])?;
     workspace::build(&["bench-flash"], Profile::Dev)?;
     let mut command = Command::new(program("bench-flash", Profile::Dev));
     command
@@ -33,7 +34,8 @@ fn campaign(extent: Extent) -> anyhow::Result<Command> {
         .arg("--firmware")
         .arg(elf)
         .arg("--stcgal")
-        .arg(stcgal);
+        .arg(stcgal)
+        .args(["--openocd", "openocd"]);
     Ok(command)
 }
 

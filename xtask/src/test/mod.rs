@@ -9,7 +9,6 @@ mod flash;
 mod home_assistant;
 mod joined;
 mod packages;
-mod processor;
 mod programs;
 mod robot;
 mod runner;
@@ -17,7 +16,7 @@ mod stages;
 mod verdicts;
 
 use crate::panel::{Ahead, Page};
-use crate::process;
+use crate::{process, processor};
 use anyhow::bail;
 use count::Count;
 use extent::Extent;

@@ -70,7 +70,15 @@ fn on_this_machine(what: &str, manifest: &str, words: &[&str]) -> Command {
 
 /// Tests that need the built firmware, its parts or other people's emulator and debugger. No package is named, so that all is
 /// built once for this stage and for the other tests.
-const BESIDE_OTHERS: [&str; 6] = ["cord_in_chip", "gdb", "hal_examples", "image", "qemu", "ucsim"];
+const BESIDE_OTHERS: [&str; 7] = [
+    "cord_in_chip",
+    "gdb",
+    "hal_examples",
+    "image",
+    "lights_and_keys",
+    "qemu",
+    "ucsim",
+];
 
 /// The emulated chips beside qemu-user and uCsim, and with the programs that are written for them.
 pub(super) fn of_emulator(_extent: Extent) -> Result {
@@ -100,7 +108,13 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
         .env("RVAC_FIRMWARE", &elf)
         .env("RVAC_FIRMWARE_SAMPLED", sampled)
         .env("RVAC_RELAX", relax.with_file_name(""));
-    let mut programs = vec!["rvac", "bench-firmware", "bench-relax", "relax-pace"];
+    let mut programs = vec![
+        "rvac",
+        "bench-firmware",
+        "bench-links",
+        "bench-relax",
+        "relax-pace",
+    ];
     programs.extend(TRIALS.map(|(program, _)| program));
     workspace::build(&programs, Profile::Dev)?;
     let pace = check(&mut pace(&elf)?);
@@ -111,8 +125,14 @@ pub(super) fn of_emulator(_extent: Extent) -> Result {
     trials.push(trial("bench-relax", &["--phases", "2"], &relax));
     trials.push(damaged_packets(&relax));
     let trials = checks_side_by_side(trials);
+    // In real time, so nothing runs beside it.
+    let links = check(&mut trial(
+        "bench-links",
+        &["--seconds", "4", "--cuts", "2"],
+        &elf,
+    ));
     let owner = tests(&mut owner(&elf));
-    all([tests(&mut command), owner, pace, trials].into_iter())
+    all([tests(&mut command), owner, pace, trials, links].into_iter())
 }
 
 /// Damaged packets for the Relax's image; `cargo xtask bench relax --long` sends more.

@@ -124,7 +124,7 @@ pub(super) const STAGES: [Stage; 20] = [
     },
     Stage {
         name: "flash",
-        does: "firmware goes into the simulated chips and comes back, with cut power; stcgal writes the simulated loader",
+        does: "firmware goes into the simulated chips and comes back, with cut power; stcgal writes the simulated loader, OpenOCD the emulated chip",
         from: Extent::All,
         company: Company::TheNext,
         run: flash::flash,

@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 45] = [
+const DIRECTIONS: [Direction; 47] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -110,9 +110,11 @@ const DIRECTIONS: [Direction; 45] = [
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "mixer",         knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
-    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "systemd-notice", "vthal-bench", "content-hash"], never: &[] },
+    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "robot-link", "system-zone", "systemd-notice", "vthal-bench", "content-hash"], never: &[] },
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units", "vthal-core"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
+    Direction { of: "system-zone",   knows: &["kept-file"],                                 never: &[] },
+    Direction { of: "robot-link",    knows: &["rvac-protocol", "rvac-units"],               never: OUTSIDE },
     Direction { of: "systemd-notice", knows: &[],                                           never: &[] },
     Direction { of: "bridge",        knows: &["kept-file", "rvac-api", "systemd-notice"],   never: &["axum"] },
     Direction { of: "rvac-mqtt",     knows: &["bridge", "rvac-api"],                        never: &["axum"] },
@@ -120,7 +122,7 @@ const DIRECTIONS: [Direction; 45] = [
     Direction { of: "rvac-hooks",    knows: &["bridge", "rvac-api"],                        never: &[] },
     Direction { of: "joined-trials", knows: &["rvac-api"],                                  never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
-    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "update-bundle"], never: &[] },
+    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "systemd-notice"], never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
@@ -137,7 +139,7 @@ const DIRECTIONS: [Direction; 45] = [
     Direction { of: "flash-trials",  knows: &["home", "pic32", "pic32-icsp", "rvac-flash", "rvac-update", "stc-isp", "stc90", "update-bundle"], never: &["tokio", "cordlib"] },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
-    Direction { of: "trials",        knows: &["home", "monitor", "pic32", "rvac-channel", "rvac-protocol", "rvac-units", "stc90"], never: EMULATOR },
+    Direction { of: "trials",        knows: &["home", "monitor", "pic32", "robot-link", "rvac-channel", "rvac-protocol", "rvac-units", "stc90"], never: EMULATOR },
     Direction { of: "life",          knows: &["brain", "home", "robot", "rvac-sim", "vthal", "vthal-core"], never: &["axum"] },
     Direction { of: "content-hash",  knows: &["brain"],                                     never: OUTSIDE },
     Direction { of: "scenarios",     knows: SCENARIOS,                                      never: &["vthal", "axum", "tokio"] },

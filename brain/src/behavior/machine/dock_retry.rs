@@ -120,6 +120,7 @@ mod tests {
                 beams: &beams,
                 config: &config,
                 knows_heading: true,
+                gyro_fault: None,
                 touching: false,
                 at_cliff: false,
             };

@@ -21,6 +21,9 @@ use crate::recovery::{self, StuckKind, Traction, Whereabouts};
 
 /// Share of the speed while wheels slip (S14).
 const SLIP_SHARE: f64 = 0.5;
+/// A job on a map that is being drawn waits for a lost gyro for so long, microseconds: by wheels alone the heading is wrong by some
+/// degrees then.
+const HEADING_PATIENCE_US: u64 = 60_000_000;
 /// A place that took so many recovery behaviors to leave is not entered again in this job.
 const POCKET_BEHAVIORS: u8 = 3;
 
@@ -53,8 +56,7 @@ impl Behavior {
         }
         self.unarmed_since_us = None;
         let plans_on_map = job.kind == JobKind::Clean(StrategyName::Systematic);
-        if plans_on_map && !situation.knows_heading {
-            self.end_job(Reason::NoHeading, context);
+        if plans_on_map && self.gives_up_without_heading(situation, context) {
             return Motion::Halt;
         }
         if plans_on_map && self.settles_gyro(situation) {
@@ -67,6 +69,32 @@ impl Behavior {
             return motion;
         }
         rest_for_gyro(commanded, context)
+    }
+
+    /// Ends a job that needs a map and has no heading to draw it by. A gyro that was lost is waited for: until then the wheels are
+    /// counted, and nothing is drawn. Then the robot drives home if it knows where that is.
+    fn gives_up_without_heading(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> bool {
+        let now_us = self.facts.now_us;
+        let Some(job) = &mut self.job else { return false };
+        if situation.knows_heading {
+            job.without_heading_us = None;
+            return false;
+        }
+        let Some(fault) = situation.gyro_fault else {
+            self.end_job(Reason::NoHeading, context);
+            return true;
+        };
+        let since_us = *job.without_heading_us.get_or_insert(now_us);
+        if now_us.saturating_sub(since_us) < HEADING_PATIENCE_US {
+            return false;
+        }
+        let has_home = situation.map.dock().is_some() || situation.beams.has_received_dock();
+        if has_home {
+            self.turn_home(Reason::Gyro(fault), context);
+        } else {
+            self.end_job(Reason::Gyro(fault), context);
+        }
+        true
     }
 
     /// Watches whether the robot is unstuck.
@@ -110,7 +138,7 @@ impl Behavior {
     fn rests_for_gyro(&mut self, motion: Motion, situation: &Situation<'_>) -> bool {
         let is_ahead = matches!(motion, Motion::Drive { speed_m_per_s, .. } if speed_m_per_s > 0.0);
         let Some(job) = &mut self.job else { return false };
-        if situation.observation.gyro_heading_rad.is_none() {
+        if situation.observation.gyro_heading_rad.is_none() || situation.gyro_fault.is_some() {
             return false;
         }
         let budget = RestPace::of(situation.is_tracked);
@@ -143,6 +171,7 @@ impl Behavior {
             return TaskStatus::Go(Motion::Halt);
         };
         let traction = job.slip.judge(situation.advance);
+        let is_careful = situation.gyro_fault.is_some() && matches!(job.kind, JobKind::Clean(_));
         if traction == Traction::Lost {
             return TaskStatus::Finished(Reason::Slip);
         }
@@ -173,7 +202,9 @@ impl Behavior {
                 TaskStatus::Trouble(Reason::ShutIn)
             }
             TaskStatus::Finished(reason) => self.end_untouched(reason, situation),
-            TaskStatus::Go(motion) if traction == Traction::Slipping => TaskStatus::Go(slowed(motion)),
+            TaskStatus::Go(motion) if traction == Traction::Slipping || is_careful => {
+                TaskStatus::Go(slowed(motion))
+            }
             other => other,
         }
     }

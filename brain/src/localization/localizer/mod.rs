@@ -10,6 +10,8 @@ mod relocalization;
 use super::TrackingCheckpoint;
 use super::beacons::Beacons;
 use super::drift::{Drift, ODOMETRY_NOISE};
+use super::gyro_monitor::GyroChange;
+use super::gyro_presence::GyroPresence;
 use super::lift::Lift;
 use super::line_slam::{OdometryStep, ScaleEstimate, TurnCalibration};
 use super::map_correction::MapCorrection;
@@ -21,6 +23,7 @@ use crate::mapping::Map;
 use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::{Pose2, normalize_rad};
+use crate::model::gyro_fault::GyroFault;
 use crate::model::observation::Observation;
 use crate::model::onsets::{DockOnset, OnsetDetector};
 use crate::model::pose_estimate::PoseEstimate;
@@ -29,6 +32,9 @@ use parameters::PLACING;
 
 /// A gyro that was silent for so long counts as missing, microseconds.
 const GYRO_GONE_US: u64 = 10_000_000;
+
+/// Share of the turn that a faulty gyro missed, by which the heading counts as wrong after the wheels have made it good.
+const MISSED_TURN_DOUBT: f64 = 0.2;
 
 /// Bounds a standard deviation from outside. NaN becomes the greatest one.
 fn finite(sigma: f64, least: f64) -> f64 {
@@ -59,8 +65,9 @@ pub struct Localization {
     fingerprints: RssiFingerprints,
     /// Time of the first observation.
     began_us: Option<u64>,
-    /// Time of the last gyro reading.
+    /// Time of the last gyro reading that counted.
     gyro_us: Option<u64>,
+    gyro_presence: GyroPresence,
     is_docked: bool,
     has_just_docked: bool,
     lift: Lift,
@@ -82,6 +89,7 @@ impl Localization {
             fingerprints: RssiFingerprints::default(),
             began_us: None,
             gyro_us: None,
+            gyro_presence: GyroPresence::default(),
             is_docked: false,
             has_just_docked: false,
             lift: Lift::default(),
@@ -97,11 +105,18 @@ impl Localization {
         };
         self.is_docked = observation.docked;
         self.has_just_docked = advance.onsets.docking == Some(DockOnset::Arrived);
-        if observation.gyro_heading_rad.is_some() {
+        let is_heard = observation.gyro_heading_rad.is_some();
+        self.gyro_presence.follow(observation.time_us, is_heard);
+        if self.odometry.gyro_fault().is_some() {
+            self.gyro_us = None;
+        } else if is_heard {
             self.gyro_us = Some(observation.time_us);
         }
         self.reverse_budget.follow(advance);
         self.drift.grow(advance);
+        if let Some(GyroChange::Out { missed_rad, .. }) = self.odometry.gyro_change() {
+            self.drift.sigma_rad = libm::hypot(self.drift.sigma_rad, MISSED_TURN_DOUBT * missed_rad);
+        }
         advance
     }
 
@@ -300,6 +315,13 @@ impl Localization {
     pub(crate) fn gyro_bias_sigma_rad_per_s(&self, now_us: u64) -> Option<f64> {
         self.has_gyro(now_us)
             .then(|| self.odometry.calibration.bias_sigma_rad_per_s())
+    }
+
+    /// Why the gyro of a robot that has one does not count in the estimate.
+    #[must_use]
+    pub fn gyro_fault(&self) -> Option<GyroFault> {
+        let silent = self.gyro_presence.is_silent().then_some(GyroFault::Silent);
+        self.odometry.gyro_fault().or(silent)
     }
 
     fn has_gyro(&self, now_us: u64) -> bool {

@@ -4,7 +4,7 @@
 //! the lease ends. A page that can still speak lets go at once.
 
 use mixer::{
-    Cleaning, ClientInputs, Device, KeyCode, Mixer, PadReading, Pilot, Profile, ProfileError, Readings,
+    Cleaning, ClientInputs, Device, KeyCode, Mixed, Mixer, PadReading, Pilot, Profile, ProfileError, Readings,
     Source, Steered, TopSpeeds,
 };
 use rvac_api::{CleaningPower, ClientInput, RequestBody, RobotDescription};
@@ -65,6 +65,14 @@ pub fn silent_text(words: &Words, pads: &BTreeSet<u8>) -> Option<String> {
     let pad = pads.first()?;
     let told = explain(words, PAD_SILENT)?;
     Some(format!("pad-{pad}: {} {}", told.cause, told.remedy))
+}
+
+/// Which input is not at rest and what it reads, for people; none when all are.
+#[must_use]
+pub fn away_text(words: &Words, mixed: &Mixed) -> Option<String> {
+    let away = mixed.away.first()?;
+    let reading = words.number(away.reading, 1);
+    Some(words.drive.away_from_rest.fill([&away.input.to_string(), &reading]))
 }
 
 /// What is held, the mix that it goes through, and the seat.
@@ -274,7 +282,7 @@ fn at_rest() -> Readings {
 
 #[cfg(test)]
 mod tests {
-    use super::{Driver, FULL, knob_place, silent_text, top_speeds};
+    use super::{Driver, FULL, away_text, knob_place, silent_text, top_speeds};
     use crate::grip::{PadEvent, Pointer, PointerKind};
     use crate::words::Language;
     use mixer::{MixState, PAD_SILENT_US, PadReading, Profile, STEP_EVERY_US, Steered, standard_profile};
@@ -342,6 +350,18 @@ mod tests {
             buttons: vec![0.0; 17],
             words: 0,
         }
+    }
+
+    #[test]
+    fn what_is_not_at_rest_is_told_by_name() {
+        let mut page = Page::new();
+        page.driver.set_pads([(0, pad(1.28))].into());
+        page.step();
+        let mixed = page.step().mixed;
+        let said = away_text(Language::English.words(), &mixed).expect("it is told");
+        assert!(said.contains("pad-0-axis-0 reads 1.3"), "{said}");
+        page.driver.set_pads([(0, pad(0.0))].into());
+        assert_eq!(away_text(Language::English.words(), &page.step().mixed), None);
     }
 
     #[test]

@@ -591,14 +591,15 @@ mod tests {
             after: wall(2.0),
         };
         let asked = log.begin(reshape, &home(1, &[at(7, 1.0)], None)).unwrap();
-        let reshaped = |x| RequestBody::ReshapeNoGo {
+        let reshaped = |was, x| RequestBody::ReshapeNoGo {
             number: 7,
             shape: wall(x),
+            was: Some(wall(was)),
         };
-        assert_eq!(asked.body, reshaped(2.0));
+        assert_eq!(asked.body, reshaped(1.0, 2.0));
         log.on_done(number(&asked), 1);
         let asked = log.undo(&home(2, &[at(7, 2.001)], None)).unwrap().unwrap();
-        assert_eq!(asked.body, reshaped(1.0));
+        assert_eq!(asked.body, reshaped(2.001, 1.0), "as the robot has it");
         log.on_done(number(&asked), 2);
         assert_eq!(
             log.redo(&home(3, &[at(7, 5.0)], None)),
@@ -619,14 +620,15 @@ mod tests {
             after: spot(3.0),
         };
         let asked = log.begin(moved, &with(3, 2.0)).unwrap();
-        let body = |y| RequestBody::ReshapePlace {
+        let body = |was, y| RequestBody::ReshapePlace {
             number: 4,
             shape: spot(y),
+            was: Some(spot(was)),
         };
-        assert_eq!(asked.body, body(3.0));
+        assert_eq!(asked.body, body(2.0, 3.0));
         log.on_done(number(&asked), 3);
         let asked = log.undo(&with(4, 3.0)).unwrap().unwrap();
-        assert_eq!(asked.body, body(2.0));
+        assert_eq!(asked.body, body(3.0, 2.0));
         log.on_done(number(&asked), 4);
         assert_eq!(
             log.redo(&with(5, 2.5)),

@@ -6,8 +6,8 @@
 use std::mem::swap;
 
 use rvac_api::{
-    HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, RequestBody, RoomChangeView, RoomNaming,
-    RoomSettings, RoomSplitting,
+    HomeView, NoGoShape, NoGoView, PlaceShape, PlaceView, RequestBody, RoomBefore, RoomChangeView,
+    RoomNaming, RoomSettings, RoomSplitting,
 };
 
 use crate::dock_place::{DockPose, is_same_dock, known_dock};
@@ -227,10 +227,14 @@ impl Edit {
                 let name = after.clone();
                 Ok(RequestBody::NameNoGo { number, name })
             }
-            Self::ReshapeForbidden { before, after } => Ok(RequestBody::ReshapeNoGo {
-                number: kept(home, before)?.number,
-                shape: after.clone(),
-            }),
+            Self::ReshapeForbidden { before, after } => {
+                let found = kept(home, before)?;
+                Ok(RequestBody::ReshapeNoGo {
+                    number: found.number,
+                    shape: after.clone(),
+                    was: Some(found.shape.clone()),
+                })
+            }
             Self::ReshapePlace { name, before, after } => {
                 let found = place_called(home, name)?;
                 if !is_same_place(&found.shape, before) {
@@ -239,6 +243,7 @@ impl Edit {
                 Ok(RequestBody::ReshapePlace {
                     number: found.number,
                     shape: after.clone(),
+                    was: Some(found.shape.clone()),
                 })
             }
             Self::Keep(Kept { number, name, shape }) => Ok(RequestBody::KeepPlace {
@@ -290,6 +295,7 @@ impl Edit {
                 Ok(RequestBody::SetRoom {
                     room: *room,
                     settings: *after,
+                    was: Some(RoomBefore { settings: *before }),
                 })
             }
             Self::Split(line) => Ok(RequestBody::SplitRoom(RoomSplitting {

@@ -87,6 +87,7 @@ mod tests {
     fn mixed(held: bool) -> Mixed {
         Mixed {
             pushed: [].into(),
+            away: Vec::new(),
             state: MixState::Live,
             held,
             outputs: Vec::new(),

@@ -66,7 +66,7 @@ pub use connection::Backoff;
 pub use currency::{Currency, News, PieceJoiner};
 pub use device_rows::{Row, Section, device_sections};
 pub use dock_place::{DockPose, dock_border, dock_pose, dock_text, known_dock};
-pub use driver::{Driver, keys_of, knob_place, silent_text, top_speeds};
+pub use driver::{Driver, away_text, keys_of, knob_place, silent_text, top_speeds};
 pub use edit_log::{Change, EditLog, Step};
 pub use edits::{Edit, EditError, Forbidden, Kept};
 pub use evidence::{EvidenceRow, evidence_rows};

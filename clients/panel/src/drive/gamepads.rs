@@ -44,9 +44,9 @@ pub(super) fn watch(plugged: Plugged) {
 pub(super) fn read(plugged: Plugged) -> Pads {
     let new = plugged.try_update_value(std::mem::take).unwrap_or_default();
     let mut pads = Pads::default();
-    for pad in connected() {
-        let number = u8::try_from(pad.index()).ok();
-        let Some(number) = number.filter(|number| !new.contains(number)) else {
+    for (number, pad) in newest(connected().collect()) {
+        let is_new = u8::try_from(pad.index()).is_ok_and(|index| new.contains(&index));
+        let Some(number) = u8::try_from(number).ok().filter(|_| !is_new) else {
             continue;
         };
         let reading = PadReading {
@@ -99,6 +99,23 @@ fn connected() -> impl Iterator<Item = Gamepad> {
         .filter(|pad| pad.connected() && pad.index() < PADS)
         .collect();
     pads.into_iter()
+}
+
+/// One pad of each name, under the lowest number of that name: a pad that lost its connection and came back has a second number,
+/// while the browser still shows how the first one was. The one that spoke last has the say.
+fn newest(pads: Vec<Gamepad>) -> BTreeMap<u32, Gamepad> {
+    let mut numbers: BTreeMap<String, u32> = BTreeMap::new();
+    let mut newest: BTreeMap<u32, Gamepad> = BTreeMap::new();
+    for pad in pads {
+        let number = *numbers.entry(pad.id()).or_insert_with(|| pad.index());
+        let is_newer = newest
+            .get(&number)
+            .is_none_or(|before| pad.timestamp() > before.timestamp());
+        if is_newer {
+            newest.insert(number, pad);
+        }
+    }
+    newest
 }
 
 fn pressed(button: JsValue) -> f64 {

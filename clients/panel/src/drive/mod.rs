@@ -98,8 +98,8 @@ fn Hands(seat: Seat) -> impl IntoView {
             names.join(", ")
         }
     };
-    let state = move || match seat.silent.get() {
-        Some(silent) => silent,
+    let state = move || match seat.why_not.get() {
+        Some(why_not) => why_not,
         None if seat.is_live.get() => String::new(),
         None => words().drive.waits_for_rest.to_owned(),
     };

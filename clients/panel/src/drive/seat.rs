@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use leptos::prelude::*;
 use mixer::{BumpWatch, MixState, Name, Profile, Steered, TopSpeeds, standard_profile};
-use panel_logic::{Driver, LatencyMeter, Lending, PadEvent, silent_text, top_speeds};
+use panel_logic::{Driver, LatencyMeter, Lending, PadEvent, away_text, silent_text, top_speeds};
 use rvac_api::{ClientInput, Pose, Status};
 
 use super::choice;
@@ -40,8 +40,8 @@ pub(crate) struct Seat {
     pub(crate) is_lent: RwSignal<bool>,
     /// What of it the robot passes on, as mixes call it.
     pub(super) passed_on: RwSignal<Vec<String>>,
-    /// Gamepads that are pushed and say nothing more, for people.
-    pub(crate) silent: RwSignal<Option<String>>,
+    /// Why inputs do not drive, for people: gamepads that are pushed and say nothing more, or what is not at rest.
+    pub(crate) why_not: RwSignal<Option<String>>,
     pub(super) plugged: Plugged,
     meter: StoredValue<LatencyMeter>,
     /// When the newest input came.
@@ -62,7 +62,7 @@ impl Seat {
             lending: StoredValue::new(Lending::default()),
             is_lent: RwSignal::new(false),
             passed_on: RwSignal::new(Vec::new()),
-            silent: RwSignal::new(None),
+            why_not: RwSignal::new(None),
             plugged: StoredValue::new(BTreeSet::new()),
             meter: StoredValue::new(LatencyMeter::default()),
             input_ms: StoredValue::new(0.0),
@@ -102,7 +102,9 @@ impl Seat {
             .update_value(|meter| meter.on_mixed(&steered.mixed, began_ms));
         let is_live = steered.mixed.state == MixState::Live;
         set_if_changed(self.is_live, is_live);
-        set_if_changed(self.silent, silent_text(words(), &steered.silent_pads));
+        let silent = silent_text(words(), &steered.silent_pads);
+        let why_not = silent.or_else(|| away_text(words(), &steered.mixed));
+        set_if_changed(self.why_not, why_not);
         steered
     }
 

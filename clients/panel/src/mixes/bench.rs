@@ -255,15 +255,23 @@ impl Bench {
         self.run.set(run);
     }
 
-    /// The mix as it shall be kept, if nothing is wrong with it.
-    pub(crate) fn profile_to_save(self) -> Option<String> {
+    /// The mix as it shall be kept, if nothing is wrong with it, and what the robot kept when the change began.
+    pub(crate) fn profile_to_save(self) -> Option<(String, Option<String>)> {
         let is_right = self
             .draft
             .with_untracked(|draft| draft.as_ref().is_some_and(|draft| draft.problem().is_none()));
         let profile = self.profile().filter(|_| is_right)?;
         let text = profile.to_json();
         self.sent.set_value(Some(profile));
-        Some(text)
+        let was = self
+            .draft
+            .with_untracked(|draft| draft.as_ref().and_then(MixDraft::was));
+        Some((text, was))
+    }
+
+    /// Somebody else has saved a mix of this name meanwhile: it is told, and another press of Save replaces that.
+    pub(crate) fn on_changed_meanwhile(self) {
+        self.change(MixDraft::replace_whatever_is_kept);
     }
 
     /// The robot keeps what was sent; its name.

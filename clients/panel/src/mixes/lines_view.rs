@@ -69,6 +69,5 @@ fn Stages(bench: Bench, output: usize, line: usize) -> impl IntoView {
         <Bar label=words().mix.input value=Signal::derive(move || stages().and_then(|stages| stages.input)) />
         <Bar label=words().mix.shaped value=Signal::derive(move || stages().map(|stages| stages.shaped)) />
         <Bar label=words().mix.weighted value=Signal::derive(move || stages().map(|stages| stages.weighted)) />
-        <Bar label=words().mix.after_slow value=Signal::derive(move || stages().map(|stages| stages.slowed)) />
     }
 }

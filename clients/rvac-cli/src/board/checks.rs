@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use robot_link::{AddressError, LinkAddress};
+
 use super::serial_devices::kernel_name;
 use super::{Board, Finding};
 
@@ -38,7 +40,7 @@ pub(crate) fn all(board: &Board, now_s: u64) -> Vec<Finding> {
     findings
 }
 
-/// The serial device of the configuration; the pins of the board while there is no configuration.
+/// The device of the link in the configuration, if the link has one; the pins of the board while there is no configuration.
 fn configured_device(board: &Board) -> Option<String> {
     let Some(text) = board.text(CONFIGURATION) else {
         return board
@@ -48,7 +50,13 @@ fn configured_device(board: &Board) -> Option<String> {
             .then(|| "/dev/serial0".to_owned());
     };
     let table: toml::Table = text.parse().ok()?;
-    Some(table.get("link")?.get("serial")?.as_str()?.to_owned())
+    match table.get("link")? {
+        toml::Value::String(line) => {
+            let address: LinkAddress = line.parse().ok()?;
+            Some(address.device()?.to_str()?.to_owned())
+        }
+        link => Some(link.get("serial")?.as_str()?.to_owned()),
+    }
 }
 
 fn name_of(board: &Board, device: &str) -> Option<String> {
@@ -68,7 +76,14 @@ fn configuration(board: &Board) -> Finding {
     match board.text(CONFIGURATION) {
         None => Finding::fault(CHECK, "there is no /etc/vthal.toml", "run rvac setup"),
         Some(text) => match text.parse::<toml::Table>() {
-            Ok(_) => Finding::good(CHECK, "/etc/vthal.toml"),
+            Ok(table) => match wrong_link(&table) {
+                None => Finding::good(CHECK, "/etc/vthal.toml"),
+                Some(error) => Finding::fault(
+                    CHECK,
+                    format!("/etc/vthal.toml, link: {error}"),
+                    "correct that line, or run rvac setup --anew",
+                ),
+            },
             Err(error) => {
                 let line = error.span().map_or(1, |span| {
                     1 + text[..span.start.min(text.len())].matches('\n').count()
@@ -81,6 +96,11 @@ fn configuration(board: &Board) -> Finding {
             }
         },
     }
+}
+
+/// Why the line of the link names none, if it does not.
+fn wrong_link(table: &toml::Table) -> Option<AddressError> {
+    table.get("link")?.as_str()?.parse::<LinkAddress>().err()
 }
 
 fn serial(board: &Board, device: &str) -> Finding {
@@ -205,12 +225,11 @@ fn clock(now_s: u64) -> Finding {
 
 fn zone(board: &Board) -> Finding {
     const CHECK: &str = "zone";
-    let linked = board
-        .link("etc/localtime")
-        .ok()
-        .and_then(|target| Some(target.to_str()?.split_once("/zoneinfo/")?.1.to_owned()));
-    match linked.or_else(|| board.text("etc/timezone")).as_deref() {
-        None | Some("") => Finding::warning(
+    // The daemon's `TZ` is not that of this shell: what the files say counts.
+    let is_known = |name: &str| jiff::tz::TimeZone::get(name).is_ok();
+    let found = system_zone::find(&board.path(""), None, is_known);
+    match found.name.as_deref() {
+        None => Finding::warning(
             CHECK,
             "this board's time zone is not known, so schedules are in UTC",
             "timedatectl set-timezone Europe/Tallinn, or whichever is yours, and restart vthal",

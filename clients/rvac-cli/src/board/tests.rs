@@ -129,6 +129,26 @@ fn each_thing_that_keeps_a_robot_from_working_has_its_line() {
 }
 
 #[test]
+fn the_device_of_any_link_must_be_there() {
+    let folder = pi_zero();
+    put(&folder, "etc/vthal.toml", "link = \"spi:/dev/spidev0.0\"\n");
+    let found = complaints(&folder);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(
+        (found[0].0, found[0].2.as_str()),
+        ("serial", "/dev/spidev0.0 is not there")
+    );
+    put(&folder, "dev/spidev0.0", "");
+    assert_eq!(complaints(&folder), []);
+    put(&folder, "etc/vthal.toml", "link = \"tcp:robot.local:4000\"\n");
+    assert_eq!(complaints(&folder), [], "a network has no device");
+    put(&folder, "etc/vthal.toml", "link = \"wifi:robot.local\"\n");
+    let found = complaints(&folder);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].0, "configuration");
+}
+
+#[test]
 fn bluetooth_on_the_good_port_is_told() {
     let folder = pi_zero();
     put(&folder, "dev/ttyS0", "");

@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::Sender;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
@@ -23,8 +24,19 @@ const BUTTONS: u8 = 17;
 /// where the same two codes are swapped.
 const BY_PLACE: [u16; 2] = [0x054C, 0x057E];
 
-/// Numbers of the pads that are open.
-type Open = Arc<Mutex<BTreeMap<PathBuf, u8>>>;
+/// The pads that are open.
+type Open = Arc<Mutex<BTreeMap<PathBuf, OpenPad>>>;
+
+/// A pad that is read.
+#[derive(Debug)]
+struct OpenPad {
+    /// None once another device has come under its identity.
+    number: Option<u8>,
+    /// What its maker calls it, and its own number if it has one.
+    identity: (String, String),
+    /// Another device has come under its identity: what this one says counts no more.
+    replaced: Arc<AtomicBool>,
+}
 
 /// Looks for pads and reads them, on threads of their own.
 pub(super) fn listen(events: Sender<DriveEvent>) {
@@ -53,24 +65,46 @@ fn scan(open: &Open, events: &Sender<DriveEvent>) -> bool {
         if !is_pad {
             continue;
         }
-        let mut numbers = open.lock().unwrap_or_else(PoisonError::into_inner);
-        let free = (0..PADS).find(|number| !numbers.values().any(|taken| taken == number));
-        let Some(number) = free.filter(|_| !numbers.contains_key(&path)) else {
+        let identity = identity(&device);
+        let mut pads = open.lock().unwrap_or_else(PoisonError::into_inner);
+        if pads.contains_key(&path) {
             continue;
-        };
-        numbers.insert(path.clone(), number);
-        drop(numbers);
+        }
+        // A pad that lost its connection and came back, while the kernel still shows how it was: the newer one has the say.
+        for pad in pads.values_mut().filter(|pad| pad.identity == identity) {
+            pad.replaced.store(true, Ordering::Relaxed);
+            if let Some(number) = pad.number.take() {
+                events.send(DriveEvent::Gone(Device::Pad(number))).ok();
+            }
+        }
+        let free = (0..PADS).find(|number| !pads.values().any(|pad| pad.number == Some(*number)));
+        let Some(number) = free else { continue };
+        let replaced = Arc::new(AtomicBool::new(false));
+        pads.insert(
+            path.clone(),
+            OpenPad {
+                number: Some(number),
+                identity,
+                replaced: Arc::clone(&replaced),
+            },
+        );
+        drop(pads);
         let (open, events) = (Arc::clone(open), events.clone());
         std::thread::spawn(move || {
-            read(device, number, &events);
+            read(device, number, &events, &replaced);
             open.lock().unwrap_or_else(PoisonError::into_inner).remove(&path);
         });
     }
     !open.lock().unwrap_or_else(PoisonError::into_inner).is_empty()
 }
 
-/// Reads one pad until it is gone.
-fn read(mut device: evdev::Device, pad: u8, events: &Sender<DriveEvent>) {
+fn identity(device: &evdev::Device) -> (String, String) {
+    let text = |text: Option<&str>| text.unwrap_or_default().to_owned();
+    (text(device.name()), text(device.unique_name()))
+}
+
+/// Reads one pad until it is gone, or another one has taken its place.
+fn read(mut device: evdev::Device, pad: u8, events: &Sender<DriveEvent>, replaced: &AtomicBool) {
     let name = device.name().unwrap_or("a gamepad").to_owned();
     let letters = Letters::of(device.input_id().vendor());
     let ranges: BTreeMap<u16, Range> = device
@@ -90,6 +124,9 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<DriveEvent>) {
     let reading = whole_reading(pad, &device, &ranges);
     events.send(DriveEvent::Plugged(pad, reading)).ok();
     while let Ok(batch) = device.fetch_events() {
+        if replaced.load(Ordering::Relaxed) {
+            return;
+        }
         events.send(DriveEvent::Heard(pad)).ok();
         for event in batch {
             match event.destructure() {
@@ -106,7 +143,9 @@ fn read(mut device: evdev::Device, pad: u8, events: &Sender<DriveEvent>) {
             }
         }
     }
-    events.send(DriveEvent::Gone(Device::Pad(pad))).ok();
+    if !replaced.load(Ordering::Relaxed) {
+        events.send(DriveEvent::Gone(Device::Pad(pad))).ok();
+    }
 }
 
 /// A pad with the sticks where they are. Buttons count from their next press on.
@@ -116,11 +155,23 @@ fn whole_reading(pad: u8, device: &evdev::Device, ranges: &BTreeMap<u16, Range>)
         readings.set(&Source::PadButton { pad, button }, 0.0);
     }
     for (code, info) in device.get_absinfo().into_iter().flatten() {
-        for (source, value) in said(pad, (code, info.value()), ranges) {
+        let value = value_at_start(code, info.value(), info.minimum());
+        for (source, value) in said(pad, (code, value), ranges) {
             readings.set(&source, value);
         }
     }
     readings.pads.remove(&pad).unwrap_or_default()
+}
+
+/// What an axis reads before its first word. The kernel gives 0 for one that has said nothing yet: the middle of a trigger whose
+/// range begins below 0, which nobody has pulled.
+fn value_at_start(code: AbsoluteAxisCode, value: i32, minimum: i32) -> i32 {
+    let is_trigger = matches!(code, AbsoluteAxisCode::ABS_Z | AbsoluteAxisCode::ABS_RZ);
+    if is_trigger && value == 0 {
+        minimum.min(0)
+    } else {
+        value
+    }
 }
 
 fn moved(
@@ -245,7 +296,20 @@ fn sources(pad: u8, code: AbsoluteAxisCode, share: f64) -> Vec<(Source, f64)> {
 mod tests {
     use evdev::{AbsoluteAxisCode, KeyCode};
 
-    use super::{Letters, Range, button, sources};
+    use super::{Letters, Range, button, sources, value_at_start};
+
+    #[test]
+    fn a_trigger_that_has_said_nothing_is_at_rest() {
+        let trigger = AbsoluteAxisCode::ABS_RZ;
+        assert_eq!(value_at_start(trigger, 0, -32768), -32768);
+        assert_eq!(value_at_start(trigger, 0, 0), 0);
+        assert_eq!(value_at_start(trigger, 77, -32768), 77);
+        assert_eq!(
+            value_at_start(AbsoluteAxisCode::ABS_X, 0, -32768),
+            0,
+            "a stick rests in its middle"
+        );
+    }
 
     #[test]
     fn axes_become_sticks_triggers_and_the_cross() {

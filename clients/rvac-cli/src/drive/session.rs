@@ -21,6 +21,8 @@ use crate::socket::Connection;
 const TICK: Duration = Duration::from_micros(STEP_EVERY_US);
 /// Name of the reason why a pushed pad that says nothing stops the wheels.
 const PAD_SILENT: &str = "pad-silent";
+/// Inputs that are not at rest are named this often at most.
+const NAMED_EVERY_US: u64 = 1_000_000;
 /// Number of the drive requests, so that a refusal of one is known as such.
 const DRIVE_ID: u32 = 1;
 /// Number of all other requests.
@@ -40,8 +42,10 @@ pub(super) struct Session {
     start: Instant,
     /// Pads of which the person knows that they are silent.
     silent_pads: BTreeSet<u8>,
-    /// The last message to the person.
+    /// The last message to the person, when, and the inputs that it named.
     told: Option<MixState>,
+    named_us: u64,
+    named: Vec<Source>,
 }
 
 fn top(robot: &RobotDescription) -> TopSpeeds {
@@ -85,6 +89,8 @@ impl Session {
             start: Instant::now(),
             silent_pads: BTreeSet::new(),
             told: None,
+            named_us: 0,
+            named: Vec::new(),
         })
     }
 
@@ -220,15 +226,30 @@ impl Session {
         Ok(())
     }
 
-    /// Tells the person when the inputs begin or cease to count.
+    /// Tells the person when the inputs begin or cease to count, and which of them is not at rest.
     fn tell(&mut self, mixed: &Mixed) -> anyhow::Result<()> {
-        if self.told.replace(mixed.state) == Some(mixed.state) {
+        if self.told.replace(mixed.state) != Some(mixed.state) {
+            self.named.clear();
+            match mixed.state {
+                MixState::Live => remark("ready")?,
+                MixState::Failsafe => remark("waits until every input is at rest")?,
+            }
+        }
+        let now_us = self.now_us();
+        let named: Vec<Source> = mixed.away.iter().map(|away| away.input.clone()).collect();
+        if named.is_empty() || named == self.named || now_us.saturating_sub(self.named_us) < NAMED_EVERY_US {
             return Ok(());
         }
-        match mixed.state {
-            MixState::Live => remark("ready"),
-            MixState::Failsafe => remark("waits until every input is at rest"),
-        }
+        (self.named_us, self.named) = (now_us, named);
+        let readings: Vec<String> = mixed
+            .away
+            .iter()
+            .map(|away| format!("{} reads {:.2}", away.input, away.reading))
+            .collect();
+        remark(&format!(
+            "not at rest: {} (if nobody touches it, calibrate it in the mix)",
+            readings.join(", ")
+        ))
     }
 }
 

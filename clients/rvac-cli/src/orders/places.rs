@@ -38,6 +38,7 @@ pub(crate) fn places(job: &PlacesJob) -> anyhow::Result<ExitCode> {
         }) => RequestBody::ReshapePlace {
             number: number(place)?,
             shape: shape(spot.as_ref(), zone.iter().chain(corner)),
+            was: None,
         },
         Some(PlacesVerb::Name { place, name }) => RequestBody::NamePlace {
             number: number(place)?,

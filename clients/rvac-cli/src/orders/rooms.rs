@@ -36,6 +36,7 @@ pub(crate) fn rooms(job: &RoomsJob) -> anyhow::Result<ExitCode> {
         Some(RoomsVerb::Unset { room }) => RequestBody::SetRoom {
             room: find(&home, room)?,
             settings: None,
+            was: None,
         },
         Some(RoomsVerb::Set {
             room,
@@ -62,6 +63,7 @@ pub(crate) fn rooms(job: &RoomsJob) -> anyhow::Result<ExitCode> {
                     },
                     pattern: pattern.map_or(before.pattern, CleaningPattern::from),
                 }),
+                was: None,
             }
         }
         Some(RoomsVerb::Split { room, from, to }) => RequestBody::SplitRoom(RoomSplitting {

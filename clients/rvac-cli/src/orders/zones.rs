@@ -86,7 +86,11 @@ fn reshaped(home: &HomeView, wanted: &str, corners: Vec<[f64; 2]>) -> anyhow::Re
         (true, _) => bail!("{wanted:?} is a virtual wall, which has two ends and no --corner"),
         (false, _) => NoGoShape::Zone(outline(corners)),
     };
-    Ok(RequestBody::ReshapeNoGo { number, shape })
+    Ok(RequestBody::ReshapeNoGo {
+        number,
+        shape,
+        was: None,
+    })
 }
 
 fn pair(place: &Place) -> [f64; 2] {
@@ -144,7 +148,14 @@ mod tests {
             ("4", 4, NoGoShape::Zone(outline(ends.to_vec()))),
         ] {
             let body = reshaped(&home, wanted, ends.to_vec()).expect("is there");
-            assert_eq!(body, RequestBody::ReshapeNoGo { number, shape });
+            assert_eq!(
+                body,
+                RequestBody::ReshapeNoGo {
+                    number,
+                    shape,
+                    was: None
+                }
+            );
         }
         let three = vec![[0.0, 1.0], [2.0, 3.0], [0.0, 3.0]];
         assert!(reshaped(&home, "3", three.clone()).is_err());

@@ -414,6 +414,7 @@ fn changes_of_rooms_go_out_under_their_names() {
                     },
                     pattern: CleaningPattern::Lines,
                 }),
+                was: None,
             },
         ),
         (
@@ -424,6 +425,7 @@ fn changes_of_rooms_go_out_under_their_names() {
                     pattern: CleaningPattern::Contour,
                     ..RoomSettings::default()
                 }),
+                was: None,
             },
         ),
         (
@@ -448,6 +450,7 @@ fn changes_of_rooms_go_out_under_their_names() {
             RequestBody::SetRoom {
                 room: 1,
                 settings: None,
+                was: None,
             },
         ),
         (

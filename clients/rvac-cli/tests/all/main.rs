@@ -1,5 +1,6 @@
 //! The program `rvac` as its user starts it; one test program, so that it is linked once.
 
+mod calibrate;
 mod daemon;
 mod drive;
 #[path = "../../../panel-server/tests/folder/mod.rs"]

@@ -98,89 +98,81 @@ fn images_are_found_where_writers_mean_them() {
     assert!(!home.contains("os error"), "{home}");
 }
 
+/// What stands in a sound file, what stands there instead, and what the complaint must say.
+const WRONG_KEYS: [(&str, &str, [&str; 2]); 15] = [
+    ("negate: 0", "negate:", ["`negate` in line 4", "no value"]),
+    ("negate: 0", "negate: ~", ["`negate`", "write `negate: 0`"]),
+    (
+        "negate: 0",
+        "negate: perhaps",
+        ["`negate` in line 4", "`perhaps`"],
+    ),
+    ("negate: 0\n", "", ["`negate`", "missing"]),
+    (
+        "free_thresh: 0.196",
+        "free_thresh",
+        ["line 7 or the one before", "write one `key: value`"],
+    ),
+    (
+        "free_thresh: 0.196",
+        "free_thresh: 19,6",
+        ["`free_thresh`", "`19,6`"],
+    ),
+    (
+        "free_thresh: 0.196",
+        "free_thresh: .nan",
+        ["`free_thresh`", "`.nan`"],
+    ),
+    (
+        "origin: [-1.0, -2.0, 0.0]",
+        "origin: [-1.0, -2.0]",
+        ["`origin` in line 3", "write three"],
+    ),
+    (
+        "origin: [-1.0, -2.0, 0.0]",
+        "origin: [[1], 2, 3]",
+        ["`origin`", "[0.0, 0.0, 0.0]"],
+    ),
+    (
+        "origin: [-1.0, -2.0, 0.0]",
+        "origin: -1.0 -2.0 0.0",
+        ["`origin`", "no list"],
+    ),
+    (
+        "origin: [-1.0, -2.0, 0.0]",
+        "origin: *place",
+        ["line 3", "anchor"],
+    ),
+    (
+        "negate: 0",
+        "negate: 0\nnegate: 1",
+        ["`negate` in line 5", "twice"],
+    ),
+    (
+        "negate: 0",
+        "negate: 0\nmode: gray",
+        ["`mode` in line 5", "`gray`"],
+    ),
+    (
+        "resolution: 0.05",
+        "resolution: [0.05]",
+        ["`resolution`", "write one value"],
+    ),
+    ("resolution: 0.05", "resolution: 5", ["`resolution`", "metres"]),
+];
+
 #[test]
 fn each_wrong_key_is_named_with_its_line_and_remedy() {
     file("usual.pgm", &pgm(&pixels()));
-    let wrong = [
-        ("negate: 0", "negate:", ["`negate` in line 4", "no value"]),
-        ("negate: 0", "negate: ~", ["`negate`", "write `negate: 0`"]),
-        (
-            "negate: 0",
-            "negate: perhaps",
-            ["`negate` in line 4", "`perhaps`"],
-        ),
-        ("negate: 0\n", "", ["`negate`", "missing"]),
-        (
-            "free_thresh: 0.196",
-            "free_thresh",
-            ["line 7 or the one before", "write one `key: value`"],
-        ),
-        (
-            "free_thresh: 0.196",
-            "free_thresh: 19,6",
-            ["`free_thresh`", "`19,6`"],
-        ),
-        (
-            "free_thresh: 0.196",
-            "free_thresh: .nan",
-            ["`free_thresh`", "`.nan`"],
-        ),
-        (
-            "origin: [-1.0, -2.0, 0.0]",
-            "origin: [-1.0, -2.0]",
-            ["`origin` in line 3", "write three"],
-        ),
-        (
-            "origin: [-1.0, -2.0, 0.0]",
-            "origin: [[1], 2, 3]",
-            ["`origin`", "[0.0, 0.0, 0.0]"],
-        ),
-        (
-            "origin: [-1.0, -2.0, 0.0]",
-            "origin: -1.0 -2.0 0.0",
-            ["`origin`", "no list"],
-        ),
-        (
-            "origin: [-1.0, -2.0, 0.0]",
-            "origin: *place",
-            ["line 3", "anchor"],
-        ),
-        (
-            "negate: 0",
-            "negate: 0\nnegate: 1",
-            ["`negate` in line 5", "twice"],
-        ),
-        (
-            "negate: 0",
-            "negate: 0\nmode: gray",
-            ["`mode` in line 5", "`gray`"],
-        ),
-        (
-            "resolution: 0.05",
-            "resolution: [0.05]",
-            ["`resolution`", "write one value"],
-        ),
-    ];
-    for (right, written, said) in wrong {
+    for (right, written, said) in WRONG_KEYS {
         let yaml = format!("image: usual.pgm\n{}", YAML.replace(right, written));
         let text = complaint("wrong.yaml", yaml.as_bytes());
         for part in said {
             assert!(text.contains(part), "{written}: {text}");
         }
     }
-}
-
-#[test]
-fn a_yaml_without_an_image_or_without_keys_is_named() {
-    file("usual.pgm", &pgm(&pixels()));
     let empty = complaint("bare.yaml", format!("image:\n{YAML}").as_bytes());
     assert!(empty.contains("`image`") && empty.contains("map.pgm"), "{empty}");
-    let coarse = YAML.replace("resolution: 0.05", "resolution: 5");
-    let coarse = complaint("coarse.yaml", format!("image: usual.pgm\n{coarse}").as_bytes());
-    assert!(
-        coarse.contains("`resolution`") && coarse.contains("metres"),
-        "{coarse}"
-    );
     let list = complaint("list.yaml", b"- image: a\n- resolution: b\n");
     assert!(list.contains("no keys"), "{list}");
 }

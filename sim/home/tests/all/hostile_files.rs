@@ -68,10 +68,11 @@ fn memory_peak_kb() -> u64 {
     number.expect("a number of kB")
 }
 
-/// A valid home: its file's name and bytes, and the image that it names, if it names one.
-type ValidFiles = (&'static str, Vec<u8>, Option<Vec<u8>>);
+/// The name of a file, its bytes, and those of a picture that lies beside it.
+type Seed = (&'static str, Vec<u8>, Option<Vec<u8>>);
 
-fn seeds() -> Vec<ValidFiles> {
+/// The seeds: each with the image that it names, if it names one.
+fn seeds() -> Vec<Seed> {
     let grey = pixels();
     let yaml = || format!("image: hostile.image\n{YAML}").into_bytes();
     let plan = format!(

@@ -13,6 +13,9 @@ use crate::memory::{Code, Memory};
 /// The probe's window.
 const WINDOW_START: u32 = 0xFF20_0000;
 const WINDOW_END: u32 = 0xFF30_0000;
+/// The registers of debug mode follow it, up to here: the core answers for them itself. All read 0, which says of the first one (DCR) that
+/// there are no hardware breakpoints, and stores change nothing.
+const REGISTERS_END: u32 = 0xFF40_0000;
 /// The address of the first instruction that the probe supplies.
 const DEBUG_VECTOR: u32 = 0xFF20_0200;
 
@@ -66,6 +69,11 @@ impl Cpu {
         };
         self.system.enter_debug(self.pc, false);
         self.continue_at(DEBUG_VECTOR);
+    }
+
+    /// Where debug mode begins while a probe supplies the instructions.
+    pub(super) fn debug_vector(&self) -> Option<u32> {
+        self.probe.is_enabled.then_some(DEBUG_VECTOR)
     }
 
     /// Whether the core is in debug mode.
@@ -145,8 +153,14 @@ impl Cpu {
             _ => return None,
         };
         let address = self.registers.sum(base, offset);
-        if !(WINDOW_START..WINDOW_END).contains(&address) || address & 3 != 0 {
+        if !(WINDOW_START..REGISTERS_END).contains(&address) || address & 3 != 0 {
             return None;
+        }
+        if address >= WINDOW_END {
+            if let Operation::Lw { to, .. } = operation {
+                self.registers.set(to.rt, 0);
+            }
+            return Some(WindowFlow::Done(Flow::Next));
         }
         let access = match operation {
             Operation::Sw { rt, .. } => ProbeAccess::Write {

@@ -74,7 +74,10 @@ impl Cpu {
             Uncommon::Sc { rt, to, base, offset } => {
                 self.store_conditional(port, (rt, to), (base, offset))?
             }
-            Uncommon::Sdbbp => return Ok(Flow::Vector(self.system.enter_debug(self.pc, self.in_slot))),
+            Uncommon::Sdbbp => {
+                let without_probe = self.system.enter_debug(self.pc, self.in_slot);
+                return Ok(Flow::Vector(self.debug_vector().unwrap_or(without_probe)));
+            }
             Uncommon::Eret => {
                 port.bus.exception_returned(self.cycle);
                 return Ok(self.return_from_exception());

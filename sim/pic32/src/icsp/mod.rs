@@ -5,7 +5,7 @@
 //! [`Machine`] that it hands over, so that the chip which is programmed is the one that runs afterwards.
 //!
 //! Not modelled: the four-wire port at RA0, RA1, RA4 and RA5, the debug request while the program runs, and hardware
-//! breakpoints.
+//! breakpoints. OpenOCD halts the core at reset, reads, erases and writes through it (`flash/trials`, `serve_jtag`).
 
 mod fault;
 mod registers;

@@ -32,8 +32,8 @@ const IS_PENDING: u32 = 1 << 18;
 const PROBE_ENABLED: u32 = 1 << 15;
 const PROBE_TRAP: u32 = 1 << 14;
 const DEBUG_MODE: u32 = 1 << 3;
-/// What the core implements: 32 bits, debug mode of release 2.6. Not read from a chip.
-const IMPLEMENTATION: u32 = 0x20C0_0000;
+/// What the core implements: 32 bits, debug mode of release 2.5, no memory access past the core. Not read from a chip.
+const IMPLEMENTATION: u32 = 0x20C0_4000;
 
 /// Which port the wires reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -185,9 +185,9 @@ impl TestPorts {
             | u8::from(self.is_held)
     }
 
-    /// Whether the core is in debug mode, waiting for the probe or working for it.
-    fn is_debugging(&self) -> bool {
-        self.boots_to_probe && !self.is_held && !self.is_protected
+    /// Whether a core whose reset ends begins in debug mode. One that is in it stays there, whatever the probe asks for the next reset.
+    fn starts_debugging(&self) -> bool {
+        self.boots_to_probe && !self.is_protected
     }
 
     /// The access that the probe may see: it shows late when that fault is on.
@@ -206,7 +206,8 @@ impl TestPorts {
             Some(ProbeAccess::Read { .. }) => IS_PENDING,
             Some(ProbeAccess::Write { .. }) => IS_PENDING | IS_STORE,
         };
-        let mode = if self.is_debugging() { DEBUG_MODE } else { 0 };
+        let is_debugging = !self.is_held && machine.is_debugging();
+        let mode = if is_debugging { DEBUG_MODE } else { 0 };
         self.control | pending | mode
     }
 
@@ -270,7 +271,7 @@ impl TestPorts {
             0xD0 if self.is_held => {
                 self.is_held = false;
                 self.control |= RESET_OCCURRED;
-                match self.is_debugging() {
+                match self.starts_debugging() {
                     true => machine.release_to_probe(),
                     false => machine.release_reset(),
                 }

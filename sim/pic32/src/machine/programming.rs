@@ -30,6 +30,11 @@ impl Machine {
         self.cpu.reset_to_probe();
     }
 
+    /// Whether the core is in debug mode, waiting for the probe or working for it.
+    pub fn is_debugging(&self) -> bool {
+        self.cpu.is_debugging()
+    }
+
     /// What the core wants of the probe.
     pub fn probe_access(&self) -> Option<ProbeAccess> {
         self.cpu.probe_access()

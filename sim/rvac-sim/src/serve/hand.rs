@@ -6,6 +6,8 @@ use super::request::WheelChoice;
 
 /// Speed of the rims, m/s: slow enough for every encoder.
 const RIM_M_PER_S: f64 = 0.4;
+/// Most metres or turns of one movement.
+pub(super) const AMOUNT_MAX: f64 = 1000.0;
 /// A hand that is blocked stops after this multiple of the movement's time.
 const PATIENCE: f64 = 2.0;
 
@@ -18,6 +20,14 @@ pub(super) enum HandPath {
     Turn(f64),
     /// So many metres of the rim of one wheel, forward positive.
     Roll(WheelChoice, f64),
+}
+
+impl HandPath {
+    /// Whether a person would do that: more takes the hand hours, during which nobody else can take hold.
+    pub(super) fn is_possible(self) -> bool {
+        let (Self::Push(amount) | Self::Turn(amount) | Self::Roll(_, amount)) = self;
+        amount.abs() <= AMOUNT_MAX
+    }
 }
 
 /// How a movement ended.
@@ -84,7 +94,7 @@ impl Hand {
         Self {
             path,
             left,
-            left_ms: (PATIENCE * 1000.0 * rim_m / RIM_M_PER_S) as u64 + 1,
+            left_ms: ((PATIENCE * 1000.0 * rim_m / RIM_M_PER_S) as u64).saturating_add(1),
             before: MotionBaseline::of(world),
         }
     }

@@ -26,7 +26,7 @@ use rvac_api::Update;
 use crate::report::{Driven, RunReport, StuckWatch};
 use crate::{Robot, Scene, SceneError, plan};
 use clients::{Clients, Number};
-use hand::{Hand, HandPath, PathEnd};
+use hand::{AMOUNT_MAX, Hand, HandPath, PathEnd};
 use pace::Pacer;
 use pty::{Peer, Pty, PtyError};
 use radio::Radio;
@@ -352,7 +352,10 @@ impl Server {
     }
 
     fn grip(&mut self, client: Number, distance: HandPath) {
-        if self.hand.is_some() {
+        if !distance.is_possible() {
+            let text = format!("the hand moves {AMOUNT_MAX} metres or turns at most");
+            self.clients.answer(client, &blocked(&text));
+        } else if self.hand.is_some() {
             self.clients
                 .answer(client, &blocked("the hand is still on its way"));
         } else {

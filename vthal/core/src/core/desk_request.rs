@@ -2,14 +2,16 @@
 //! the desk's own change.
 
 use brain::{MapEdit, NoGo, NoGoEdit, PlaceEdit, Pose2, RoomEdit, RoomName};
-use rvac_api::{CleaningPower, JobOrder, NoGoShape, RequestBody as Body, RoomNaming, RoomSplitting, Topic};
+use rvac_api::{
+    CleaningPower, JobOrder, NoGoShape, RequestBody as Body, RoomNaming, RoomSplitting, Topic, short_number,
+};
 
 use crate::api_forms;
 use crate::desk::driver::{HandDrive, NO_POWER};
 use crate::desk::floors::FloorRequest;
 use crate::desk::health::HealthRequest;
 use crate::desk::history;
-use crate::desk::home::{HomeEdit, to_line, to_no_go, to_place, to_shape};
+use crate::desk::home::{HomeEdit, SeenBefore, to_line, to_no_go, to_place, to_shape};
 use crate::desk::input_desk::LeasedInputs;
 use crate::desk::learnt::{Forgetting, LearntRequest};
 use crate::desk::room_power::{to_api, to_brain};
@@ -132,18 +134,18 @@ impl DeskRequest {
             Body::Evidence => Self::Evidence,
             Body::AddNoGo { shape, name } => no_go(NoGoEdit::Add(named_no_go(&shape, name)?), "forbids floor of the map"),
             Body::NameNoGo { number, name } => no_go(NoGoEdit::Name { number, name: name_if_any(name)? }, "names forbidden floor"),
-            Body::ReshapeNoGo { number, shape } => no_go(NoGoEdit::Reshape { number, no_go: to_no_go(&shape)? }, "reshapes forbidden floor"),
+            Body::ReshapeNoGo { number, shape, was } => no_go(NoGoEdit::Reshape { number, no_go: to_no_go(&shape)? }, "reshapes forbidden floor").seen(was.map(SeenBefore::NoGo)),
             Body::RemoveNoGo { number } => no_go(NoGoEdit::Remove { number }, "allows floor of the map again"),
             Body::KeepPlace { name, shape, number } => place(PlaceEdit::Keep { place: to_place(&name, &shape)?, number }, "keeps a place"),
             Body::NamePlace { number, name } => place(PlaceEdit::Name { number, name: to_name(&name)? }, "names a place"),
-            Body::ReshapePlace { number, shape } => place(PlaceEdit::Reshape { number, shape: to_shape(&shape)? }, "moves a place"),
+            Body::ReshapePlace { number, shape, was } => place(PlaceEdit::Reshape { number, shape: to_shape(&shape)? }, "moves a place").seen(was.map(SeenBefore::Place)),
             Body::ForgetPlace { number } => place(PlaceEdit::Forget { number }, "keeps a place no longer"),
             Body::NameRoom(RoomNaming { room: id, name }) => room(RoomEdit::Name { room: id, name: name_if_any(name)? }, "names a room"),
-            Body::SetRoom { room: id, settings } => room(RoomEdit::Set { room: id, settings: settings.map(to_brain).transpose()? }, "says how a room is cleaned"),
+            Body::SetRoom { room: id, settings, was } => room(RoomEdit::Set { room: id, settings: settings.map(to_brain).transpose()? }, "says how a room is cleaned").seen(was.map(|was| SeenBefore::Room(was.settings))),
             Body::SplitRoom(RoomSplitting { room: id, line }) => room(RoomEdit::Split { room: id, line: to_line(line)? }, "splits a room"),
             Body::JoinRooms { rooms } => room(RoomEdit::Join { rooms }, "joins two rooms"),
             Body::UndoRoomChange { number } => room(RoomEdit::Undo { number }, "takes a change of the rooms back"),
-            Body::MoveDock { x, y, heading } => edit(MapEdit::Dock(Pose2 { x_m: x, y_m: y, heading_rad: heading }), "says where the dock stands"),
+            Body::MoveDock { x, y, heading } => edit(MapEdit::Dock(Pose2 { x_m: x, y_m: y, heading_rad: to_heading(heading)? }), "says where the dock stands"),
             Body::Health => Self::Health(HealthRequest::Show),
             Body::ResetHealth { component } => Self::Health(HealthRequest::Reset(component)),
             Body::Learnt => Self::Learnt(LearntRequest::Show),
@@ -165,13 +167,23 @@ impl DeskRequest {
             Body::SetQuiet { quiet } => schedule(ScheduleEdit::quiet_from_api(quiet.as_ref())?),
             Body::SetZone { zone } => schedule(ScheduleEdit::zone_from_api(zone.as_deref())?),
             Body::Mixes => Self::Mixes(MixTask::List),
-            Body::SaveMix { profile } => Self::Mixes(MixTask::Save(profile)),
+            Body::SaveMix { profile, was } => Self::Mixes(MixTask::Save { profile, was }),
             Body::RemoveMix { name } => Self::Mixes(MixTask::Remove(name)),
-            Body::Runs { before, count } => Self::Runs(RunTask::List { before, count: history::list_length(count) }),
+            Body::Runs { before, count } => Self::Runs(RunTask::List { before, count: history::list_length(count)? }),
             Body::Run { number } => Self::Runs(RunTask::Show(number)),
             Body::RunTrack { number, recording } => Self::Runs(RunTask::Track { number, recording }),
             Body::RunFile { number, recording, from } => Self::Runs(RunTask::File { number, recording, from }),
         })
+    }
+}
+
+impl DeskRequest {
+    /// The same edit of the home, of a client that has seen this before it.
+    fn seen(self, was: Option<SeenBefore>) -> Self {
+        match self {
+            Self::Home(edit) => Self::Home(HomeEdit { was, ..edit }),
+            other => other,
+        }
     }
 }
 
@@ -202,6 +214,7 @@ fn body_of_no_go(edit: &NoGoEdit) -> Body {
         NoGoEdit::Reshape { number, no_go } => Body::ReshapeNoGo {
             number: *number,
             shape: api_forms::no_go(no_go),
+            was: None,
         },
         NoGoEdit::Remove { number } => Body::RemoveNoGo { number: *number },
     }
@@ -221,6 +234,7 @@ fn body_of_place(edit: &PlaceEdit) -> Body {
         PlaceEdit::Reshape { number, shape } => Body::ReshapePlace {
             number: *number,
             shape: api_forms::place(shape),
+            was: None,
         },
         PlaceEdit::Forget { number } => Body::ForgetPlace { number: *number },
     }
@@ -235,6 +249,7 @@ fn body_of_room(edit: &RoomEdit) -> Body {
         RoomEdit::Set { room, settings } => Body::SetRoom {
             room: *room,
             settings: settings.as_ref().map(to_api),
+            was: None,
         },
         RoomEdit::Split { room, line } => Body::SplitRoom(RoomSplitting {
             room: *room,
@@ -258,8 +273,26 @@ fn named_no_go(shape: &NoGoShape, name: Option<String>) -> Result<NoGo, Refusal>
     Ok(to_no_go(shape)?.with_name(name))
 }
 
+/// A heading within a turn either way: what is far beyond has lost its meaning in the digits that are left.
+fn to_heading(heading_rad: f64) -> Result<f64, Refusal> {
+    if heading_rad.abs() <= core::f64::consts::TAU {
+        return Ok(heading_rad);
+    }
+    Err(Refusal {
+        reason: "range",
+        text: format!(
+            "The heading is {}: write radians from -6.28 to 6.28.",
+            short_number(heading_rad)
+        ),
+    })
+}
+
 const fn edit(edit: MapEdit, deed: &'static str) -> DeskRequest {
-    DeskRequest::Home(HomeEdit { edit, deed })
+    DeskRequest::Home(HomeEdit {
+        edit,
+        deed,
+        was: None,
+    })
 }
 
 const fn no_go(change: NoGoEdit, deed: &'static str) -> DeskRequest {

@@ -10,7 +10,7 @@ use crate::desk::arbiter::Source;
 use crate::desk::audience::{Asker, Asking};
 use crate::desk::history;
 use crate::desk::home::HomeEdit;
-use crate::desk::jobs::{clean_command, estimate};
+use crate::desk::jobs::{clean_command, estimable};
 use crate::desk::journal::LogSource;
 use crate::desk::learnt::{Forgetting, LearntRequest};
 use crate::desk::readiness::Readiness;
@@ -169,11 +169,9 @@ impl Core {
             }
             JobRequest::Estimate(order) => {
                 self.require_robot()?;
-                return Ok(Reply::from(estimate(
-                    asker.id,
-                    &order,
-                    self.brain_session.as_ref(),
-                )?));
+                estimable(&order, self.brain_session.as_ref())?;
+                self.estimates.ask(asker, order)?;
+                return Ok(Reply::InTurn);
             }
             JobRequest::OfSchedule(number) => {
                 let command = self.readiness().command_now(self.schedules.entry(number)?)?;

@@ -101,12 +101,23 @@ impl Teller<'_> {
     /// Writes a line of the log, for all who read it.
     pub(crate) fn log(&mut self, level: LogLevel, part: LogSource, text: String) {
         for entry in self.journal.write(self.now_us, level, (part, text)) {
-            if self.clients.any(Topic::Log) {
-                self.tell(Topic::Log, Update::Log(entry.clone()));
-            }
-            self.record(|| Record::Log(entry.clone()));
+            self.spread(&entry);
             self.outputs.log.push(entry);
         }
+    }
+
+    /// Writes a line that stands in the shell's own log already, for clients.
+    pub(crate) fn log_of_shell(&mut self, level: LogLevel, text: String) {
+        for entry in self.journal.write(self.now_us, level, (LogSource::Vthal, text)) {
+            self.spread(&entry);
+        }
+    }
+
+    fn spread(&mut self, entry: &LogEntry) {
+        if self.clients.any(Topic::Log) {
+            self.tell(Topic::Log, Update::Log(entry.clone()));
+        }
+        self.record(|| Record::Log(entry.clone()));
     }
 
     /// Writes into the recording of the run that goes on, if one is recorded.
@@ -162,7 +173,8 @@ impl Teller<'_> {
         let update = match (answer, asker.id) {
             (Ok(Reply::Done), Some(id)) => Update::Done { id },
             (Ok(Reply::Update(update)), _) => *update,
-            (Ok(Reply::Done), None) | (Ok(Reply::ByShell | Reply::WhenKept | Reply::AfterStep), _) => return,
+            (Ok(Reply::Done), None)
+            | (Ok(Reply::ByShell | Reply::InTurn | Reply::WhenKept | Reply::AfterStep), _) => return,
             (Err(refusal), id) => Update::Failed(Failure {
                 id,
                 reason: refusal.reason.to_owned(),

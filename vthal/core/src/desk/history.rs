@@ -9,6 +9,7 @@ use super::audience::{Asker, Teller};
 use super::journal::LogSource;
 use super::reply::Reply;
 use crate::history::{Asked, Moment, RunFollower};
+use crate::refusal::Refusal;
 use crate::{Checkpoint, Outputs, Record, RunQuery, RunTask, cut_short};
 
 /// Runs of a list that names no number, and of any list at most.
@@ -163,8 +164,18 @@ impl HistoryDesk {
 }
 
 /// The length of a list of runs for a client that asks for this one.
-pub(crate) fn list_length(asked: Option<u8>) -> u8 {
-    asked.unwrap_or(COUNT).clamp(1, COUNT_MAX)
+///
+/// # Errors
+/// There is no such list.
+pub(crate) fn list_length(asked: Option<u8>) -> Result<u8, Refusal> {
+    let count = asked.unwrap_or(COUNT);
+    if (1..=COUNT_MAX).contains(&count) {
+        return Ok(count);
+    }
+    Err(Refusal {
+        reason: "range",
+        text: format!("A list of {count} runs was asked for: it has 1 to {COUNT_MAX}."),
+    })
 }
 
 /// A client asks for what is kept of runs: the shell reads it.

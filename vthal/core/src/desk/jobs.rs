@@ -28,6 +28,20 @@ pub(crate) fn clean_command(
     }
 }
 
+/// Whether the brain could estimate such a job now.
+///
+/// # Errors
+/// As [`estimate`], as far as that can be told without planning.
+pub(crate) fn estimable(order: &JobOrder, brain_session: Option<&BrainSession>) -> Result<(), Refusal> {
+    let brain_session = known_home(brain_session)?;
+    to_order(&with_places(order, brain_session.brain())?)?;
+    if brain_session.rests() {
+        Ok(())
+    } else {
+        Err("job-runs".into())
+    }
+}
+
 /// What such a job will take. Planning the whole order takes tens of milliseconds, which would delay the control of turning wheels,
 /// so the robot must rest.
 ///

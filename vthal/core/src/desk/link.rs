@@ -1,4 +1,4 @@
-//! The robot on the serial device: bytes to and from it, its last report, and the quality of the link.
+//! The robot at the other end of the link: bytes to and from it, its last report, and the quality of the link.
 
 use brain::{Inhibit, LinkFault};
 use rvac_api::{DeviceTable, LinkReading, LogLevel, Topic, Update, Versions};
@@ -9,6 +9,7 @@ use super::driver::Brakes;
 use super::journal::LogSource;
 use super::link_facts::LinkFacts;
 use super::link_loan::LoanFacts;
+use super::strange_line::{LineCause, LineSight, StrangeLine};
 use crate::device::{
     CommandError, Description, DeviceCommand, DeviceEvent, DeviceIo, Greeting, LinkNews, Make, Report,
     SlowFacts, Supervisor, WheelSpeeds,
@@ -29,6 +30,7 @@ pub(crate) struct LinkDesk {
     /// Scratch, so that packets cost no list of their own.
     packets: Vec<(Direction, String)>,
     failures: CommandFailures,
+    strange: StrangeLine,
 }
 
 impl LinkDesk {
@@ -42,17 +44,19 @@ impl LinkDesk {
             events: &mut self.events,
         });
         self.facts.opened(teller.now_us);
-        teller.log(LogLevel::Info, LogSource::Link, "serial device open".to_owned());
+        self.strange.restart(teller.now_us);
+        teller.log(LogLevel::Info, LogSource::Link, "link open".to_owned());
     }
 
     pub(crate) fn closed(&mut self, reason: &LinkLoss, teller: &mut Teller<'_>) {
         self.lost_device = self.device.take().or_else(|| self.lost_device.take());
         self.facts.closed();
+        self.strange.restart(teller.now_us);
         let text = match reason {
-            LinkLoss::HungUp => "serial device lost: the other end hung up; waiting for it".to_owned(),
+            LinkLoss::HungUp => "link lost: the other end hung up; waiting for it".to_owned(),
             LinkLoss::NoAnswer { baud } => format!("no robot answers at {baud} baud; tries the next rate"),
-            LinkLoss::Lent => "serial device lent: it is used again when the client is done".to_owned(),
-            LinkLoss::Failed(error) => format!("serial device lost: {error}; waiting for it"),
+            LinkLoss::Lent => "link lent: it is used again when the client is done".to_owned(),
+            LinkLoss::Failed(error) => format!("link lost: {error}; waiting for it"),
         };
         teller.log(LogLevel::Warn, LogSource::Link, text);
     }
@@ -72,6 +76,7 @@ impl LinkDesk {
     /// Takes bytes from the robot; gives its events.
     pub(crate) fn receive(&mut self, bytes: &[u8], teller: &mut Teller<'_>) -> Vec<DeviceEvent> {
         self.facts.count_in(bytes.len());
+        self.strange.count(bytes);
         self.tap_received(bytes, teller);
         let mut events = core::mem::take(&mut self.events);
         if let Some(device) = &mut self.device {
@@ -90,6 +95,7 @@ impl LinkDesk {
         self.facts.pass_time(teller.now_us);
         self.look(teller.now_us);
         self.tell_link_news(teller);
+        self.tell_strange_line(teller);
         let mut events = core::mem::take(&mut self.events);
         if let Some(device) = &mut self.device
             && teller.now_us >= device.next_wake_us()
@@ -113,6 +119,36 @@ impl LinkDesk {
     /// Why the link cannot be relied upon, unless it is silent.
     pub(crate) fn fault(&self) -> Option<LinkFault> {
         self.device.as_ref().and_then(Supervisor::link_fault)
+    }
+
+    /// Name of why bytes come over the line and no robot describes itself, if they do.
+    pub(crate) fn strange_cause(&self) -> Option<&'static str> {
+        self.strange.cause().map(LineCause::name)
+    }
+
+    fn tell_strange_line(&mut self, teller: &mut Teller<'_>) {
+        let Some(device) = &self.device else { return };
+        if device.is_attached() {
+            self.strange.forget(teller.now_us);
+            return;
+        }
+        let came = device.link_quality().arrivals;
+        let packets = came.reports.wrapping_add(came.repeated).wrapping_add(came.stray);
+        let Some(sight) = self.strange.look(teller.now_us, packets) else {
+            return;
+        };
+        let LineSight {
+            cause,
+            bytes_per_s,
+            text_share,
+        } = sight;
+        let name = cause.name();
+        let text = format!(
+            "{name}: {} Seen: {bytes_per_s:.0} bytes a second, {:.0} % of them text, no packet of a robot.",
+            refusal::text(name),
+            100.0 * text_share
+        );
+        teller.log(LogLevel::Warn, LogSource::Link, text);
     }
 
     fn tell_link_news(&mut self, teller: &mut Teller<'_>) {

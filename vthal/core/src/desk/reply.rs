@@ -11,6 +11,8 @@ pub(crate) enum Reply {
     Update(Box<Update>),
     /// The shell answers when it has carried out the order.
     ByShell,
+    /// The desk answers when the turn of the request has come.
+    InTurn,
     /// The desk answers when the shell says that the disk has the change or has not.
     WhenKept,
     /// The shell answers when it has kept the map that the brain's next step changes. The desk answers if that step does not make the

@@ -35,7 +35,7 @@ impl Sources<'_> {
         let Some(brain_session) = self.brain_session else {
             return Status {
                 state: BehaviorState::Disconnected.name().to_owned(),
-                reason: self.link.fault().map_or("no-robot", LinkFault::name).to_owned(),
+                reason: self.why_no_robot().to_owned(),
                 ..Status::default()
             };
         };
@@ -44,7 +44,18 @@ impl Sources<'_> {
         status.inhibits = inhibits.names().map(str::to_owned).collect();
         status.room = room_here(brain_session.brain());
         status.driver.clone_from(&self.driver);
+        if status.state == BehaviorState::Disconnected.name()
+            && let Some(cause) = self.link.strange_cause()
+        {
+            cause.clone_into(&mut status.reason);
+        }
         status
+    }
+
+    /// Why there is no robot.
+    fn why_no_robot(&self) -> &'static str {
+        let fault = || self.link.fault().map(LinkFault::name);
+        self.link.strange_cause().or_else(fault).unwrap_or("no-robot")
     }
 
     pub(crate) fn device_table(&self, now_us: u64) -> DeviceTable {

@@ -2,7 +2,7 @@
 
 use brain::zone::COORDINATE_MAX_M;
 use brain::{CleaningOrder, EditError, HomePart, NoGo, Point2, RoomName, Zone};
-use rvac_api::{JobOrder, JobPart};
+use rvac_api::{JobOrder, JobPart, short_number};
 
 use super::home::to_no_go;
 use super::room_power::{to_pattern, to_power};
@@ -58,7 +58,8 @@ pub(crate) fn to_zone(what: &str, corners: &[[f64; 2]]) -> Result<Zone, Refusal>
             .iter()
             .find(|[x, y]| !(x.abs() < COORDINATE_MAX_M && y.abs() < COORDINATE_MAX_M));
         let text = match far {
-            Some([x, y]) => {
+            Some(corner) => {
+                let [x, y] = corner.map(short_number);
                 format!("{what} has a corner at x {x} m, y {y} m: they must lie within {COORDINATE_MAX_M} m.")
             }
             None => format!(

@@ -99,14 +99,22 @@ impl EarlierMapEdit {
             },
             Self::RemoveNoGo(number) => RequestBody::RemoveNoGo { number },
             Self::NameNoGo { number, name } => RequestBody::NameNoGo { number, name },
-            Self::ReshapeNoGo { number, no_go } => RequestBody::ReshapeNoGo { number, shape: no_go },
+            Self::ReshapeNoGo { number, no_go } => RequestBody::ReshapeNoGo {
+                number,
+                shape: no_go,
+                was: None,
+            },
             Self::KeepPlace { name, place, number } => RequestBody::KeepPlace {
                 name,
                 shape: place,
                 number,
             },
             Self::NamePlace { number, name } => RequestBody::NamePlace { number, name },
-            Self::ReshapePlace { number, place } => RequestBody::ReshapePlace { number, shape: place },
+            Self::ReshapePlace { number, place } => RequestBody::ReshapePlace {
+                number,
+                shape: place,
+                was: None,
+            },
             Self::ForgetPlace(number) => RequestBody::ForgetPlace { number },
             Self::NameRoom { room, name } => RequestBody::NameRoom(RoomNaming { room, name }),
             Self::SetRoom {
@@ -116,6 +124,7 @@ impl EarlierMapEdit {
             } => RequestBody::SetRoom {
                 room,
                 settings: settings.map(|settings| with_shares(settings, pattern)),
+                was: None,
             },
             Self::SplitRoom { room, line } => RequestBody::SplitRoom(RoomSplitting { room, line }),
             Self::JoinRooms(rooms) => RequestBody::JoinRooms { rooms },

@@ -17,6 +17,8 @@ pub(super) const DEEDS: &[(&str, &str)] = &[
     ("turn", "Pööras ära"),
     ("arc", "Sõitis kaarega ümber nurga"),
     ("follow-wall", "Hakkas sõitma piki seina"),
+    ("leave-out-gyro", "Jättis güroskoobi asukoha hinnangust kõrvale"),
+    ("take-up-gyro", "Kasutab jälle güroskoopi"),
     ("leave-wall", "Lahkus seina äärest"),
     ("withdraw", "Võttis oma kaardi viimase osa tagasi"),
     ("spiral", "Alustas spiraali"),

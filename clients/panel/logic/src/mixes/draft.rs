@@ -19,6 +19,8 @@ pub struct MixDraft {
     base: Profile,
     /// The base is what the robot keeps.
     is_kept: bool,
+    /// The person knows that somebody else has saved another one, and saves all the same.
+    replaces: bool,
     /// Fields whose text is none, with the reason.
     wrong: BTreeMap<Field, FieldError>,
 }
@@ -40,6 +42,7 @@ impl MixDraft {
             base: profile.clone(),
             profile,
             is_kept: false,
+            replaces: false,
             wrong: BTreeMap::new(),
         }
     }
@@ -106,6 +109,23 @@ impl MixDraft {
     pub fn on_kept(&mut self, sent: Profile) {
         self.base = sent;
         self.is_kept = true;
+        self.replaces = false;
+    }
+
+    /// What the robot kept under the name of the mix when its change began, as JSON text, empty for nothing; none when it shall be replaced
+    /// whatever it is.
+    #[must_use]
+    pub fn was(&self) -> Option<String> {
+        if self.replaces {
+            return None;
+        }
+        let is_same = self.is_kept && self.base.name == self.profile.name;
+        Some(if is_same { self.base.to_json() } else { String::new() })
+    }
+
+    /// The next save replaces what the robot keeps under the name, whatever that is.
+    pub fn replace_whatever_is_kept(&mut self) {
+        self.replaces = true;
     }
 
     /// The robot keeps it no more.

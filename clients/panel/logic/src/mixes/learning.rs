@@ -7,6 +7,8 @@ use crate::words::Words;
 
 /// An axis that went less far was not moved to its ends.
 const REACH_MIN: f64 = 0.2;
+/// An input that is let go comes back to its rest within this share of its way.
+const REST_SHARE: f64 = 0.15;
 /// Share around the rest that counts as rest, for an axis that was calibrated here.
 const DEAD_BAND: f64 = 0.1;
 
@@ -54,6 +56,7 @@ pub struct CalibrationRun {
     centre: f64,
     low: f64,
     high: f64,
+    last: f64,
 }
 
 impl CalibrationRun {
@@ -67,6 +70,7 @@ impl CalibrationRun {
             centre,
             low: centre,
             high: centre,
+            last: centre,
         })
     }
 
@@ -75,6 +79,20 @@ impl CalibrationRun {
         if let Some(value) = now.value(&self.input) {
             self.low = self.low.min(value);
             self.high = self.high.max(value);
+            self.last = value;
+        }
+    }
+
+    /// Where the input rests: where it was at the beginning and is again. One that had said nothing at the beginning reads 0 until it
+    /// is touched; a trigger among those is let go at one of its ends.
+    fn rest(&self) -> Option<f64> {
+        let near = REST_SHARE * (self.high - self.low);
+        let is_near = |value: f64| (self.last - value).abs() <= near;
+        if is_near(self.centre) {
+            Some(self.centre)
+        } else {
+            let is_at_end = is_near(self.low) || is_near(self.high);
+            (self.centre == 0.0 && is_at_end).then_some(self.last)
         }
     }
 
@@ -95,7 +113,7 @@ impl CalibrationRun {
         }
         Ok(Calibration {
             low: rounded(self.low),
-            centre: rounded(self.centre),
+            centre: rounded(self.rest().ok_or_else(|| words.mix.not_let_go.fill([&self.input]))?),
             high: rounded(self.high),
             ..Calibration::new(self.input.clone(), DEAD_BAND)
         })

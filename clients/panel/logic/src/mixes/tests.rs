@@ -252,6 +252,23 @@ fn an_axis_is_calibrated_by_its_ends() {
     assert_eq!(draft.problem(), None);
 }
 
+/// A trigger that had said nothing reads 0, and rests at its end.
+#[test]
+fn a_trigger_that_was_not_touched_is_calibrated_at_its_rest() {
+    let axis = draft().profile().inputs[0].input.clone();
+    let run = |begin: f64, moves: &[f64]| {
+        let mut run = CalibrationRun::begin(0, &axis, &readings(begin)).expect("it is there");
+        for value in moves {
+            run.look(&readings(*value));
+        }
+        run.finish(ENGLISH).map(|found| [found.low, found.centre, found.high])
+    };
+    assert_eq!(run(0.0, &[-0.4, 1.0, -1.0]), Ok([-1.0, -1.0, 1.0]));
+    assert_eq!(run(-1.0, &[0.5, 1.0, -0.98]), Ok([-1.0, -1.0, 1.0]));
+    assert_eq!(run(0.0, &[-1.0, 1.0, 0.02]), Ok([-1.0, 0.0, 1.0]), "a stick");
+    assert!(run(0.1, &[-1.0, 1.0]).is_err_and(|told| told.contains("let it go")));
+}
+
 #[test]
 fn new_and_copied_mixes_have_free_names() {
     let first = MixDraft::copy_of(ENGLISH, &standard_profile(), &[]).expect("a name");

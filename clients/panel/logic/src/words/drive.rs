@@ -15,6 +15,8 @@ screen! {
         clean: "Clean while driving", "Korista juhtimise ajal";
         no_gamepad: "No gamepad is seen: press one of its buttons.", "Mängupulti ei leitud: vajuta selle mõnda nuppu.";
         gamepad[2]: "pad-{0} is {1}", "pad-{0} on {1}";
+        away_from_rest[2]: "Waits until this is at rest: {0} reads {1}. If nobody touches it, calibrate it in the control mix.",
+            "Ootab puhkeasendit: {0} näit on {1}. Kui seda keegi ei puuduta, kalibreeri see juhtskeemis.";
         waits_for_rest: "Waits until every stick and key is at rest.", "Ootab, kuni kõik hoovad ja klahvid on lahti lastud.";
         latency[3]: "From stick to wheels: {0} ms, median of {1}: {2} ms", "Hoovast ratasteni: {0} ms, {1} mõõtmise mediaan {2} ms";
         latency_long: "From the browser's time of the input that starts a standing robot to the first pose that shows it moving: the way there, its start, and the way back, with up to 50 ms until the next pose.",

@@ -17,7 +17,6 @@ screen! {
         input: "Input", "Sisend";
         shaped: "Shaped", "Kujundatud";
         weighted: "Weighted", "Kaalutud";
-        after_slow: "After slow", "Aeglustatud";
         reading: "Reading", "Näit";
         output: "Output", "Väljund";
         add_line: "Add a line", "Lisa rida";
@@ -97,6 +96,7 @@ screen! {
         new_line: "New line", "Uus rida";
         new_switch: "switch", "lüliti";
         ends[3]: "Move it to both ends: {0} to {1}, at rest {2}.", "Liiguta mõlema otsani: {0} kuni {1}, puhkeasendis {2}.";
+        not_let_go[1]: "{0} is not back at its rest: let it go, then press again", "{0} ei ole puhkeasendis: lase lahti ja vajuta uuesti";
         not_moved[1]: "{0} was not moved: begin again, and move it to both ends", "{0} ei liikunud: alusta uuesti ja liiguta mõlema otsani";
         no_number[3]: "{0}: write a number from {1} to {2}", "{0}: kirjuta arv vahemikust {1} kuni {2}";
         no_time[1]: "`{0}` is no time: write whole milliseconds from 0 to 5000", "„{0}“ ei ole aeg: kirjuta täisarv millisekundeid, 0 kuni 5000";

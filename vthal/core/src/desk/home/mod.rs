@@ -5,12 +5,14 @@ mod no_go;
 mod places;
 mod rooms;
 
-use brain::{Brain, EditError, MapEdit, Reason};
-use rvac_api::LogLevel;
+use brain::{Brain, EditError, MapEdit, NoGoEdit, PlaceEdit, Reason, RoomEdit};
+use rvac_api::{LogLevel, NoGoShape, PlaceShape, RoomSettings};
 
 use super::audience::{Asker, Asking, Teller};
 use super::journal::LogSource;
 use super::reply::Reply;
+use super::room_power::to_api;
+use crate::api_forms;
 use crate::brain_session::BrainSession;
 use crate::refusal::Refusal;
 use crate::{EditedMap, FloorHome};
@@ -25,6 +27,36 @@ pub(crate) struct HomeEdit {
     pub(crate) edit: MapEdit,
     /// What the client does, for the log.
     pub(crate) deed: &'static str,
+    /// What the client has seen of it before, if it says so.
+    pub(crate) was: Option<SeenBefore>,
+}
+
+/// What a client has seen of a part of the home when it began to change it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum SeenBefore {
+    NoGo(NoGoShape),
+    Place(PlaceShape),
+    Room(Option<RoomSettings>),
+}
+
+impl SeenBefore {
+    /// Whether the part that this edit changes still is what the client has seen.
+    fn is_still(&self, edit: &MapEdit, brain: &Brain) -> bool {
+        let annotations = brain.map().annotations();
+        match (self, edit) {
+            (Self::NoGo(shape), MapEdit::NoGo(NoGoEdit::Reshape { number, .. })) => annotations
+                .no_go()
+                .find(|(own, _)| own == number)
+                .is_none_or(|(_, no_go)| api_forms::no_go(no_go) == *shape),
+            (Self::Place(shape), MapEdit::Place(PlaceEdit::Reshape { number, .. })) => annotations
+                .place(*number)
+                .is_none_or(|place| api_forms::place(place.shape()) == *shape),
+            (Self::Room(settings), MapEdit::Room(RoomEdit::Set { room, .. })) => {
+                annotations.settings(*room).map(to_api) == *settings
+            }
+            _ => true,
+        }
+    }
 }
 
 /// What a step of the brain did with the oldest edits that waited for it.
@@ -62,8 +94,16 @@ impl HomeDesk {
         brain_session: Option<&BrainSession>,
         teller: &mut Teller<'_>,
     ) -> Result<(MapEdit, Reply), Refusal> {
-        let HomeEdit { edit, deed } = request;
+        let HomeEdit { edit, deed, was } = request;
         let brain = home_for(&edit, brain_session)?.brain();
+        let is_unchanged = was.is_none_or(|was| was.is_still(&edit, brain) && !self.waits_for(&edit));
+        if !is_unchanged {
+            return Err(Refusal {
+                reason: "changed-meanwhile",
+                text: "Somebody else has changed this meanwhile: look at what it is now, and save again."
+                    .to_owned(),
+            });
+        }
         let admitted = brain.map().admit(&edit);
         admitted.map_err(|error| refusal(error, &edit, brain))?;
         let text = format!("{} {deed}", teller.name(asker.client));
@@ -73,6 +113,18 @@ impl HomeDesk {
             edit: edit.clone(),
         });
         Ok((edit, Reply::AfterStep))
+    }
+
+    /// Whether an edit of the same part waits for the next step.
+    fn waits_for(&self, edit: &MapEdit) -> bool {
+        let target = |edit: &MapEdit| match edit {
+            MapEdit::NoGo(NoGoEdit::Reshape { number, .. }) => Some((0, *number)),
+            MapEdit::Place(PlaceEdit::Reshape { number, .. }) => Some((1, *number)),
+            MapEdit::Room(RoomEdit::Set { room, .. }) => Some((2, *room)),
+            _ => None,
+        };
+        let own = target(edit);
+        own.is_some() && self.waiting.iter().any(|waiting| target(&waiting.edit) == own)
     }
 
     /// After a step of the brain: the map goes to the disk with the edits that were made, in the order of the requests. Those that the

@@ -2,7 +2,7 @@
 
 use brain::zone::COORDINATE_MAX_M;
 use brain::{Brain, EditError, NoGo, NoGoEdit, Point2};
-use rvac_api::NoGoShape;
+use rvac_api::{NoGoShape, short_number};
 
 use crate::desk::words::to_zone;
 use crate::refusal::Refusal;
@@ -31,6 +31,7 @@ pub(crate) fn to_no_go(shape: &NoGoShape) -> Result<NoGo, Refusal> {
                 },
             );
             NoGo::wall(from, to).map_err(|error| {
+                let [x, y, to_x, to_y] = [*x, *y, *to_x, *to_y].map(short_number);
                 let text = format!(
                     "The virtual wall from x {x} m, y {y} m to x {to_x} m, y {to_y} m cannot be: its ends must be two \
                      places within {COORDINATE_MAX_M} m."

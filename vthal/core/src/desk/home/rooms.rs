@@ -3,6 +3,7 @@
 use brain::CutLine;
 use brain::zone::COORDINATE_MAX_M;
 use brain::{Brain, EditError, Point2, Pose2, RoomEdit};
+use rvac_api::short_number;
 
 use crate::refusal::Refusal;
 
@@ -64,7 +65,11 @@ pub(super) fn dock_refusal(error: EditError, pose: Pose2, brain: &Brain) -> Refu
 }
 
 fn robot_at(pose: Pose2) -> String {
-    format!("a robot on a dock at x {:.2} m, y {:.2} m", pose.x_m, pose.y_m)
+    format!(
+        "a robot on a dock at x {} m, y {} m",
+        place(pose.x_m),
+        place(pose.y_m)
+    )
 }
 
 pub(crate) fn to_line(line: [[f64; 2]; 2]) -> Result<CutLine, Refusal> {
@@ -100,7 +105,17 @@ fn of_line(error: EditError, room: Option<u16>, line: [[f64; 2]; 2]) -> Refusal 
 }
 
 fn ends([[x, y], [to_x, to_y]]: [[f64; 2]; 2]) -> String {
-    format!("x {x:.2} m, y {y:.2} m to x {to_x:.2} m, y {to_y:.2} m")
+    let [x, y, to_x, to_y] = [x, y, to_x, to_y].map(place);
+    format!("x {x} m, y {y} m to x {to_x} m, y {to_y} m")
+}
+
+/// To a centimetre, unless it is no place in a home.
+fn place(coordinate_m: f64) -> String {
+    if coordinate_m.abs() < COORDINATE_MAX_M {
+        format!("{coordinate_m:.2}")
+    } else {
+        short_number(coordinate_m)
+    }
 }
 
 fn rooms_apart([one, other]: [u16; 2], brain: &Brain) -> String {

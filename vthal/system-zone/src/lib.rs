@@ -1,9 +1,10 @@
-//! The time zone of the system, by its name.
+//! The time zone of a Linux system, by its name: one rule for the daemon, which schedules by it, and for `rvac doctor`, which says
+//! whether it can be told. Which names there are is the caller's knowledge.
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
-
-use vthal_core::schedule::Zone;
 
 /// Links that are followed: a link to a link is common, more than these are a circle.
 const LINKS_MAX: usize = 8;
@@ -20,66 +21,85 @@ struct Sources {
     zones: PathBuf,
 }
 
-/// The zone of the system, and what people should know of how it was found.
-pub(crate) fn system_zone() -> (Zone, Option<String>) {
+/// What a system says.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SystemZone {
+    /// Name of the zone; none when it cannot be told.
+    pub name: Option<String>,
+    /// What people should know of how it was found, or why it was not.
+    pub complaint: Option<String>,
+}
+
+/// The zone of the system below `root`, whose environment has this `TZ`. `is_known` tells whether a name is that of a zone.
+pub fn find(root: &Path, variable: Option<String>, is_known: impl Fn(&str) -> bool) -> SystemZone {
     let sources = Sources {
-        variable: std::env::var("TZ").ok().filter(|text| !text.is_empty()),
-        localtime: PathBuf::from("/etc/localtime"),
-        timezone: PathBuf::from("/etc/timezone"),
-        zones: PathBuf::from("/usr/share/zoneinfo"),
+        variable: variable.filter(|text| !text.is_empty()),
+        localtime: root.join("etc/localtime"),
+        timezone: root.join("etc/timezone"),
+        zones: root.join("usr/share/zoneinfo"),
     };
-    sources.zone()
+    sources.zone(&is_known)
 }
 
 impl Sources {
-    fn zone(&self) -> (Zone, Option<String>) {
+    fn zone(&self, is_known: &dyn Fn(&str) -> bool) -> SystemZone {
         let mut complaint = None;
         if let Some(variable) = &self.variable {
-            match Zone::named(variable.trim().trim_start_matches(':')) {
-                Some(zone) => return (zone, None),
-                None => complaint = Some(format!("TZ is {variable:?}, which names no time zone")),
+            let name = variable.trim().trim_start_matches(':');
+            if is_known(name) {
+                return SystemZone {
+                    name: Some(name.to_owned()),
+                    complaint: None,
+                };
             }
+            complaint = Some(format!("TZ is {variable:?}, which names no time zone"));
         }
-        let written = fs::read_to_string(&self.timezone).ok();
+        let written = kept_file::read_text(&self.timezone).ok();
         let written = written.as_deref().map(str::trim);
-        let found = self.linked().or_else(|| self.copied(written));
-        if let Some(zone) = found {
-            return (
-                zone,
-                complaint.map(|text| format!("{text}: schedules follow the system's zone")),
-            );
+        let found = self.linked(is_known).or_else(|| self.copied(written, is_known));
+        if found.is_some() {
+            return SystemZone {
+                name: found,
+                complaint: complaint.map(|text| format!("{text}: schedules follow the system's zone")),
+            };
         }
         // Only now: the name stays behind when somebody changes the link.
         if fs::symlink_metadata(&self.localtime).is_err()
-            && let Some(zone) = written.and_then(Zone::named)
+            && let Some(name) = written.filter(|name| is_known(name))
         {
-            return (zone, complaint);
+            return SystemZone {
+                name: Some(name.to_owned()),
+                complaint,
+            };
         }
         let localtime = self.localtime.display();
         let unknown = format!(
             "{localtime} does not say in which time zone this computer is, so schedules are in UTC: set it with timedatectl set-timezone, or choose a zone with the schedules"
         );
         let told = complaint.map_or_else(|| unknown.clone(), |text| format!("{text}; {unknown}"));
-        (Zone::utc(), Some(told))
+        SystemZone {
+            name: None,
+            complaint: Some(told),
+        }
     }
 
     /// The zone whose file the links lead to. Each link counts by its name, because the file at the end may be that of another
     /// name: many zones are links themselves.
-    fn linked(&self) -> Option<Zone> {
+    fn linked(&self, is_known: &dyn Fn(&str) -> bool) -> Option<String> {
         let mut path = self.localtime.clone();
         for _ in 0..LINKS_MAX {
             let target = fs::read_link(&path).ok()?;
             // A target is relative to the folder of its link; an absolute one takes the place of that.
             path = path.parent()?.join(target);
-            if let Some(zone) = named_by(&path) {
-                return Some(zone);
+            if let Some(name) = named_by(&path).filter(|name| is_known(name)) {
+                return Some(name.to_owned());
             }
         }
         None
     }
 
     /// The zone whose file `/etc/localtime` is a copy of; `written` first, since several names may share their rules.
-    fn copied(&self, written: Option<&str>) -> Option<Zone> {
+    fn copied(&self, written: Option<&str>, is_known: &dyn Fn(&str) -> bool) -> Option<String> {
         let copy = kept_file::read(&self.localtime).ok()?;
         let is_it = |path: &Path| {
             fs::metadata(path).is_ok_and(|about| about.len() == copy.len() as u64)
@@ -88,7 +108,7 @@ impl Sources {
         if let Some(name) = written
             && is_it(&self.zones.join(name))
         {
-            return Zone::named(name);
+            return is_known(name).then(|| name.to_owned());
         }
         let mut folders = vec![self.zones.clone()];
         let mut names = Vec::new();
@@ -105,32 +125,40 @@ impl Sources {
             }
         }
         names.sort();
-        names.iter().find_map(|name| Zone::named(name.to_str()?))
+        let mut known = names.iter().filter_map(|name| name.to_str());
+        known.find(|name| is_known(name)).map(str::to_owned)
     }
 }
 
 /// The zone that the path of a zone's file names.
-fn named_by(path: &Path) -> Option<Zone> {
+fn named_by(path: &Path) -> Option<&str> {
     let (_, name) = path.to_str()?.split_once("/zoneinfo/")?;
-    Zone::named(name.trim_start_matches("posix/").trim_start_matches("right/"))
+    Some(name.trim_start_matches("posix/").trim_start_matches("right/"))
 }
 
 #[cfg(test)]
 mod tests {
     use std::fs;
     use std::os::unix::fs::symlink;
-    use std::path::Path;
-
-    use vthal_bench::Scratch;
+    use std::path::{Path, PathBuf};
+    use std::sync::atomic::{AtomicU32, Ordering};
 
     use super::Sources;
 
     /// A system with two zones, one of which has two names.
-    struct System(Scratch);
+    struct System(PathBuf);
+
+    impl Drop for System {
+        fn drop(&mut self) {
+            fs::remove_dir_all(&self.0).ok();
+        }
+    }
 
     impl System {
         fn new() -> Self {
-            let scratch = Scratch::new().expect("creates");
+            static SYSTEMS: AtomicU32 = AtomicU32::new(0);
+            let number = SYSTEMS.fetch_add(1, Ordering::Relaxed);
+            let scratch = std::env::temp_dir().join(format!("rvac-zone-{}-{number}", std::process::id()));
             let zones = scratch.join("usr/zoneinfo/Europe");
             fs::create_dir_all(&zones).expect("creates");
             fs::create_dir_all(scratch.join("etc")).expect("creates");
@@ -160,8 +188,12 @@ mod tests {
                 timezone: self.etc("timezone"),
                 zones: self.0.join("usr/zoneinfo"),
             };
-            let (zone, complaint) = sources.zone();
-            (zone.name().to_owned(), complaint.is_some())
+            let is_known = |name: &str| ["Europe/Tallinn", "Europe/London", "Europe/Belfast"].contains(&name);
+            let found = sources.zone(&is_known);
+            (
+                found.name.unwrap_or_else(|| "UTC".to_owned()),
+                found.complaint.is_some(),
+            )
         }
     }
 

@@ -7,7 +7,7 @@ const TICK: Duration = Duration::from_millis(10);
 
 /// All processor time of programs that this one has started, and of those that they started, once each has ended; zero where the
 /// kernel does not tell.
-pub(super) fn of_ended_children() -> Duration {
+pub(crate) fn of_ended_children() -> Duration {
     std::fs::read_to_string("/proc/self/stat")
         .ok()
         .and_then(|text| children_ticks(&text))

@@ -1,0 +1,262 @@
+//! One fault in the middle of a job, and many of them.
+
+use std::collections::BTreeMap;
+
+use brain::command::StrategyName;
+use rayon::prelude::*;
+use rvac_api::{InQuiet, RequestBody, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
+use serde::Serialize;
+
+use super::fault::BoardFault;
+use crate::run::{RunSettings, core_config, household, start_cleaning};
+use crate::{Host, Household, Scene, TICK_US};
+use home::SensorId;
+
+/// A fault is told within this time, milliseconds.
+pub const TOLD_MS: u64 = 10_000;
+/// It works for so long before.
+const BEFORE_MS: u64 = 12_000;
+/// A fault that shows only in a turn is watched for so long until the robot turns.
+const TURN_MAX_MS: u64 = 60_000;
+/// A turn in which a gyro's fault shows, radians.
+const TURN_RAD: f64 = 1.6;
+/// The clock on the wall at the start: 2026-11-23, noon UTC.
+const WALL_S: i64 = 1_795_435_200;
+
+/// How a fault passed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BoardPassage {
+    /// Its kind.
+    pub fault: &'static str,
+    /// Number of the draw.
+    pub seed: u64,
+    /// Seconds until people were told, since it showed.
+    pub told_s: Option<f64>,
+    /// It had to be told and was not.
+    pub is_untold: bool,
+    /// Names of other faults that people read.
+    pub wrong_causes: Vec<&'static str>,
+    /// Changes that were acknowledged and are not kept.
+    pub lost_changes: u32,
+    /// Rules of safety that were broken.
+    pub violations: u32,
+}
+
+/// Figures of a campaign.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BoardFigures {
+    /// Faults that were drawn.
+    pub seeds: u64,
+    /// Those that nobody was told of in time.
+    pub untold_faults: u32,
+    /// Other causes that were told.
+    pub wrong_causes: u32,
+    /// Acknowledged changes that are not kept.
+    pub lost_changes: u32,
+    /// Rules of safety that were broken.
+    pub violations: u32,
+    /// Longest time until people were told, by kind, seconds.
+    pub told_s_max: BTreeMap<&'static str, f64>,
+    /// The passages that were not as they should be.
+    pub bad: Vec<BoardPassage>,
+}
+
+/// The faults of these numbers.
+#[must_use]
+pub fn campaign(scene: &Scene, seeds: u64) -> BoardFigures {
+    let numbers: Vec<u64> = (0..seeds).collect();
+    let passages: Vec<BoardPassage> = numbers.par_iter().map(|seed| passage(scene, *seed)).collect();
+    let mut figures = BoardFigures {
+        seeds,
+        ..BoardFigures::default()
+    };
+    for passage in passages {
+        let wrong = u32::try_from(passage.wrong_causes.len()).unwrap_or(u32::MAX);
+        figures.untold_faults += u32::from(passage.is_untold);
+        figures.wrong_causes += wrong;
+        figures.lost_changes += passage.lost_changes;
+        figures.violations += passage.violations;
+        if let Some(told_s) = passage.told_s {
+            let longest = figures.told_s_max.entry(passage.fault).or_default();
+            *longest = longest.max(told_s);
+        }
+        let is_bad = passage.is_untold || wrong + passage.lost_changes + passage.violations > 0;
+        if is_bad {
+            figures.bad.push(passage);
+        }
+    }
+    figures
+}
+
+/// The fault of this number.
+#[must_use]
+pub fn passage(scene: &Scene, seed: u64) -> BoardPassage {
+    let fault = BoardFault::drawn(seed);
+    let passed = match fault {
+        BoardFault::WrongSpeed | BoardFault::Console => strange_line(scene, fault, seed),
+        _ => Trial::new(scene, fault, seed).run(),
+    };
+    BoardPassage {
+        fault: fault.kind(),
+        seed,
+        ..passed
+    }
+}
+
+/// A host on whose line no robot speaks.
+fn strange_line(scene: &Scene, fault: BoardFault, seed: u64) -> BoardPassage {
+    let mut host = Host::start(0, core_config(scene, seed, StrategyName::Bounce));
+    host.keep_log();
+    let mut random = home::Pcg::new(seed, 0x0F_F5E7);
+    let prompt = b"\r\nDebian GNU/Linux 13 robot ttyS0\r\n\r\nrobot login: ";
+    let mut passed = BoardPassage::default();
+    for ms in 1..=TOLD_MS {
+        let bytes: Vec<u8> = match fault {
+            BoardFault::Console if ms % 500 == 0 => prompt.to_vec(),
+            BoardFault::Console => Vec::new(),
+            _ => (0..2 + ms % 2).map(|_| (256.0 * random.unit()) as u8).collect(),
+        };
+        host.step(ms * TICK_US, &bytes);
+        note(&mut passed, fault, host.log(), ms);
+    }
+    passed.is_untold = passed.told_s.is_none();
+    let named = host.status().reason;
+    if !fault.told_as().contains(&named.as_str()) {
+        passed.is_untold = true;
+    }
+    passed
+}
+
+/// Notes when the fault is told first.
+fn note(passed: &mut BoardPassage, fault: BoardFault, log: &[rvac_api::LogEntry], since_ms: u64) {
+    if passed.told_s.is_none() && log.iter().any(|entry| fault.is_told_in(&entry.text)) {
+        passed.told_s = Some(since_ms as f64 / 1e3);
+    }
+}
+
+struct Trial {
+    household: Household,
+    fault: BoardFault,
+    acknowledged: usize,
+}
+
+impl Trial {
+    fn new(scene: &Scene, fault: BoardFault, seed: u64) -> Self {
+        let settings = RunSettings {
+            strategy: StrategyName::Bounce,
+            pattern: None,
+            seed,
+            duration_ms: 0,
+        };
+        let mut household = household(scene, &settings);
+        if fault == BoardFault::BoardGyroSilent {
+            household = household.with_board_gyro(scene.board_gyro(seed));
+        }
+        if let Some(host) = household.host_mut() {
+            host.set_wall(0, WALL_S);
+        }
+        let mut trial = Self {
+            household,
+            fault,
+            acknowledged: 0,
+        };
+        if start_cleaning(&mut trial.household, settings.strategy) {
+            trial.add_schedule("before");
+        }
+        trial.household.pass_ms(BEFORE_MS);
+        trial
+    }
+
+    /// Asks for a schedule; it counts as acknowledged unless it is refused.
+    fn add_schedule(&mut self, name: &str) {
+        let body = RequestBody::AddSchedule(ScheduleEntry {
+            name: name.to_owned(),
+            enabled: false,
+            job: ScheduledJob::Start { strategy: None },
+            when: ScheduleTime::Weekly {
+                days: Weekday::ALL.to_vec(),
+                at: "03:00".to_owned(),
+            },
+            late_min: 0,
+            in_quiet: InQuiet::Refuse,
+            floor: None,
+        });
+        let now_us = self.household.now_us();
+        let Some(host) = self.household.host_mut() else {
+            return;
+        };
+        let refused = host.ask_as(now_us, vthal_core::ClientId(1), body);
+        self.acknowledged += usize::from(refused.is_none());
+    }
+
+    fn run(mut self) -> BoardPassage {
+        if let Some(host) = self.household.host_mut() {
+            host.keep_log();
+        }
+        self.begin();
+        let mut passed = BoardPassage::default();
+        let shows_in_turns = matches!(self.fault, BoardFault::Gyro(_));
+        let (mut shown_ms, mut turned_rad) = (0, 0.0);
+        let mut last_rad = self.heading_rad();
+        for ms in 1..=TURN_MAX_MS + TOLD_MS {
+            self.household.tick();
+            let now_rad = self.heading_rad();
+            turned_rad += home::wrap_angle(now_rad - last_rad).abs();
+            last_rad = now_rad;
+            let shows = !shows_in_turns || turned_rad >= TURN_RAD;
+            shown_ms += u64::from(shows);
+            let log = self.household.host().map_or(&[][..], Host::log);
+            if ms % 100 == 0 {
+                note(&mut passed, self.fault, log, shown_ms);
+            }
+            if shown_ms >= TOLD_MS {
+                break;
+            }
+        }
+        let must_be_told = !self.fault.told_as().is_empty() && shown_ms >= TOLD_MS;
+        passed.is_untold = must_be_told && passed.told_s.is_none();
+        let log = self.household.host().map_or(&[][..], Host::log);
+        passed.wrong_causes = log
+            .iter()
+            .flat_map(|entry| self.fault.wrong_causes(&entry.text))
+            .collect();
+        passed.violations = self.household.robot().monitor().count();
+        passed.lost_changes = self.lost_changes();
+        passed
+    }
+
+    fn begin(&mut self) {
+        let now_us = self.household.now_us();
+        match self.fault {
+            BoardFault::Gyro(fault) => {
+                let world = self.household.robot_mut().world_mut();
+                world.set_fault(SensorId::Gyro, Some(fault));
+            }
+            BoardFault::BoardGyroSilent => self.household.silence_board_gyro(),
+            BoardFault::LineCut { ms } => self.household.robot_mut().cut_line(ms),
+            BoardFault::DiskRefuses(words) => {
+                if let Some(host) = self.household.host_mut() {
+                    host.refuse_writes(words);
+                }
+                self.add_schedule("after");
+            }
+            BoardFault::ClockJump { by_s } => {
+                if let Some(host) = self.household.host_mut() {
+                    host.set_wall(now_us, WALL_S + (now_us / 1_000_000).cast_signed() + by_s);
+                }
+            }
+            // No robot is needed for these.
+            BoardFault::WrongSpeed | BoardFault::Console => {}
+        }
+    }
+
+    fn heading_rad(&self) -> f64 {
+        self.household.robot().world().truth().pose.heading_rad
+    }
+
+    /// Schedules that a daemon after this one would miss.
+    fn lost_changes(&self) -> u32 {
+        let kept = self.household.host().map_or(0, Host::kept_schedule_count);
+        u32::try_from(self.acknowledged.saturating_sub(kept)).unwrap_or(u32::MAX)
+    }
+}
