@@ -781,7 +781,7 @@ fn the_robots_button_starts_and_stops() {
     assert_eq!(pair.core.status().state, "starting", "it goes on");
 }
 
-/// A person who sends it home means it: the job waits for nothing. (That the firmware stops the wheels at once is the firmware's test.)
+/// A person who sends it home means it: the job waits for nothing.
 #[test]
 fn the_robots_dock_button_ends_its_job_and_sends_it_home() {
     let mut pair = Pair::new();
