@@ -87,6 +87,10 @@ impl Bucket {
         self.gyro_rad / self.time_s
     }
 
+    fn apart_rad(self) -> f64 {
+        self.gyro_rad - self.wheel_rad
+    }
+
     fn apart_rate(self) -> f64 {
         self.gyro_rate() - self.wheel_rate()
     }
@@ -235,6 +239,16 @@ impl GyroMonitor {
         self.filled = (self.filled + 1).min(SPAN);
     }
 
+    /// Sum over the span.
+    fn sum(&self, of: impl Fn(&Bucket) -> f64) -> f64 {
+        self.span.iter().map(of).sum()
+    }
+
+    /// What the wheels turned in the span, either way.
+    fn turned_rad(&self) -> f64 {
+        self.sum(|bucket| bucket.wheel_rad.abs())
+    }
+
     /// Whether a bucket has just filled the span, or filled it again.
     fn is_due(&self) -> bool {
         self.filled == SPAN && self.open.time_s == 0.0
@@ -244,12 +258,7 @@ impl GyroMonitor {
         let (fault, missed_rad) = if self.unmoved.extent_rad() >= MONITOR.unmoved_rad {
             (GyroFault::Frozen, self.unmoved.wheel_rad)
         } else if self.is_due() {
-            let missed_rad = -self
-                .span
-                .iter()
-                .map(|bucket| bucket.gyro_rad - bucket.wheel_rad)
-                .sum::<f64>();
-            (self.fault_of_span()?, missed_rad)
+            (self.fault_of_span()?, -self.sum(|bucket| bucket.apart_rad()))
         } else {
             return None;
         };
@@ -263,12 +272,7 @@ impl GyroMonitor {
         let gyro = RateRange::of(self.span.iter().map(|bucket| bucket.gyro_rate()));
         let wheels = RateRange::of(self.span.iter().map(|bucket| bucket.wheel_rate()));
         let apart = RateRange::of(self.span.iter().map(|bucket| bucket.apart_rate()));
-        let apart_rad: f64 = self
-            .span
-            .iter()
-            .map(|bucket| (bucket.gyro_rad - bucket.wheel_rad).abs())
-            .sum();
-        if apart_rad < MONITOR.apart_rad {
+        if self.sum(|bucket| bucket.apart_rad().abs()) < MONITOR.apart_rad {
             return None;
         }
         let varied = wheels.width() >= MONITOR.varied_rad_per_s;
@@ -289,27 +293,15 @@ impl GyroMonitor {
 
     /// It turns the other way, or far too much, by one ratio.
     fn turns_otherwise(&self) -> bool {
-        let product: f64 = self
-            .span
-            .iter()
-            .map(|bucket| bucket.gyro_rad * bucket.wheel_rad)
-            .sum();
-        let square: f64 = self
-            .span
-            .iter()
-            .map(|bucket| bucket.wheel_rad * bucket.wheel_rad)
-            .sum();
-        let turned_rad: f64 = self.span.iter().map(|bucket| bucket.wheel_rad.abs()).sum();
-        if turned_rad < MONITOR.turned_rad {
+        if self.turned_rad() < MONITOR.turned_rad {
             return false;
         }
-        let ratio = product / square;
-        let residual: f64 = self
-            .span
-            .iter()
-            .map(|bucket| bucket.gyro_rad - ratio * bucket.wheel_rad)
-            .map(|off_rad| off_rad * off_rad)
-            .sum();
+        let square = self.sum(|bucket| bucket.wheel_rad * bucket.wheel_rad);
+        let ratio = self.sum(|bucket| bucket.gyro_rad * bucket.wheel_rad) / square;
+        let residual = self.sum(|bucket| {
+            let off_rad = bucket.gyro_rad - ratio * bucket.wheel_rad;
+            off_rad * off_rad
+        });
         let is_steady = residual <= MONITOR.ratio_noise * MONITOR.ratio_noise * square;
         is_steady && !(MONITOR.ratio_min..=MONITOR.ratio_max).contains(&ratio)
     }
@@ -336,14 +328,9 @@ impl GyroMonitor {
         if !self.is_due() || self.out_s < out_min_s {
             return None;
         }
-        let turned_rad: f64 = self.span.iter().map(|bucket| bucket.wheel_rad.abs()).sum();
+        let turned_rad = self.turned_rad();
         let agrees = |bucket: &Bucket| bucket.apart_rate().abs() <= MONITOR.agreed_rad_per_s;
-        let off_rad: f64 = self
-            .span
-            .iter()
-            .map(|bucket| bucket.gyro_rad - bucket.wheel_rad)
-            .sum();
-        let is_close = off_rad.abs() <= 0.1 * (1.0 + turned_rad);
+        let is_close = self.sum(|bucket| bucket.apart_rad()).abs() <= 0.1 * (1.0 + turned_rad);
         if turned_rad < MONITOR.agreed_turn_rad || !is_close || !self.span.iter().all(agrees) {
             return None;
         }

@@ -37,7 +37,10 @@ const UNUSED: u8 = 1 << 6 | 1 << 4;
 
 impl<P: IcspPins> TestPort<'_, P> {
     /// Enters programming mode, whatever the chip does at the moment.
-    pub(crate) fn enter(&mut self) -> Result<(), IcspError<P::Error>> {
+    ///
+    /// # Errors
+    /// When a line cannot be set.
+    pub fn enter(&mut self) -> Result<(), IcspError<P::Error>> {
         for _ in 0..TRIES {
             self.line_up()?;
             let risen = self.pins.now_us();

@@ -29,3 +29,4 @@ pub use image::{
 pub use part::Part;
 pub use pins::{IcspPins, LineLevel};
 pub use programmer::{ErasedFirst, Programmer, Progress, Task};
+pub use test_port::TestPort;

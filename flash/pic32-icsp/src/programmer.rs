@@ -77,7 +77,7 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
     }
 
     fn port(&mut self) -> TestPort<'_, P> {
-        TestPort { pins: self.pins }
+        TestPort::new(self.pins)
     }
 
     /// The chip's identity with its revision. Nothing is changed, but the program is stopped until [`Self::release`].

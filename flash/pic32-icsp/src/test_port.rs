@@ -8,13 +8,18 @@ const POLLS_MIN: u32 = 40;
 /// And for how long: a page of flash needs up to 40 ms.
 const WAIT_US_MAX: u64 = 300_000;
 
-/// The port's wires while programming mode is on.
+/// The wires of the chip's test access port, which programming mode opens.
 #[derive(Debug)]
-pub(crate) struct TestPort<'a, P> {
+pub struct TestPort<'a, P> {
     pub(crate) pins: &'a mut P,
 }
 
-impl<P: IcspPins> TestPort<'_, P> {
+impl<'a, P: IcspPins> TestPort<'a, P> {
+    /// The port behind these wires, untouched.
+    pub fn new(pins: &'a mut P) -> Self {
+        Self { pins }
+    }
+
     fn clock(&mut self) -> Result<(), IcspError<P::Error>> {
         self.pins.set_clock(LineLevel::High).map_err(IcspError::Pins)?;
         self.pins.set_clock(LineLevel::Low).map_err(IcspError::Pins)
@@ -34,7 +39,10 @@ impl<P: IcspPins> TestPort<'_, P> {
 
     /// One cycle of TCK; gives TDO after it. The chip drives the data line from the end of the third clock to the end of the
     /// fourth.
-    fn cycle(&mut self, [tdi, tms]: [bool; 2]) -> Result<bool, IcspError<P::Error>> {
+    ///
+    /// # Errors
+    /// When a line cannot be set or read.
+    pub fn cycle(&mut self, [tdi, tms]: [bool; 2]) -> Result<bool, IcspError<P::Error>> {
         self.put(tdi)?;
         self.put(tms)?;
         self.pins.release_data().map_err(IcspError::Pins)?;

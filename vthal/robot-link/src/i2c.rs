@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use crate::clocked::{ClockedHost, TransfersOver};
+
 /// Register of two bytes: how many wait to be read, and for how many there is room; 255 stands for as many or more.
 const LENGTHS: u8 = 0;
 /// Register of the stream: what is written goes to the robot, what is read comes from it.
@@ -36,23 +38,23 @@ pub struct I2cHost {
 impl I2cHost {
     /// Bytes of one transfer.
     pub const TRANSFER_MAX: usize = TRANSFER;
+}
 
-    /// These bytes are for the robot.
-    pub fn send(&mut self, bytes: &[u8]) {
+impl ClockedHost for I2cHost {
+    fn send(&mut self, bytes: &[u8]) {
         self.to_robot.extend(bytes);
     }
 
-    /// Bytes that wait.
-    #[must_use]
-    pub fn waiting(&self) -> usize {
+    fn waiting(&self) -> usize {
         self.to_robot.len()
     }
+}
 
-    /// Asks how much there is, fetches it, and brings what there is room for. Gives whether there was any.
-    ///
-    /// # Errors
-    /// The bus does not work; what was to be sent stays.
-    pub fn transfer<B: I2cBus>(&mut self, bus: &mut B, heard: &mut Vec<u8>) -> Result<bool, B::Error> {
+impl<B: I2cBus> TransfersOver<B> for I2cHost {
+    type Error = B::Error;
+
+    /// Asks how much there is, fetches it, and brings what there is room for.
+    fn transfer(&mut self, bus: &mut B, heard: &mut Vec<u8>) -> Result<bool, B::Error> {
         let mut lengths = [0; 2];
         bus.read(LENGTHS, &mut lengths)?;
         let [waiting, room] = lengths.map(|length| usize::from(length).min(TRANSFER));
@@ -82,7 +84,7 @@ mod tests {
     use std::collections::VecDeque;
     use std::convert::Infallible;
 
-    use super::{I2cBus, I2cHost, LENGTHS, STREAM};
+    use super::{ClockedHost as _, I2cBus, I2cHost, LENGTHS, STREAM, TransfersOver as _};
 
     #[derive(Default)]
     struct Slave {

@@ -8,6 +8,7 @@
 
 mod abilities;
 mod address;
+mod clocked;
 mod i2c;
 mod one_wire;
 mod pace;
@@ -18,6 +19,7 @@ pub use address::{
     AddressError, Attention, Direction, I2cAddress, LinkAddress, NetworkAddress, SecureAddress, SpiAddress,
     UartAddress, Wires,
 };
+pub use clocked::{ClockedHost, TransfersOver};
 pub use i2c::{I2cBus, I2cHost};
 pub use one_wire::OneWire;
 pub use pace::PollPace;

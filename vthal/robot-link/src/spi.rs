@@ -4,6 +4,8 @@ use std::collections::VecDeque;
 
 use rvac_protocol::fill::{FILL, FillDecoder, encode};
 
+use crate::clocked::{ClockedHost, TransfersOver};
+
 /// Bytes of a transfer when neither side is known to have something: enough to meet the beginning of a packet.
 const PEEK: usize = 16;
 /// Bytes of one transfer. A slave with a queue of one byte serves each in time; longer ones would only delay the host's own.
@@ -34,25 +36,24 @@ pub struct SpiHost {
 impl SpiHost {
     /// Bytes of one transfer.
     pub const TRANSFER_MAX: usize = TRANSFER;
+}
 
-    /// These bytes are for the robot.
-    pub fn send(&mut self, bytes: &[u8]) {
+impl ClockedHost for SpiHost {
+    fn send(&mut self, bytes: &[u8]) {
         for byte in bytes {
             self.to_robot.extend(encode(*byte));
         }
     }
 
-    /// Bytes that wait, in the form of this link.
-    #[must_use]
-    pub fn waiting(&self) -> usize {
+    fn waiting(&self) -> usize {
         self.to_robot.len()
     }
+}
 
-    /// One transfer; what the robot said is appended to `heard`. Gives whether anything was said or taken.
-    ///
-    /// # Errors
-    /// The bus does not work.
-    pub fn transfer<B: SpiBus>(&mut self, bus: &mut B, heard: &mut Vec<u8>) -> Result<bool, B::Error> {
+impl<B: SpiBus> TransfersOver<B> for SpiHost {
+    type Error = B::Error;
+
+    fn transfer(&mut self, bus: &mut B, heard: &mut Vec<u8>) -> Result<bool, B::Error> {
         let wanted = self
             .to_robot
             .len()
@@ -85,7 +86,7 @@ mod tests {
     use proptest::prelude::*;
     use rvac_protocol::fill::{FILL, FillDecoder, encode};
 
-    use super::{SpiBus, SpiHost};
+    use super::{ClockedHost as _, SpiBus, SpiHost, TransfersOver as _};
 
     /// A slave that says `late` bytes of fill before each byte of its own.
     #[derive(Default)]

@@ -12,7 +12,9 @@ use gpiocdev::Request;
 use gpiocdev::line::{EdgeDetection, Value};
 use i2cdev::core::{I2CMessage as _, I2CTransfer as _};
 use i2cdev::linux::{LinuxI2CBus, LinuxI2CError, LinuxI2CMessage};
-use robot_link::{Attention, I2cAddress, I2cBus, I2cHost, PollPace, SpiAddress, SpiBus, SpiHost};
+use robot_link::{
+    Attention, ClockedHost, I2cAddress, I2cBus, I2cHost, PollPace, SpiAddress, SpiBus, SpiHost, TransfersOver,
+};
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use spidev::{SpiModeFlags, Spidev, SpidevOptions, SpidevTransfer};
 use tokio::net::UnixStream;
@@ -27,19 +29,6 @@ const CONSUMER: &str = "vthal";
 /// The stream, and where the thread says why it ended.
 type Served = (UnixStream, Arc<OnceLock<String>>);
 
-/// One transfer after another.
-trait Host: Send + 'static {
-    fn send(&mut self, bytes: &[u8]);
-    fn waiting(&self) -> usize;
-    /// Whether anything was said or taken.
-    fn transfer(&mut self, heard: &mut Vec<u8>) -> Result<bool, String>;
-}
-
-struct OverSpi {
-    bus: SpiDevice,
-    host: SpiHost,
-}
-
 struct SpiDevice(Spidev);
 
 impl SpiBus for SpiDevice {
@@ -49,27 +38,6 @@ impl SpiBus for SpiDevice {
         let out = bytes.to_vec();
         self.0.transfer(&mut SpidevTransfer::read_write(&out, bytes))
     }
-}
-
-impl Host for OverSpi {
-    fn send(&mut self, bytes: &[u8]) {
-        self.host.send(bytes);
-    }
-
-    fn waiting(&self) -> usize {
-        self.host.waiting()
-    }
-
-    fn transfer(&mut self, heard: &mut Vec<u8>) -> Result<bool, String> {
-        self.host
-            .transfer(&mut self.bus, heard)
-            .map_err(|error| error.to_string())
-    }
-}
-
-struct OverI2c {
-    bus: I2cDevice,
-    host: I2cHost,
 }
 
 struct I2cDevice {
@@ -96,22 +64,6 @@ impl I2cBus for I2cDevice {
     }
 }
 
-impl Host for OverI2c {
-    fn send(&mut self, bytes: &[u8]) {
-        self.host.send(bytes);
-    }
-
-    fn waiting(&self) -> usize {
-        self.host.waiting()
-    }
-
-    fn transfer(&mut self, heard: &mut Vec<u8>) -> Result<bool, String> {
-        self.host
-            .transfer(&mut self.bus, heard)
-            .map_err(|error| error.to_string())
-    }
-}
-
 /// Begins to clock an SPI device.
 pub(super) fn start_spi(address: &SpiAddress) -> Result<Served, OpenError> {
     let refused = |error| OpenError::refused(&address.path, error);
@@ -129,28 +81,27 @@ pub(super) fn start_spi(address: &SpiAddress) -> Result<Served, OpenError> {
         .mode(mode.unwrap_or(SpiModeFlags::SPI_MODE_0))
         .build();
     device.configure(&options).map_err(refused)?;
-    let host = OverSpi {
-        bus: SpiDevice(device),
-        host: SpiHost::default(),
-    };
-    start(host, &address.path, address.attention.as_ref())
+    let place = (address.path.as_path(), address.attention.as_ref());
+    start(SpiHost::default(), SpiDevice(device), place)
 }
 
 /// Begins to clock an I2C bus.
 pub(super) fn start_i2c(address: &I2cAddress) -> Result<Served, OpenError> {
     let bus = LinuxI2CBus::new(&address.path)
         .map_err(|error| OpenError::refused(&address.path, io::Error::other(error)))?;
-    let host = OverI2c {
-        bus: I2cDevice {
-            bus,
-            address: address.address.into(),
-        },
-        host: I2cHost::default(),
+    let device = I2cDevice {
+        bus,
+        address: address.address.into(),
     };
-    start(host, &address.path, address.attention.as_ref())
+    let place = (address.path.as_path(), address.attention.as_ref());
+    start(I2cHost::default(), device, place)
 }
 
-fn start(host: impl Host, path: &Path, attention: Option<&Attention>) -> Result<Served, OpenError> {
+fn start<H, B>(host: H, bus: B, (path, attention): (&Path, Option<&Attention>)) -> Result<Served, OpenError>
+where
+    H: TransfersOver<B, Error: Display> + Send + 'static,
+    B: Send + 'static,
+{
     let refused = |error| OpenError::refused(path, error);
     let attention = attention.map(request).transpose()?;
     let (ours, theirs) = BlockingStream::pair().map_err(refused)?;
@@ -161,7 +112,7 @@ fn start(host: impl Host, path: &Path, attention: Option<&Attention>) -> Result<
     std::thread::Builder::new()
         .name("link".to_owned())
         .spawn(move || {
-            if let Err(reason) = clock(host, &ours, attention.as_ref()) {
+            if let Err(reason) = clock((host, bus), &ours, attention.as_ref()) {
                 // The first reason stays.
                 told.set(reason).ok();
             }
@@ -184,14 +135,23 @@ fn request(attention: &Attention) -> Result<Request, OpenError> {
 }
 
 /// Passes bytes until the daemon closes the stream or the bus fails.
-fn clock(mut host: impl Host, stream: &BlockingStream, attention: Option<&Request>) -> Result<(), String> {
+fn clock<H, B>(
+    (mut host, mut bus): (H, B),
+    stream: &BlockingStream,
+    attention: Option<&Request>,
+) -> Result<(), String>
+where
+    H: TransfersOver<B, Error: Display>,
+{
     let mut pace = PollPace::new(attention.is_some());
     let mut heard = Vec::new();
     loop {
         if host.waiting() < WAITING_MAX && take_orders(&mut host, stream)? {
             return Ok(());
         }
-        let mut any = host.transfer(&mut heard)?;
+        let mut any = host
+            .transfer(&mut bus, &mut heard)
+            .map_err(|error| words(&error))?;
         if let Some(attention) = attention {
             any |= calls(attention)?;
         }
@@ -207,7 +167,7 @@ fn clock(mut host: impl Host, stream: &BlockingStream, attention: Option<&Reques
 }
 
 /// Takes what the daemon sends; whether it has closed the stream.
-fn take_orders(host: &mut impl Host, mut stream: &BlockingStream) -> Result<bool, String> {
+fn take_orders(host: &mut impl ClockedHost, mut stream: &BlockingStream) -> Result<bool, String> {
     let mut bytes = [0; 1024];
     match stream.read(&mut bytes) {
         Ok(0) => Ok(true),

@@ -29,14 +29,18 @@ impl Moved {
 
     /// It is open there: its own name is remembered.
     pub(super) fn opened(&mut self) {
-        let here = device(&self.now).and_then(|path| SerialIdentity::of(path, Path::new(BY_ID)));
+        // Only serial adapters have such a name.
+        let here = self
+            .now
+            .device()
+            .and_then(|path| SerialIdentity::of(path, Path::new(BY_ID)));
         self.identity = here.or(self.identity.take());
     }
 
     /// It cannot be opened: it is tried where it was configured, or under the name that it has now.
     pub(super) fn look(&mut self) {
         self.now = self.configured.clone();
-        let Some(configured) = device(&self.configured).filter(|path| !path.exists()) else {
+        let Some(configured) = self.configured.device().filter(|path| !path.exists()) else {
             return;
         };
         let elsewhere = self
@@ -51,15 +55,6 @@ impl Moved {
             path.display()
         );
         self.now = at(&self.configured, path);
-    }
-}
-
-/// The serial device, where the link is one.
-fn device(address: &LinkAddress) -> Option<&Path> {
-    match address {
-        LinkAddress::Uart(uart) => Some(&uart.path),
-        LinkAddress::Usb(path) => Some(path),
-        LinkAddress::Tcp(_) | LinkAddress::Tls(_) | LinkAddress::Spi(_) | LinkAddress::I2c(_) => None,
     }
 }
 

@@ -4,10 +4,12 @@ use super::{PlanProgress, Systematic};
 use crate::coverage::parameters::MARGINS;
 use crate::model::action::Motion;
 use crate::model::decision::DecisionKind;
-use crate::model::geometry::{Point2, Pose2, normalize_rad};
+use crate::model::gradual::{StepBudget, at_once};
+use crate::model::no_go::NoGo;
 use crate::model::reason::Reason;
-use crate::navigation::heading::heading_rad;
-use crate::navigation::{FollowStep, PathFollower, PathSegment, Situation, TaskContext, TaskStatus, caution};
+use crate::navigation::{
+    FollowStep, Goal, PathFollower, PathSegment, Situation, TaskContext, TaskStatus, caution, plan_path,
+};
 
 /// What the robot does about forbidden floor under it.
 #[derive(Debug, Default)]
@@ -40,12 +42,10 @@ impl Systematic {
             // The knowledge of the map does not show the zone yet.
             WayOut::Allowed if !situation.map.is_fresh() => return Some(TaskStatus::Go(Motion::Halt)),
             WayOut::Allowed => {
-                let clearance_m = situation.config.body.radius_m + MARGINS.clearance_m;
-                let Some(places) = situation.map.way_out(here, clearance_m, avoid) else {
+                let Some(segments) = segments(situation, avoid) else {
                     self.way_out = WayOut::Shut;
                     return None;
                 };
-                let segments = segments(situation.pose, &places);
                 let length_m = segments.iter().map(|segment| segment.length_m).sum();
                 context.decide(DecisionKind::LeaveWay, Reason::InsideNoGo, length_m);
                 self.follower = None;
@@ -68,29 +68,23 @@ impl Systematic {
     }
 }
 
-/// Straights between places, with turns on the spot before them.
-fn segments(start: Pose2, places: &[Point2]) -> Vec<PathSegment> {
-    let mut segments = Vec::with_capacity(2 * places.len());
-    let mut pose = start;
-    for place in places {
-        let along_rad = heading_rad(pose.position(), *place);
-        segments.push(PathSegment {
-            start: pose,
-            length_m: 0.0,
-            turn_rad: normalize_rad(along_rad - pose.heading_rad),
-        });
-        pose.heading_rad = along_rad;
-        let length_m = pose.position().distance_m(*place);
-        segments.push(PathSegment {
-            start: pose,
-            length_m,
-            turn_rad: 0.0,
-        });
-        pose = Pose2 {
-            x_m: place.x_m,
-            y_m: place.y_m,
-            heading_rad: along_rad,
-        };
-    }
-    segments
+/// The shortest way to a place over allowed floor only, across floor that would be free if nothing were forbidden. `None` when there is
+/// none.
+fn segments(situation: &Situation<'_>, avoid: &[NoGo]) -> Option<Vec<PathSegment>> {
+    let clearance_m = situation.config.body.radius_m + MARGINS.clearance_m;
+    let [open, allowed] = situation.map.around_forbidden(clearance_m, avoid);
+    let is_allowed = |index: &usize| allowed.values().get(*index) == Some(&true);
+    let goals: Vec<Goal> = (0..allowed.values().len())
+        .filter(is_allowed)
+        .map(|index| Goal {
+            at: allowed.cell(index).middle(),
+            detour_m: 0.0,
+        })
+        .collect();
+    at_once(plan_path(
+        &open,
+        situation.pose,
+        &goals,
+        &mut StepBudget::unlimited(),
+    ))
 }

@@ -3,6 +3,7 @@
 mod confidence;
 mod edit;
 mod editing;
+mod forbidden;
 mod known_home;
 mod loader;
 mod orders;
@@ -11,7 +12,6 @@ mod reach;
 mod redrawing;
 mod room_editing;
 mod saving;
-mod way_out;
 
 pub use confidence::MapConfidence;
 pub use loader::{LoadedHome, MapLoader};

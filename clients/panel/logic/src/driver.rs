@@ -4,8 +4,8 @@
 //! the lease ends. A page that can still speak lets go at once.
 
 use mixer::{
-    Cleaning, ClientInputs, Device, KeyCode, Mixed, Mixer, PadReading, Pilot, Profile, ProfileError, Readings,
-    Source, Steered, TopSpeeds,
+    Cleaning, ClientInputs, Device, KeyCode, Mixed, Mixer, PadReading, Pilot, Profile, ProfileError,
+    Readings, Source, Steered, TopSpeeds,
 };
 use rvac_api::{CleaningPower, ClientInput, RequestBody, RobotDescription};
 use std::collections::{BTreeMap, BTreeSet};
@@ -72,7 +72,12 @@ pub fn silent_text(words: &Words, pads: &BTreeSet<u8>) -> Option<String> {
 pub fn away_text(words: &Words, mixed: &Mixed) -> Option<String> {
     let away = mixed.away.first()?;
     let reading = words.number(away.reading, 1);
-    Some(words.drive.away_from_rest.fill([&away.input.to_string(), &reading]))
+    Some(
+        words
+            .drive
+            .away_from_rest
+            .fill([&away.input.to_string(), &reading]),
+    )
 }
 
 /// What is held, the mix that it goes through, and the seat.

@@ -84,8 +84,7 @@ fn histogram(image: &GreyImage) -> [usize; 256] {
 }
 
 /// The grey that most pixels have, and its share of all.
-fn commonest(image: &GreyImage) -> (u8, f64) {
-    let counts = histogram(image);
+fn commonest(counts: [usize; 256], image: &GreyImage) -> (u8, f64) {
     let (grey, count) = (0..=u8::MAX)
         .zip(counts)
         .max_by_key(|(_, count)| *count)
@@ -94,7 +93,7 @@ fn commonest(image: &GreyImage) -> (u8, f64) {
 }
 
 fn no_floor(yaml: &MapYaml<'_>, found: &FoundImage, thresholds: &Thresholds) -> HomeError {
-    let (grey, share) = commonest(&found.image);
+    let (grey, share) = commonest(histogram(&found.image), &found.image);
     let counts = if share > 0.0 {
         format!("{:.1} % of its pixels have the grey {grey}", share * 100.0)
     } else {
@@ -124,7 +123,8 @@ fn notices(path: &Path, found: &FoundImage, thresholds: &Thresholds, coarse: &Gr
             image: found.path.clone(),
         });
     }
-    let (grey, share) = commonest(&found.image);
+    let counts = histogram(&found.image);
+    let (grey, share) = commonest(counts, &found.image);
     if share > ONE_GREY_SHARE {
         notices.push(HomeNotice::NearlyOneGrey {
             path: found.path.clone(),
@@ -132,7 +132,6 @@ fn notices(path: &Path, found: &FoundImage, thresholds: &Thresholds, coarse: &Gr
             share,
         });
     }
-    let counts = histogram(&found.image);
     let unknown = counts.get(usize::from(UNKNOWN_GREY)).copied().unwrap_or(0);
     if unknown > 0 && !thresholds.negate && thresholds.cell(Some(UNKNOWN_GREY)).is_floor() {
         let floor = coarse.cells.iter().filter(|cell| cell.is_floor()).count();

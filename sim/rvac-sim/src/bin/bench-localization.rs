@@ -11,7 +11,7 @@ use brain::command::StrategyName;
 use clap::Parser;
 use home::{Noise, RobotModel};
 use robot::RobotSettings;
-use rvac_sim::bench::{NamedHome, in_order};
+use rvac_sim::bench::{BUDGET_S, NamedHome, REFILL_MS, in_order};
 use rvac_sim::replay::{Drive, DriveRecorder, ReplayFigures};
 use rvac_sim::run::{RunEnd, core_config, start_cleaning};
 use rvac_sim::{Host, Household, Scene};
@@ -50,11 +50,6 @@ fn seeds(text: &str) -> anyhow::Result<RangeInclusive<u64>> {
     ensure!(!seeds.is_empty(), "`{text}` names no seed");
     Ok(seeds)
 }
-
-/// The battery is filled up so often, milliseconds: what energy allows is another measurement.
-const REFILL_MS: u64 = 300_000;
-/// Longest job that the host allows itself, seconds.
-const BUDGET_S: u32 = 86_400;
 
 /// A drive and its replays.
 #[derive(Debug, Serialize)]

@@ -1,6 +1,6 @@
 //! Orders of clients for parts of the home: read, admitted and estimated.
 
-use brain::JobCommand;
+use brain::{Brain, CleaningOrder, JobCommand};
 use rvac_api::{JobEstimate, JobOrder, Update};
 
 use super::home::{known_home, with_places};
@@ -28,15 +28,19 @@ pub(crate) fn clean_command(
     }
 }
 
-/// Whether the brain could estimate such a job now.
+/// What an estimate of such a job needs, if the brain could make it now.
 ///
 /// # Errors
 /// As [`estimate`], as far as that can be told without planning.
-pub(crate) fn estimable(order: &JobOrder, brain_session: Option<&BrainSession>) -> Result<(), Refusal> {
+pub(crate) fn estimable<'a>(
+    order: &JobOrder,
+    brain_session: Option<&'a BrainSession>,
+) -> Result<(&'a Brain, CleaningOrder), Refusal> {
     let brain_session = known_home(brain_session)?;
-    to_order(&with_places(order, brain_session.brain())?)?;
+    let brain = brain_session.brain();
+    let order = to_order(&with_places(order, brain)?)?;
     if brain_session.rests() {
-        Ok(())
+        Ok((brain, order))
     } else {
         Err("job-runs".into())
     }
@@ -52,12 +56,7 @@ pub(crate) fn estimate(
     order: &JobOrder,
     brain_session: Option<&BrainSession>,
 ) -> Result<Update, Refusal> {
-    let brain_session = known_home(brain_session)?;
-    let brain = brain_session.brain();
-    let order = to_order(&with_places(order, brain)?)?;
-    if !brain_session.rests() {
-        return Err("job-runs".into());
-    }
+    let (brain, order) = estimable(order, brain_session)?;
     let found = brain
         .estimate_order(&order)
         .map_err(|reason| Refusal::of_order(reason, &order, brain))?;

@@ -1,12 +1,14 @@
 //! The thread between a made-up bus and the daemon's stream. Waits are for bytes.
 
+use std::fmt::Display;
+use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use robot_link::{I2cBus, I2cHost, SpiBus, SpiHost};
+use robot_link::{I2cBus, I2cHost, SpiBus, SpiHost, TransfersOver};
 use rvac_protocol::fill::{FillDecoder, encode};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 
-use super::{Host, start};
+use super::start;
 
 /// Says what it hears, and fails when it hears a `!`.
 #[derive(Clone, Debug, Default)]
@@ -55,38 +57,12 @@ impl I2cBus for Parrot {
     }
 }
 
-struct Made<H>(Parrot, H);
-
-impl Host for Made<SpiHost> {
-    fn send(&mut self, bytes: &[u8]) {
-        self.1.send(bytes);
-    }
-
-    fn waiting(&self) -> usize {
-        self.1.waiting()
-    }
-
-    fn transfer(&mut self, heard: &mut Vec<u8>) -> Result<bool, String> {
-        self.1.transfer(&mut self.0, heard)
-    }
-}
-
-impl Host for Made<I2cHost> {
-    fn send(&mut self, bytes: &[u8]) {
-        self.1.send(bytes);
-    }
-
-    fn waiting(&self) -> usize {
-        self.1.waiting()
-    }
-
-    fn transfer(&mut self, heard: &mut Vec<u8>) -> Result<bool, String> {
-        self.1.transfer(&mut self.0, heard)
-    }
-}
-
-async fn passes_everything_and_says_why_it_ended(host: impl Host) {
-    let (mut stream, complaint) = start(host, std::path::Path::new("/dev/bus"), None).expect("starts");
+async fn passes_everything_and_says_why_it_ended<H>(host: H)
+where
+    H: TransfersOver<Parrot, Error: Display> + Send + 'static,
+{
+    let (mut stream, complaint) =
+        start(host, Parrot::default(), (Path::new("/dev/bus"), None)).expect("starts");
     let said: Vec<u8> = (0..=255)
         .filter(|byte| *byte != b'!')
         .cycle()
@@ -105,10 +81,10 @@ async fn passes_everything_and_says_why_it_ended(host: impl Host) {
 
 #[tokio::test]
 async fn spi_passes_everything_and_says_why_it_ended() {
-    passes_everything_and_says_why_it_ended(Made(Parrot::default(), SpiHost::default())).await;
+    passes_everything_and_says_why_it_ended(SpiHost::default()).await;
 }
 
 #[tokio::test]
 async fn i2c_passes_everything_and_says_why_it_ended() {
-    passes_everything_and_says_why_it_ended(Made(Parrot::default(), I2cHost::default())).await;
+    passes_everything_and_says_why_it_ended(I2cHost::default()).await;
 }

@@ -120,7 +120,11 @@ impl MixDraft {
             return None;
         }
         let is_same = self.is_kept && self.base.name == self.profile.name;
-        Some(if is_same { self.base.to_json() } else { String::new() })
+        Some(if is_same {
+            self.base.to_json()
+        } else {
+            String::new()
+        })
     }
 
     /// The next save replaces what the robot keeps under the name, whatever that is.

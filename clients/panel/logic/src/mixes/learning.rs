@@ -113,7 +113,10 @@ impl CalibrationRun {
         }
         Ok(Calibration {
             low: rounded(self.low),
-            centre: rounded(self.rest().ok_or_else(|| words.mix.not_let_go.fill([&self.input]))?),
+            centre: rounded(
+                self.rest()
+                    .ok_or_else(|| words.mix.not_let_go.fill([&self.input]))?,
+            ),
             high: rounded(self.high),
             ..Calibration::new(self.input.clone(), DEAD_BAND)
         })

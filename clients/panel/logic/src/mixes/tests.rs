@@ -261,7 +261,8 @@ fn a_trigger_that_was_not_touched_is_calibrated_at_its_rest() {
         for value in moves {
             run.look(&readings(*value));
         }
-        run.finish(ENGLISH).map(|found| [found.low, found.centre, found.high])
+        run.finish(ENGLISH)
+            .map(|found| [found.low, found.centre, found.high])
     };
     assert_eq!(run(0.0, &[-0.4, 1.0, -1.0]), Ok([-1.0, -1.0, 1.0]));
     assert_eq!(run(-1.0, &[0.5, 1.0, -0.98]), Ok([-1.0, -1.0, 1.0]));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use home::generate::GeneratedHome;
 use home::{Home, Noise, RobotModel};
 use robot::RobotSettings;
-use rvac_sim::bench::NamedHome;
+use rvac_sim::bench::{BUDGET_S, NamedHome};
 use rvac_sim::run::core_config;
 use rvac_sim::{Host, Household, PoseSource, Scene};
 use vthal_core::CoreConfig;
@@ -33,9 +33,6 @@ pub(crate) struct HomeWithHistory {
     pub(crate) scene: Scene,
     first_day: Arc<Home>,
 }
-
-/// Longest job that the host allows itself in these runs, seconds.
-const BUDGET_S: u32 = 86_400;
 
 impl HomeWithHistory {
     pub(crate) fn new(home: Arc<Home>, first_day: Arc<Home>, setup: &Setup) -> Self {
@@ -91,10 +88,11 @@ mod tests {
     use std::sync::Arc;
 
     use home::{Home, Noise, RobotModel};
+    use rvac_sim::bench::BUDGET_S;
     use rvac_sim::run::core_config;
     use vthal_core::CoreConfig;
 
-    use super::{BUDGET_S, GyroFitting, HomeWithHistory, Setup};
+    use super::{GyroFitting, HomeWithHistory, Setup};
     use crate::mode::{CleaningMode, SeededMode};
 
     const PLAN: &str =

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use brain::StoredMap;
 use brain::command::StrategyName;
+use rvac_sim::bench::REFILL_MS;
 use rvac_sim::run::{keep_working, start_cleaning};
 use rvac_sim::{Figures, Host, HostCost, Household, RunReport};
 use serde::Serialize;
@@ -43,8 +44,6 @@ pub(crate) enum Length {
     Work { minutes: f64 },
 }
 
-/// The battery is filled up so often, milliseconds: what energy allows is another measurement.
-const REFILL_MS: u64 = 300_000;
 /// A run may take so much more than its length: for the drive home, or until work begins.
 const SPARE_MS: u64 = 1_200_000;
 
