@@ -4,6 +4,7 @@
 #![forbid(unsafe_code)]
 
 mod bench;
+mod book;
 mod book_pictures;
 mod bundle;
 mod codegen;
@@ -58,6 +59,8 @@ enum Command {
     Bundle(bundle::BundleArguments),
     /// Builds the panel for the browser and packs it; with --json tells what a first visit brings over the network.
     Panel(panel::PanelArguments),
+    /// Makes the book as a site, and checks all its links.
+    Book(book::BookArguments),
     /// Makes the pictures of the book's measurements with today's code.
     BookPictures,
 }
@@ -78,6 +81,7 @@ fn main() -> ExitCode {
         Command::NewRobot(arguments) => new_robot::run(&arguments),
         Command::Package(arguments) => package::run(&arguments),
         Command::Bundle(arguments) => bundle::run(&arguments),
+        Command::Book(arguments) => book::run(&arguments),
         Command::BookPictures => book_pictures::run(),
         Command::Panel(arguments) => panel::run(&arguments),
     };

@@ -3,7 +3,7 @@
 use super::count::Count;
 use super::extent::Extent;
 use super::runner::{Result, cargo, check, checks};
-use crate::{codegen, system, tidy, workspace};
+use crate::{book, codegen, system, tidy, workspace};
 
 /// Manifests of the workspaces besides the main one.
 const OTHERS: [&str; 7] = [
@@ -49,6 +49,11 @@ pub(super) fn clippy(_extent: Extent) -> Result {
         "-D",
         "warnings",
     ]))
+}
+
+/// The book becomes a site, and each of its links leads somewhere.
+pub(super) fn book(_extent: Extent) -> Result {
+    one(book::build().map(|_| ()))
 }
 
 /// Examples in the documentation compile and run.

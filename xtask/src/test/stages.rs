@@ -30,7 +30,7 @@ pub(super) enum Company {
 }
 
 /// All stages.
-pub(super) const STAGES: [Stage; 20] = [
+pub(super) const STAGES: [Stage; 21] = [
     Stage {
         name: "fmt",
         does: "the code is formatted",
@@ -51,6 +51,13 @@ pub(super) const STAGES: [Stage; 20] = [
         from: Extent::Short,
         company: Company::Anything,
         run: code::codegen,
+    },
+    Stage {
+        name: "book",
+        does: "the book becomes a site in which every link leads somewhere",
+        from: Extent::All,
+        company: Company::Anything,
+        run: code::book,
     },
     Stage {
         name: "clippy",

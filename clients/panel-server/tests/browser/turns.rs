@@ -3,7 +3,7 @@
 use tokio::sync::{Semaphore, SemaphorePermit};
 
 /// Tests that may have a browser open at the same time. Most of their time is spent in waiting for a robot.
-const AT_ONCE: u32 = 2;
+const AT_ONCE: u32 = 3;
 
 static PLACES: Semaphore = Semaphore::const_new(AT_ONCE as usize);
 
