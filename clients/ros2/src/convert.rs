@@ -4,9 +4,9 @@ use rvac_api::{Activity, BatteryReading, DeviceTable, Estimate, HomeView, Planne
 
 use crate::frames::Links;
 use crate::messages::{
-    BatteryState, COVARIANCE, DiagnosticArray, DiagnosticStatus, Header, KeyValue, MapMetaData, OccupancyGrid,
-    Odometry, Path, PoseStamped, PoseWithCovariance, PoseWithCovarianceStamped, TransformStamped, Transforms,
-    Twist, TwistWithCovariance, Vector3,
+    BatteryState, COVARIANCE, DiagnosticArray, DiagnosticStatus, Header, KeyValue, MapMetaData,
+    OccupancyGrid, Odometry, Path, PoseStamped, PoseWithCovariance, PoseWithCovarianceStamped,
+    TransformStamped, Transforms, Twist, TwistWithCovariance, Vector3,
 };
 use crate::place::Place;
 
@@ -160,12 +160,12 @@ pub(crate) fn plan(path: &PlannedPath, header: &Header) -> Path {
 }
 
 /// `/battery_state`. What is not measured is not a number, as the message asks for it.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the message has single precision"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "the message has single precision")]
 pub(crate) fn battery(reading: &BatteryReading, header: Header) -> BatteryState {
-    let fault = reading.charger.as_ref().and_then(|charger| charger.fault.as_ref());
+    let fault = reading
+        .charger
+        .as_ref()
+        .and_then(|charger| charger.fault.as_ref());
     BatteryState {
         header,
         voltage: reading.voltage_v as f32,
@@ -222,7 +222,12 @@ pub(crate) fn diagnostics(
         all.push(of_link(device));
     }
     if all.is_empty() {
-        all.push(part("robot", Level::Stale, "the robot's daemon is away", Vec::new()));
+        all.push(part(
+            "robot",
+            Level::Stale,
+            "the robot's daemon is away",
+            Vec::new(),
+        ));
     }
     DiagnosticArray { header, status: all }
 }
@@ -271,7 +276,11 @@ fn of_status(status: &Status) -> DiagnosticStatus {
         ("bumps", status.bumps.to_string()),
         (
             "room",
-            status.room.as_ref().map(rvac_api::RoomHere::title).unwrap_or_default(),
+            status
+                .room
+                .as_ref()
+                .map(rvac_api::RoomHere::title)
+                .unwrap_or_default(),
         ),
     ];
     part(

@@ -100,6 +100,17 @@ impl Vector3 {
     }
 }
 
+impl Twist {
+    pub(crate) const STOP: Self = Self {
+        linear: Vector3::flat(0.0, 0.0),
+        angular: Vector3::flat(0.0, 0.0),
+    };
+
+    pub(crate) fn is_zero(&self) -> bool {
+        *self == Self::STOP
+    }
+}
+
 impl Quaternion {
     /// A turn about the vertical, radians counter-clockwise.
     pub(crate) fn of_heading(heading_rad: f64) -> Self {

@@ -11,6 +11,7 @@ mod notifications;
 mod process;
 mod program;
 mod prometheus;
+mod ros2;
 mod verdict;
 
 use std::path::PathBuf;
@@ -38,16 +39,34 @@ struct Arguments {
     /// The program of Home Assistant, which is tried when it is named
     #[arg(long, value_name = "FILE")]
     hass: Option<PathBuf>,
+    /// The bridge to ROS 2, which is a workspace of its own; tried when it is named
+    #[arg(long, value_name = "FILE", requires = "ros2_python")]
+    ros2: Option<PathBuf>,
+    /// A Python that has the packages cyclonedds and rosbags
+    #[arg(long, value_name = "FILE")]
+    ros2_python: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// Whether what a peer needs was named.
+    fn has_what_it_needs(&self, peer: &str) -> bool {
+        match peer {
+            "home-assistant" => self.hass.is_some(),
+            "cyclonedds" => self.ros2.is_some(),
+            _ => true,
+        }
+    }
 }
 
 /// A peer, and how it is tried.
 type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
-const TRIALS: [Trial; 5] = [
+const TRIALS: [Trial; 6] = [
     ("mosquitto", mosquitto::trial),
     ("load", load::trial),
     ("prometheus", prometheus::trial),
     ("python", notifications::trial),
+    ("cyclonedds", ros2::trial),
     ("home-assistant", home_assistant::trial),
 ];
 
@@ -72,7 +91,7 @@ fn try_all(arguments: &Arguments) -> anyhow::Result<()> {
     let mut verdicts = Vec::new();
     for (name, trial) in TRIALS {
         let wanted = if arguments.only.is_empty() {
-            name != "home-assistant" || arguments.hass.is_some()
+            arguments.has_what_it_needs(name)
         } else {
             arguments.only.iter().any(|only| only == name)
         };

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 const REPEATED: [&str; 3] = ["print.html", "toc.html", "404.html"];
 
 /// What a page offers and where it leads.
-struct Page {
+struct WrittenPage {
     ids: BTreeSet<String>,
     targets: Vec<String>,
 }
@@ -28,7 +28,7 @@ pub(super) fn broken_links(site: &Path) -> anyhow::Result<Vec<String>> {
     Ok(broken)
 }
 
-fn read(site: &Path, folder: &Path, pages: &mut BTreeMap<PathBuf, Page>) -> anyhow::Result<()> {
+fn read(site: &Path, folder: &Path, pages: &mut BTreeMap<PathBuf, WrittenPage>) -> anyhow::Result<()> {
     for entry in std::fs::read_dir(site.join(folder))? {
         let entry = entry?;
         let path = folder.join(entry.file_name());
@@ -44,7 +44,7 @@ fn read(site: &Path, folder: &Path, pages: &mut BTreeMap<PathBuf, Page>) -> anyh
     Ok(())
 }
 
-fn page(text: &str) -> Page {
+fn page(text: &str) -> WrittenPage {
     let values = |name: &str| -> Vec<String> {
         let head = format!(" {name}=\"");
         let quoted = text.split(&head).skip(1);
@@ -55,13 +55,17 @@ fn page(text: &str) -> Page {
     };
     let mut targets = values("href");
     targets.extend(values("src"));
-    Page {
+    WrittenPage {
         ids: values("id").into_iter().collect(),
         targets,
     }
 }
 
-fn leads_somewhere(site: &Path, (from, target): (&Path, &str), pages: &BTreeMap<PathBuf, Page>) -> bool {
+fn leads_somewhere(
+    site: &Path,
+    (from, target): (&Path, &str),
+    pages: &BTreeMap<PathBuf, WrittenPage>,
+) -> bool {
     let (file, anchor) = target.split_once('#').unwrap_or((target, ""));
     if file.contains(':') {
         return true;
@@ -78,13 +82,13 @@ fn leads_somewhere(site: &Path, (from, target): (&Path, &str), pages: &BTreeMap<
 
 #[cfg(test)]
 mod tests {
-    use super::{Page, leads_somewhere, page};
+    use super::{WrittenPage, leads_somewhere, page};
     use std::collections::BTreeMap;
     use std::path::{Path, PathBuf};
 
     #[test]
     fn anchors_must_be_there() {
-        let pages: BTreeMap<PathBuf, Page> = [
+        let pages: BTreeMap<PathBuf, WrittenPage> = [
             (
                 "a.html",
                 "<a href=\"guide/b.html#there\">b</a><h1 id=\"top\">A</h1>",

@@ -6,8 +6,9 @@ use super::runner::{Result, cargo, check, checks};
 use crate::{book, codegen, system, tidy, workspace};
 
 /// Manifests of the workspaces besides the main one.
-const OTHERS: [&str; 7] = [
+const OTHERS: [&str; 8] = [
     "clients/panel/Cargo.toml",
+    "clients/ros2/Cargo.toml",
     "firmware/size-probe/Cargo.toml",
     "firmware/pic32mx3-hal/Cargo.toml",
     "firmware/sr8730/Cargo.toml",

@@ -5,7 +5,7 @@ use super::home_assistant;
 use super::runner::{Result, check};
 use crate::workspace::{self, Profile, program};
 use crate::{fetched, process, system};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Programs of ours that are tried, and what they stand on.
@@ -21,7 +21,10 @@ const PROGRAMS: [&str; 6] = [
 /// A reader of calendars that nobody here wrote.
 const ICALENDAR: &str = "icalendar==6.3.1";
 
-/// mosquitto, Prometheus and Python; with `--long` Home Assistant, too.
+/// A DDS that is not the bridge's, and what ROS 2 itself says of its messages.
+const DDS: [&str; 2] = ["cyclonedds==11.0.1", "rosbags==0.11.9"];
+
+/// mosquitto, Prometheus, Python and Cyclone DDS; with `--long` Home Assistant, too.
 pub(super) fn joined(extent: Extent) -> Result {
     check(&mut trials(extent)?)
 }
@@ -59,5 +62,22 @@ fn trials(extent: Extent) -> anyhow::Result<Command> {
         command
     };
     command.arg("--python").arg(python);
+    command.arg("--ros2").arg(ros2_bridge()?);
+    let dds = fetched::python(&workspace::target().join("joined/dds"), &DDS, "cyclonedds")?;
+    command.arg("--ros2-python").arg(dds.join("python"));
     Ok(command)
+}
+
+/// Builds the bridge to ROS 2, which is a workspace of its own; gives its program. Its own tests run first.
+fn ros2_bridge() -> anyhow::Result<PathBuf> {
+    let target = workspace::target().join("ros2");
+    for words in [&["test", "--locked"][..], &["build", "--locked"][..]] {
+        let mut cargo = workspace::cargo();
+        cargo
+            .args(words)
+            .args(["--manifest-path", "clients/ros2/Cargo.toml", "--target-dir"])
+            .arg(&target);
+        process::run(&format!("cargo {} of the bridge to ROS 2", words[0]), &mut cargo)?;
+    }
+    Ok(target.join("debug/rvac-ros2"))
 }
