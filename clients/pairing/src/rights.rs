@@ -65,16 +65,27 @@ pub const ROUTES: [Route; 16] = [
     Route { method: Method::Post, path: "/api/clients/role",   need: Need::Role(Role::Admin) },
 ];
 
+/// The row of an address.
+fn route_of(path: &str) -> Option<&'static Route> {
+    ROUTES
+        .iter()
+        .find(|route| route.path == path || route.path.ends_with('/') && path.starts_with(route.path))
+}
+
 /// What an address needs; one below `/api/` that is not in the table needs the highest role.
 #[must_use]
 pub fn need_of(path: &str) -> Need {
-    let is_it =
-        |route: &&Route| route.path == path || route.path.ends_with('/') && path.starts_with(route.path);
-    match ROUTES.iter().find(is_it) {
+    match route_of(path) {
         Some(route) => route.need,
         None if path.starts_with("/api/") => Need::Role(Role::Admin),
         None => Need::Nobody,
     }
+}
+
+/// How an address of the table is asked.
+#[must_use]
+pub fn method_of(path: &str) -> Option<Method> {
+    route_of(path).map(|route| route.method)
 }
 
 /// Requests for which somebody must be beside the robot or at its console, whatever the role: what they do no rule of the robot checks.

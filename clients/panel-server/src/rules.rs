@@ -6,8 +6,11 @@
 
 use std::net::IpAddr;
 
+use axum::body::Body;
 use axum::http::request::Parts;
-use axum::http::{HeaderMap, HeaderName, Method, StatusCode, header};
+use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, Response, StatusCode, header};
+use axum::response::IntoResponse as _;
+use pairing::method_of;
 
 const SEC_FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
@@ -68,7 +71,9 @@ pub enum Refusal {
     /// `Sec-Fetch-Site` says that another site asks.
     CrossSite,
     /// Beside GET and HEAD only POST below `/api/` exists here.
-    Method,
+    OnlyRead,
+    /// This address takes POST alone.
+    OnlyChanged,
     /// A change that a form could have sent.
     NotOurs,
 }
@@ -81,9 +86,25 @@ impl Refusal {
             Self::HostUnclear => StatusCode::BAD_REQUEST,
             Self::HostForeign => StatusCode::MISDIRECTED_REQUEST,
             Self::OriginMissing | Self::OriginForeign | Self::CrossSite => StatusCode::FORBIDDEN,
-            Self::Method => StatusCode::METHOD_NOT_ALLOWED,
+            Self::OnlyRead | Self::OnlyChanged => StatusCode::METHOD_NOT_ALLOWED,
             Self::NotOurs => StatusCode::UNSUPPORTED_MEDIA_TYPE,
         }
+    }
+
+    /// What the browser is told.
+    pub(crate) fn answer(self) -> Response<Body> {
+        let mut answer = (self.status(), self.text()).into_response();
+        // RFC 9110, section 15.5.6: whoever asks in a wrong way is told the right ones.
+        let ways = match self {
+            Self::OnlyRead => Some("GET, HEAD"),
+            Self::OnlyChanged => Some("POST"),
+            _ => None,
+        };
+        if let Some(ways) = ways {
+            let ways = HeaderValue::from_static(ways);
+            answer.headers_mut().insert(header::ALLOW, ways);
+        }
+        answer
     }
 
     /// One sentence for the person who sees it in a browser.
@@ -100,7 +121,8 @@ impl Refusal {
             Self::CrossSite => {
                 "Another site led here: type the address of the panel into the address bar instead.\n"
             }
-            Self::Method => "Only GET and HEAD are answered here.\n",
+            Self::OnlyRead => "Only GET and HEAD are answered here.\n",
+            Self::OnlyChanged => "Only POST is answered here.\n",
             Self::NotOurs => "A change is sent as application/json, not packed, with the header X-Rvac: 1.\n",
         }
     }
@@ -166,8 +188,14 @@ impl Rules {
 
 /// A change goes to our own interface and has a form that a page of another site cannot send by itself.
 fn check_change(request: &Parts) -> Result<(), Refusal> {
-    if request.method != Method::POST || !request.uri.path().starts_with("/api/") {
-        return Err(Refusal::Method);
+    let path = request.uri.path();
+    let is_post = request.method == Method::POST;
+    match method_of(path) {
+        Some(pairing::Method::Post) if is_post => {}
+        Some(pairing::Method::Post) => return Err(Refusal::OnlyChanged),
+        // An address that there is not is told later.
+        None if is_post && path.starts_with("/api/") => {}
+        _ => return Err(Refusal::OnlyRead),
     }
     // Nothing here unpacks, so what is packed has no meaning that we know.
     let is_packed = request.headers.contains_key(header::CONTENT_ENCODING);
@@ -309,9 +337,12 @@ mod tests {
         check(
             ("POST", "/"),
             &[OURS, ("origin", "http://localhost:8080")],
-            Err(Refusal::Method),
+            Err(Refusal::OnlyRead),
         );
         check(("HEAD", "/"), &[OURS], Ok(()));
+        let ours = [OURS, ("origin", "http://localhost:8080")];
+        check(("POST", "/api/session"), &ours, Err(Refusal::OnlyRead));
+        check(("PUT", "/api/clients/role"), &ours, Err(Refusal::OnlyChanged));
     }
 
     #[test]
@@ -342,11 +373,11 @@ mod tests {
             &[OURS, origin, ours, ("content-type", "text/plain")],
             Err(Refusal::NotOurs),
         );
-        check(("POST", "/"), &[OURS, origin, json, ours], Err(Refusal::Method));
+        check(("POST", "/"), &[OURS, origin, json, ours], Err(Refusal::OnlyRead));
         check(
             ("DELETE", "/api/clients"),
             &[OURS, origin, json, ours],
-            Err(Refusal::Method),
+            Err(Refusal::OnlyRead),
         );
     }
 

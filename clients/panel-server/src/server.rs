@@ -8,9 +8,10 @@ use std::time::Duration;
 
 use axum::Router;
 use axum::body::Body;
+use axum::extract::rejection::PathRejection;
 use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{Extension, Path, Request, State};
-use axum::http::{HeaderName, HeaderValue, Response, Uri, header};
+use axum::http::{HeaderName, HeaderValue, Response, StatusCode, Uri, header};
 use axum::middleware::{self, Next};
 use axum::response::IntoResponse;
 use axum::routing::get;
@@ -308,7 +309,7 @@ async fn guard(State(site): State<Arc<Site>>, request: Request, next: Next) -> R
         .check(&parts);
     let mut response = match checked {
         Ok(()) => admit(&site, Request::from_parts(parts, body), next).await,
-        Err(refusal) => (refusal.status(), refusal.text()).into_response(),
+        Err(refusal) => refusal.answer(),
     };
     for (name, value) in SECURITY_HEADERS {
         response
@@ -346,17 +347,32 @@ async fn serve_asset(State(site): State<Arc<Site>>, request: Request) -> Respons
     site.assets.answer(request.uri().path(), request.headers())
 }
 
-async fn download_run(State(site): State<Arc<Site>>, Path(number): Path<u64>) -> Response<Body> {
+async fn download_run(
+    State(site): State<Arc<Site>>,
+    number: Result<Path<u64>, PathRejection>,
+) -> Response<Body> {
+    let Ok(Path(number)) = number else {
+        return no_such_run();
+    };
     let recording = None;
     download::answer(site.vthal.clone(), Wanted::Recording { number, recording }).await
 }
 
 async fn download_recording(
     State(site): State<Arc<Site>>,
-    Path((number, recording)): Path<(u64, u32)>,
+    numbers: Result<Path<(u64, u32)>, PathRejection>,
 ) -> Response<Body> {
+    let Ok(Path((number, recording))) = numbers else {
+        return no_such_run();
+    };
     let recording = Some(recording);
     download::answer(site.vthal.clone(), Wanted::Recording { number, recording }).await
+}
+
+/// What stands in the address can be the number of no run.
+fn no_such_run() -> Response<Body> {
+    let text = "The address of a recording has the number of a run in it.\n";
+    (StatusCode::NOT_FOUND, text).into_response()
 }
 
 async fn download_floors(State(site): State<Arc<Site>>) -> Response<Body> {

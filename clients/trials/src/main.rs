@@ -12,6 +12,7 @@ mod process;
 mod program;
 mod prometheus;
 mod ros2;
+mod schemathesis;
 mod verdict;
 
 use std::path::PathBuf;
@@ -39,6 +40,9 @@ struct Arguments {
     /// The program of Home Assistant, which is tried when it is named
     #[arg(long, value_name = "FILE")]
     hass: Option<PathBuf>,
+    /// The program schemathesis, which is tried when it is named
+    #[arg(long, value_name = "FILE")]
+    schemathesis: Option<PathBuf>,
     /// The bridge to ROS 2, which is a workspace of its own; tried when it is named
     #[arg(long, value_name = "FILE", requires = "ros2_python")]
     ros2: Option<PathBuf>,
@@ -52,6 +56,7 @@ impl Arguments {
     fn has_what_it_needs(&self, peer: &str) -> bool {
         match peer {
             "home-assistant" => self.hass.is_some(),
+            "schemathesis" => self.schemathesis.is_some(),
             "cyclonedds" => self.ros2.is_some(),
             _ => true,
         }
@@ -61,11 +66,12 @@ impl Arguments {
 /// A peer, and how it is tried.
 type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
-const TRIALS: [Trial; 6] = [
+const TRIALS: [Trial; 7] = [
     ("mosquitto", mosquitto::trial),
     ("load", load::trial),
     ("prometheus", prometheus::trial),
     ("python", notifications::trial),
+    ("schemathesis", schemathesis::trial),
     ("cyclonedds", ros2::trial),
     ("home-assistant", home_assistant::trial),
 ];

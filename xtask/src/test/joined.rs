@@ -9,22 +9,26 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Programs of ours that are tried, and what they stand on.
-const PROGRAMS: [&str; 6] = [
+const PROGRAMS: [&str; 7] = [
     "rvac-sim",
     "vthal",
     "rvac-mqtt",
     "rvac-metrics",
     "rvac-hooks",
+    "panel-server",
     "try-joined",
 ];
 
 /// A reader of calendars that nobody here wrote.
 const ICALENDAR: &str = "icalendar==6.3.1";
 
+/// Makes requests out of a description of an interface, and compares the answers with it.
+const SCHEMATHESIS: &str = "schemathesis==4.32.5";
+
 /// A DDS that is not the bridge's, and what ROS 2 itself says of its messages.
 const DDS: [&str; 2] = ["cyclonedds==11.0.1", "rosbags==0.11.9"];
 
-/// mosquitto, Prometheus, Python and Cyclone DDS; with `--long` Home Assistant, too.
+/// mosquitto, Prometheus, Python, schemathesis and Cyclone DDS; with `--long` Home Assistant, too.
 pub(super) fn joined(extent: Extent) -> Result {
     check(&mut trials(extent)?)
 }
@@ -62,6 +66,11 @@ fn trials(extent: Extent) -> anyhow::Result<Command> {
         command
     };
     command.arg("--python").arg(python);
+    let schemathesis = workspace::target().join("joined/schemathesis");
+    let schemathesis = fetched::python(&schemathesis, &[SCHEMATHESIS], "schemathesis")?;
+    command
+        .arg("--schemathesis")
+        .arg(schemathesis.join("schemathesis"));
     command.arg("--ros2").arg(ros2_bridge()?);
     let dds = fetched::python(&workspace::target().join("joined/dds"), &DDS, "cyclonedds")?;
     command.arg("--ros2-python").arg(dds.join("python"));

@@ -91,8 +91,16 @@ async fn a_page_of_another_site_gets_no_recording() {
     let rig = Rig::start().await;
     let foreign = ASK.replace("Connection", "Sec-Fetch-Site: cross-site\r\nConnection");
     assert!(rig.raw(&foreign).await.starts_with("HTTP/1.1 403"));
-    let wrong = ASK.replace("/7/", "/seven/");
-    assert!(rig.raw(&wrong).await.starts_with("HTTP/1.1 400"));
+}
+
+#[tokio::test]
+async fn an_address_without_the_number_of_a_run_names_what_is_wrong() {
+    let rig = Rig::start().await;
+    for number in ["/seven/", "/18446744073709551616/", "/-1/"] {
+        let answer = rig.raw(&ASK.replace("/7/", number)).await;
+        assert!(answer.starts_with("HTTP/1.1 404"), "{answer}");
+        assert!(answer.contains("has the number of a run in it"), "{answer}");
+    }
 }
 
 #[tokio::test]

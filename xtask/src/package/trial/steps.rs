@@ -2,6 +2,7 @@
 
 use super::chroot::Chroot;
 use super::{Editions, Scope, Trial};
+use crate::package::machine::Machine;
 use crate::workspace::{self, Profile};
 use crate::{process, system};
 use anyhow::{Context, bail};
@@ -13,6 +14,8 @@ use std::time::{Duration, Instant};
 /// Under an emulated processor everything takes ten times as long.
 const PATIENCE: Duration = Duration::from_secs(120);
 const LOOK: Duration = Duration::from_millis(100);
+/// What `rvac setup` writes.
+const CONFIGURATION: &str = "etc/vthal.toml";
 /// The simulated robot's end of the line, as the bare Debian sees it.
 const ROBOT: &str = "/tmp/robot";
 /// A kept file, to see whether it stays.
@@ -45,12 +48,12 @@ pub(super) fn run(chroot: &Chroot, packages: &Editions, scope: Scope) -> anyhow:
     let installed =
         chroot.succeeds(&["rvac", "--version"]) && chroot.succeeds(&["getent", "passwd", "vthal"]);
     let _robot = robot(chroot)?;
-    chroot.run(&["rvac", "setup", "--yes", "--serial", ROBOT])?;
-    let set_up = chroot.path("etc/vthal.toml").is_file();
+    let _bridge = set_up_with(chroot, packages.machine)?;
+    let set_up = chroot.path(CONFIGURATION).is_file();
     let used = use_it(chroot)?;
     std::fs::write(chroot.path(MARK), "kept")?;
     install(chroot, &packages.next)?;
-    let kept = || chroot.path(MARK).is_file() && chroot.path("etc/vthal.toml").is_file();
+    let kept = || chroot.path(MARK).is_file() && chroot.path(CONFIGURATION).is_file();
     let upgraded = kept()
         && chroot
             .run(&["dpkg-query", "--show", "librervac"])?
@@ -59,7 +62,7 @@ pub(super) fn run(chroot: &Chroot, packages: &Editions, scope: Scope) -> anyhow:
     let removal_kept_state = kept() && !chroot.path("usr/bin/vthal").exists();
     chroot.run(&["dpkg", "--purge", "librervac"])?;
     let left = [
-        "etc/vthal.toml",
+        CONFIGURATION,
         "var/lib/vthal",
         "var/lib/rvac-panel",
         "usr/share/librervac",
@@ -85,6 +88,26 @@ pub(super) fn run(chroot: &Chroot, packages: &Editions, scope: Scope) -> anyhow:
 fn install(chroot: &Chroot, package: &Path) -> anyhow::Result<()> {
     std::fs::copy(package, chroot.path("librervac.deb"))?;
     chroot.run(&["dpkg", "--install", "/librervac.deb"]).map(drop)
+}
+
+/// Runs `rvac setup`. On this machine's own processor it finds the robot on its serial device. The emulator of others has no serial devices (the
+/// requests of termios2 are missing in it), so the robot is named there, and reached over the network.
+fn set_up_with(chroot: &Chroot, machine: Machine) -> anyhow::Result<Option<Running>> {
+    if machine == Machine::Amd64 {
+        chroot.run(&["rvac", "setup", "--yes", "--serial", ROBOT])?;
+        return Ok(None);
+    }
+    chroot.run(&["rvac", "setup", "--yes", "--model", "sr8730"])?;
+    let port = free_port()?;
+    let file = chroot.path(CONFIGURATION);
+    let rest = std::fs::read_to_string(&file).context("rvac setup has written no configuration")?;
+    std::fs::write(&file, format!("link = \"tcp:127.0.0.1:{port}\"\n{rest}"))?;
+    system::need("socat", &["socat"])?;
+    let mut socat = Command::new("socat");
+    socat
+        .arg(format!("TCP-LISTEN:{port},bind=127.0.0.1,reuseaddr,fork"))
+        .arg(format!("FILE:{},rawer", chroot.path(ROBOT).display()));
+    Ok(Some(Running(socat.spawn().context("cannot start socat")?)))
 }
 
 /// A simulated robot on a terminal that the bare Debian's daemon may open.
