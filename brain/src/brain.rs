@@ -5,6 +5,7 @@ mod floor_sensing;
 mod gyro_words;
 mod learning;
 mod map_changes;
+mod map_words;
 mod situation;
 
 use crate::behavior::{Behavior, JobFigures, JobKind, JobStart, Status};
@@ -22,6 +23,7 @@ use crate::model::geometry::{Point2, Pose2};
 use crate::model::gyro_fault::GyroFault;
 use crate::model::job_refusal::JobRefusal;
 use crate::model::learnt::{GyroLearnt, Learnt};
+use crate::model::map_doubt::MapDoubt;
 use crate::model::observation::Observation;
 use crate::model::onsets::Onsets;
 use crate::model::order::CleaningOrder;
@@ -47,6 +49,8 @@ pub struct Brain {
     mind: TaskContext,
     /// What was last said of the gyro.
     gyro_told: Option<GyroFault>,
+    /// Why the map of the home is doubted; once it is, that holds for the run.
+    map_doubt: Option<MapDoubt>,
 }
 
 impl Brain {
@@ -70,6 +74,7 @@ impl Brain {
                 journal: Vec::new(),
             },
             gyro_told: None,
+            map_doubt: None,
         }
     }
 
@@ -109,6 +114,7 @@ impl Brain {
         self.tell_gyro();
         let correction = self.localization.refine(observation, advance);
         self.correct_map(correction);
+        self.doubt_map();
         let estimate = self.localization.estimate();
         let pose = estimate.pose;
         self.beams.update(observation, &estimate);
@@ -143,6 +149,7 @@ impl Brain {
         }
         .situation(observation, advance);
         let intent = self.behavior.step(&situation, &jobs, &mut self.mind);
+        self.tell_no_share();
         if intent.job_start == JobStart::FreshMap {
             self.map.start_anew();
             self.map.avoid(self.behavior.avoided());
@@ -297,11 +304,13 @@ impl Brain {
         self.behavior.planned_path()
     }
 
-    /// Share of its target floor that the running or waiting job has swept; `None` for a job without a target. Iterates over all swept
-    /// cells, so it is to be called a few times a minute at most.
+    /// Share of its target floor that the running or waiting job has swept; `None` for a job without a target, and where the map is
+    /// doubted. Iterates over all swept cells, so it is to be called a few times a minute at most.
     #[must_use]
     pub fn swept_share(&self) -> Option<SweptShare> {
-        self.behavior.swept_share(&self.map)
+        self.behavior
+            .swept_share(&self.map)
+            .filter(|_| self.map_doubt.is_none())
     }
 
     /// Everything that must survive a restart of the shell. Copies the whole home at once: for a robot at rest.

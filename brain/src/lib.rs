@@ -42,6 +42,7 @@ pub use model::job_refusal::JobRefusal;
 pub use model::kept_place::{KeptPlace, PlaceShape};
 pub use model::learnt::{GyroLearnt, Learnt, LearntPart};
 pub use model::link_fault::LinkFault;
+pub use model::map_doubt::MapDoubt;
 pub use model::map_edit::{MapEdit, NoGoEdit, PlaceEdit, RoomEdit};
 pub use model::no_go::{NoGo, NoGoShape, RoomName};
 pub use model::observation::Observation;

@@ -24,6 +24,7 @@ mod line_slam;
 mod localizer;
 #[cfg(test)]
 mod many_runs;
+mod map_check;
 mod map_correction;
 mod odometry;
 mod particles;

@@ -15,6 +15,7 @@ use super::drift::{ODOMETRY_NOISE, turn_variance};
 use super::global_localizer::{GlobalLocalizer, PoseCandidate};
 use super::gyro_estimate::{BiasMeasurement, GyroEstimate};
 use super::lift::Lift;
+use super::map_check::MapCheck;
 use super::odometry::Odometry;
 use super::particles::{
     BeamScore, FilterMode, Measurements, MotionDelta, ParticleFilter, PoseSpread, Surroundings,
@@ -92,6 +93,8 @@ pub(super) struct Tracker {
     unconfirmed: u32,
     /// It competes with other storeys, so contradictions of its map must not be explained away.
     competes: bool,
+    /// What the map predicts beside what is met.
+    map_check: MapCheck,
     radius_m: f64,
     layout: SensorLayout,
 }
@@ -118,6 +121,7 @@ impl Tracker {
             since_found: BeamScore::default(),
             unconfirmed: 0,
             competes: false,
+            map_check: MapCheck::default(),
             radius_m,
             layout,
         }
@@ -192,6 +196,11 @@ impl Tracker {
     }
 
     /// Takes ranges to beacons whose positions are known.
+    /// What the map predicts beside what was met.
+    pub(super) const fn map_check(&self) -> &MapCheck {
+        &self.map_check
+    }
+
     pub(super) fn add_ranges(&mut self, ranges: &[LocatedRange]) {
         self.ranges.extend_from_slice(ranges);
     }
@@ -315,6 +324,10 @@ impl Tracker {
         let estimate = self.filter.estimate();
         let score = self.filter.score(map, estimate.pose);
         self.since_found = self.since_found.and(score);
+        if self.is_settled() {
+            self.map_check
+                .take(map, &self.filter.compared(map, estimate.pose));
+        }
         if self.unconfirmed > 0 {
             let score = self.filter.score(&Whole(map), estimate.pose);
             self.unconfirmed = self.unconfirmed.saturating_sub(score.informative);

@@ -64,6 +64,8 @@ named_enum! {
         ContourClosed => "contour-closed",
         /// The floor to clean is covered.
         Covered => "covered",
+        /// The floor that a doubted map shows is covered: how much of the home that is, nobody knows.
+        CoveredByMap => "covered-by-map",
         /// Leaves the dock.
         Depart => "depart",
         /// The position of the dock is measured.
@@ -84,6 +86,8 @@ named_enum! {
         DockWay => "dock-way",
         /// Wiggles on the contacts of the dock.
         DockWiggle => "dock-wiggle",
+        /// Doubts the map of the home: it predicts other things than the robot meets.
+        DoubtMap => "doubt-map",
         /// A map edit that was admitted does not apply any more.
         EditRefused => "edit-refused",
         /// Ends the lap along the walls.

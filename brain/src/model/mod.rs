@@ -17,6 +17,7 @@ pub(crate) mod job_refusal;
 pub(crate) mod kept_place;
 pub mod learnt;
 pub(crate) mod link_fault;
+pub(crate) mod map_doubt;
 pub(crate) mod map_edit;
 pub(crate) mod named_enum;
 pub mod no_go;

@@ -3,6 +3,7 @@
 use super::fault::Fault;
 use super::gyro_fault::GyroFault;
 use super::link_fault::LinkFault;
+use super::map_doubt::MapDoubt;
 use super::named_enum::named_enum;
 use super::observation::{Cliffs, Contacts};
 
@@ -178,6 +179,8 @@ named_enum! {
         Link(LinkFault),
         /// The gyro cannot be relied upon.
         Gyro(GyroFault),
+        /// The map cannot be relied upon.
+        Map(MapDoubt),
     }
 }
 

@@ -1,12 +1,11 @@
-//! Forbidden floor by chance: outlines, walls and edits are drawn, and another program judges what became of them.
+//! Forbidden floor by chance: outlines and walls are drawn, and another program judges what became of them.
 
-use crate::orders::{START, Stage, flat, forbid, known, zone};
-use crate::plane::{World, config, edit, run};
+use crate::orders::{START, Stage, forbid, zone};
+use crate::plane::{edit, run};
 use brain::{
-    BehaviorState, Brain, CellKnowledge, CleaningOrder, EditError, HomePart, JobCommand, KeptPlace, MapEdit,
-    NoGo, NoGoEdit, PlaceEdit, PlaceShape, Point2, RoomName, StoredMap, Zone,
+    BehaviorState, CellKnowledge, CleaningOrder, EditError, JobCommand, MapEdit, NoGo, NoGoEdit, Point2, Zone,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Outlines that are drawn.
 const OUTLINES: u32 = 10_000;
@@ -14,10 +13,10 @@ const OUTLINES: u32 = 10_000;
 const LATTICE_M: f64 = 0.25;
 
 /// A generator of numbers of its own: xorshift.
-struct Draw(u64);
+pub(crate) struct Draw(pub(crate) u64);
 
 impl Draw {
-    fn below(&mut self, limit: u32) -> u32 {
+    pub(crate) fn below(&mut self, limit: u32) -> u32 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
@@ -271,95 +270,4 @@ fn the_search_for_the_dock_does_not_cross_a_virtual_wall() {
         assert!(now.x_m < 3.0, "it has crossed the wall after {driven_m} m");
     }
     assert!(driven_m > 20.0, "it searches: {driven_m} m");
-}
-
-/// What a number was given for, over all edits and restores.
-#[derive(Default)]
-struct Identities {
-    no_go: BTreeMap<u16, Point2>,
-    places: BTreeMap<u16, RoomName>,
-    given: u32,
-}
-
-impl Identities {
-    /// Every number means what it meant when it was given.
-    fn check(&mut self, brain: &Brain) {
-        for (number, no_go) in brain.map().annotations().no_go() {
-            let first = no_go.area().corners()[0];
-            let meant = self.no_go.entry(number).or_insert_with(|| {
-                self.given += 1;
-                first
-            });
-            assert_eq!(*meant, first, "no-go {number} means two things");
-        }
-        for (number, place) in brain.map().annotations().places() {
-            let meant = self.places.entry(number).or_insert_with(|| {
-                self.given += 1;
-                place.name().clone()
-            });
-            assert_eq!(meant, place.name(), "place {number} means two things");
-        }
-    }
-}
-
-/// One drawn edit; names and corners are never the same twice.
-fn drawn_edit(draw: &mut Draw, serial: u32) -> MapEdit {
-    let number = 1 + draw.below(40) as u16;
-    let shift = f64::from(serial) * 1e-4;
-    let area = zone((1.5 + shift, 2.0), (2.5, 3.0));
-    let place = |name: &str| {
-        let shape = PlaceShape::Zone(zone((0.5 + shift, 0.5), (1.5, 1.5)));
-        KeptPlace::new(RoomName::new(name).expect("a name"), &shape).expect("a shape")
-    };
-    match draw.below(4) {
-        0 => MapEdit::NoGo(NoGoEdit::Add(NoGo::zone(&area).expect("an area"))),
-        1 => MapEdit::NoGo(NoGoEdit::Remove { number }),
-        2 => MapEdit::Place(PlaceEdit::Keep {
-            place: place(&format!("Place {serial}")),
-            number: None,
-        }),
-        _ => MapEdit::Place(PlaceEdit::Forget { number }),
-    }
-}
-
-/// Map edits, restores of earlier maps and orders by number, by chance.
-#[test]
-fn no_number_means_two_things_over_edits_and_restores() {
-    let mut draw = Draw(10_000);
-    let mut brain = Brain::with_map(config(), 1, &known(&flat()));
-    let mut world = World::new(flat(), START);
-    run(&mut world, &mut brain, None, 1.0);
-    let mut kept: Vec<StoredMap> = vec![brain.map().stored()];
-    let mut identities = Identities::default();
-    let mut refused = BTreeSet::new();
-    for serial in 0..3_000 {
-        if draw.below(60) == 0 {
-            let now = brain.map().stored();
-            let back = kept[draw.below(kept.len() as u32) as usize].clone();
-            brain = Brain::with_map(config(), 1, &back.numbered_after(&now));
-            world = World::new(flat(), START);
-            run(&mut world, &mut brain, None, 0.2);
-            kept.push(now);
-        } else {
-            let made = drawn_edit(&mut draw, serial);
-            match brain.map().admit(&made) {
-                Ok(()) => edit(&mut world, &mut brain, made),
-                Err(error) => {
-                    refused.insert(format!("{error:?}"));
-                }
-            }
-        }
-        identities.check(&brain);
-    }
-    assert!(identities.given > 500, "{} numbers given", identities.given);
-    assert!(
-        refused.contains("NoSuchNoGo") && refused.contains("NoSuchPlace"),
-        "{refused:?}"
-    );
-    let gone = HomePart::Room(9_999);
-    let order = CleaningOrder::new(vec![gone], 1).unwrap();
-    assert_eq!(
-        brain.admit(&JobCommand::CleanParts { order }),
-        Err(EditError::NoSuchRoom.into())
-    );
 }

@@ -2,8 +2,10 @@
 
 mod behavior;
 mod contours;
+mod dock_access;
 mod first_run;
 mod forbidden;
+mod identities;
 mod laws;
 mod mapping;
 mod orders;

@@ -60,7 +60,7 @@ pub use schedule::{
 pub use short_number::short_number;
 pub use simulated::{SimulatedPlan, SimulatedTruth};
 pub use stop::{Evidence, EvidenceSample, Standstill};
-pub use thought::{Decision, Estimate, PlannedPath};
+pub use thought::{Decision, Estimate, MapDoubt, PlannedPath};
 pub use topic::Topic;
 pub use trouble::{Gravity, Trouble, TroubleWords};
 pub use update::{

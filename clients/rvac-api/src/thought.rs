@@ -24,6 +24,30 @@ pub struct Estimate {
     /// The same if the true position error is twice the estimated one; by statistics, if there is more floor than estimated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub covered_low: Option<f64>,
+    /// Why the map of the home is doubted. Then no share is told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub map_doubt: Option<MapDoubt>,
+}
+
+/// In which direction map and home disagree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MapDoubt {
+    /// Nothing is where the map has walls and furniture.
+    MappedNotMet,
+    /// Walls and furniture stand where the map has floor.
+    MetNotMapped,
+}
+
+impl MapDoubt {
+    /// Its code in the catalogue of reasons.
+    #[must_use]
+    pub const fn code(self) -> &'static str {
+        match self {
+            Self::MappedNotMet => "mapped-not-met",
+            Self::MetNotMapped => "met-not-mapped",
+        }
+    }
 }
 
 /// The planned path of the running or waiting job from here on.

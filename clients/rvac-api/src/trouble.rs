@@ -265,6 +265,8 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("no-heading", None),
     ("obstructed", Some(Trouble::Route)),
     ("gyro-scale", None),
+    ("mapped-not-met", Some(Trouble::Place)),
+    ("met-not-mapped", Some(Trouble::Place)),
     ("gyro-drift", None),
     ("gyro-frozen", None),
     ("gyro-at-its-limit", None),

@@ -9,13 +9,13 @@ use rvac_api::{
     BatteryReading, BumpMark, CarpetView, CleaningPattern, CleaningPower, ClientInput, ComponentHealth,
     Decision, DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, EvidenceSample, Failure,
     FloorQuestion, FloorView, FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder,
-    JobPart, KeptMap, LearntPart, LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapSnapshot,
-    NoGoShape, NoGoView, PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours, Request,
-    RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting,
-    RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
-    ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
-    SimulatedTruth, Standstill, Status, SurenessView, Topic, TrackPose, TrackReading, Update, Versions,
-    WallView, Weekday, is_mix_name,
+    JobPart, KeptMap, LearntPart, LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapDoubt,
+    MapSnapshot, NoGoShape, NoGoView, PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours,
+    Request, RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings,
+    RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
+    RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
+    SimulatedPlan, SimulatedTruth, Standstill, Status, SurenessView, Topic, TrackPose, TrackReading, Update,
+    Versions, WallView, Weekday, is_mix_name,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -761,10 +761,21 @@ fn what_the_robot_thinks() {
         agreement: None,
         covered: Some(0.75),
         covered_low: Some(0.625),
+        map_doubt: None,
     };
     check(
         &Update::Estimate(estimate),
         r#"{"e":"estimate","sigma_m":0.5,"sigma_rad":0.25,"lost":false,"covered":0.75,"covered_low":0.625}"#,
+    );
+    let doubting = Estimate {
+        covered: None,
+        covered_low: None,
+        map_doubt: Some(MapDoubt::MappedNotMet),
+        ..estimate
+    };
+    check(
+        &Update::Estimate(doubting),
+        r#"{"e":"estimate","sigma_m":0.5,"sigma_rad":0.25,"lost":false,"map_doubt":"mapped-not-met"}"#,
     );
     let way = PlannedPath {
         points_mm: vec![0, -100, 2500, 40],

@@ -4,6 +4,7 @@ mod beacons;
 mod board_faults;
 mod carpets;
 mod determinism;
+mod drawn_requests;
 mod edges;
 mod floors;
 mod forbidden;

@@ -49,12 +49,17 @@ pub(crate) fn sentence(decision: &Decision) -> String {
     )
 }
 
-fn deed(kind: DecisionKind, value: f64) -> String {
-    let value = if value.is_finite() {
+/// A value that fits into a sentence.
+const fn shown(value: f64) -> f64 {
+    if value.is_finite() {
         value.clamp(-SHOWN_MAX, SHOWN_MAX)
     } else {
         0.0
-    };
+    }
+}
+
+fn deed(kind: DecisionKind, value: f64) -> String {
+    let value = shown(value);
     match kind {
         DecisionKind::BackOff => "Backed off and turned away".to_owned(),
         DecisionKind::Plan => format!("Route planned, {:.0} min", (value / 60.0).max(1.0)),
@@ -81,6 +86,10 @@ fn deed(kind: DecisionKind, value: f64) -> String {
             "Cleaned {:.0} % of the reachable floor",
             100.0 * value.clamp(0.0, 1.0)
         ),
+        DecisionKind::CoveredByMap => {
+            "Cleaned what its map shows; how much of the home that is cannot be said".to_owned()
+        }
+        DecisionKind::DoubtMap => "Doubts its map".to_owned(),
         DecisionKind::Bounce => "Bounced to get out of this place".to_owned(),
         DecisionKind::Squeeze => "Tried to pass a narrow gap".to_owned(),
         DecisionKind::Approach => "Approached the dock".to_owned(),

@@ -1,6 +1,6 @@
 //! From the core's types to those of the interface to clients: the only place where a struct exists twice.
 
-use brain::{Brain, CELL_M, Hazard, HazardKind, JobFigures, MapPart, Pose2, SweptShare};
+use brain::{Brain, CELL_M, Hazard, HazardKind, JobFigures, MapDoubt, MapPart, Pose2, SweptShare};
 use rvac_api::{
     BatteryReading, BumpMark, ChargerReading, Estimate, MapDelta, MapSnapshot, PlannedPath, Pose,
     RobotDescription,
@@ -105,6 +105,14 @@ pub(crate) fn estimate(brain: &Brain, swept: Option<SweptShare>) -> Estimate {
         agreement: brain.map_agreement(),
         covered: swept.map(|swept| swept.share),
         covered_low: swept.map(|swept| swept.share_low),
+        map_doubt: brain.map_doubt().map(map_doubt),
+    }
+}
+
+const fn map_doubt(doubt: MapDoubt) -> rvac_api::MapDoubt {
+    match doubt {
+        MapDoubt::MappedNotMet => rvac_api::MapDoubt::MappedNotMet,
+        MapDoubt::MetNotMapped => rvac_api::MapDoubt::MetNotMapped,
     }
 }
 

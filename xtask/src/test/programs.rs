@@ -18,7 +18,8 @@ pub(super) fn workspace_tests(extent: Extent) -> Result {
     let build = check(&mut cargo(&["build", "--workspace", "--locked", "--all-targets"]));
     let run = tests(&mut runner(extent));
     let zones = (extent == Extent::Long).then(|| tests(&mut cargo(&ALL_ZONES)));
-    all([build, run].into_iter().chain(zones))
+    let files = (extent == Extent::Long).then(|| tests(&mut cargo(&MILLION_FILES)));
+    all([build, run].into_iter().chain(zones).chain(files))
 }
 
 /// The words behind `--` mean the same to both runners.
@@ -42,9 +43,24 @@ fn runner(extent: Extent) -> Command {
 }
 
 /// Tests that are too long for `--all`. All others that are marked `#[ignore]` are campaigns and run there.
-const LONG_ONLY: [&str; 2] = [
+const LONG_ONLY: [&str; 3] = [
+    "a_million_hostile_files_get_an_answer_in_time_and_in_bounded_memory",
     "many_random_programs_end_alike",
     "each_local_time_fires_once_a_day_at_every_change",
+];
+
+/// A million files that nobody would write, for every loader of homes.
+const MILLION_FILES: [&str; 10] = [
+    "test",
+    "--release",
+    "--locked",
+    "--package",
+    "home",
+    "--test",
+    "all",
+    "--",
+    "--ignored",
+    "a_million_hostile_files",
 ];
 
 /// Every change of the clock of every time zone, for every kind of schedule.

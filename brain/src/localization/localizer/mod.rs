@@ -24,6 +24,7 @@ use crate::model::advance::Advance;
 use crate::model::config::BrainConfig;
 use crate::model::geometry::{Pose2, normalize_rad};
 use crate::model::gyro_fault::GyroFault;
+use crate::model::map_doubt::MapDoubt;
 use crate::model::observation::Observation;
 use crate::model::onsets::{DockOnset, OnsetDetector};
 use crate::model::pose_estimate::PoseEstimate;
@@ -374,6 +375,12 @@ impl Localization {
     #[must_use]
     pub fn explained(&self) -> Option<f64> {
         self.estimator.known_map().map(|known| known.tracker.explained())
+    }
+
+    /// Why the known map is doubted, with the share that speaks against it; `None` = it is not, or there is none.
+    #[must_use]
+    pub(crate) fn map_doubt(&self) -> Option<(MapDoubt, f64)> {
+        self.estimator.known_map()?.tracker.map_check().doubt()
     }
 
     /// Reversed distance in metres that the robot has not driven forward again, 0..=0.15: no sensor has seen that floor.

@@ -40,6 +40,25 @@ pub(super) struct BeamModel {
     mount_m: f64,
 }
 
+/// What a beam says of the map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::localization) enum BeamAgreement {
+    /// Something is where the map has something.
+    Agrees,
+    /// Nothing is where the map has something.
+    Missing,
+    /// Something is where the map has nothing.
+    Unforeseen,
+}
+
+/// A beam compared with the map.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::localization) struct ComparedBeam {
+    pub(in crate::localization) agreement: BeamAgreement,
+    /// Where the thing is that is there or missing.
+    pub(in crate::localization) at: Point2,
+}
+
 /// How well the map explains the beams at a pose.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::localization) struct BeamScore {
@@ -123,26 +142,62 @@ impl BeamModel {
     /// Counts the beams that the map explains at a pose.
     pub(super) fn score(&self, map: &impl Surroundings, place: &BodyPose) -> BeamScore {
         let mut score = BeamScore::default();
-        for beam in self.beams.get(..self.count).unwrap_or_default() {
-            let expected_m = self
-                .cast(map, place, beam)
-                .filter(|expected_m| *expected_m < self.range_m - BEAM.range_band_m);
-            let consistent = match (beam.seen, expected_m) {
-                (None, None) => continue,
-                (Some(BeamReading::At(range)), Some(expected_m)) => {
-                    ((range.seen_m - expected_m) * range.per_sigma).abs() < 3.0
-                }
-                (Some(BeamReading::At(range)), None) => (self.range_m - range.seen_m) * range.per_sigma < 3.0,
-                (Some(BeamReading::Near), _) => self.cast(map, place, beam).is_some(),
-                (None, Some(_)) => false,
-            };
-            if !consistent && looks_into_unknown(map, place, beam, expected_m) {
-                continue;
-            }
+        for compared in self.compared(map, place) {
             score.informative += 1;
-            score.consistent += u32::from(consistent);
+            score.consistent += u32::from(compared.agreement == BeamAgreement::Agrees);
         }
         score
+    }
+
+    /// Compares each beam that tells something with the map at a pose.
+    pub(super) fn compared<'compared>(
+        &'compared self,
+        map: &'compared impl Surroundings,
+        place: &'compared BodyPose,
+    ) -> impl Iterator<Item = ComparedBeam> + 'compared {
+        let beams = self.beams.get(..self.count).unwrap_or_default();
+        beams
+            .iter()
+            .filter_map(move |beam| self.compare(map, place, beam))
+    }
+
+    fn compare(&self, map: &impl Surroundings, place: &BodyPose, beam: &Beam) -> Option<ComparedBeam> {
+        let cast_m = self.cast(map, place, beam);
+        let expected_m = cast_m.filter(|expected_m| *expected_m < self.range_m - BEAM.range_band_m);
+        let (is_consistent, seen_m) = match (beam.seen, expected_m) {
+            (None, None) => return None,
+            (Some(BeamReading::At(range)), Some(expected_m)) => {
+                let off = (range.seen_m - expected_m) * range.per_sigma;
+                (off.abs() < 3.0, Some(range.seen_m))
+            }
+            (Some(BeamReading::At(range)), None) => {
+                let short = (self.range_m - range.seen_m) * range.per_sigma;
+                (short < 3.0, Some(range.seen_m))
+            }
+            (Some(BeamReading::Near), _) => (cast_m.is_some(), Some(self.range_m)),
+            (None, Some(_)) => (false, None),
+        };
+        if !is_consistent && looks_into_unknown(map, place, beam, expected_m) {
+            return None;
+        }
+        let (agreement, distance_m) = match (expected_m, seen_m) {
+            (expected_m, Some(seen_m)) if is_consistent => {
+                (BeamAgreement::Agrees, expected_m.unwrap_or(seen_m))
+            }
+            (Some(expected_m), seen_m) if seen_m.is_none_or(|seen_m| seen_m > expected_m) => {
+                (BeamAgreement::Missing, expected_m)
+            }
+            (_, seen_m) => (BeamAgreement::Unforeseen, seen_m?),
+        };
+        let start = place.point(beam.x_m, beam.y_m);
+        let (dx, dy) = place.direction(beam.cos, beam.sin);
+        Some(ComparedBeam {
+            agreement,
+            at: Point2 {
+                x_m: start.x_m + dx * distance_m,
+                y_m: start.y_m + dy * distance_m,
+            },
+        })
     }
 
     fn beam_likelihood(

@@ -24,7 +24,7 @@ use crate::model::pose_estimate::PoseEstimate;
 pub(super) use filter_mode::FilterMode;
 pub(super) use gyro::GyroCount;
 use gyro::ParticleGyro;
-pub(super) use infrared::BeamScore;
+pub(super) use infrared::{BeamAgreement, BeamScore, ComparedBeam};
 use infrared::{BeamModel, BodyPose};
 use parameters::{MOTION, SAMPLING};
 use surface::Reflectances;
@@ -370,6 +370,11 @@ impl ParticleFilter {
     /// Score of the last weighing's beams at a pose.
     pub(super) fn score(&self, map: &impl Surroundings, pose: Pose2) -> BeamScore {
         self.beams.score(map, &place(map, pose))
+    }
+
+    /// The last weighing's beams, each compared with the map at a pose.
+    pub(super) fn compared(&self, map: &impl Surroundings, pose: Pose2) -> Vec<ComparedBeam> {
+        self.beams.compared(map, &place(map, pose)).collect()
     }
 }
 

@@ -131,6 +131,7 @@ mod tests {
             agreement: None,
             covered: Some(share),
             covered_low: None,
+            map_doubt: None,
         }
     }
 

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use rvac_api::{Decision, Estimate, PlannedPath};
 
+use crate::codes::explain;
 use crate::figures::percent_text;
 use crate::words::Words;
 
@@ -81,6 +82,10 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
             None => texts.covered.fill([&covered]),
         });
     }
+    if let Some(doubt) = estimate.map_doubt {
+        let told = explain(words, doubt.code());
+        sentences.push(texts.map_doubted.fill([&told.map(|told| told.text()).unwrap_or_default()]));
+    }
     sentences
 }
 
@@ -137,9 +142,10 @@ pub fn path_dashes(path: &PlannedPath, dash_m: f64) -> Vec<f32> {
 mod tests {
     use super::{DecisionBook, KEPT, estimate_sentences, path_dashes, place_text};
     use crate::words::{Language, Words};
-    use rvac_api::{Decision, Estimate, PlannedPath};
+    use rvac_api::{Decision, Estimate, MapDoubt, PlannedPath};
 
     const ENGLISH: &Words = Language::English.words();
+    const ESTONIAN: &Words = Language::Estonian.words();
 
     fn decision(number: u64) -> Decision {
         Decision {
@@ -195,6 +201,14 @@ mod tests {
             ..lost
         };
         assert!(estimate_sentences(ENGLISH, &low)[2].contains("50 % of the reachable floor, at least 44 %"));
+        let doubting = Estimate {
+            map_doubt: Some(MapDoubt::MappedNotMet),
+            ..sure
+        };
+        for (words, says) in [(ENGLISH, "Nothing is where its map"), (ESTONIAN, "ei ole midagi")] {
+            let told = estimate_sentences(words, &doubting);
+            assert!(told[1].contains(says) && told[1].contains("rvac map restore"), "{told:?}");
+        }
         assert_eq!(
             place_text(
                 ENGLISH,

@@ -124,6 +124,8 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("gyro-disagrees", "Its gyro turns otherwise than the wheels do, so it is left out: only the wheels tell the heading, and it drives slowly.", "Check how the gyro is mounted (imu.up) and that it sits firmly."),
     entry("gyro-silent", "Its gyro says nothing, so only the wheels tell the heading, and it drives slowly.", "Check the gyro's plug; it counts again by itself."),
     entry("gyro-back", "Its gyro measures again.", ""),
+    entry("mapped-not-met", "Nothing is where its map has walls or furniture.", "Take up the last good version of the map: rvac map list shows them, rvac map restore NUMBER takes one up, and so does the panel."),
+    entry("met-not-mapped", "Walls or furniture stand where its map has floor.", "Take up the last good version of the map: rvac map list shows them, rvac map restore NUMBER takes one up, and so does the panel."),
     entry("gyro-drift", "Its gyro must be measured at rest now and then.", ""),
     entry("wall-ahead", "Something stands ahead.", ""),
     entry("wall-ended", "The wall ends here.", ""),

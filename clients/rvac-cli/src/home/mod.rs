@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use anyhow::bail;
-use rvac_api::{Estimate, HomeView, KeptMap, Pose, RequestBody, RoomView, Update};
+use rvac_api::{Estimate, HomeView, KeptMap, Pose, RequestBody, RoomView, Update, explain};
 
 use crate::arguments::{Daemon, MapJob, MapVerb, Place};
 use crate::control;
@@ -171,6 +171,9 @@ pub(crate) fn sureness(estimate: &Estimate) -> String {
         if let Some(low) = estimate.covered_low {
             text += &format!(" (at least {:.0} %)", 100.0 * low);
         }
+    }
+    if let Some(told) = estimate.map_doubt.and_then(|doubt| explain(doubt.code())) {
+        text += &format!("\nthe map is doubted: {}", told.text());
     }
     text
 }

@@ -288,6 +288,7 @@ fn looks_alike(old: &Estimate, new: &Estimate) -> bool {
         (one, other) => one.is_none() && other.is_none(),
     };
     old.lost == new.lost
+        && old.map_doubt == new.map_doubt
         && near(old.sigma_m, new.sigma_m)
         && near(old.sigma_rad, new.sigma_rad)
         && both(old.agreement, new.agreement)

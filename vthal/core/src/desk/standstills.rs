@@ -94,7 +94,10 @@ impl StandstillDesk {
     /// Takes in a decision of the brain and reports it.
     pub(crate) fn decided(&mut self, decision: &Decision, teller: &mut Teller<'_>) {
         let is_refusal = decision.kind == DecisionKind::Refuse;
-        let level = if is_refusal || decision.kind.state_name().is_some() {
+        let is_doubt = decision.kind == DecisionKind::DoubtMap;
+        let level = if is_doubt {
+            LogLevel::Warn
+        } else if is_refusal || decision.kind.state_name().is_some() {
             LogLevel::Info
         } else {
             LogLevel::Debug
@@ -104,7 +107,7 @@ impl StandstillDesk {
         } else {
             format!(" {:.2}", decision.value)
         };
-        let explanation = if is_refusal || is_standstill(decision) {
+        let explanation = if is_doubt || is_refusal || is_standstill(decision) {
             format!(": {}", refusal::text(decision.cause.name()))
         } else {
             String::new()

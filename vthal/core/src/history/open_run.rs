@@ -29,6 +29,8 @@ pub(super) struct OpenRun {
     figures: JobFigures,
     /// Share of the floor that the brain says it has swept.
     covered: Option<f64>,
+    /// The map was doubted at some moment.
+    is_map_doubted: bool,
     /// Since when the brain has no job any more.
     pub(super) over_us: Option<u64>,
     /// What it drew, if an order has come that will wipe the map.
@@ -118,6 +120,7 @@ impl OpenRun {
             standing: None,
             figures: JobFigures::default(),
             covered: None,
+            is_map_doubted: false,
             over_us: None,
             picture: None,
         }
@@ -228,6 +231,7 @@ impl OpenRun {
             DecisionKind::Covered if decision.value.is_finite() => {
                 self.covered = Some(decision.value.clamp(0.0, 1.0))
             }
+            DecisionKind::DoubtMap | DecisionKind::CoveredByMap => self.is_map_doubted = true,
             _ => {}
         }
     }
@@ -338,7 +342,8 @@ impl OpenRun {
         run.bumps = self.figures.bumps;
         let floor_m2 = brain.and_then(|brain| picture::floor_m2(brain.map(), &run.job));
         let swept_share = floor_m2.map(|floor_m2| (self.figures.swept_m2 / floor_m2).min(1.0));
-        run.share = self.covered.or(swept_share);
+        // A share of the floor that a wrong map shows says nothing of the home.
+        run.share = self.covered.or(swept_share).filter(|_| !self.is_map_doubted);
         record
     }
 

@@ -23,6 +23,8 @@ pub(super) const DEEDS: &[(&str, &str)] = &[
     ("withdraw", "Võttis oma kaardi viimase osa tagasi"),
     ("spiral", "Alustas spiraali"),
     ("covered", "Oli koristanud {} % ligipääsetavast põrandast"),
+    ("covered-by-map", "Koristas selle, mida kaart näitab; kui suur osa kodust see on, ei saa öelda"),
+    ("doubt-map", "Kahtleb oma kaardis"),
     ("bounce", "Põrkas, et siit välja saada"),
     ("squeeze", "Proovis kitsast vahest läbi minna"),
     ("approach", "Lähenes dokile"),

@@ -138,6 +138,8 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("gyro-disagrees", "Güroskoop pöörab teisiti kui rattad ja jäetakse kõrvale: suunda näitavad ainult rattad ja robot sõidab aeglaselt.", "Kontrolli, kuidas güroskoop on kinnitatud (imu.up) ja kas see püsib paigal."),
     entry("gyro-silent", "Güroskoop vaikib: suunda näitavad ainult rattad ja robot sõidab aeglaselt.", "Kontrolli güroskoobi pistikut; robot võtab selle ise jälle kasutusele."),
     entry("gyro-back", "Güroskoop mõõdab jälle.", ""),
+    entry("mapped-not-met", "Seal, kus kaardil on seinad või mööbel, ei ole midagi.", "Võta tagasi kaardi viimane hea versioon: versioonid on kodu lehel ja neid näitab rvac map list, tagasi võtab rvac map restore NUMBER."),
+    entry("met-not-mapped", "Seal, kus kaardil on põrand, on seinad või mööbel.", "Võta tagasi kaardi viimane hea versioon: versioonid on kodu lehel ja neid näitab rvac map list, tagasi võtab rvac map restore NUMBER."),
     entry("gyro-drift", "Güroskoopi tuleb aeg-ajalt seistes mõõta.", ""),
     entry("wall-ahead", "Midagi on ees.", ""),
     entry("wall-ended", "Sein lõpeb siin.", ""),

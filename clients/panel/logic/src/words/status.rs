@@ -43,6 +43,8 @@ screen! {
         believes[2]: "Position known to {0}, heading to {1}°.",
             "Asukoht on teada täpsusega {0}, suund täpsusega {1}°.";
         agreement[1]: "Sensors match the map: {0}.", "Andurid klapivad kaardiga: {0}.";
+        map_doubted[1]: "The map is doubted, so no share is told. {0}",
+            "Kaardis on kahtlus, seepärast osa ei näidata. {0}";
         covered[1]: "Estimated coverage: {0} of the reachable floor.",
             "Hinnanguliselt koristatud: {0} ligipääsetavast põrandast.";
         covered_at_least[2]: "Estimated coverage: {0} of the reachable floor, at least {1}.",

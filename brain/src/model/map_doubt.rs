@@ -1,0 +1,13 @@
+//! Why the robot doubts the map of its home.
+
+use super::named_enum::named_enum;
+
+named_enum! {
+    /// In which direction map and home disagree.
+    MapDoubt {
+        /// Nothing is where the map has walls and furniture.
+        MappedNotMet => "mapped-not-met",
+        /// Walls and furniture stand where the map has floor.
+        MetNotMapped => "met-not-mapped",
+    }
+}
