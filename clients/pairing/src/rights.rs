@@ -46,7 +46,7 @@ pub struct Route {
 /// Every address below `/api/`, and the files that the server makes itself; one that ends with `/` stands for all that begin so. The page and
 /// its files are for anybody: they hold no secret.
 #[rustfmt::skip]
-pub const ROUTES: [Route; 16] = [
+pub const ROUTES: [Route; 18] = [
     Route { method: Method::Get,  path: "/robot.crt",          need: Need::Nobody },
     Route { method: Method::Get,  path: "/robot.mobileconfig", need: Need::Nobody },
     Route { method: Method::Get,  path: "/api/openapi.json",   need: Need::Nobody },
@@ -63,6 +63,8 @@ pub const ROUTES: [Route; 16] = [
     Route { method: Method::Get,  path: "/api/clients",        need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/revoke", need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/role",   need: Need::Role(Role::Admin) },
+    Route { method: Method::Get,  path: "/api/update",         need: Need::Role(Role::Admin) },
+    Route { method: Method::Post, path: "/api/update",         need: Need::Role(Role::Admin) },
 ];
 
 /// What an address needs; one below `/api/` that is not in the table needs the highest role.

@@ -14,6 +14,9 @@ const SEC_FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 /// A header that no form can send, and no page of another site without asking first.
 const OURS: HeaderName = HeaderName::from_static("x-rvac");
 
+/// Where files are sent to.
+const UPDATE: &str = "/api/update";
+
 /// How the server is spoken to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scheme {
@@ -101,7 +104,9 @@ impl Refusal {
                 "Another site led here: type the address of the panel into the address bar instead.\n"
             }
             Self::Method => "Only GET and HEAD are answered here.\n",
-            Self::NotOurs => "A change is sent as application/json, not packed, with the header X-Rvac: 1.\n",
+            Self::NotOurs => {
+                "A change is sent as application/json (an update as application/octet-stream), not packed, with the header X-Rvac: 1.\n"
+            }
         }
     }
 }
@@ -171,8 +176,13 @@ fn check_change(request: &Parts) -> Result<(), Refusal> {
     }
     // Nothing here unpacks, so what is packed has no meaning that we know.
     let is_packed = request.headers.contains_key(header::CONTENT_ENCODING);
+    // A file is no JSON; no form sends this kind, either.
+    let kind = match request.uri.path() {
+        UPDATE => "application/octet-stream",
+        _ => "application/json",
+    };
     let is_ours = !is_packed
-        && only(&request.headers, &header::CONTENT_TYPE) == Some("application/json")
+        && only(&request.headers, &header::CONTENT_TYPE) == Some(kind)
         && only(&request.headers, &OURS) == Some("1");
     is_ours.then_some(()).ok_or(Refusal::NotOurs)
 }
@@ -342,6 +352,12 @@ mod tests {
             &[OURS, origin, ours, ("content-type", "text/plain")],
             Err(Refusal::NotOurs),
         );
+        let update = ("POST", "/api/update");
+        let file = ("content-type", "application/octet-stream");
+        check(update, &[OURS, origin, file, ours], Ok(()));
+        check(update, &[OURS, origin, file], Err(Refusal::NotOurs));
+        check(update, &[OURS, origin, json, ours], Err(Refusal::NotOurs));
+        check(post, &[OURS, origin, file, ours], Err(Refusal::NotOurs));
         check(("POST", "/"), &[OURS, origin, json, ours], Err(Refusal::Method));
         check(
             ("DELETE", "/api/clients"),
