@@ -36,7 +36,9 @@ pub use name::{DeviceName, NameError};
 pub use presence::Presence;
 pub use refusal::Refusal;
 pub use register::{CLIENTS_MAX, Paired, Register, Wanted};
-pub use rights::{Asker, Denied, Method, Need, PRESENCE, ROUTES, Route, checked_request, method_of, need_of};
+pub use rights::{
+    Asker, Denied, Method, Need, PRESENCE, ROUTES, Route, Ways, checked_request, need_of, ways_of,
+};
 pub use robot_id::{RobotId, sha256};
 pub use rvac_api::{Role, UnknownRole};
 pub use stored::StoredError;

@@ -46,7 +46,7 @@ pub struct Route {
 /// Every address below `/api/`, and the files that the server makes itself; one that ends with `/` stands for all that begin so. The page and
 /// its files are for anybody: they hold no secret.
 #[rustfmt::skip]
-pub const ROUTES: [Route; 16] = [
+pub const ROUTES: [Route; 18] = [
     Route { method: Method::Get,  path: "/robot.crt",          need: Need::Nobody },
     Route { method: Method::Get,  path: "/robot.mobileconfig", need: Need::Nobody },
     Route { method: Method::Get,  path: "/api/openapi.json",   need: Need::Nobody },
@@ -63,29 +63,48 @@ pub const ROUTES: [Route; 16] = [
     Route { method: Method::Get,  path: "/api/clients",        need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/revoke", need: Need::Role(Role::Admin) },
     Route { method: Method::Post, path: "/api/clients/role",   need: Need::Role(Role::Admin) },
+    Route { method: Method::Get,  path: "/api/update",         need: Need::Role(Role::Admin) },
+    Route { method: Method::Post, path: "/api/update",         need: Need::Role(Role::Admin) },
 ];
 
-/// The row of an address.
-fn route_of(path: &str) -> Option<&'static Route> {
+/// What can be done at an address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ways {
+    /// Reading alone.
+    Read,
+    /// Changing alone.
+    Change,
+    /// Both.
+    Both,
+}
+
+/// The rows of an address.
+fn routes_of(path: &str) -> impl Iterator<Item = &'static Route> {
     ROUTES
         .iter()
-        .find(|route| route.path == path || route.path.ends_with('/') && path.starts_with(route.path))
+        .filter(move |route| route.path == path || route.path.ends_with('/') && path.starts_with(route.path))
 }
 
 /// What an address needs; one below `/api/` that is not in the table needs the highest role.
 #[must_use]
 pub fn need_of(path: &str) -> Need {
-    match route_of(path) {
+    match routes_of(path).next() {
         Some(route) => route.need,
         None if path.starts_with("/api/") => Need::Role(Role::Admin),
         None => Need::Nobody,
     }
 }
 
-/// How an address of the table is asked.
+/// What can be done at an address of the table.
 #[must_use]
-pub fn method_of(path: &str) -> Option<Method> {
-    route_of(path).map(|route| route.method)
+pub fn ways_of(path: &str) -> Option<Ways> {
+    let takes = |method| routes_of(path).any(|route| route.method == method);
+    match (takes(Method::Get), takes(Method::Post)) {
+        (true, true) => Some(Ways::Both),
+        (true, false) => Some(Ways::Read),
+        (false, true) => Some(Ways::Change),
+        (false, false) => None,
+    }
 }
 
 /// Requests for which somebody must be beside the robot or at its console, whatever the role: what they do no rule of the robot checks.

@@ -20,6 +20,7 @@ use serde::de::DeserializeOwned;
 use crate::gate::Gate;
 use crate::guarded::{Known, NotDone, refused, set_cookie};
 use crate::server::Site;
+use crate::software::SoftwareDesk;
 
 /// Bytes of a request's body.
 const BODY_BYTES_MAX: usize = 64 << 10;
@@ -111,6 +112,7 @@ pub(crate) fn routes() -> Router<Arc<Site>> {
         .route("/api/pairing/match", post(join))
         .route("/api/pairing/matched", post(ask_matched))
         .route("/api/pairing/open", post(open))
+        .route("/api/update", get(software).post(take_update))
         .route("/api/clients", get(clients))
         .route("/api/clients/revoke", post(revoke))
         .route("/api/clients/role", post(set_role))
@@ -229,6 +231,22 @@ async fn set_role(State(site): State<Arc<Site>>, request: Request) -> Answer {
     let SetRole { id, role } = read(request).await?;
     gate.guarded.set_role(id, role).await?;
     Ok(StatusCode::NO_CONTENT.into_response())
+}
+
+/// The last update, or the one that goes on; nothing if there was none.
+async fn software(State(site): State<Arc<Site>>) -> Answer {
+    let told = gate(&site)?.software.watch().borrow().clone();
+    Ok(match told {
+        Some(told) => json(StatusCode::OK, &told),
+        None => StatusCode::NO_CONTENT.into_response(),
+    })
+}
+
+async fn take_update(State(site): State<Arc<Site>>, request: Request) -> Answer {
+    let desk = &gate(&site)?.software;
+    let (parts, body) = request.into_parts();
+    let taken = SoftwareDesk::take(desk, &parts.headers, body).await;
+    Ok(taken.unwrap_or_else(|refused| refused.answer()))
 }
 
 /// The body of a request, whose kind the rules have checked.

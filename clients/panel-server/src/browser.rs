@@ -11,7 +11,9 @@ use tokio::sync::Notify;
 use tokio::time::{Instant, Interval, interval, timeout};
 use tracing::{debug, info, warn};
 
-use crate::courtesy::{Courtesy, disconnected, heartbeat, is_one_message, is_stop, new_device, refused};
+use crate::courtesy::{
+    Courtesy, disconnected, heartbeat, is_one_message, is_stop, new_device, refused, software_update,
+};
 use crate::outbox::{Outbox, Stalled};
 use crate::pass::{Change, Judged, Pass};
 use crate::upstream::{Event, Upstream};
@@ -277,6 +279,7 @@ impl Browser {
         match change {
             Change::Revoked => Err(Parting::Revoked),
             Change::Newcomer(newcomer) => Ok(self.shared.push(new_device(newcomer))?),
+            Change::Software(told) => Ok(self.shared.push(software_update(told))?),
         }
     }
 

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use crate::guarded::Newcomer;
-use rvac_api::{Failure, Request, RequestBody, SEPARATOR, Status, Update};
+use rvac_api::{Failure, Request, RequestBody, SEPARATOR, SoftwareUpdate, Status, Update};
 
 /// What must be sent to vthal again after a reconnect, and whether the browser sits in the driver's seat.
 #[derive(Debug, Default)]
@@ -72,6 +72,11 @@ pub(crate) fn new_device(newcomer: Newcomer) -> String {
         role: newcomer.role.name().to_owned(),
         from: newcomer.from,
     })
+}
+
+/// The message to administrators when an update of the software goes on or has ended.
+pub(crate) fn software_update(told: SoftwareUpdate) -> String {
+    text_of(&Update::SoftwareUpdate(Box::new(told)))
 }
 
 /// The sign of life to a page, with the time since the daemon was heard.

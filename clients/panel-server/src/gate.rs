@@ -21,6 +21,7 @@ use crate::identity::{Authority, IdentityError, Leaf, Subjects, own_addresses, r
 use crate::reset_file::Wish;
 use crate::rules::{Rules, Scheme};
 use crate::settings::Guard;
+use crate::software::SoftwareDesk;
 use crate::upstream::Upstream;
 
 /// How often names, addresses and the certificate's age are checked.
@@ -52,6 +53,7 @@ pub enum GateError {
 #[derive(Debug)]
 pub(crate) struct Gate {
     pub(crate) guarded: Guarded,
+    pub(crate) software: Arc<SoftwareDesk>,
     authority: RwLock<Arc<Authority>>,
     identity: PathBuf,
     /// The certificate and the names must be checked now.
@@ -72,10 +74,13 @@ impl Gate {
         vthal: PathBuf,
     ) -> Result<Self, GateError> {
         let folder = guard.state.as_path();
-        make_folder(folder).map_err(|source| GateError::Folder {
+        let unusable = |source| GateError::Folder {
             path: folder.to_owned(),
             source,
-        })?;
+        };
+        make_folder(folder).map_err(unusable)?;
+        let software =
+            SoftwareDesk::new(folder, guard.updates.clone(), guard.free_bytes).map_err(unusable)?;
         let identity = folder.join("identity.json");
         let authority = Authority::at(&identity, &extra_names)?;
         let guarded = Guarded::at(&folder.join("clients.json"), authority.robot().clone())?;
@@ -83,6 +88,7 @@ impl Gate {
         let leaf = Leaf::issue(&authority, now, reckoned_now_s((guard.clock)()))?;
         Ok(Self {
             guarded,
+            software: Arc::new(software),
             authority: RwLock::new(Arc::new(authority)),
             identity,
             renamed: Notify::new(),

@@ -30,6 +30,7 @@ mod rules;
 mod seats;
 mod server;
 mod settings;
+mod software;
 mod upstream;
 mod write_deadline;
 
@@ -41,3 +42,4 @@ pub use outbox::{Outbox, Stalled};
 pub use rules::{Refusal, Rules, Scheme};
 pub use server::Server;
 pub use settings::{Guard, Settings, StartError};
+pub use software::free_bytes;

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
-use panel_server::{Guard, Server, Settings, StartError, unix_s};
+use panel_server::{Guard, Server, Settings, StartError, free_bytes, unix_s};
 use tokio::signal::unix::{SignalKind, signal};
 
 /// Serves the panel of LibreRVAC and relays between browsers and vthal.
@@ -58,6 +58,14 @@ struct Serve {
     /// Port of a page that points to the HTTPS address, usually 80
     #[arg(long, value_name = "PORT", requires = "state")]
     page_port: Option<u16>,
+    /// Folder in which rvac update keeps its files
+    #[arg(
+        long,
+        value_name = "DIR",
+        requires = "state",
+        default_value = "/var/lib/librervac"
+    )]
+    updates: PathBuf,
     /// Announce the robot's name on the home network, so that https://NAME.local/ is found
     #[arg(long, requires = "state")]
     announce: bool,
@@ -73,13 +81,15 @@ enum Job {
 impl From<Serve> for Settings {
     fn from(arguments: Serve) -> Self {
         let (console, card, page_port) = (arguments.console, arguments.card, arguments.page_port);
-        let announce = arguments.announce;
+        let (announce, updates) = (arguments.announce, arguments.updates);
         let guard = arguments.state.map(|state| Guard {
             state,
             console,
             card,
             page_port,
             announce,
+            updates,
+            free_bytes,
             clock: unix_s,
         });
         Self {

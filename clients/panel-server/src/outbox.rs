@@ -44,6 +44,7 @@ enum Reading {
     PlannedPath,
     Inputs,
     Heartbeat,
+    Software,
 }
 
 impl Kind {
@@ -65,6 +66,7 @@ impl Kind {
             "way" => Reading::PlannedPath,
             "inputs" => Reading::Inputs,
             "heartbeat" => Reading::Heartbeat,
+            "software-update" => Reading::Software,
             "map" | "map-delta" | "simulated-plan" => return Self::Map,
             _ => return Self::Other,
         })

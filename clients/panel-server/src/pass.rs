@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pairing::wire::Greeting;
 use pairing::{Asker, Denied, Register, Role, checked_request};
-use rvac_api::{Request, RequestBody};
+use rvac_api::{Request, RequestBody, SoftwareUpdate};
 use tokio::sync::{broadcast, watch};
 
 use crate::api::may;
@@ -19,6 +19,7 @@ pub(crate) struct Pass {
     known: Known,
     register: watch::Receiver<Register>,
     notices: broadcast::Receiver<Newcomer>,
+    software: watch::Receiver<Option<SoftwareUpdate>>,
     greeted: bool,
 }
 
@@ -29,6 +30,8 @@ pub(crate) enum Change {
     Revoked,
     /// Somebody else was let in.
     Newcomer(Newcomer),
+    /// An update of the software goes on or has ended.
+    Software(SoftwareUpdate),
 }
 
 /// What to do with a message of the browser.
@@ -46,9 +49,13 @@ pub(crate) enum Judged {
 
 impl Pass {
     pub(crate) fn new(gate: Arc<Gate>, known: Known) -> Self {
+        let mut software = gate.software.watch();
+        // Whoever comes hears how it stands.
+        software.mark_changed();
         Self {
             register: gate.guarded.watch(),
             notices: gate.guarded.notices(),
+            software,
             gate,
             known,
             greeted: false,
@@ -61,9 +68,15 @@ impl Pass {
             if !self.renew() {
                 return Change::Revoked;
             }
+            let hears_of_software = self.greeted && self.known.role == Role::Admin;
             tokio::select! {
                 gone = self.register.changed() => if gone.is_err() { return Change::Revoked },
                 Ok(newcomer) = self.notices.recv() => return Change::Newcomer(newcomer),
+                Ok(()) = self.software.changed(), if hears_of_software => {
+                    if let Some(told) = self.software.borrow_and_update().clone() {
+                        return Change::Software(told);
+                    }
+                }
             }
         }
     }

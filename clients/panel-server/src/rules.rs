@@ -10,12 +10,15 @@ use axum::body::Body;
 use axum::http::request::Parts;
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, Response, StatusCode, header};
 use axum::response::IntoResponse as _;
-use pairing::method_of;
+use pairing::{Ways, ways_of};
 
 const SEC_FETCH_SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
 
 /// A header that no form can send, and no page of another site without asking first.
 const OURS: HeaderName = HeaderName::from_static("x-rvac");
+
+/// Where files are sent to.
+const UPDATE: &str = "/api/update";
 
 /// How the server is spoken to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,10 +73,8 @@ pub enum Refusal {
     OriginForeign,
     /// `Sec-Fetch-Site` says that another site asks.
     CrossSite,
-    /// Beside GET and HEAD only POST below `/api/` exists here.
-    OnlyRead,
-    /// This address takes POST alone.
-    OnlyChanged,
+    /// This address takes only these.
+    Method(Ways),
     /// A change that a form could have sent.
     NotOurs,
 }
@@ -86,7 +87,7 @@ impl Refusal {
             Self::HostUnclear => StatusCode::BAD_REQUEST,
             Self::HostForeign => StatusCode::MISDIRECTED_REQUEST,
             Self::OriginMissing | Self::OriginForeign | Self::CrossSite => StatusCode::FORBIDDEN,
-            Self::OnlyRead | Self::OnlyChanged => StatusCode::METHOD_NOT_ALLOWED,
+            Self::Method(_) => StatusCode::METHOD_NOT_ALLOWED,
             Self::NotOurs => StatusCode::UNSUPPORTED_MEDIA_TYPE,
         }
     }
@@ -94,15 +95,15 @@ impl Refusal {
     /// What the browser is told.
     pub(crate) fn answer(self) -> Response<Body> {
         let mut answer = (self.status(), self.text()).into_response();
-        // RFC 9110, section 15.5.6: whoever asks in a wrong way is told the right ones.
-        let ways = match self {
-            Self::OnlyRead => Some("GET, HEAD"),
-            Self::OnlyChanged => Some("POST"),
-            _ => None,
-        };
-        if let Some(ways) = ways {
-            let ways = HeaderValue::from_static(ways);
-            answer.headers_mut().insert(header::ALLOW, ways);
+        if let Self::Method(ways) = self {
+            // RFC 9110, section 15.5.6: whoever asks in a wrong way is told the right ones.
+            let allowed = match ways {
+                Ways::Read => "GET, HEAD",
+                Ways::Change => "POST",
+                Ways::Both => "GET, HEAD, POST",
+            };
+            let allowed = HeaderValue::from_static(allowed);
+            answer.headers_mut().insert(header::ALLOW, allowed);
         }
         answer
     }
@@ -121,9 +122,12 @@ impl Refusal {
             Self::CrossSite => {
                 "Another site led here: type the address of the panel into the address bar instead.\n"
             }
-            Self::OnlyRead => "Only GET and HEAD are answered here.\n",
-            Self::OnlyChanged => "Only POST is answered here.\n",
-            Self::NotOurs => "A change is sent as application/json, not packed, with the header X-Rvac: 1.\n",
+            Self::Method(Ways::Read) => "Only GET and HEAD are answered here.\n",
+            Self::Method(Ways::Change) => "Only POST is answered here.\n",
+            Self::Method(Ways::Both) => "Only GET, HEAD and POST are answered here.\n",
+            Self::NotOurs => {
+                "A change is sent as application/json (an update as application/octet-stream), not packed, with the header X-Rvac: 1.\n"
+            }
         }
     }
 }
@@ -190,17 +194,21 @@ impl Rules {
 fn check_change(request: &Parts) -> Result<(), Refusal> {
     let path = request.uri.path();
     let is_post = request.method == Method::POST;
-    match method_of(path) {
-        Some(pairing::Method::Post) if is_post => {}
-        Some(pairing::Method::Post) => return Err(Refusal::OnlyChanged),
+    match ways_of(path) {
+        Some(Ways::Change | Ways::Both) if is_post => {}
         // An address that there is not is told later.
         None if is_post && path.starts_with("/api/") => {}
-        _ => return Err(Refusal::OnlyRead),
+        known => return Err(Refusal::Method(known.unwrap_or(Ways::Read))),
     }
     // Nothing here unpacks, so what is packed has no meaning that we know.
     let is_packed = request.headers.contains_key(header::CONTENT_ENCODING);
+    // A file is no JSON; no form sends this kind, either.
+    let kind = match path {
+        UPDATE => "application/octet-stream",
+        _ => "application/json",
+    };
     let is_ours = !is_packed
-        && only(&request.headers, &header::CONTENT_TYPE) == Some("application/json")
+        && only(&request.headers, &header::CONTENT_TYPE) == Some(kind)
         && only(&request.headers, &OURS) == Some("1");
     is_ours.then_some(()).ok_or(Refusal::NotOurs)
 }
@@ -229,7 +237,7 @@ fn check_site(headers: &HeaderMap, acts: bool) -> Result<(), Refusal> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Refusal, Rules, Scheme};
+    use super::{Refusal, Rules, Scheme, Ways};
     use axum::http::Request;
 
     /// Checks a request made of `method`, `uri` and header lines against a server on port 8080 with one extra name.
@@ -337,12 +345,16 @@ mod tests {
         check(
             ("POST", "/"),
             &[OURS, ("origin", "http://localhost:8080")],
-            Err(Refusal::OnlyRead),
+            Err(Refusal::Method(Ways::Read)),
         );
         check(("HEAD", "/"), &[OURS], Ok(()));
         let ours = [OURS, ("origin", "http://localhost:8080")];
-        check(("POST", "/api/session"), &ours, Err(Refusal::OnlyRead));
-        check(("PUT", "/api/clients/role"), &ours, Err(Refusal::OnlyChanged));
+        check(("POST", "/api/session"), &ours, Err(Refusal::Method(Ways::Read)));
+        check(
+            ("PUT", "/api/clients/role"),
+            &ours,
+            Err(Refusal::Method(Ways::Change)),
+        );
     }
 
     #[test]
@@ -373,11 +385,21 @@ mod tests {
             &[OURS, origin, ours, ("content-type", "text/plain")],
             Err(Refusal::NotOurs),
         );
-        check(("POST", "/"), &[OURS, origin, json, ours], Err(Refusal::OnlyRead));
+        let update = ("POST", "/api/update");
+        let file = ("content-type", "application/octet-stream");
+        check(update, &[OURS, origin, file, ours], Ok(()));
+        check(update, &[OURS, origin, file], Err(Refusal::NotOurs));
+        check(update, &[OURS, origin, json, ours], Err(Refusal::NotOurs));
+        check(post, &[OURS, origin, file, ours], Err(Refusal::NotOurs));
+        check(
+            ("POST", "/"),
+            &[OURS, origin, json, ours],
+            Err(Refusal::Method(Ways::Read)),
+        );
         check(
             ("DELETE", "/api/clients"),
             &[OURS, origin, json, ours],
-            Err(Refusal::OnlyRead),
+            Err(Refusal::Method(Ways::Read)),
         );
     }
 

@@ -207,6 +207,7 @@ impl Server {
         tokio::join!(
             accept(self.listener, Some(acceptor), router, seats),
             gate.keep(&self.site.rules),
+            gate.software.keep_looking(),
             watch_buttons(&gate),
             OptionFuture::from(page),
             OptionFuture::from(console),

@@ -1,7 +1,7 @@
 //! The settings of the server, and why it may refuse to start.
 
 use std::net::{IpAddr, SocketAddr};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::AssetsError;
 use crate::gate::GateError;
@@ -37,6 +37,10 @@ pub struct Guard {
     pub announce: bool,
     /// Port of a page that only points to the HTTPS address.
     pub page_port: Option<u16>,
+    /// Where `rvac update` keeps its files: how far an update is stands there.
+    pub updates: PathBuf,
+    /// Bytes that fit on the disk of a folder still.
+    pub free_bytes: fn(&Path) -> std::io::Result<u64>,
     /// The board's clock, seconds since 1970, on which nothing but the life of the certificate depends: see [`crate::unix_s`].
     pub clock: fn() -> u64,
 }

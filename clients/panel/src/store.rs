@@ -8,7 +8,8 @@ use panel_logic::{
 };
 use rvac_api::{
     ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, LearntPart,
-    LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, Standstill, Status, Topic,
+    LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, SoftwareUpdate, Standstill, Status,
+    Topic,
 };
 
 use rvac_api::Update as Message;
@@ -81,6 +82,8 @@ pub(crate) struct Store {
     pub(crate) floors: RwSignal<FloorsView>,
     /// Floors as a file.
     pub(crate) floor_desk: FloorDesk,
+    /// The last update of the robot's software, as far as this device may know of it.
+    pub(crate) software: RwSignal<Option<SoftwareUpdate>>,
     /// Versions of the map of a floor that the daemon keeps, newest first.
     pub(crate) maps: RwSignal<Vec<KeptMap>>,
     /// That floor.
@@ -146,6 +149,7 @@ impl Store {
             standstill: RwSignal::new(None),
             floors: RwSignal::new(FloorsView::default()),
             floor_desk: FloorDesk::new(),
+            software: RwSignal::new(None),
             maps: RwSignal::new(Vec::new()),
             maps_floor: RwSignal::new(None),
             orders: Orders::new(),
@@ -421,9 +425,8 @@ impl Store {
             | Message::RunFile { .. }
             | Message::FloorArchive { .. }
             | Message::Button { .. } => {}
-            Message::NewDevice { name, role, from } => {
-                self.entrance.newcomer.set(Some(Newcomer { name, role, from }));
-            }
+            Message::SoftwareUpdate(told) => self.software.set(Some(*told)),
+            Message::NewDevice { name, role, from } => self.entrance.meet(Newcomer { name, role, from }),
         }
     }
 

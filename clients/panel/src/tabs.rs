@@ -4,7 +4,7 @@ use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 
 use crate::about_view::AboutView;
-use crate::access::{Access, DevicesView};
+use crate::access::{Access, AdministratorView};
 use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
 use crate::focus::focus_on;
@@ -111,7 +111,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                     <DeviceView store />
                     <PartsView store />
                     <LearntSection store />
-                    <Show when=move || manages.get()><DevicesView entrance=store.entrance /></Show>
+                    <Show when=move || manages.get()><AdministratorView store /></Show>
                     <AboutView store />
                 </Show>
             </div>

@@ -25,6 +25,7 @@ mod role;
 mod schedule;
 mod short_number;
 mod simulated;
+mod software_update;
 mod stop;
 mod thought;
 mod topic;
@@ -59,6 +60,7 @@ pub use schedule::{
 };
 pub use short_number::short_number;
 pub use simulated::{SimulatedPlan, SimulatedTruth};
+pub use software_update::{SoftwareUpdate, UPDATE_BYTES_MAX, UpdateEnd, UpdateStage};
 pub use stop::{Evidence, EvidenceSample, Standstill};
 pub use thought::{Decision, Estimate, MapDoubt, PlannedPath};
 pub use topic::Topic;

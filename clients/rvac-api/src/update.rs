@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     ClientInput, ComponentHealth, Decision, DeviceTable, Estimate, Evidence, FloorsView, HomeView,
     JobEstimate, KeptMap, LearntView, PlannedPath, Run, RunRecord, RunTrack, Schedules, SimulatedPlan,
-    SimulatedTruth, Standstill,
+    SimulatedTruth, SoftwareUpdate, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -173,6 +173,8 @@ pub enum Update {
         /// The address it came from, or `console`.
         from: String,
     },
+    /// An update of the robot's software goes on or has ended. Said by the server of the panel to administrators.
+    SoftwareUpdate(Box<SoftwareUpdate>),
     /// The server of the panel is there: once a second to whoever asked for it with the connection.
     Heartbeat {
         /// Since when nothing has come from the daemon, in ms; absent while there is no connection to it.
@@ -208,7 +210,7 @@ pub enum Gesture {
 }
 
 /// Why a request was refused.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Failure {
     /// Number of the request, if it had one that could be read.
     #[serde(default, skip_serializing_if = "Option::is_none")]

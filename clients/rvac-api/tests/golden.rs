@@ -14,8 +14,8 @@ use rvac_api::{
     Request, RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings,
     RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
     RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
-    SimulatedPlan, SimulatedTruth, Standstill, Status, SurenessView, Topic, TrackPose, TrackReading, Update,
-    Versions, WallView, Weekday, is_mix_name,
+    SimulatedPlan, SimulatedTruth, SoftwareUpdate, Standstill, Status, SurenessView, Topic, TrackPose,
+    TrackReading, Update, UpdateEnd, UpdateStage, Versions, WallView, Weekday, is_mix_name,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -1322,6 +1322,39 @@ fn a_new_device() {
         },
         r#"{"e":"new-device","name":"Mari's phone","role":"drive","from":"192.168.1.7"}"#,
     );
+}
+
+#[test]
+fn updates_of_the_software() {
+    let receives = SoftwareUpdate {
+        bytes: Some(512),
+        total: Some(2048),
+        ..SoftwareUpdate::at(UpdateStage::Receive)
+    };
+    let undone = SoftwareUpdate {
+        epoch: Some(7),
+        version: Some("0.7.0".to_owned()),
+        flashes: Some(true),
+        ..SoftwareUpdate::at(UpdateStage::TryFirmware)
+    };
+    let undone = undone.ended(
+        UpdateEnd::WentBack,
+        "update-silent-robot",
+        "the robot does not answer",
+    );
+    let told = [
+        (
+            receives,
+            r#"{"e":"software-update","stage":"receive","bytes":512,"total":2048}"#,
+        ),
+        (
+            undone,
+            r#"{"e":"software-update","stage":"try-firmware","epoch":7,"version":"0.7.0","flashes":true,"end":"went-back","failed":"try-firmware","reason":"update-silent-robot","text":"the robot does not answer"}"#,
+        ),
+    ];
+    for (update, golden) in told {
+        check(&Update::SoftwareUpdate(Box::new(update)), golden);
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use rustix::fs::{FlockOperation, flock};
-use rvac_api::{Request, RequestBody, SEPARATOR, Update};
+use rvac_api::{Failure, Request, RequestBody, SEPARATOR, Update};
 
 /// The daemon closes its device at once; it may be busy for a moment.
 const CLOSE_WAIT: Duration = Duration::from_secs(5);
@@ -40,8 +40,8 @@ pub enum LoanError {
         error: std::io::Error,
     },
     /// The daemon refuses.
-    #[error("{0}")]
-    Refused(String),
+    #[error("{}", .0.text)]
+    Refused(Failure),
     /// The device is locked by another program.
     #[error("{} is still used by another program", .0.display())]
     InUse(PathBuf),
@@ -97,7 +97,7 @@ fn ask(mut stream: UnixStream, socket: &Path, answers: RobotAnswers) -> Result<U
     })?;
     match answer {
         Ok(()) => Ok(stream),
-        Err(text) => Err(LoanError::Refused(text)),
+        Err(failure) => Err(LoanError::Refused(failure)),
     }
 }
 
@@ -105,7 +105,7 @@ fn ask(mut stream: UnixStream, socket: &Path, answers: RobotAnswers) -> Result<U
 fn exchange(
     stream: &mut UnixStream,
     requests: [(Option<u32>, RequestBody); 2],
-) -> std::io::Result<Result<(), String>> {
+) -> std::io::Result<Result<(), Failure>> {
     stream.set_read_timeout(Some(ANSWER_WAIT))?;
     for (id, body) in requests {
         let mut bytes = serde_json::to_vec(&Request { id, body })?;
@@ -119,7 +119,7 @@ fn exchange(
             let message: Vec<u8> = received.drain(..=end).collect();
             match serde_json::from_slice(message.get(..end).unwrap_or_default()) {
                 Ok(Update::Done { id: NUMBER }) => return Ok(Ok(())),
-                Ok(Update::Failed(failure)) if failure.id == Some(NUMBER) => return Ok(Err(failure.text)),
+                Ok(Update::Failed(failure)) if failure.id == Some(NUMBER) => return Ok(Err(failure)),
                 _ => {}
             }
         }

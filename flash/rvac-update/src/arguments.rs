@@ -15,6 +15,15 @@ pub struct UpdateJob {
     /// The board starts: the programs are started by somebody else, afterwards.
     #[arg(long, requires = "settle")]
     pub at_boot: bool,
+    /// Remove the file once it is open, and wait for an update that runs: the panel hands updates over like this.
+    #[arg(long, requires = "file")]
+    pub take: bool,
+    /// The daemon is about to start: systemd says so.
+    #[arg(long, hide = true, conflicts_with_all = ["file", "settle"])]
+    pub daemon_starts: bool,
+    /// The daemon has ended, with this result and this status: systemd says so.
+    #[arg(long, hide = true, num_args = 2, value_names = ["RESULT", "STATUS"], allow_hyphen_values = true, conflicts_with_all = ["file", "settle", "daemon_starts"])]
+    pub daemon_ended: Option<Vec<String>>,
     /// Take the programs alone; the robot's firmware stays.
     #[arg(long)]
     pub without_firmware: bool,

@@ -62,6 +62,9 @@ pub trait Board {
     /// When they could not be started; whether they work is another question.
     fn restart(&mut self) -> Result<(), BoardError>;
 
+    /// Whether the robot is at work, so that its programs must not be ended.
+    fn works(&mut self) -> bool;
+
     /// What answers now.
     fn look(&mut self) -> Health;
 

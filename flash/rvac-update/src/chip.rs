@@ -1,14 +1,19 @@
 //! The robot's chip, as far as an update needs it.
 
+use rvac_api::Failure;
+
 /// Why something was not done to the chip.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ChipError {
     /// The file is no image for it.
     #[error("the firmware in the update: {0}")]
     Image(String),
-    /// It cannot be reached, or the robot must not be disturbed now.
+    /// It cannot be reached.
     #[error("{0}")]
     Unreachable(String),
+    /// The daemon says that the robot must not be disturbed now.
+    #[error("{}", .0.text)]
+    NotNow(Failure),
     /// What is in it cannot be kept.
     #[error("what is in the chip cannot be kept: {0}")]
     NotKept(String),

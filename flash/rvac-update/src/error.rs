@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use rvac_api::UpdateEnd;
 use update_bundle::{BundleError, KeyError};
 
 use crate::board::BoardError;
@@ -45,6 +46,9 @@ pub enum UpdateError {
         /// Of the update.
         offered: String,
     },
+    /// The robot is at work.
+    #[error("refused: the robot is at work: stop it, and send it to its dock")]
+    RobotWorks,
     /// Its firmware cannot be written here.
     #[error(
         "refused: it brings firmware, and nothing says how this board is wired to the chip. --without-firmware takes the programs alone"
@@ -106,4 +110,63 @@ pub enum UpdateError {
     /// Something does not answer.
     #[error("{0} does not answer with the update")]
     Silent(&'static str),
+}
+
+impl UpdateError {
+    /// The same as a code, for programs and for other languages.
+    #[must_use]
+    pub fn reason(&self) -> &str {
+        match self {
+            Self::Bundle(error) => reason_of_bundle(error),
+            Self::Keys(_) => "update-no-key",
+            Self::OldEpoch { .. } => "update-old",
+            Self::OtherRobot { .. } => "update-other-robot",
+            Self::RobotUnknown => "update-robot-unknown",
+            Self::OtherMachine { .. } => "update-other-board",
+            Self::RobotWorks => "robot-moves",
+            Self::NoWiring => "update-no-wiring",
+            Self::NoWayBack => "update-no-way-back",
+            Self::DiskFull { .. } => "update-disk-full",
+            Self::Chip(ChipError::NotNow(failure)) => &failure.reason,
+            Self::Chip(_) => "update-chip",
+            Self::File { .. } | Self::Journal { .. } => "update-file",
+            Self::Board(_) => "update-restart",
+            Self::WentBack(cause) | Self::WentOn(cause) | Self::NotSettled { cause, .. } => cause.reason(),
+            Self::Silent(_) => "update-silent",
+        }
+    }
+
+    /// What was wrong, without what became of the update.
+    #[must_use]
+    pub fn cause(&self) -> String {
+        match self {
+            Self::WentBack(cause) | Self::WentOn(cause) | Self::NotSettled { cause, .. } => cause.cause(),
+            other => {
+                let text = other.to_string();
+                text.strip_prefix("refused: ").map_or(text.clone(), str::to_owned)
+            }
+        }
+    }
+
+    /// What the update came to.
+    #[must_use]
+    pub const fn end(&self) -> UpdateEnd {
+        match self {
+            Self::WentBack(_) => UpdateEnd::WentBack,
+            Self::WentOn(_) => UpdateEnd::WentOn,
+            Self::NotSettled { .. } => UpdateEnd::NotSettled,
+            _ => UpdateEnd::Refused,
+        }
+    }
+}
+
+const fn reason_of_bundle(error: &BundleError) -> &'static str {
+    match error {
+        BundleError::CutOff { .. } => "update-cut-off",
+        BundleError::NotABundle { .. } => "no-update",
+        BundleError::UnknownKey => "update-unknown-key",
+        BundleError::WrongSignature | BundleError::SignatureFormat => "update-wrong-signature",
+        BundleError::Unreadable(_) | BundleError::Kept { .. } => "update-file",
+        _ => "update-damaged",
+    }
 }

@@ -20,6 +20,12 @@ pub struct Installed {
     /// The firmware that it brought.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub firmware: Option<InstalledFirmware>,
+    /// What ran before it, as long as that can be started.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub before: Option<Programs>,
+    /// Its daemon failed too often, so that what ran before runs again.
+    #[serde(default, skip_serializing_if = "is_no")]
+    pub given_up: bool,
 }
 
 /// Firmware that an update has written.
@@ -77,6 +83,10 @@ impl Slots {
         self.root().join("pending.toml")
     }
 
+    pub(crate) fn starts_path(&self) -> PathBuf {
+        self.root().join("starts.toml")
+    }
+
     /// The last update that works.
     ///
     /// # Errors
@@ -112,7 +122,12 @@ impl Slots {
     }
 }
 
-fn read<T: for<'a> Deserialize<'a>>(path: PathBuf) -> Result<Option<T>, UpdateError> {
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+const fn is_no(value: &bool) -> bool {
+    !*value
+}
+
+pub(crate) fn read<T: for<'a> Deserialize<'a>>(path: PathBuf) -> Result<Option<T>, UpdateError> {
     let text = match std::fs::read_to_string(&path) {
         Ok(text) => text,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
@@ -127,7 +142,7 @@ fn read<T: for<'a> Deserialize<'a>>(path: PathBuf) -> Result<Option<T>, UpdateEr
     }
 }
 
-fn write(disk: &mut impl Disk, path: PathBuf, value: &impl Serialize) -> Result<(), UpdateError> {
+pub(crate) fn write(disk: &mut impl Disk, path: PathBuf, value: &impl Serialize) -> Result<(), UpdateError> {
     match toml::to_string(value) {
         Ok(text) => disk
             .replace(&path, text.as_bytes())

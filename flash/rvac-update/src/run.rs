@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use std::time::Duration;
 
 use anyhow::{Context as _, bail};
-use rustix::fs::{FlockOperation, Mode, flock};
+use rustix::fs::{FlockOperation, Mode, OFlags, flock};
 use rustix::process::umask;
 use rvac_flash::{DaemonSocket, FlashSettings, WiredRobot};
 use serde::Serialize;
@@ -15,11 +15,18 @@ use update_bundle::PublicKeys;
 
 use crate::arguments::UpdateJob;
 use crate::disk::RealDisk;
+use crate::error::UpdateError;
+use crate::fallback::{DaemonEnd, FAILURES_MAX, Fallback, Moment};
 use crate::journal::{Installed, Pending};
+use crate::progress::{ProgressFile, tell_given_up};
 use crate::services::{Restart, Services};
 use crate::slots::{Programs, Slots};
 use crate::updater::{Accepted, Settled, UpdateStep, Updater, WayBack};
 use crate::wired_chip::WiredChip;
+
+/// How often somebody who only looks may be in the way of a lock.
+const LOCK_ATTEMPTS: u32 = 20;
+const LOCK_PAUSE: Duration = Duration::from_millis(100);
 
 /// Does the job.
 ///
@@ -27,6 +34,10 @@ use crate::wired_chip::WiredChip;
 /// Why it was not done, and what to do.
 pub fn run(job: &UpdateJob, socket: &Path) -> anyhow::Result<ExitCode> {
     let slots = Slots::at(&job.folder);
+    if job.daemon_starts || job.daemon_ended.is_some() {
+        count_start(job, &slots)?;
+        return Ok(ExitCode::SUCCESS);
+    }
     if job.file.is_none() && !job.settle {
         show(&slots, job.json)?;
         return Ok(ExitCode::SUCCESS);
@@ -34,7 +45,30 @@ pub fn run(job: &UpdateJob, socket: &Path) -> anyhow::Result<ExitCode> {
     // The services' users read all of it, whatever the habits of whoever runs this.
     umask(Mode::from_raw_mode(0o022));
     std::fs::create_dir_all(&job.folder).with_context(|| job.folder.display().to_string())?;
-    let _lock = lock(&job.folder)?;
+    let _lock = lock(job)?;
+    let mut progress = match job.settle {
+        true => ProgressFile::resume(&job.folder),
+        false => ProgressFile::begin(&job.folder),
+    };
+    if let Err(error) = work(job, (&slots, socket), &mut progress) {
+        progress.failed(&error);
+        return Err(error);
+    }
+    show(&slots, job.json)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn work(
+    job: &UpdateJob,
+    (slots, socket): (&Slots, &Path),
+    progress: &mut ProgressFile,
+) -> anyhow::Result<()> {
+    // The file first: one that is handed over is gone afterwards, whatever else is wrong.
+    let archive = job
+        .file
+        .as_deref()
+        .map(|file| open(file, job.take).with_context(|| file.display().to_string()));
+    let archive = archive.transpose()?;
     let settings = wiring(&job.wiring)?;
     let mut board = services(job, socket);
     let robot = match &settings {
@@ -49,20 +83,76 @@ pub fn run(job: &UpdateJob, socket: &Path) -> anyhow::Result<ExitCode> {
         board: &mut board,
         chip: chip.as_mut(),
     };
-    match &job.file {
-        Some(file) => {
-            let accepted = accepted(job, robot)?;
-            let mut archive = File::open(file).with_context(|| file.display().to_string())?;
-            updater.install(&mut archive, &accepted, &mut say)?;
-        }
-        None => match updater.settle(&mut say)? {
+    let mut tell = |step: UpdateStep| {
+        progress.on_step(&step);
+        say(&step);
+    };
+    let Some(mut archive) = archive else {
+        let settled = updater.settle(&mut tell)?;
+        match settled {
             Settled::Nothing => {}
             Settled::WentBack => eprintln!("the update that was cut off is undone"),
             Settled::WentOn => eprintln!("the update that was cut off is in use"),
-        },
+        }
+        progress.settled(settled);
+        return Ok(());
+    };
+    let accepted = accepted(job, robot)?;
+    updater.install(&mut archive, &accepted, &mut tell)?;
+    progress.installed();
+    Ok(())
+}
+
+/// Opens the file of an update. One that is taken comes from a folder that others write: what is no plain file is not followed.
+fn open(path: &Path, take: bool) -> std::io::Result<File> {
+    if !take {
+        return File::open(path);
     }
-    show(&slots, job.json)?;
-    Ok(ExitCode::SUCCESS)
+    let flags = OFlags::NOFOLLOW | OFlags::NONBLOCK | OFlags::CLOEXEC;
+    let file = File::from(rustix::fs::open(path, flags, Mode::empty())?);
+    std::fs::remove_file(path)?;
+    if !file.metadata()?.is_file() {
+        return Err(std::io::Error::new(
+            std::io::ErrorKind::InvalidInput,
+            "it is no plain file",
+        ));
+    }
+    Ok(file)
+}
+
+/// What systemd says of the daemon, for an update that fails again and again.
+fn count_start(job: &UpdateJob, slots: &Slots) -> anyhow::Result<()> {
+    let mut fallback = Fallback {
+        slots,
+        disk: &mut RealDisk,
+    };
+    let now = moment()?;
+    let Some(ended) = &job.daemon_ended else {
+        return Ok(fallback.daemon_starts(now)?);
+    };
+    let end = DaemonEnd {
+        result: ended.first().map_or("", String::as_str),
+        status: ended.get(1).map_or("", String::as_str),
+    };
+    if let Some(given_up) = fallback.daemon_ended(end, &now)? {
+        tell_given_up(slots.root(), &given_up);
+        eprintln!(
+            "the daemon of update {} failed {FAILURES_MAX} times, one after the other: the programs before it run again",
+            given_up.epoch
+        );
+    }
+    Ok(())
+}
+
+/// Now, on the clock of this start of the board.
+fn moment() -> anyhow::Result<Moment> {
+    let uptime = std::fs::read_to_string("/proc/uptime").context("/proc/uptime")?;
+    let s = uptime.split(' ').next().and_then(|word| word.parse().ok());
+    let boot = std::fs::read_to_string("/proc/sys/kernel/random/boot_id").context("boot_id")?;
+    Ok(Moment {
+        boot: boot.trim().to_owned(),
+        s: s.context("/proc/uptime")?,
+    })
 }
 
 fn services(job: &UpdateJob, socket: &Path) -> Services {
@@ -114,7 +204,10 @@ fn keys(folder: &Path) -> anyhow::Result<PublicKeys> {
         .iter()
         .map(|path| std::fs::read_to_string(path).with_context(|| path.display().to_string()));
     let texts = texts.collect::<anyhow::Result<Vec<String>>>()?;
-    PublicKeys::parse(&texts).with_context(|| format!("keys in {}", folder.display()))
+    // The error stays what it is below its context: it has a code.
+    PublicKeys::parse(&texts)
+        .map_err(UpdateError::from)
+        .with_context(|| format!("keys in {}", folder.display()))
 }
 
 /// The processor that this program was compiled for, in the words of packages.
@@ -129,17 +222,25 @@ fn machine() -> anyhow::Result<&'static str> {
 }
 
 /// One updater at a time; the kernel gives the lock back when the process ends.
-fn lock(folder: &Path) -> anyhow::Result<File> {
-    let path = folder.join("lock");
+fn lock(job: &UpdateJob) -> anyhow::Result<File> {
+    let path = job.folder.join("lock");
     let file = File::create(&path).with_context(|| path.display().to_string())?;
-    if flock(&file, FlockOperation::NonBlockingLockExclusive).is_err() {
-        bail!("another update runs");
+    if job.take {
+        flock(&file, FlockOperation::LockExclusive).with_context(|| path.display().to_string())?;
+        return Ok(file);
     }
-    Ok(file)
+    for _ in 0..LOCK_ATTEMPTS {
+        if flock(&file, FlockOperation::NonBlockingLockExclusive).is_ok() {
+            return Ok(file);
+        }
+        std::thread::sleep(LOCK_PAUSE);
+    }
+    bail!("another update runs");
 }
 
-fn say(step: UpdateStep) {
+fn say(step: &UpdateStep) {
     let words = match step {
+        UpdateStep::Verified { .. } => return,
         UpdateStep::Verify => "checks the file ...",
         UpdateStep::Unpack => "unpacks it ...",
         UpdateStep::TryPrograms => "starts the new programs and waits until they answer ...",
@@ -170,6 +271,14 @@ fn show(slots: &Slots, json: bool) -> anyhow::Result<()> {
     let mut out = std::io::stdout();
     if json {
         writeln!(out, "{}", serde_json::to_string(&report)?)?;
+        return Ok(());
+    }
+    if report.installed.given_up {
+        writeln!(
+            out,
+            "update {} is not in use any more: its daemon failed {FAILURES_MAX} times; the programs before it run",
+            report.installed.epoch
+        )?;
         return Ok(());
     }
     match report.programs {

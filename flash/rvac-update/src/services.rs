@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use rvac_api::{Request, RequestBody, SEPARATOR, Update};
+use rvac_api::{Request, RequestBody, SEPARATOR, Topic, Update};
 
 use crate::board::{Board, BoardError, Health};
 
@@ -16,6 +16,9 @@ const LOOK: Duration = Duration::from_secs(3);
 const PAUSE: Duration = Duration::from_millis(500);
 /// The first message of the daemon is shorter.
 const MESSAGE_BYTES_MAX: usize = 1 << 20;
+
+/// States in which the wheels turn, or will at any moment.
+const MOVES: [&str; 5] = ["starting", "cleaning", "spot", "docking", "manual"];
 
 /// How programs are started again.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,6 +65,18 @@ impl Board for Services {
         }
     }
 
+    fn works(&mut self) -> bool {
+        let watch = RequestBody::Watch {
+            topics: vec![Topic::Status],
+        };
+        let state = self.ask(watch, |update| match update {
+            Update::Status(status) => Some(status.state),
+            _ => None,
+        });
+        // A daemon that does not answer moves nothing.
+        state.is_some_and(|state| MOVES.contains(&state.as_str()))
+    }
+
     fn look(&mut self) -> Health {
         let greeting = self.greet();
         Health {
@@ -86,15 +101,22 @@ impl Board for Services {
 impl Services {
     /// What the daemon says; nothing if none answers.
     pub(crate) fn greet(&self) -> Option<Greeting> {
+        let hello = RequestBody::Hello {
+            name: "rvac update".to_owned(),
+        };
+        self.ask(hello, |update| match update {
+            Update::Hello { robot, .. } => Some(Greeting {
+                robot: robot.map(|robot| robot.device),
+            }),
+            _ => None,
+        })
+    }
+
+    /// Asks the daemon and waits for the answer that is wanted.
+    fn ask<T>(&self, body: RequestBody, wanted: impl Fn(Update) -> Option<T>) -> Option<T> {
         let mut stream = UnixStream::connect(&self.socket).ok()?;
         stream.set_read_timeout(Some(LOOK)).ok()?;
-        let hello = Request {
-            id: None,
-            body: RequestBody::Hello {
-                name: "rvac update".to_owned(),
-            },
-        };
-        let mut bytes = serde_json::to_vec(&hello).ok()?;
+        let mut bytes = serde_json::to_vec(&Request { id: None, body }).ok()?;
         bytes.push(SEPARATOR);
         stream.write_all(&bytes).ok()?;
         let mut received = Vec::new();
@@ -103,10 +125,8 @@ impl Services {
             while let Some(end) = received.iter().position(|byte| *byte == SEPARATOR) {
                 let message: Vec<u8> = received.drain(..=end).collect();
                 let message = message.get(..end).unwrap_or_default();
-                if let Ok(Update::Hello { robot, .. }) = serde_json::from_slice(message) {
-                    return Some(Greeting {
-                        robot: robot.map(|robot| robot.device),
-                    });
+                if let Some(answer) = serde_json::from_slice(message).ok().and_then(&wanted) {
+                    return Some(answer);
                 }
             }
             let count = stream.read(&mut chunk).ok()?;

@@ -41,10 +41,19 @@ pub enum WayBack {
 }
 
 /// What the updater is about to do.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum UpdateStep {
     /// Check the file.
     Verify,
+    /// Nothing: the file is checked, and this is what it brings.
+    Verified {
+        /// Its epoch.
+        epoch: u64,
+        /// Its version.
+        version: String,
+        /// Whether the chip is written.
+        flashes: bool,
+    },
     /// Put its files into their folder.
     Unpack,
     /// Start its programs and wait for them.
@@ -115,6 +124,11 @@ impl<D: Disk, B: Board, C: Chip> Updater<'_, D, B, C> {
         say(UpdateStep::Verify);
         let offer = self.examine(archive, accepted)?;
         let manifest = &offer.bundle.manifest;
+        say(UpdateStep::Verified {
+            epoch: manifest.epoch,
+            version: manifest.version.clone(),
+            flashes: offer.hex.is_some(),
+        });
         let before = self.slots.current();
         let mut pending = Pending {
             epoch: manifest.epoch,
@@ -164,6 +178,10 @@ impl<D: Disk, B: Board, C: Chip> Updater<'_, D, B, C> {
             } else {
                 chip.check(image)?;
             }
+        }
+        // With firmware the daemon has been asked for its line.
+        if self.board.works() {
+            return Err(UpdateError::RobotWorks);
         }
         let healthy = Health {
             daemon: true,
@@ -223,6 +241,10 @@ impl<D: Disk, B: Board, C: Chip> Updater<'_, D, B, C> {
         say(UpdateStep::Unpack);
         self.slots.note_pending(self.disk, pending)?;
         self.fill(archive, &offer.bundle, pending)?;
+        // Unpacking takes a while, in which somebody may have sent it out.
+        if self.board.works() {
+            return Err(UpdateError::RobotWorks);
+        }
         say(UpdateStep::TryPrograms);
         pending.step = PendingStep::Trying;
         self.slots.note_pending(self.disk, pending)?;
@@ -330,6 +352,8 @@ impl<D: Disk, B: Board, C: Chip> Updater<'_, D, B, C> {
                 Some(firmware) => Some(firmware),
                 None => self.slots.installed()?.firmware,
             },
+            before: Some(pending.before),
+            given_up: false,
         };
         self.slots.note_installed(self.disk, &installed)?;
         self.slots.forget_pending(self.disk)?;

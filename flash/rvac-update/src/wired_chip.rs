@@ -1,6 +1,6 @@
 //! The chip that this board is wired to.
 
-use rvac_flash::{RobotAnswers, WiredError, WiredRobot};
+use rvac_flash::{LoanError, RobotAnswers, WiredError, WiredRobot};
 
 use crate::chip::{Attempt, Chip, ChipError};
 
@@ -12,6 +12,7 @@ impl Chip for WiredChip {
     fn check(&mut self, hex: &[u8]) -> Result<(), ChipError> {
         self.0.check(text_of(hex)?).map_err(|error| match error {
             WiredError::Hex(_) | WiredError::Image(_) => ChipError::Image(error.to_string()),
+            WiredError::Loan(LoanError::Refused(failure)) => ChipError::NotNow(failure),
             _ => ChipError::Unreachable(error.to_string()),
         })
     }

@@ -13,6 +13,10 @@ use crate::update_world::Supply;
 pub trait RobotEnd {
     /// Whether the robot would greet.
     fn speaks(&self) -> bool;
+    /// Whether it is at work.
+    fn works(&self) -> bool {
+        false
+    }
 }
 
 /// Programs that are files: one that begins with "broken" does not answer.
@@ -33,6 +37,10 @@ impl<R: RobotEnd> Board for ModelBoard<R> {
         })?;
         self.runs = self.slots.current();
         Ok(())
+    }
+
+    fn works(&mut self) -> bool {
+        self.robot.borrow().works()
     }
 
     fn look(&mut self) -> Health {
@@ -71,6 +79,8 @@ pub struct ModelChip {
     pub is_readable: bool,
     /// Whether it says no when it is looked at.
     pub is_unreachable: bool,
+    /// Whether its robot is at work.
+    pub is_at_work: bool,
 }
 
 impl ModelChip {
@@ -87,6 +97,10 @@ impl ModelChip {
 impl RobotEnd for ModelChip {
     fn speaks(&self) -> bool {
         self.content.starts_with("firmware")
+    }
+
+    fn works(&self) -> bool {
+        self.is_at_work
     }
 }
 

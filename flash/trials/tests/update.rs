@@ -5,7 +5,9 @@ use flash_trials::update_cuts::cut_everywhere;
 use flash_trials::update_model::{ModelChip, ModelChipPort};
 use flash_trials::update_world::{Release, UpdateWorld, accepted, key_pair};
 use minisign::KeyPair;
-use rvac_update::{Accepted, ChipError, Settled, UpdateError, WayBack};
+use rvac_update::{
+    Accepted, ChipError, DaemonEnd, Fallback, Moment, Programs, RealDisk, Settled, Slot, UpdateError, WayBack,
+};
 use update_bundle::BundleError;
 
 type World = UpdateWorld<ModelChip, ModelChipPort>;
@@ -130,6 +132,11 @@ fn a_board_or_chip_that_cannot_take_it_is_named_and_not_touched() {
     undocked.robot.borrow_mut().is_unreachable = true;
     check_refusal(undocked, (&next, &pair), &taken, |error| {
         matches!(error, UpdateError::Chip(ChipError::Unreachable(_)))
+    });
+    let at_work = after_one(&pair);
+    at_work.robot.borrow_mut().is_at_work = true;
+    check_refusal(at_work, (&next, &pair), &taken, |error| {
+        matches!(error, UpdateError::RobotWorks)
     });
     let unknown = Accepted {
         robot: None,
@@ -276,4 +283,78 @@ fn whatever_step_is_cut_off_the_next_run_ends_with_programs_and_firmware_that_ru
     let cuts = cut_everywhere().expect("trials");
     assert!(cuts.cut > 500, "{cuts:?}");
     assert_eq!((cuts.broken, cuts.mixed, cuts.stuck), (0, 0, 0), "{cuts:?}");
+}
+
+/// A second of the first start of a board.
+fn second(s: f64) -> Moment {
+    Moment {
+        boot: "first".to_owned(),
+        s,
+    }
+}
+
+const FAILS: DaemonEnd<'_> = DaemonEnd {
+    result: "exit-code",
+    status: "1",
+};
+
+/// The daemon starts and ends like this so long afterwards; whether the update is given up.
+fn starts_and_ends(world: &World, (end, lived_s): (DaemonEnd<'_>, f64)) -> bool {
+    let slots = world.slots();
+    let mut fallback = Fallback {
+        slots: &slots,
+        disk: &mut RealDisk,
+    };
+    fallback.daemon_starts(second(100.0)).expect("a file");
+    let ended = fallback.daemon_ended(end, &second(100.0 + lived_s));
+    ended.expect("files").is_some()
+}
+
+#[test]
+fn only_failures_one_after_the_other_and_soon_after_the_start_end_an_update() {
+    let pair = key_pair();
+    let mut world = after_one(&pair);
+    let archive = Release::good(2).packed(&pair).expect("packed");
+    world.install(&archive, &accepted(&pair)).expect("it works");
+    let is_wanted = DaemonEnd {
+        result: "success",
+        status: "0",
+    };
+    let hangs = DaemonEnd {
+        result: "timeout",
+        status: "TERM",
+    };
+    let course = [
+        (FAILS, 1.0),
+        (FAILS, 1.0),
+        (is_wanted, 1.0),
+        (FAILS, 1.0),
+        (FAILS, 1.0),
+        // It had started well, so this is the first failure anew.
+        (FAILS, 90.0),
+        (hangs, 30.0),
+    ];
+    for step in course {
+        assert!(!starts_and_ends(&world, step), "{step:?}");
+    }
+    assert!(starts_and_ends(&world, (FAILS, 1.0)));
+    let (slots, installed) = (world.slots(), world.slots().installed().expect("a file"));
+    assert_eq!(slots.current(), Programs::Update(Slot::A));
+    assert!(installed.given_up && installed.epoch == 2);
+    for _ in 0..4 {
+        assert!(
+            !starts_and_ends(&world, (FAILS, 1.0)),
+            "there is nothing before it"
+        );
+    }
+    assert_eq!(slots.current(), Programs::Update(Slot::A));
+}
+
+#[test]
+fn the_first_update_gives_way_to_the_programs_of_the_package() {
+    let world = after_one(&key_pair());
+    assert!(!starts_and_ends(&world, (FAILS, 1.0)));
+    assert!(!starts_and_ends(&world, (FAILS, 1.0)));
+    assert!(starts_and_ends(&world, (FAILS, 1.0)));
+    assert_eq!(world.slots().current(), Programs::Package);
 }

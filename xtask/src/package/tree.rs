@@ -8,7 +8,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
 /// Files of the repository, and where they go.
-const FILES: [(&str, &str); 16] = [
+const FILES: [(&str, &str); 18] = [
     (
         "packaging/systemd/vthal.service",
         "lib/systemd/system/vthal.service",
@@ -20,6 +20,14 @@ const FILES: [(&str, &str); 16] = [
     (
         "packaging/systemd/rvac-settle.service",
         "lib/systemd/system/rvac-settle.service",
+    ),
+    (
+        "packaging/systemd/rvac-update.path",
+        "lib/systemd/system/rvac-update.path",
+    ),
+    (
+        "packaging/systemd/rvac-update.service",
+        "lib/systemd/system/rvac-update.service",
     ),
     (
         "packaging/systemd/librervac.tmpfiles",

@@ -1,4 +1,4 @@
-//! A26, A27: updates and brokers, which do not exist: there is nothing to send a firmware to, and nothing that speaks MQTT.
+//! A26, A27: nothing but the one address of signed updates takes a program, and nothing speaks MQTT.
 
 use pairing::Role;
 use rvac_api::Request;
@@ -10,8 +10,7 @@ use crate::report::Report;
 use crate::rig::{Rig, read_all};
 
 /// How others call what writes a program into a device.
-const ADDRESSES: [&str; 5] = [
-    "/api/update",
+const ADDRESSES: [&str; 4] = [
     "/api/firmware",
     "/api/flash",
     "/update",

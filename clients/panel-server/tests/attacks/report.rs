@@ -15,7 +15,6 @@ struct Row {
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Report {
     rows: Vec<Row>,
-    not_there_yet: Vec<&'static str>,
     elsewhere: Vec<&'static str>,
     not_tried: Vec<String>,
     attacks: usize,
@@ -39,11 +38,6 @@ impl Report {
             expected,
             seen,
         });
-    }
-
-    /// A line of the table that concerns a part which does not exist.
-    pub(crate) fn not_there_yet(&mut self, line: &'static str) {
-        self.not_there_yet.push(line);
     }
 
     /// A line that other tests try.
@@ -79,9 +73,6 @@ impl Report {
         }
         for line in &self.not_tried {
             text.push_str(&format!("not tried {line}\n"));
-        }
-        for line in &self.not_there_yet {
-            text.push_str(&format!("not there yet {line}\n"));
         }
         text.push_str(&format!(
             "{} attacks, {} unexpected\n",

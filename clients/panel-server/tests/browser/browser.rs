@@ -257,6 +257,12 @@ impl Browser {
         assert_eq!(self.text(&chosen).await, value, "{id} offers it");
     }
 
+    /// Chooses a file of this computer in a field.
+    pub(crate) async fn choose_file(&self, id: &str, path: &Path) {
+        let field = self.client.find(Locator::Id(id)).await.unwrap();
+        field.send_keys(&path.to_string_lossy()).await.unwrap();
+    }
+
     /// Waits until the robot is in one of these states.
     pub(crate) async fn until_state(&self, states: &[&str]) {
         let states = json!(states);

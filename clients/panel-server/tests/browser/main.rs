@@ -41,6 +41,7 @@ mod robot;
 mod roles;
 mod schedules;
 mod slow_wire;
+mod software;
 #[path = "../stack/mod.rs"]
 mod stack;
 mod stands;

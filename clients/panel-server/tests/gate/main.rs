@@ -6,6 +6,7 @@ mod folder;
 mod openapi;
 mod rig;
 mod schema;
+mod software;
 
 use pairing::console::{Order, Reply};
 use pairing::wire::Finished;

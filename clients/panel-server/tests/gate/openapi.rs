@@ -105,6 +105,22 @@ async fn real_answers_are_as_described() {
         let changed = rig.post("/api/clients/role", cookie, &SetRole { id, role }).await;
         expect_described(&spec, ("post", "/api/clients/role"), &changed);
     }
+    for cookie in ["", &viewer, &admin] {
+        expect_described(
+            &spec,
+            ("get", "/api/update"),
+            &rig.get("/api/update", cookie).await,
+        );
+    }
+    for announced in [0, 7, 7] {
+        let taken = rig.upload(&admin, b"7 bytes", announced).await;
+        expect_described(&spec, ("post", "/api/update"), &taken);
+    }
+    expect_described(
+        &spec,
+        ("get", "/api/update"),
+        &rig.get("/api/update", &admin).await,
+    );
     for expected in [204, 404] {
         let gone = rig.post("/api/clients/revoke", &admin, &Revoke { id }).await;
         assert_eq!(gone.status, expected);

@@ -214,6 +214,24 @@ impl Rig {
         TlsConnector::from(Arc::new(config)).connect(name, stream).await
     }
 
+    /// Sends a file as an update, announced as so many bytes.
+    pub(crate) async fn upload(&self, cookie: &str, file: &[u8], announced: u64) -> Answer {
+        let (host, origin) = (self.host(), self.origin());
+        let head = format!(
+            "POST /api/update HTTP/1.1\r\nHost: {host}\r\nOrigin: {origin}\r\nContent-Type: application/octet-stream\r\n\
+             X-Rvac: 1\r\nConnection: close\r\nContent-Length: {announced}\r\n{}\r\n",
+            cookie_line(cookie)
+        );
+        let mut stream = self.tls().await;
+        stream.write_all(head.as_bytes()).await.unwrap();
+        // A server that refuses does not read the rest.
+        stream.write_all(file).await.ok();
+        if (file.len() as u64) < announced {
+            stream.shutdown().await.ok();
+        }
+        Answer::parse(&read_all(&mut stream).await)
+    }
+
     /// Sends a request unchanged.
     pub(crate) async fn raw(&self, request: &str) -> Answer {
         let mut stream = self.tls().await;
@@ -355,6 +373,8 @@ async fn serve(
             card: Some(folder.join("card")),
             page_port: Some(0),
             announce: false,
+            updates: folder.join("updates"),
+            free_bytes: told_free_bytes,
             clock,
         }),
         assets: folder.to_owned(),
@@ -363,6 +383,12 @@ async fn serve(
     let server = Server::bind(settings).await.unwrap();
     let (address, page) = (server.address(), server.page_address().unwrap());
     (tokio::spawn(server.run()), address, page)
+}
+
+/// What a file in the server's folder of updates says is free on its disk; a lot without one.
+fn told_free_bytes(folder: &std::path::Path) -> std::io::Result<u64> {
+    let told = std::fs::read_to_string(folder.join("free-bytes")).unwrap_or_default();
+    Ok(told.parse().unwrap_or(1 << 40))
 }
 
 async fn console(folder: &std::path::Path, order: &Order) -> Reply {

@@ -138,6 +138,8 @@ async fn refusals_to_start_name_the_remedy() {
         card: None,
         page_port: None,
         announce: false,
+        updates: folder.join("updates"),
+        free_bytes: panel_server::free_bytes,
         clock: panel_server::unix_s,
     });
     let server = Server::bind(open).await.unwrap();

@@ -29,12 +29,18 @@ pub(crate) struct Stack {
 #[derive(Debug)]
 struct Process {
     child: Child,
-    _stdout: BufReader<ChildStdout>,
+    stdout: BufReader<ChildStdout>,
 }
 
 impl Process {
     /// Starts `command` and waits for its line `ready`, which is given back.
     fn start(command: &mut Command) -> (Self, String) {
+        Self::try_start(command)
+            .unwrap_or_else(|| panic!("{:?} ended before it was ready", command.get_program()))
+    }
+
+    /// The same with a program that may end before it is ready.
+    fn try_start(command: &mut Command) -> Option<(Self, String)> {
         let mut child = command
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -45,20 +51,16 @@ impl Process {
                     command.get_program()
                 );
             });
-        let mut stdout = BufReader::new(child.stdout.take().unwrap());
+        let stdout = BufReader::new(child.stdout.take().unwrap());
+        let mut process = Self { child, stdout };
         let mut line = String::new();
         while !line.starts_with("ready") {
             line.clear();
-            let read = stdout.read_line(&mut line).unwrap();
-            assert_ne!(read, 0, "{:?} ended before it was ready", command.get_program());
+            if process.stdout.read_line(&mut line).unwrap() == 0 {
+                return None;
+            }
         }
-        (
-            Self {
-                child,
-                _stdout: stdout,
-            },
-            line,
-        )
+        Some((process, line))
     }
 }
 
@@ -108,6 +110,16 @@ enum Home {
 /// A binary that cargo put beside that of the server.
 pub(crate) fn binary(name: &str) -> PathBuf {
     Path::new(env!("CARGO_BIN_EXE_panel-server")).with_file_name(name)
+}
+
+/// Arguments of a server for paired devices.
+fn guarded_by<'a>(state: &'a Path, updates: &'a Path) -> [&'a OsStr; 4] {
+    [
+        "--state".as_ref(),
+        state.as_os_str(),
+        "--updates".as_ref(),
+        updates.as_os_str(),
+    ]
 }
 
 fn packed_panel() -> PathBuf {
@@ -173,8 +185,8 @@ impl Stack {
 
     fn guarded(firmware: Option<&Path>) -> Self {
         let mut stack = Self::without_server(Home::Unknown, firmware);
-        let state = stack.folder.join("panel");
-        stack.start_server(&packed_panel(), &["--state".as_ref(), state.as_os_str()]);
+        let (state, updates) = (stack.folder.join("panel"), stack.updates());
+        stack.start_server(&packed_panel(), &guarded_by(&state, &updates));
         stack
     }
 
@@ -346,12 +358,39 @@ impl Stack {
     }
 
     pub(crate) fn start_vthal(&mut self) {
-        let mut command = Command::new(binary("vthal"));
+        let program = binary("vthal");
+        assert!(self.start_vthal_of(&program), "the daemon does not start");
+    }
+
+    /// Starts this program as the daemon; whether it became ready.
+    pub(crate) fn start_vthal_of(&mut self, program: &Path) -> bool {
+        let mut command = Command::new(program);
         command.arg("--config").arg(self.folder.join("vthal.toml"));
         command.arg("--serial").arg(self.folder.join("serial"));
         command.arg("--socket").arg(self.daemon_socket());
         command.arg("--state").arg(self.folder.join("state"));
-        self.vthal = Some(Process::start(&mut command).0);
+        self.vthal = Process::try_start(&mut command).map(|(process, _)| process);
+        self.vthal.is_some()
+    }
+
+    /// The program that runs as the daemon.
+    pub(crate) fn vthal_program(&self) -> PathBuf {
+        let daemon = self.vthal.as_ref().expect("a daemon runs");
+        std::fs::read_link(format!("/proc/{}/exe", daemon.child.id())).unwrap()
+    }
+
+    /// The folder in which `rvac update` keeps its files.
+    pub(crate) fn updates(&self) -> PathBuf {
+        self.folder.join("updates")
+    }
+
+    /// The server for paired devices ends and is there again at once.
+    pub(crate) fn restart_guarded(&mut self) {
+        let port = self.port();
+        self.stop_server();
+        let (state, updates) = (self.folder.join("panel"), self.updates());
+        let more = guarded_by(&state, &updates);
+        self.serve((&self.daemon_socket(), &port), &packed_panel(), &more);
     }
 
     /// The map that a host has of the simulated home after so many minutes in it, as if it had been kept.

@@ -49,6 +49,7 @@ mod room_settings;
 mod schedule_form;
 mod schedule_rows;
 mod sketch;
+mod software;
 mod swept_chance;
 mod swept_grid;
 mod thoughts;
@@ -111,6 +112,9 @@ pub use schedule_rows::{
     zone_text,
 };
 pub use sketch::{Drawn, NoGoRow, Sketch, Tool, no_go_rows, no_go_strokes, spot_border, zone_strokes};
+pub use software::{
+    StepState, UpdateRow, UpdateSight, step_text, update_file_problem, update_obstacle, update_sight,
+};
 pub use swept_grid::{DirtyRows, SweptGrid};
 pub use thoughts::{DecisionBook, estimate_sentences, path_dashes, place_text};
 pub use tilt::Tilt;

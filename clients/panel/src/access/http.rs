@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::{JsCast as _, JsValue};
 use wasm_bindgen_futures::JsFuture;
-use web_sys::{Headers, RequestInit, Response};
+use web_sys::{File, Headers, RequestInit, Response};
 
 use crate::language::words;
 
@@ -43,14 +43,23 @@ pub(super) async fn post<T: DeserializeOwned>(path: &str, body: &impl Serialize)
 
 /// For what has no answer but done.
 pub(super) async fn send(path: &str, body: &impl Serialize) -> Result<String, Failed> {
+    let text = serde_json::to_string(body).map_err(|_| Failed::Unreachable)?;
+    change(path, "application/json", &JsValue::from_str(&text)).await
+}
+
+/// A file, which the browser reads from its disk as it goes out.
+pub(super) async fn send_file(path: &str, file: &File) -> Result<String, Failed> {
+    change(path, "application/octet-stream", file).await
+}
+
+async fn change(path: &str, kind: &str, body: &JsValue) -> Result<String, Failed> {
     let init = init("POST");
     let headers = Headers::new().map_err(unreachable)?;
-    for (name, value) in [("content-type", "application/json"), ("x-rvac", "1")] {
+    for (name, value) in [("content-type", kind), ("x-rvac", "1")] {
         headers.set(name, value).map_err(unreachable)?;
     }
     init.set_headers(&headers);
-    let text = serde_json::to_string(body).map_err(|_| Failed::Unreachable)?;
-    init.set_body(&JsValue::from_str(&text));
+    init.set_body(body);
     text_of(path, &init).await
 }
 

@@ -5,6 +5,7 @@ mod devices_view;
 mod http;
 mod pair_view;
 mod pairing_steps;
+mod software_view;
 
 use leptos::prelude::*;
 use pairing::Role;
@@ -12,12 +13,14 @@ use pairing::wire::Session;
 use rvac_api::role_for;
 
 pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, Needs, OnlyLooks};
-pub(crate) use devices_view::DevicesView;
 pub(crate) use pair_view::PairView;
 
+use devices_view::DevicesView;
 use http::Failed;
+use software_view::SoftwareView;
 
 use crate::language::words;
+use crate::store::Store;
 
 /// What the server says of this device.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,6 +73,11 @@ impl Entrance {
         }
     }
 
+    /// Another device was let in.
+    pub(crate) fn meet(self, newcomer: Newcomer) {
+        self.newcomer.set(Some(newcomer));
+    }
+
     /// Asks the server who this device is. None when the server is not to be had.
     pub(crate) async fn ask(self) -> Option<Access> {
         let access = match http::get("/api/session").await {
@@ -79,6 +87,15 @@ impl Entrance {
         };
         self.access.set(access.clone());
         Some(access)
+    }
+}
+
+/// What only administrators see of the robot.
+#[component]
+pub(crate) fn AdministratorView(store: Store) -> impl IntoView {
+    view! {
+        <DevicesView entrance=store.entrance />
+        <SoftwareView store />
     }
 }
 

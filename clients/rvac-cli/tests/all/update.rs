@@ -38,9 +38,15 @@ impl Board {
 
     /// The file of an update with this daemon.
     fn update(&self, epoch: u64, daemon: &str) -> PathBuf {
+        self.update_with(epoch, daemon.as_bytes())
+    }
+
+    fn update_with(&self, epoch: u64, daemon: &[u8]) -> PathBuf {
+        use std::os::unix::fs::PermissionsExt as _;
         let root = self.folder.join("root");
         fs::create_dir_all(root.join("bin")).expect("a folder");
         fs::write(root.join("bin/vthal"), daemon).expect("a file");
+        fs::set_permissions(root.join("bin/vthal"), fs::Permissions::from_mode(0o755)).expect("its mode");
         let manifest = Manifest {
             format: MANIFEST_FORMAT,
             epoch,
@@ -189,15 +195,134 @@ fn killed_while_it_starts_programs_it_is_undone_at_the_next_boot() {
     assert_eq!(board.daemon().as_deref(), Some("daemon 2"));
 }
 
+/// The script that services start, on the folders of a test.
+fn run_script(folder: &Path) -> String {
+    let script = fs::read_to_string("../../packaging/run").expect("the script");
+    let root = folder.to_string_lossy();
+    script
+        .replace("/var/lib/librervac", &format!("{root}/updates"))
+        .replace("/usr/", &format!("{root}/usr/"))
+}
+
+/// Starts the daemon as its service does, with what the service says of it before.
+fn start_daemon(board: &Board) -> std::process::Child {
+    assert!(board.rvac(&["--daemon-starts"]).status.success());
+    let path = |name: &str| board.folder.join(name);
+    Command::new("sh")
+        .arg("-c")
+        .arg(run_script(&board.folder))
+        .args(["run", "vthal", "--serial"])
+        .arg(path("no-robot"))
+        .arg("--socket")
+        .arg(path("daemon.sock"))
+        .arg("--state")
+        .arg(path("state"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("sh runs")
+}
+
+/// What the service says after an end.
+fn ended(board: &Board, status: &str) -> Output {
+    let output = board.rvac(&["--daemon-ended", "exit-code", status]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    output
+}
+
+#[test]
+fn a_daemon_that_fails_three_times_gives_way_to_the_one_before() {
+    let board = Board::new();
+    board.restart_by("exit 0");
+    fs::create_dir_all(board.folder.join("state")).expect("a folder");
+    let real = Path::new(env!("CARGO_BIN_EXE_rvac")).with_file_name("vthal");
+    let real = fs::read(real).expect("the daemon: cargo build --bin vthal");
+    let first = board.update_with(1, &real);
+    assert!(board.rvac(&[&first.to_string_lossy()]).status.success());
+    let second = board.update(2, "#!/bin/sh\nexit 1\n");
+    assert!(board.rvac(&[&second.to_string_lossy()]).status.success());
+    let in_use = || board.installed()["programs"]["update"].clone();
+    // What must be changed in the configuration is no fault of the programs, and an end that is wanted begins the count anew.
+    for status in ["1", "1", "2", "1", "1"] {
+        let code = start_daemon(&board).wait().expect("it ends").code();
+        assert_eq!(code, Some(1));
+        ended(&board, status);
+        assert_eq!(in_use(), "b");
+    }
+    // Power fails while it starts: that is none of its failures.
+    start_daemon(&board).wait().expect("it ends");
+    start_daemon(&board).wait().expect("it ends");
+    let told = text(&ended(&board, "1").stderr);
+    assert!(told.contains("the daemon of update 2 failed 3 times"), "{told}");
+    assert_eq!(in_use(), "a");
+    assert_eq!(board.installed()["given_up"], true);
+    let progress = fs::read_to_string(board.folder.join("updates/progress.json")).expect("it is told");
+    assert!(progress.contains(r#""end":"given-up""#), "{progress}");
+    let mut daemon = start_daemon(&board);
+    let mut lines = BufReader::new(daemon.stdout.take().expect("a pipe")).lines();
+    let is_ready = lines.any(|line| line.is_ok_and(|line| line.starts_with("ready")));
+    daemon.kill().expect("it runs");
+    daemon.wait().expect("it ends");
+    assert!(is_ready, "the real daemon runs again");
+    let again = board.rvac(&[&second.to_string_lossy()]);
+    assert!(text(&again.stderr).contains("only a higher one is accepted"));
+    let third = board.update_with(3, &real);
+    assert!(board.rvac(&[&third.to_string_lossy()]).status.success());
+    assert_eq!(board.installed()["given_up"], serde_json::Value::Null);
+}
+
+#[test]
+fn what_the_panel_hands_over_is_taken_and_its_course_is_told() {
+    let board = Board::new();
+    board.restart_by("exit 0");
+    let progress = || -> serde_json::Value {
+        let bytes = fs::read(board.folder.join("updates/progress.json")).expect("it is told");
+        serde_json::from_slice(&bytes).expect("JSON")
+    };
+    let good = board.update(1, "daemon 1");
+    assert!(board.rvac(&["--take", &good.to_string_lossy()]).status.success());
+    assert!(!good.exists(), "it is tried once");
+    assert_eq!(progress()["end"], "installed");
+    assert_eq!(progress()["epoch"], 1);
+    let silent = board.update(2, "broken");
+    assert!(
+        !board
+            .rvac(&["--take", &silent.to_string_lossy()])
+            .status
+            .success()
+    );
+    assert!(!silent.exists());
+    let told = progress();
+    assert_eq!(
+        (&told["end"], &told["failed"], &told["reason"]),
+        (
+            &"went-back".into(),
+            &"try-programs".into(),
+            &"update-silent".into()
+        )
+    );
+    assert_eq!(told["text"], "The daemon does not answer with the update.");
+    let old = board.update(1, "daemon 1");
+    assert!(!board.rvac(&["--take", &old.to_string_lossy()]).status.success());
+    assert_eq!(
+        (&progress()["end"], &progress()["reason"]),
+        (&"refused".into(), &"update-old".into())
+    );
+    let secret = board.folder.join("secret");
+    fs::write(&secret, "of root").expect("a file");
+    let link = board.folder.join("offer.update");
+    std::os::unix::fs::symlink(&secret, &link).expect("a link");
+    assert!(!board.rvac(&["--take", &link.to_string_lossy()]).status.success());
+    assert_eq!(progress()["reason"], "update-file", "a link is not followed");
+    assert!(secret.exists());
+}
+
 /// The script that services start: the update's program if there is one, else the package's.
 #[test]
 fn the_package_starts_the_program_of_the_update_in_use() {
-    let script = fs::read_to_string("../../packaging/run").expect("the script");
     let folder = Folder::new();
     let root = folder.to_string_lossy();
-    let script = script
-        .replace("/var/lib/librervac", &format!("{root}/updates"))
-        .replace("/usr/", &format!("{root}/usr/"));
+    let script = run_script(&folder);
     let program = |path: &str, says: &str| {
         use std::os::unix::fs::PermissionsExt as _;
         let path = folder.join(path);

@@ -9,14 +9,18 @@ use std::process::Command;
 /// systemd's measure goes from 0 to 10; what it calls fine ends here.
 const EXPOSURE_MAX: f64 = 2.5;
 /// The services.
-const UNITS: [&str; 6] = [
+const UNITS: [&str; 7] = [
     "vthal.service",
     "rvac-panel.service",
     "rvac-settle.service",
+    "rvac-update.service",
     "rvac-mqtt.service",
     "rvac-metrics.service",
     "rvac-hooks.service",
 ];
+
+/// What starts one of them when a file is there.
+const WATCHER: &str = "rvac-update.path";
 
 /// A service and how much it exposes.
 #[derive(Debug, Serialize)]
@@ -32,11 +36,12 @@ pub(super) fn check(root: &Path) -> anyhow::Result<Vec<Exposure>> {
     lay(root, &judged)?;
     let mut verify = Command::new("systemd-analyze");
     verify.arg("--root").arg(&judged).args(["--man=no", "verify"]);
-    verify.args(UNITS.map(|unit| format!("/lib/systemd/system/{unit}")));
+    let units = || UNITS.into_iter().chain([WATCHER]);
+    verify.args(units().map(|unit| format!("/lib/systemd/system/{unit}")));
     let output = process::finish(&mut verify)?;
     let complaints: Vec<String> = String::from_utf8_lossy(&output.stderr)
         .lines()
-        .filter(|line| UNITS.iter().any(|unit| line.contains(unit)))
+        .filter(|line| units().any(|unit| line.contains(unit)))
         .map(str::to_owned)
         .collect();
     if !output.status.success() || !complaints.is_empty() {

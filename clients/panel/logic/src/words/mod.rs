@@ -17,6 +17,7 @@ mod learnt;
 mod map;
 mod mix;
 mod schedule;
+mod software;
 mod status;
 #[cfg(test)]
 mod tests;
@@ -36,6 +37,7 @@ pub use learnt::LearntWords;
 pub use map::MapWords;
 pub use mix::MixWords;
 pub use schedule::ScheduleWords;
+pub use software::SoftwareWords;
 pub use status::StatusWords;
 
 /// A language that the page speaks.
@@ -155,6 +157,7 @@ pub struct Words {
     pub mix: MixWords,
     pub offer: OfferWords,
     pub schedule: ScheduleWords,
+    pub software: SoftwareWords,
     pub state: StateWords,
     pub status: StatusWords,
     pub unit: UnitWords,
@@ -192,6 +195,7 @@ macro_rules! all_screens {
             mix: MixWords::$which,
             offer: OfferWords::$which,
             schedule: ScheduleWords::$which,
+            software: SoftwareWords::$which,
             state: StateWords::$which,
             status: StatusWords::$which,
             unit: UnitWords::$which,

@@ -3,12 +3,12 @@
 use super::{
     AboutWords, AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords,
     HistoryWords, HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords,
-    StateWords, StatusWords, Template, UnitWords,
+    SoftwareWords, StateWords, StatusWords, Template, UnitWords,
 };
 
 type Texts = [(&'static str, usize, [&'static str; 2])];
 
-const SCREENS: [&Texts; 19] = [
+const SCREENS: [&Texts; 20] = [
     AboutWords::ALL,
     AccessWords::ALL,
     ActionWords::ALL,
@@ -25,6 +25,7 @@ const SCREENS: [&Texts; 19] = [
     MixWords::ALL,
     OfferWords::ALL,
     ScheduleWords::ALL,
+    SoftwareWords::ALL,
     StateWords::ALL,
     StatusWords::ALL,
     UnitWords::ALL,
