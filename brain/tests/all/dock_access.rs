@@ -342,7 +342,7 @@ fn what_is_drawn_before_a_dock_is_accepted_or_refused_as_another_program_judges(
 }
 
 #[test]
-#[ignore = "campaign: 10,000 walls and zones in 1,000 homes; cargo xtask test --all"]
+#[ignore = "campaign: 10,000 walls and zones in 1,000 homes; cargo xtask test --long"]
 fn ten_thousand_walls_doors_and_docks_are_judged_alike() {
     let halves = std::thread::scope(|scope| {
         let halves = [1_938, 2_038].map(|seed| scope.spawn(move || judge_homes(seed, 500)));

@@ -250,7 +250,7 @@ fn no_number_means_two_things_over_edits_restores_and_jobs() {
 }
 
 #[test]
-#[ignore = "campaign: 10,000 edits, restores, imports and jobs; cargo xtask test --all"]
+#[ignore = "campaign: 10,000 edits, restores, imports and jobs; cargo xtask test --long"]
 fn ten_thousand_edits_restores_imports_and_jobs_keep_every_number() {
     live(38, 10_000);
 }

@@ -123,7 +123,7 @@ fn each_accepted_job_is_in_the_history_and_its_floor_was_swept() {
 }
 
 #[test]
-#[ignore = "campaign: 10,000 requests; cargo xtask test --all"]
+#[ignore = "campaign: 10,000 requests; cargo xtask test --long"]
 fn ten_thousand_requests_leave_a_true_history() {
     (2..=41_u64).into_par_iter().for_each(|seed| {
         live(seed, 250);

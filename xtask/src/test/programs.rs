@@ -19,7 +19,8 @@ pub(super) fn workspace_tests(extent: Extent) -> Result {
     let run = tests(&mut runner(extent));
     let zones = (extent == Extent::Long).then(|| tests(&mut cargo(&ALL_ZONES)));
     let files = (extent == Extent::Long).then(|| tests(&mut cargo(&MILLION_FILES)));
-    all([build, run].into_iter().chain(zones).chain(files))
+    let draws = (extent == Extent::Long).then(|| tests(&mut cargo(&TEN_THOUSAND_DRAWS)));
+    all([build, run].into_iter().chain(zones).chain(files).chain(draws))
 }
 
 /// The words behind `--` mean the same to both runners.
@@ -43,7 +44,8 @@ fn runner(extent: Extent) -> Command {
 }
 
 /// Tests that are too long for `--all`. All others that are marked `#[ignore]` are campaigns and run there.
-const LONG_ONLY: [&str; 3] = [
+const LONG_ONLY: [&str; 4] = [
+    "ten_thousand_",
     "a_million_hostile_files_get_an_answer_in_time_and_in_bounded_memory",
     "many_random_programs_end_alike",
     "each_local_time_fires_once_a_day_at_every_change",
@@ -61,6 +63,16 @@ const MILLION_FILES: [&str; 10] = [
     "--",
     "--ignored",
     "a_million_hostile_files",
+];
+
+/// Walls, docks, edits, requests: the usual tests draw some dozens of each.
+const TEN_THOUSAND_DRAWS: [&str; 6] = [
+    "test",
+    "--workspace",
+    "--locked",
+    "--",
+    "--ignored",
+    "ten_thousand_",
 ];
 
 /// Every change of the clock of every time zone, for every kind of schedule.

@@ -84,7 +84,11 @@ pub fn estimate_sentences(words: &Words, estimate: &Estimate) -> Vec<String> {
     }
     if let Some(doubt) = estimate.map_doubt {
         let told = explain(words, doubt.code());
-        sentences.push(texts.map_doubted.fill([&told.map(|told| told.text()).unwrap_or_default()]));
+        sentences.push(
+            texts
+                .map_doubted
+                .fill([&told.map(|told| told.text()).unwrap_or_default()]),
+        );
     }
     sentences
 }
@@ -207,7 +211,10 @@ mod tests {
         };
         for (words, says) in [(ENGLISH, "Nothing is where its map"), (ESTONIAN, "ei ole midagi")] {
             let told = estimate_sentences(words, &doubting);
-            assert!(told[1].contains(says) && told[1].contains("rvac map restore"), "{told:?}");
+            assert!(
+                told[1].contains(says) && told[1].contains("rvac map restore"),
+                "{told:?}"
+            );
         }
         assert_eq!(
             place_text(
