@@ -27,6 +27,8 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
     let server = Server::start(serve)?;
     let site = format!("http://127.0.0.1:{}", server.port()?);
     let said = Command::new(program)
+        // It leaves what it found where it stands.
+        .current_dir(home.scratch.join(""))
         .arg("run")
         .arg(format!("{site}/api/openapi.json"))
         .args([
