@@ -32,8 +32,8 @@ pub(crate) struct Workspace {
     pub(crate) platform: &'static str,
 }
 
-/// All of them. The first five hold what users and robots run.
-pub(crate) const WORKSPACES: [Workspace; 7] = [
+/// All of them. The first six hold what users and robots run.
+pub(crate) const WORKSPACES: [Workspace; 8] = [
     Workspace {
         manifest: "Cargo.toml",
         platform: "x86_64-unknown-linux-gnu",
@@ -41,6 +41,10 @@ pub(crate) const WORKSPACES: [Workspace; 7] = [
     Workspace {
         manifest: "clients/panel/Cargo.toml",
         platform: "wasm32-unknown-unknown",
+    },
+    Workspace {
+        manifest: "clients/foxglove/Cargo.toml",
+        platform: "x86_64-unknown-linux-gnu",
     },
     Workspace {
         manifest: "clients/ros2/Cargo.toml",

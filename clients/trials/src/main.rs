@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod broker;
+mod foxglove;
 mod home;
 mod home_assistant;
 mod http;
@@ -46,6 +47,12 @@ struct Arguments {
     /// The bridge to ROS 2, which is a workspace of its own; tried when it is named
     #[arg(long, value_name = "FILE", requires = "ros2_python")]
     ros2: Option<PathBuf>,
+    /// The server for Foxglove, which is a workspace of its own; tried when it is named
+    #[arg(long, value_name = "FILE", requires = "foxglove_python")]
+    foxglove: Option<PathBuf>,
+    /// A Python that has the packages websockets and protobuf
+    #[arg(long, value_name = "FILE")]
+    foxglove_python: Option<PathBuf>,
     /// A Python that has the packages cyclonedds and rosbags
     #[arg(long, value_name = "FILE")]
     ros2_python: Option<PathBuf>,
@@ -57,6 +64,7 @@ impl Arguments {
         match peer {
             "home-assistant" => self.hass.is_some(),
             "schemathesis" => self.schemathesis.is_some(),
+            "foxglove" => self.foxglove.is_some(),
             "cyclonedds" => self.ros2.is_some(),
             _ => true,
         }
@@ -66,13 +74,14 @@ impl Arguments {
 /// A peer, and how it is tried.
 type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
-const TRIALS: [Trial; 7] = [
+const TRIALS: [Trial; 8] = [
     ("mosquitto", mosquitto::trial),
     ("load", load::trial),
     ("prometheus", prometheus::trial),
     ("python", notifications::trial),
     ("schemathesis", schemathesis::trial),
     ("cyclonedds", ros2::trial),
+    ("foxglove", foxglove::trial),
     ("home-assistant", home_assistant::trial),
 ];
 

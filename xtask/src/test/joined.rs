@@ -22,13 +22,16 @@ const PROGRAMS: [&str; 7] = [
 /// A reader of calendars that nobody here wrote.
 const ICALENDAR: &str = "icalendar==6.3.1";
 
+/// Speaks the protocol of Foxglove's app, and decodes by the schemas that it is sent.
+const FOXGLOVE: [&str; 2] = ["websockets==17.4", "protobuf==7.36.2"];
+
 /// Makes requests out of a description of an interface, and compares the answers with it.
 const SCHEMATHESIS: &str = "schemathesis==4.32.5";
 
 /// A DDS that is not the bridge's, and what ROS 2 itself says of its messages.
 const DDS: [&str; 2] = ["cyclonedds==11.0.1", "rosbags==0.11.9"];
 
-/// mosquitto, Prometheus, Python, schemathesis and Cyclone DDS; with `--long` Home Assistant, too.
+/// mosquitto, Prometheus, Python, schemathesis, Cyclone DDS and a client of Foxglove's protocol; with `--long` Home Assistant, too.
 pub(super) fn joined(extent: Extent) -> Result {
     check(&mut trials(extent)?)
 }
@@ -71,22 +74,29 @@ fn trials(extent: Extent) -> anyhow::Result<Command> {
     command
         .arg("--schemathesis")
         .arg(schemathesis.join("schemathesis"));
-    command.arg("--ros2").arg(ros2_bridge()?);
+    command.arg("--foxglove").arg(bridge_apart("foxglove")?);
+    let client = fetched::python(
+        &workspace::target().join("joined/foxglove"),
+        &FOXGLOVE,
+        "websockets",
+    )?;
+    command.arg("--foxglove-python").arg(client.join("python"));
+    command.arg("--ros2").arg(bridge_apart("ros2")?);
     let dds = fetched::python(&workspace::target().join("joined/dds"), &DDS, "cyclonedds")?;
     command.arg("--ros2-python").arg(dds.join("python"));
     Ok(command)
 }
 
-/// Builds the bridge to ROS 2, which is a workspace of its own; gives its program. Its own tests run first.
-fn ros2_bridge() -> anyhow::Result<PathBuf> {
-    let target = workspace::target().join("ros2");
-    for words in [&["test", "--locked"][..], &["build", "--locked"][..]] {
+/// Builds a bridge that is a workspace of its own; gives its program. Its own tests run first.
+fn bridge_apart(name: &str) -> anyhow::Result<PathBuf> {
+    let manifest = format!("clients/{name}/Cargo.toml");
+    let target = workspace::target().join(name);
+    for work in ["test", "build"] {
         let mut cargo = workspace::cargo();
         cargo
-            .args(words)
-            .args(["--manifest-path", "clients/ros2/Cargo.toml", "--target-dir"])
+            .args([work, "--locked", "--manifest-path", &manifest, "--target-dir"])
             .arg(&target);
-        process::run(&format!("cargo {} of the bridge to ROS 2", words[0]), &mut cargo)?;
+        process::run(&format!("cargo {work} of the bridge {name}"), &mut cargo)?;
     }
-    Ok(target.join("debug/rvac-ros2"))
+    Ok(target.join("debug").join(format!("rvac-{name}")))
 }
