@@ -300,7 +300,7 @@ impl Relay {
             return self.let_go().await;
         };
         if !self.gate.is_open() {
-            return self.complain(Unfit::NotFromRest.text());
+            return self.complain(Unfit::AlreadyRunning.text());
         }
         // The daemon wants a stick at rest before it gives the seat; that the commander was at rest is what the gate stands for.
         let first = self.driven_at.is_none().then_some(Twist::STOP);

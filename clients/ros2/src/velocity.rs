@@ -18,21 +18,21 @@ pub(crate) const SILENCE: Duration = Duration::from_secs(1);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Unfit {
     /// A speed is no number.
-    NotFinite,
+    NoNumber,
     /// It asks for a way that two wheels on a floor cannot go: sideways, up, or over.
-    NotOnTheFloor,
+    OffTheFloor,
     /// It is one of a stream that was there before, as of a stick that somebody forgot.
-    NotFromRest,
+    AlreadyRunning,
 }
 
 impl Unfit {
     pub(crate) const fn text(self) -> &'static str {
         match self {
-            Self::NotFinite => "a speed in /cmd_vel is not a number",
-            Self::NotOnTheFloor => {
+            Self::NoNumber => "a speed in /cmd_vel is not a number",
+            Self::OffTheFloor => {
                 "/cmd_vel asks for a way sideways, up or over; this robot has linear.x and angular.z"
             }
-            Self::NotFromRest => {
+            Self::AlreadyRunning => {
                 "/cmd_vel asks for speed since before driving began or was refused; be silent for a second or ask for zero first"
             }
         }
@@ -53,11 +53,11 @@ pub(crate) fn drive(twist: &Twist, top: TopSpeeds, clean: bool) -> Result<Reques
         twist.angular.y,
     ];
     if parts.iter().any(|part| !part.is_finite()) {
-        return Err(Unfit::NotFinite);
+        return Err(Unfit::NoNumber);
     }
     let [forward, turn, others @ ..] = parts;
     if others.iter().any(|part| *part != 0.0) {
-        return Err(Unfit::NotOnTheFloor);
+        return Err(Unfit::OffTheFloor);
     }
     let excess = (forward.abs() / top.forward_m_per_s)
         .max(turn.abs() / top.turn_rad_per_s)
@@ -173,9 +173,9 @@ mod tests {
     #[test]
     fn what_cannot_be_driven_moves_nothing() {
         for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert_eq!(speeds(&twist(wrong, 0.0, 0.0)), Err(Unfit::NotFinite));
-            assert_eq!(speeds(&twist(0.0, wrong, 0.0)), Err(Unfit::NotFinite));
+            assert_eq!(speeds(&twist(wrong, 0.0, 0.0)), Err(Unfit::NoNumber));
+            assert_eq!(speeds(&twist(0.0, wrong, 0.0)), Err(Unfit::NoNumber));
         }
-        assert_eq!(speeds(&twist(0.1, 0.1, 0.0)), Err(Unfit::NotOnTheFloor));
+        assert_eq!(speeds(&twist(0.1, 0.1, 0.0)), Err(Unfit::OffTheFloor));
     }
 }
