@@ -1,7 +1,9 @@
 //! `rvac-ros2`: the robot as a node of ROS 2, without an installation of ROS.
 #![forbid(unsafe_code)]
 
+mod action;
 mod convert;
+mod docking;
 mod frames;
 mod messages;
 mod node;

@@ -3,14 +3,16 @@
 use std::net::IpAddr;
 
 use anyhow::Context as _;
+use ros2_client::action::{ActionServerQosPolicies, AsyncActionServer};
 use ros2_client::dds::rustdds::DomainParticipantBuilder;
 use ros2_client::qos::{Durability, History, WhenFull};
 use ros2_client::{
-    Context, Message, MessageTypeName, Name, Node, NodeName, NodeOptions, Publisher, QosProfile, Server,
-    ServiceMapping, ServiceTypeName, Subscription,
+    ActionTypeName, Context, Message, MessageTypeName, Name, Node, NodeName, NodeOptions, Publisher,
+    QosProfile, Server, ServiceMapping, ServiceTypeName, Subscription,
 };
 use serde::Serialize;
 
+use crate::docking::{DockFeedback, DockGoal, DockResult};
 use crate::messages::{
     BatteryState, DiagnosticArray, OccupancyGrid, Odometry, Path, PoseWithCovarianceStamped, Transforms,
     TriggerRequest, TriggerResponse, Twist, TwistStamped,
@@ -22,6 +24,9 @@ const NODE: &str = "vacuum";
 
 /// A server of `std_srvs/Trigger`.
 pub(crate) type TriggerServer = Server<TriggerRequest, TriggerResponse>;
+
+/// A server of `nav2_msgs/DockRobot`.
+pub(crate) type DockServer = AsyncActionServer<DockGoal, DockResult, DockFeedback>;
 
 /// How services go over DDS: implementations of ROS 2 differ in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -69,6 +74,7 @@ pub(crate) struct Listeners {
     pub(crate) velocity: Subscription<Twist>,
     pub(crate) stamped: Subscription<TwistStamped>,
     pub(crate) orders: Vec<(Order, TriggerServer)>,
+    pub(crate) docking: DockServer,
 }
 
 /// The node with all its ends.
@@ -149,11 +155,28 @@ fn listeners(node: &mut Node, middleware: Middleware) -> anyhow::Result<Listener
         )?;
         orders.push((order, server));
     }
+    let docking = docking(node, middleware)?;
     Ok(Listeners {
         velocity,
         stamped,
         orders,
+        docking,
     })
+}
+
+fn docking(node: &mut Node, middleware: Middleware) -> anyhow::Result<DockServer> {
+    let name = placed(node, "dock_robot")?;
+    let qos = ActionServerQosPolicies {
+        goal_service: reliable(10),
+        result_service: reliable(10),
+        cancel_service: reliable(10),
+        feedback_publisher: reliable(10),
+        // Whoever comes late sees which goals there are.
+        status_publisher: reliable(1).durability(Durability::TransientLocal),
+    };
+    let kind = ActionTypeName::new("nav2_msgs", "DockRobot");
+    let server = node.create_action_server(middleware.mapping(), &name, &kind, qos)?;
+    Ok(AsyncActionServer::new(server))
 }
 
 /// A name in the robot's namespace, unless it begins with a slash. Always absolute: relative names of a node in `/` get a slash too many.

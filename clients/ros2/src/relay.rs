@@ -9,9 +9,12 @@ use futures::StreamExt as _;
 use futures::stream::{FuturesUnordered, select_all};
 use ros2_client::RmwRequestId;
 use rvac_api::{Estimate, RequestBody, Topic, Update};
+use tokio::sync::{mpsc, watch};
 use tokio::time::{Instant, MissedTickBehavior, interval};
 
+use crate::action::{self, DockWish};
 use crate::convert::{self, FrameNames};
+use crate::docking::DockView;
 use crate::frames::{Frames, Links, TopSpeeds};
 use crate::messages::{Header, Time, TriggerResponse, Twist};
 use crate::node::{Publishers, Robot};
@@ -72,6 +75,9 @@ pub(crate) async fn run(robot: Robot, socket: &Path, wishes: Wishes) -> anyhow::
     }));
     let mut answers = FuturesUnordered::new();
     let mut relay = Relay::new(socket, publishers, wishes);
+    let (wishes_to_dock, mut to_dock) = mpsc::channel(1);
+    let seen = relay.seen.subscribe();
+    let mut docking = std::pin::pin!(action::serve(&listeners.docking, seen, wishes_to_dock));
     let mut beat = every(BEAT);
     let mut quiet = every(QUIET);
     loop {
@@ -86,6 +92,8 @@ pub(crate) async fn run(robot: Robot, socket: &Path, wishes: Wishes) -> anyhow::
             _ = beat.tick() => relay.drive().await,
             _ = quiet.tick() => relay.keep_fresh(),
             Some(()) = answers.next() => {}
+            Some(wish) = to_dock.recv() => relay.wish(wish).await,
+            () = &mut docking => return Ok(()),
         }
         for ((order, id), answer) in relay.answered.drain(..) {
             if let Some((_, server)) = listeners.orders.iter().find(|(known, _)| *known == order) {
@@ -123,6 +131,10 @@ struct Relay {
     /// Calls by the numbers of their requests.
     waiting: BTreeMap<u32, Call>,
     answered: Vec<(Call, TriggerResponse)>,
+    /// The request of the action's goal.
+    docking: Option<u32>,
+    /// What the action sees.
+    seen: watch::Sender<DockView>,
 }
 
 impl Relay {
@@ -142,6 +154,8 @@ impl Relay {
             complaint: None,
             waiting: BTreeMap::new(),
             answered: Vec::new(),
+            docking: None,
+            seen: watch::Sender::default(),
         }
     }
 
@@ -163,6 +177,7 @@ impl Relay {
         let was_there = self.known.status.is_some();
         self.known.forget_state();
         self.stop_driving();
+        self.seen.send_replace(DockView::default());
         for (_, call) in std::mem::take(&mut self.waiting) {
             self.answered.push((call, away()));
         }
@@ -182,6 +197,10 @@ impl Relay {
                 Some(call) => self
                     .answered
                     .push((call, refused(&failure.reason, &failure.text))),
+                None if failure.id.is_some() && failure.id == self.docking => {
+                    let refusal = Some((failure.reason.clone(), failure.text.clone()));
+                    self.seen.send_modify(|view| view.refusal = refusal);
+                }
                 // Nothing else is asked for that the daemon refuses.
                 None => {
                     self.stop_driving();
@@ -202,7 +221,11 @@ impl Relay {
                 self.tell_battery();
                 self.tell_diagnostics();
             }
-            Change::Status => self.tell_diagnostics(),
+            Change::Status => {
+                let status = self.known.status.clone();
+                self.seen.send_modify(|view| view.status = status);
+                self.tell_diagnostics();
+            }
             _ => {}
         }
     }
@@ -332,6 +355,19 @@ impl Relay {
                 self.waiting.insert(id, call);
             }
             Err(_) => self.answered.push((call, away())),
+        }
+    }
+
+    /// What a goal of the action needs. A daemon that is away shows in what the action sees.
+    async fn wish(&mut self, wish: DockWish) {
+        match wish {
+            DockWish::Dock => {
+                self.seen.send_modify(|view| view.refusal = None);
+                self.docking = self.daemon.request(RequestBody::Dock).await.ok();
+            }
+            DockWish::GiveUp => {
+                self.daemon.request(RequestBody::Stop).await.ok();
+            }
         }
     }
 

@@ -4,12 +4,14 @@
     ros2.py see DOMAIN SECONDS            what each topic says, and how often
     ros2.py drive DOMAIN V W SECONDS      drives by /cmd_vel, then falls silent: how far, and how soon the robot stood
     ros2.py call DOMAIN SERVICE           calls a service of std_srvs/Trigger
+    ros2.py dock DOMAIN CANCEL_S          sends a goal of nav2_msgs/DockRobot and waits for its result, or cancels it after so long (0 never)
 
 Prints one JSON object."""
 import json
 import math
 import sys
 import time
+import uuid
 from dataclasses import dataclass
 from types import new_class
 
@@ -149,31 +151,94 @@ def drive(participant, forward, turn, seconds):
     return {"way_m": way, "fastest_m_per_s": fastest, "stood_after_s": moved - said}
 
 
-def call(participant, service):
+HEAD = [("guid", types.uint64), ("seq", types.int64)]
+
+
+class Service:
     """As rmw_cyclonedds does it: each request begins with who asks and its number, and the answer repeats them."""
-    head = [("guid", types.uint64), ("seq", types.int64)]
-    asked = structure("std_srvs::srv::dds_::Trigger_Request_", head + [("empty", types.uint8)])
-    told = structure("std_srvs::srv::dds_::Trigger_Response_", head + [("success", bool), ("message", str)])
-    qos = quality(10)
-    writer = DataWriter(participant, Topic(participant, f"rq/{service}Request", asked, qos=qos), qos=qos)
-    answers = DataReader(participant, Topic(participant, f"rr/{service}Reply", told, qos=qos), qos=qos)
-    end = time.monotonic() + 15
-    while time.monotonic() < end and not (writer.get_matched_subscriptions() and answers.get_matched_publications()):
-        time.sleep(0.05)
-    # The other side finds its reader of answers a little later.
-    time.sleep(0.5)
-    me, number = time.time_ns(), 7
-    writer.write(asked(me, number, 0))
-    while time.monotonic() < end:
-        for answer in answers.take(N=10):
-            if (answer.guid, answer.seq) == (me, number):
-                return {"success": answer.success, "message": answer.message}
-        time.sleep(0.02)
-    return {"error": "no answer"}
+
+    def __init__(self, participant, name, kind, fields):
+        package, kind_of_file, last = kind.split("/")
+        asked, told = ([(field, form) for field, form in part] for part in fields)
+        self.asked = structure(f"{package}::{kind_of_file}::dds_::{last}_Request_", HEAD + asked)
+        reply = structure(f"{package}::{kind_of_file}::dds_::{last}_Response_", HEAD + told)
+        qos = quality(10)
+        self.writer = DataWriter(participant, Topic(participant, f"rq/{name}Request", self.asked, qos=qos), qos=qos)
+        self.answers = DataReader(participant, Topic(participant, f"rr/{name}Reply", reply, qos=qos), qos=qos)
+
+    def wait(self, seconds=15):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if self.writer.get_matched_subscriptions() and self.answers.get_matched_publications():
+                break
+            time.sleep(0.05)
+        # The other side finds its reader of answers a little later.
+        time.sleep(0.5)
+
+    def call(self, *values, seconds=15):
+        me, number = time.time_ns(), 7
+        self.writer.write(self.asked(me, number, *values))
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for answer in self.answers.take(N=10):
+                if (answer.guid, answer.seq) == (me, number):
+                    return answer
+            time.sleep(0.02)
+        return None
+
+
+def call(participant, service):
+    trigger = Service(participant, service, "std_srvs/srv/Trigger",
+                      ([("empty", types.uint8)], [("success", bool), ("message", str)]))
+    trigger.wait()
+    answer = trigger.call(0)
+    if answer is None:
+        return {"error": "no answer"}
+    return {"success": answer.success, "message": answer.message}
+
+
+def dock(participant, cancel_s):
+    """By the definition of the action in Nav2; how goals are sent is that of rcl_action."""
+    identity = types.array[types.uint8, 16]
+    stamped = made("geometry_msgs/msg/PoseStamped")
+    stamp = made("builtin_interfaces/msg/Time")
+    goal = structure("nav2_msgs::action::dds_::DockRobot_Goal_", [
+        ("use_dock_id", bool), ("dock_id", str), ("dock_pose", stamped), ("dock_type", str),
+        ("max_staging_time", types.float32), ("navigate_to_staging_pose", bool)])
+    outcome = structure("nav2_msgs::action::dds_::DockRobot_Result_", [
+        ("success", bool), ("error_code", types.uint16), ("num_retries", types.uint16), ("error_msg", str)])
+    place = "dock_robot/_action/"
+    action = "nav2_msgs/action/DockRobot_"
+    send = Service(participant, place + "send_goal", action + "SendGoal",
+                   ([("goal_id", identity), ("goal", goal)], [("accepted", bool), ("stamp", stamp)]))
+    result = Service(participant, place + "get_result", action + "GetResult",
+                     ([("goal_id", identity)], [("status", types.int8), ("result", outcome)]))
+    info = structure("action_msgs::msg::dds_::GoalInfo_", [("goal_id", identity), ("stamp", stamp)])
+    cancel = Service(participant, place + "cancel_goal", "action_msgs/srv/CancelGoal",
+                     ([("goal_info", info)], [("return_code", types.int8), ("goals_canceling", types.sequence[info])]))
+    for service in (send, result, cancel):
+        service.wait()
+    name = list(uuid.uuid4().bytes)
+    header = made("std_msgs/msg/Header")(stamp(0, 0), "map")
+    vector, turn = made("geometry_msgs/msg/Point"), made("geometry_msgs/msg/Quaternion")
+    pose = stamped(header, made("geometry_msgs/msg/Pose")(vector(0.0, 0.0, 0.0), turn(0.0, 0.0, 0.0, 1.0)))
+    accepted = send.call(name, goal(True, "home", pose, "", 1000.0, True))
+    if accepted is None or not accepted.accepted:
+        return {"accepted": False}
+    if float(cancel_s) > 0:
+        time.sleep(float(cancel_s))
+        cancelled = cancel.call(info(name, stamp(0, 0)))
+        if cancelled is None:
+            return {"error": "the cancel is not answered"}
+    ended = result.call(name, seconds=300)
+    if ended is None:
+        return {"error": "no result"}
+    return {"accepted": True, "status": ended.status, "success": ended.result.success,
+            "error_code": ended.result.error_code, "error_msg": ended.result.error_msg}
 
 
 def main():
-    work = {"see": see, "drive": drive, "call": call}[sys.argv[1]]
+    work = {"see": see, "drive": drive, "call": call, "dock": dock}[sys.argv[1]]
     print(json.dumps(work(DomainParticipant(int(sys.argv[2])), *sys.argv[3:])))
 
 

@@ -74,6 +74,7 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
     driven(&peer, verdict)?;
     verdict.check("a stop holds against a stream of commands", stopped(&home, &peer));
     served(&home, &peer, verdict)?;
+    docked(&home, &peer, verdict)?;
     verdict.check("a daemon that was killed is seen", back_again(&mut home, &peer));
     Ok(())
 }
@@ -204,6 +205,33 @@ fn served(home: &Home, peer: &Peer<'_>, verdict: &mut Verdict) -> anyhow::Result
     let told = peer.call("stop")?;
     verdict.check("a service ends it", holds(told["success"] == true, &told));
     home.order(r#"{"c":"stop"}"#)
+}
+
+/// The status of a goal: `STATUS_SUCCEEDED` and `STATUS_CANCELED` of `action_msgs/GoalStatus`.
+const SUCCEEDED: i64 = 4;
+const CANCELED: i64 = 5;
+
+fn docked(home: &Home, peer: &Peer<'_>, verdict: &mut Verdict) -> anyhow::Result<()> {
+    // Away from its dock first.
+    home.order(r#"{"c":"start"}"#)?;
+    std::thread::sleep(Duration::from_secs(20));
+    home.order(r#"{"c":"stop"}"#)?;
+    let told = peer.tell("dock", &["1.5"])?;
+    verdict.check(
+        "a goal of DockRobot can be cancelled",
+        holds(told["status"] == CANCELED && told["success"] == false, &told),
+    );
+    let status = ask(&home.socket(), r#"{"c":"watch","topics":["status"]}"#, SOON)?;
+    verdict.check(
+        "then the robot stands",
+        holds(status.contains(r#""state":"idle""#), &Value::from(status)),
+    );
+    let told = peer.tell("dock", &["0"])?;
+    verdict.check(
+        "a goal of DockRobot brings it home",
+        holds(told["status"] == SUCCEEDED && told["success"] == true, &told),
+    );
+    Ok(())
 }
 
 fn back_again(home: &mut Home, peer: &Peer<'_>) -> anyhow::Result<()> {
