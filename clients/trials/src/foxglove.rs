@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::Arguments;
 use crate::home::Home;
-use crate::process::{Server, ask};
+use crate::process::{Server, ask, core_share, resident_mib};
 use crate::program::{output, wait_for};
 use crate::verdict::Verdict;
 
@@ -57,7 +57,13 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
         offered(&first),
     );
     verdict.check("the map is whole", map(&first));
-    let second = look()?;
+    let mut second = Value::Null;
+    let share = core_share(server.id(), || {
+        second = look()?;
+        Ok(())
+    })?;
+    verdict.figure("cleaning_core_share", share);
+    verdict.figure("resident_mib", resident_mib(server.id(), "VmRSS")?);
     verdict.check("the robot moves through the map", moved(&first, &second));
     verdict.check("the layout shows what there is", layout(&second));
     home.order(r#"{"c":"stop"}"#)

@@ -62,6 +62,10 @@ impl Server {
         Ok(server)
     }
 
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
+    }
+
     /// The port in the line with which it said that it is ready.
     pub(crate) fn port(&self) -> anyhow::Result<u16> {
         let port = self
@@ -131,6 +135,14 @@ pub(crate) fn ran_s(process: u32) -> anyhow::Result<f64> {
     let text = fs::read_to_string(format!("/proc/{process}/schedstat"))?;
     let ran_ns: f64 = text.split_whitespace().next().context("no time")?.parse()?;
     Ok(ran_ns / 1e9)
+}
+
+/// The share of a core that a program takes while something is done.
+pub(crate) fn core_share(id: u32, work: impl FnOnce() -> anyhow::Result<()>) -> anyhow::Result<f64> {
+    let before = ran_s(id)?;
+    let begun = Instant::now();
+    work()?;
+    Ok((ran_s(id)? - before) / begun.elapsed().as_secs_f64())
 }
 
 /// Its memory in MiB: now (`VmRSS`), or the most that it was (`VmHWM`).

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::Arguments;
 use crate::home::Home;
-use crate::process::{Server, ask};
+use crate::process::{Server, ask, core_share, resident_mib};
 use crate::program::{output, wait_for};
 use crate::verdict::Verdict;
 
@@ -66,14 +66,14 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
         "--middleware",
         "cyclone",
     ]);
-    let _bridge = Server::start(command)?;
+    let bridge = Server::start(command)?;
     let peer = Peer { python, domain };
     let seen = peer.tell("see", &["6"])?;
     verdict.check("each topic comes, in the frames of REP-105", frames(&seen));
     verdict.check("the map has the floor that the daemon tells", floor(&home, &seen));
     driven(&peer, verdict)?;
     verdict.check("a stop holds against a stream of commands", stopped(&home, &peer));
-    served(&home, &peer, verdict)?;
+    served(&home, (&peer, &bridge), verdict)?;
     docked(&home, &peer, verdict)?;
     verdict.check("a daemon that was killed is seen", back_again(&mut home, &peer));
     Ok(())
@@ -182,7 +182,7 @@ fn holds(is_so: bool, told: &Value) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn served(home: &Home, peer: &Peer<'_>, verdict: &mut Verdict) -> anyhow::Result<()> {
+fn served(home: &Home, (peer, bridge): (&Peer<'_>, &Server), verdict: &mut Verdict) -> anyhow::Result<()> {
     let told = peer.call("clean")?;
     verdict.check("a service starts a job", holds(told["success"] == true, &told));
     verdict.check(
@@ -196,6 +196,9 @@ fn served(home: &Home, peer: &Peer<'_>, verdict: &mut Verdict) -> anyhow::Result
                 .then_some(()))
         }),
     );
+    let share = core_share(bridge.id(), || peer.tell("see", &["4"]).map(drop))?;
+    verdict.figure("cleaning_core_share", share);
+    verdict.figure("resident_mib", resident_mib(bridge.id(), "VmRSS")?);
     let told = peer.call("clean")?;
     let message = told["message"].as_str().unwrap_or_default();
     verdict.check(
