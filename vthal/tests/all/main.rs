@@ -2,6 +2,7 @@
 
 mod daemon;
 mod floors;
+mod hostile_clients;
 mod kept;
 mod learnt;
 mod links;

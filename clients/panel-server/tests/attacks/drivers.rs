@@ -1,6 +1,5 @@
 //! A16, A17: a second driver, and a driver who is lost, with the daemon and a robot in the simulator.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use futures_util::{SinkExt as _, StreamExt as _};
