@@ -100,7 +100,12 @@ fn set_up_with(chroot: &Chroot, machine: Machine) -> anyhow::Result<Option<Runni
     chroot.run(&["rvac", "setup", "--yes", "--model", "sr8730"])?;
     let port = free_port()?;
     let file = chroot.path(CONFIGURATION);
-    let rest = std::fs::read_to_string(&file).context("rvac setup has written no configuration")?;
+    let written = std::fs::read_to_string(&file).context("rvac setup has written no configuration")?;
+    let rest: String = written
+        .split_inclusive('\n')
+        // Its table says a serial device.
+        .filter(|line| !line.starts_with("[link]") && !line.starts_with("serial ="))
+        .collect();
     std::fs::write(&file, format!("link = \"tcp:127.0.0.1:{port}\"\n{rest}"))?;
     system::need("socat", &["socat"])?;
     let mut socat = Command::new("socat");
