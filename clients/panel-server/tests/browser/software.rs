@@ -10,6 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use minisign::KeyPair;
+use serde_json::json;
 use tokio::time::sleep;
 use update_bundle::{MANIFEST_FORMAT, Manifest, list_folder, pack};
 
@@ -148,6 +149,21 @@ async fn show_section(browser: &Browser) {
     browser.text(scroll).await;
 }
 
+/// As the browser's tools have it.
+const UNLIMITED: i64 = -1;
+
+/// From now on the page sends so many bytes a second at most.
+fn upload_at(browser: &Browser, bytes_per_s: i64) {
+    let network = json!({
+        "offline": false,
+        "latency": 0,
+        "downloadThroughput": UNLIMITED,
+        "uploadThroughput": bytes_per_s,
+    });
+    browser.devtools("Network.enable", &json!({}));
+    browser.devtools("Network.emulateNetworkConditions", &network);
+}
+
 /// The last picture of a state: no fault of accessibility, and nothing wider than the screen.
 async fn look(browser: &Browser, name: &str) {
     let scroll = "document.getElementById('software').scrollIntoView(); return ''";
@@ -208,6 +224,8 @@ impl OwnersVisit {
 
     async fn is_put_in_use(&mut self) {
         let daemon = fs::read(binary("vthal")).unwrap();
+        // Over a wireless network of a home, so that there is something to see.
+        upload_at(&self.visit.browser, 8 << 20);
         self.send((1, &self.pair), &daemon).await;
         until_headline(&mut self.visit, "Receives the file").await;
         let bar = "const bar = document.getElementById('update-progress'); \
@@ -215,6 +233,7 @@ impl OwnersVisit {
         let seen = self.visit.browser.text(bar).await;
         assert_eq!(seen, "progressbar Progress of the update");
         look(&self.visit.browser, "phone-update-receives").await;
+        upload_at(&self.visit.browser, UNLIMITED);
         let restarts = until_headline(&mut self.visit, "Update 1 is in use, version 0.1.0.").await;
         assert_eq!(restarts, 1);
         let program = self.visit.stack.vthal_program();
