@@ -51,17 +51,38 @@ pub fn read<T: DeserializeOwned>(path: &Path) -> Result<T, ConfigurationError> {
     })
 }
 
-/// Prints the manual page of a bridge, for packages.
-#[must_use]
-pub fn print_manual(command: clap::Command) -> ExitCode {
+/// The word by which a bridge prints its manual page, for packages.
+const MANUAL: &str = "manual";
+
+/// Starts a bridge with the words of its command line, or prints its manual page. It runs until a signal ends it. What refuses its
+/// configuration ends with 2, so that systemd does not try again.
+pub fn start<A, W>(name: &str, work: impl FnOnce(A) -> W) -> ExitCode
+where
+    A: clap::Parser,
+    W: Future<Output = anyhow::Result<()>>,
+{
+    let manual = clap::Command::new(MANUAL)
+        .about("Prints the manual page, for packages")
+        .hide(true);
+    let command = A::command().subcommand(manual);
+    let words = command.clone().get_matches();
+    if words.subcommand_name() == Some(MANUAL) {
+        return print_manual(command);
+    }
+    match A::from_arg_matches(&words) {
+        Ok(arguments) => run(name, work(arguments)),
+        Err(error) => error.exit(),
+    }
+}
+
+fn print_manual(command: clap::Command) -> ExitCode {
     match clap_mangen::Man::new(command).render(&mut std::io::stdout()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(_) => ExitCode::FAILURE,
     }
 }
 
-/// Runs a bridge until a signal ends it. What refuses its configuration ends with 2, so that systemd does not try again.
-pub fn run(name: &str, work: impl Future<Output = anyhow::Result<()>>) -> ExitCode {
+fn run(name: &str, work: impl Future<Output = anyhow::Result<()>>) -> ExitCode {
     let filter = tracing_subscriber::EnvFilter::try_from_default_env()
         .unwrap_or_else(|_| tracing_subscriber::EnvFilter::new("info"));
     tracing_subscriber::fmt()

@@ -13,7 +13,7 @@ use std::time::Duration;
 use bridge::service::{self, ConfigurationError};
 use bridge::{Change, Daemon, Knowledge, News};
 use channels::Channels;
-use clap::{CommandFactory as _, Parser};
+use clap::Parser;
 use foxglove::messages::Timestamp;
 use foxglove::{Context, WebSocketServer};
 use rvac_api::{PlannedPath, Topic, Update};
@@ -43,23 +43,10 @@ struct Arguments {
     /// Port to listen on; 0 takes any free one
     #[arg(long, default_value_t = 8765)]
     port: u16,
-    #[command(subcommand)]
-    job: Option<Job>,
-}
-
-#[derive(Debug, clap::Subcommand)]
-enum Job {
-    /// Prints the manual page, for packages
-    #[command(hide = true)]
-    Manual,
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    if arguments.job.is_some() {
-        return service::print_manual(Arguments::command());
-    }
-    service::run("rvac-foxglove", run(arguments))
+    service::start("rvac-foxglove", run)
 }
 
 async fn run(arguments: Arguments) -> anyhow::Result<()> {

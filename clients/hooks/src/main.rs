@@ -20,7 +20,7 @@ use axum::response::IntoResponse;
 use axum::routing::get;
 use bridge::service::ConfigurationError;
 use bridge::{Daemon, News, picture, service};
-use clap::{CommandFactory as _, Parser};
+use clap::Parser;
 use configuration::Configuration;
 use delivery::{Letter, Recipient};
 use rvac_api::{RequestBody, Run, Schedules, Topic, Update};
@@ -46,15 +46,6 @@ struct Arguments {
     /// Configuration
     #[arg(long, value_name = "FILE", default_value = "/etc/rvac-hooks.toml")]
     config: PathBuf,
-    #[command(subcommand)]
-    job: Option<Job>,
-}
-
-#[derive(Debug, clap::Subcommand)]
-enum Job {
-    /// Prints the manual page, for packages
-    #[command(hide = true)]
-    Manual,
 }
 
 /// What the calendar shows.
@@ -68,11 +59,7 @@ struct Diary {
 type Shared = Arc<Mutex<Diary>>;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    if arguments.job.is_some() {
-        return service::print_manual(Arguments::command());
-    }
-    service::run("rvac-hooks", async move {
+    service::start("rvac-hooks", |arguments: Arguments| async move {
         run(service::read(&arguments.config)?).await
     })
 }

@@ -18,7 +18,7 @@ use axum::response::IntoResponse;
 use axum::routing::get;
 use bridge::service::ConfigurationError;
 use bridge::{Daemon, News, service};
-use clap::{CommandFactory as _, Parser};
+use clap::Parser;
 use figures::Figures;
 use rvac_api::{RequestBody, Topic};
 use tokio::net::TcpListener;
@@ -47,25 +47,12 @@ struct Arguments {
     /// Port to listen on; 0 takes any free one
     #[arg(long, default_value_t = 9779)]
     port: u16,
-    #[command(subcommand)]
-    job: Option<Job>,
-}
-
-#[derive(Debug, clap::Subcommand)]
-enum Job {
-    /// Prints the manual page, for packages
-    #[command(hide = true)]
-    Manual,
 }
 
 type Shared = Arc<Mutex<Figures>>;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    if arguments.job.is_some() {
-        return service::print_manual(Arguments::command());
-    }
-    service::run("rvac-metrics", run(arguments))
+    service::start("rvac-metrics", run)
 }
 
 async fn run(arguments: Arguments) -> anyhow::Result<()> {

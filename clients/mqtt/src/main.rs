@@ -19,7 +19,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use bridge::service;
-use clap::{CommandFactory as _, Parser};
+use clap::Parser;
 
 /// Shows the robot to a broker of MQTT and to Home Assistant, and takes their commands.
 #[derive(Debug, Parser)]
@@ -28,23 +28,10 @@ struct Arguments {
     /// Configuration
     #[arg(long, value_name = "FILE", default_value = "/etc/rvac-mqtt.toml")]
     config: PathBuf,
-    #[command(subcommand)]
-    job: Option<Job>,
-}
-
-#[derive(Debug, clap::Subcommand)]
-enum Job {
-    /// Prints the manual page, for packages
-    #[command(hide = true)]
-    Manual,
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    if arguments.job.is_some() {
-        return service::print_manual(Arguments::command());
-    }
-    service::run("rvac-mqtt", async move {
+    service::start("rvac-mqtt", |arguments: Arguments| async move {
         shell::run(service::read(&arguments.config)?).await
     })
 }

@@ -18,7 +18,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use bridge::service::{self, ConfigurationError};
-use clap::{CommandFactory as _, Parser};
+use clap::Parser;
 use node::{Middleware, Site};
 
 /// Joins the robot to a domain of ROS 2.
@@ -47,23 +47,10 @@ struct Arguments {
     /// Brushes and suction run while the robot is driven by /cmd_vel
     #[arg(long)]
     clean: bool,
-    #[command(subcommand)]
-    job: Option<Job>,
-}
-
-#[derive(Debug, clap::Subcommand)]
-enum Job {
-    /// Prints the manual page, for packages
-    #[command(hide = true)]
-    Manual,
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    if arguments.job.is_some() {
-        return service::print_manual(Arguments::command());
-    }
-    service::run("rvac-ros2", run(arguments))
+    service::start("rvac-ros2", run)
 }
 
 async fn run(arguments: Arguments) -> anyhow::Result<()> {

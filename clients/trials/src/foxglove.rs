@@ -9,8 +9,8 @@ use serde_json::Value;
 
 use crate::Arguments;
 use crate::home::Home;
-use crate::process::{Server, ask, core_share, resident_mib};
-use crate::program::{output, wait_for};
+use crate::process::{Server, core_share, resident_mib};
+use crate::program::{output, python_package, wait_for};
 use crate::verdict::Verdict;
 
 /// What the app is given to begin with.
@@ -34,8 +34,7 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
         .foxglove_python
         .as_deref()
         .context("--foxglove-python")?;
-    let version = "import importlib.metadata as m; print(m.version('websockets'))";
-    verdict.version(Some(output(Command::new(python).args(["-c", version]))?.trim()));
+    verdict.version(Some(&python_package(python, "websockets")?));
     let home = Home::start()?;
     let mut command = Command::new(arguments.foxglove.as_ref().context("--foxglove")?);
     command.arg("--vthal").arg(home.socket()).args(["--port", "0"]);
@@ -44,11 +43,7 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
     let look = || look(python, &address);
     home.order(r#"{"c":"start"}"#)?;
     wait_for("cleaning", Duration::from_secs(30), || {
-        let status = ask(
-            &home.socket(),
-            r#"{"c":"watch","topics":["status"]}"#,
-            Duration::from_secs(5),
-        )?;
+        let status = home.told("status")?;
         Ok(status.contains(r#""state":"cleaning""#).then_some(()))
     })?;
     let first = look()?;

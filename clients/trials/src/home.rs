@@ -72,9 +72,15 @@ impl Home {
     /// The daemon is ready before its robot answers.
     fn wait_for_robot(&self) -> anyhow::Result<()> {
         wait_for("the robot answers the daemon", Duration::from_secs(20), || {
-            let status = ask(&self.socket(), r#"{"c":"watch","topics":["status"]}"#, PATIENCE)?;
+            let status = self.told("status")?;
             Ok((!status.contains(r#""state":"disconnected""#)).then_some(()))
         })
+    }
+
+    /// What the daemon says first to whoever follows a topic.
+    pub(crate) fn told(&self, topic: &str) -> anyhow::Result<String> {
+        let watch = format!(r#"{{"c":"watch","topics":["{topic}"]}}"#);
+        ask(&self.socket(), &watch, PATIENCE)
     }
 
     pub(crate) fn socket(&self) -> PathBuf {

@@ -86,6 +86,12 @@ pub(crate) fn version_in(command: &mut Command) -> anyhow::Result<Option<String>
     Ok(words.nth(1).map(|word| word.trim_end_matches(',').to_owned()))
 }
 
+/// The version of a package that a Python has.
+pub(crate) fn python_package(python: &Path, name: &str) -> anyhow::Result<String> {
+    let ask = format!("import importlib.metadata as m; print(m.version('{name}'))");
+    Ok(output(Command::new(python).args(["-c", &ask]))?.trim().to_owned())
+}
+
 /// The output of a program that ends by itself.
 pub(crate) fn output(command: &mut Command) -> anyhow::Result<String> {
     let output = command

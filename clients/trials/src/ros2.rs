@@ -10,8 +10,8 @@ use serde_json::Value;
 
 use crate::Arguments;
 use crate::home::Home;
-use crate::process::{Server, ask, core_share, resident_mib};
-use crate::program::{output, wait_for};
+use crate::process::{Server, core_share, resident_mib};
+use crate::program::{output, python_package, wait_for};
 use crate::verdict::Verdict;
 
 /// Of nobody else on this machine, one hopes: each process of ours takes one of a hundred.
@@ -22,9 +22,6 @@ const CYCLONE: &str = "<CycloneDDS><Domain><General><AllowMulticast>false</Allow
     </ParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery></Domain></CycloneDDS>";
 /// The daemon's lease, a beat of the robot, and the readings of 20 a second in which the peer sees it.
 const STANDS_WITHIN_S: f64 = 0.4 + 0.5;
-
-/// The daemon answers within this time.
-const SOON: Duration = Duration::from_secs(5);
 
 /// The peer, as a command each time.
 struct Peer<'a> {
@@ -52,8 +49,7 @@ impl Peer<'_> {
 
 pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Result<()> {
     let python = arguments.ros2_python.as_deref().context("--ros2-python")?;
-    let ask = "import importlib.metadata as m; print(m.version('cyclonedds'))";
-    verdict.version(Some(output(Command::new(python).args(["-c", ask]))?.trim()));
+    verdict.version(Some(&python_package(python, "cyclonedds")?));
     let mut home = Home::start()?;
     let domain = (FIRST_DOMAIN + std::process::id() % 100).to_string();
     let mut command = Command::new(arguments.ros2.as_ref().context("--ros2")?);
@@ -108,7 +104,7 @@ fn frames(seen: &Value) -> anyhow::Result<()> {
 }
 
 fn floor(home: &Home, seen: &Value) -> anyhow::Result<()> {
-    let told = ask(&home.socket(), r#"{"c":"watch","topics":["home"]}"#, SOON)?;
+    let told = home.told("home")?;
     let Ok(Update::Home(view)) = serde_json::from_str(&told) else {
         anyhow::bail!("the daemon tells no home: {}", &told[..told.len().min(200)]);
     };
@@ -140,17 +136,15 @@ fn driven(peer: &Peer<'_>, verdict: &mut Verdict) -> anyhow::Result<()> {
     let stood_after_s = told["stood_after_s"].as_f64().unwrap_or(f64::INFINITY);
     verdict.figure("driven_m", way_m);
     verdict.figure("stood_after_s", stood_after_s);
-    verdict.check(
-        "it drives by /cmd_vel",
-        holds((0.35..=0.6).contains(&way_m), &told),
-    );
-    verdict.check(
+    verdict.holds("it drives by /cmd_vel", (0.35..=0.6).contains(&way_m), &told);
+    verdict.holds(
         "the robot stands when its commander falls silent",
-        holds((0.0..=STANDS_WITHIN_S).contains(&stood_after_s), &told),
+        (0.0..=STANDS_WITHIN_S).contains(&stood_after_s),
+        &told,
     );
     let told = peer.drive(["nan", "0.5"])?;
     let way_m = told["way_m"].as_f64().unwrap_or(f64::INFINITY);
-    verdict.check("what is no number moves nothing", holds(way_m < 0.005, &told));
+    verdict.holds("what is no number moves nothing", way_m < 0.005, &told);
     Ok(())
 }
 
@@ -159,7 +153,7 @@ fn stopped(home: &Home, peer: &Peer<'_>) -> anyhow::Result<()> {
     let told = std::thread::scope(|scope| {
         let driving = scope.spawn(|| peer.tell("drive", &["-0.1", "0.0", "6"]));
         let stop = wait_for("a driver", Duration::from_secs(15), || {
-            let status = ask(&home.socket(), r#"{"c":"watch","topics":["status"]}"#, SOON)?;
+            let status = home.told("status")?;
             Ok(status.contains(r#""driver":"rvac-ros2""#).then_some(()))
         })
         .and_then(|()| {
@@ -171,20 +165,16 @@ fn stopped(home: &Home, peer: &Peer<'_>) -> anyhow::Result<()> {
         stop.and(told)
     })?;
     let stood_after_s = told["stood_after_s"].as_f64().unwrap_or(f64::INFINITY);
-    holds(
+    ensure!(
         stood_after_s < -2.0 && told["way_m"].as_f64().is_some_and(|way| way > 0.0),
-        &told,
-    )
-}
-
-fn holds(is_so: bool, told: &Value) -> anyhow::Result<()> {
-    ensure!(is_so, "{told}");
+        "{told}"
+    );
     Ok(())
 }
 
 fn served(home: &Home, (peer, bridge): (&Peer<'_>, &Server), verdict: &mut Verdict) -> anyhow::Result<()> {
     let told = peer.call("clean")?;
-    verdict.check("a service starts a job", holds(told["success"] == true, &told));
+    verdict.holds("a service starts a job", told["success"] == true, &told);
     verdict.check(
         "the job is seen in /diagnostics",
         wait_for("cleaning", Duration::from_secs(30), || {
@@ -201,12 +191,13 @@ fn served(home: &Home, (peer, bridge): (&Peer<'_>, &Server), verdict: &mut Verdi
     verdict.figure("resident_mib", resident_mib(bridge.id(), "VmRSS")?);
     let told = peer.call("clean")?;
     let message = told["message"].as_str().unwrap_or_default();
-    verdict.check(
+    verdict.holds(
         "a refusal comes with its name",
-        holds(told["success"] == false && message.contains(": "), &told),
+        told["success"] == false && message.contains(": "),
+        &told,
     );
     let told = peer.call("stop")?;
-    verdict.check("a service ends it", holds(told["success"] == true, &told));
+    verdict.holds("a service ends it", told["success"] == true, &told);
     home.order(r#"{"c":"stop"}"#)
 }
 
@@ -220,19 +211,22 @@ fn docked(home: &Home, peer: &Peer<'_>, verdict: &mut Verdict) -> anyhow::Result
     std::thread::sleep(Duration::from_secs(20));
     home.order(r#"{"c":"stop"}"#)?;
     let told = peer.tell("dock", &["1.5"])?;
-    verdict.check(
+    verdict.holds(
         "a goal of DockRobot can be cancelled",
-        holds(told["status"] == CANCELED && told["success"] == false, &told),
+        told["status"] == CANCELED && told["success"] == false,
+        &told,
     );
-    let status = ask(&home.socket(), r#"{"c":"watch","topics":["status"]}"#, SOON)?;
-    verdict.check(
+    let status = home.told("status")?;
+    verdict.holds(
         "then the robot stands",
-        holds(status.contains(r#""state":"idle""#), &Value::from(status)),
+        status.contains(r#""state":"idle""#),
+        &status,
     );
     let told = peer.tell("dock", &["0"])?;
-    verdict.check(
+    verdict.holds(
         "a goal of DockRobot brings it home",
-        holds(told["status"] == SUCCEEDED && told["success"] == true, &told),
+        told["status"] == SUCCEEDED && told["success"] == true,
+        &told,
     );
     Ok(())
 }

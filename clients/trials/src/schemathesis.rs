@@ -3,7 +3,7 @@
 
 use std::process::Command;
 
-use anyhow::{Context as _, ensure};
+use anyhow::Context as _;
 
 use crate::Arguments;
 use crate::home::Home;
@@ -46,12 +46,11 @@ pub(crate) fn trial(arguments: &Arguments, verdict: &mut Verdict) -> anyhow::Res
     if let Some(cases) = text.lines().find_map(|line| line.split_once(" generated, ")) {
         verdict.figure("requests", cases.0.trim().parse().unwrap_or_default());
     }
-    verdict.check("every answer is one that the description has", {
-        (|| {
-            ensure!(said.status.success(), "{}", findings(&text));
-            Ok(())
-        })()
-    });
+    verdict.holds(
+        "every answer is one that the description has",
+        said.status.success(),
+        &findings(&text),
+    );
     Ok(())
 }
 

@@ -49,6 +49,16 @@ impl Verdict {
         }
     }
 
+    /// A check passes if it is so; otherwise what was told says why not.
+    pub(crate) fn holds(&mut self, what: &str, is_so: bool, told: &impl fmt::Display) {
+        let result = if is_so {
+            Ok(())
+        } else {
+            Err(anyhow::anyhow!("{told}"))
+        };
+        self.check(what, result);
+    }
+
     pub(crate) fn figure(&mut self, name: &'static str, value: f64) {
         self.figures.insert(name, (value * 1000.0).round() / 1000.0);
     }
