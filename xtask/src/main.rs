@@ -12,6 +12,7 @@ mod demo;
 mod fetched;
 mod firmware;
 mod hardware;
+mod markdown_links;
 mod metadata;
 mod new_robot;
 mod package;

@@ -1,6 +1,5 @@
 //! `cargo xtask book`: the book as a site, together with the documents of the repository that it leads to.
 
-mod links;
 mod site;
 mod staging;
 

@@ -1,6 +1,6 @@
 //! Links of the written site: what mdBook made of titles and files, not what we believe that it makes.
 
-use super::links::normal;
+use crate::markdown_links::normal;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 

@@ -1,7 +1,7 @@
 //! What mdBook is given: the pages of the book, and below `repository/` every document, picture and script outside of it that a page leads to.
 //! mdBook shows only what lies in its own folder, while in the repository a document stands beside the code that it is about.
 
-use super::links::{inside, rewritten, way};
+use crate::markdown_links::{inside, rewritten, way};
 use anyhow::{Context, bail};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -5,6 +5,8 @@
 
 use super::Finding;
 use super::files::Files;
+use crate::markdown_links::{inside, targets};
+use std::path::Path;
 
 /// Checks every Markdown file.
 pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
@@ -28,31 +30,16 @@ pub(super) fn check(files: &Files) -> anyhow::Result<Finding> {
 
 /// Targets of links inside the repository.
 fn links(text: &str) -> impl Iterator<Item = &str> {
-    let targets = text
-        .split("](")
-        .skip(1)
-        .filter_map(|after| after.split_once(')'))
-        .map(|(target, _)| target);
-    targets
+    targets(text)
         .map(|target| target.split('#').next().unwrap_or_default())
         .filter(|target| !target.is_empty() && !target.contains("://") && !target.starts_with("mailto:"))
 }
 
 fn resolves(files: &Files, document: &str, target: &str) -> bool {
-    let mut parts: Vec<&str> = document.split('/').collect();
-    parts.pop();
-    for part in target.split('/') {
-        match part {
-            "" | "." => {}
-            ".." => {
-                if parts.pop().is_none() {
-                    return false;
-                }
-            }
-            name => parts.push(name),
-        }
-    }
-    parts.is_empty() || files.has(&parts.join("/"))
+    inside(Path::new(document), target).is_some_and(|(file, _)| {
+        // The root of the repository is a place, too.
+        file == Path::new("") || file.to_str().is_some_and(|file| files.has(file))
+    })
 }
 
 /// Pairs of file and name in inline code.

@@ -5,8 +5,17 @@ use std::path::{Component, Path, PathBuf};
 /// Where a target begins and ends: links and pictures of Markdown, and pictures of HTML, which can have a width.
 const FORMS: [(&str, char); 2] = [("](", ')'), ("src=\"", '"')];
 
+/// Targets of links and pictures in Markdown.
+pub(crate) fn targets(text: &str) -> impl Iterator<Item = &str> {
+    let (begin, end) = FORMS[0];
+    text.split(begin)
+        .skip(1)
+        .filter_map(move |after| after.split_once(end))
+        .map(|(target, _)| target)
+}
+
 /// Gives `text` with each target of a link or picture replaced by what `renamed` makes of it; what it gives `None` for stays.
-pub(super) fn rewritten(text: &str, mut renamed: impl FnMut(&str) -> Option<String>) -> String {
+pub(crate) fn rewritten(text: &str, mut renamed: impl FnMut(&str) -> Option<String>) -> String {
     FORMS.iter().fold(text.to_owned(), |text, form| {
         rewritten_in_form(&text, *form, &mut renamed)
     })
@@ -35,10 +44,10 @@ fn rewritten_in_form(
 
 /// Splits a target into the file of the repository that it names, seen from `document`, and its anchor with `#`. `None` for addresses and for
 /// anchors of the same page.
-pub(super) fn inside<'a>(document: &Path, target: &'a str) -> Option<(PathBuf, &'a str)> {
+pub(crate) fn inside<'a>(document: &Path, target: &'a str) -> Option<(PathBuf, &'a str)> {
     let anchor_at = target.find('#').unwrap_or(target.len());
     let (file, anchor) = target.split_at(anchor_at);
-    if file.is_empty() || file.contains(':') || file.contains(char::is_whitespace) {
+    if file.is_empty() || file.contains("://") || file.starts_with("mailto:") {
         return None;
     }
     let folder = document.parent().unwrap_or(Path::new(""));
@@ -46,7 +55,7 @@ pub(super) fn inside<'a>(document: &Path, target: &'a str) -> Option<(PathBuf, &
 }
 
 /// Without `.` and `..`, as far as the path itself says.
-pub(super) fn normal(path: &Path) -> PathBuf {
+pub(crate) fn normal(path: &Path) -> PathBuf {
     let mut whole = PathBuf::new();
     for component in path.components() {
         match component {
@@ -61,7 +70,7 @@ pub(super) fn normal(path: &Path) -> PathBuf {
 }
 
 /// The way from the page `from` to the file `to`, both seen from the same folder.
-pub(super) fn way(from: &Path, to: &Path) -> String {
+pub(crate) fn way(from: &Path, to: &Path) -> String {
     let folder: Vec<_> = from.parent().unwrap_or(Path::new("")).components().collect();
     let goal: Vec<_> = to.components().collect();
     let shared = folder
