@@ -15,6 +15,10 @@ const RUN: &str = "
         found => found.violations.map(fault => `${fault.id}: ${fault.help}: `
             + fault.nodes.map(node => `${node.target} ${node.any.concat(node.all).map(check => check.message)}`).join(' | ')).join('\\n'))";
 
+/// How much wider the page is than the screen, pixels.
+pub(crate) const TOO_WIDE: &str =
+    "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
+
 /// Controls that are seen and smaller in a direction than a thumb hits, 44 pixels: a name and the size of each. A box or a button of
 /// choice is pressed by its label, too; the page is skipped to by keys alone; a link in a sentence is as high as the line, which
 /// WCAG 2.2 allows (2.5.8).

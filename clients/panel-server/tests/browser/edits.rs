@@ -213,8 +213,11 @@ async fn a_room_is_split_on_a_phone_in_the_dark_one_half_cleaned_joined_again_an
     keys(browser, &["ArrowDown"; 16]).await;
     keys(browser, &["Enter", "0"]).await;
     rooms(browser, before + 1).await;
-    let wide = "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
-    assert_eq!(browser.text(wide).await, "0", "the page is wider than the phone");
+    assert_eq!(
+        browser.text(crate::accessibility::TOO_WIDE).await,
+        "0",
+        "the page is wider than the phone"
+    );
     browser.shot("phone-room-split-dark").await;
     let mut halves = [0, 0];
     onlooker.sees(|home| {

@@ -56,6 +56,9 @@ async fn floors_are_saved_as_a_file_and_taken_again_on_a_phone_in_the_dark() {
         .text("document.getElementById('floors-title').scrollIntoView(); return ''")
         .await;
     browser.shot("phone-floors-taken").await;
-    let wide = "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
-    assert_eq!(browser.text(wide).await, "0", "the page is wider than the phone");
+    assert_eq!(
+        browser.text(crate::accessibility::TOO_WIDE).await,
+        "0",
+        "the page is wider than the phone"
+    );
 }

@@ -39,9 +39,11 @@ async fn estonian_is_chosen_and_kept() {
                 .await;
             browser.shot(&format!("{shots}-et-{tab}")).await;
             assert_eq!(browser.text(ENGLISH).await, "", "English in the sheet {tab}");
-            let wide =
-                "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
-            assert_eq!(browser.text(wide).await, "0", "too wide while {tab} is open");
+            assert_eq!(
+                browser.text(crate::accessibility::TOO_WIDE).await,
+                "0",
+                "too wide while {tab} is open"
+            );
         }
         browser.reload().await;
         browser

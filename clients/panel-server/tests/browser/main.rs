@@ -251,11 +251,7 @@ async fn a_phone_shows_everything_without_sideways_scrolling() {
         browser
             .until(&format!("return !document.getElementById('sheet-{tab}').hidden"))
             .await;
-        let wide = browser
-            .text(
-                "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)",
-            )
-            .await;
+        let wide = browser.text(accessibility::TOO_WIDE).await;
         assert_eq!(wide, "0", "the page is wider than the phone while {tab} is open");
         browser.shot(&format!("phone-{tab}")).await;
     }

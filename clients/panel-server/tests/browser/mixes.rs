@@ -251,9 +251,7 @@ async fn a_phone_in_the_dark_edits_mixes_without_sideways_scrolling() {
     open_line(browser).await;
     learn_tilt(browser).await;
     browser.shot("phone-mixes-dark").await;
-    let wide = browser
-        .text("return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)")
-        .await;
+    let wide = browser.text(crate::accessibility::TOO_WIDE).await;
     assert_eq!(
         wide, "0",
         "the page is wider than the phone while mixes are edited"

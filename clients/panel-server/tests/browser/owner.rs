@@ -39,10 +39,6 @@ const PLACES: &str = "
         return [box.x, box.y, box.width, box.height].map(Math.round).join(',');
     }).join(' ')";
 
-/// How much wider the page is than the screen.
-const TOO_WIDE: &str =
-    "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
-
 /// What is said of a refusal is wholly in view.
 const REFUSAL_IN_VIEW: &str = "
     const box = document.getElementById('refusal')?.getBoundingClientRect();
@@ -67,7 +63,11 @@ async fn places(browser: &Browser, state: &str) -> Vec<String> {
         browser
             .until(&OUT_OF_REACH.replace(".join(' ')", ".length === 0"))
             .await;
-        assert_eq!(browser.text(TOO_WIDE).await, "0", "{width} x {height}");
+        assert_eq!(
+            browser.text(crate::accessibility::TOO_WIDE).await,
+            "0",
+            "{width} x {height}"
+        );
         browser.shot(&format!("owner-{width}x{height}-{state}")).await;
         places.push(browser.text(PLACES).await);
     }
@@ -122,7 +122,11 @@ async fn fits(browser: &Browser, what: &str) {
             browser
                 .until(&format!("return !document.getElementById('sheet-{tab}').hidden"))
                 .await;
-            assert_eq!(browser.text(TOO_WIDE).await, "0", "{what}, {tab}, {size:?}");
+            assert_eq!(
+                browser.text(crate::accessibility::TOO_WIDE).await,
+                "0",
+                "{what}, {tab}, {size:?}"
+            );
             let reach = browser.text(OUT_OF_REACH).await;
             assert_eq!(reach, "", "{what}, {tab}, {size:?}");
         }

@@ -146,8 +146,11 @@ async fn a_phone_is_paired_drives_sees_who_else_may_and_is_shut_out() {
     browser
         .until("return document.querySelectorAll('#devices li').length === 2")
         .await;
-    let wide = "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
-    assert_eq!(browser.text(wide).await, "0", "the page is wider than the phone");
+    assert_eq!(
+        browser.text(crate::accessibility::TOO_WIDE).await,
+        "0",
+        "the page is wider than the phone"
+    );
 
     stack.console(&["clients", "revoke", &number]);
     browser

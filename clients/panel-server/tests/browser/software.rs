@@ -15,7 +15,7 @@ use tokio::time::sleep;
 use update_bundle::{MANIFEST_FORMAT, Manifest, list_folder, pack};
 
 use crate::Visit;
-use crate::accessibility::expect_none;
+use crate::accessibility::{TOO_WIDE, expect_none};
 use crate::browser::{Browser, Screen};
 use crate::pairing::let_in;
 use crate::stack::{Stack, binary};
@@ -23,9 +23,6 @@ use crate::turns::Company;
 
 /// A large file, signatures and two starts of a daemon, on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(180);
-
-const TOO_WIDE: &str =
-    "return String(document.documentElement.scrollWidth - document.documentElement.clientWidth)";
 
 /// The file of an update whose daemon is this.
 fn bundle(folder: &Path, (epoch, pair): (u64, &KeyPair), daemon: &[u8]) -> PathBuf {
