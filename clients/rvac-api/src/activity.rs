@@ -105,6 +105,17 @@ impl Activity {
         }
     }
 
+    /// Its wheels turn, or will at any moment.
+    #[must_use]
+    pub const fn moves(self) -> bool {
+        match self {
+            Self::Starting | Self::Cleaning | Self::Spot | Self::Docking | Self::Manual => true,
+            Self::Disconnected | Self::Idle | Self::Docked | Self::Paused | Self::Stuck | Self::Error => {
+                false
+            }
+        }
+    }
+
     /// It waits for a person.
     #[must_use]
     pub const fn needs_help(self) -> bool {

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-use rvac_api::{Request, RequestBody, SEPARATOR, Topic, Update};
+use rvac_api::{Activity, Request, RequestBody, SEPARATOR, Topic, Update};
 
 use crate::board::{Board, BoardError, Health};
 
@@ -16,9 +16,6 @@ const LOOK: Duration = Duration::from_secs(3);
 const PAUSE: Duration = Duration::from_millis(500);
 /// The first message of the daemon is shorter.
 const MESSAGE_BYTES_MAX: usize = 1 << 20;
-
-/// States in which the wheels turn, or will at any moment.
-const MOVES: [&str; 5] = ["starting", "cleaning", "spot", "docking", "manual"];
 
 /// How programs are started again.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,11 +67,11 @@ impl Board for Services {
             topics: vec![Topic::Status],
         };
         let state = self.ask(watch, |update| match update {
-            Update::Status(status) => Some(status.state),
+            Update::Status(status) => Some(Activity::from_name(&status.state)),
             _ => None,
         });
         // A daemon that does not answer moves nothing.
-        state.is_some_and(|state| MOVES.contains(&state.as_str()))
+        state.flatten().is_some_and(Activity::moves)
     }
 
     fn look(&mut self) -> Health {

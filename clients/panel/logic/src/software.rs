@@ -1,6 +1,6 @@
 //! An update of the robot's software, as its page shows it: named steps, how far they are, and how it ended.
 
-use rvac_api::{SoftwareUpdate, Status, UPDATE_BYTES_MAX, UpdateEnd, UpdateStage};
+use rvac_api::{Activity, SoftwareUpdate, Status, UPDATE_BYTES_MAX, UpdateEnd, UpdateStage};
 
 use crate::codes::refusal_text;
 use crate::words::{SoftwareWords, Words};
@@ -204,8 +204,8 @@ pub fn update_file_problem(words: &Words, bytes: u64) -> Option<String> {
 /// Why no update can be sent now: the robot moves.
 #[must_use]
 pub fn update_obstacle(words: &Words, status: Option<&Status>) -> Option<&'static str> {
-    let moves = ["starting", "cleaning", "spot", "docking", "manual"];
-    let is_at_work = status.is_some_and(|status| moves.contains(&status.state.as_str()));
+    let activity = status.and_then(|status| Activity::from_name(&status.state));
+    let is_at_work = activity.is_some_and(Activity::moves);
     is_at_work.then_some(words.software.works)
 }
 
