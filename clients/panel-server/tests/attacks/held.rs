@@ -62,14 +62,14 @@ enum Door {
 /// A client that holds a stick.
 enum Stick {
     AtDaemon(Rival),
-    AtPanel(Driver),
+    AtPanel(Box<Driver>),
 }
 
 impl Stick {
     async fn at(scene: &Scene, door: Door) -> Self {
         match door {
             Door::Daemon => Self::AtDaemon(Rival::at(&scene.stack.daemon_socket())),
-            Door::Panel => Self::AtPanel(scene.driver().await),
+            Door::Panel => Self::AtPanel(Box::new(scene.driver().await)),
         }
     }
 
