@@ -14,6 +14,7 @@ mod icsp_pins;
 mod isp_line;
 mod jtag_server;
 mod loader_terminal;
+pub mod signed_update;
 pub mod update_cuts;
 pub mod update_model;
 pub mod update_world;

@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use crate::signed_update::sign_and_pack;
 use crate::update_model::{ModelBoard, ModelChip, ModelChipPort, RobotEnd};
 use minisign::KeyPair;
 use rvac_update::{
     Accepted, Chip, Disk, Outcome, Programs, RealDisk, Settled, Slots, UpdateError, Updater, WayBack,
 };
-use update_bundle::{FirmwareImage, MANIFEST_FORMAT, Manifest, PublicKeys, list_folder, pack};
+use update_bundle::{FirmwareImage, MANIFEST_FORMAT, Manifest, PublicKeys, list_folder};
 
 /// A folder that goes with the value; in memory where the system has such a place, because everything is flushed at once.
 #[derive(Debug)]
@@ -215,10 +216,8 @@ impl Release {
             firmware,
             files: list_folder(folder.path())?,
         };
-        let bytes = serde_json::to_vec(&manifest)?;
-        let signature = minisign::sign(None, &pair.sk, &bytes[..], None, None)?.into_string();
         let mut out = Vec::new();
-        pack(&mut out, (&bytes, &signature), (folder.path(), &manifest.files))?;
+        sign_and_pack(&mut out, (&manifest, pair), folder.path())?;
         Ok(out)
     }
 }

@@ -9,10 +9,10 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use flash_trials::signed_update::update_of_daemon;
 use minisign::KeyPair;
 use serde_json::json;
 use tokio::time::sleep;
-use update_bundle::{MANIFEST_FORMAT, Manifest, list_folder, pack};
 
 use crate::Visit;
 use crate::accessibility::{TOO_WIDE, expect_none};
@@ -23,32 +23,6 @@ use crate::turns::Company;
 
 /// A large file, signatures and two starts of a daemon, on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(180);
-
-/// The file of an update whose daemon is this.
-fn bundle(folder: &Path, (epoch, pair): (u64, &KeyPair), daemon: &[u8]) -> PathBuf {
-    let root = folder.join("root");
-    fs::create_dir_all(root.join("bin")).unwrap();
-    fs::write(root.join("bin/vthal"), daemon).unwrap();
-    fs::set_permissions(root.join("bin/vthal"), fs::Permissions::from_mode(0o755)).unwrap();
-    let manifest = Manifest {
-        format: MANIFEST_FORMAT,
-        epoch,
-        version: format!("0.{epoch}.0"),
-        robot: "sr8730".to_owned(),
-        machine: match std::env::consts::ARCH {
-            "aarch64" => "arm64".to_owned(),
-            _ => "amd64".to_owned(),
-        },
-        firmware: None,
-        files: list_folder(&root).unwrap(),
-    };
-    let bytes = serde_json::to_vec(&manifest).unwrap();
-    let signature = minisign::sign(None, &pair.sk, &bytes[..], None, None).unwrap();
-    let path = folder.join(format!("{epoch}.update"));
-    let file = fs::File::create(&path).unwrap();
-    pack(file, (&bytes, &signature.into_string()), (&root, &manifest.files)).unwrap();
-    path
-}
 
 /// What systemd does on a board when a file is handed over: it starts `rvac update`.
 struct Watcher {
@@ -203,7 +177,7 @@ impl OwnersVisit {
     }
 
     async fn send(&self, (epoch, pair): (u64, &KeyPair), daemon: &[u8]) {
-        let file = bundle(&self.folder, (epoch, pair), daemon);
+        let file = update_of_daemon(&self.folder, (epoch, pair), daemon).unwrap();
         self.visit.browser.choose_file("update-file", &file).await;
     }
 

@@ -8,9 +8,9 @@ use std::os::unix::net::UnixListener;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use flash_trials::signed_update::update_of_daemon;
 use minisign::KeyPair;
 use rvac_api::SEPARATOR;
-use update_bundle::{MANIFEST_FORMAT, Manifest, list_folder, pack};
 
 /// What a daemon says whose robot answers.
 const HELLO: &str = r#"{"e":"hello","api":1,"versions":{"vthal":"1","brain":"1"},"robot":{"device":"sr8730","radius_m":0.175,"swath_m":0.3,"speed_max_m_per_s":0.35,"turn_max_rad_per_s":1.5,"proximity":7,"parts":[]},"strategies":[],"expert":false}"#;
@@ -42,29 +42,7 @@ impl Board {
     }
 
     fn update_with(&self, epoch: u64, daemon: &[u8]) -> PathBuf {
-        use std::os::unix::fs::PermissionsExt as _;
-        let root = self.folder.join("root");
-        fs::create_dir_all(root.join("bin")).expect("a folder");
-        fs::write(root.join("bin/vthal"), daemon).expect("a file");
-        fs::set_permissions(root.join("bin/vthal"), fs::Permissions::from_mode(0o755)).expect("its mode");
-        let manifest = Manifest {
-            format: MANIFEST_FORMAT,
-            epoch,
-            version: format!("0.{epoch}.0"),
-            robot: "sr8730".to_owned(),
-            machine: match std::env::consts::ARCH {
-                "aarch64" => "arm64".to_owned(),
-                _ => "amd64".to_owned(),
-            },
-            firmware: None,
-            files: list_folder(&root).expect("files"),
-        };
-        let bytes = serde_json::to_vec(&manifest).expect("JSON");
-        let signature = minisign::sign(None, &self.pair.sk, &bytes[..], None, None).expect("a signature");
-        let path = self.folder.join(format!("{epoch}.update"));
-        let file = fs::File::create(&path).expect("a file");
-        pack(file, (&bytes, &signature.into_string()), (&root, &manifest.files)).expect("packed");
-        path
+        update_of_daemon(&self.folder, (epoch, &self.pair), daemon).expect("an update")
     }
 
     fn arguments(&self, more: &[&str]) -> Vec<String> {
