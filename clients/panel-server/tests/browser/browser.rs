@@ -165,16 +165,19 @@ impl Browser {
         title
     }
 
-    /// Clicks in the middle of an element, which is scrolled into the middle first: the driver takes one below a bar that
-    /// stays at the edge for visible. A page that grows between the driver's measurement and its press makes the press land elsewhere;
-    /// a person presses again then, and so does this.
+    /// Clicks in the middle of an element as soon as the page shows it. It is scrolled into the middle first: the driver takes
+    /// one below a bar that stays at the edge for visible. A page that grows between the driver's measurement and its press makes
+    /// the press land elsewhere; a person presses again then, and so does this.
     pub(crate) async fn click(&self, selector: &str) {
         let deadline = Instant::now() + PATIENCE;
         loop {
             let prepare = vec![json!(selector)];
             self.client.execute(AWAIT_CLICK, prepare).await.unwrap();
-            let element = self.client.find(Locator::Css(selector)).await.unwrap();
-            let pressed = element.click().await;
+            let pressed = match self.client.find(Locator::Css(selector)).await {
+                Ok(element) => element.click().await,
+                Err(error) if error.is_no_such_element() => Err(error),
+                Err(error) => panic!("{selector} cannot be looked for: {error}"),
+            };
             if pressed.is_ok() && self.text("return window.clickMissed !== true").await == "true" {
                 return;
             }
