@@ -7,6 +7,7 @@ mod bench;
 mod book;
 mod book_pictures;
 mod bundle;
+mod chip;
 mod codegen;
 mod demo;
 mod fetched;

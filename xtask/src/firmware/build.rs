@@ -5,7 +5,7 @@
 //! which decides names and order of functions. So cargo calls the compiler through this program (see [`as_compiler`]),
 //! which derives the identity of crates of ours from what they are instead.
 
-use crate::codegen::board::Board;
+use super::RustBoard;
 use crate::toolchain::Toolchain;
 use crate::workspace::{self, Profile};
 use crate::{process, toolchain};
@@ -27,7 +27,7 @@ pub(crate) struct Options {
 
 /// Builds the firmware whose sources lie below `root`; gives the ELF file.
 pub(crate) fn build(
-    board: &Board,
+    board: &RustBoard,
     tools: &Toolchain,
     place: &Place,
     options: &Options,
@@ -43,10 +43,10 @@ pub(crate) fn build(
             "--locked",
             "--manifest-path",
         ])
-        .arg(place.root.join(board.firmware).join("Cargo.toml"))
+        .arg(place.root.join(&board.board.firmware).join("Cargo.toml"))
         .args([
             "--bin",
-            board.program,
+            &board.program,
             "--target",
             toolchain::MIPS.triple,
             "--target-dir",
@@ -72,7 +72,7 @@ pub(crate) fn build(
         .target
         .join(toolchain::MIPS.triple)
         .join("release")
-        .join(board.program);
+        .join(&board.program);
     if !elf.is_file() {
         bail!("the firmware was built but {} is missing", elf.display());
     }

@@ -16,13 +16,14 @@ mod sample;
 pub(crate) mod sdcc;
 mod symbol_name;
 
+use crate::chip::Chip;
 use crate::codegen::board::calibration::Calibration;
-use crate::codegen::board::{BOARDS, Board};
+use crate::codegen::board::{Board, WrittenIn};
 use crate::{process, toolchain, workspace};
 use anyhow::{Context, bail};
 use build::{Options, Place};
 use elf::{Elf, Segment};
-use report::Report;
+use report::{ChipMemory, Report};
 use std::path::{Path, PathBuf};
 
 /// The robot whose firmware tests and measurements use.
@@ -48,25 +49,34 @@ pub(crate) struct FirmwareArguments {
 }
 
 /// A robot's firmware, by the language that its chip leaves.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum RobotFirmware {
     /// In Rust, as ELF and Intel HEX.
-    InRust(&'static Board),
+    InRust(RustBoard),
     /// In C: the Relax's, as Intel HEX.
     InC,
+}
+
+/// A board with firmware in Rust.
+#[derive(Clone, Debug)]
+pub(crate) struct RustBoard {
+    board: Board,
+    /// The program of its workspace which is the firmware.
+    program: String,
 }
 
 impl RobotFirmware {
     /// That of the robot with this name.
     pub(crate) fn of(robot: &str) -> anyhow::Result<Self> {
-        if robot == sdcc::ROBOT {
-            return Ok(Self::InC);
-        }
-        board(robot).map(Self::InRust)
+        let board = board(robot)?;
+        Ok(match board.written_in.clone() {
+            WrittenIn::Rust { program } => Self::InRust(RustBoard { board, program }),
+            WrittenIn::C => Self::InC,
+        })
     }
 
     /// The file that is flashed, built if it is not fresh.
-    pub(crate) fn hex(self) -> anyhow::Result<PathBuf> {
+    pub(crate) fn hex(&self) -> anyhow::Result<PathBuf> {
         match self {
             Self::InRust(board) => Ok(build(board, &Options::default(), None)?.hex),
             Self::InC => sdcc::image(),
@@ -74,7 +84,7 @@ impl RobotFirmware {
     }
 
     /// The image, built if it is not fresh, with the measured values of a file if there is one.
-    pub(crate) fn image(self, calibration: Option<&Path>) -> anyhow::Result<PathBuf> {
+    pub(crate) fn image(&self, calibration: Option<&Path>) -> anyhow::Result<PathBuf> {
         match self {
             Self::InRust(board) => {
                 let files = build(board, &Options::default(), calibration)?;
@@ -102,7 +112,7 @@ pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
         return rp2040::run(port, arguments.json);
     }
     match RobotFirmware::of(&arguments.robot)? {
-        RobotFirmware::InRust(board) => run_in_rust(arguments, board),
+        RobotFirmware::InRust(board) => run_in_rust(arguments, &board),
         RobotFirmware::InC if arguments.calibration.is_some() || !arguments.features.is_empty() => {
             bail!("the firmware of relax has no features, and no calibration is put into its image")
         }
@@ -110,7 +120,7 @@ pub(crate) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
     }
 }
 
-fn run_in_rust(arguments: &FirmwareArguments, board: &'static Board) -> anyhow::Result<()> {
+fn run_in_rust(arguments: &FirmwareArguments, board: &RustBoard) -> anyhow::Result<()> {
     let record = arguments
         .calibration
         .as_deref()
@@ -125,7 +135,7 @@ fn run_in_rust(arguments: &FirmwareArguments, board: &'static Board) -> anyhow::
         true => None,
         false => Some(link(board, &Place::elsewhere()?, &options)? == linked),
     };
-    let report = Report::of(&Elf::read(&linked)?, reproducible)?;
+    let report = Report::of(&Elf::read(&linked)?, &board.memory()?, reproducible)?;
     if arguments.json {
         process::print(&serde_json::to_string(&report)?);
     } else {
@@ -141,19 +151,25 @@ fn run_in_rust(arguments: &FirmwareArguments, board: &'static Board) -> anyhow::
 /// What a firmware that was built takes, as the JSON object of `--json`.
 pub(crate) fn report(elf: &Path) -> anyhow::Result<serde_json::Value> {
     let bytes = std::fs::read(elf).with_context(|| format!("cannot read {}", elf.display()))?;
-    Ok(serde_json::to_value(Report::of(&Elf::read(&bytes)?, None)?)?)
+    let memory = rust_board(ROBOT)?.memory()?;
+    Ok(serde_json::to_value(Report::of(
+        &Elf::read(&bytes)?,
+        &memory,
+        None,
+    )?)?)
 }
 
-/// The firmware in Rust of this robot.
-fn board(robot: &str) -> anyhow::Result<&'static Board> {
-    BOARDS.iter().find(|board| board.name == robot).with_context(|| {
-        let ports = rp2040::ports().unwrap_or_default();
-        let known: Vec<&str> = BOARDS
-            .iter()
-            .map(|board| board.name)
-            .chain([sdcc::ROBOT])
-            .chain(ports.iter().map(|port| port.name.as_str()))
-            .collect();
+/// The robot of this name, if there is firmware for it.
+fn board(robot: &str) -> anyhow::Result<Board> {
+    let boards = Board::all(&workspace::root())?;
+    let ports = rp2040::ports().unwrap_or_default();
+    let known: Vec<&str> = boards
+        .iter()
+        .map(|board| board.name.as_str())
+        .chain(ports.iter().map(|port| port.name.as_str()))
+        .collect();
+    let found = boards.iter().find(|board| board.name == robot).cloned();
+    found.with_context(|| {
         format!(
             "there is no firmware for a robot {robot:?}; there is one for: {}",
             known.join(", ")
@@ -161,9 +177,23 @@ fn board(robot: &str) -> anyhow::Result<&'static Board> {
     })
 }
 
+/// The same, which must be in Rust.
+fn rust_board(robot: &str) -> anyhow::Result<RustBoard> {
+    match RobotFirmware::of(robot)? {
+        RobotFirmware::InRust(board) => Ok(board),
+        RobotFirmware::InC => bail!("the firmware of {robot} is in C"),
+    }
+}
+
+impl RustBoard {
+    fn memory(&self) -> anyhow::Result<ChipMemory> {
+        ChipMemory::of(&Chip::load(&workspace::root().join("robots"), &self.board.chip)?)
+    }
+}
+
 /// Builds the firmware once and leaves both files.
 pub(crate) fn build(
-    board: &Board,
+    board: &RustBoard,
     options: &Options,
     calibration: Option<&Path>,
 ) -> anyhow::Result<FirmwareFiles> {
@@ -173,10 +203,10 @@ pub(crate) fn build(
 }
 
 /// Name of the files: `sr8730`, or with features `sr8730-link-sampled`.
-fn stem(board: &Board, options: &Options) -> String {
+fn stem(board: &RustBoard, options: &Options) -> String {
     let mut features = options.features.clone();
     features.sort();
-    std::iter::once(board.name.to_owned())
+    std::iter::once(board.board.name.clone())
         .chain(features)
         .collect::<Vec<_>>()
         .join("-")
@@ -184,7 +214,7 @@ fn stem(board: &Board, options: &Options) -> String {
 
 /// The robot's firmware as ELF file, built if it is not fresh.
 pub(crate) fn usual_elf() -> anyhow::Result<PathBuf> {
-    Ok(build(board(ROBOT)?, &Options::default(), None)?.elf)
+    Ok(build(&rust_board(ROBOT)?, &Options::default(), None)?.elf)
 }
 
 /// The same for a board on which the link's input must be sampled.
@@ -201,11 +231,11 @@ fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
     let options = Options {
         features: vec![feature.to_owned()],
     };
-    Ok(build(board(ROBOT)?, &options, None)?.elf)
+    Ok(build(&rust_board(ROBOT)?, &options, None)?.elf)
 }
 
 /// Builds the firmware in a place; gives the bytes of the ELF file with its checksums.
-fn link(board: &Board, place: &Place, options: &Options) -> anyhow::Result<Vec<u8>> {
+fn link(board: &RustBoard, place: &Place, options: &Options) -> anyhow::Result<Vec<u8>> {
     let tools = toolchain::choose(&toolchain::MIPS)?;
     let path = build::build(board, &tools, place, options)?;
     let bytes = std::fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
@@ -216,9 +246,9 @@ fn link(board: &Board, place: &Place, options: &Options) -> anyhow::Result<Vec<u
     }
 }
 
-fn record_of(file: &Path, board: &Board) -> anyhow::Result<Segment> {
-    let calibration = Calibration::load(&workspace::root().join(board.facts))?;
-    record::load(file, board.name, &calibration)
+fn record_of(file: &Path, board: &RustBoard) -> anyhow::Result<Segment> {
+    let calibration = Calibration::load(&workspace::root().join(&board.board.facts))?;
+    record::load(file, &board.board.name, &calibration)
 }
 
 /// What is left for people and programmers.

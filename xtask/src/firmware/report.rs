@@ -3,20 +3,31 @@
 use super::elf::{Elf, Section};
 use super::flow::{self, Flow};
 use super::graph::Depth;
+use crate::chip::{Chip, Region};
 use crate::process;
 use serde::Serialize;
 
-/// Budgets, in bytes.
-const FLASH_MAX: u32 = 160 * 1024;
-const STATIC_RAM_MAX: u32 = 20 * 1024;
-/// All memory of the chip, in bytes.
-const RAM: u32 = 32 * 1024;
+/// What a firmware may take of a PIC32.
+#[derive(Clone, Debug)]
+pub(super) struct ChipMemory {
+    /// Its budget is that of all flash.
+    program_flash: Region,
+    boot_flash: Region,
+    configuration: Region,
+    ram: Region,
+}
 
-/// First and last-but-one physical address of what can be flashed.
-const PROGRAM_FLASH: std::ops::Range<u32> = 0x1D00_0000..0x1D04_0000;
-const BOOT_FLASH: std::ops::Range<u32> = 0x1FC0_0000..0x1FC0_2FF0;
-/// The configuration words.
-const CONFIGURATION: std::ops::Range<u32> = 0x1FC0_2FF0..0x1FC0_3000;
+impl ChipMemory {
+    /// The regions of a chip that a PIC32 has.
+    pub(super) fn of(chip: &Chip) -> anyhow::Result<Self> {
+        Ok(Self {
+            program_flash: chip.region("program-flash")?.clone(),
+            boot_flash: chip.region("boot-flash")?.clone(),
+            configuration: chip.region("configuration")?.clone(),
+            ram: chip.region("ram")?.clone(),
+        })
+    }
+}
 
 /// What was measured; the JSON object of `--json`.
 #[derive(Debug, Serialize)]
@@ -59,7 +70,7 @@ struct Row {
 
 impl Report {
     /// Measures a program.
-    pub(super) fn of(program: &Elf, reproducible: Option<bool>) -> anyhow::Result<Self> {
+    pub(super) fn of(program: &Elf, memory: &ChipMemory, reproducible: Option<bool>) -> anyhow::Result<Self> {
         let Flow {
             stack,
             panics,
@@ -70,20 +81,20 @@ impl Report {
             .sections
             .iter()
             .filter(|section| section.size > 0)
-            .map(row)
+            .map(|section| row(section, &memory.ram))
             .collect();
         let ram_static_bytes = sections.iter().map(|row| row.ram_bytes).sum();
         Ok(Self {
-            flash_bytes: flash_bytes(program),
-            flash_budget_bytes: FLASH_MAX,
+            flash_bytes: flash_bytes(program, &memory.configuration),
+            flash_budget_bytes: memory.program_flash.budget_bytes(),
             ram_static_bytes,
-            ram_budget_bytes: STATIC_RAM_MAX,
+            ram_budget_bytes: memory.ram.budget_bytes(),
             stack_worst_bytes: stack.worst_bytes(),
-            stack_room_bytes: RAM.saturating_sub(ram_static_bytes),
+            stack_room_bytes: memory.ram.bytes.saturating_sub(ram_static_bytes),
             reachable_panics: panics.len(),
             soft_float_functions: floats.len(),
             soft_float_in_handlers: floats_in_handlers.len(),
-            configuration_words: configuration_is_whole(program),
+            configuration_words: configuration_is_whole(program, &memory.configuration),
             reproducible,
             sections,
             panics: panics.into_iter().collect(),
@@ -92,21 +103,23 @@ impl Report {
             stack_chain: stack.main.chain,
             stack_main_bytes: stack.main.bytes,
             handlers: stack.handlers,
-            stray: stray(program),
+            stray: stray(program, memory),
         })
     }
 
     /// What is too much or wrong, with the remedy.
     pub(super) fn faults(&self) -> Vec<String> {
-        let (flash, memory, stack) = (self.flash_bytes, self.ram_static_bytes, self.stack_worst_bytes);
+        let (flash, flash_most) = (self.flash_bytes, self.flash_budget_bytes);
+        let (memory, memory_most) = (self.ram_static_bytes, self.ram_budget_bytes);
+        let stack = self.stack_worst_bytes;
         let table = [
             (
-                flash > FLASH_MAX,
-                format!("over budget: {flash} bytes of flash, {FLASH_MAX} allowed"),
+                flash > flash_most,
+                format!("over budget: {flash} bytes of flash, {flash_most} allowed"),
             ),
             (
-                memory > STATIC_RAM_MAX,
-                format!("over budget: {memory} bytes of static memory, {STATIC_RAM_MAX} allowed"),
+                memory > memory_most,
+                format!("over budget: {memory} bytes of static memory, {memory_most} allowed"),
             ),
             (
                 stack > self.stack_room_bytes,
@@ -166,8 +179,8 @@ impl Report {
         let line =
             |what: &str, bytes: u32, of: u32| process::print(&format!("{what:35} {bytes:8} of {of} bytes"));
         process::print("");
-        line("flash", self.flash_bytes, FLASH_MAX);
-        line("static memory", self.ram_static_bytes, STATIC_RAM_MAX);
+        line("flash", self.flash_bytes, self.flash_budget_bytes);
+        line("static memory", self.ram_static_bytes, self.ram_budget_bytes);
         line(
             "stack, bound by analysis of all calls",
             self.stack_worst_bytes,
@@ -199,8 +212,10 @@ impl Report {
     }
 }
 
-fn row(section: &Section) -> Row {
-    let in_ram = section.address < 0xA000_8000 && section.address & 0x1FFF_FFFF < RAM;
+fn row(section: &Section, ram: &Region) -> Row {
+    // RAM is seen at two addresses that differ in whether the cache is used; flash and peripherals lie above both.
+    let physical = section.address & 0x1FFF_FFFF;
+    let in_ram = section.address < 0xB000_0000 && ram.addresses().contains(&physical);
     // Room that the linker script keeps for the stack is not taken by anything static.
     let is_stack = section.name.contains("stack");
     Row {
@@ -211,16 +226,20 @@ fn row(section: &Section) -> Row {
     }
 }
 
-fn flash_bytes(program: &Elf) -> u32 {
+fn flash_bytes(program: &Elf, configuration: &Region) -> u32 {
+    let configuration = configuration.addresses();
     let in_flash = program
         .segments
         .iter()
-        .filter(|segment| !CONFIGURATION.contains(&segment.physical));
+        .filter(|segment| !configuration.contains(&segment.physical));
     in_flash.map(|segment| segment.bytes.len() as u32).sum()
 }
 
-fn configuration_is_whole(program: &Elf) -> bool {
-    CONFIGURATION.step_by(4).all(|address| holds(program, address))
+fn configuration_is_whole(program: &Elf, configuration: &Region) -> bool {
+    configuration
+        .addresses()
+        .step_by(4)
+        .all(|address| holds(program, address))
 }
 
 fn holds(program: &Elf, address: u32) -> bool {
@@ -231,23 +250,25 @@ fn holds(program: &Elf, address: u32) -> bool {
 }
 
 /// Addresses of segments that do not lie in flash as a whole.
-fn stray(program: &Elf) -> Vec<u32> {
+fn stray(program: &Elf, memory: &ChipMemory) -> Vec<u32> {
     let fits =
         |range: &std::ops::Range<u32>, first: u32, last: u32| range.contains(&first) && range.contains(&last);
     let outside = program.segments.iter().filter(|segment| {
         let last = segment.physical.saturating_add(segment.bytes.len() as u32 - 1);
-        ![PROGRAM_FLASH, BOOT_FLASH, CONFIGURATION]
+        ![&memory.program_flash, &memory.boot_flash, &memory.configuration]
             .iter()
-            .any(|range| fits(range, segment.physical, last))
+            .any(|region| fits(&region.addresses(), segment.physical, last))
     });
     outside.map(|segment| segment.physical).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{FLASH_MAX, Report};
+    use super::{ChipMemory, Report};
+    use crate::chip::Chip;
     use crate::firmware::elf::{Elf, Segment};
     use crate::firmware::sample::linked;
+    use crate::workspace;
 
     fn program(flash_bytes: u32, configuration_bytes: usize) -> Elf {
         let mut elf = linked(&[(".text", &[("__start", &[0, 0])])], &[]);
@@ -263,8 +284,17 @@ mod tests {
         elf
     }
 
+    const FLASH_MAX: u32 = 160 * 1024;
+
+    fn memory() -> ChipMemory {
+        let robots = workspace::root().join("robots");
+        let chip = Chip::load(&robots, "pic32mx360f256l").expect("it is described");
+        ChipMemory::of(&chip).expect("it has all regions")
+    }
+
     fn faults(elf: &Elf, reproducible: Option<bool>) -> Vec<String> {
-        Report::of(elf, reproducible).expect("it has a start").faults()
+        let report = Report::of(elf, &memory(), reproducible);
+        report.expect("it has a start").faults()
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Firmware for an RP2040: builds it, tells its size, and lets it say hello in an emulator.
 
 use super::elf::Elf;
+use crate::chip::Chip;
 use crate::{fetched, process, system, toolchain, workspace};
 use anyhow::{Context, bail};
 use serde::Serialize;
@@ -9,11 +10,6 @@ use std::process::Command;
 
 /// The chip's name in robots/chips, and in the manifest of a firmware that is for it.
 const CHIP: &str = "rp2040";
-/// Flash of the smallest usual board, and the chip's memory, bytes.
-const FLASH_BYTES: u64 = 2 << 20;
-const RAM_BYTES: u64 = 256 << 10;
-/// Where the memory begins.
-const RAM_START: u32 = 0x2000_0000;
 /// The emulator of the chip, which comes from npm, and the program that drives it.
 const EMULATOR: &str = "firmware/rp2040-reference/emulator";
 /// How long the emulated chip runs, and what it is asked in the middle of that.
@@ -71,6 +67,8 @@ pub(super) fn run(port: &Port, json: bool) -> anyhow::Result<()> {
     let file = build(port)?;
     let elf = Elf::read(&std::fs::read(&file)?)?;
     let said = run_emulated(port, &file)?;
+    let chip = Chip::load(&workspace::root().join("robots"), CHIP)?;
+    let (flash, ram) = (chip.region("flash")?, chip.region("ram")?);
     let report = PortReport {
         flash_bytes: elf
             .segments
@@ -80,7 +78,7 @@ pub(super) fn run(port: &Port, json: bool) -> anyhow::Result<()> {
         ram_bytes: elf
             .sections
             .iter()
-            .filter(|section| section.address >= RAM_START)
+            .filter(|section| ram.addresses().contains(&section.address))
             .map(|section| u64::from(section.size))
             .sum(),
         said_hello: says(&said, r#"{"c":"hello""#, &port.name),
@@ -90,13 +88,15 @@ pub(super) fn run(port: &Port, json: bool) -> anyhow::Result<()> {
         process::print(&serde_json::to_string(&report)?);
     } else {
         process::print(&format!(
-            "flash {} of {FLASH_BYTES} bytes, memory {} of {RAM_BYTES} bytes without the stack",
-            report.flash_bytes, report.ram_bytes
+            "flash {} of {} bytes, memory {} of {} bytes without the stack",
+            report.flash_bytes, flash.bytes, report.ram_bytes, ram.bytes
         ));
         said.lines().for_each(process::print);
         process::say(&file.display().to_string());
     }
-    if report.flash_bytes > FLASH_BYTES || report.ram_bytes > RAM_BYTES {
+    if report.flash_bytes > u64::from(flash.budget_bytes())
+        || report.ram_bytes > u64::from(ram.budget_bytes())
+    {
         bail!("{} does not fit into the chip", port.name);
     }
     if !(report.said_hello && report.answered_info) {

@@ -93,6 +93,8 @@ pub enum RowConfidence {
 #[serde(deny_unknown_fields)]
 struct RawPinout {
     chip: String,
+    #[serde(rename = "firmware")]
+    _firmware: Option<String>,
     signal: Vec<RawSignal>,
 }
 

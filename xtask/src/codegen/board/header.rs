@@ -71,10 +71,10 @@ fn start(pinout: &Pinout, port: u8) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::source;
-    use crate::codegen::board::chip::Chip;
+    use crate::chip::Chip;
     use crate::codegen::board::pinout::Pinout;
 
-    const CHIP: &str = "name = \"x\"\ntitle = \"X\"\njtag = []\ncrystal = []\n[pins]\n\
+    const CHIP: &str = "name = \"x\"\ntitle = \"X\"\njtag = []\nport-names = \"numbered\"\ncrystal = []\n[memory]\n[pins]\n\
                         4 = [\"P1.3\"]\n34 = [\"AD5\", \"P0.5\"]\n23 = [\"A10\", \"P2.2\"]\n";
     const PINS: &str = "chip = \"x\"\n\
         [[signal]]\nname = \"wheel-back\"\nport = \"P1.3\"\npin = 4\nkind = \"output\"\nactive = \"high\"\npull = \"none\"\n\

@@ -1,6 +1,6 @@
 //! The pins of a board, from robots/*/pinout.toml, checked against the chip's table.
 
-use super::chip::{Chip, PortPin};
+use crate::chip::{Chip, PortNames, PortPin};
 use anyhow::{Context, bail};
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -135,6 +135,9 @@ pub(super) struct Pinout {
 #[serde(deny_unknown_fields)]
 struct RawPinout {
     chip: String,
+    /// The folder of the firmware, which [`super::Board`] reads.
+    #[serde(rename = "firmware")]
+    _firmware: Option<String>,
     /// Pins of a connector that are no port pins. The check of the circuit boards reads them, as it does `connector` of a signal.
     #[serde(rename = "connector")]
     _connector: Option<toml::Table>,
@@ -177,7 +180,7 @@ impl Pinout {
         let signals = raw
             .signal
             .into_iter()
-            .map(signal)
+            .map(|raw| signal(raw, chip.port_names))
             .collect::<anyhow::Result<_>>()?;
         let pinout = Self { chip, signals };
         let faults = pinout.faults();
@@ -213,12 +216,13 @@ impl Pinout {
     }
 }
 
-fn signal(raw: RawSignal) -> anyhow::Result<Signal> {
-    let Some(port) = PortPin::parse(&raw.port) else {
+fn signal(raw: RawSignal, names: PortNames) -> anyhow::Result<Signal> {
+    let Some(port) = names.pin(&raw.port) else {
         bail!(
-            "{}: {:?} is no port pin such as RB5, P1.3 or GPIO7",
+            "{}: {:?} is no port pin such as {}",
             raw.name,
-            raw.port
+            raw.port,
+            names.example()
         );
     };
     Ok(Signal {
@@ -314,9 +318,9 @@ fn active(level: Level) -> Active {
 #[cfg(test)]
 mod tests {
     use super::Pinout;
-    use crate::codegen::board::chip::Chip;
+    use crate::chip::Chip;
 
-    const CHIP: &str = "name = \"x\"\ntitle = \"X\"\njtag = []\ncrystal = []\n[pins]\n\
+    const CHIP: &str = "name = \"x\"\ntitle = \"X\"\njtag = []\nport-names = \"lettered\"\ncrystal = []\n[memory]\n[pins]\n\
                         14 = [\"CN11\", \"RG9\"]\n72 = [\"OC1\", \"RD0\"]\n20 = [\"AN5\", \"CN7\", \"RB5\"]\n";
 
     const GOOD: [&str; 3] = [

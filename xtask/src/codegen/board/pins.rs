@@ -1,7 +1,7 @@
 //! The pins of a board as a firmware source: a constant a signal, and the words that start-up writes.
 
-use super::chip::Chip;
 use super::pinout::{Active, Kind, Level, Pinout, Pull, Signal};
+use crate::chip::Chip;
 use crate::codegen::rust_name;
 use std::fmt::Write;
 

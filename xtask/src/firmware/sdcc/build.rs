@@ -1,6 +1,6 @@
 //! Compiling and linking with SDCC.
 
-use super::{beside, sealed};
+use super::{Mcs51Memory, beside, sealed};
 use crate::{process, system, workspace};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
@@ -30,10 +30,12 @@ pub(crate) struct Built {
     /// What the linker wrote.
     linked: PathBuf,
     modules: Vec<PathBuf>,
+    /// What the chip has.
+    pub(super) chip: Mcs51Memory,
 }
 
 /// Builds into a folder.
-pub(super) fn build(out: &Path) -> anyhow::Result<Built> {
+pub(super) fn build(out: &Path, chip: Mcs51Memory) -> anyhow::Result<Built> {
     system::need("sdcc", &["sdcc"])?;
     std::fs::create_dir_all(out).with_context(|| format!("cannot make {}", out.display()))?;
     let root = workspace::root().join("firmware");
@@ -65,18 +67,20 @@ pub(super) fn build(out: &Path) -> anyhow::Result<Built> {
     let mut linker = Command::new("sdcc");
     linker
         .args(MODEL)
-        .args(["--xram-size", "1024", "--iram-size", "256", "--code-size"])
-        .arg(sealed::PROGRAM_BYTES.to_string())
+        .args(["--xram-size", &chip.xdata.bytes.to_string()])
+        .args(["--iram-size", &chip.idata.bytes.to_string()])
+        .args(["--code-size", &chip.program_bytes().to_string()])
         .arg("-o");
     linker.arg(&linked).args(&modules);
     process::capture(&mut linker)?;
     let image = out.join("relax.ihx");
-    std::fs::write(&image, sealed::seal(&read(&linked)?)?)
+    std::fs::write(&image, sealed::seal(&read(&linked)?, chip.code.bytes)?)
         .with_context(|| format!("cannot write {}", image.display()))?;
     Ok(Built {
         image,
         linked,
         modules,
+        chip,
     })
 }
 

@@ -7,6 +7,7 @@ mod sealed;
 mod stack;
 
 use super::FirmwareArguments;
+use crate::chip::{Chip, Region};
 use crate::workspace::{self, Profile};
 use crate::{process, system};
 use anyhow::{Context, bail};
@@ -18,14 +19,37 @@ use std::process::Command;
 
 /// The robot by its name.
 pub(crate) const ROBOT: &str = "relax";
-/// What the chip has, without the CRC of its flash.
-const CODE_MAX: u32 = sealed::PROGRAM_BYTES as u32;
-const XDATA_MAX: u32 = 1_024;
-const IDATA_MAX: u32 = 256;
-/// What we hold ourselves to.
-const XDATA_BUDGET: u32 = 700;
+/// Passes of the main loop that we hold ourselves to.
 const IDLE_HZ_LEAST: f64 = 5_000.0;
 const DRIVING_HZ_LEAST: f64 = 2_000.0;
+
+/// What the chip has, in the words of its compiler.
+#[derive(Clone, Debug)]
+pub(crate) struct Mcs51Memory {
+    /// Program flash.
+    code: Region,
+    /// External memory on the chip.
+    xdata: Region,
+    /// Internal memory: registers, variables and the stack.
+    idata: Region,
+}
+
+impl Mcs51Memory {
+    /// That of the robot's chip.
+    fn of_robot() -> anyhow::Result<Self> {
+        let chip = Chip::load(&workspace::root().join("robots"), &super::board(ROBOT)?.chip)?;
+        Ok(Self {
+            code: chip.region("program-flash")?.clone(),
+            xdata: chip.region("external-ram")?.clone(),
+            idata: chip.region("internal-ram")?.clone(),
+        })
+    }
+
+    /// What the linker may use of the flash: the rest is the CRC.
+    fn program_bytes(&self) -> u32 {
+        self.code.bytes.saturating_sub(sealed::CRC_BYTES)
+    }
+}
 
 /// What the firmware takes.
 #[derive(Debug, Serialize)]
@@ -43,6 +67,8 @@ struct ChipUse {
     reproducible: Option<bool>,
     cortex_m0_text_bytes: u32,
     cortex_m0_data_bytes: u32,
+    #[serde(skip)]
+    chip: Mcs51Memory,
 }
 
 /// What the emulated chip showed.
@@ -64,10 +90,12 @@ struct Pace {
 
 /// Builds, measures and prints; fails when something is too much.
 pub(super) fn run(arguments: &FirmwareArguments) -> anyhow::Result<()> {
-    let built = build::build(&folder("relax"))?;
+    let built = build::build(&folder("relax"), Mcs51Memory::of_robot()?)?;
     let reproducible = match arguments.once {
         true => None,
-        false => Some(build::build(&folder("relax-elsewhere"))?.hex()? == built.hex()?),
+        false => {
+            Some(build::build(&folder("relax-elsewhere"), Mcs51Memory::of_robot()?)?.hex()? == built.hex()?)
+        }
     };
     let report = report(&built, reproducible)?;
     if arguments.json {
@@ -89,7 +117,7 @@ pub(crate) fn image() -> anyhow::Result<PathBuf> {
 
 /// The image, and where its functions are.
 pub(crate) fn built() -> anyhow::Result<Built> {
-    build::build(&folder("relax"))
+    build::build(&folder("relax"), Mcs51Memory::of_robot()?)
 }
 
 fn folder(name: &str) -> PathBuf {
@@ -124,6 +152,7 @@ fn report(built: &Built, reproducible: Option<bool>) -> anyhow::Result<ChipUse> 
         reproducible,
         cortex_m0_text_bytes,
         cortex_m0_data_bytes,
+        chip: built.chip.clone(),
     })
 }
 
@@ -178,15 +207,13 @@ fn cortex_m0() -> anyhow::Result<(u32, u32)> {
 impl ChipUse {
     fn print(&self) {
         let of = |what: &str, used: u32, all: u32| process::print(&format!("{what:<16}{used:>8} of {all}"));
-        of("code", self.code_bytes, CODE_MAX);
-        of("xdata", self.xdata_bytes, XDATA_MAX);
-        of("idata", self.idata_bytes, IDATA_MAX);
-        of(
-            "worst stack",
-            self.stack_worst_bytes,
-            IDATA_MAX - self.idata_bytes,
-        );
-        of("stack seen", self.stack_seen_bytes, IDATA_MAX - self.idata_bytes);
+        let idata = self.chip.idata.bytes;
+        let stack_room = idata.saturating_sub(self.idata_bytes);
+        of("code", self.code_bytes, self.chip.program_bytes());
+        of("xdata", self.xdata_bytes, self.chip.xdata.bytes);
+        of("idata", self.idata_bytes, idata);
+        of("worst stack", self.stack_worst_bytes, stack_room);
+        of("stack seen", self.stack_seen_bytes, stack_room);
         let line = |what: &str, value: String| process::print(&format!("{what:<16}{value:>8}"));
         line("passes at rest", format!("{:.0}/s", self.main_loop_idle_hz));
         line("while driving", format!("{:.0}/s", self.main_loop_driving_hz));
@@ -200,12 +227,12 @@ impl ChipUse {
 
     fn faults(&self) -> Vec<String> {
         let too_much = [
-            ("code", self.code_bytes, CODE_MAX),
-            ("xdata", self.xdata_bytes, XDATA_BUDGET),
+            ("code", self.code_bytes, self.chip.program_bytes()),
+            ("xdata", self.xdata_bytes, self.chip.xdata.budget_bytes()),
             (
                 "idata with the worst stack",
                 self.idata_bytes + self.stack_worst_bytes,
-                IDATA_MAX,
+                self.chip.idata.budget_bytes(),
             ),
         ];
         let mut faults: Vec<String> = too_much
