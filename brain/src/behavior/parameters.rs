@@ -51,6 +51,9 @@ pub(super) struct ChargingParameters {
     pub(super) retry_left_share: f64,
     /// With this charge it retries at once and does not wait for more, as a share of a full charge.
     pub(super) retry_charge: f32,
+    /// In a known home it waits on the dock for so long before that, microseconds: the way there and back takes a minute or two, and few
+    /// people stand in a door for more than five.
+    pub(super) retry_wait_us: u64,
 }
 
 pub(super) const CHARGING: ChargingParameters = ChargingParameters {
@@ -63,6 +66,7 @@ pub(super) const CHARGING: ChargingParameters = ChargingParameters {
     no_current_tries_max: 2,
     retry_left_share: 0.1,
     retry_charge: 0.5,
+    retry_wait_us: 180_000_000,
 };
 
 /// When the contacts of the dock count as lost, and as closed again.

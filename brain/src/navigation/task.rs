@@ -73,6 +73,14 @@ pub(crate) trait Task: Debug + Send {
         Vec::new()
     }
 
+    /// Whether floor that was within reach earlier in this job is shut off now: somebody stands in a door, or has shut it.
+    fn is_floor_shut_off(&self) -> bool {
+        false
+    }
+
+    /// The robot sets out from its dock once more for what it could not reach: what stood in the way may be gone.
+    fn looks_again(&mut self) {}
+
     /// How much of its target floor is swept; `None` where the task does not know the floor.
     fn swept_share(&self, _map: &Map) -> Option<SweptShare> {
         None

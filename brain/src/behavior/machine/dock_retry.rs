@@ -1,4 +1,4 @@
-//! When a first run retries from its dock, [`DockRetry`].
+//! When a run retries from its dock, [`DockRetry`].
 
 use super::Behavior;
 use crate::behavior::dock_retry::DockRetry;
@@ -16,7 +16,7 @@ impl Behavior {
         let Some(job) = &mut self.job else { return false };
         let retries = reason == Reason::RestOutOfReach
             && has_left_much
-            && !situation.is_tracked
+            && (!situation.is_tracked || job.task.is_floor_shut_off())
             && situation.map.dock().is_some()
             && job.order.is_for_whole_home()
             && job.dock_retry == DockRetry::NotYet;
@@ -26,10 +26,24 @@ impl Behavior {
         retries
     }
 
-    /// Whether a job that returned to the dock only to retry has enough charge to resume.
-    pub(super) fn may_retry(&self, charge: Option<f32>) -> bool {
+    /// Whether the job returned to the dock only to retry.
+    pub(super) fn is_retry_due(&self) -> bool {
         let is_due = |job: &Job| job.dock_retry == DockRetry::Due;
-        self.job.as_ref().is_some_and(is_due) && charge.is_some_and(|charge| charge >= CHARGING.retry_charge)
+        self.job.as_ref().is_some_and(is_due)
+    }
+
+    /// Whether such a job has waited long enough, and has enough charge to resume.
+    pub(super) fn may_retry(&self, situation: &Situation<'_>) -> bool {
+        let wait_us = if situation.is_tracked {
+            CHARGING.retry_wait_us
+        } else {
+            0
+        };
+        let has_waited = self
+            .home_us
+            .is_none_or(|home_us| self.facts.now_us >= home_us + wait_us);
+        let charge = situation.observation.battery_charge;
+        self.is_retry_due() && has_waited && charge.is_some_and(|charge| charge >= CHARGING.retry_charge)
     }
 }
 
@@ -52,7 +66,11 @@ mod tests {
 
     /// A job that has swept this share and gets no further.
     #[derive(Debug)]
-    struct AtItsEnd(f64);
+    struct AtItsEnd {
+        share: f64,
+        /// What came into the way since the job began shuts off the rest.
+        is_floor_shut_off: bool,
+    }
 
     impl Task for AtItsEnd {
         fn step(&mut self, _: &Situation<'_>, _: &mut TaskContext) -> TaskStatus {
@@ -61,11 +79,19 @@ mod tests {
 
         fn interrupted(&mut self) {}
 
+        fn is_floor_shut_off(&self) -> bool {
+            self.is_floor_shut_off
+        }
+
+        fn looks_again(&mut self) {
+            self.is_floor_shut_off = false;
+        }
+
         fn swept_share(&self, _: &Map) -> Option<SweptShare> {
             Some(SweptShare {
-                share: self.0,
-                share_low: self.0,
-                left_m2: 40.0 * (1.0 - self.0),
+                share: self.share,
+                share_low: self.share,
+                left_m2: 40.0 * (1.0 - self.share),
             })
         }
     }
@@ -76,10 +102,29 @@ mod tests {
         mind: TaskContext,
         map: Map,
         observation: Observation,
+        is_tracked: bool,
     }
 
     impl Stage {
+        /// On a first run, which has swept this share.
         fn with_swept(share: f64) -> Self {
+            let task = AtItsEnd {
+                share,
+                is_floor_shut_off: false,
+            };
+            Self::with(task, false)
+        }
+
+        /// In a known home, of which it has swept this share.
+        fn in_known_home(share: f64, is_floor_shut_off: bool) -> Self {
+            let task = AtItsEnd {
+                share,
+                is_floor_shut_off,
+            };
+            Self::with(task, true)
+        }
+
+        fn with(task: AtItsEnd, is_tracked: bool) -> Self {
             let config = BrainConfig::of_tests();
             let floor = Raster::filled(Cell { x: 0, y: 0 }, 80, 80, CellKnowledge::Free);
             let mut map = Map::new(config.body, config.sensors);
@@ -87,7 +132,7 @@ mod tests {
             let mut behavior = Behavior::new(config);
             behavior.mode = Mode::Working;
             behavior.job = Some(Job {
-                task: Box::new(AtItsEnd(share)),
+                task: Box::new(task),
                 ..Job::new(JobKind::Clean(StrategyName::Systematic), JobFigures::default())
             });
             Self {
@@ -98,6 +143,7 @@ mod tests {
                 },
                 map,
                 observation: Observation::default(),
+                is_tracked,
             }
         }
 
@@ -113,7 +159,7 @@ mod tests {
                 pose: Pose2::IDENTITY,
                 estimate: PoseEstimate::default(),
                 map: &self.map,
-                is_tracked: false,
+                is_tracked: self.is_tracked,
                 gyro_scale_sigma: None,
                 gyro_bias_sigma_rad_per_s: None,
                 reverse_budget_m: 0.15,
@@ -163,11 +209,33 @@ mod tests {
     fn with_little_charge_it_waits_for_more_before_it_retries() {
         let mut stage = Stage::with_swept(0.7);
         stage.works();
-        assert_eq!(stage.waits_with(0.4), (BehaviorState::Docked, Reason::Recharging));
+        assert_eq!(stage.waits_with(0.4), (BehaviorState::Docked, Reason::LookAgain));
         assert_eq!(
             stage.waits_with(0.95),
             (BehaviorState::Starting, Reason::LookAgain)
         );
+    }
+
+    #[test]
+    fn in_a_known_home_it_waits_on_its_dock_until_people_have_left_the_door() {
+        let mut stage = Stage::in_known_home(0.7, true);
+        assert_eq!(stage.works(), (BehaviorState::Docking, Reason::LookAgain));
+        assert_eq!(stage.waits_with(0.9), (BehaviorState::Docked, Reason::LookAgain));
+        stage.behavior.facts.now_us += 170_000_000;
+        assert_eq!(stage.waits_with(0.9), (BehaviorState::Docked, Reason::LookAgain));
+        stage.behavior.facts.now_us += 20_000_000;
+        assert_eq!(
+            stage.waits_with(0.9),
+            (BehaviorState::Starting, Reason::LookAgain)
+        );
+        stage.behavior.mode = Mode::Working;
+        assert_eq!(stage.works(), (BehaviorState::Docking, Reason::RestOutOfReach));
+    }
+
+    #[test]
+    fn in_a_known_home_it_does_not_go_out_again_for_a_room_that_was_shut_before() {
+        let mut stage = Stage::in_known_home(0.7, false);
+        assert_eq!(stage.works(), (BehaviorState::Docking, Reason::RestOutOfReach));
     }
 
     #[test]

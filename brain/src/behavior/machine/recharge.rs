@@ -164,9 +164,18 @@ impl Behavior {
         }
     }
 
-    /// The job waits on the dock for charge.
+    /// The job waits on the dock, for charge or for what stands in its way.
     pub(super) fn arrive_for_charge(&mut self, context: &mut TaskContext) {
-        self.enter(Mode::Recharging, Reason::Recharging, context);
+        self.enter(Mode::Recharging, self.waits_for(), context);
+    }
+
+    /// Why the job waits on the dock, while nothing is wrong there.
+    fn waits_for(&self) -> Reason {
+        if self.is_retry_due() {
+            Reason::LookAgain
+        } else {
+            Reason::Recharging
+        }
     }
 
     /// Whether the robot, which has lost the contacts in this way, has slipped off by itself and should dock again.
@@ -227,9 +236,9 @@ impl Behavior {
         let may_start = !self.facts.battery_low && !self.facts.wheel_drop;
         let charge = situation.observation.battery_charge;
         let charged = charge.is_some_and(|charge| charge >= self.config.battery_charged);
-        if may_start && self.may_retry(charge) {
+        if may_start && self.may_retry(situation) {
             self.announce(Reason::LookAgain, context);
-        } else if may_start && charged {
+        } else if may_start && charged && !self.is_retry_due() {
             self.announce(Reason::Charged, context);
         }
     }
@@ -259,7 +268,7 @@ impl Behavior {
             // The contacts flicker.
             (None, _) if is_loss(self.reason) && !self.is_back_on_contacts() => return,
             (None, true) => Reason::ChargerFault,
-            (None, false) => Reason::Recharging,
+            (None, false) => self.waits_for(),
         };
         if self.reason != reason {
             self.enter(Mode::Recharging, reason, context);

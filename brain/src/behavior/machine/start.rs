@@ -63,7 +63,9 @@ impl Behavior {
     pub(super) fn announce(&mut self, reason: Reason, context: &mut TaskContext) {
         if let (Mode::Recharging, Some(job)) = (self.mode, &mut self.job) {
             job.returns = true;
-            job.dock_retry.begins();
+            if job.dock_retry.begins() {
+                job.task.looks_again();
+            }
         }
         self.enter(
             Mode::Starting {

@@ -123,6 +123,7 @@ pub fn plan_pattern(
 }
 
 /// The floor to sweep.
+#[derive(Clone, Copy)]
 pub(crate) struct Area<Pattern, IsSwept> {
     /// The pattern of each cell; `None` = the cell is not to be swept.
     pub(crate) pattern: Pattern,

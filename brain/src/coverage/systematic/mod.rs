@@ -161,6 +161,16 @@ impl Task for Systematic {
             .map_or_else(Vec::new, PathFollower::remaining_path)
     }
 
+    fn is_floor_shut_off(&self) -> bool {
+        self.misses_a_part && matches!(self.outline, Some(Outline::Known))
+    }
+
+    fn looks_again(&mut self) {
+        self.obstructions.clear();
+        self.squeeze.reset_attempts();
+        (self.failed_plans, self.fresh_starts, self.escapes) = (0, 0, 0);
+    }
+
     fn swept_share(&self, map: &Map) -> Option<SweptShare> {
         let target = self.assignment.target_floor(map);
         let passed = self.passed.as_ref().map(Passed::cells);

@@ -93,7 +93,8 @@ impl Systematic {
         }
         let share = self.swept_share(situation.map).map_or(0.0, |swept| swept.share);
         let is_cut_off = self.is_cut_off || situation.map.connected_share() < 1.0;
-        let is_missed = is_cut_off && share < EVALUATION.whole_share;
+        let has_lost_a_part = self.is_floor_shut_off() && share < 1.0 - EVALUATION.rest_share;
+        let is_missed = (is_cut_off && share < EVALUATION.whole_share) || has_lost_a_part;
         if self.turns_to_next(is_missed, situation.map, context) {
             return TaskStatus::Go(Motion::Halt);
         }

@@ -4,7 +4,7 @@ use core::task::Poll;
 
 use super::frontier::optimistic;
 use super::new_obstacles::without_new_obstacles;
-use super::parameters::SYSTEMATIC;
+use super::parameters::{SQUEEZE, SYSTEMATIC};
 use super::squeeze;
 use crate::coverage::parameters::MARGINS;
 use crate::coverage::plan::{Area, CoveragePlan, Departure, PlanSettings, floor_in_reach, plan_area};
@@ -25,7 +25,7 @@ pub(super) struct PlanInputs {
     pub(super) radius_m: f64,
     /// Only floor counts that becomes reachable with this radius instead.
     pub(super) squeezed_m: Option<f64>,
-    /// The map when the job began. With the reduced radius, obstacles that appeared since are ignored.
+    /// The map when the job began. In a check for floor behind gaps, obstacles that appeared since are ignored.
     pub(super) began: Option<Raster<CellKnowledge>>,
     pub(super) blocked: Vec<Point2>,
     pub(super) target: TargetFloor,
@@ -156,13 +156,23 @@ async fn planned_in(frame: &LaneFrame, inputs: PlanInputs, budget: &mut StepBudg
     };
     let floor = floor_in_reach(&reachable_cells, &departure, budget).await;
     let known = squeeze::near(&floor, budget).await;
+    let is_swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
+    let area = Area { pattern, is_swept };
     let knowledge = match &inputs.began {
-        Some(began) => without_new_obstacles(knowledge, began, budget).await,
+        Some(began) => {
+            let knowledge = without_new_obstacles(knowledge, began, budget).await;
+            // Where people have left a door, the usual path leads through it. That of a slimmer body grazes every door post on the way.
+            let reachable_cells = reachable(&knowledge, frame, inflation(inputs.radius_m), budget).await;
+            let plan = plan_area(&reachable_cells, area, departure, budget).await;
+            if plan.lanes > 0 && plan.open_m2 > SQUEEZE.worth_m2 {
+                return plan;
+            }
+            knowledge
+        }
         None => knowledge,
     };
     let reachable_cells = reachable(&knowledge, frame, inflation(squeezed_m), budget).await;
-    let is_swept = |cell| is_in(&inputs.passed, frame.cell_in_map(cell)) || is_in(&known, cell);
-    plan_area(&reachable_cells, Area { pattern, is_swept }, departure, budget).await
+    plan_area(&reachable_cells, area, departure, budget).await
 }
 
 #[cfg(test)]
@@ -303,6 +313,29 @@ mod tests {
             through.lanes > 0 && (35.0..40.0).contains(&through.open_m2),
             "{through:?}"
         );
+    }
+
+    #[test]
+    fn through_a_door_that_people_have_left_the_path_keeps_its_usual_gap() {
+        // A door of 0.8 m, half of which the map shows a person in.
+        let mut inputs = behind_a_gap(32);
+        inputs.began = Some(inputs.knowledge.clone());
+        inputs.squeezed_m = Some(0.1625);
+        for y in 108..124 {
+            *inputs.knowledge.get_mut(Cell { x: 200, y }).unwrap() = CellKnowledge::Occupied;
+        }
+        let radius_m = inputs.radius_m;
+        let (plan, _) = finished(PlanProgress::begin(inputs));
+        assert!(plan.lanes > 0);
+        let posts = [99, 132].map(|y| Cell { x: 200, y }.middle());
+        let path = plan
+            .segments
+            .iter()
+            .flat_map(|segment| (0..=100).map(|percent| segment.at(f64::from(percent) / 100.0).position()));
+        let nearest_m = path
+            .flat_map(|place| posts.map(|post| post.distance_m(place)))
+            .fold(f64::INFINITY, f64::min);
+        assert!(nearest_m >= radius_m - 0.025, "{nearest_m} m from a post");
     }
 
     #[test]

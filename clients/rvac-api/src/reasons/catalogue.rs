@@ -20,7 +20,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("rest-out-of-reach", "What is still to be cleaned cannot be reached.", "Look at doors and no-go zones."),
     entry("start-up", "The software has just started.", ""),
     entry("command", "It was requested.", ""),
-    entry("look-again", "It could not reach much of a home that it does not know yet, and tries once more from its dock, where it knows its place.", "See that no door is shut."),
+    entry("look-again", "It could not reach a large part of the home, and tries once more from its dock: it knows its place there, and what stood in the way may be gone by then.", "See that no door is shut."),
     entry("crumbs-left", "The battery is low, and so little is left that another charge would mostly go into the way there and back.", "Send it to a room if that floor matters."),
     entry("finished", "The job is done.", ""),
     entry("continued", "It goes on by itself after an interruption.", ""),

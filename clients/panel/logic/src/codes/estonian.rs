@@ -33,7 +33,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("rest-out-of-reach", "Sinna, kus on veel koristamata, ei pääse.", "Vaata uksi ja keelualasid."),
     entry("start-up", "Tarkvara äsja käivitus.", ""),
     entry("command", "Keegi palus seda.", ""),
-    entry("look-again", "Suur osa kodust, mida robot veel ei tunne, jäi kättesaamatuks, ja ta proovib dokist veel kord, sest seal teab ta oma asukohta.", "Vaata, et ükski uks ei oleks kinni."),
+    entry("look-again", "Suur osa kodust jäi kättesaamatuks. Robot proovib dokist veel kord: seal teab ta oma asukohta, ja mis teel ees oli, võib vahepeal kadunud olla.", "Vaata, et ükski uks ei oleks kinni."),
     entry("crumbs-left", "Aku on tühjenemas ja koristamata on nii vähe, et uus laadimine kuluks peamiselt sõidule sinna ja tagasi.", "Kui see põrand on tähtis, saada robot sellesse tuppa."),
     entry("finished", "Töö on tehtud.", ""),
     entry("continued", "Robot jätkab pärast katkestust ise.", ""),
