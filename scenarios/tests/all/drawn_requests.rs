@@ -1,8 +1,11 @@
-//! Jobs, edits and orders by chance: each accepted job is in the history, once, and what it says of swept floor agrees with the world.
+//! Jobs, edits, orders and schedules by chance: each job that was accepted, or that a schedule says it began, is in the history, once, and
+//! what it says of swept floor agrees with the world.
+
+use std::collections::BTreeSet;
 
 use home::Pcg;
 use rayon::prelude::*;
-use rvac_api::{NoGoShape, RequestBody, RunJob};
+use rvac_api::{InQuiet, NoGoShape, RequestBody, RunJob, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
 use rvac_sim::{Host, Household};
 use scenarios::{household, scene, settings};
 use vthal_core::ClientId;
@@ -28,18 +31,44 @@ struct Jobs {
     spot: usize,
 }
 
-fn drawn(random: &mut Pcg) -> RequestBody {
+/// Monday 2026-11-23, 08:00 UTC.
+const MORNING_S: i64 = 1_795_420_800;
+const SECONDS_A_DAY: i64 = 86_400;
+/// A drawn schedule is due in one of the next minutes.
+const SOON_MIN: u32 = 3;
+
+/// A schedule that is due soon, with a name that no other has.
+fn schedule(random: &mut Pcg, now_us: u64) -> RequestBody {
+    let seconds = (MORNING_S + (now_us / 1_000_000) as i64) % SECONDS_A_DAY;
+    let minute = seconds / 60 + 1 + i64::from(random.below(SOON_MIN));
+    RequestBody::AddSchedule(ScheduleEntry {
+        name: format!("Number {now_us}"),
+        enabled: true,
+        job: ScheduledJob::Start {
+            strategy: Some("bounce".to_owned()),
+        },
+        when: ScheduleTime::Weekly {
+            days: Weekday::ALL.to_vec(),
+            at: format!("{:02}:{:02}", minute / 60 % 24, minute % 60),
+        },
+        late_min: 0,
+        in_quiet: InQuiet::Refuse,
+        floor: None,
+    })
+}
+
+fn drawn(random: &mut Pcg, now_us: u64) -> RequestBody {
     let start = |strategy: &str| RequestBody::Start {
         strategy: Some(strategy.to_owned()),
     };
-    match random.below(12) {
+    match random.below(18) {
         0 | 1 => start("systematic"),
         2 => start("bounce"),
         3 | 4 => RequestBody::Spot,
         5 => RequestBody::Dock,
         6 | 7 => RequestBody::Pause,
         8 => RequestBody::Resume,
-        9 => RequestBody::Stop,
+        9 | 16 | 17 => RequestBody::Stop,
         10 => {
             let [x_m, y_m] = [0, 1].map(|_| 2.0 * random.symmetric());
             let corners = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.4), (0.0, 0.4)];
@@ -48,9 +77,17 @@ fn drawn(random: &mut Pcg) -> RequestBody {
                 name: None,
             }
         }
-        _ => RequestBody::RemoveNoGo {
+        11 => RequestBody::RemoveNoGo {
             number: 1 + random.below(12) as u16,
         },
+        12 => RequestBody::RemoveSchedule {
+            number: 1 + random.below(12),
+        },
+        13 => RequestBody::SkipNext {
+            number: 1 + random.below(12),
+            skip: random.below(2) == 0,
+        },
+        _ => schedule(random, now_us),
     }
 }
 
@@ -68,15 +105,34 @@ fn told(host: &Host) -> Jobs {
     }
 }
 
+/// Schedules that say they began a job, by name. The host keeps the newest decisions only.
+fn note_fired(host: &Host, fired: &mut BTreeSet<String>) {
+    let decisions = host.schedules().decisions.into_iter();
+    let begun = decisions.filter(|decision| decision.outcome == "fired");
+    fired.extend(begun.map(|decision| decision.name));
+}
+
+/// What a robot in a known home has accepted.
+#[derive(Debug)]
+struct Life {
+    /// All jobs, those of schedules included.
+    jobs: Jobs,
+    /// Jobs that schedules began.
+    fired: usize,
+}
+
 /// Asks so many things of a robot in a known home, and gives the jobs that it accepted.
-fn live(seed: u64, requests: u32) -> Jobs {
+fn live(seed: u64, requests: u32) -> Life {
     let mut household = household(&scene(HOME, "nominal"), &settings(seed, 0)).with_known_map();
     household.pass_ms(5_000);
+    let now_us = household.now_us();
+    household.host_mut().expect("lives").set_wall(now_us, MORNING_S);
     let mut random = Pcg::new(seed, STREAM);
     let mut accepted = Jobs::default();
+    let mut fired = BTreeSet::new();
     for _ in 0..requests {
-        let body = drawn(&mut random);
         let now_us = household.now_us();
+        let body = drawn(&mut random, now_us);
         let host = household.host_mut().expect("lives");
         if host.ask_as(now_us, PERSON, body.clone()).is_none() {
             match body {
@@ -90,7 +146,9 @@ fn live(seed: u64, requests: u32) -> Jobs {
             _ => 500 + u64::from(random.below(3_500)),
         };
         household.pass_ms(waits_ms);
+        note_fired(household.host().expect("lives"), &mut fired);
     }
+    accepted.clean += fired.len();
     let now_us = household.now_us();
     let host = household.host_mut().expect("lives");
     host.ask_as(now_us, PERSON, RequestBody::Stop);
@@ -113,13 +171,19 @@ fn live(seed: u64, requests: u32) -> Jobs {
         "seed {seed}: {all_m2} m2 in all runs, {world_m2} m2 in the world"
     );
     assert_eq!(household.report().monitor_violations, 0, "seed {seed}");
-    accepted
+    Life {
+        jobs: accepted,
+        fired: fired.len(),
+    }
 }
 
 #[test]
 fn each_accepted_job_is_in_the_history_and_its_floor_was_swept() {
-    let accepted = live(1, 60);
-    assert!(accepted.clean > 2 && accepted.spot > 1, "{accepted:?}");
+    let life = live(1, 240);
+    assert!(
+        life.jobs.clean > 2 && life.jobs.spot > 1 && life.fired > 0,
+        "{life:?}"
+    );
 }
 
 #[test]

@@ -80,6 +80,25 @@ fn told(name: &str, outcome: &str, reason: Option<&str>) -> (String, String, Opt
 }
 
 #[test]
+fn of_two_schedules_that_are_due_together_one_starts_and_the_other_says_that_it_did_not() {
+    let mut household = waiting(&[entry("Kitchen", "08:00"), entry("Hall", "08:00")]);
+    meet(&mut household, (8, 0));
+    let decisions = host(&mut household).schedules().decisions.into_iter();
+    let mut outcomes: Vec<_> = decisions
+        .map(|decision| (decision.name, decision.outcome, decision.reason))
+        .collect();
+    outcomes.sort();
+    assert_eq!(
+        outcomes,
+        [
+            told("Hall", "refused", Some("job-runs")),
+            told("Kitchen", "fired", None)
+        ]
+    );
+    assert_eq!(state(&household), "cleaning");
+}
+
+#[test]
 fn a_schedule_starts_a_job_and_others_are_kept_by_name() {
     let mut household = waiting(&[
         entry("Morning", "08:00"),

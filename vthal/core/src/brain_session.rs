@@ -194,6 +194,11 @@ impl BrainSession {
         self.next.is_some()
     }
 
+    /// Whether a job was commanded that the brain has not heard yet.
+    pub(crate) fn awaits_job(&self) -> bool {
+        self.waiting.iter().any(|command| cause_of(command).is_some())
+    }
+
     /// Whether a job was commanded about that the brain has not heard yet, and would hear with a step.
     pub(crate) fn owes_a_step(&self) -> bool {
         let is_about_job = |command: &Command| match command {

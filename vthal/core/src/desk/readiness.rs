@@ -84,7 +84,11 @@ impl<'a> Readiness<'a> {
     pub(crate) fn scheduled_command(&self, entry: &Entry) -> Result<JobCommand, Refused> {
         self.facts.robot?;
         self.facts.schedule?;
-        if self.brain_session.is_some_and(works) {
+        // Of two entries that are due together the brain has not heard of the first one's job yet.
+        if self
+            .brain_session
+            .is_some_and(|session| works(session) || session.awaits_job())
+        {
             return Err("job-runs");
         }
         self.require_floor_of(entry).map_err(|refusal| refusal.reason)?;

@@ -46,7 +46,8 @@ pub(crate) struct RunFollower {
     next_number: u64,
     /// A reading of the wall clock when it was set: host time and seconds since 1970.
     wall: Option<(u64, i64)>,
-    asked: Option<Asked>,
+    /// Runs that were ordered since the last step, each in place of the one before.
+    asked: Vec<Asked>,
     /// Whoever has commanded since the last step.
     hand: Option<RunAsker>,
     /// The newest recording: its number and its name.
@@ -59,7 +60,7 @@ impl RunFollower {
         Self {
             next_number,
             wall: None,
-            asked: None,
+            asked: Vec::new(),
             hand: None,
             recording: None,
             open: None,
@@ -87,7 +88,7 @@ impl RunFollower {
         if let (Some(open), Some(brain)) = (&mut self.open, brain) {
             open.draw(brain);
         }
-        self.asked = Some(asked);
+        self.asked.push(asked);
     }
 
     /// A recording has this name.
@@ -117,29 +118,30 @@ impl RunFollower {
     /// Takes in a step of the brain.
     pub(crate) fn step(&mut self, moment: &Moment<'_>) -> Step {
         let mut step = Step::default();
-        let (asked, hand) = if moment.commands_wait {
-            (None, None)
+        let (mut asked, hand) = if moment.commands_wait {
+            (Vec::new(), None)
         } else {
-            (self.asked.take(), self.hand.take())
+            (core::mem::take(&mut self.asked), self.hand.take())
         };
         let has_begun = |decision: &Decision| {
             decision.kind == DecisionKind::StateStarting
                 && decision.cause == DecisionCause::Reason(Reason::Command)
         };
-        let begins = moment.decisions.iter().any(has_begun);
-        match asked {
-            Some(asked) if begins => {
-                let turned_home = self.open.as_ref().and_then(OpenRun::turned_home);
-                let ending = Ending::replaced(turned_home, hand.as_ref());
-                step.over.extend(self.end(moment, ending));
-                self.begin(asked, moment);
-            }
-            _ => {
-                if let (None, Some(kind)) = (&self.open, moment.brain.job_kind()) {
-                    let (by, job) = (RunAsker::Robot, job_of(kind));
-                    self.begin(Asked { by, job }, moment);
-                }
-            }
+        let begun = moment
+            .decisions
+            .iter()
+            .filter(|decision| has_begun(decision))
+            .count();
+        let refused = asked.len().saturating_sub(begun);
+        for asked in asked.drain(refused..) {
+            let turned_home = self.open.as_ref().and_then(OpenRun::turned_home);
+            let ending = Ending::replaced(turned_home, Some(&asked.by));
+            step.over.extend(self.end(moment, ending));
+            self.begin(asked, moment);
+        }
+        if let (None, Some(kind)) = (&self.open, moment.brain.job_kind()) {
+            let (by, job) = (RunAsker::Robot, job_of(kind));
+            self.begin(Asked { by, job }, moment);
         }
         let Some(open) = &mut self.open else { return step };
         let was_over = open.over_us.is_some();
