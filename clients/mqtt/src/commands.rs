@@ -1,9 +1,9 @@
 //! What a message asks of the robot. Whatever is not exactly a command is none.
 
+use bridge::FanSpeed;
 use rvac_api::{JobOrder, JobPart, RequestBody};
 use serde_json::{Map, Value};
 
-use crate::fan_speed::FanSpeed;
 use crate::topics::Hearing;
 
 /// Longest command.
@@ -126,11 +126,11 @@ fn request(text: &str) -> Result<Order, NoCommand> {
 
 #[cfg(test)]
 mod tests {
+    use bridge::FanSpeed;
     use proptest::prelude::*;
     use rvac_api::{JobOrder, JobPart, RequestBody};
 
     use super::{COMMAND_BYTES_MAX, NoCommand, Order, read};
-    use crate::fan_speed::FanSpeed;
     use crate::topics::Hearing;
 
     #[test]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-use bridge::{Change, Knowledge, picture};
+use bridge::{Change, FanSpeed, Knowledge, Limiter, picture};
 use rvac_api::{Activity, ComponentHealth, JobOrder, RequestBody, Run, Trouble, Update};
 use serde_json::{Value, json};
 
@@ -11,8 +11,6 @@ use crate::commands::{self, Order};
 use crate::configuration::Configuration;
 use crate::discovery::Device;
 use crate::documents;
-use crate::fan_speed::FanSpeed;
-use crate::limiter::Limiter;
 use crate::topics::{Hearing, Saying, Topics};
 use crate::voice::{Output, Voice};
 use crate::wire::{Incoming, Publish};

@@ -2,10 +2,10 @@
 
 use std::time::Duration;
 
+use bridge::COMMANDS_MAX;
 use rvac_api::{DeviceTable, Failure, RequestBody, RoomHere, Status, Update};
 
 use super::Core;
-use crate::limiter::COMMANDS_MAX;
 use crate::voice::{Output, Voice as _};
 use crate::wire::Incoming;
 

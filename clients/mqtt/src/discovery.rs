@@ -2,13 +2,12 @@
 //!
 //! A part that this robot lacks stands there with its platform alone, by which Home Assistant removes what an earlier message said.
 
-use bridge::Knowledge;
+use bridge::{FanSpeed, Knowledge};
 use rvac_api::{Activity, ComponentHealth, RunResult, Trouble};
 use serde_json::{Map, Value, json};
 
 use crate::configuration::Configuration;
 use crate::documents::run_event;
-use crate::fan_speed::FanSpeed;
 use crate::topics::{Hearing, Saying, Topics};
 
 /// Parts whose wear the daemon can measure.
@@ -95,8 +94,7 @@ impl Device<'_> {
             "clean_spot",
             "send_command",
         ];
-        let cleans = self.has("vacuum") || self.has("brush-main") || self.has("brush-sides");
-        if cleans {
+        if self.known.robot.as_ref().is_some_and(FanSpeed::is_had_by) {
             features.push("fan_speed");
         }
         if self.has("beeper") {

@@ -1,10 +1,8 @@
 //! What is said about the robot, as JSON. What is not known is `null`, which Home Assistant shows as unknown.
 
-use bridge::Knowledge;
+use bridge::{FanSpeed, Knowledge};
 use rvac_api::{Activity, ComponentHealth, HomeView, Run, RunResult, Trouble, explain};
 use serde_json::{Map, Value, json};
-
-use crate::fan_speed::FanSpeed;
 
 /// The state of a vacuum as Home Assistant reads it. Rooms appear when they are known, all at once.
 pub(crate) fn state(known: &Knowledge, speed: FanSpeed) -> Value {
@@ -133,11 +131,10 @@ pub(crate) fn run(run: &Run) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use bridge::Knowledge;
+    use bridge::{FanSpeed, Knowledge};
     use rvac_api::{HomeView, RoomView, Status};
 
     use super::{readings, state};
-    use crate::fan_speed::FanSpeed;
 
     #[test]
     fn what_is_not_known_is_null_and_rooms_come_all_at_once_or_not() {

@@ -7,8 +7,6 @@ mod core;
 mod dialect;
 mod discovery;
 mod documents;
-mod fan_speed;
-mod limiter;
 mod session;
 mod shell;
 mod topics;

@@ -6,13 +6,14 @@ use anyhow::{Context, bail};
 use std::path::{Path, PathBuf};
 
 /// Crates whose programs go into the package, and the programs.
-const PROGRAMS: [(&str, &str); 6] = [
+const PROGRAMS: [(&str, &str); 7] = [
     ("vthal", "vthal"),
     ("panel-server", "panel-server"),
     ("rvac-cli", "rvac"),
     ("rvac-mqtt", "rvac-mqtt"),
     ("rvac-metrics", "rvac-metrics"),
     ("rvac-hooks", "rvac-hooks"),
+    ("rvac-dialect", "rvac-dialect"),
 ];
 
 /// Zig as a C compiler and linker, and what starts it for cargo: both are published on PyPI.

@@ -19,6 +19,7 @@ const SOURCES: [(Workspace, &[&str]); 2] = [
             "rvac-mqtt",
             "rvac-metrics",
             "rvac-hooks",
+            "rvac-dialect",
         ],
     ),
     (

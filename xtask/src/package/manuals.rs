@@ -14,7 +14,14 @@ const SHELLS: [(&str, &str); 3] = [
 ];
 
 /// Programs that print one page of their own.
-const SERVICES: [&str; 5] = ["vthal", "panel-server", "rvac-mqtt", "rvac-metrics", "rvac-hooks"];
+const SERVICES: [&str; 6] = [
+    "vthal",
+    "panel-server",
+    "rvac-mqtt",
+    "rvac-metrics",
+    "rvac-hooks",
+    "rvac-dialect",
+];
 
 /// Writes them below `folder` where they belong in a system; gives the folder.
 pub(super) fn make(folder: &Path) -> anyhow::Result<PathBuf> {

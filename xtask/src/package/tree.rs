@@ -8,7 +8,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
 /// Files of the repository, and where they go.
-const FILES: [(&str, &str); 18] = [
+const FILES: [(&str, &str); 20] = [
     (
         "packaging/systemd/vthal.service",
         "lib/systemd/system/vthal.service",
@@ -50,6 +50,10 @@ const FILES: [(&str, &str); 18] = [
         "lib/systemd/system/rvac-metrics.service",
     ),
     (
+        "packaging/systemd/rvac-dialect.service",
+        "lib/systemd/system/rvac-dialect.service",
+    ),
+    (
         "packaging/grafana/librervac.json",
         "usr/share/doc/librervac/grafana.json",
     ),
@@ -64,6 +68,10 @@ const FILES: [(&str, &str); 18] = [
     (
         "clients/hooks/example.toml",
         "usr/share/doc/librervac/rvac-hooks.toml",
+    ),
+    (
+        "clients/dialect-server/example.toml",
+        "usr/share/doc/librervac/rvac-dialect.toml",
     ),
     ("vthal/example.toml", "usr/share/doc/librervac/example.toml"),
     ("SAFETY.md", "usr/share/doc/librervac/SAFETY.md"),

@@ -9,12 +9,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Programs of ours that are tried, and what they stand on.
-const PROGRAMS: [&str; 7] = [
+const PROGRAMS: [&str; 8] = [
     "rvac-sim",
     "vthal",
     "rvac-mqtt",
     "rvac-metrics",
     "rvac-hooks",
+    "rvac-dialect",
     "panel-server",
     "try-joined",
 ];

@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 49] = [
+const DIRECTIONS: [Direction; 51] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -117,7 +117,9 @@ const DIRECTIONS: [Direction; 49] = [
     Direction { of: "robot-link",    knows: &["rvac-protocol", "rvac-units"],               never: OUTSIDE },
     Direction { of: "systemd-notice", knows: &[],                                           never: &[] },
     Direction { of: "bridge",        knows: &["kept-file", "rvac-api", "systemd-notice"],   never: &["axum"] },
-    Direction { of: "rvac-mqtt",     knows: &["bridge", "rvac-api"],                        never: &["axum"] },
+    Direction { of: "dialect",       knows: &["bridge", "rvac-api"],                        never: &["axum"] },
+    Direction { of: "rvac-dialect",  knows: &["bridge", "dialect", "rvac-api"],             never: &[] },
+    Direction { of: "rvac-mqtt",     knows: &["bridge", "dialect", "rvac-api"],             never: &["axum"] },
     Direction { of: "rvac-metrics",  knows: &["bridge", "rvac-api"],                        never: &[] },
     Direction { of: "rvac-hooks",    knows: &["bridge", "rvac-api"],                        never: &[] },
     Direction { of: "rvac-foxglove", knows: &["bridge", "rvac-api"],                        never: &["axum"] },

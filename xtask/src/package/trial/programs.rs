@@ -15,6 +15,7 @@ pub(crate) fn of_this_host() -> anyhow::Result<Vec<PathBuf>> {
         "rvac-mqtt",
         "rvac-metrics",
         "rvac-hooks",
+        "rvac-dialect",
     ];
     workspace::build(&names, Profile::Dev)?;
     let stripped = folder().join("host");

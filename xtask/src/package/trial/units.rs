@@ -9,7 +9,7 @@ use std::process::Command;
 /// systemd's measure goes from 0 to 10; what it calls fine ends here.
 const EXPOSURE_MAX: f64 = 2.5;
 /// The services.
-const UNITS: [&str; 7] = [
+const UNITS: [&str; 8] = [
     "vthal.service",
     "rvac-panel.service",
     "rvac-settle.service",
@@ -17,6 +17,7 @@ const UNITS: [&str; 7] = [
     "rvac-mqtt.service",
     "rvac-metrics.service",
     "rvac-hooks.service",
+    "rvac-dialect.service",
 ];
 
 /// Keys that systemd learnt in version 254; an older one says that it does not know them, and restarts at an even pace.

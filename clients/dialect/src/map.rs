@@ -14,7 +14,7 @@ const SIDE_MAX: i32 = 4_096;
 
 /// Where the picture lies in our map.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Frame {
+pub struct Frame {
     left_m: f64,
     top_m: f64,
     width: i32,
@@ -22,7 +22,9 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    fn around(home: &HomeView) -> Option<Self> {
+    /// The frame of a home's map; `None` for one that is none.
+    #[must_use]
+    pub fn around(home: &HomeView) -> Option<Self> {
         let side = |cells: u32| {
             let pixels = whole((f64::from(cells) * home.cell_m / PIXEL_M).ceil());
             (1..=SIDE_MAX).contains(&pixels).then_some(pixels)
@@ -35,7 +37,7 @@ impl Frame {
         })
     }
 
-    fn to_cm(self, x_m: f64, y_m: f64) -> [i32; 2] {
+    pub(crate) fn to_cm(self, x_m: f64, y_m: f64) -> [i32; 2] {
         [
             whole((x_m - self.left_m) * 100.0),
             whole((self.top_m - y_m) * 100.0),
@@ -43,7 +45,8 @@ impl Frame {
     }
 
     /// A place of a command, metres in our map.
-    pub(crate) fn to_m(self, x_cm: f64, y_cm: f64) -> [f64; 2] {
+    #[must_use]
+    pub fn to_m(self, x_cm: f64, y_cm: f64) -> [f64; 2] {
         [self.left_m + x_cm / 100.0, self.top_m - y_cm / 100.0]
     }
 }
@@ -57,7 +60,8 @@ enum Ground {
 }
 
 /// Names of the rooms by their identities.
-pub(crate) fn segments(home: &HomeView) -> Map<String, Value> {
+#[must_use]
+pub fn segments(home: &HomeView) -> Map<String, Value> {
     let title = |room: &rvac_api::RoomView| room.name.clone().unwrap_or_else(|| format!("room {}", room.id));
     home.rooms
         .iter()
@@ -65,8 +69,22 @@ pub(crate) fn segments(home: &HomeView) -> Map<String, Value> {
         .collect()
 }
 
+/// A map on which nothing is: what is told before there is one.
+#[must_use]
+pub fn empty_map() -> Value {
+    json!({
+        "__class": "ValetudoMap",
+        "metaData": {"version": 2, "nonce": nonce(&[]), "totalLayerArea": 0},
+        "size": {"x": 0, "y": 0},
+        "pixelSize": PIXEL_CM,
+        "layers": [],
+        "entities": [],
+    })
+}
+
 /// The map and its frame; `None` while nothing of the home is known: a map without layers is none to its readers.
-pub(crate) fn map(known: &Knowledge) -> Option<(Frame, Value)> {
+#[must_use]
+pub fn map(known: &Knowledge) -> Option<(Frame, Value)> {
     let home = known.home.as_ref().filter(|home| home.cell_m > 0.0)?;
     let frame = Frame::around(home)?;
     let pixels = pixels(home, frame);
@@ -236,19 +254,11 @@ fn entities(known: &Knowledge, home: &HomeView, frame: Frame) -> Vec<Value> {
     }
     for no_go in &home.no_go {
         let data = json!({"id": no_go.number.to_string()});
-        match &no_go.shape {
-            NoGoShape::Wall(ends) => {
-                let points = ends.iter().flat_map(|[x, y]| frame.to_cm(*x, *y)).collect();
-                push("LineMapEntity", "virtual_wall", (points, data));
-            }
-            NoGoShape::Zone(corners) => {
-                push(
-                    "PolygonMapEntity",
-                    "no_go_area",
-                    (four_corners(corners, frame), data),
-                );
-            }
-        }
+        let (class, kind) = match &no_go.shape {
+            NoGoShape::Wall(_) => ("LineMapEntity", "virtual_wall"),
+            NoGoShape::Zone(_) => ("PolygonMapEntity", "no_go_area"),
+        };
+        push(class, kind, (told_places(&no_go.shape, frame).concat(), data));
     }
     entities
 }
@@ -258,18 +268,23 @@ fn angle(heading_rad: f64) -> i32 {
     whole(90.5 - heading_rad.to_degrees()).rem_euclid(360)
 }
 
-/// The four corners of a zone; of one with other numbers of corners those of the rectangle around it, for the form knows no others.
-fn four_corners(corners: &[[f64; 2]], frame: Frame) -> Vec<i32> {
+/// The ends of a wall; the four corners of a zone, and of one with other numbers of corners those of the rectangle around it, for the
+/// form knows no others.
+pub(crate) fn told_places(shape: &NoGoShape, frame: Frame) -> Vec<[i32; 2]> {
+    let told = |places: &[[f64; 2]]| places.iter().map(|[x, y]| frame.to_cm(*x, *y)).collect();
+    let corners: Vec<[i32; 2]> = match shape {
+        NoGoShape::Wall(ends) => return told(ends),
+        NoGoShape::Zone(corners) => told(corners),
+    };
     if corners.len() == 4 {
-        return corners.iter().flat_map(|[x, y]| frame.to_cm(*x, *y)).collect();
+        return corners;
     }
-    let points: Vec<[i32; 2]> = corners.iter().map(|[x, y]| frame.to_cm(*x, *y)).collect();
     let side = |axis: usize| {
-        let along = points.iter().filter_map(move |point| point.get(axis).copied());
+        let along = corners.iter().filter_map(move |corner| corner.get(axis).copied());
         (along.clone().min().unwrap_or(0), along.max().unwrap_or(0))
     };
     let ((left, right), (top, bottom)) = (side(0), side(1));
-    vec![left, top, right, top, right, bottom, left, bottom]
+    vec![[left, top], [right, top], [right, bottom], [left, bottom]]
 }
 
 /// The path in centimetres, without corners that lie on the line between their neighbours.

@@ -1,23 +1,29 @@
-//! The topics and maps that Valetudo's clients read, under a prefix that the owner chooses: for map cards and parsers that know no other form.
-//! Formats are facts of an interface; no code is taken, and the robot never claims to be one of Valetudo's.
-
-mod map;
-mod orders;
+//! The topics that Valetudo's clients read, under a prefix that the owner chooses: for map cards and parsers that know no other form.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
 
 use bridge::picture::{self, Chunk};
-use bridge::{Change, Knowledge};
-use rvac_api::{Activity, RequestBody, Status, Trouble, Update, explain};
-use serde_json::{Value, json};
+use bridge::{Change, FanSpeed, Knowledge, Limiter};
+use dialect::{BodyError, Fault, Frame, Operation};
+use rvac_api::{RequestBody, Status, Update};
+use serde_json::Value;
 
 use crate::configuration::Configuration;
-use crate::fan_speed::FanSpeed;
-use crate::limiter::Limiter;
 use crate::voice::{Output, Voice};
 use crate::wire::{Incoming, Publish};
-use map::Frame;
+
+/// Longest command.
+const COMMAND_BYTES_MAX: usize = 8 << 10;
+
+const OPERATION: &str = "BasicControlCapability/operation/set";
+const PRESET: &str = "FanSpeedControlCapability/preset/set";
+const SEGMENTS: &str = "MapSegmentationCapability/clean/set";
+const ZONES: &str = "ZoneCleaningCapability/start/set";
+const LOCATE: &str = "LocateCapability/locate/set";
+
+/// All topics on which commands come.
+const TOPICS: [&str; 5] = [OPERATION, PRESET, SEGMENTS, ZONES, LOCATE];
 
 /// Least pause between two maps.
 const MAP_EVERY: Duration = Duration::from_secs(2);
@@ -95,26 +101,20 @@ impl Dialect {
             .as_ref()
             .and_then(|device| device.battery.clone());
         if let Some(battery) = battery {
-            let level = (battery.charge * 100.0).round();
+            let (level, flag) = dialect::battery(&battery);
             self.say("BatteryStateAttribute/level", level.to_string(), out);
-            let flag = match battery.state.as_str() {
-                "charging" => "charging",
-                "full" => "charged",
-                "discharging" => "discharging",
-                _ => "none",
-            };
             self.say("BatteryStateAttribute/status", flag, out);
         }
         self.say(
             "FanSpeedControlCapability/preset",
-            orders::preset(self.speed),
+            dialect::preset(self.speed),
             out,
         );
         let rooms = self
             .known
             .home
             .as_ref()
-            .map(map::segments)
+            .map(dialect::segments)
             .filter(|rooms| !rooms.is_empty());
         if let Some(rooms) = rooms {
             self.say("MapData/segments", Value::Object(rooms).to_string(), out);
@@ -122,37 +122,23 @@ impl Dialect {
     }
 
     fn say_status(&mut self, status: &Status, out: &mut Vec<Output>) {
-        let activity = Activity::from_name(&status.state);
-        let trouble = Trouble::of_status(status);
-        if let Some(activity) = activity {
-            let words = activity.words();
-            self.say("StatusStateAttribute/status", words.status_value, out);
-            self.say("StatusStateAttribute/flag", words.status_flag, out);
+        let words = dialect::status(status);
+        if let Some(value) = words.value {
+            self.say("StatusStateAttribute/status", value, out);
+            self.say("StatusStateAttribute/flag", words.flag, out);
         }
-        let failed = trouble.filter(|_| activity.is_some_and(Activity::needs_help));
-        let text = failed.map_or("No error", |(code, _)| {
-            explain(code).map_or(code, |told| told.cause)
-        });
+        let fault = words.fault.as_ref();
+        let text = fault.map_or("No error", Fault::text);
         self.say("StatusStateAttribute/error_description", text, out);
-        let error = failed.map_or(Value::Null, |(code, trouble)| {
-            let words = trouble.words();
-            json!({
-                "severity": {"kind": "unknown", "level": words.gravity.level()},
-                "subsystem": words.subsystem,
-                "message": text,
-                "vendorErrorCode": code,
-            })
-        });
+        let error = fault.map_or(Value::Null, Fault::json);
         self.say("StatusStateAttribute/error", error.to_string(), out);
-        // Square centimetres and seconds, by and by: ten seconds and a tenth of a square metre are fine enough.
-        let area_cm2 = (status.swept_m2 * 10.0).floor() * 1_000.0;
-        let time_s = (status.job_s / 10.0).floor() * 10.0;
-        self.say("CurrentStatisticsCapability/area", area_cm2.to_string(), out);
-        self.say("CurrentStatisticsCapability/time", time_s.to_string(), out);
+        let done = dialect::progress(status);
+        self.say("CurrentStatisticsCapability/area", done.area_cm2.to_string(), out);
+        self.say("CurrentStatisticsCapability/time", done.time_s.to_string(), out);
     }
 
     fn say_map(&mut self, out: &mut Vec<Output>) {
-        let Some((frame, map)) = map::map(&self.known) else {
+        let Some((frame, map)) = dialect::map(&self.known) else {
             return;
         };
         self.frame = Some(frame);
@@ -180,6 +166,59 @@ impl Dialect {
     }
 }
 
+/// What a command asks for.
+#[derive(Clone, Debug, PartialEq)]
+enum DialectOrder {
+    /// To clean so from the next job on.
+    Speed(FanSpeed),
+    /// Anything else.
+    Ask(RequestBody),
+}
+
+/// Why a message is no command.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+enum NoOrder {
+    #[error("it is longer than {COMMAND_BYTES_MAX} bytes")]
+    TooLong,
+    #[error("it is none of the words that are known here")]
+    Unknown,
+    #[error("it is no JSON")]
+    NoJson,
+    #[error(transparent)]
+    Body(#[from] BodyError),
+}
+
+impl Dialect {
+    fn read(&self, topic: &str, payload: &[u8]) -> Result<DialectOrder, NoOrder> {
+        if payload.len() > COMMAND_BYTES_MAX {
+            return Err(NoOrder::TooLong);
+        }
+        let text = std::str::from_utf8(payload).map_err(|_| NoOrder::Unknown)?;
+        let json = || serde_json::from_str(text).map_err(|_| NoOrder::NoJson);
+        let frame = self.frame.as_ref();
+        let job = |order| dialect::with_speed(order, self.speed);
+        Ok(DialectOrder::Ask(match topic {
+            OPERATION => operation(text)
+                .ok_or(NoOrder::Unknown)?
+                .request(&self.known, self.speed),
+            PRESET => {
+                let speed = dialect::preset_named(text).ok_or(NoOrder::Unknown)?;
+                return Ok(DialectOrder::Speed(speed));
+            }
+            SEGMENTS => job(dialect::clean_segments(&json()?)?),
+            ZONES => job(dialect::clean_zones(&json()?, frame)?),
+            LOCATE if text == "PERFORM" => RequestBody::Locate,
+            _ => return Err(NoOrder::Unknown),
+        }))
+    }
+}
+
+/// Over a broker the words are in capital letters.
+fn operation(text: &str) -> Option<Operation> {
+    let has_small = text.bytes().any(|byte| byte.is_ascii_lowercase());
+    Operation::named(&text.to_ascii_lowercase()).filter(|_| !has_small)
+}
+
 /// Nodes of the convention *Homie*, version 4.
 const NODES: [&str; 9] = [
     "StatusStateAttribute",
@@ -201,7 +240,7 @@ impl Voice for Dialect {
     }
 
     fn heard_topics(&self) -> Vec<String> {
-        let topics = orders::TOPICS.map(|topic| format!("{}/{topic}", self.base));
+        let topics = TOPICS.map(|topic| format!("{}/{topic}", self.base));
         topics.into_iter().filter(|_| self.takes_commands).collect()
     }
 
@@ -251,33 +290,13 @@ impl Voice for Dialect {
             .strip_prefix(&self.base)
             .and_then(|rest| rest.strip_prefix('/'));
         let Some(topic) = topic else { return };
-        match orders::read(topic, &message.payload, self.frame.as_ref()) {
-            Some(orders::DialectOrder::Speed(speed)) => {
+        match self.read(topic, &message.payload) {
+            Ok(DialectOrder::Speed(speed)) => {
                 self.speed = speed;
                 self.say_changes(out);
             }
-            Some(orders::DialectOrder::Clean(order)) => {
-                let power = order.power.or(self.speed.power());
-                out.push(Output::Ask(RequestBody::Clean(rvac_api::JobOrder {
-                    power,
-                    ..order
-                })));
-            }
-            Some(orders::DialectOrder::Ask(RequestBody::Start { .. })) => {
-                let status = self.known.status.as_ref();
-                let waits = status.is_some_and(|status| status.state == Activity::Paused.name());
-                let start = match self.speed.power() {
-                    _ if waits => RequestBody::Resume,
-                    None => RequestBody::Start { strategy: None },
-                    power => RequestBody::Clean(rvac_api::JobOrder {
-                        power,
-                        ..rvac_api::JobOrder::default()
-                    }),
-                };
-                out.push(Output::Ask(start));
-            }
-            Some(orders::DialectOrder::Ask(body)) => out.push(Output::Ask(body)),
-            None => tracing::warn!(topic, "a message is no command and is passed over"),
+            Ok(DialectOrder::Ask(body)) => out.push(Output::Ask(body)),
+            Err(error) => tracing::warn!(topic, %error, "a message is no command and is passed over"),
         }
     }
 
@@ -289,5 +308,35 @@ impl Voice for Dialect {
             self.map_at = Some(now);
             self.say_map(out);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rvac_api::RequestBody;
+
+    use super::{Dialect, DialectOrder, NoOrder, TOPICS};
+
+    #[test]
+    fn commands_are_exactly_what_they_are() {
+        let configuration = r#"{"broker": "mqtt://b", "id": "robo", "dialect_prefix": "kaart"}"#;
+        let dialect = Dialect::new(&serde_json::from_str(configuration).expect("a configuration"));
+        let text = |topic: usize, text: &str| dialect.read(TOPICS[topic], text.as_bytes());
+        assert_eq!(text(0, "HOME"), Ok(DialectOrder::Ask(RequestBody::Dock)));
+        for wrong in ["home", "HOMe", "", "\u{1}"] {
+            assert_eq!(text(0, wrong), Err(NoOrder::Unknown), "{wrong}");
+        }
+        assert_eq!(text(2, "]"), Err(NoOrder::NoJson));
+        assert!(matches!(text(2, "{}"), Err(NoOrder::Body(_))));
+        assert!(matches!(
+            text(2, r#"{"segment_ids":["1"]}"#),
+            Ok(DialectOrder::Ask(_))
+        ));
+        assert!(
+            matches!(text(3, r#"{"zones":[{"points":{}}]}"#), Err(NoOrder::Body(_))),
+            "there is no map yet"
+        );
+        assert_eq!(text(4, "PERFORM"), Ok(DialectOrder::Ask(RequestBody::Locate)));
+        assert_eq!(text(0, &" ".repeat(9_000)), Err(NoOrder::TooLong));
     }
 }
