@@ -100,10 +100,19 @@ impl Configuration {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::Configuration;
 
     fn read(text: &str) -> Configuration {
         serde_json::from_str(text).expect("a configuration")
+    }
+
+    #[test]
+    fn the_example_is_a_configuration() {
+        let file = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/example.toml"));
+        let example: Configuration = bridge::service::read(file).expect("it can be read");
+        assert!(example.check().is_ok());
     }
 
     #[test]

@@ -9,9 +9,7 @@ use axum::{Extension, Router};
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use rustix::net::sockopt::{
-    set_socket_keepalive, set_tcp_keepcnt, set_tcp_keepidle, set_tcp_keepintvl, set_tcp_user_timeout,
-};
+use rustix::net::sockopt;
 use tokio::net::{TcpListener, TcpStream};
 use tracing::{debug, warn};
 
@@ -24,6 +22,9 @@ const HEAD_BYTES_MAX: usize = 8 << 10;
 const HEAD_TIME_MAX: Duration = Duration::from_secs(20);
 /// A peer that takes nothing for so long is gone: the kernel ends its connection.
 const SILENCE_MAX: Duration = Duration::from_secs(15);
+
+/// What the kernel keeps for a peer that reads slowly: a few maps.
+const SEND_BYTES: usize = 256 << 10;
 
 /// Where a request comes from.
 #[derive(Clone, Copy, Debug)]
@@ -87,7 +88,7 @@ pub(crate) async fn accept(listener: TcpListener, router: Router) {
                 };
                 let router = router.clone().layer(Extension(Peer(address)));
                 tokio::spawn(async move {
-                    serve(stream, router).await;
+                    serve(stream, router, SILENCE_MAX).await;
                     drop(seat);
                 });
             }
@@ -99,8 +100,8 @@ pub(crate) async fn accept(listener: TcpListener, router: Router) {
     }
 }
 
-async fn serve(stream: TcpStream, router: Router) {
-    if let Err(error) = end_with_a_silent_peer(&stream) {
+async fn serve(stream: TcpStream, router: Router, silence: Duration) {
+    if let Err(error) = end_with_a_silent_peer(&stream, silence) {
         debug!(%error, "a connection without limits is not kept");
         return;
     }
@@ -115,22 +116,50 @@ async fn serve(stream: TcpStream, router: Router) {
 }
 
 /// Of a peer that is gone without a word, or takes nothing, the kernel knows best: it ends the connection, and what waits for it goes.
-fn end_with_a_silent_peer(stream: &TcpStream) -> std::io::Result<()> {
+fn end_with_a_silent_peer(stream: &TcpStream, silence: Duration) -> std::io::Result<()> {
     stream.set_nodelay(true)?;
-    let limit_ms = u32::try_from(SILENCE_MAX.as_millis()).unwrap_or(u32::MAX);
-    set_tcp_user_timeout(stream, limit_ms)?;
-    set_socket_keepalive(stream, true)?;
-    set_tcp_keepidle(stream, SILENCE_MAX)?;
-    set_tcp_keepintvl(stream, SILENCE_MAX / 3)?;
-    set_tcp_keepcnt(stream, 3)?;
+    sockopt::set_socket_send_buffer_size(stream, SEND_BYTES)?;
+    let limit_ms = u32::try_from(silence.as_millis()).unwrap_or(u32::MAX);
+    sockopt::set_tcp_user_timeout(stream, limit_ms)?;
+    sockopt::set_socket_keepalive(stream, true)?;
+    sockopt::set_tcp_keepidle(stream, silence)?;
+    sockopt::set_tcp_keepintvl(stream, silence / 3)?;
+    sockopt::set_tcp_keepcnt(stream, 3)?;
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
+    use std::convert::Infallible;
     use std::net::{IpAddr, Ipv4Addr};
+    use std::time::Duration;
 
-    use super::{ALL_MAX, OF_ONE_MAX, Seats};
+    use axum::Router;
+    use axum::body::Body;
+    use axum::routing::get;
+    use futures_util::stream::repeat_with;
+    use tokio::io::AsyncWriteExt as _;
+    use tokio::net::{TcpListener, TcpStream};
+    use tokio::time::timeout;
+
+    use super::{ALL_MAX, OF_ONE_MAX, Seats, serve};
+
+    #[tokio::test]
+    async fn a_peer_that_reads_nothing_is_left() {
+        let endless = || async { Body::from_stream(repeat_with(|| Ok::<_, Infallible>(vec![b'x'; 4_096]))) };
+        let router = Router::new().route("/", get(endless));
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let mut peer = TcpStream::connect(listener.local_addr().unwrap()).await.unwrap();
+        let (stream, _) = listener.accept().await.unwrap();
+        peer.write_all(b"GET / HTTP/1.1\r\nHost: a\r\n\r\n")
+            .await
+            .unwrap();
+        let served = serve(stream, router, Duration::from_secs(1));
+        timeout(Duration::from_secs(30), served)
+            .await
+            .expect("the kernel ends a connection whose window stays shut");
+        drop(peer);
+    }
 
     #[test]
     fn one_address_takes_its_share_and_all_give_theirs_back() {

@@ -12,6 +12,7 @@ use crate::answer::Refusal;
 
 /// How long a move holds: the longest lease that the daemon gives.
 const LEASE_MS: u16 = 400;
+const LEASE: Duration = Duration::from_millis(LEASE_MS as u64);
 /// After so long without a move somebody else may take over.
 const SEAT_KEPT: Duration = Duration::from_secs(5);
 /// A stick across turns half as fast as the wheels could: a round trip over a network is long.
@@ -34,8 +35,15 @@ struct Driver {
     by: IpAddr,
     heard_at: Instant,
     gate: DriveGate,
-    /// When the last move went on to the daemon.
-    driven_at: Option<Instant>,
+    /// The last move that went on to the daemon.
+    last: Option<LastMove>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct LastMove {
+    at: Instant,
+    /// The stick was at rest.
+    is_zero: bool,
 }
 
 impl Default for Driving {
@@ -72,7 +80,7 @@ impl Driving {
                 by,
                 heard_at: now,
                 gate,
-                driven_at: None,
+                last: None,
             });
         }
         Ok(())
@@ -87,7 +95,7 @@ impl Driving {
     pub(crate) const fn refused(&mut self) {
         if let Some(seat) = &mut self.seat {
             seat.gate.shut();
-            seat.driven_at = None;
+            seat.last = None;
         }
     }
 
@@ -110,8 +118,15 @@ impl Driving {
             return Err(Refusal::TooFast);
         }
         seat.heard_at = now;
-        seat.gate.hear(forward == 0.0 && turn == 0.0, now);
+        let is_zero = forward == 0.0 && turn == 0.0;
+        let since = seat.last.map(|last| (now.duration_since(last.at), last.is_zero));
+        // The lease has ended under a stick that is still held: it is let go first.
+        if since.is_some_and(|(gap, was_zero)| !was_zero && (LEASE..DRIVE_SILENCE).contains(&gap)) {
+            seat.gate.shut();
+        }
+        seat.gate.hear(is_zero, now);
         if !seat.gate.is_open() {
+            seat.last = None;
             return Err(Refusal::NotFromRest);
         }
         let drive = |share: f64| RequestBody::Drive {
@@ -123,10 +138,8 @@ impl Driving {
         };
         // The daemon wants a stick at rest before it gives the seat, which is lost with each lease; that the client was at rest is what
         // the gate stands for.
-        let is_held = seat
-            .driven_at
-            .is_some_and(|at| now.duration_since(at) < Duration::from_millis(u64::from(LEASE_MS)) * 3 / 4);
-        seat.driven_at = Some(now);
+        let is_held = since.is_some_and(|(gap, _)| gap < LEASE);
+        seat.last = Some(LastMove { at: now, is_zero });
         let first = (!is_held).then(|| drive(0.0));
         Ok(first.into_iter().chain([drive(1.0)]).collect())
     }
@@ -215,13 +228,19 @@ mod tests {
             Ok(vec![[0.0, 0.0], [0.2, -1.0]])
         );
         assert_eq!(trial.hear(ANNA, [1.0, 0.0], 1_300), Ok(vec![[0.4, 0.0]]));
-        // The lease has ended meanwhile, and with it the daemon's seat.
+        // The lease has ended meanwhile, and with it the daemon's seat: a stick that is still held moves nothing.
+        assert_eq!(trial.hear(ANNA, [1.0, 0.0], 1_900), Err(Refusal::NotFromRest));
+        assert_eq!(trial.hear(ANNA, [1.0, 0.0], 2_000), Err(Refusal::NotFromRest));
+        let rest = [0.0, 0.0];
+        assert_eq!(trial.hear(ANNA, rest, 2_100), Ok(vec![rest, rest]));
+        assert_eq!(trial.hear(ANNA, [1.0, 0.0], 2_800), Ok(vec![rest, [0.4, 0.0]]));
         assert_eq!(
-            trial.hear(ANNA, [1.0, 0.0], 2_000),
-            Ok(vec![[0.0, 0.0], [0.4, 0.0]])
+            trial.hear(ANNA, [1.0, 0.0], 3_900),
+            Ok(vec![rest, [0.4, 0.0]]),
+            "after a second"
         );
         trial.driving.disable();
-        assert_eq!(trial.hear(ANNA, [0.5, 0.0], 2_100), Err(Refusal::NotEnabled));
+        assert_eq!(trial.hear(ANNA, [0.5, 0.0], 4_000), Err(Refusal::NotEnabled));
     }
 
     #[test]

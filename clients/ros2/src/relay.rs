@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use bridge::{Change, Daemon, Knowledge, News};
+use bridge::{Change, DRIVE_SILENCE, Daemon, DriveGate, Knowledge, News};
 use futures::StreamExt as _;
 use futures::stream::{FuturesUnordered, select_all};
 use ros2_client::RmwRequestId;
@@ -20,7 +20,7 @@ use crate::messages::{Header, Time, TriggerResponse, Twist};
 use crate::node::{Publishers, Robot};
 use crate::order::Order;
 use crate::place::Place;
-use crate::velocity::{self, Gate, LEASE_MS, SILENCE, Unfit};
+use crate::velocity::{self, LEASE_MS, Unfit};
 
 const TOPICS: [Topic; 6] = [
     Topic::Status,
@@ -43,7 +43,7 @@ const CAREFUL: TopSpeeds = TopSpeeds {
 };
 
 // The wheels must stand before the seat is given away.
-const _: () = assert!(SILENCE.as_millis() > LEASE_MS as u128);
+const _: () = assert!(DRIVE_SILENCE.as_millis() > LEASE_MS as u128);
 
 /// What the owner chose.
 #[derive(Clone, Debug)]
@@ -124,7 +124,7 @@ struct Relay {
     told_at: Instant,
     /// The newest command of `/cmd_vel` that is not sent on.
     wanted: Option<Twist>,
-    gate: Gate,
+    gate: DriveGate,
     /// When the last one was sent on, while the seat is ours.
     driven_at: Option<Instant>,
     complaint: Option<(String, Instant)>,
@@ -149,7 +149,7 @@ impl Relay {
             frames: Frames::default(),
             told_at: Instant::now(),
             wanted: None,
-            gate: Gate::new(Instant::now()),
+            gate: DriveGate::shut_at(Instant::now()),
             driven_at: None,
             complaint: None,
             waiting: BTreeMap::new(),
@@ -308,7 +308,7 @@ impl Relay {
     }
 
     fn want(&mut self, twist: Twist) {
-        self.gate.hear(&twist, Instant::now());
+        self.gate.hear(twist.is_zero(), Instant::now());
         self.wanted = Some(twist);
     }
 
@@ -341,7 +341,7 @@ impl Relay {
 
     /// The wheels stand by then: the lease has long ended.
     async fn let_go(&mut self) {
-        if self.driven_at.is_some_and(|at| at.elapsed() >= SILENCE) {
+        if self.driven_at.is_some_and(|at| at.elapsed() >= DRIVE_SILENCE) {
             self.driven_at = None;
             // A daemon that is away holds no seat.
             self.daemon.request(RequestBody::Release).await.ok();

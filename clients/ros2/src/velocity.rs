@@ -1,18 +1,12 @@
 //! Driving by `/cmd_vel`: each command is worth as long as the daemon's lease, so a robot whose commander dies stands soon after.
 
-use std::time::Duration;
-
 use rvac_api::RequestBody;
-use tokio::time::Instant;
 
 use crate::frames::TopSpeeds;
 use crate::messages::Twist;
 
 /// How long a command holds: the longest lease that the daemon gives.
 pub(crate) const LEASE_MS: u16 = 400;
-
-/// After so long without a word driving begins anew.
-pub(crate) const SILENCE: Duration = Duration::from_secs(1);
 
 /// Why a command moves nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,47 +65,11 @@ pub(crate) fn drive(twist: &Twist, top: TopSpeeds, clean: bool) -> Result<Reques
     })
 }
 
-/// Lets only those drive who began from rest. A stream of commands that runs when this program starts, or goes on after a person has
-/// stopped the robot, must not set it off.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Gate {
-    heard_at: Instant,
-    is_open: bool,
-}
-
-impl Gate {
-    /// Shut, until a silence or a zero.
-    pub(crate) const fn new(now: Instant) -> Self {
-        Self {
-            heard_at: now,
-            is_open: false,
-        }
-    }
-
-    /// A command has come.
-    pub(crate) fn hear(&mut self, twist: &Twist, now: Instant) {
-        self.is_open |= twist.is_zero() || now.duration_since(self.heard_at) >= SILENCE;
-        self.heard_at = now;
-    }
-
-    pub(crate) const fn is_open(&self) -> bool {
-        self.is_open
-    }
-
-    /// What was asked for is refused.
-    pub(crate) fn shut(&mut self) {
-        self.is_open = false;
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
     use rvac_api::RequestBody;
-    use tokio::time::Instant;
 
-    use super::{Gate, SILENCE, Twist, Unfit, drive};
+    use super::{Twist, Unfit, drive};
     use crate::frames::TopSpeeds;
     use crate::messages::Vector3;
 
@@ -145,29 +103,6 @@ mod tests {
         assert!((v + 0.4).abs() < 1e-12 && (w - 0.5).abs() < 1e-12, "{v} {w}");
         let (v, w) = speeds(&twist(0.1, 0.0, 8.0)).expect("it can be driven");
         assert!((v - 0.025).abs() < 1e-12 && (w - 2.0).abs() < 1e-12, "{v} {w}");
-    }
-
-    #[test]
-    fn only_who_begins_from_rest_drives() {
-        let start = Instant::now();
-        let mut gate = Gate::new(start);
-        let fast = twist(0.2, 0.0, 0.0);
-        let mut now = start;
-        for _ in 0..100 {
-            now += Duration::from_millis(50);
-            gate.hear(&fast, now);
-            assert!(!gate.is_open(), "a stream that was there before");
-        }
-        now += SILENCE;
-        gate.hear(&fast, now);
-        assert!(gate.is_open(), "after a silence");
-        gate.shut();
-        now += Duration::from_millis(50);
-        gate.hear(&fast, now);
-        assert!(!gate.is_open(), "the same stream, after a refusal");
-        gate.hear(&twist(0.0, 0.0, 0.0), now);
-        gate.hear(&fast, now);
-        assert!(gate.is_open(), "after a zero");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod broker;
+mod dialect;
 mod foxglove;
 mod home;
 mod home_assistant;
@@ -38,6 +39,9 @@ struct Arguments {
     /// A Python that has the package icalendar
     #[arg(long, value_name = "FILE")]
     python: Option<PathBuf>,
+    /// A Python that has the package valetudo-map-parser; the map is drawn by it when it is named
+    #[arg(long, value_name = "FILE")]
+    map_python: Option<PathBuf>,
     /// The program of Home Assistant, which is tried when it is named
     #[arg(long, value_name = "FILE")]
     hass: Option<PathBuf>,
@@ -74,11 +78,12 @@ impl Arguments {
 /// A peer, and how it is tried.
 type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
-const TRIALS: [Trial; 8] = [
+const TRIALS: [Trial; 9] = [
     ("mosquitto", mosquitto::trial),
     ("load", load::trial),
     ("prometheus", prometheus::trial),
     ("python", notifications::trial),
+    ("dialect", dialect::trial),
     ("schemathesis", schemathesis::trial),
     ("cyclonedds", ros2::trial),
     ("foxglove", foxglove::trial),

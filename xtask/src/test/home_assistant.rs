@@ -67,6 +67,12 @@ pub(super) fn installed() -> anyhow::Result<PathBuf> {
     Ok(hass)
 }
 
+/// The newest Python of this machine, if it is as new as that.
+pub(super) fn python_from(least: &[u32]) -> Option<PathBuf> {
+    let python = newest_python();
+    (version(&python).as_slice() >= least).then_some(python)
+}
+
 /// On the search path, or below the folder in which pyenv keeps its own.
 fn newest_python() -> PathBuf {
     let mut found = vec![PathBuf::from("python3")];

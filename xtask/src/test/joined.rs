@@ -26,13 +26,17 @@ const ICALENDAR: &str = "icalendar==6.3.1";
 /// Speaks the protocol of Foxglove's app, and decodes by the schemas that it is sent.
 const FOXGLOVE: [&str; 2] = ["websockets==17.4", "protobuf==7.36.2"];
 
+/// Draws maps for Home Assistant's cameras. It needs the Python after which this asks.
+const MAP_PARSER: &str = "valetudo-map-parser==0.3.5";
+const MAP_PYTHON: [u32; 2] = [3, 13];
+
 /// Makes requests out of a description of an interface, and compares the answers with it.
 const SCHEMATHESIS: &str = "schemathesis==4.32.5";
 
 /// A DDS that is not the bridge's, and what ROS 2 itself says of its messages.
 const DDS: [&str; 2] = ["cyclonedds==11.0.1", "rosbags==0.11.9"];
 
-/// mosquitto, Prometheus, Python, schemathesis, Cyclone DDS and a client of Foxglove's protocol; with `--long` Home Assistant, too.
+/// mosquitto, Prometheus, Python, the drawing of maps where there is a Python for it, schemathesis, Cyclone DDS and a client of Foxglove's protocol; with `--long` Home Assistant, too.
 pub(super) fn joined(extent: Extent) -> Result {
     check(&mut trials(extent)?)
 }
@@ -70,6 +74,11 @@ fn trials(extent: Extent) -> anyhow::Result<Command> {
         command
     };
     command.arg("--python").arg(python);
+    if let Some(python) = home_assistant::python_from(&MAP_PYTHON) {
+        let environment = workspace::target().join("joined/map-parser");
+        let parser = fetched::python_of(&python, &environment, (&[MAP_PARSER], "f2py"))?;
+        command.arg("--map-python").arg(parser.join("python"));
+    }
     let schemathesis = workspace::target().join("joined/schemathesis");
     let schemathesis = fetched::python(&schemathesis, &[SCHEMATHESIS], "schemathesis")?;
     command
