@@ -174,6 +174,7 @@ impl Pages {
             number,
             of,
             kept,
+            danger,
             ..
         } = std::mem::take(&mut self.shown);
         self.shown = CalibrationPage {
@@ -183,6 +184,7 @@ impl Pages {
             number,
             of,
             kept,
+            danger,
             ..CalibrationPage::default()
         };
     }
@@ -224,6 +226,7 @@ impl Pages {
                 item,
                 kept,
             } => {
+                self.shown.danger = None;
                 self.shown.value = item.name.clone();
                 self.shown.unit = item.unit.clone();
                 self.shown.number = u32::try_from(number).unwrap_or(u32::MAX);
@@ -249,6 +252,7 @@ impl Pages {
             Shown::Keep { value, .. } => {
                 self.ask(CalibrationAsk::Keep);
                 self.shown.found = Some(value);
+                self.shown.danger = None;
             }
             Shown::Failed(error) => {
                 self.ask(CalibrationAsk::Retry);

@@ -47,7 +47,7 @@ impl CalibrationDesk {
     }
 
     /// A step is shown, so the list gives way to it.
-    fn is_running(self) -> bool {
+    pub(crate) fn is_running(self) -> bool {
         self.of_page(|page| !page.over).unwrap_or(false)
     }
 }
@@ -126,9 +126,12 @@ fn ValueList(store: Store) -> impl IntoView {
                 {words().calibration.begin}
             </button>
         </Needs>
-        <ul class="rows" aria-labelledby="calibration-title">
-            {move || desk.values.get().into_iter().map(row).collect_view()}
-        </ul>
+        <details>
+            <summary>{words().calibration.all}</summary>
+            <ul class="rows" aria-labelledby="calibration-title">
+                {move || desk.values.get().into_iter().map(row).collect_view()}
+            </ul>
+        </details>
         <details>
             <summary>{words().calibration.file}</summary>
             <pre id="calibration-file" tabindex="0">{move || desk.file.get()}</pre>
@@ -191,9 +194,6 @@ fn StepView(store: Store) -> impl IntoView {
             <Show when=move || held.get()><HoldButton store /></Show>
             <Answers store />
             <div class="row">
-                <button type="button" class="small strong" id="calibration-stop" on:click=move |_| store.ask(RequestBody::Stop)>
-                    {words().action.stop}
-                </button>
                 <button type="button" class="small" id="calibration-end" on:click=move |_| store.ask(RequestBody::EndCalibration)>
                     {words().calibration.end}
                 </button>
@@ -234,21 +234,14 @@ fn Answers(store: Store) -> impl IntoView {
             store.ask(RequestBody::AnswerCalibration { page, answer });
         }
     };
-    let button =
-        move |id: &'static str, class: &'static str, label: &'static str, given: CalibrationAnswer| {
-            view! { <button type="button" class=class id=id on:click=move |_| answer(given)>{label}</button> }
-        };
-    let texts = words().calibration;
-    let go = move |label| button("calibration-go", "small strong", label, CalibrationAnswer::Go);
-    let again = move || {
-        button(
-            "calibration-again",
-            "small",
-            texts.repeat,
-            CalibrationAnswer::Again,
-        )
+    let button = move |id: &'static str, label: &'static str, given: CalibrationAnswer| {
+        let is_strong = given == CalibrationAnswer::Go;
+        view! { <button type="button" class="small" class:strong=is_strong id=id on:click=move |_| answer(given)>{label}</button> }
     };
-    let skip = move || button("calibration-skip", "small", texts.skip, CalibrationAnswer::Skip);
+    let texts = words().calibration;
+    let go = move |label| button("calibration-go", label, CalibrationAnswer::Go);
+    let again = move || button("calibration-again", texts.repeat, CalibrationAnswer::Again);
+    let skip = move || button("calibration-skip", texts.skip, CalibrationAnswer::Skip);
     view! {
         <div class="row">
             {move || match asked.get().and_then(|(asks, _)| asks) {

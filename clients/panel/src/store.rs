@@ -324,12 +324,7 @@ impl Store {
         self.log.update(LogBook::clear);
         self.decisions.update(DecisionBook::clear);
         self.estimate.set(None);
-        self.send(
-            None,
-            RequestBody::Hello {
-                name: "panel".to_owned(),
-            },
-        );
+        self.introduce();
         let topics = vec![
             Topic::Status,
             Topic::Pose,
@@ -447,8 +442,23 @@ impl Store {
         self.take_put_off_steps();
     }
 
+    /// Says what this is, and asks what the robot is.
+    fn introduce(self) {
+        let name = "panel".to_owned();
+        self.send(None, RequestBody::Hello { name });
+    }
+
     fn on_status(self, status: Status) {
         self.seat.on_status(&status);
+        let was_away = self.status.with_untracked(|before| {
+            before
+                .as_ref()
+                .is_some_and(|before| before.state == "disconnected")
+        });
+        if was_away && status.state != "disconnected" {
+            // What comes back may have been programmed anew.
+            self.introduce();
+        }
         if status.state == "disconnected" {
             self.device.set(None);
         }

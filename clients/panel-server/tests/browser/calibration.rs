@@ -194,7 +194,7 @@ async fn a_new_robot_is_calibrated_on_a_phone_and_starts() {
         assert!(Instant::now() < deadline, "it takes too long");
         tokio::time::sleep(Duration::from_millis(100)).await;
     }
-    browser.click("#calibration-end").await;
+    browser.click("#stop").await;
     browser.says("calibration-over", "Kalibreerimine lõpetati.").await;
     browser.says("calibration-file", "cliff-floor-level = ").await;
     browser.shot("phone-et-calibration-list").await;

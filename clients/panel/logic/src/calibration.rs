@@ -55,6 +55,10 @@ pub fn calibration_name(words: &Words, name: &str) -> String {
 pub fn measured_text(value: i64, unit: &str) -> String {
     match unit {
         "1" => value.to_string(),
+        "um" => format!("{value}\u{a0}µm"),
+        "permille" => format!("{value}\u{a0}‰"),
+        "uA/count" => format!("{value}\u{a0}µA"),
+        "uV/count" => format!("{value}\u{a0}µV"),
         unit => format!("{value}\u{a0}{unit}"),
     }
 }
@@ -193,12 +197,9 @@ mod tests {
             assumed: Some(32_549),
             ..CalibrationValue::default()
         };
-        assert_eq!(
-            value_state(words, &known),
-            "not measured, taken as 32549\u{a0}uV/count"
-        );
+        assert_eq!(value_state(words, &known), "not measured, taken as 32549\u{a0}µV");
         known.value = Some(32_600);
-        assert_eq!(value_state(words, &known), "32600\u{a0}uV/count");
+        assert_eq!(value_state(words, &known), "32600\u{a0}µV");
         assert_eq!(calibration_name(words, "of-a-newer-robot"), "of-a-newer-robot");
     }
 

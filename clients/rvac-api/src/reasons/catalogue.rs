@@ -38,7 +38,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("clock-jumped", "The clock of the robot's controller jumped.", "It goes on by itself; if it comes back, switch the robot off and on and keep the log."),
     entry("commands-lost", "Most commands reach the robot damaged.", "Check the cable, its length and its ground; it goes on by itself."),
     entry("commands-stale", "Commands are too old when they reach the robot, so it refuses them.", "Close what keeps its computer busy and check the cable; it tries again by itself."),
-    entry("not-calibrated", "Values of this robot that it needs to move safely were never measured.", "Measure them under Robot, Measured values."),
+    entry("not-calibrated", "Values of this robot that it needs to move safely were never measured.", "Measure them: Device, Measured values."),
     entry("stopped", "It was told to stop.", ""),
     entry("button-stop", "A button on the robot was pressed.", "Start it again when you are ready."),
     entry("wheel-drop", "A wheel hangs in the air.", "Put the robot flat on the floor."),

@@ -51,7 +51,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("clock-jumped", "Roboti kontrolleri kell hüppas.", "Robot jätkab ise; kui see kordub, lülita robot välja ja sisse ning hoia logi alles."),
     entry("commands-lost", "Enamik käske jõuab robotini rikutuna.", "Kontrolli kaablit, selle pikkust ja maandust; robot jätkab ise."),
     entry("commands-stale", "Käsud on robotini jõudes liiga vanad ja robot lükkab need tagasi.", "Sulge see, mis roboti arvutit koormab, ja kontrolli kaablit; robot proovib ise uuesti."),
-    entry("not-calibrated", "Selle roboti ohutuks liikumiseks vajalikke väärtusi ei ole kunagi mõõdetud.", "Mõõda need lehel „Robot“ jaotises „Mõõdetud väärtused“."),
+    entry("not-calibrated", "Selle roboti ohutuks liikumiseks vajalikke väärtusi ei ole kunagi mõõdetud.", "Mõõda need lehel „Seade“ jaotises „Mõõdetud väärtused“."),
     entry("stopped", "Robotil kästi peatuda.", ""),
     entry("button-stop", "Robotil vajutati nuppu.", "Alusta uuesti, kui oled valmis."),
     entry("wheel-drop", "Ratas ripub õhus.", "Pane robot kindlalt põrandale."),

@@ -66,6 +66,7 @@ screen! {
         over: "Finished. What was kept is in the robot's file of values.", "Valmis. Salvestatu on roboti väärtuste failis.";
         next: "The robot uses the values once they are built into its firmware. Until then it says what it still lacks.",
             "Robot kasutab väärtusi siis, kui need on püsivarasse lisatud. Seni ütleb ta, mis veel puudub.";
+        all: "All values", "Kõik väärtused";
         file: "File of values", "Väärtuste fail";
         drive: "driving", "sõitmine";
         cliffs: "seeing stairs", "treppide nägemine";
