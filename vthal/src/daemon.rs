@@ -1,5 +1,6 @@
 //! The event loop: one closed enum of events goes in, what the core answers is carried out.
 
+mod calibrating;
 mod disk;
 
 use std::collections::BTreeMap;
@@ -14,6 +15,8 @@ use tokio::sync::watch;
 use tokio::task::spawn_local;
 use tokio::time::{Instant, sleep_until};
 use vthal_core::{ClientId, Core, Delivery, Input, LineHolder, Outputs, Recipients};
+
+use calibrating::CalibrationSession;
 
 use crate::board::{BoardEvent, LightsHandle};
 use crate::checkpoint_thread::CheckpointHandle;
@@ -56,6 +59,8 @@ pub(crate) struct Wiring {
     pub runs: RunHandle,
     /// Lights on the Linux board, if there are any.
     pub lights: Option<LightsHandle>,
+    /// What was measured of the robot.
+    pub calibration_file: PathBuf,
     /// The socket's file, removed at the end.
     pub socket: PathBuf,
     /// Clients at the same time.
@@ -74,6 +79,7 @@ pub(crate) struct Daemon {
     clients: BTreeMap<ClientId, Client>,
     clients_seen: u64,
     congested: bool,
+    calibration: Option<CalibrationSession>,
     /// When the wall clock is read again.
     wall_due_us: u64,
     /// When the daemon gives up waiting for the wheels; `None` until it is ordered to end.
@@ -92,6 +98,7 @@ impl Daemon {
             clients: BTreeMap::new(),
             clients_seen: 0,
             congested: false,
+            calibration: None,
             wall_due_us: 0,
             ends_at: None,
         }
@@ -147,7 +154,12 @@ impl Daemon {
         match event {
             Event::Wake => self.handle(Input::Wake),
             Event::WatchdogDue => systemd_notice::tell_alive(),
-            Event::Link(event) => self.take_link(event),
+            Event::Link(event) => {
+                if let Some(event) = self.divert_link(event) {
+                    self.take_link(event);
+                }
+            }
+            Event::Calibration(event) => self.take_calibration(event),
             Event::Imu(event) => self.take_imu(event),
             Event::Board(event) => self.take_board(event),
             Event::Radio(event) => self.take_radio(event),
@@ -355,6 +367,9 @@ impl Daemon {
         }
         for edit in std::mem::take(&mut self.outputs.map_edits) {
             self.keep_edit(edit);
+        }
+        for order in std::mem::take(&mut self.outputs.calibration_orders) {
+            self.order_calibration(order);
         }
         for order in std::mem::take(&mut self.outputs.map_orders) {
             self.order_map(order);

@@ -7,6 +7,7 @@ use vthal_core::{ClientId, LinkLoss};
 
 use crate::archive_desk::ArchiveAnswer;
 use crate::board::BoardEvent;
+use crate::calibration_thread::CalibrationEvent;
 use crate::checkpoint_thread::{FloorAnswer, MapAnswer, MixAnswer};
 use crate::imu::ImuEvent;
 use crate::link::LinkOpenError;
@@ -21,6 +22,8 @@ pub(crate) struct ReceiverGone;
 pub(crate) enum Event {
     /// From the link to the robot.
     Link(LinkEvent),
+    /// From the calibration of the robot.
+    Calibration(CalibrationEvent),
     /// A client connected.
     Connected(UnixStream),
     /// A client sent bytes.

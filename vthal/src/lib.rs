@@ -7,6 +7,7 @@
 
 mod archive_desk;
 pub mod board;
+mod calibration_thread;
 pub mod checkpoint_file;
 mod checkpoint_thread;
 mod client;

@@ -90,6 +90,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
         runs: run_thread::start(kept.paths().runs.clone(), event_sender.clone())?,
         checkpoints: checkpoint_thread::start(kept.into_paths(), event_sender.clone())?,
         socket: config.socket.clone(),
+        calibration_file: config.state.join("calibration.toml"),
         clients_max: config.clients_max,
         told,
     };

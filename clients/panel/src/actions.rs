@@ -36,7 +36,7 @@ pub(crate) fn Actions(store: Store) -> impl IntoView {
     view! {
         <section class="actions" id="actions" tabindex="-1" aria-label=words().action.controls>
             <PrimaryButton store />
-            {action(store, face("stop", "strong", words().action.stop, Icon::Stop), move || store.offers().stop, || RequestBody::Stop)}
+            {action(store, face("stop", "strong", words().action.stop, Icon::Stop), move || store.offer_of_stop(), || RequestBody::Stop)}
             {action(store, face("spot", "plain", words().action.spot, Icon::Spot), move || store.offers().spot, || RequestBody::Spot)}
             {action(store, face("dock", "plain", words().action.dock, Icon::Dock), move || store.offers().dock, || RequestBody::Dock)}
             {action(store, face("locate", "plain", words().action.find, Icon::Bell), move || store.offers().locate, || RequestBody::Locate)}
@@ -46,6 +46,15 @@ pub(crate) fn Actions(store: Store) -> impl IntoView {
 }
 
 impl Store {
+    /// Stop ends a calibration, too, during which the robot counts as disconnected.
+    fn offer_of_stop(self) -> Offer {
+        if self.calibration.is_running() {
+            Offer::Ready
+        } else {
+            self.offers().stop
+        }
+    }
+
     /// What is chosen or drawn; a view that asks follows it.
     fn wishes(self) -> Wishes {
         Wishes {

@@ -5,6 +5,7 @@ mod about_view;
 mod access;
 mod actions;
 mod app;
+mod calibration_view;
 mod changes;
 mod device_view;
 mod dock_view;

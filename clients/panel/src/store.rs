@@ -8,13 +8,14 @@ use panel_logic::{
 };
 use rvac_api::{
     ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, LearntPart,
-    LearntView, Request, RequestBody, RobotDescription, SimulatedTruth, SoftwareUpdate, Standstill, Status,
-    Topic,
+    LearntView, PlannedPath, Request, RequestBody, RobotDescription, SimulatedTruth, SoftwareUpdate,
+    Standstill, Status, Topic,
 };
 
 use rvac_api::Update as Message;
 
 use crate::access::{EDITS_MIXES, Entrance, Newcomer};
+use crate::calibration_view::CalibrationDesk;
 use crate::changes::set_if_changed;
 use crate::drive::Seat;
 use crate::floor_files::FloorDesk;
@@ -98,6 +99,8 @@ pub(crate) struct Store {
     pub(crate) health: RwSignal<Vec<ComponentHealth>>,
     /// What robots have learnt of themselves.
     pub(crate) learnt: RwSignal<Vec<LearntView>>,
+    /// What was measured of the robot, and the calibration that this page does.
+    pub(crate) calibration: CalibrationDesk,
     /// Runs that are over.
     pub(crate) history: HistoryDesk,
     /// The log.
@@ -157,6 +160,7 @@ impl Store {
             schedules: ScheduleDesk::new(),
             health: RwSignal::new(Vec::new()),
             learnt: RwSignal::new(Vec::new()),
+            calibration: CalibrationDesk::default(),
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             currency: RwSignal::new(Currency::Current),
@@ -320,12 +324,7 @@ impl Store {
         self.log.update(LogBook::clear);
         self.decisions.update(DecisionBook::clear);
         self.estimate.set(None);
-        self.send(
-            None,
-            RequestBody::Hello {
-                name: "panel".to_owned(),
-            },
-        );
+        self.introduce();
         let topics = vec![
             Topic::Status,
             Topic::Pose,
@@ -393,10 +392,7 @@ impl Store {
                 self.map.with_value(|map| map.on_estimate(&estimate));
                 self.estimate.set(Some(estimate));
             }
-            Message::PlannedPath(path) => {
-                set_if_changed(self.route_m, route_length_m(&path));
-                self.map.with_value(|map| map.on_planned_path(&path));
-            }
+            Message::PlannedPath(path) => self.on_planned_path(&path),
             Message::Heartbeat { silent_ms } => self.on_heartbeat(silent_ms),
             Message::Evidence { evidence, .. } => self.evidence.set(Some(evidence)),
             Message::Standstill(told) => self.standstill.set(Some(*told)),
@@ -411,6 +407,8 @@ impl Store {
             }
             Message::Health { components, .. } => self.health.set(components),
             Message::Learnt { devices, .. } => self.learnt.set(devices),
+            Message::Calibration { values, file, .. } => self.calibration.on_values(values, file),
+            Message::CalibrationPage(page) => self.calibration.on_page(*page),
             Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
             Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
             Message::Done { id } => self.on_done(id),
@@ -430,6 +428,11 @@ impl Store {
         }
     }
 
+    fn on_planned_path(self, path: &PlannedPath) {
+        set_if_changed(self.route_m, route_length_m(path));
+        self.map.with_value(|map| map.on_planned_path(path));
+    }
+
     fn on_home(self, home: &HomeView) {
         let rows = room_rows(words(), home);
         set_if_changed(self.rooms, rows);
@@ -439,8 +442,23 @@ impl Store {
         self.take_put_off_steps();
     }
 
+    /// Says what this is, and asks what the robot is.
+    fn introduce(self) {
+        let name = "panel".to_owned();
+        self.send(None, RequestBody::Hello { name });
+    }
+
     fn on_status(self, status: Status) {
         self.seat.on_status(&status);
+        let was_away = self.status.with_untracked(|before| {
+            before
+                .as_ref()
+                .is_some_and(|before| before.state == "disconnected")
+        });
+        if was_away && status.state != "disconnected" {
+            // What comes back may have been programmed anew.
+            self.introduce();
+        }
         if status.state == "disconnected" {
             self.device.set(None);
         }

@@ -5,6 +5,7 @@ use leptos::prelude::*;
 
 use crate::about_view::AboutView;
 use crate::access::{Access, AdministratorView};
+use crate::calibration_view::CalibrationSection;
 use crate::device_view::DeviceView;
 use crate::drive::DriveSheet;
 use crate::focus::focus_on;
@@ -111,6 +112,7 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                     <DeviceView store />
                     <PartsView store />
                     <LearntSection store />
+                    <CalibrationSection store />
                     <Show when=move || manages.get()><AdministratorView store /></Show>
                     <AboutView store />
                 </Show>

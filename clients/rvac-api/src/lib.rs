@@ -9,6 +9,7 @@
 extern crate alloc;
 
 mod activity;
+mod calibration;
 mod cleaning_power;
 mod client_input;
 mod device;
@@ -33,6 +34,7 @@ mod trouble;
 mod update;
 
 pub use activity::{Activity, ActivityWords};
+pub use calibration::{CalibrationAnswer, CalibrationAsk, CalibrationPage, CalibrationValue};
 pub use cleaning_power::CleaningPower;
 pub use client_input::{ClientInput, INPUT_LEASE_MS_MAX, INPUTS_MAX, INPUTS_PER_CLIENT_MAX, is_mix_name};
 pub use device::{BatteryReading, ChargerReading, DeviceTable, LinkReading};

@@ -7,8 +7,8 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    CleaningPower, JobOrder, LearntPart, NoGoShape, PlaceShape, QuietHours, Role, RoomBefore, RoomNaming,
-    RoomSettings, RoomSplitting, ScheduleEntry, Topic,
+    CalibrationAnswer, CleaningPower, JobOrder, LearntPart, NoGoShape, PlaceShape, QuietHours, Role,
+    RoomBefore, RoomNaming, RoomSettings, RoomSplitting, ScheduleEntry, Topic,
 };
 
 /// A request, optionally numbered: a numbered one is answered by [`crate::Update::Done`] or [`crate::Update::Failed`].
@@ -211,6 +211,29 @@ pub enum RequestBody {
         #[serde(default)]
         silent: bool,
     },
+    /// Asks what was measured of the robot; answered by [`crate::Update::Calibration`].
+    Calibration,
+    /// Measures values of the robot, step by step. Each step is a [`crate::Update::CalibrationPage`] to this client. Meanwhile the
+    /// robot counts as disconnected. It ends with this client's connection, and with `stop` of anybody.
+    BeginCalibration {
+        /// Names of values; none = all that are not measured.
+        #[serde(default)]
+        names: Vec<String>,
+    },
+    /// Answers a page of the calibration.
+    AnswerCalibration {
+        /// [`crate::CalibrationPage::page`].
+        page: u32,
+        /// What.
+        answer: CalibrationAnswer,
+    },
+    /// A person holds the motors on, for half a second, or lets go. Without it no motor runs in a calibration.
+    HoldCalibration {
+        /// Held, or let go.
+        held: bool,
+    },
+    /// Ends the calibration. What was kept stays.
+    EndCalibration,
     /// Presses of buttons on the robot start nothing for so long, because somebody counts them for another purpose; what runs they
     /// stop as ever. Ends by itself, and with the client's connection.
     ClaimButtons {
@@ -391,7 +414,7 @@ pub enum RequestBody {
 
 /// The least role that may ask each request over the network, by its word in `c`. On the robot's own socket all may.
 #[rustfmt::skip]
-pub const VERBS: [(&str, Role); 61] = [
+pub const VERBS: [(&str, Role); 66] = [
     ("hello",           Role::View),
     ("watch",           Role::View),
     ("estimate",        Role::View),
@@ -452,6 +475,11 @@ pub const VERBS: [(&str, Role); 61] = [
     ("set-zone",        Role::Admin),
     ("claim-buttons",   Role::Admin),
     ("borrow-link",     Role::Admin),
+    ("calibration",     Role::Admin),
+    ("begin-calibration", Role::Admin),
+    ("answer-calibration", Role::Admin),
+    ("hold-calibration", Role::Admin),
+    ("end-calibration", Role::Admin),
     ("raw",             Role::Admin),
 ];
 

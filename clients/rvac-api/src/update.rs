@@ -6,9 +6,9 @@ use alloc::vec::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    ClientInput, ComponentHealth, Decision, DeviceTable, Estimate, Evidence, FloorsView, HomeView,
-    JobEstimate, KeptMap, LearntView, PlannedPath, Run, RunRecord, RunTrack, Schedules, SimulatedPlan,
-    SimulatedTruth, SoftwareUpdate, Standstill,
+    CalibrationPage, CalibrationValue, ClientInput, ComponentHealth, Decision, DeviceTable, Estimate,
+    Evidence, FloorsView, HomeView, JobEstimate, KeptMap, LearntView, PlannedPath, Run, RunRecord, RunTrack,
+    Schedules, SimulatedPlan, SimulatedTruth, SoftwareUpdate, Standstill,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -82,6 +82,17 @@ pub enum Update {
         /// The robots of which something is kept, the one that learnt last at the end.
         devices: Vec<LearntView>,
     },
+    /// What was measured of the robot.
+    Calibration {
+        /// Name of the robot.
+        device: String,
+        /// All values, in the order in which they are best measured.
+        values: Vec<CalibrationValue>,
+        /// The file of the measured ones, as text: what its firmware is built with.
+        file: String,
+    },
+    /// A step of a calibration, to the client that does it.
+    CalibrationPage(Box<CalibrationPage>),
     /// The versions of the map of a floor that are kept.
     Maps {
         /// Number of the floor.

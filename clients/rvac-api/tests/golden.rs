@@ -6,16 +6,17 @@
 #![allow(clippy::unwrap_used, reason = "in a test that is what a failure is")]
 
 use rvac_api::{
-    BatteryReading, BumpMark, CarpetView, CleaningPattern, CleaningPower, ClientInput, ComponentHealth,
-    Decision, DeviceTable, DoorView, EnergyLearnt, Estimate, Evidence, EvidenceSample, Failure,
-    FloorQuestion, FloorView, FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder,
-    JobPart, KeptMap, LearntPart, LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapDoubt,
-    MapSnapshot, NoGoShape, NoGoView, PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours,
-    Request, RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings,
-    RoomSplitting, RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
-    RunTrack, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules,
-    SimulatedPlan, SimulatedTruth, SoftwareUpdate, Standstill, Status, SurenessView, Topic, TrackPose,
-    TrackReading, Update, UpdateEnd, UpdateStage, Versions, WallView, Weekday, is_mix_name,
+    BatteryReading, BumpMark, CalibrationAnswer, CalibrationAsk, CalibrationPage, CalibrationValue,
+    CarpetView, CleaningPattern, CleaningPower, ClientInput, ComponentHealth, Decision, DeviceTable,
+    DoorView, EnergyLearnt, Estimate, Evidence, EvidenceSample, Failure, FloorQuestion, FloorView,
+    FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart,
+    LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapDoubt, MapSnapshot, NoGoShape, NoGoView,
+    PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours, Request, RequestBody, RobotDescription,
+    RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
+    RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
+    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, SoftwareUpdate,
+    Standstill, Status, SurenessView, Topic, TrackPose, TrackReading, Update, UpdateEnd, UpdateStage,
+    Versions, WallView, Weekday, is_mix_name,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -1438,6 +1439,61 @@ fn standstill() {
     check(
         &Update::Standstill(Box::new(told)),
         r#"{"e":"standstill","number":2,"t":61.5,"state":"stuck","reason":"boxed-in","text":"Gave up.","remedy":"Move it.","place":{"x":1.0,"y":2.0,"heading":0.5,"t":61.5}}"#,
+    );
+}
+
+#[test]
+fn a_calibration_by_steps() {
+    request(RequestBody::Calibration, r#"{"c":"calibration"}"#);
+    request(
+        RequestBody::BeginCalibration {
+            names: vec!["wheel-track".to_owned()],
+        },
+        r#"{"c":"begin-calibration","names":["wheel-track"]}"#,
+    );
+    for (answer, text) in [
+        (
+            CalibrationAnswer::Go,
+            r#"{"c":"answer-calibration","page":3,"answer":"go"}"#,
+        ),
+        (
+            CalibrationAnswer::Number(1900),
+            r#"{"c":"answer-calibration","page":3,"answer":{"number":1900}}"#,
+        ),
+    ] {
+        request(RequestBody::AnswerCalibration { page: 3, answer }, text);
+    }
+    request(
+        RequestBody::HoldCalibration { held: true },
+        r#"{"c":"hold-calibration","held":true}"#,
+    );
+    request(RequestBody::EndCalibration, r#"{"c":"end-calibration"}"#);
+    check(
+        &Update::Calibration {
+            device: "sr8730".to_owned(),
+            values: vec![CalibrationValue {
+                name: "wheel-track".to_owned(),
+                unit: "um".to_owned(),
+                value: Some(230_000),
+                assumed: None,
+            }],
+            file: String::new(),
+        },
+        r#"{"e":"calibration","device":"sr8730","values":[{"name":"wheel-track","unit":"um","value":230000}],"file":""}"#,
+    );
+    check(
+        &Update::CalibrationPage(Box::new(CalibrationPage {
+            page: 3,
+            asks: Some(CalibrationAsk::Done),
+            value: "wheel-track".to_owned(),
+            unit: "um".to_owned(),
+            number: 2,
+            of: 6,
+            task: Some("spin".to_owned()),
+            counts: Some([812, -805]),
+            ..CalibrationPage::default()
+        })),
+        r#"{"e":"calibration-page","page":3,"asks":"done","value":"wheel-track","unit":"um","number":2,"of":6,"task":"spin","counts":[812,-805],"over":false}"#,
     );
 }
 

@@ -1,5 +1,6 @@
 //! The command line.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -53,6 +54,9 @@ pub(crate) struct SceneArguments {
     /// The robot's flash holds no calibration record: an owner has just flashed it. Needs --firmware.
     #[arg(long, requires = "firmware")]
     uncalibrated: bool,
+    /// The robot's flash holds the values of this file of `rvac calibrate` and no others. Needs --firmware.
+    #[arg(long, value_name = "FILE", requires = "firmware", conflicts_with = "uncalibrated", value_parser = measured)]
+    measured: Option<CalibrationChoice>,
     /// The gyro module of the emulated board: `placeholder` of robots/samsung-sr8730/gyro.md, `none`, or a number that makes
     /// up port, rate and frames at random. Without it the placeholder; 1 with --uncalibrated.
     #[arg(long, value_name = "WHICH", requires = "firmware", value_parser = gyro)]
@@ -70,6 +74,17 @@ fn gyro(text: &str) -> Result<GyroFitted, String> {
     }
 }
 
+/// The values of a file that `rvac calibrate` wrote.
+fn measured(path: &str) -> Result<CalibrationChoice, String> {
+    #[derive(serde::Deserialize)]
+    struct MeasuredFile {
+        values: BTreeMap<String, i32>,
+    }
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let file: MeasuredFile = toml::from_str(&text).map_err(|error| error.to_string())?;
+    Ok(CalibrationChoice::Measured(file.values.into_iter().collect()))
+}
+
 impl SceneArguments {
     pub(crate) fn settings(&self) -> SceneSettings {
         SceneSettings {
@@ -77,10 +92,10 @@ impl SceneArguments {
             robot: self.robot.clone(),
             noise: self.noise.clone(),
             firmware: self.firmware.clone(),
-            record: if self.uncalibrated {
-                CalibrationChoice::Absent
-            } else {
-                CalibrationChoice::Complete
+            record: match &self.measured {
+                Some(measured) => measured.clone(),
+                None if self.uncalibrated => CalibrationChoice::Absent,
+                None => CalibrationChoice::Complete,
             },
             gyro: self.gyro.unwrap_or(if self.uncalibrated {
                 GyroFitted::Unknown(1)

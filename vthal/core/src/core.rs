@@ -13,6 +13,7 @@ use rvac_api::{LogLevel, Topic};
 use crate::brain_session::{BrainSession, Recorder};
 use crate::desk::audience::{Asking, Audience};
 use crate::desk::button_desk::ButtonDesk;
+use crate::desk::calibration::CalibrationDesk;
 use crate::desk::checkpoints::{CheckpointClock, checkpoint_without_job};
 use crate::desk::driver::DriverDesk;
 use crate::desk::estimates::EstimateDesk;
@@ -61,6 +62,7 @@ pub struct Core {
     audience: Audience,
     link: LinkDesk,
     loan: LinkLoan,
+    calibration: CalibrationDesk,
     brain_session: Option<BrainSession>,
     pace: Pace,
     driver: DriverDesk,
@@ -92,6 +94,7 @@ impl Core {
             audience,
             link: LinkDesk::default(),
             loan: LinkLoan::default(),
+            calibration: CalibrationDesk::default(),
             brain_session: None,
             pace: Pace::default(),
             driver: DriverDesk::default(),
@@ -161,6 +164,7 @@ impl Core {
             }
             Input::WallClock { utc_s } => self.set_clock(now_us, utc_s, outputs),
             Input::RecordingOpened { run, name } => self.history.recorded_as(run, name),
+            Input::CalibrationOver => self.calibration.over(),
             Input::Wake => {}
             Input::Shutdown => self.shutdown(now_us, outputs),
             Input::MapRestored { floor, number, home } => {

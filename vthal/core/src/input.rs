@@ -125,6 +125,8 @@ pub enum Input<'a> {
         /// The file's name.
         name: String,
     },
+    /// The procedure of [`crate::Outputs::calibration_orders`] has ended, and the robot stands.
+    CalibrationOver,
     /// A client is gone; a driver's seat it held is empty and the wheels stop.
     ClientGone(ClientId),
     /// The time that [`crate::Core::next_wake_us`] named has come. Too early or too often does no harm.

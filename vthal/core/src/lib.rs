@@ -51,8 +51,8 @@ pub use input::{ClientId, Input, LinkLoss};
 pub use lacking::{Ability, CalibrationValue, Lacking};
 pub use lights::Lights;
 pub use outputs::{
-    ArchiveOrder, ArchiveTask, Delivery, Direction, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder,
-    LearntOrder, LineHolder, MapOrder, MixOrder, MixTask, Outputs, Recipients, Record, RunCause, RunEnd,
-    RunQuery, RunStart, RunTask, ScheduleOrder,
+    ArchiveOrder, ArchiveTask, CalibrationOrder, CalibrationTask, Delivery, Direction, EditedMap, FloorHome,
+    FloorOrder, FloorTask, HealthOrder, LearntOrder, LineHolder, MapOrder, MixOrder, MixTask, Outputs,
+    Recipients, Record, RunCause, RunEnd, RunQuery, RunStart, RunTask, ScheduleOrder,
 };
 pub use stored_version::OtherVersion;

@@ -1,7 +1,9 @@
 //! What the shell must perform.
 
 use brain::{Actions, Command, Observation, RoomName, StoredMap};
-use rvac_api::{DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status, Topic, Update};
+use rvac_api::{
+    CalibrationAnswer, DeviceTable, LogEntry, Pose, RobotDescription, RunRecord, Status, Topic, Update,
+};
 
 use crate::Checkpoint;
 use crate::ClientId;
@@ -28,6 +30,8 @@ pub struct Outputs {
     pub checkpoint: Option<Checkpoint>,
     /// The home after a run, worth keeping for the next start.
     pub home: Option<FloorHome>,
+    /// What the procedure of a calibration is told, in order.
+    pub calibration_orders: Vec<CalibrationOrder>,
     /// What clients ask of the kept maps, in order.
     pub map_orders: Vec<MapOrder>,
     /// Maps that clients have changed, in order.
@@ -58,6 +62,32 @@ pub enum LineHolder {
     Daemon,
     /// A client's, which writes the robot's firmware: the daemon keeps away from the device.
     Client,
+}
+
+/// What the shell does for a client that calibrates the robot; it answers the client itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CalibrationOrder {
+    /// Who asks.
+    pub client: ClientId,
+    /// Number of the request.
+    pub id: Option<u32>,
+    /// What.
+    pub task: CalibrationTask,
+}
+
+/// See [`CalibrationOrder`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CalibrationTask {
+    /// Tell what was measured of the robot of this name: [`Update::Calibration`].
+    Show(Option<String>),
+    /// Give the robot of this name to the procedure, for these values; none = all that are missing.
+    Begin(String, Vec<String>),
+    /// An answer to a page.
+    Answer(u32, CalibrationAnswer),
+    /// A person holds the motors on, or lets go.
+    Hold(bool),
+    /// Stop the motors, end the procedure, and give the robot back with [`crate::Input::CalibrationOver`].
+    End,
 }
 
 /// Schedules that the shell keeps in place of the ones before, and says so with [`crate::Input::SchedulesKept`]. Until then no
@@ -269,6 +299,7 @@ impl Outputs {
         self.records.clear();
         self.checkpoint = None;
         self.home = None;
+        self.calibration_orders.clear();
         self.map_orders.clear();
         self.floor_orders.clear();
         self.archive_orders.clear();

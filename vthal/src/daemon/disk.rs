@@ -16,8 +16,8 @@ use crate::run_thread::RunAnswer;
 /// Who has asked for something, and the number of the request.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Asker {
-    client: ClientId,
-    id: Option<u32>,
+    pub(super) client: ClientId,
+    pub(super) id: Option<u32>,
 }
 
 impl Daemon {
@@ -118,7 +118,7 @@ impl Daemon {
     }
 
     /// Not while outputs of the core are carried out, which this makes more of.
-    fn refuse(&mut self, Asker { client, id }: Asker, reason: &str, text: String) {
+    pub(super) fn refuse(&mut self, Asker { client, id }: Asker, reason: &str, text: String) {
         let reason = reason.to_owned();
         let failure = Failure { id, reason, text };
         self.handle(Input::Refused { client, failure });

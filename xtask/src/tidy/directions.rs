@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 51] = [
+const DIRECTIONS: [Direction; 52] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -110,7 +110,7 @@ const DIRECTIONS: [Direction; 51] = [
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "mixer",         knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
-    Direction { of: "vthal",         knows: &["vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "robot-link", "system-zone", "systemd-notice", "vthal-bench", "content-hash"], never: &[] },
+    Direction { of: "vthal",         knows: &["calibration", "vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "robot-link", "system-zone", "systemd-notice", "vthal-bench", "content-hash"], never: &[] },
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units", "vthal-core"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "system-zone",   knows: &["kept-file"],                                 never: &[] },
@@ -126,7 +126,8 @@ const DIRECTIONS: [Direction; 51] = [
     Direction { of: "rvac-ros2",     knows: &["bridge", "rvac-api"],                        never: &["axum"] },
     Direction { of: "joined-trials", knows: &["rvac-api"],                                  never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
-    Direction { of: "rvac-cli",      knows: &["kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
+    Direction { of: "calibration",   knows: &["kept-file", "rvac-protocol", "rvac-units"],  never: &["tokio"] },
+    Direction { of: "rvac-cli",      knows: &["calibration", "kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "systemd-notice", "update-bundle"], never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },

@@ -9,6 +9,7 @@
 
 mod accessibility;
 mod browser;
+mod calibration;
 mod carpets;
 mod costs;
 mod edits;

@@ -157,6 +157,21 @@ impl Stack {
         Self::new(Home::Unknown, Some(&Self::firmware()), &packed_panel())
     }
 
+    /// The same with nothing measured of the robot, as after the first flashing.
+    pub(crate) fn start_uncalibrated() -> Self {
+        let mut stack = Self::start_emulated();
+        stack.reprogram(&["--uncalibrated".as_ref()]);
+        stack
+    }
+
+    /// The simulated robot is programmed with this calibration.
+    pub(crate) fn reprogram(&mut self, calibration: &[&OsStr]) {
+        let simulator = self.processes.remove(0);
+        drop(simulator);
+        let program = self.simulator(Some(&Self::firmware()), calibration);
+        self.processes.insert(0, program);
+    }
+
     /// In a home that the robot does not know, with this file in the daemon's state folder.
     pub(crate) fn start_with_state(name: &str, text: &str) -> Self {
         let folder = Self::new_folder();
@@ -415,6 +430,11 @@ impl Stack {
 
     /// `firmware` runs in an emulated chip; without it the simulator's own does.
     fn start_simulator(&mut self, firmware: Option<&Path>) {
+        let simulator = self.simulator(firmware, &[]);
+        self.processes.push(simulator);
+    }
+
+    fn simulator(&self, firmware: Option<&Path>, more: &[&OsStr]) -> Process {
         let mut command = Command::new(binary("rvac-sim"));
         command.current_dir(root());
         command.args(["serve", "--robot", "sr8730", "--seed", "7"]);
@@ -424,7 +444,7 @@ impl Stack {
         if let Some(firmware) = firmware {
             command.arg("--firmware").arg(firmware);
         }
-        self.processes.push(Process::start(&mut command).0);
+        Process::start(command.args(more)).0
     }
 
     /// Ends the server, as if its computer were switched off.

@@ -6,6 +6,7 @@
 //! robot says, to be put into words.
 #![forbid(unsafe_code)]
 
+mod calibration;
 mod camera;
 mod carpet;
 mod codes;
@@ -57,6 +58,9 @@ mod tilt;
 mod wall_blocks;
 mod words;
 
+pub use calibration::{
+    calibration_name, danger_text, is_held, lacking_text, live_text, measured_text, task_text, value_state,
+};
 pub use camera::{Bounds, Camera, ScreenBox, View};
 pub use carpet::carpet_sentence;
 pub use codes::{

@@ -8,7 +8,7 @@ use rvac_protocol::message::{ProbeTarget, Probed, ProbedContent};
 
 use super::frames::{Frames, Recording};
 use super::say;
-use crate::robot::{Robot, Watch};
+use calibration::{Robot, Watch};
 
 /// Ports of the chip.
 const PORTS: [u8; 2] = [1, 2];

@@ -10,14 +10,14 @@ use anyhow::Context as _;
 use rvac_protocol::message::{ProbeTarget, ProbedContent};
 
 use crate::arguments::{ProbeJob, ProbeWhat};
-use crate::robot::Robot;
+use crate::robot;
 
 pub(crate) fn run(job: &ProbeJob) -> anyhow::Result<ExitCode> {
     let port = job
         .port
         .as_deref()
         .context("name the robot's serial device with --port")?;
-    let mut robot = Robot::open(port, job.baud)?;
+    let mut robot = robot::open(port, job.baud)?;
     let target = match &job.target {
         ProbeWhat::Analog => ProbeTarget::Analog,
         ProbeWhat::Encoders => ProbeTarget::Encoders,

@@ -111,6 +111,15 @@ impl CalibrationValues {
         record(self.values.iter().map(|(_, value)| *value))
     }
 
+    /// The record of a person who has measured these values and nothing else.
+    #[must_use]
+    pub fn record_of(&self, measured: &[(String, i32)]) -> Vec<u8> {
+        record(self.values.iter().map(|(name, _)| {
+            let found = measured.iter().find(|(known, _)| known == name);
+            found.map_or(UNKNOWN, |(_, value)| *value)
+        }))
+    }
+
     /// The record of a person who has measured everything except these.
     #[must_use]
     pub fn record_without(&self, unknown: &[&str]) -> Vec<u8> {

@@ -7,6 +7,7 @@ use rvac_api::{
 };
 
 use crate::api_forms;
+use crate::desk::calibration::CalibrationRequest;
 use crate::desk::driver::{HandDrive, NO_POWER};
 use crate::desk::floors::FloorRequest;
 use crate::desk::health::HealthRequest;
@@ -86,6 +87,8 @@ pub(crate) enum RobotRequest {
     Clear(String),
     /// A packet of the wire.
     Raw(String),
+    /// Measuring values of it.
+    Calibration(CalibrationRequest),
     /// The serial line, for a client that writes firmware.
     BorrowLink(RobotAnswers),
 }
@@ -124,12 +127,12 @@ impl DeskRequest {
             Body::Clear { reason } => Self::Robot(RobotRequest::Clear(reason)),
             Body::Raw { packet } => Self::Robot(RobotRequest::Raw(packet)),
             Body::BorrowLink { silent } => Self::Robot(RobotRequest::BorrowLink(if silent { RobotAnswers::Silent } else { RobotAnswers::Expected })),
-            Body::Drive { v, w, ttl, clean, power } => Self::Hand(HandRequest::Drive(HandDrive {
-                speed_m_per_s: v,
-                turn_rad_per_s: w,
-                lease_ms: ttl,
-                power: power.unwrap_or(if clean { CleaningPower::FULL } else { NO_POWER }),
-            })),
+            Body::Calibration => calibration(CalibrationRequest::Show),
+            Body::BeginCalibration { names } => calibration(CalibrationRequest::Begin(names)),
+            Body::AnswerCalibration { page, answer } => calibration(CalibrationRequest::Answer(page, answer)),
+            Body::HoldCalibration { held } => calibration(CalibrationRequest::Hold(held)),
+            Body::EndCalibration => calibration(CalibrationRequest::End),
+            Body::Drive { v, w, ttl, clean, power } => Self::Hand(HandRequest::Drive(HandDrive { speed_m_per_s: v, turn_rad_per_s: w, lease_ms: ttl, power: power.unwrap_or(if clean { CleaningPower::FULL } else { NO_POWER }) })),
             Body::SetInputs { values, ttl } => Self::Hand(HandRequest::Inputs(LeasedInputs { values, lease_ms: ttl })),
             Body::Evidence => Self::Evidence,
             Body::AddNoGo { shape, name } => no_go(NoGoEdit::Add(named_no_go(&shape, name)?), "forbids floor of the map"),
@@ -305,6 +308,10 @@ const fn place(change: PlaceEdit, deed: &'static str) -> DeskRequest {
 
 const fn room(change: RoomEdit, deed: &'static str) -> DeskRequest {
     edit(MapEdit::Room(change), deed)
+}
+
+const fn calibration(request: CalibrationRequest) -> DeskRequest {
+    DeskRequest::Robot(RobotRequest::Calibration(request))
 }
 
 const fn schedule(change: ScheduleEdit) -> DeskRequest {

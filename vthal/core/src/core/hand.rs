@@ -5,8 +5,10 @@ use rvac_api::{LogLevel, RunAsker};
 
 use super::Core;
 use super::desk_request::{HandRequest, RobotAnswers, RobotRequest};
+use crate::brain_session::BrainSession;
 use crate::desk::arbiter::Stick;
 use crate::desk::audience::Asking;
+use crate::desk::calibration::CalibrationRequest;
 use crate::desk::driver::{HandDrive, Pull};
 use crate::desk::journal::LogSource;
 use crate::desk::reply::Reply;
@@ -45,6 +47,7 @@ impl Core {
     /// Anybody may stop at any time; the wheels do not wait for the brain.
     fn stop(&mut self, now_us: u64, client: ClientId, outputs: &mut Outputs) {
         self.driver.arbiter.preempt();
+        outputs.calibration_orders.extend(self.calibration.end());
         let name = self.audience.clients.name(client);
         let text = format!("stopped by {name}");
         self.history.commanded_by(RunAsker::Client(name));
@@ -110,6 +113,9 @@ impl Core {
         if let Some(holder) = self.loan.forget_client(client) {
             outputs.line_holder = Some(holder);
         }
+        outputs
+            .calibration_orders
+            .extend(self.calibration.forget_client(client));
         let mut teller = self.audience.teller(self.now(now_us), outputs);
         self.inputs.forget(client, &mut teller);
     }
@@ -133,9 +139,37 @@ impl Core {
             }
             RobotRequest::Clear(reason) => self.clear(now_us, &reason, outputs)?,
             RobotRequest::Raw(packet) => self.raw(now_us, (asker.client, &packet), outputs)?,
+            RobotRequest::Calibration(request) => {
+                return self.calibrate(now_us, Asking { asker, request }, outputs);
+            }
             RobotRequest::BorrowLink(answers) => self.lend_link(now_us, (asker.client, answers), outputs)?,
         }
         Ok(Reply::Done)
+    }
+
+    /// The shell gives the robot to the procedure, and answers the client.
+    fn calibrate(
+        &mut self,
+        now_us: u64,
+        Asking { asker, request }: Asking<CalibrationRequest>,
+        outputs: &mut Outputs,
+    ) -> Result<Reply, Refusal> {
+        let begins = matches!(request, CalibrationRequest::Begin(_));
+        let facts = self.link.loan_facts();
+        let device = self.brain_session.as_ref().map(BrainSession::device);
+        let order = self
+            .calibration
+            .order((asker.client, asker.id), request, (facts, device))?;
+        outputs.calibration_orders.push(order);
+        if begins {
+            let text = format!(
+                "{} calibrates the robot",
+                self.audience.clients.name(asker.client)
+            );
+            self.teller(now_us, outputs)
+                .log(LogLevel::Info, LogSource::Client, text);
+        }
+        Ok(Reply::ByShell)
     }
 
     /// The shell closes the device at once, and the robot is disconnected until the client is gone.

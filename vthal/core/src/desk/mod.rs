@@ -7,6 +7,7 @@ pub(crate) mod audience;
 mod awaited;
 pub(crate) mod button_desk;
 mod buttons;
+pub(crate) mod calibration;
 pub(crate) mod checkpoints;
 mod client_inputs;
 mod clients;

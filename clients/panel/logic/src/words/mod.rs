@@ -6,6 +6,7 @@
 
 mod about;
 mod access;
+mod calibration;
 mod device;
 mod drive;
 mod evidence;
@@ -26,6 +27,7 @@ use std::fmt::Display;
 
 pub use about::AboutWords;
 pub use access::AccessWords;
+pub use calibration::{CalibrationNames, CalibrationWords};
 pub use device::DeviceWords;
 pub use drive::DriveWords;
 pub use evidence::EvidenceWords;
@@ -144,6 +146,8 @@ pub struct Words {
     pub about: AboutWords,
     pub access: AccessWords,
     pub action: ActionWords,
+    pub calibration: CalibrationWords,
+    pub calibration_names: CalibrationNames,
     pub device: DeviceWords,
     pub drive: DriveWords,
     pub evidence: EvidenceWords,
@@ -182,6 +186,8 @@ macro_rules! all_screens {
             about: AboutWords::$which,
             access: AccessWords::$which,
             action: ActionWords::$which,
+            calibration: CalibrationWords::$which,
+            calibration_names: CalibrationNames::$which,
             device: DeviceWords::$which,
             drive: DriveWords::$which,
             evidence: EvidenceWords::$which,

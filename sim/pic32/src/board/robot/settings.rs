@@ -18,6 +18,8 @@ pub enum CalibrationChoice {
     Complete,
     /// Everything was measured except these values.
     Without(Vec<String>),
+    /// These values, as an owner has measured them; all others are unknown.
+    Measured(Vec<(String, i32)>),
     /// Nothing: the page is erased.
     Absent,
 }
@@ -84,6 +86,7 @@ impl Blueprint {
                 let unknown: Vec<&str> = unknown.iter().map(String::as_str).collect();
                 put_record(&mut image, &calibration.record_without(&unknown))?;
             }
+            CalibrationChoice::Measured(values) => put_record(&mut image, &calibration.record_of(values))?,
             CalibrationChoice::Absent => erase_record(&mut image)?,
         }
         Ok(Self {

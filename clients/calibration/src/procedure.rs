@@ -2,17 +2,16 @@
 
 use std::time::Duration;
 
-use anyhow::{Context as _, bail};
-use rvac_protocol::message::{ButtonProbe, EncoderProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
+use rvac_protocol::message::{ButtonProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
 
-use super::arithmetic::{
-    Wheels, distance_per_count_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um, travelled,
+use crate::arithmetic::{
+    distance_per_count_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um,
 };
-use super::catalog::{Catalog, Item};
-use super::dialog::Dialog;
-use super::file::Measurements;
-use super::thermistor::{TwoPoints, agrees};
-use crate::robot::Robot;
+use crate::bench::Bench;
+use crate::catalog::Item;
+use crate::error::CalibrationError;
+use crate::screen::{Question, Shown, Task};
+use crate::thermistor::{TwoPoints, agrees};
 
 /// Readings whose mean is a value.
 pub(super) const READINGS: usize = 100;
@@ -21,9 +20,12 @@ const READINGS_EXACT: usize = 1_000;
 /// Readings follow each other after 1 to so many ms, so that they do not fall into step with the sensors' own round.
 const PAUSE_MAX_MS: usize = 13;
 
+/// Every so many readings one is shown.
+const SHOWN_EVERY: usize = 20;
+
 /// A side of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Side {
+pub enum Side {
     Left,
     Right,
 }
@@ -106,50 +108,43 @@ impl Procedure {
     }
 
     /// What a person must know beforehand, if the robot moves something by itself.
-    pub(crate) const fn warning(self) -> Option<&'static str> {
+    pub(crate) const fn danger(self) -> Option<Danger> {
         match self {
-            Self::LeastDuty | Self::FreeSpeed => Some(
-                "The robot will MOVE: put it on the floor with a metre free before it, and stay within reach.",
-            ),
-            Self::CurrentScale | Self::StallCurrent => Some(
-                "A wheel will PULL: keep fingers and hair out of it, and hold the robot so that it cannot get away.",
-            ),
-            Self::BrushLeastDuty | Self::BrushRate => Some(
-                "The main brush will TURN: keep fingers and hair away from it, and the robot on the floor.",
-            ),
+            Self::LeastDuty | Self::FreeSpeed => Some(Danger::Moves),
+            Self::CurrentScale | Self::StallCurrent => Some(Danger::Pulls),
+            Self::BrushLeastDuty | Self::BrushRate => Some(Danger::Brush),
             _ => None,
         }
     }
 }
 
-/// What a procedure works with.
-pub(crate) struct Bench<'a> {
-    /// The robot.
-    pub(crate) robot: &'a mut Robot,
-    /// What can be measured.
-    pub(crate) catalog: &'a Catalog,
-    /// What was measured so far.
-    pub(crate) measured: &'a Measurements,
+/// What moves by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Danger {
+    /// The robot drives.
+    Moves,
+    /// A wheel pulls against a hand.
+    Pulls,
+    /// The main brush turns.
+    Brush,
 }
 
 impl Bench<'_> {
     /// Measures a value once the person is ready.
-    pub(crate) fn measure(&mut self, item: &Item) -> anyhow::Result<i64> {
+    pub(crate) fn measure(&mut self, item: &Item) -> Result<i64, CalibrationError> {
         match Procedure::of(&item.name) {
             Procedure::Push => {
-                let moved = self.moved_by_hand(
-                    "Push it straight ahead along a measure, three metres if there is room, then press Enter.",
-                )?;
-                let distance_mm = Dialog::number(self.robot, "How far did it go, in millimetres?")?;
+                let moved = self.moved_by_hand(Task::Push)?;
+                let distance_mm = self.number(Question::DistanceMm)?;
                 Ok(distance_per_count_nm(moved, distance_mm)?)
             }
             Procedure::Spin => {
                 let way_nm = self.needed("wheel-distance-per-count")?;
-                let moved = self.moved_by_hand("Turn it ten times around on the spot, then press Enter.")?;
+                let moved = self.moved_by_hand(Task::Spin)?;
                 Ok(track_um(moved, 10, way_nm)?)
             }
             Procedure::Order(side) => {
-                let moved = self.moved_by_hand("Turn the wheel forward by half a turn, then press Enter.")?;
+                let moved = self.moved_by_hand(Task::Roll(side))?;
                 Ok(line_order(match side {
                     Side::Left => moved.left,
                     Side::Right => moved.right,
@@ -176,89 +171,79 @@ impl Bench<'_> {
                 Ok(mean_milli(&readings)? / 10)
             }
             Procedure::Voltage(signal) => {
-                let volts = Dialog::number(self.robot, "What does the multimeter show, in millivolts?")?;
+                let volts = self.number(Question::PackMv)?;
                 Ok(scale_uv(volts, mean_milli(&self.line(signal, READINGS)?)?)?)
             }
-            Procedure::Typed => Dialog::number(self.robot, &item.asked()),
+            Procedure::Typed => self.number(Question::Value(item)),
         }
     }
 
     /// Compares the room's temperature with that of the curve through ice and warm water.
-    fn third_temperature(&mut self) -> anyhow::Result<i64> {
+    fn third_temperature(&mut self) -> Result<i64, CalibrationError> {
         let points = TwoPoints {
             ice: self.needed("thermistor-ice")?,
             warm: self.needed("thermistor-warm")?,
             warm_dc: self.needed("thermistor-warm-temperature")?,
         };
         let reading = mean_milli(&self.line("battery-thermistor", READINGS_EXACT)?)?;
-        let room_dc = Dialog::number(
-            self.robot,
-            "What does the room's thermometer show, in tenths of a degree?",
-        )?;
+        let room_dc = self.number(Question::RoomDc)?;
         let found_dc = agrees(points, reading, room_dc)?;
-        Dialog::say(&format!(
-            "  {:.1} degrees by the two points",
-            found_dc as f64 / 10.0
-        ))?;
+        let note = format!("{:.1} degrees by the two points", found_dc as f64 / 10.0);
+        self.screen.show(Shown::Note(&note))?;
         Ok(1)
     }
 
     /// A value that another one is reckoned from.
-    pub(super) fn needed(&self, name: &str) -> anyhow::Result<i64> {
+    pub(super) fn needed(&self, name: &str) -> Result<i64, CalibrationError> {
         self.measured
             .get(name)
-            .with_context(|| format!("{name} must be measured first"))
+            .ok_or_else(|| CalibrationError::Needed(name.to_owned()))
     }
 
     /// So many readings of a line of the converter.
-    pub(super) fn line(&mut self, signal: &str, count: usize) -> anyhow::Result<Vec<i64>> {
+    pub(super) fn line(&mut self, signal: &str, count: usize) -> Result<Vec<i64>, CalibrationError> {
         let channel = self.catalog.channel(signal)?;
         self.readings(count, |raw| level(raw, channel))
     }
 
-    fn readings<Reading>(
+    fn readings<Reading: Newest>(
         &mut self,
         count: usize,
         of: impl Fn(&[u16; PROBE_CHANNELS]) -> Reading,
-    ) -> anyhow::Result<Vec<Reading>> {
+    ) -> Result<Vec<Reading>, CalibrationError> {
         let mut readings = Vec::with_capacity(count);
         while readings.len() < count {
             let pause_ms = 1 + (readings.len() * 5) % PAUSE_MAX_MS;
             self.robot.pass(Duration::from_millis(pause_ms as u64))?;
             match self.robot.probe(ProbeTarget::Analog)? {
-                ProbedContent::Analog(raw) => readings.push(of(&raw)),
-                other => bail!("the robot answered with something else: {other:?}"),
+                ProbedContent::Analog(raw) => {
+                    let reading = of(&raw);
+                    if readings.len().is_multiple_of(SHOWN_EVERY) {
+                        self.screen.show(Shown::Progress {
+                            done: readings.len(),
+                            of: count,
+                            reading: reading.newest(),
+                        })?;
+                    }
+                    readings.push(reading);
+                }
+                _ => return Err(CalibrationError::OtherReading),
             }
         }
         Ok(readings)
     }
 
-    fn totals(&mut self) -> anyhow::Result<Wheels<i32>> {
-        match self.robot.probe(ProbeTarget::Encoders)? {
-            ProbedContent::Encoders(EncoderProbe { left, right, .. }) => Ok(Wheels { left, right }),
-            other => bail!("the robot answered with something else: {other:?}"),
-        }
-    }
-
     /// The line of the buttons, while one is held.
-    fn button(&mut self) -> anyhow::Result<i64> {
+    fn button(&mut self) -> Result<i64, CalibrationError> {
         let level = steady_mean(&self.line("button-ladder", READINGS)?)?;
         match self.robot.probe(ProbeTarget::Buttons)? {
             ProbedContent::Buttons(ButtonProbe { pressed: true, .. }) => Ok(level),
-            _ => bail!(
-                "no button was pressed to the end: hold it from before you press Enter until a value comes"
-            ),
+            _ => Err(CalibrationError::NotPressed),
         }
     }
 
-    fn moved_by_hand(&mut self, wish: &str) -> anyhow::Result<Wheels<i64>> {
-        let before = self.totals()?;
-        Dialog::enter(self.robot, wish)?;
-        Ok(travelled(before, self.totals()?))
-    }
-
     /// Means of three lines of the converter.
-    pub(super) fn three(&mut self, signals: [&str; 3]) -> anyhow::Result<[i64; 3]> {
+    pub(super) fn three(&mut self, signals: [&str; 3]) -> Result<[i64; 3], CalibrationError> {
         let mut channels = [0; 3];
         for (channel, signal) in channels.iter_mut().zip(signals) {
             *channel = self.catalog.channel(signal)?;
@@ -270,6 +255,24 @@ impl Bench<'_> {
             *found = mean(&of_one)?;
         }
         Ok(means)
+    }
+}
+
+/// A reading, of one line or of several.
+trait Newest {
+    /// What is shown of it.
+    fn newest(&self) -> i64;
+}
+
+impl Newest for i64 {
+    fn newest(&self) -> i64 {
+        *self
+    }
+}
+
+impl Newest for [i64; 3] {
+    fn newest(&self) -> i64 {
+        self[0].max(self[1]).max(self[2])
     }
 }
 

@@ -1,49 +1,43 @@
 //! What can be measured on a robot: the tables `[[calibration]]` of its robot.toml and the pins of its pinout.toml.
 
-use anyhow::{Context as _, bail};
 use serde::Deserialize;
+
+use crate::error::CalibrationError;
 
 /// Robots whose tables are part of this program: name, robot.toml, pinout.toml.
 const ROBOTS: [(&str, &str, &str); 1] = [(
     "sr8730",
-    include_str!("../../../../robots/samsung-sr8730/robot.toml"),
-    include_str!("../../../../robots/samsung-sr8730/pinout.toml"),
+    include_str!("../../../robots/samsung-sr8730/robot.toml"),
+    include_str!("../../../robots/samsung-sr8730/pinout.toml"),
 )];
 
 /// A value that a person measures.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) struct Item {
+pub struct Item {
     /// Name.
-    pub(crate) name: String,
+    pub name: String,
     /// Its former name, which older files and scripts may still have.
     former_name: Option<String>,
     /// Unit of the whole number.
-    pub(crate) unit: String,
+    pub unit: String,
     /// Least and greatest value that can be true.
-    pub(crate) range: [i64; 2],
+    pub range: [i64; 2],
     /// What the firmware takes without it; `None` = what needs it is absent.
-    pub(crate) assumed: Option<i64>,
+    pub assumed: Option<i64>,
     /// What is absent without it.
-    pub(crate) needed_for: String,
+    pub needed_for: String,
     /// What to do, in a sentence.
-    pub(crate) measure: String,
+    pub measure: String,
 }
 
 impl Item {
     /// A value of it as people read it: a plain number has no unit.
-    pub(crate) fn shown(&self, value: i64) -> String {
+    #[must_use]
+    pub fn shown(&self, value: i64) -> String {
         match self.unit.as_str() {
             "1" => value.to_string(),
             unit => format!("{value} {unit}"),
-        }
-    }
-
-    /// What a person is asked who types it.
-    pub(crate) fn asked(&self) -> String {
-        match self.unit.as_str() {
-            "1" => "The value, a whole number?".to_owned(),
-            unit => format!("The value, in {unit}?"),
         }
     }
 }
@@ -68,23 +62,31 @@ struct Signal {
 
 /// All that can be measured on one robot.
 #[derive(Debug)]
-pub(crate) struct Catalog {
+pub struct Catalog {
     /// Its name.
-    pub(crate) robot: &'static str,
+    pub robot: &'static str,
     /// The values, in the order in which they are best measured.
-    pub(crate) items: Vec<Item>,
+    pub items: Vec<Item>,
     signals: Vec<Signal>,
 }
 
 impl Catalog {
     /// The catalog of a robot.
-    pub(crate) fn of(robot: &str) -> anyhow::Result<Self> {
+    ///
+    /// # Errors
+    /// There are no tables of it.
+    pub fn of(robot: &str) -> Result<Self, CalibrationError> {
         let Some((name, values, pins)) = ROBOTS.into_iter().find(|(name, ..)| *name == robot) else {
             let known = ROBOTS.map(|(name, ..)| name).join(", ");
-            bail!("nothing can be calibrated on a robot {robot:?}; known: {known}");
+            return Err(CalibrationError::UnknownRobot {
+                robot: robot.to_owned(),
+                known,
+            });
         };
-        let values: RobotFile = toml::from_str(values).context("robot.toml of this program")?;
-        let pins: Pinout = toml::from_str(pins).context("pinout.toml of this program")?;
+        let values: RobotFile =
+            toml::from_str(values).map_err(|error| CalibrationError::Table("robot.toml", error))?;
+        let pins: Pinout =
+            toml::from_str(pins).map_err(|error| CalibrationError::Table("pinout.toml", error))?;
         Ok(Self {
             robot: name,
             items: values.calibration,
@@ -93,16 +95,22 @@ impl Catalog {
     }
 
     /// The value of this name, or of this former name.
-    pub(crate) fn find(&self, name: &str) -> anyhow::Result<&Item> {
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn find(&self, name: &str) -> Result<&Item, CalibrationError> {
         let is_called = |item: &&Item| item.name == name || item.former_name.as_deref() == Some(name);
-        self.items.iter().find(is_called).with_context(|| {
+        self.items.iter().find(is_called).ok_or_else(|| {
             let known: Vec<&str> = self.items.iter().map(|item| item.name.as_str()).collect();
-            format!("there is no value {name:?}; known: {}", known.join(", "))
+            CalibrationError::UnknownValue {
+                name: name.to_owned(),
+                known: known.join(", "),
+            }
         })
     }
 
     /// The converter's channel of a signal, which is written `AN14` among the pin's functions.
-    pub(crate) fn channel(&self, signal: &str) -> anyhow::Result<usize> {
+    pub(crate) fn channel(&self, signal: &str) -> Result<usize, CalibrationError> {
         let functions = self
             .signals
             .iter()
@@ -111,7 +119,7 @@ impl Catalog {
         functions
             .split([',', ' ', '/'])
             .find_map(|function| function.strip_prefix("AN")?.parse().ok())
-            .with_context(|| format!("the pinout gives {signal:?} no channel of the converter"))
+            .ok_or_else(|| CalibrationError::NoChannel(signal.to_owned()))
     }
 }
 

@@ -9,7 +9,7 @@ const PUSHED_MM: RangeInclusive<i64> = 500..=20_000;
 
 /// Why readings give no value.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
-pub(crate) enum NoValue {
+pub enum NoValue {
     /// Nothing moved.
     #[error("the readings did not change: {0}")]
     Still(&'static str),
@@ -58,6 +58,22 @@ pub(crate) enum NoValue {
     /// No reading came.
     #[error("no reading came")]
     Empty,
+}
+
+impl NoValue {
+    /// Its name for clients, which have their own words for it.
+    #[must_use]
+    pub const fn reason(&self) -> &'static str {
+        match self {
+            Self::Still(_) => "calibration-still",
+            Self::Unequal { .. } => "calibration-unequal",
+            Self::Distance(_) => "calibration-distance",
+            Self::Unclear { .. } => "calibration-unclear",
+            Self::Unsteady { .. } => "calibration-unsteady",
+            Self::Faint(_) => "calibration-faint",
+            Self::Empty => "calibration-no-answer",
+        }
+    }
 }
 
 /// A figure of each driven wheel.

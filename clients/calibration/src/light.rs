@@ -2,11 +2,10 @@
 
 use std::time::Duration;
 
-use anyhow::bail;
-
-use super::arithmetic::{Rises, between, brightest, follows, rises};
-use super::dialog::Dialog;
-use super::procedure::Bench;
+use crate::arithmetic::{Rises, between, brightest, follows, rises};
+use crate::bench::Bench;
+use crate::error::CalibrationError;
+use crate::screen::{Shown, Task};
 
 /// The light supply of unknown purpose, which the firmware offers as a light after the eight known ones while it is unknown
 /// what lights the cliff sensors.
@@ -31,8 +30,8 @@ const SWEEP: usize = 140;
 
 impl Bench<'_> {
     /// 1 if the cliff sensors see the supply of unknown purpose.
-    pub(super) fn cliff_line(&mut self) -> anyhow::Result<i64> {
-        Dialog::enter(self.robot, "Put it on a light floor, then press Enter.")?;
+    pub(super) fn cliff_line(&mut self) -> Result<i64, CalibrationError> {
+        self.enter(Task::LightFloor)?;
         let dark = self.cliffs(false)?;
         let lit = self.cliffs(true);
         self.robot.light(UNKNOWN_SUPPLY, false)?;
@@ -40,32 +39,22 @@ impl Bench<'_> {
     }
 
     /// Half of the least rise from a drop to the darkest floor.
-    pub(super) fn cliff_floor(&mut self) -> anyhow::Result<i64> {
+    pub(super) fn cliff_floor(&mut self) -> Result<i64, CalibrationError> {
         let on = self.needed("cliff-emitter-line")? == 1;
-        Dialog::enter(
-            self.robot,
-            "Put it on the darkest floor you have, then press Enter.",
-        )?;
+        self.enter(Task::DarkFloor)?;
         let floor = self.cliffs(on)?;
-        Dialog::enter(
-            self.robot,
-            "Hold all three sensors over the edge of a table, or lift it to your chest, then press Enter.",
-        )?;
+        self.enter(Task::Drop)?;
         let drop = self.cliffs(on);
         self.robot.light(UNKNOWN_SUPPLY, false)?;
         let Rises { least, greatest } = rises(drop?, floor);
-        Dialog::say(&format!(
-            "  the floor stands {least} to {greatest} counts above the drop"
-        ))?;
+        let note = format!("the floor stands {least} to {greatest} counts above the drop");
+        self.screen.show(Shown::Note(&note))?;
         Ok(between(least)?)
     }
 
     /// The greatest level over a drop.
-    pub(super) fn cliff_drop(&mut self) -> anyhow::Result<i64> {
-        Dialog::enter(
-            self.robot,
-            "Hold all three sensors over the edge of a table, or lift it to your chest, then press Enter.",
-        )?;
+    pub(super) fn cliff_drop(&mut self) -> Result<i64, CalibrationError> {
+        self.enter(Task::Drop)?;
         let on = self.needed("cliff-emitter-line")? == 1;
         let drop = self.cliffs(on);
         self.robot.light(UNKNOWN_SUPPLY, false)?;
@@ -74,38 +63,31 @@ impl Bench<'_> {
     }
 
     /// The brightest of all sensors with nothing before them.
-    pub(super) fn proximity_none(&mut self) -> anyhow::Result<i64> {
-        Dialog::enter(
-            self.robot,
-            "Leave a metre free around its front and step back, then press Enter.",
-        )?;
+    pub(super) fn proximity_none(&mut self) -> Result<i64, CalibrationError> {
+        self.enter(Task::FreeFront)?;
         Ok(brightest(&self.line(RECEIVE, 2 * SWEEP)?)?)
     }
 
     /// The dimmest of all sensors with paper at it.
-    pub(super) fn proximity_touching(&mut self) -> anyhow::Result<i64> {
+    pub(super) fn proximity_touching(&mut self) -> Result<i64, CalibrationError> {
         let mut least = i64::MAX;
         for (number, name) in PROXIMITY.iter().enumerate() {
-            let wish = format!(
-                "Hold white paper flat against the {name} sensor ({} of {}, from the right), then press Enter.",
-                number + 1,
-                PROXIMITY.len()
-            );
-            Dialog::enter(self.robot, &wish)?;
+            self.enter(Task::Paper {
+                number: number + 1,
+                sensor: name,
+                of: PROXIMITY.len(),
+            })?;
             let seen = brightest(&self.line(RECEIVE, SWEEP)?)?;
-            Dialog::say(&format!("  {name}: {seen}"))?;
+            self.screen.show(Shown::Note(&format!("{name}: {seen}")))?;
             least = least.min(seen);
         }
         Ok(least)
     }
 
     /// Levels of the three cliff sensors with the supply of unknown purpose on or off.
-    fn cliffs(&mut self, on: bool) -> anyhow::Result<[i64; 3]> {
+    fn cliffs(&mut self, on: bool) -> Result<[i64; 3], CalibrationError> {
         if self.robot.lights() <= UNKNOWN_SUPPLY {
-            bail!(
-                "this robot already knows its cliff sensors and switches their light itself; to measure again, program it \
-                 without a calibration"
-            );
+            return Err(CalibrationError::CliffsKnown);
         }
         self.robot.light(UNKNOWN_SUPPLY, on)?;
         self.robot.pass(SETTLE)?;

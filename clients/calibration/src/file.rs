@@ -5,14 +5,14 @@ use std::fmt::Write as _;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
 use serde::Deserialize;
 
-use super::catalog::Catalog;
+use crate::catalog::Catalog;
+use crate::error::CalibrationError;
 
 /// The file, and what it holds.
 #[derive(Debug)]
-pub(crate) struct Measurements {
+pub struct Measurements {
     path: PathBuf,
     values: BTreeMap<String, i64>,
 }
@@ -27,7 +27,10 @@ struct Content {
 
 impl Measurements {
     /// Reads the file; one that is not there is empty.
-    pub(crate) fn open(path: &Path, catalog: &Catalog) -> anyhow::Result<Self> {
+    ///
+    /// # Errors
+    /// It cannot be read, or holds something else.
+    pub fn open(path: &Path, catalog: &Catalog) -> Result<Self, CalibrationError> {
         let mut measurements = Self {
             path: path.to_owned(),
             values: BTreeMap::new(),
@@ -35,46 +38,47 @@ impl Measurements {
         let text = match kept_file::read_text(path) {
             Ok(text) => text,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(measurements),
-            Err(error) => return Err(error).with_context(|| format!("cannot read {}", path.display())),
+            Err(error) => return Err(CalibrationError::Unreadable(path.to_owned(), error)),
         };
-        let content: Content = toml::from_str(&text).with_context(|| {
-            format!(
-                "{} is not a calibration: it holds `robot = \"NAME\"` and a table [values]",
-                path.display()
-            )
-        })?;
+        let content: Content = toml::from_str(&text)
+            .map_err(|error| CalibrationError::NotCalibration(path.to_owned(), error))?;
         if content.robot != catalog.robot {
-            bail!(
-                "{} is of a robot {:?}, not {:?}: name another file with --file",
-                path.display(),
-                content.robot,
-                catalog.robot
-            );
+            return Err(CalibrationError::OtherRobot {
+                file: path.to_owned(),
+                of: content.robot,
+                robot: catalog.robot,
+            });
         }
         for (name, value) in content.values {
             let item = catalog
                 .find(&name)
-                .with_context(|| format!("{} cannot be kept as it is", path.display()))?;
+                .map_err(|error| CalibrationError::Strange(path.to_owned(), Box::new(error)))?;
             measurements.values.insert(item.name.clone(), value);
         }
         Ok(measurements)
     }
 
     /// A value, if it was measured.
-    pub(crate) fn get(&self, name: &str) -> Option<i64> {
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<i64> {
         self.values.get(name).copied()
     }
 
     /// Keeps a value: the file is written beside the old one and then takes its place.
-    pub(crate) fn keep(&mut self, catalog: &Catalog, name: &str, value: i64) -> anyhow::Result<()> {
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn keep(&mut self, catalog: &Catalog, name: &str, value: i64) -> Result<(), CalibrationError> {
         self.values.insert(name.to_owned(), value);
         let beside = self.path.with_extension("toml.new");
         std::fs::write(&beside, self.text(catalog))
             .and_then(|()| std::fs::rename(&beside, &self.path))
-            .with_context(|| format!("cannot write {}", self.path.display()))
+            .map_err(|error| CalibrationError::Unwritable(self.path.clone(), error))
     }
 
-    fn text(&self, catalog: &Catalog) -> String {
+    /// The file as text.
+    #[must_use]
+    pub fn text(&self, catalog: &Catalog) -> String {
         let mut text = format!(
             "# Measured on one robot by `rvac calibrate`; `cargo xtask firmware {0} --calibration FILE` builds it in.\n\
              robot = \"{0}\"\n\n[values]\n",
@@ -93,7 +97,7 @@ impl Measurements {
 #[cfg(test)]
 mod tests {
     use super::Measurements;
-    use crate::calibrate::catalog::Catalog;
+    use crate::catalog::Catalog;
     use crate::folder::Folder;
 
     #[test]

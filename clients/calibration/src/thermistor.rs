@@ -25,7 +25,7 @@ pub(crate) struct TwoPoints {
 
 /// Why a third point proves nothing.
 #[derive(Debug, thiserror::Error, PartialEq, Eq)]
-pub(crate) enum NoAgreement {
+pub enum NoAgreement {
     /// Too near to one of the others.
     #[error("a room of {0} tenths of a degree tells nothing: 15 to 30 degrees do")]
     Room(i64),
