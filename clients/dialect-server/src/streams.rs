@@ -3,7 +3,8 @@
 
 use std::collections::VecDeque;
 use std::convert::Infallible;
-use std::sync::{Mutex, PoisonError};
+use std::future::pending;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use axum::response::Sse;
@@ -69,12 +70,28 @@ impl Streams {
     }
 }
 
+/// A text that a client follows; nothing for one that it does not: maps are made only while somebody follows them.
+type Followed = Option<watch::Receiver<Text>>;
+
+async fn changed(followed: &mut Followed) -> Option<()> {
+    match followed {
+        Some(text) => text.changed().await.ok(),
+        None => pending().await,
+    }
+}
+
+fn newest(followed: &mut Followed) -> Text {
+    followed
+        .as_mut()
+        .map_or_else(|| "".into(), |text| Arc::clone(&text.borrow_and_update()))
+}
+
 /// A client of a stream.
 struct Follower {
     pushed: Pushed,
     leaving: oneshot::Receiver<()>,
-    attributes: watch::Receiver<Text>,
-    map: watch::Receiver<Text>,
+    attributes: Followed,
+    map: Followed,
     is_new: bool,
 }
 
@@ -82,15 +99,13 @@ impl Follower {
     /// The next event: at once what is now, then what changes.
     async fn next(&mut self) -> Option<Event> {
         if !std::mem::take(&mut self.is_new) {
-            let (state, map) = (self.pushed != Pushed::Map, self.pushed != Pushed::Attributes);
             tokio::select! {
                 _ = &mut self.leaving => return None,
-                changed = self.attributes.changed(), if state => changed.ok()?,
-                changed = self.map.changed(), if map => changed.ok()?,
+                said = changed(&mut self.attributes) => said?,
+                said = changed(&mut self.map) => said?,
             }
         }
-        let attributes = self.attributes.borrow_and_update().clone();
-        let map = self.map.borrow_and_update().clone();
+        let (attributes, map) = (newest(&mut self.attributes), newest(&mut self.map));
         let event = Event::default().event(self.pushed.event());
         Some(match self.pushed {
             Pushed::State => event.data(state_text(&attributes, &map)),
@@ -108,8 +123,8 @@ pub(crate) fn follow(
     let follower = Follower {
         pushed,
         leaving: site.streams.join(pushed),
-        attributes: site.attributes(),
-        map: site.map(),
+        attributes: (pushed != Pushed::Map).then(|| site.attributes()),
+        map: (pushed != Pushed::Attributes).then(|| site.map()),
         // A map on which nothing is is told to whoever asks, and pushed to nobody.
         is_new: pushed != Pushed::Map || site.frame().is_some(),
     };

@@ -3,7 +3,7 @@
 use crate::{fetched, process, system, workspace};
 use anyhow::{Context, ensure};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// What Home Assistant asks for when it starts, in the versions that its own list names.
 const PARTS: [&str; 5] = [
@@ -95,8 +95,10 @@ fn newest_python() -> PathBuf {
 
 /// Of a Python that works, for example 3, 13, 0.
 fn version(python: &Path) -> Vec<u32> {
-    let told = process::capture(Command::new(python).arg("--version").stderr(Stdio::null()));
-    let told = told.unwrap_or_default();
+    // A shim without a Python behind it complains at length, and fails.
+    let told = process::finish(Command::new(python).arg("--version"));
+    let told = told.map_or_else(|_| Vec::new(), |told| told.stdout);
+    let told = String::from_utf8_lossy(&told);
     let numbers = told.trim().trim_start_matches("Python ").split('.');
     numbers.map_while(|number| number.parse().ok()).collect()
 }
