@@ -2,7 +2,7 @@
 
 use std::io;
 
-use calibration::RobotEvent;
+use calibration::{CalibrationError, RobotEvent};
 use rvac_api::Update;
 use vthal_core::{CalibrationOrder, CalibrationTask, ClientId, Input, LinkLoss};
 
@@ -52,11 +52,13 @@ impl Daemon {
     }
 
     fn show_calibration(&mut self, asker: Asker, device: Option<&str>) {
-        let Some(device) = device else {
-            let text = "No robot has been attached yet.".to_owned();
-            return self.refuse(asker, "no-robot", text);
+        let device = device.unwrap_or_default();
+        // A page asks by itself: that nothing can be measured is an answer, and no refusal.
+        let known = match measured(device, &self.wiring.calibration_file) {
+            Err(CalibrationError::UnknownRobot { .. }) => Ok((Vec::new(), String::new())),
+            other => other,
         };
-        match measured(device, &self.wiring.calibration_file) {
+        match known {
             Ok((values, file)) => {
                 let device = device.to_owned();
                 self.tell_done(asker, Some(Update::Calibration { device, values, file }));
