@@ -84,6 +84,28 @@ fn distance_m((from, to): ((f64, f64), (f64, f64)), place: (f64, f64)) -> f64 {
     (apart.0 - share * along.0).hypot(apart.1 - share * along.1)
 }
 
+/// How long the disk may tell of a job after somebody has stopped it, milliseconds.
+const STOPPED_MS: u64 = 200;
+
+#[test]
+fn a_power_cut_soon_after_stop_does_not_bring_the_job_back() {
+    for after_ms in [3_000, 3_300, 3_700, 4_100, 9_000] {
+        let mut household = waiting();
+        household.ask(RequestBody::Start {
+            strategy: Some("systematic".to_owned()),
+        });
+        household.pass_ms(after_ms);
+        let has_job = |household: &Household| {
+            let kept = household.host().and_then(Host::checkpoint);
+            kept.is_some_and(|kept| kept.brain.job.is_some())
+        };
+        assert!(has_job(&household), "{after_ms} ms after the start");
+        household.ask(RequestBody::Stop);
+        household.pass_ms(STOPPED_MS);
+        assert!(!has_job(&household), "stopped {after_ms} ms after the start");
+    }
+}
+
 #[test]
 fn a_run_that_a_person_pauses_and_stops_is_told_with_both() {
     let mut household = waiting();

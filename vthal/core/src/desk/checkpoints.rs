@@ -46,6 +46,12 @@ impl CheckpointClock {
         brain_session: &BrainSession,
         run: impl FnOnce() -> Option<RunRecord>,
     ) -> Option<Checkpoint> {
+        let has_job = works(brain_session);
+        if self.had_job && !has_job {
+            // What is on the disk would let the robot go on by itself after a power cut, though somebody has stopped it.
+            self.in_progress = None;
+            self.next_us = now_us;
+        }
         if let Some(work) = &mut self.in_progress {
             let checkpoint = work.go_on()?;
             self.in_progress = None;
@@ -54,7 +60,6 @@ impl CheckpointClock {
         if now_us < self.next_us {
             return None;
         }
-        let has_job = works(brain_session);
         if has_job || self.had_job {
             self.had_job = has_job;
             self.in_progress = Some(CheckpointInProgress {
