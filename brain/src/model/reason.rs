@@ -105,6 +105,8 @@ named_enum! {
         NoGoAhead => "no-go-ahead",
         /// Floor was forbidden around the robot: it leaves it on the shortest way first.
         InsideNoGo => "inside-no-go",
+        /// What is left costs more time than it is worth.
+        NotWorthTheTime => "not-worth-the-time",
         /// The pack is low, and what is left is not worth another charge.
         CrumbsLeft => "crumbs-left",
         /// Much could not be reached on a first run, and is tried once more from the dock, where the robot knows its place.

@@ -167,6 +167,7 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("start-up", None),
     ("command", None),
     ("look-again", Some(Trouble::Route)),
+    ("not-worth-the-time", Some(Trouble::Route)),
     ("crumbs-left", Some(Trouble::BatteryLow)),
     ("finished", None),
     ("continued", None),

@@ -118,7 +118,11 @@ impl Behavior {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
             && matches!(
                 reason,
-                Reason::Finished | Reason::RestOutOfReach | Reason::ByStatistics | Reason::CrumbsLeft
+                Reason::Finished
+                    | Reason::RestOutOfReach
+                    | Reason::NotWorthTheTime
+                    | Reason::ByStatistics
+                    | Reason::CrumbsLeft
             );
         if has_cleaned && self.retries_from_dock(reason, situation) {
             return self.turn_home(Reason::LookAgain, context);
@@ -141,7 +145,10 @@ impl Behavior {
 
     /// The reason for the end of a cleaning job, which is another one when less than half of what was asked is swept.
     fn honest(&self, reason: Reason, situation: &Situation<'_>) -> Reason {
-        let is_done = matches!(reason, Reason::Finished | Reason::RestOutOfReach);
+        let is_done = matches!(
+            reason,
+            Reason::Finished | Reason::RestOutOfReach | Reason::NotWorthTheTime
+        );
         let plans = self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
         let order = self.order().filter(|_| is_done && plans);
         let from = situation.pose.position();

@@ -14,6 +14,7 @@
 mod assignment;
 mod contact_offset;
 mod frontier;
+mod gain;
 mod known_floor;
 mod new_obstacles;
 mod outline;
@@ -48,6 +49,7 @@ use crate::navigation::{
 use assignment::{Assignment, Next};
 use contact_offset::ContactOffset;
 use frontier::margin_cells;
+use gain::Gain;
 use known_floor::KnownFloor;
 use outline::{OptimisticMargin, Outline, knows_home, shuts_in};
 use parameters::{SQUEEZE, SYSTEMATIC};
@@ -100,6 +102,7 @@ pub(crate) struct Systematic {
     /// The floor of a known home.
     known_floor: Option<KnownFloor>,
     shares: Shares,
+    gain: Gain,
     way_out: WayOut,
 }
 
@@ -118,6 +121,7 @@ impl Task for Systematic {
         if let Some(plan) = self.lap(situation, context) {
             return plan;
         }
+        self.gain.work(situation.observation.time_us);
         if let Some(escape_bounce) = &mut self.escape_bounce {
             if let Some(plan) = escape_bounce.step(situation, context) {
                 return plan;
@@ -168,6 +172,7 @@ impl Task for Systematic {
     fn looks_again(&mut self) {
         self.obstructions.clear();
         self.squeeze.reset_attempts();
+        self.gain.begin_anew();
         (self.failed_plans, self.fresh_starts, self.escapes) = (0, 0, 0);
     }
 
@@ -205,6 +210,7 @@ impl Systematic {
         (self.floor_m2, self.open_before_m2, self.passed_at_start_m2) = (0.0, 0.0, 0.0);
         (self.failed_plans, self.fresh_starts, self.escapes) = (0, 0, 0);
         self.shares = Shares::default();
+        self.gain.begin_anew();
         true
     }
 
@@ -391,6 +397,7 @@ impl Systematic {
         passed.cover(&window);
         let (passed, target) = (passed.cells(), self.assignment.target_floor(situation.map));
         let counted = PassedFloor::count(&passed, &target, situation.map, &settings);
+        self.gain.count(counted.m2());
         self.shares.begin(settings, counted);
         PlanProgress::begin(PlanInputs {
             knowledge: knowledge.clone(),

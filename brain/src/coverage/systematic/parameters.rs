@@ -65,6 +65,22 @@ pub(super) const EVALUATION: EvaluationParameters = EvaluationParameters {
     connected_share_min: 0.05,
 };
 
+/// When what is left is not worth its time.
+pub(super) struct GainParameters {
+    /// So much floor, square metres, must be won ...
+    pub(super) worth_m2: f64,
+    /// ... within so much time of work, microseconds. Open floor wins 1.5 to 2 square metres a minute.
+    pub(super) within_us: u64,
+    /// A longer time between two steps was no work, microseconds.
+    pub(super) step_max_us: u64,
+}
+
+pub(super) const GAIN: GainParameters = GainParameters {
+    worth_m2: 0.5,
+    within_us: 360_000_000,
+    step_max_us: 1_000_000,
+};
+
 /// What the robot knows of the outline of its home.
 pub(super) struct OutlineParameters {
     /// If less than this share of the known free floor is reachable after the lap, the map wrongly encloses the robot.

@@ -68,6 +68,9 @@ impl Systematic {
         if plan.lanes == 0 {
             return Some(self.end(&made, situation, context));
         }
+        if !self.gain.is_worth_it() {
+            return Some(self.end_part(situation, context));
+        }
         if self.failed_plans > EVALUATION.failed_plans_max {
             return Some(self.bounce_out(situation, context));
         }
@@ -91,6 +94,11 @@ impl Systematic {
         if self.is_cut_off && self.escapes < EVALUATION.escapes_cut_off_max {
             return self.bounce_out(situation, context);
         }
+        self.end_part(situation, context)
+    }
+
+    /// Nothing that is worth its time is left of this part: goes on with the next one, or ends the job.
+    fn end_part(&mut self, situation: &Situation<'_>, context: &mut TaskContext) -> TaskStatus {
         let share = self.swept_share(situation.map).map_or(0.0, |swept| swept.share);
         let is_cut_off = self.is_cut_off || situation.map.connected_share() < 1.0;
         let has_lost_a_part = self.is_floor_shut_off() && share < 1.0 - EVALUATION.rest_share;
@@ -100,6 +108,8 @@ impl Systematic {
         }
         let reason = if self.assignment.is_missed {
             Reason::RestOutOfReach
+        } else if !self.gain.is_worth_it() && share < 1.0 - EVALUATION.rest_share {
+            Reason::NotWorthTheTime
         } else {
             Reason::Finished
         };

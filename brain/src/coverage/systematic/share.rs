@@ -47,6 +47,11 @@ impl PassedFloor {
         }
     }
 
+    /// The passed floor, square metres.
+    pub(super) fn m2(self) -> f64 {
+        self.m2
+    }
+
     /// Ratio of the low bound to the passed floor.
     fn kept_low(self) -> f64 {
         if self.m2 > 0.0 { self.low_m2 / self.m2 } else { 1.0 }

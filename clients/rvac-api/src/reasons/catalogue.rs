@@ -21,6 +21,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("start-up", "The software has just started.", ""),
     entry("command", "It was requested.", ""),
     entry("look-again", "It could not reach a large part of the home, and tries once more from its dock: it knows its place there, and what stood in the way may be gone by then.", "See that no door is shut."),
+    entry("not-worth-the-time", "Too much stands in the way of the rest: six minutes won less than half a square metre.", "Move chairs and other things away there, or make it a no-go zone."),
     entry("crumbs-left", "The battery is low, and so little is left that another charge would mostly go into the way there and back.", "Send it to a room if that floor matters."),
     entry("finished", "The job is done.", ""),
     entry("continued", "It goes on by itself after an interruption.", ""),

@@ -126,7 +126,7 @@ impl Ending {
 fn is_done(reason: &str) -> bool {
     matches!(
         reason,
-        "finished" | "rest-out-of-reach" | "by-statistics" | "crumbs-left"
+        "finished" | "rest-out-of-reach" | "not-worth-the-time" | "by-statistics" | "crumbs-left"
     )
 }
 

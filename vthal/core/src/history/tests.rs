@@ -17,7 +17,13 @@ fn clean() -> RunJob {
 #[test]
 fn a_job_that_has_nothing_left_to_do_is_finished_for_its_own_reason() {
     let clean = clean();
-    for reason in ["finished", "rest-out-of-reach", "by-statistics", "crumbs-left"] {
+    for reason in [
+        "finished",
+        "rest-out-of-reach",
+        "not-worth-the-time",
+        "by-statistics",
+        "crumbs-left",
+    ] {
         let words = LastWords {
             job: &clean,
             reason: "docked",

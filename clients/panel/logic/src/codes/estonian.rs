@@ -34,6 +34,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("start-up", "Tarkvara äsja käivitus.", ""),
     entry("command", "Keegi palus seda.", ""),
     entry("look-again", "Suur osa kodust jäi kättesaamatuks. Robot proovib dokist veel kord: seal teab ta oma asukohta, ja mis teel ees oli, võib vahepeal kadunud olla.", "Vaata, et ükski uks ei oleks kinni."),
+    entry("not-worth-the-time", "Ülejäänu juures on liiga palju asju ees: kuue minutiga lisandus alla poole ruutmeetri.", "Tõsta toolid ja muud asjad sealt ära või tee sellest keeluala."),
     entry("crumbs-left", "Aku on tühjenemas ja koristamata on nii vähe, et uus laadimine kuluks peamiselt sõidule sinna ja tagasi.", "Kui see põrand on tähtis, saada robot sellesse tuppa."),
     entry("finished", "Töö on tehtud.", ""),
     entry("continued", "Robot jätkab pärast katkestust ise.", ""),
