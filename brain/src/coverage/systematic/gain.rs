@@ -58,13 +58,13 @@ mod tests {
         let mut gain = Gain::default();
         let now_us = work(&mut gain, 7_000_000, GAIN.within_us / 2);
         gain.count(3.0);
-        let now_us = work(&mut gain, now_us, GAIN.within_us - 10 * STEP_US);
+        let now_us = work(&mut gain, now_us, GAIN.within_us - 2 * GAIN.step_max_us);
         gain.count(3.0 + 0.9 * GAIN.worth_m2);
         assert!(gain.is_worth_it());
         // Two hours on the charger.
         let now_us = work(&mut gain, now_us + 7_200_000_000, 5 * STEP_US);
         assert!(gain.is_worth_it());
-        let now_us = work(&mut gain, now_us, GAIN.step_max_us);
+        let now_us = work(&mut gain, now_us, 2 * GAIN.step_max_us);
         assert!(!gain.is_worth_it());
         gain.count(3.0 + GAIN.worth_m2);
         assert!(gain.is_worth_it());
