@@ -134,6 +134,8 @@ async fn verbs(rig: &Rig, role: Role, cookie: &str, report: &mut Report) {
 /// What each request must say besides.
 fn arguments_of(verb: &str) -> &'static str {
     match verb {
+        "answer-calibration" => r#","page":1,"answer":"go""#,
+        "hold-calibration" => r#","held":false"#,
         "hello" => r#","name":"x""#,
         "watch" => r#","topics":[]"#,
         "clean" | "estimate" => r#","parts":[]"#,
