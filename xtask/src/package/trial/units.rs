@@ -46,7 +46,7 @@ pub(super) fn check(root: &Path) -> anyhow::Result<Vec<Exposure>> {
     let complaints: Vec<String> = String::from_utf8_lossy(&output.stderr)
         .lines()
         .filter(|line| units().any(|unit| line.contains(unit)))
-        .filter(|line| !(line.contains("Unknown key name") && NEW_KEYS.iter().any(|key| line.contains(key))))
+        .filter(|line| !(line.contains("Unknown key") && NEW_KEYS.iter().any(|key| line.contains(key))))
         .map(str::to_owned)
         .collect();
     if !output.status.success() || !complaints.is_empty() {
