@@ -187,6 +187,15 @@ named_enum! {
 }
 
 impl Reason {
+    /// Whether a job by plans is over for it, because nothing is left that can be reached and is worth its time.
+    #[must_use]
+    pub fn ends_plans(self) -> bool {
+        matches!(
+            self,
+            Self::Finished | Self::RestOutOfReach | Self::NotWorthTheTime
+        )
+    }
+
     /// The reason that fits pressed bumper zones, if any is pressed.
     #[must_use]
     pub fn of_contacts(contacts: Contacts) -> Option<Self> {

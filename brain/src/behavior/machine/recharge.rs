@@ -116,14 +116,7 @@ impl Behavior {
     /// the job: a robot that started elsewhere has never been on it.
     pub(super) fn finish(&mut self, reason: Reason, situation: &Situation<'_>, context: &mut TaskContext) {
         let has_cleaned = matches!(self.job_kind(), Some(JobKind::Clean(_)))
-            && matches!(
-                reason,
-                Reason::Finished
-                    | Reason::RestOutOfReach
-                    | Reason::NotWorthTheTime
-                    | Reason::ByStatistics
-                    | Reason::CrumbsLeft
-            );
+            && (reason.ends_plans() || matches!(reason, Reason::ByStatistics | Reason::CrumbsLeft));
         if has_cleaned && self.retries_from_dock(reason, situation) {
             return self.turn_home(Reason::LookAgain, context);
         }
@@ -145,12 +138,8 @@ impl Behavior {
 
     /// The reason for the end of a cleaning job, which is another one when less than half of what was asked is swept.
     fn honest(&self, reason: Reason, situation: &Situation<'_>) -> Reason {
-        let is_done = matches!(
-            reason,
-            Reason::Finished | Reason::RestOutOfReach | Reason::NotWorthTheTime
-        );
         let plans = self.job_kind() == Some(JobKind::Clean(StrategyName::Systematic));
-        let order = self.order().filter(|_| is_done && plans);
+        let order = self.order().filter(|_| reason.ends_plans() && plans);
         let from = situation.pose.position();
         let radius_m = self.config.body.radius_m;
         order

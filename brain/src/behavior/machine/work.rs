@@ -196,9 +196,7 @@ impl Behavior {
         }
         let plan = self.plan(situation, context);
         match plan {
-            TaskStatus::Finished(Reason::Finished | Reason::RestOutOfReach | Reason::NotWorthTheTime)
-                if self.ends_in_pen(situation) =>
-            {
+            TaskStatus::Finished(reason) if reason.ends_plans() && self.ends_in_pen(situation) => {
                 TaskStatus::Trouble(Reason::ShutIn)
             }
             TaskStatus::Finished(reason) => self.end_untouched(reason, situation),
