@@ -7,9 +7,9 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::mpsc::{self, Receiver};
 
 use calibration::{
-    CalibrationError, Catalog, Danger, Hold, Measurements, Plan, Question, Robot, RobotEvent, Screen, Shown,
-    Side, Task, walk,
+    CalibrationError, Danger, Hold, Plan, Question, Robot, RobotEvent, Screen, Shown, Side, Task, walk,
 };
+use calibration_values::{Catalog, Measurements, ValuesError};
 use rvac_api::{CalibrationAnswer, CalibrationAsk, CalibrationPage, CalibrationValue};
 use tokio::sync::mpsc::Sender;
 
@@ -101,10 +101,7 @@ impl CalibrationHandle {
 }
 
 /// All values of a robot, with what the file holds of them, and the file as text.
-pub(crate) fn measured(
-    device: &str,
-    file: &Path,
-) -> Result<(Vec<CalibrationValue>, String), CalibrationError> {
+pub(crate) fn measured(device: &str, file: &Path) -> Result<(Vec<CalibrationValue>, String), ValuesError> {
     let catalog = Catalog::of(device)?;
     let measured = Measurements::open(file, &catalog)?;
     let values = catalog.items.iter().map(|item| CalibrationValue {

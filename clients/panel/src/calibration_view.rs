@@ -205,8 +205,9 @@ fn StepView(store: Store) -> impl IntoView {
 /// What was found, beside what was kept before.
 #[component]
 fn Findings(desk: CalibrationDesk) -> impl IntoView {
-    let figure =
-        |value: Option<i64>, page: &CalibrationPage| value.map(|value| measured_text(value, &page.unit));
+    let figure = |value: Option<i64>, page: &CalibrationPage| {
+        value.map(|value| measured_text(words(), value, &page.unit))
+    };
     let kept = move || {
         desk.of_page(|page| figure(page.kept, page).map(|kept| words().calibration.kept.fill([&kept])))
             .flatten()

@@ -211,16 +211,7 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
             self.report(Task::Verify, done * PAGE_BYTES);
             let mut page = [0; PAGE_BYTES];
             self.repeat(address, |port| port.read_by_stub(KSEG1 | address, &mut page))?;
-            let words = page.chunks(4).zip(wanted.chunks(4)).enumerate();
-            for (index, (found, wanted)) in words {
-                if found != wanted {
-                    return Err(IcspError::Differs {
-                        address: address + 4 * index as u32,
-                        wanted: word_of(wanted),
-                        found: word_of(found),
-                    });
-                }
-            }
+            compare((address, wanted), &page)?;
         }
         self.report(Task::Verify, TOTAL_BYTES);
         Ok(())
@@ -265,6 +256,24 @@ impl<'a, P: IcspPins> Programmer<'a, P> {
         self.write_configuration(image.configuration())?;
         self.report(Task::Write, TOTAL_BYTES);
         Ok(())
+    }
+
+    /// Erases and writes one page, and reads it back; all others stay. The address is physical and a multiple of [`PAGE_BYTES`].
+    ///
+    /// # Errors
+    /// The first word that differs, or see [`IcspError`].
+    pub fn write_page(&mut self, address: u32, page: &[u8; PAGE_BYTES]) -> Result<(), IcspError<P::Error>> {
+        self.repeat(address, |port| {
+            port.begin_erasure(address)?;
+            for (index, row) in page.chunks(ROW_BYTES).enumerate() {
+                if row.iter().any(|byte| *byte != 0xFF) {
+                    port.begin_row(address + (index * ROW_BYTES) as u32, row)?;
+                }
+            }
+            port.finish_flash()
+        })?;
+        let found = self.read_page(address)?;
+        compare((address, page), &found)
     }
 
     /// Erases everything, a chip that is protected included.
@@ -354,4 +363,19 @@ fn error_kind<E>(error: &IcspError<E>) -> (std::mem::Discriminant<IcspError<E>>,
         _ => 0,
     };
     (std::mem::discriminant(error), detail)
+}
+
+/// Whether a page holds what it should; the first word that differs otherwise.
+fn compare<E>((address, wanted): (u32, &[u8]), found: &[u8]) -> Result<(), IcspError<E>> {
+    let words = found.chunks(4).zip(wanted.chunks(4)).enumerate();
+    for (index, (found, wanted)) in words {
+        if found != wanted {
+            return Err(IcspError::Differs {
+                address: address + 4 * index as u32,
+                wanted: word_of(wanted),
+                found: word_of(found),
+            });
+        }
+    }
+    Ok(())
 }

@@ -38,6 +38,12 @@ pub enum FlashVerb {
         #[command(flatten)]
         safeguards: Safeguards,
     },
+    /// Write what was measured on this robot into its flash, where its firmware finds it; the firmware stays.
+    Calibration {
+        /// The values, as `rvac calibrate` and the panel keep them.
+        #[arg(default_value = "/var/lib/vthal/calibration.toml")]
+        file: PathBuf,
+    },
     /// Compare the chip with an Intel HEX file.
     Verify {
         /// The firmware.

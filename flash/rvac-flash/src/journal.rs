@@ -28,10 +28,20 @@ pub struct JournalEntry {
     pub last_verified: Option<String>,
 }
 
+/// The last write of a calibration, which touches one page and leaves the firmware.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CalibrationEntry {
+    state: WriteState,
+    /// When, UTC.
+    date: String,
+}
+
 /// The journal of one robot.
 #[derive(Clone, Debug)]
 pub struct Journal {
     path: PathBuf,
+    calibration: PathBuf,
 }
 
 impl Journal {
@@ -39,6 +49,7 @@ impl Journal {
     pub fn new(folder: &Path) -> Self {
         Self {
             path: folder.join("last-write.toml"),
+            calibration: folder.join("last-calibration.toml"),
         }
     }
 
@@ -54,12 +65,13 @@ impl Journal {
     /// When the file cannot be written.
     pub fn begin(&self, sha256: &str, date: &str) -> std::io::Result<()> {
         let last_verified = self.last().and_then(|last| last.last_verified);
-        self.put(&JournalEntry {
+        let entry = JournalEntry {
             state: WriteState::Writing,
             sha256: sha256.to_owned(),
             date: date.to_owned(),
             last_verified,
-        })
+        };
+        put(&self.path, &entry)
     }
 
     /// It is verified.
@@ -67,28 +79,53 @@ impl Journal {
     /// # Errors
     /// When the file cannot be written.
     pub fn verified(&self, sha256: &str, date: &str) -> std::io::Result<()> {
-        self.put(&JournalEntry {
+        let entry = JournalEntry {
             state: WriteState::Verified,
             sha256: sha256.to_owned(),
             date: date.to_owned(),
             last_verified: Some(sha256.to_owned()),
-        })
+        };
+        put(&self.path, &entry)
     }
 
-    fn put(&self, entry: &JournalEntry) -> std::io::Result<()> {
-        let text = toml::to_string(entry).map_err(std::io::Error::other)?;
-        if let Some(folder) = self.path.parent() {
-            std::fs::create_dir_all(folder)?;
-        }
-        kept_file::replace(&self.path, text.as_bytes())
+    /// A calibration begins to be written, or is verified.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn calibration(&self, state: WriteState, date: &str) -> std::io::Result<()> {
+        let date = date.to_owned();
+        put(&self.calibration, &CalibrationEntry { state, date })
+    }
+
+    /// When the last write of a calibration began, if it was cut off: its page may hold anything.
+    pub fn calibration_cut_off(&self) -> Option<String> {
+        let text = kept_file::read_text(&self.calibration).ok()?;
+        let last: CalibrationEntry = toml::from_str(&text).ok()?;
+        (last.state == WriteState::Writing).then_some(last.date)
     }
 
     /// A sentence about a write that was cut off, if the last one was.
     pub fn warning(&self) -> Option<String> {
-        let last = self.last().filter(|last| last.state == WriteState::Writing)?;
-        Some(format!(
-            "The write of {} was cut off: the robot runs nothing until it is written again or restored.",
-            last.date
-        ))
+        let firmware = self.last().filter(|last| last.state == WriteState::Writing);
+        let firmware = firmware.map(|last| {
+            format!(
+                "The write of {} was cut off: the robot runs nothing until it is written again or restored.",
+                last.date
+            )
+        });
+        firmware.or_else(|| {
+            let date = self.calibration_cut_off()?;
+            Some(format!(
+                "The calibration of {date} was cut off: the robot does not drive until `rvac flash calibration` is run again."
+            ))
+        })
     }
+}
+
+fn put(path: &Path, entry: &impl Serialize) -> std::io::Result<()> {
+    let text = toml::to_string(entry).map_err(std::io::Error::other)?;
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    kept_file::replace(path, text.as_bytes())
 }

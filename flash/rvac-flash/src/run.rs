@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
+use calibration_values::{Catalog, Measurements, ValuesError, record};
 use pic32_icsp::Part;
 use stc_isp::{Entry, Report, Step};
 
@@ -36,10 +37,7 @@ pub fn run(job: &FlashJob, socket: &DaemonSocket) -> anyhow::Result<ExitCode> {
         false => RobotAnswers::Expected,
     };
     // Files first: a robot is not disturbed for a file that is damaged.
-    let pieces = match &job.verb {
-        FlashVerb::Write { file, .. } | FlashVerb::Verify { file } => read_hex(file)?,
-        _ => Vec::new(),
-    };
+    let content = FileContent::read(&job.verb, settings.robot)?;
     let journal = Journal::new(&settings.folder);
     if let Some(warning) = journal.warning() {
         eprintln!("{warning}");
@@ -52,19 +50,59 @@ pub fn run(job: &FlashJob, socket: &DaemonSocket) -> anyhow::Result<ExitCode> {
                 .context("the wiring has no [icsp]: the lines to the programming port")?;
             let _loan = LineLoan::take(&socket.0, &settings.serial, answers)?;
             let mut lines = GpioLines::open(lines).context("cannot use the GPIO lines of [icsp]")?;
-            on_sr8730(&mut lines, (&job.verb, &pieces), &settings.folder)?;
+            on_sr8730(&mut lines, (&job.verb, &content), &settings.folder)?;
         }
         RobotName::Relax => {
             let _loan = LineLoan::take(&socket.0, &settings.serial, answers)?;
             let mut line = SerialLine::open(&settings.serial, settings.power.as_ref())?;
             on_relax(
                 &mut line,
-                (&job.verb, &pieces, entry_of(&settings)),
+                (&job.verb, &content, entry_of(&settings)),
                 &settings.folder,
             )?;
         }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// What the job's file holds.
+enum FileContent {
+    /// The job has none.
+    None,
+    Firmware(Vec<hex::Piece>),
+    Calibration {
+        record: Vec<u8>,
+        count: usize,
+    },
+}
+
+impl FileContent {
+    fn read(verb: &FlashVerb, robot: RobotName) -> anyhow::Result<Self> {
+        Ok(match verb {
+            FlashVerb::Write { file, .. } | FlashVerb::Verify { file } => Self::Firmware(read_hex(file)?),
+            FlashVerb::Calibration { file } => read_calibration(file, robot)?,
+            FlashVerb::Probe | FlashVerb::Backup | FlashVerb::Restore { .. } => Self::None,
+        })
+    }
+
+    fn pieces(&self) -> &[hex::Piece] {
+        match self {
+            Self::Firmware(pieces) => pieces,
+            Self::None | Self::Calibration { .. } => &[],
+        }
+    }
+}
+
+fn read_calibration(path: &Path, robot: RobotName) -> anyhow::Result<FileContent> {
+    let catalog = Catalog::of(robot.name())?;
+    let measured = Measurements::open(path, &catalog)?;
+    if measured.count() == 0 {
+        return Err(ValuesError::Empty(path.to_owned()).into());
+    }
+    Ok(FileContent::Calibration {
+        record: record(&catalog, &measured)?,
+        count: measured.count(),
+    })
 }
 
 fn read_hex(path: &Path) -> anyhow::Result<Vec<hex::Piece>> {
@@ -80,7 +118,7 @@ pub(crate) fn now() -> String {
 
 fn on_sr8730(
     lines: &mut GpioLines,
-    (verb, pieces): (&FlashVerb, &[hex::Piece]),
+    (verb, content): (&FlashVerb, &FileContent),
     folder: &Path,
 ) -> anyhow::Result<()> {
     let keeping = sr8730::Keeping {
@@ -109,12 +147,18 @@ fn on_sr8730(
             );
         }
         FlashVerb::Write { safeguards, .. } => {
-            let image = sr8730::image_of(pieces)?;
+            let image = sr8730::image_of(content.pieces())?;
             sr8730::write(lines, (&image, *safeguards), &keeping, &mut show)?;
             println!("written and verified");
         }
+        FlashVerb::Calibration { .. } => {
+            if let FileContent::Calibration { record, count } = content {
+                sr8730::write_calibration(lines, record, &keeping, &mut show)?;
+                println!("{count} values are in the robot. `rvac status` says what it still lacks.");
+            }
+        }
         FlashVerb::Verify { .. } => {
-            sr8730::verify(lines, &sr8730::image_of(pieces)?, &mut show)?;
+            sr8730::verify(lines, &sr8730::image_of(content.pieces())?, &mut show)?;
             println!("the chip holds this image");
         }
         FlashVerb::Restore { name, safeguards } => {
@@ -128,7 +172,7 @@ fn on_sr8730(
 
 fn on_relax(
     line: &mut SerialLine,
-    (verb, pieces, entry): (&FlashVerb, &[hex::Piece], Entry),
+    (verb, content, entry): (&FlashVerb, &FileContent, Entry),
     folder: &Path,
 ) -> anyhow::Result<()> {
     let keeping = relax::KeptImages {
@@ -145,11 +189,12 @@ fn on_relax(
     match verb {
         FlashVerb::Probe => say(&relax::probe(line, entry, &mut show)?),
         FlashVerb::Backup => bail!("this chip cannot be read: nobody can back up what is in it"),
+        FlashVerb::Calibration { .. } => bail!("this robot keeps no measured values in its flash"),
         FlashVerb::Verify { .. } => {
             bail!("this chip cannot be read: it is verified block by block while it is written")
         }
         FlashVerb::Write { safeguards, .. } => {
-            let image = relax::image_of(pieces)?;
+            let image = relax::image_of(content.pieces())?;
             say(&relax::write(
                 line,
                 (&image, *safeguards, entry),

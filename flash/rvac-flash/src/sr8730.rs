@@ -1,14 +1,14 @@
 //! Whole jobs on the PIC32 of the SR8730, over any lines.
 
+use calibration_values::{MAGIC, RECORD_ADDRESS};
 use pic32_icsp::{
-    ErasedFirst, FlashImage, IcspError, IcspPins, PAGE_BYTES, PROGRAM_BYTES, PROGRAM_START, Programmer,
-    Progress, Task,
+    ErasedFirst, FlashImage, IcspError, IcspPins, PAGE_BYTES, PROGRAM_BYTES, Programmer, Progress, Task,
 };
 
 use crate::arguments::Safeguards;
 use crate::backups::{Backup, BackupError, Backups, hash_of};
 use crate::hex::Piece;
-use crate::journal::Journal;
+use crate::journal::{Journal, WriteState};
 
 /// Why a job was not done.
 #[derive(Debug, thiserror::Error)]
@@ -33,6 +33,12 @@ pub enum JobError<E: std::fmt::Debug + std::fmt::Display + 'static> {
          --i-have-no-way-back"
     )]
     NoWayBack,
+    /// The page of the calibration is in use by something else.
+    #[error(
+        "the last page of the chip's flash holds something that is no calibration: the firmware in it is not LibreRVAC's. Write that \
+         first with `rvac flash write`; nothing was touched"
+    )]
+    PageOccupied,
     /// The backup is of another part.
     #[error("the backup is of a chip {backup:#010x}, and this one is {chip:#010x}")]
     OtherBackup {
@@ -221,9 +227,56 @@ where
     }
 }
 
-/// Our firmware keeps the owner's calibration in the last page of program flash, behind this word.
-const CALIBRATION_PAGE: u32 = PROGRAM_START + (PROGRAM_BYTES - PAGE_BYTES) as u32;
-const CALIBRATION_MAGIC: u32 = 0x4C41_4352;
+/// Writes a calibration record and verifies it. The firmware stays, and begins anew with the values.
+///
+/// A supply that fails meanwhile leaves a page that holds anything: the firmware takes it for no calibration, and the robot does not
+/// drive until the record is written again.
+///
+/// # Errors
+/// See [`JobError`]. A page that holds something else is not touched.
+pub fn write_calibration<P: IcspPins>(
+    pins: &mut P,
+    record: &[u8],
+    keeping: &Keeping,
+    shown: Shown<'_>,
+) -> Result<(), JobError<P::Error>>
+where
+    P::Error: std::fmt::Debug + std::fmt::Display,
+{
+    let mut programmer = Programmer::new(pins, shown);
+    programmer.probe()?;
+    let outcome = put_record(&mut programmer, record, keeping);
+    programmer.release()?;
+    outcome
+}
+
+fn put_record<P: IcspPins>(
+    programmer: &mut Programmer<'_, P>,
+    record: &[u8],
+    keeping: &Keeping,
+) -> Result<(), JobError<P::Error>>
+where
+    P::Error: std::fmt::Debug + std::fmt::Display,
+{
+    let journal = &keeping.journal;
+    let present = programmer.read_page(RECORD_ADDRESS)?;
+    let is_erased = present.iter().all(|byte| *byte == 0xFF);
+    let is_ours = present.starts_with(&MAGIC.to_le_bytes()) || journal.calibration_cut_off().is_some();
+    if !is_erased && !is_ours {
+        return Err(JobError::PageOccupied);
+    }
+    let mut page = [0xFF; PAGE_BYTES];
+    for (place, byte) in page.iter_mut().zip(record) {
+        *place = *byte;
+    }
+    journal
+        .calibration(WriteState::Writing, &keeping.date)
+        .map_err(JobError::Journal)?;
+    programmer.write_page(RECORD_ADDRESS, &page)?;
+    journal
+        .calibration(WriteState::Verified, &keeping.date)
+        .map_err(JobError::Journal)
+}
 
 /// The image with the calibration that is in the chip, if it has one and the image leaves its page free.
 fn with_calibration<P: IcspPins>(
@@ -237,9 +290,9 @@ fn with_calibration<P: IcspPins>(
         .skip(PROGRAM_BYTES - PAGE_BYTES)
         .all(|byte| *byte == 0xFF);
     if is_free {
-        let page = programmer.read_page(CALIBRATION_PAGE)?;
-        if page.starts_with(&CALIBRATION_MAGIC.to_le_bytes()) {
-            let fits = image.write(CALIBRATION_PAGE, &page);
+        let page = programmer.read_page(RECORD_ADDRESS)?;
+        if page.starts_with(&MAGIC.to_le_bytes()) {
+            let fits = image.write(RECORD_ADDRESS, &page);
             debug_assert!(fits, "it is a page of flash");
         }
     }

@@ -1,7 +1,9 @@
 //! The programmer against the emulated PIC32: the whole way there and back, and what can be wrong.
 
+use calibration_values::{Catalog, MAGIC, Measurements, RECORD_ADDRESS, record};
 use flash_trials::fixtures::{chip_with, content_of, flash_image};
 use flash_trials::{Interruption, LinesLost, SimulatedIcsp, WireFaults};
+use pic32::board::CalibrationValues;
 use pic32::icsp::PortFaults;
 use pic32::machine::Machine;
 use pic32::pins::Level;
@@ -292,11 +294,7 @@ fn a_calibration_outlives_a_write() {
     assert!(before.write(0x1D03_F000, &record));
     let mut lines = lines(chip_with(&before), PortFaults::default(), WireFaults::default());
     let folder = std::env::temp_dir().join(format!("flash-calibration-{}", std::process::id()));
-    let keeping = Keeping {
-        backups: Backups::new(&folder),
-        journal: Journal::new(&folder),
-        date: "2026-01-01T00:00:00Z".to_owned(),
-    };
+    let keeping = keeping(&folder);
     let careful = Safeguards::default();
     let refused = sr8730::write(&mut lines, (&small(2), careful), &keeping, &mut |_| {});
     assert!(matches!(refused, Err(JobError::NoWayBack)), "{refused:?}");
@@ -311,4 +309,104 @@ fn a_calibration_outlives_a_write() {
     let mut wanted = small(2);
     assert!(wanted.write(0x1D03_F000, &record));
     assert_eq!(content_of(lines.machine()), wanted);
+}
+
+fn keeping(folder: &std::path::Path) -> Keeping {
+    Keeping {
+        backups: Backups::new(folder),
+        journal: Journal::new(folder),
+        date: "2026-01-01T00:00:00Z".to_owned(),
+    }
+}
+
+/// All values of the simulated robot as an owner's file, and the record that the emulator makes of them in its own way.
+fn measured() -> (Vec<u8>, Vec<u8>) {
+    let values = CalibrationValues::sr8730().expect("the project's own");
+    let catalog = Catalog::of("sr8730").expect("known");
+    let mut file = String::from("robot = \"sr8730\"\n[values]\n");
+    for item in &catalog.items {
+        let name: &'static str = item.name.clone().leak();
+        let value = values.value(name).expect("listed");
+        file.push_str(&format!("{name} = {value}\n"));
+    }
+    let measured = Measurements::parse("mine.toml".as_ref(), &file, &catalog).expect("valid");
+    let ours = record(&catalog, &measured).expect("in range");
+    (ours, values.record_without(&[]))
+}
+
+#[test]
+fn a_calibration_is_written_beside_the_firmware_and_replaced() {
+    let (ours, emulators) = measured();
+    assert_eq!(ours, emulators);
+    let mut lines = lines(chip_with(&small(1)), PortFaults::default(), WireFaults::default());
+    let other = [&MAGIC.to_le_bytes()[..], &[1, 0, 2, 0, 9, 9, 9, 9]].concat();
+    let folder = std::env::temp_dir().join(format!("flash-record-{}", std::process::id()));
+    let keeping = keeping(&folder);
+    for record in [other, ours] {
+        sr8730::write_calibration(&mut lines, &record, &keeping, &mut |_| {}).expect("can be written");
+        let mut wanted = small(1);
+        assert!(wanted.write(RECORD_ADDRESS, &record));
+        assert_eq!(content_of(lines.machine()), wanted);
+    }
+    assert_eq!(lines.violations(), []);
+    assert_eq!(keeping.journal.warning(), None);
+    std::fs::remove_dir_all(&folder).expect("the journal was there");
+}
+
+#[test]
+fn a_page_that_holds_something_else_is_not_taken_for_a_calibration() {
+    let makers = full(1);
+    let mut lines = lines(chip_with(&makers), PortFaults::default(), WireFaults::default());
+    let nowhere = keeping("/nonexistent".as_ref());
+    let refused = sr8730::write_calibration(&mut lines, &measured().0, &nowhere, &mut |_| {});
+    assert!(matches!(refused, Err(JobError::PageOccupied)), "{refused:?}");
+    assert_eq!(content_of(lines.machine()), makers);
+}
+
+#[test]
+fn a_calibration_that_is_cut_off_leaves_the_firmware_and_is_written_again() {
+    let record = measured().0;
+    let mut before = small(1);
+    assert!(before.write(
+        RECORD_ADDRESS,
+        &[&MAGIC.to_le_bytes()[..], &[1, 0, 2, 0, 9, 9, 9, 9]].concat()
+    ));
+    let mut wanted = small(1);
+    assert!(wanted.write(RECORD_ADDRESS, &record));
+    let folder = std::env::temp_dir().join(format!("flash-cut-record-{}", std::process::id()));
+    let keeping = keeping(&folder);
+    let put = |lines: &mut SimulatedIcsp| sr8730::write_calibration(lines, &record, &keeping, &mut |_| {});
+    let span_us = {
+        let mut lines = lines(chip_with(&before), PortFaults::default(), WireFaults::default());
+        put(&mut lines).expect("can be written");
+        pic32_icsp::IcspPins::now_us(&lines)
+    };
+    for part in 0..25 {
+        let at_us = span_us * part / 25 + 1;
+        for interruption in [
+            Interruption::PowerCut { at_us, seed: part },
+            Interruption::Killed { at_us },
+        ] {
+            let mut lines = lines(chip_with(&before), PortFaults::default(), WireFaults::default());
+            lines.interrupt(interruption);
+            let cut = put(&mut lines);
+            assert!(
+                matches!(cut, Err(JobError::Chip(IcspError::Pins(LinesLost)))),
+                "{interruption:?}: {cut:?}"
+            );
+            let left = content_of(lines.machine());
+            let last_page = pic32_icsp::PROGRAM_BYTES - pic32_icsp::PAGE_BYTES;
+            assert_eq!(
+                left.program()[..last_page],
+                before.program()[..last_page],
+                "{interruption:?}"
+            );
+            assert_eq!(left.boot(), before.boot(), "{interruption:?}");
+            lines.start_again();
+            put(&mut lines).unwrap_or_else(|error| panic!("{interruption:?}: {error}"));
+            assert_eq!(content_of(lines.machine()), wanted, "{interruption:?}");
+            assert_eq!(keeping.journal.warning(), None);
+        }
+    }
+    std::fs::remove_dir_all(&folder).expect("the journal was there");
 }

@@ -2,7 +2,8 @@
 
 use std::io;
 
-use calibration::{CalibrationError, RobotEvent};
+use calibration::RobotEvent;
+use calibration_values::ValuesError;
 use rvac_api::Update;
 use vthal_core::{CalibrationOrder, CalibrationTask, ClientId, Input, LinkLoss};
 
@@ -55,7 +56,7 @@ impl Daemon {
         let device = device.unwrap_or_default();
         // A page asks by itself: that nothing can be measured is an answer, and no refusal.
         let known = match measured(device, &self.wiring.calibration_file) {
-            Err(CalibrationError::UnknownRobot { .. }) => Ok((Vec::new(), String::new())),
+            Err(ValuesError::UnknownRobot { .. }) => Ok((Vec::new(), String::new())),
             other => other,
         };
         match known {

@@ -247,8 +247,10 @@ fn link(board: &RustBoard, place: &Place, options: &Options) -> anyhow::Result<V
 }
 
 fn record_of(file: &Path, board: &RustBoard) -> anyhow::Result<Segment> {
-    let calibration = Calibration::load(&workspace::root().join(&board.board.facts))?;
-    record::load(file, &board.board.name, &calibration)
+    let folder = workspace::root().join(&board.board.facts);
+    // Faults of the table that the firmware was made from are told in full.
+    Calibration::load(&folder)?;
+    record::load(file, &board.board.name, &folder)
 }
 
 /// What is left for people and programmers.

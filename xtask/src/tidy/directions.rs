@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 52] = [
+const DIRECTIONS: [Direction; 53] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -110,7 +110,7 @@ const DIRECTIONS: [Direction; 52] = [
     Direction { of: "rvac-api",      knows: &["rvac-units"],                                never: OUTSIDE },
     Direction { of: "mixer",         knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "vthal-core",    knows: &["rvac-units", "rvac-protocol", "brain", "rvac-api"], never: OUTSIDE },
-    Direction { of: "vthal",         knows: &["calibration", "vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "robot-link", "system-zone", "systemd-notice", "vthal-bench", "content-hash"], never: &[] },
+    Direction { of: "vthal",         knows: &["calibration", "calibration-values", "vthal-core", "rvac-units", "rvac-protocol", "brain", "rvac-api", "mixer", "kept-file", "robot-link", "system-zone", "systemd-notice", "vthal-bench", "content-hash"], never: &[] },
     Direction { of: "vthal-bench",   knows: &["brain", "mixer", "pairing", "rvac-api", "rvac-protocol", "rvac-units", "vthal-core"], never: &["tokio"] },
     Direction { of: "kept-file",     knows: &[],                                            never: &["tokio"] },
     Direction { of: "system-zone",   knows: &["kept-file"],                                 never: &[] },
@@ -126,8 +126,9 @@ const DIRECTIONS: [Direction; 52] = [
     Direction { of: "rvac-ros2",     knows: &["bridge", "rvac-api"],                        never: &["axum"] },
     Direction { of: "joined-trials", knows: &["rvac-api"],                                  never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
-    Direction { of: "calibration",   knows: &["kept-file", "rvac-protocol", "rvac-units"],  never: &["tokio"] },
-    Direction { of: "rvac-cli",      knows: &["calibration", "kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
+    Direction { of: "calibration-values", knows: &["kept-file", "rvac-protocol"],           never: &["tokio"] },
+    Direction { of: "calibration",   knows: &["calibration-values", "rvac-protocol", "rvac-units"], never: &["tokio"] },
+    Direction { of: "rvac-cli",      knows: &["calibration", "calibration-values", "kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
     Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "systemd-notice", "update-bundle"], never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
@@ -138,17 +139,17 @@ const DIRECTIONS: [Direction; 52] = [
     Direction { of: "stc90",         knows: &["home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: EMULATOR },
     Direction { of: "pic32-icsp",    knows: &[],                                            never: OUTSIDE },
     Direction { of: "stc-isp",       knows: &[],                                            never: OUTSIDE },
-    Direction { of: "rvac-flash",    knows: &["kept-file", "pic32-icsp", "rvac-api", "stc-isp"], never: &["tokio"] },
+    Direction { of: "rvac-flash",    knows: &["calibration-values", "kept-file", "pic32-icsp", "rvac-api", "stc-isp"], never: &["tokio"] },
     Direction { of: "update-bundle", knows: &[],                                            never: &["tokio", "minisign"] },
     Direction { of: "rvac-update",   knows: &["rvac-api", "rvac-flash", "update-bundle"],   never: &["tokio", "minisign"] },
-    Direction { of: "flash-trials",  knows: &["home", "pic32", "pic32-icsp", "rvac-flash", "rvac-update", "stc-isp", "stc90", "update-bundle"], never: &["tokio", "cordlib"] },
+    Direction { of: "flash-trials",  knows: &["calibration-values", "home", "pic32", "pic32-icsp", "rvac-flash", "rvac-update", "stc-isp", "stc90", "update-bundle"], never: &["tokio", "cordlib"] },
     Direction { of: "robot",         knows: &["cordlib", "home", "monitor", "rvac-channel", "rvac-protocol", "rvac-units"], never: OUTSIDE },
     Direction { of: "rvac-sim",      knows: SIMULATED,                                      never: &["vthal", "axum", "tokio"] },
     Direction { of: "trials",        knows: &["home", "monitor", "pic32", "robot-link", "rvac-channel", "rvac-protocol", "rvac-units", "stc90"], never: EMULATOR },
     Direction { of: "life",          knows: &["brain", "home", "robot", "rvac-sim", "vthal", "vthal-core"], never: &["axum"] },
     Direction { of: "content-hash",  knows: &["brain"],                                     never: OUTSIDE },
     Direction { of: "scenarios",     knows: SCENARIOS,                                      never: &["vthal", "axum", "tokio"] },
-    Direction { of: "xtask",         knows: &["rvac-api", "update-bundle"],                 never: &["tokio"] },
+    Direction { of: "xtask",         knows: &["calibration-values", "rvac-api", "update-bundle"], never: &["tokio"] },
 ];
 
 /// Most crates in what runs on a robot, ours included: the library for every board, and a board with its chip.

@@ -50,17 +50,26 @@ pub fn calibration_name(words: &Words, name: &str) -> String {
     .to_owned()
 }
 
-/// A value with its unit; a plain number has none.
+/// A value as people read it, with its unit; a plain number has none. Firmware keeps whole numbers, and people have measures in
+/// millimetres.
 #[must_use]
-pub fn measured_text(value: i64, unit: &str) -> String {
-    match unit {
-        "1" => value.to_string(),
-        "um" => format!("{value}\u{a0}µm"),
-        "permille" => format!("{value}\u{a0}‰"),
-        "uA/count" => format!("{value}\u{a0}µA"),
-        "uV/count" => format!("{value}\u{a0}µV"),
-        unit => format!("{value}\u{a0}{unit}"),
-    }
+pub fn measured_text(words: &Words, value: i64, unit: &str) -> String {
+    let scaled = |parts: f64, decimals| words.number(value as f64 / parts, decimals);
+    let (number, unit) = match unit {
+        "1" => return value.to_string(),
+        "nm" => (scaled(1e6, 4), "mm"),
+        "um" => (scaled(1e3, 1), "mm"),
+        "permille" => (scaled(10.0, 1), "%"),
+        "uA/count" => (scaled(1e3, 3), "mA"),
+        "uV/count" => (scaled(1e3, 3), "mV"),
+        "count/10" => (scaled(10.0, 1), ""),
+        "count/100" => (scaled(100.0, 2), ""),
+        "degree/10" => (scaled(10.0, 1), "°C"),
+        "us" => (value.to_string(), "µs"),
+        "count" => (value.to_string(), ""),
+        unit => (value.to_string(), unit),
+    };
+    format!("{number}\u{a0}{unit}").trim_end().to_owned()
 }
 
 /// What is known of a value.
@@ -68,8 +77,8 @@ pub fn measured_text(value: i64, unit: &str) -> String {
 pub fn value_state(words: &Words, known: &CalibrationValue) -> String {
     let texts = &words.calibration;
     match (known.value, known.assumed) {
-        (Some(value), _) => measured_text(value, &known.unit),
-        (None, Some(assumed)) => texts.assumed.fill([&measured_text(assumed, &known.unit)]),
+        (Some(value), _) => measured_text(words, value, &known.unit),
+        (None, Some(assumed)) => texts.assumed.fill([&measured_text(words, assumed, &known.unit)]),
         (None, None) => texts.not_measured.to_owned(),
     }
 }
@@ -166,7 +175,7 @@ pub fn is_held(page: &CalibrationPage) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{calibration_name, is_held, lacking_text, live_text, task_text, value_state};
+    use super::{calibration_name, is_held, lacking_text, live_text, measured_text, task_text, value_state};
     use crate::words::Language;
     use rvac_api::{CalibrationAsk, CalibrationPage, CalibrationValue, Lacking};
 
@@ -197,9 +206,20 @@ mod tests {
             assumed: Some(32_549),
             ..CalibrationValue::default()
         };
-        assert_eq!(value_state(words, &known), "not measured, taken as 32549\u{a0}µV");
+        assert_eq!(value_state(words, &known), "not measured, taken as 32.549\u{a0}mV");
         known.value = Some(32_600);
-        assert_eq!(value_state(words, &known), "32600\u{a0}µV");
+        assert_eq!(value_state(words, &known), "32.600\u{a0}mV");
+        for (value, unit, english, estonian) in [
+            (497_252, "nm", "0.4973\u{a0}mm", "0,4973\u{a0}mm"),
+            (229_940, "um", "229.9\u{a0}mm", "229,9\u{a0}mm"),
+            (125, "permille", "12.5\u{a0}%", "12,5\u{a0}%"),
+            (8_517, "count/10", "851.7", "851,7"),
+            (6, "1", "6", "6"),
+            (480, "mm/s", "480\u{a0}mm/s", "480\u{a0}mm/s"),
+        ] {
+            assert_eq!(measured_text(words, value, unit), english);
+            assert_eq!(measured_text(Language::Estonian.words(), value, unit), estonian);
+        }
         assert_eq!(calibration_name(words, "of-a-newer-robot"), "of-a-newer-robot");
     }
 

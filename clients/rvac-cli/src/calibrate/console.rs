@@ -2,7 +2,8 @@
 
 use std::io::{self, Write as _};
 
-use calibration::{CalibrationError, Danger, Item, Question, Screen, Shown, Task};
+use calibration::{CalibrationError, Danger, Question, Screen, Shown, Task};
+use calibration_values::Item;
 
 /// What answers a choice.
 const CHOICE: &str = "[Enter = yes, a = again, s = skip, q = quit]";

@@ -4,7 +4,8 @@ mod console;
 
 use std::process::ExitCode;
 
-use calibration::{CalibrationError, Catalog, Item, Measurements, Plan, Robot, walk};
+use calibration::{CalibrationError, Plan, Robot, walk};
+use calibration_values::{Catalog, Item, Measurements};
 
 use crate::arguments::CalibrateOptions;
 use crate::robot;

@@ -241,11 +241,6 @@ impl Item {
             self.name, self.unit
         )
     }
-
-    /// The range for people and for complaints.
-    pub(crate) fn range(&self) -> (i32, i32) {
-        (self.range[0], self.range[1])
-    }
 }
 
 fn first_up(text: &str) -> String {

@@ -64,8 +64,8 @@ screen! {
         ice: "Hang the battery, plugged in and in a watertight bag, in ice water for an hour.", "Hoia ühendatud akut veekindlas kotis tund aega jäävees.";
         warm: "The same in water of 38 to 42 degrees for half an hour.", "Sama 38–42-kraadises vees pool tundi.";
         over: "Finished. What was kept is in the robot's file of values.", "Valmis. Salvestatu on roboti väärtuste failis.";
-        next: "The robot uses the values once they are built into its firmware. Until then it says what it still lacks.",
-            "Robot kasutab väärtusi siis, kui need on püsivarasse lisatud. Seni ütleb ta, mis veel puudub.";
+        next: "The robot uses the values once they are in its flash: run \"rvac flash calibration\" on its board. Until then it says what it still lacks.",
+            "Robot kasutab väärtusi siis, kui need on tema mälus: käivita plaadil \"rvac flash calibration\". Seni ütleb ta, mis veel puudub.";
         all: "All values", "Kõik väärtused";
         file: "File of values", "Väärtuste fail";
         drive: "driving", "sõitmine";

@@ -4,11 +4,12 @@ use std::time::Duration;
 
 use rvac_protocol::message::{ButtonProbe, PROBE_CHANNELS, ProbeTarget, ProbedContent};
 
+use calibration_values::Item;
+
 use crate::arithmetic::{
     distance_per_count_nm, line_order, mean, mean_milli, scale_uv, steady_mean, track_um,
 };
 use crate::bench::Bench;
-use crate::catalog::Item;
 use crate::error::CalibrationError;
 use crate::screen::{Question, Shown, Task};
 use crate::thermistor::{TwoPoints, agrees};

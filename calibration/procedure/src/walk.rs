@@ -1,9 +1,9 @@
 //! From value to value.
 
+use calibration_values::{Catalog, Item, Measurements};
+
 use crate::bench::{Bench, Wish};
-use crate::catalog::{Catalog, Item};
 use crate::error::CalibrationError;
-use crate::file::Measurements;
 use crate::procedure::Procedure;
 use crate::robot::Robot;
 use crate::screen::{Screen, Shown};
@@ -25,7 +25,7 @@ impl Plan {
             let missing = |item: &&Item| self.measured.get(&item.name).is_none();
             return Ok(self.catalog.items.iter().filter(missing).cloned().collect());
         }
-        let find = |name: &String| self.catalog.find(name).cloned();
+        let find = |name: &String| Ok(self.catalog.find(name)?.clone());
         self.names.iter().map(find).collect()
     }
 }

@@ -1,7 +1,8 @@
 //! Why a calibration, or one step of it, does not go on.
 
 use std::io;
-use std::path::PathBuf;
+
+use calibration_values::ValuesError;
 
 use crate::arithmetic::NoValue;
 use crate::thermistor::NoAgreement;
@@ -12,50 +13,9 @@ pub enum CalibrationError {
     /// The person ends it; no fault.
     #[error("ended; what was kept is in the file")]
     Quit,
-    /// There are no tables of this robot.
-    #[error("nothing can be calibrated on a robot {robot:?}; known: {known}")]
-    UnknownRobot {
-        /// Its name.
-        robot: String,
-        /// Those that there are tables of.
-        known: String,
-    },
-    /// There is no value of this name.
-    #[error("there is no value {name:?}; known: {known}")]
-    UnknownValue {
-        /// The name.
-        name: String,
-        /// Those that there are.
-        known: String,
-    },
-    /// A table that this program was built with.
-    #[error("{0} of this program: {1}")]
-    Table(&'static str, toml::de::Error),
-    /// A signal that no pin of the converter reads.
-    #[error("the pinout gives {0:?} no channel of the converter")]
-    NoChannel(String),
-    /// The file of values cannot be read.
-    #[error("cannot read {0}: {1}")]
-    Unreadable(PathBuf, io::Error),
-    /// It cannot be written.
-    #[error("cannot write {0}: {1}")]
-    Unwritable(PathBuf, io::Error),
-    /// It holds something else.
-    #[error("{0} is not a calibration: it holds `robot = \"NAME\"` and a table [values]: {1}")]
-    NotCalibration(PathBuf, toml::de::Error),
-    /// It is of another robot.
-    #[error("{file} is of a robot {of:?}, not {robot:?}: name another file with --file")]
-    OtherRobot {
-        /// The file.
-        file: PathBuf,
-        /// Whose it is.
-        of: String,
-        /// The robot that is there.
-        robot: &'static str,
-    },
-    /// It holds a value that is not known.
-    #[error("{0} cannot be kept as it is: {1}")]
-    Strange(PathBuf, Box<CalibrationError>),
+    /// The values, or their file.
+    #[error(transparent)]
+    Values(#[from] ValuesError),
     /// The robot does not answer at all.
     #[error(
         "the robot does not answer the handshake: check power, cable, --port and --baud, and that vthal does not run"
@@ -147,12 +107,7 @@ impl CalibrationError {
     pub const fn reason(&self) -> &'static str {
         match self {
             Self::Quit => "calibration-ended",
-            Self::UnknownRobot { .. } | Self::Table(..) | Self::NoChannel(_) => "calibration-unknown-robot",
-            Self::UnknownValue { .. } => "calibration-unknown-value",
-            Self::Unreadable(..) | Self::NotCalibration(..) | Self::OtherRobot { .. } | Self::Strange(..) => {
-                "calibration-file-strange"
-            }
-            Self::Unwritable(..) => "calibration-file-unwritable",
+            Self::Values(error) => error.reason(),
             Self::NoHandshake
             | Self::SessionLost
             | Self::LinkLost(_)

@@ -7,13 +7,8 @@
 
 mod arithmetic;
 mod bench;
-mod catalog;
 mod driven;
 mod error;
-mod file;
-#[cfg(test)]
-#[path = "../../panel-server/tests/folder/mod.rs"]
-mod folder;
 mod light;
 mod procedure;
 mod robot;
@@ -21,9 +16,7 @@ mod screen;
 mod thermistor;
 mod walk;
 
-pub use catalog::{Catalog, Item};
 pub use error::CalibrationError;
-pub use file::Measurements;
 pub use procedure::{Danger, Side};
 pub use robot::{Hold, OpenLoop, Robot, RobotEvent, Watch};
 pub use screen::{Question, Screen, Shown, Task};

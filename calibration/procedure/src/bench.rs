@@ -2,10 +2,10 @@
 
 use rvac_protocol::message::{EncoderProbe, ProbeTarget, ProbedContent};
 
+use calibration_values::{Catalog, Measurements};
+
 use crate::arithmetic::{Wheels, travelled};
-use crate::catalog::Catalog;
 use crate::error::CalibrationError;
-use crate::file::Measurements;
 use crate::robot::Robot;
 use crate::screen::{Question, Screen, Shown, Task};
 

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::ErrorKind;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
 use crate::catalog::Catalog;
-use crate::error::CalibrationError;
+use crate::error::ValuesError;
 
 /// The file, and what it holds.
 #[derive(Debug)]
@@ -30,32 +31,52 @@ impl Measurements {
     ///
     /// # Errors
     /// It cannot be read, or holds something else.
-    pub fn open(path: &Path, catalog: &Catalog) -> Result<Self, CalibrationError> {
-        let mut measurements = Self {
-            path: path.to_owned(),
-            values: BTreeMap::new(),
-        };
-        let text = match kept_file::read_text(path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(measurements),
-            Err(error) => return Err(CalibrationError::Unreadable(path.to_owned(), error)),
-        };
-        let content: Content = toml::from_str(&text)
-            .map_err(|error| CalibrationError::NotCalibration(path.to_owned(), error))?;
+    pub fn open(path: &Path, catalog: &Catalog) -> Result<Self, ValuesError> {
+        match kept_file::read_text(path) {
+            Ok(text) => Self::parse(path, &text, catalog),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(Self {
+                path: path.to_owned(),
+                values: BTreeMap::new(),
+            }),
+            Err(error) => Err(ValuesError::Unreadable(path.to_owned(), error)),
+        }
+    }
+
+    /// The same of the file's text.
+    ///
+    /// # Errors
+    /// It is something else.
+    pub fn parse(path: &Path, text: &str, catalog: &Catalog) -> Result<Self, ValuesError> {
+        let mut values = BTreeMap::new();
+        let content: Content =
+            toml::from_str(text).map_err(|error| ValuesError::NotCalibration(path.to_owned(), error))?;
         if content.robot != catalog.robot {
-            return Err(CalibrationError::OtherRobot {
+            return Err(ValuesError::OtherRobot {
                 file: path.to_owned(),
                 of: content.robot,
-                robot: catalog.robot,
+                robot: catalog.robot.clone(),
             });
         }
         for (name, value) in content.values {
             let item = catalog
                 .find(&name)
-                .map_err(|error| CalibrationError::Strange(path.to_owned(), Box::new(error)))?;
-            measurements.values.insert(item.name.clone(), value);
+                .map_err(|error| ValuesError::Strange(path.to_owned(), Box::new(error)))?;
+            values.insert(item.name.clone(), value);
         }
-        Ok(measurements)
+        let path = path.to_owned();
+        Ok(Self { path, values })
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Number of values that were measured.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.values.len()
     }
 
     /// A value, if it was measured.
@@ -64,23 +85,23 @@ impl Measurements {
         self.values.get(name).copied()
     }
 
-    /// Keeps a value: the file is written beside the old one and then takes its place.
+    /// Keeps a value: the file is written beside the old one, flushed, and then takes its place.
     ///
     /// # Errors
     /// It cannot be written.
-    pub fn keep(&mut self, catalog: &Catalog, name: &str, value: i64) -> Result<(), CalibrationError> {
+    pub fn keep(&mut self, catalog: &Catalog, name: &str, value: i64) -> Result<(), ValuesError> {
         self.values.insert(name.to_owned(), value);
         let beside = self.path.with_extension("toml.new");
-        std::fs::write(&beside, self.text(catalog))
-            .and_then(|()| std::fs::rename(&beside, &self.path))
-            .map_err(|error| CalibrationError::Unwritable(self.path.clone(), error))
+        written(&beside, &self.text(catalog))
+            .and_then(|()| fs::rename(&beside, &self.path))
+            .map_err(|error| ValuesError::Unwritable(self.path.clone(), error))
     }
 
     /// The file as text.
     #[must_use]
     pub fn text(&self, catalog: &Catalog) -> String {
         let mut text = format!(
-            "# Measured on one robot by `rvac calibrate`; `cargo xtask firmware {0} --calibration FILE` builds it in.\n\
+            "# Measured on one robot by `rvac calibrate`; `rvac flash calibration` writes it into the robot.\n\
              robot = \"{0}\"\n\n[values]\n",
             catalog.robot
         );
@@ -92,6 +113,12 @@ impl Measurements {
         }
         text
     }
+}
+
+fn written(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(text.as_bytes())?;
+    file.sync_all()
 }
 
 #[cfg(test)]

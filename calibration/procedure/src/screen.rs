@@ -1,6 +1,7 @@
 //! What a person sees and is asked.
 
-use crate::catalog::Item;
+use calibration_values::Item;
+
 use crate::error::CalibrationError;
 use crate::procedure::{Danger, Side};
 

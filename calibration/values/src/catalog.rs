@@ -2,14 +2,25 @@
 
 use serde::Deserialize;
 
-use crate::error::CalibrationError;
+use crate::error::ValuesError;
 
-/// Robots whose tables are part of this program: name, robot.toml, pinout.toml.
-const ROBOTS: [(&str, &str, &str); 1] = [(
-    "sr8730",
-    include_str!("../../../robots/samsung-sr8730/robot.toml"),
-    include_str!("../../../robots/samsung-sr8730/pinout.toml"),
-)];
+/// What is known about a robot, as text.
+#[derive(Clone, Copy, Debug)]
+pub struct RobotTables<'a> {
+    /// Its name.
+    pub robot: &'a str,
+    /// Its robot.toml.
+    pub values: &'a str,
+    /// Its pinout.toml.
+    pub pins: &'a str,
+}
+
+/// Robots whose tables are part of this program.
+const ROBOTS: [RobotTables<'static>; 1] = [RobotTables {
+    robot: "sr8730",
+    values: include_str!("../../../robots/samsung-sr8730/robot.toml"),
+    pins: include_str!("../../../robots/samsung-sr8730/pinout.toml"),
+}];
 
 /// A value that a person measures.
 #[derive(Clone, Debug, Deserialize)]
@@ -64,31 +75,38 @@ struct Signal {
 #[derive(Debug)]
 pub struct Catalog {
     /// Its name.
-    pub robot: &'static str,
+    pub robot: String,
     /// The values, in the order in which they are best measured.
     pub items: Vec<Item>,
     signals: Vec<Signal>,
 }
 
 impl Catalog {
-    /// The catalog of a robot.
+    /// The catalog of a robot whose tables come with this program.
     ///
     /// # Errors
     /// There are no tables of it.
-    pub fn of(robot: &str) -> Result<Self, CalibrationError> {
-        let Some((name, values, pins)) = ROBOTS.into_iter().find(|(name, ..)| *name == robot) else {
-            let known = ROBOTS.map(|(name, ..)| name).join(", ");
-            return Err(CalibrationError::UnknownRobot {
+    pub fn of(robot: &str) -> Result<Self, ValuesError> {
+        let Some(tables) = ROBOTS.into_iter().find(|tables| tables.robot == robot) else {
+            return Err(ValuesError::UnknownRobot {
                 robot: robot.to_owned(),
-                known,
+                known: ROBOTS.map(|tables| tables.robot).join(", "),
             });
         };
+        Self::read(tables)
+    }
+
+    /// The catalog of a robot with these tables.
+    ///
+    /// # Errors
+    /// They are none.
+    pub fn read(tables: RobotTables<'_>) -> Result<Self, ValuesError> {
         let values: RobotFile =
-            toml::from_str(values).map_err(|error| CalibrationError::Table("robot.toml", error))?;
+            toml::from_str(tables.values).map_err(|error| ValuesError::Table("robot.toml", error))?;
         let pins: Pinout =
-            toml::from_str(pins).map_err(|error| CalibrationError::Table("pinout.toml", error))?;
+            toml::from_str(tables.pins).map_err(|error| ValuesError::Table("pinout.toml", error))?;
         Ok(Self {
-            robot: name,
+            robot: tables.robot.to_owned(),
             items: values.calibration,
             signals: pins.signal,
         })
@@ -98,11 +116,11 @@ impl Catalog {
     ///
     /// # Errors
     /// There is none.
-    pub fn find(&self, name: &str) -> Result<&Item, CalibrationError> {
+    pub fn find(&self, name: &str) -> Result<&Item, ValuesError> {
         let is_called = |item: &&Item| item.name == name || item.former_name.as_deref() == Some(name);
         self.items.iter().find(is_called).ok_or_else(|| {
             let known: Vec<&str> = self.items.iter().map(|item| item.name.as_str()).collect();
-            CalibrationError::UnknownValue {
+            ValuesError::UnknownValue {
                 name: name.to_owned(),
                 known: known.join(", "),
             }
@@ -110,7 +128,10 @@ impl Catalog {
     }
 
     /// The converter's channel of a signal, which is written `AN14` among the pin's functions.
-    pub(crate) fn channel(&self, signal: &str) -> Result<usize, CalibrationError> {
+    ///
+    /// # Errors
+    /// No pin of the converter reads it.
+    pub fn channel(&self, signal: &str) -> Result<usize, ValuesError> {
         let functions = self
             .signals
             .iter()
@@ -119,7 +140,7 @@ impl Catalog {
         functions
             .split([',', ' ', '/'])
             .find_map(|function| function.strip_prefix("AN")?.parse().ok())
-            .ok_or_else(|| CalibrationError::NoChannel(signal.to_owned()))
+            .ok_or_else(|| ValuesError::NoChannel(signal.to_owned()))
     }
 }
 
