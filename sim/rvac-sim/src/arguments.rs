@@ -184,6 +184,9 @@ pub(crate) struct RunArguments {
     /// Give the host a perfect map of the home at the start.
     #[arg(long)]
     pub(crate) known_map: bool,
+    /// Give the host a perfect map of this home at the start: the same walls another day, before things were moved.
+    #[arg(long, value_name = "HOME", conflicts_with_all = ["known_map", "map"])]
+    pub(crate) map_of: Option<PathBuf>,
     /// Give the host this map at the start, which an earlier run in the same home saved, from the same starting place.
     #[arg(long, value_name = "FILE", conflicts_with = "known_map")]
     pub(crate) map: Option<PathBuf>,
@@ -244,6 +247,10 @@ impl RunArguments {
         }
         if self.known_map {
             title.push_str(", known map");
+        }
+        if let Some(home) = &self.map_of {
+            title.push_str(", map of ");
+            title.push_str(&home.display().to_string());
         }
         if self.map.is_some() {
             title.push_str(", learnt map");

@@ -89,6 +89,9 @@ fn run_household(arguments: &RunArguments) -> anyhow::Result<ExitCode> {
     if arguments.known_map {
         household = household.with_known_map();
     }
+    if let Some(source) = &arguments.map_of {
+        household = household.with_map_of(&scene.other_home(source)?);
+    }
     if let Some(path) = &arguments.map {
         household = household.with_map(read_map(path)?);
     }

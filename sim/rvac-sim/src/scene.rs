@@ -109,6 +109,14 @@ impl Scene {
     pub fn home(&self) -> &Home {
         &self.home
     }
+
+    /// Another home for the same robot.
+    ///
+    /// # Errors
+    /// When it cannot be loaded.
+    pub fn other_home(&self, source: &Path) -> Result<Home, SceneError> {
+        load_home(source, &self.model)
+    }
 }
 
 /// A home from a file, of the generator (`generated:N`), or a drawn trap (`trap:KIND/SEED`).
