@@ -28,7 +28,7 @@ use approach::{Approach, ApproachStep};
 use beam_goals::{FailedPlace, goals};
 use dock_search::DockSearch;
 use parameters::DOCKING;
-use travel::{Travel, TravelStep};
+use travel::{PastFloor, Travel, TravelStep};
 use tries::{FailedTries, FailedTry};
 
 /// The task.
@@ -58,6 +58,8 @@ enum DockingPhase {
     Back(Box<Travel>),
     /// By the beams.
     Approach(Approach),
+    /// Nowhere, for a while: who stands in the way may leave.
+    Wait,
     /// To unvisited floor.
     Search,
 }
@@ -96,7 +98,7 @@ impl Task for Docking {
                 self.after_approach(step, situation, context)
             }
             DockingPhase::Search => self.search.step(situation, context),
-            DockingPhase::Undecided => TaskStatus::Go(Motion::Halt),
+            DockingPhase::Undecided | DockingPhase::Wait => TaskStatus::Go(Motion::Halt),
         }
     }
 
@@ -104,7 +106,9 @@ impl Task for Docking {
         match &mut self.phase {
             DockingPhase::Travel(travel) | DockingPhase::Back(travel) => travel.interrupted(),
             DockingPhase::Search => self.search.interrupted(),
-            DockingPhase::Approach(_) | DockingPhase::Undecided => self.phase = DockingPhase::Undecided,
+            DockingPhase::Approach(_) | DockingPhase::Undecided | DockingPhase::Wait => {
+                self.phase = DockingPhase::Undecided;
+            }
         }
     }
 }
@@ -115,6 +119,7 @@ impl Docking {
         let known = known_dock(situation);
         match &self.phase {
             DockingPhase::Approach(_) => {}
+            DockingPhase::Wait if self.search_s > 0.0 && situation.is_free() => {}
             DockingPhase::Travel(_) => {
                 if let Err(reason) = known {
                     self.begin_search(reason, context);
@@ -122,7 +127,7 @@ impl Docking {
             }
             DockingPhase::Search if self.search.is_evading() || !situation.is_free() => {}
             DockingPhase::Back(travel) if travel.is_evading() || !situation.is_free() => {}
-            DockingPhase::Back(_) | DockingPhase::Search | DockingPhase::Undecided => {
+            DockingPhase::Back(_) | DockingPhase::Search | DockingPhase::Undecided | DockingPhase::Wait => {
                 self.choose(known, situation, context)
             }
         }
@@ -133,7 +138,11 @@ impl Docking {
         match known {
             Ok(dock) if may_travel => {
                 context.decide(DecisionKind::DockTravel, Reason::DockKnown, 0.0);
-                self.phase = DockingPhase::Travel(Box::new(Travel::to_dock(dock)));
+                let past = match self.failed_tries.was_blocked() {
+                    true => PastFloor::Spare,
+                    false => PastFloor::Superseded,
+                };
+                self.phase = DockingPhase::Travel(Box::new(Travel::to_dock(dock, past)));
             }
             _ if situation.beams.current().is_any() && self.ignore_s <= 0.0 => {
                 self.begin_approach(Reason::DockBeam, context);
@@ -195,7 +204,13 @@ impl Docking {
             TravelStep::Blocked => {
                 self.failed_tries.count_blocked();
                 self.search_s = DOCKING.search_s;
-                self.begin_search(Reason::WayBlocked, context);
+                // In turns: people leave by themselves, and a map that is wrong is not mended by waiting.
+                if self.failed_tries.is_blocked_evenly() || !situation.is_free() {
+                    self.begin_search(Reason::WayBlocked, context);
+                } else {
+                    context.decide(DecisionKind::Wait, Reason::WayBlocked, DOCKING.search_s);
+                    self.phase = DockingPhase::Wait;
+                }
             }
         }
         TaskStatus::Go(Motion::Halt)

@@ -1,7 +1,8 @@
 //! The path by the map to a place in front of the dock, or to one where a beam was received.
 //!
 //! Obstructions are remembered for some minutes and avoided. When no path is left they are forgotten, because people and
-//! chairs move, and the robot tries again. Counts bound everything.
+//! chairs move, and the robot tries again. When the map still has none, the robot waits, and then what is occupied now and was
+//! floor before counts as floor: a person who was touched in a door is drawn there, and has mostly left it. Counts bound everything.
 
 use core::task::Poll;
 
@@ -33,7 +34,19 @@ pub(super) struct Travel {
     plans: u32,
     failed_plans: u32,
     forgotten: u32,
+    past: PastFloor,
     planned_from: Option<Point2>,
+}
+
+/// What floor counts as where something was met since.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PastFloor {
+    /// What was met.
+    Superseded,
+    /// The same, until no path is left.
+    Spare,
+    /// Floor.
+    Floor,
 }
 
 /// State of the drive after a step.
@@ -51,8 +64,11 @@ pub(super) enum TravelStep {
 
 impl Travel {
     /// To the place in front of `dock`, the pose of a docked robot.
-    pub(super) fn to_dock(dock: Pose2) -> Self {
-        Self::to(goals(dock), &TRAVEL.clearances_m, Reason::DockKnown)
+    pub(super) fn to_dock(dock: Pose2, past: PastFloor) -> Self {
+        Self {
+            past,
+            ..Self::to(goals(dock), &TRAVEL.clearances_m, Reason::DockKnown)
+        }
     }
 
     /// To one of the places where a beam was received.
@@ -72,6 +88,7 @@ impl Travel {
             plans: 0,
             failed_plans: 0,
             forgotten: 0,
+            past: PastFloor::Superseded,
             planned_from: None,
         }
     }
@@ -144,7 +161,11 @@ impl Travel {
             self.follower = Some(PathFollower::new(segments));
             return TravelStep::Going(Motion::Halt);
         }
-        if !is_blocked || self.forgotten >= TRAVEL.forget_max {
+        if is_blocked && self.forgotten < TRAVEL.forget_max {
+            self.forgotten += 1;
+        } else if self.past == PastFloor::Spare {
+            self.past = PastFloor::Floor;
+        } else {
             return TravelStep::Blocked;
         }
         context.decide(
@@ -152,7 +173,6 @@ impl Travel {
             Reason::WayBlocked,
             f64::from(self.forgotten),
         );
-        self.forgotten += 1;
         self.obstructions.clear();
         TravelStep::Going(Motion::Halt)
     }
@@ -171,7 +191,10 @@ impl Travel {
         context.decide(DecisionKind::Wait, Reason::Planning, 0.0);
         let blocked = self.obstructions.points(situation.observation.time_us);
         let is_blocked = !blocked.is_empty();
-        let inputs = PathInputs::of(situation, self.goals.clone(), blocked);
+        let mut inputs = PathInputs::of(situation, self.goals.clone(), blocked);
+        if self.past == PastFloor::Floor {
+            inputs.open_past_floor(situation);
+        }
         self.path_search = Some(PathSearch {
             rest: Gradual::new(inputs.first_path(self.clearances_m)),
             is_blocked,
@@ -207,6 +230,35 @@ impl PathInputs {
             start: situation.pose,
             goals,
         }
+    }
+
+    /// Cells that were floor become free, whether they are occupied now or in dispute. Walls were none, and cliffs and no-go zones stay.
+    fn open_past_floor(&mut self, situation: &Situation<'_>) {
+        for index in 0..self.knowledge.values().len() {
+            let is_asked = match self.knowledge.values().get(index) {
+                Some(CellKnowledge::Occupied) => true,
+                // Nearly all that is unknown lies outside of the home.
+                Some(CellKnowledge::Unknown) => self.is_beside_floor(index),
+                _ => false,
+            };
+            if is_asked
+                && situation.map.was_floor(self.knowledge.cell(index))
+                && let Some(kind) = self.knowledge.values_mut().get_mut(index)
+            {
+                *kind = CellKnowledge::Free;
+            }
+        }
+    }
+
+    /// Whether the cell before or after this one in the row, or in the column, is free.
+    fn is_beside_floor(&self, index: usize) -> bool {
+        let values = self.knowledge.values();
+        let is_free =
+            |index: Option<usize>| index.and_then(|index| values.get(index)) == Some(&CellKnowledge::Free);
+        let width = self.knowledge.width();
+        [1, width]
+            .into_iter()
+            .any(|step| is_free(index.checked_sub(step)) || is_free(index.checked_add(step)))
     }
 
     /// The path with the first of these gaps that allows one.

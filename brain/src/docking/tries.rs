@@ -43,6 +43,16 @@ impl FailedTries {
         self.blocked += 1;
     }
 
+    /// Whether that has happened.
+    pub(super) const fn was_blocked(&self) -> bool {
+        self.blocked > 0
+    }
+
+    /// Whether that happened an even number of times.
+    pub(super) const fn is_blocked_evenly(&self) -> bool {
+        self.blocked.is_multiple_of(2)
+    }
+
     /// Why docking ends, once enough has failed.
     pub(super) fn verdict(&self) -> Option<Reason> {
         let all = self.no_contact + self.obstructed + self.passed;

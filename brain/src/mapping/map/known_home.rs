@@ -183,6 +183,13 @@ impl Map {
         self.home.grid.at(cell).has(Flag::Body)
     }
 
+    /// Whether a cell was floor before this run, or the body was in it.
+    pub(crate) fn was_floor(&self, cell: Cell) -> bool {
+        let known = self.home.known.as_ref();
+        known.is_some_and(|known| known.kept.at(cell).knowledge() == CellKnowledge::Free)
+            || self.was_driven(cell)
+    }
+
     /// Bytes of the home's map, including sightings.
     #[must_use]
     pub fn memory_bytes(&self) -> usize {
