@@ -138,7 +138,7 @@ impl Docking {
         match known {
             Ok(dock) if may_travel => {
                 context.decide(DecisionKind::DockTravel, Reason::DockKnown, 0.0);
-                let past = match self.failed_tries.was_blocked() {
+                let past = match situation.is_tracked && self.failed_tries.was_blocked() {
                     true => PastFloor::Spare,
                     false => PastFloor::Superseded,
                 };
@@ -204,12 +204,12 @@ impl Docking {
             TravelStep::Blocked => {
                 self.failed_tries.count_blocked();
                 self.search_s = DOCKING.search_s;
-                // In turns: people leave by themselves, and a map that is wrong is not mended by waiting.
-                if self.failed_tries.is_blocked_evenly() || !situation.is_free() {
-                    self.begin_search(Reason::WayBlocked, context);
-                } else {
+                // People leave by themselves. A map of a first run that shuts the robot in is not mended by waiting.
+                if situation.is_tracked && situation.is_free() && !self.failed_tries.is_blocked_evenly() {
                     context.decide(DecisionKind::Wait, Reason::WayBlocked, DOCKING.search_s);
                     self.phase = DockingPhase::Wait;
+                } else {
+                    self.begin_search(Reason::WayBlocked, context);
                 }
             }
         }
