@@ -1,11 +1,12 @@
 //! A robot on the serial line, while a person reads and types at the terminal.
 
+use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use calibration::{Hold, Robot, RobotEvent};
 use serial2::SerialPort;
 
@@ -14,6 +15,7 @@ use crate::listen::listen;
 
 /// Opens the line and a session on it.
 pub(crate) fn open(port: &Path, baud: u32) -> anyhow::Result<Robot> {
+    leave_to_daemon(port)?;
     let serial = SerialPort::open(port, baud)
         .with_context(|| format!("cannot open {} at {baud} baud", port.display()))?;
     let serial = Arc::new(serial);
@@ -32,6 +34,34 @@ pub(crate) fn open(port: &Path, baud: u32) -> anyhow::Result<Robot> {
     )?)
 }
 
+/// Refuses a line on which the daemon is: two programs would take each other's bytes. The kernel keeps a second program off a terminal that is
+/// in use, but not one of root's.
+pub(crate) fn leave_to_daemon(port: &Path) -> anyhow::Result<()> {
+    match daemon_on(Path::new("/proc"), port) {
+        Some(process) => bail!(
+            "vthal (process {process}) is on {}: stop it first with sudo systemctl stop vthal, and start it afterwards",
+            port.display()
+        ),
+        None => Ok(()),
+    }
+}
+
+/// The daemon's process, if it has this device open and we may see that.
+fn daemon_on(processes: &Path, port: &Path) -> Option<String> {
+    let device = fs::canonicalize(port).ok()?;
+    fs::read_dir(processes).ok()?.flatten().find_map(|process| {
+        let path = process.path();
+        let is_daemon = fs::read_to_string(path.join("comm")).is_ok_and(|name| name.trim() == "vthal");
+        let mut files = fs::read_dir(path.join("fd"))
+            .ok()
+            .filter(|_| is_daemon)?
+            .flatten();
+        files
+            .any(|file| fs::read_link(file.path()).is_ok_and(|target| target == device))
+            .then(|| process.file_name().to_string_lossy().into_owned())
+    })
+}
+
 /// The end of the line that is written, while a thread reads the other.
 struct SerialWriter(Arc<SerialPort>);
 
@@ -42,5 +72,39 @@ impl Write for SerialWriter {
 
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::os::unix::fs::symlink;
+    use std::path::Path;
+
+    use super::daemon_on;
+    use crate::folder::Folder;
+
+    fn process(processes: &Path, (number, name): (&str, &str), device: &Path) {
+        let files = processes.join(number).join("fd");
+        fs::create_dir_all(&files).expect("a folder");
+        fs::write(processes.join(number).join("comm"), format!("{name}\n")).expect("a file");
+        symlink(device, files.join("7")).expect("a link");
+    }
+
+    #[test]
+    fn only_a_daemon_on_the_same_device_keeps_us_off() {
+        let folder = Folder::new();
+        let (device, other) = (folder.join("tty1"), folder.join("tty2"));
+        for path in [&device, &other] {
+            fs::write(path, "").expect("a file");
+        }
+        let serial = folder.join("serial0");
+        symlink(&device, &serial).expect("a link");
+        let processes = folder.join("proc");
+        process(&processes, ("11", "rvac-sim"), &device);
+        process(&processes, ("12", "vthal"), &other);
+        assert_eq!(daemon_on(&processes, &serial), None);
+        process(&processes, ("13", "vthal"), &device);
+        assert_eq!(daemon_on(&processes, &serial).as_deref(), Some("13"));
     }
 }

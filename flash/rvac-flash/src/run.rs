@@ -44,17 +44,19 @@ pub fn run(job: &FlashJob, socket: &DaemonSocket) -> anyhow::Result<ExitCode> {
     }
     match settings.robot {
         RobotName::Sr8730 => {
-            let lines = settings
+            let wiring = settings
                 .icsp
                 .as_ref()
                 .context("the wiring has no [icsp]: the lines to the programming port")?;
             let _loan = LineLoan::take(&socket.0, &settings.serial, answers)?;
-            let mut lines = GpioLines::open(lines).context("cannot use the GPIO lines of [icsp]")?;
+            let mut lines = GpioLines::open(wiring)
+                .with_context(|| format!("cannot use the lines of [icsp] on {}", wiring.chip.display()))?;
             on_sr8730(&mut lines, (&job.verb, &content), &settings.folder)?;
         }
         RobotName::Relax => {
             let _loan = LineLoan::take(&socket.0, &settings.serial, answers)?;
-            let mut line = SerialLine::open(&settings.serial, settings.power.as_ref())?;
+            let mut line = SerialLine::open(&settings.serial, settings.power.as_ref())
+                .with_context(|| format!("cannot use {}", settings.serial.display()))?;
             on_relax(
                 &mut line,
                 (&job.verb, &content, entry_of(&settings)),

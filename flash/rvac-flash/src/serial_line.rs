@@ -23,7 +23,7 @@ pub struct SerialLine {
 #[derive(Debug, thiserror::Error)]
 pub enum SerialLineError {
     /// The device.
-    #[error("{0}")]
+    #[error(transparent)]
     Device(#[from] std::io::Error),
     /// The switch.
     #[error("the line of the power switch: {0}")]

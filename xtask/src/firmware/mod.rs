@@ -228,10 +228,23 @@ pub(crate) fn free_running_elf() -> anyhow::Result<PathBuf> {
 }
 
 fn elf_with(feature: &str) -> anyhow::Result<PathBuf> {
+    Ok(files_with(feature)?.elf)
+}
+
+fn files_with(feature: &str) -> anyhow::Result<FirmwareFiles> {
     let options = Options {
         features: vec![feature.to_owned()],
     };
-    Ok(build(&rust_board(ROBOT)?, &options, None)?.elf)
+    build(&rust_board(ROBOT)?, &options, None)
+}
+
+/// What owners flash: names of files, and the images, built if they are not fresh.
+pub(crate) fn images_for_owners() -> anyhow::Result<[(&'static str, PathBuf); 3]> {
+    Ok([
+        ("sr8730.hex", RobotFirmware::of(ROBOT)?.hex()?),
+        ("sr8730-link-sampled.hex", files_with("link-sampled")?.hex),
+        ("relax.hex", RobotFirmware::of(sdcc::ROBOT)?.hex()?),
+    ])
 }
 
 /// Builds the firmware in a place; gives the bytes of the ELF file with its checksums.

@@ -5,8 +5,8 @@ use anyhow::Context;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// What is linked: a workspace for its platform, and the packages in it that make the programs.
-const SOURCES: [(Workspace, &[&str]); 2] = [
+/// What is linked: a workspace for its platform, and the packages in it that make the programs. The Relax's firmware has no crates.
+const SOURCES: [(Workspace, &[&str]); 3] = [
     (
         Workspace {
             manifest: "Cargo.toml",
@@ -28,6 +28,13 @@ const SOURCES: [(Workspace, &[&str]); 2] = [
             platform: "wasm32-unknown-unknown",
         },
         &["panel"],
+    ),
+    (
+        Workspace {
+            manifest: "firmware/sr8730/Cargo.toml",
+            platform: "mipsel-unknown-none",
+        },
+        &["sr8730"],
     ),
 ];
 

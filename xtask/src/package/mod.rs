@@ -2,6 +2,7 @@
 
 mod archive;
 mod compile;
+mod images;
 mod licences;
 pub(crate) mod machine;
 mod manuals;
@@ -111,11 +112,12 @@ pub(crate) struct Common {
     panel: PathBuf,
     manuals: PathBuf,
     licences: PathBuf,
+    firmware: PathBuf,
     epoch_s: u64,
 }
 
 impl Common {
-    /// Builds the panel and the manuals and gathers licences.
+    /// Builds the panel, the manuals and the robots' firmware and gathers licences.
     pub(crate) fn make() -> anyhow::Result<Self> {
         let out = folder();
         std::fs::create_dir_all(&out).with_context(|| format!("cannot make {}", out.display()))?;
@@ -123,6 +125,7 @@ impl Common {
             panel: panel::build(Page::Release)?,
             manuals: manuals::make(&out.join("manuals"))?,
             licences: licences::gather(&out.join("licences"))?,
+            firmware: images::gather(&out.join("firmware"))?,
             epoch_s: epoch_s()?,
         })
     }

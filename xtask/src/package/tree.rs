@@ -129,6 +129,7 @@ pub(super) fn lay(common: &Common, machine: Machine, programs: &[PathBuf]) -> an
     }
     copy_folder(&common.panel, &root.join("usr/share/rvac-panel"))?;
     copy_folder(&common.manuals, &root)?;
+    copy_folder(&common.firmware, &root.join(super::images::PLACE))?;
     copy_folder(&common.licences, &root.join("usr/share/doc/librervac"))?;
     std::fs::write(root.join("usr/share/doc/librervac/copyright"), COPYRIGHT)?;
     Ok(root)

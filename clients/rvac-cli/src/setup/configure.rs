@@ -6,6 +6,7 @@ use std::io::Write as _;
 use anyhow::{Context as _, bail};
 
 use super::Chosen;
+use super::find::USUAL_BAUD;
 use crate::board::Board;
 
 /// Where the daemon looks for it.
@@ -16,11 +17,13 @@ const OLD: &str = "etc/vthal.toml.old";
 const SAMPLES: &str = "usr/share/librervac/configurations";
 /// The line of a sample that names the serial device.
 const SERIAL_LINE: &str = "serial = ";
+/// The line of a sample that names a rate other than the usual one.
+const BAUD_LINE: &str = "baud = ";
 
 /// Writes it; one that was there is kept beside it.
 pub(super) fn write(board: &Board, robot: &Chosen) -> anyhow::Result<()> {
     let sample = sample(board, &robot.model)?;
-    let text = with_serial(&sample, &robot.serial.to_string_lossy())?;
+    let text = with_serial(&sample, &robot.serial.to_string_lossy(), robot.baud)?;
     let place = board.path(FILE);
     if place.exists() {
         fs::copy(&place, board.path(OLD))
@@ -65,20 +68,24 @@ fn described_model(board: &Board, configuration: &str) -> Option<String> {
     Some(description.get("name")?.as_str()?.to_owned())
 }
 
-/// The sample with this serial device.
-fn with_serial(sample: &str, device: &str) -> anyhow::Result<String> {
+/// The sample with this serial device, and with the rate at which the robot answered there.
+fn with_serial(sample: &str, device: &str, baud: Option<u32>) -> anyhow::Result<String> {
     let mut replaced = 0;
-    let lines: Vec<String> = sample
-        .lines()
-        .map(|line| {
-            if line.starts_with(SERIAL_LINE) {
-                replaced += 1;
-                format!("{SERIAL_LINE}{}", toml::Value::from(device))
-            } else {
-                line.to_owned()
+    let names_rate = sample.lines().any(|line| line.starts_with(BAUD_LINE));
+    let mut lines = Vec::new();
+    for line in sample.lines() {
+        if line.starts_with(SERIAL_LINE) {
+            replaced += 1;
+            lines.push(format!("{SERIAL_LINE}{}", toml::Value::from(device)));
+            if let Some(baud) = baud.filter(|baud| !names_rate && *baud != USUAL_BAUD) {
+                lines.push(format!("{BAUD_LINE}{baud}"));
             }
-        })
-        .collect();
+        } else if let Some(baud) = baud.filter(|_| line.starts_with(BAUD_LINE)) {
+            lines.push(format!("{BAUD_LINE}{baud}"));
+        } else {
+            lines.push(line.to_owned());
+        }
+    }
     if replaced != 1 {
         bail!("the sample has {replaced} lines that name the serial device, and needs one");
     }
@@ -93,9 +100,32 @@ mod tests {
     fn the_device_is_written_as_toml() {
         let sample = "[link]\nserial = \"/dev/serial0\"\nbaud = 1\n";
         assert_eq!(
-            with_serial(sample, "/dev/a\"b").expect("one line"),
+            with_serial(sample, "/dev/a\"b", None).expect("one line"),
             "[link]\nserial = '/dev/a\"b'\nbaud = 1\n"
         );
-        assert!(with_serial("[link]\n", "/dev/a").is_err());
+        assert!(with_serial("[link]\n", "/dev/a", None).is_err());
+    }
+
+    #[test]
+    fn the_rate_at_which_a_robot_answered_is_written() {
+        let written = |sample, baud| with_serial(sample, "/dev/a", Some(baud)).expect("one line");
+        let sr8730 = "[link]\nserial = \"/dev/serial0\"\n\n[socket]\n";
+        assert_eq!(
+            written(sr8730, 57_600),
+            "[link]\nserial = \"/dev/a\"\nbaud = 57600\n\n[socket]\n"
+        );
+        assert_eq!(
+            written(sr8730, 230_400),
+            "[link]\nserial = \"/dev/a\"\n\n[socket]\n"
+        );
+        let relax = "[link]\nserial = \"/dev/serial0\"\nbaud = 38400\n";
+        assert_eq!(
+            written(relax, 38_400),
+            "[link]\nserial = \"/dev/a\"\nbaud = 38400\n"
+        );
+        assert_eq!(
+            written(relax, 230_400),
+            "[link]\nserial = \"/dev/a\"\nbaud = 230400\n"
+        );
     }
 }

@@ -9,8 +9,10 @@ use rvac_protocol::session::{HostEvent, HostSession};
 use rvac_units::Tick;
 use serial2::SerialPort;
 
-/// Rates of the robots that there is firmware for: PIC32 and simulators, then the 8051.
-const RATES_BAUD: [u32; 2] = [230_400, 38_400];
+/// What the daemon takes without a word in its configuration: the rate of the SR8730 and of simulators.
+pub(super) const USUAL_BAUD: u32 = 230_400;
+/// Rates of the robots that there is firmware for: the usual one, the Relax, and an SR8730 whose input is sampled.
+const RATES_BAUD: [u32; 3] = [USUAL_BAUD, 38_400, 57_600];
 /// A robot that starts answers the handshake within this time.
 const PATIENCE: Duration = Duration::from_millis(2_500);
 /// Longest wait for bytes before the session is looked after.

@@ -46,6 +46,8 @@ pub(crate) fn run(options: &SetupOptions) -> anyhow::Result<ExitCode> {
 struct Chosen {
     model: String,
     serial: PathBuf,
+    /// The rate at which it answered; none for a robot that does not answer yet.
+    baud: Option<u32>,
 }
 
 /// The robot that answers; or the one that the person names, if none does.
@@ -69,6 +71,7 @@ fn robot(board: &Board, options: &SetupOptions) -> anyhow::Result<Option<Chosen>
                 return Ok(Some(Chosen {
                     model: name,
                     serial: device.clone(),
+                    baud: Some(baud),
                 }));
             }
             Heard::Nothing(silence) => silent.push((device, silence)),
@@ -89,6 +92,7 @@ fn named(options: &SetupOptions, silent: &[(&PathBuf, Silence)]) -> anyhow::Resu
         return Ok(Some(Chosen {
             model: model.clone(),
             serial,
+            baud: None,
         }));
     }
     say(

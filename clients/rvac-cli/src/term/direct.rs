@@ -35,6 +35,7 @@ enum DirectEvent {
 }
 
 pub(super) fn run(port: &Path, options: &TermOptions) -> anyhow::Result<ExitCode> {
+    crate::robot::leave_to_daemon(port)?;
     let serial = SerialPort::open(port, options.baud)
         .with_context(|| format!("cannot open {} at {} baud", port.display(), options.baud))?;
     let serial = Arc::new(serial);

@@ -248,7 +248,8 @@ impl LinkDesk {
         LoanFacts {
             is_attached: self.is_attached(),
             stands_still: self.stands_still(),
-            is_docked: self.report().is_some_and(|report| report.docked),
+            is_docked: self.report().is_some_and(|report| report.docked)
+                || self.description().is_some_and(|robot| !robot.may_have_dock()),
             charge: slow
                 .and_then(|slow| slow.battery.as_ref())
                 .map(|battery| battery.charge),

@@ -18,7 +18,7 @@ pub(crate) struct LoanFacts {
     pub(crate) is_attached: bool,
     /// Nothing of it moves.
     pub(crate) stands_still: bool,
-    /// It stands on its dock.
+    /// It stands on its dock, or is of a model without one.
     pub(crate) is_docked: bool,
     /// Of its pack, 0..1, where that is measured.
     pub(crate) charge: Option<f64>,
@@ -84,7 +84,7 @@ fn check(answers: RobotAnswers, facts: LoanFacts) -> Result<(), Refusal> {
     if !facts.is_docked {
         return Err(refusal(
             "not-docked",
-            "The robot is not on its dock. Send it there first.",
+            "The robot is not on its dock. Send it there first, or set it there by hand.",
         ));
     }
     match facts.charge {

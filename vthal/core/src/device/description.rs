@@ -183,6 +183,13 @@ impl Description {
         self.parts.contains(&part)
     }
 
+    /// Whether there may be a dock for it: something of it measures a pack, charges it, or hears a dock. A robot on which nothing was measured
+    /// yet may lack the charger and the receivers, but not the voltage of its pack.
+    #[must_use]
+    pub fn may_have_dock(&self) -> bool {
+        self.has(Part::Battery) || self.has(Part::Charger) || self.sensors.dock_receivers > 0
+    }
+
     /// Whether it offers `level`.
     #[must_use]
     pub fn offers(&self, level: Level) -> bool {

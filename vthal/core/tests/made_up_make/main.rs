@@ -125,6 +125,13 @@ fn a_crashed_host_leaves_it_driving_and_the_next_one_lets_go_of_it_first() {
 }
 
 #[test]
+fn the_line_of_a_robot_without_a_dock_is_lent_where_it_stands() {
+    let mut pair = Pair::new(Robot::new());
+    let borrow = RequestBody::BorrowLink { silent: false };
+    assert_eq!(pair.ask(borrow), None, "no dock can be waited for");
+}
+
+#[test]
 fn a_driver_drives_no_faster_than_the_host_reacts_and_stops_with_the_lease() {
     let mut pair = Pair::new(Robot::new());
     assert_eq!(pair.drive(0.3).as_deref(), Some("range"), "30 mm in 120 ms");

@@ -2,6 +2,7 @@
 
 use super::chroot::Chroot;
 use super::{Editions, Scope, Trial};
+use crate::package::images;
 use crate::package::machine::Machine;
 use crate::workspace::{self, Profile};
 use crate::{process, system};
@@ -45,8 +46,9 @@ pub(super) fn run(chroot: &Chroot, packages: &Editions, scope: Scope) -> anyhow:
     system::need("curl", &["curl"])?;
     workspace::build(&["rvac-sim"], Profile::Dev)?;
     install(chroot, &packages.first)?;
-    let installed =
-        chroot.succeeds(&["rvac", "--version"]) && chroot.succeeds(&["getent", "passwd", "vthal"]);
+    let installed = chroot.succeeds(&["rvac", "--version"])
+        && chroot.succeeds(&["getent", "passwd", "vthal"])
+        && has_images(chroot);
     let _robot = robot(chroot)?;
     let _bridge = set_up_with(chroot, packages.machine)?;
     let set_up = chroot.path(CONFIGURATION).is_file();
@@ -83,6 +85,13 @@ pub(super) fn run(chroot: &Chroot, packages: &Editions, scope: Scope) -> anyhow:
         vthal_rss_kib: used.vthal_rss_kib,
         panel_server_rss_kib: used.panel_server_rss_kib,
     })
+}
+
+/// Whether `rvac flash` finds in the package what the guide writes into robots.
+fn has_images(chroot: &Chroot) -> bool {
+    ["sr8730.hex", "sr8730-link-sampled.hex", "relax.hex"]
+        .iter()
+        .all(|name| chroot.path(images::PLACE).join(name).is_file())
 }
 
 fn install(chroot: &Chroot, package: &Path) -> anyhow::Result<()> {
