@@ -8,11 +8,10 @@ import dgram from "node:dgram";
 import readline from "node:readline";
 import { Environment, Logger } from "@matter/main";
 import {
-    BasicInformation, Descriptor, Identify, PowerSource, RvcCleanMode, RvcOperationalState, RvcRunMode, ServiceArea,
+    BasicInformation, Descriptor, PowerSource, RvcCleanMode, RvcOperationalState, RvcRunMode, ServiceArea,
 } from "@matter/main/clusters";
 import { ManualPairingCodeCodec, NodeId, QrPairingCodeCodec } from "@matter/main/types";
 import { CommissioningController } from "@project-chip/matter.js";
-import { NodeStates } from "@project-chip/matter.js/device";
 
 const ROBOT = 1;
 const LONGEST_WAIT_MS = 30_000;
@@ -111,10 +110,8 @@ const orders = {
     pause: () => cluster(RvcOperationalState).commands.pause(),
     resume: () => cluster(RvcOperationalState).commands.resume(),
     home: () => cluster(RvcOperationalState).commands.goHome(),
-    identify: ({ seconds }) => cluster(Identify).commands.identify({ identifyTime: seconds }),
     // What was told without being asked for, and is forgotten here with the answer.
     told: () => ({ changes: changes.splice(0), events: events.splice(0) }),
-    state: () => NodeStates[node.connectionState],
     async garbage({ port, count, host }) {
         const socket = dgram.createSocket("udp6");
         let seed = 1;
