@@ -32,8 +32,8 @@ pub(crate) struct Workspace {
     pub(crate) platform: &'static str,
 }
 
-/// All of them. The first six hold what users and robots run.
-pub(crate) const WORKSPACES: [Workspace; 8] = [
+/// All of them. The first seven hold what users and robots run.
+pub(crate) const WORKSPACES: [Workspace; 9] = [
     Workspace {
         manifest: "Cargo.toml",
         platform: "x86_64-unknown-linux-gnu",
@@ -44,6 +44,10 @@ pub(crate) const WORKSPACES: [Workspace; 8] = [
     },
     Workspace {
         manifest: "clients/foxglove/Cargo.toml",
+        platform: "x86_64-unknown-linux-gnu",
+    },
+    Workspace {
+        manifest: "clients/matter/Cargo.toml",
         platform: "x86_64-unknown-linux-gnu",
     },
     Workspace {

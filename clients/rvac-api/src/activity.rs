@@ -36,17 +36,20 @@ pub struct ActivityWords {
     pub status_value: &'static str,
     /// `flag` of the same.
     pub status_flag: &'static str,
+    /// `OperationalState` of a robotic vacuum cleaner in Matter.
+    pub matter_state: u8,
 }
 
 const fn words(
     home_assistant: &'static str,
-    status_value: &'static str,
-    status_flag: &'static str,
+    (status_value, status_flag): (&'static str, &'static str),
+    matter_state: u8,
 ) -> ActivityWords {
     ActivityWords {
         home_assistant,
         status_value,
         status_flag,
+        matter_state,
     }
 }
 
@@ -94,14 +97,14 @@ impl Activity {
     #[must_use]
     pub const fn words(self) -> ActivityWords {
         match self {
-            Self::Disconnected | Self::Error | Self::Stuck => words("error", "error", "none"),
-            Self::Idle => words("idle", "idle", "none"),
-            Self::Starting | Self::Cleaning => words("cleaning", "cleaning", "none"),
-            Self::Spot => words("cleaning", "cleaning", "spot"),
-            Self::Docking => words("returning", "returning", "none"),
-            Self::Docked => words("docked", "docked", "none"),
-            Self::Manual => words("cleaning", "manual_control", "none"),
-            Self::Paused => words("paused", "paused", "resumable"),
+            Self::Disconnected | Self::Error | Self::Stuck => words("error", ("error", "none"), 0x03),
+            Self::Idle => words("idle", ("idle", "none"), 0x00),
+            Self::Starting | Self::Cleaning => words("cleaning", ("cleaning", "none"), 0x01),
+            Self::Spot => words("cleaning", ("cleaning", "spot"), 0x01),
+            Self::Docking => words("returning", ("returning", "none"), 0x40),
+            Self::Docked => words("docked", ("docked", "none"), 0x42),
+            Self::Manual => words("cleaning", ("manual_control", "none"), 0x01),
+            Self::Paused => words("paused", ("paused", "resumable"), 0x02),
         }
     }
 
@@ -150,8 +153,13 @@ mod tests {
             "resumable",
             "mapping",
         ];
+        // Stopped, running, paused, error, seeking charger, charging, docked.
+        let matter_states = [0x00, 0x01, 0x02, 0x03, 0x40, 0x41, 0x42];
         for activity in Activity::ALL {
             let words = activity.words();
+            assert!(matter_states.contains(&words.matter_state), "{activity:?}");
+            // A controller that shows an error asks what it is.
+            assert_eq!(words.matter_state == 0x03, activity.needs_help(), "{activity:?}");
             assert!(home_assistant.contains(&words.home_assistant), "{activity:?}");
             assert!(values.contains(&words.status_value), "{activity:?}");
             assert!(flags.contains(&words.status_flag), "{activity:?}");

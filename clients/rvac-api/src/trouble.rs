@@ -60,6 +60,8 @@ pub struct TroubleWords {
     pub subsystem: &'static str,
     /// How grave.
     pub gravity: Gravity,
+    /// `ErrorStateID` of a robotic vacuum cleaner in Matter.
+    pub matter_error: u8,
 }
 
 impl Gravity {
@@ -98,27 +100,28 @@ impl Trouble {
     #[must_use]
     pub const fn words(self) -> TroubleWords {
         use Gravity::{Catastrophe, Error, Warning};
-        let (name, subsystem, gravity) = match self {
-            Self::Lifted => ("lifted", "sensors", Error),
-            Self::Held => ("held", "navigation", Error),
-            Self::Bumper => ("bumper", "sensors", Error),
-            Self::Cliff => ("cliff-sensor", "sensors", Error),
-            Self::Wheels => ("wheels", "motors", Error),
-            Self::Brush => ("brush", "motors", Error),
-            Self::BatteryLow => ("battery-low", "power", Warning),
-            Self::Battery => ("battery", "power", Catastrophe),
-            Self::Charger => ("charger", "power", Error),
-            Self::Dock => ("dock", "dock", Error),
-            Self::Route => ("route", "navigation", Warning),
-            Self::Place => ("place", "navigation", Error),
-            Self::Link => ("link", "core", Error),
-            Self::Electronics => ("electronics", "core", Catastrophe),
-            Self::Calibration => ("calibration", "core", Error),
+        let (name, subsystem, gravity, matter_error) = match self {
+            Self::Lifted => ("lifted", "sensors", Error, 0x41),
+            Self::Held => ("held", "navigation", Error, 0x41),
+            Self::Bumper => ("bumper", "sensors", Error, 0x4e),
+            Self::Cliff => ("cliff-sensor", "sensors", Error, 0x4e),
+            Self::Wheels => ("wheels", "motors", Error, 0x4c),
+            Self::Brush => ("brush", "motors", Error, 0x4d),
+            Self::BatteryLow => ("battery-low", "power", Warning, 0x48),
+            Self::Battery => ("battery", "power", Catastrophe, 0x02),
+            Self::Charger => ("charger", "power", Error, 0x02),
+            Self::Dock => ("dock", "dock", Error, 0x40),
+            Self::Route => ("route", "navigation", Warning, 0x49),
+            Self::Place => ("place", "navigation", Error, 0x02),
+            Self::Link => ("link", "core", Error, 0x02),
+            Self::Electronics => ("electronics", "core", Catastrophe, 0x02),
+            Self::Calibration => ("calibration", "core", Error, 0x01),
         };
         TroubleWords {
             name,
             subsystem,
             gravity,
+            matter_error,
         }
     }
 
@@ -428,8 +431,14 @@ mod tests {
             "attachments",
             "dock",
         ];
+        // Unable to start or resume, unable to complete the operation, and those that only a vacuum cleaner has.
+        let matter_errors = [0x01, 0x02, 0x40, 0x41, 0x42, 0x43, 0x48, 0x49, 0x4c, 0x4d, 0x4e];
         for trouble in Trouble::ALL {
             assert!(subsystems.contains(&trouble.words().subsystem), "{trouble:?}");
+            assert!(
+                matter_errors.contains(&trouble.words().matter_error),
+                "{trouble:?}"
+            );
             assert!(
                 TROUBLES.iter().any(|(_, other)| *other == Some(trouble)),
                 "{trouble:?}"

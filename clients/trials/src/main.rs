@@ -8,6 +8,7 @@ mod home;
 mod home_assistant;
 mod http;
 mod load;
+mod matter;
 mod mosquitto;
 mod notifications;
 mod process;
@@ -57,6 +58,12 @@ struct Arguments {
     /// A Python that has the packages websockets and protobuf
     #[arg(long, value_name = "FILE")]
     foxglove_python: Option<PathBuf>,
+    /// The bridge to Matter, which is a workspace of its own; tried when it is named. Only root can lay its network
+    #[arg(long, value_name = "FILE", requires = "matter_packages")]
+    matter: Option<PathBuf>,
+    /// The folder in which npm has put matter.js
+    #[arg(long, value_name = "FOLDER")]
+    matter_packages: Option<PathBuf>,
     /// A Python that has the packages cyclonedds and rosbags
     #[arg(long, value_name = "FILE")]
     ros2_python: Option<PathBuf>,
@@ -70,6 +77,7 @@ impl Arguments {
             "schemathesis" => self.schemathesis.is_some(),
             "foxglove" => self.foxglove.is_some(),
             "cyclonedds" => self.ros2.is_some(),
+            "matter" => self.matter.is_some(),
             _ => true,
         }
     }
@@ -78,7 +86,7 @@ impl Arguments {
 /// A peer, and how it is tried.
 type Trial = (&'static str, fn(&Arguments, &mut Verdict) -> anyhow::Result<()>);
 
-const TRIALS: [Trial; 9] = [
+const TRIALS: [Trial; 10] = [
     ("mosquitto", mosquitto::trial),
     ("load", load::trial),
     ("prometheus", prometheus::trial),
@@ -87,6 +95,7 @@ const TRIALS: [Trial; 9] = [
     ("schemathesis", schemathesis::trial),
     ("cyclonedds", ros2::trial),
     ("foxglove", foxglove::trial),
+    ("matter", matter::trial),
     ("home-assistant", home_assistant::trial),
 ];
 

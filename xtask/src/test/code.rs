@@ -6,8 +6,9 @@ use super::runner::{Result, cargo, check, checks};
 use crate::{book, codegen, system, tidy, workspace};
 
 /// Manifests of the workspaces besides the main one.
-const OTHERS: [&str; 9] = [
+const OTHERS: [&str; 10] = [
     "clients/foxglove/Cargo.toml",
+    "clients/matter/Cargo.toml",
     "clients/panel/Cargo.toml",
     "clients/ros2/Cargo.toml",
     "firmware/size-probe/Cargo.toml",

@@ -36,7 +36,11 @@ const SCHEMATHESIS: &str = "schemathesis==4.32.5";
 /// A DDS that is not the bridge's, and what ROS 2 itself says of its messages.
 const DDS: [&str; 2] = ["cyclonedds==11.0.1", "rosbags==0.11.9"];
 
-/// mosquitto, Prometheus, Python, the drawing of maps where there is a Python for it, schemathesis, Cyclone DDS and a client of Foxglove's protocol; with `--long` Home Assistant, too.
+/// The controller of Matter stands in lists of npm, with checksums; so new must Node be for it.
+const MATTER: &str = "clients/trials/peers/matter";
+const MATTER_NODE: [u32; 2] = [20, 19];
+
+/// mosquitto, Prometheus, Python, the drawing of maps where there is a Python for it, schemathesis, Cyclone DDS and a client of Foxglove's protocol; with `--long` Home Assistant and matter.js, too.
 pub(super) fn joined(extent: Extent) -> Result {
     check(&mut trials(extent)?)
 }
@@ -94,7 +98,33 @@ fn trials(extent: Extent) -> anyhow::Result<Command> {
     command.arg("--ros2").arg(bridge_apart("ros2")?);
     let dds = fetched::python(&workspace::target().join("joined/dds"), &DDS, "cyclonedds")?;
     command.arg("--ros2-python").arg(dds.join("python"));
+    if extent == Extent::Long {
+        name_matter(&mut command)?;
+    }
     Ok(command)
+}
+
+/// What the trial of Matter needs, where this user may lay a network and Node is new enough. The stack takes minutes to build: it is
+/// tried with `--long` alone.
+fn name_matter(command: &mut Command) -> anyhow::Result<()> {
+    system::need("node", &["nodejs"])?;
+    system::need("ip", &["iproute2"])?;
+    let node = node_version()?;
+    if !rustix::process::geteuid().is_root() || node.as_slice() < MATTER_NODE.as_slice() {
+        eprintln!("Matter is not tried: that takes root and Node {MATTER_NODE:?}, and here is {node:?}");
+        return Ok(());
+    }
+    let packages = fetched::npm("joined/matter", MATTER)?;
+    command.arg("--matter").arg(bridge_apart("matter")?);
+    command.arg("--matter-packages").arg(packages);
+    Ok(())
+}
+
+/// Of the Node on the search path, for example 20, 19, 2.
+fn node_version() -> anyhow::Result<Vec<u32>> {
+    let told = process::capture(Command::new("node").arg("--version"))?;
+    let numbers = told.trim().trim_start_matches('v').split('.');
+    Ok(numbers.map_while(|number| number.parse().ok()).collect())
 }
 
 /// Builds a bridge that is a workspace of its own; gives its program. Its own tests run first.

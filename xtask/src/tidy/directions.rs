@@ -123,6 +123,7 @@ const DIRECTIONS: [Direction; 53] = [
     Direction { of: "rvac-metrics",  knows: &["bridge", "rvac-api"],                        never: &[] },
     Direction { of: "rvac-hooks",    knows: &["bridge", "rvac-api"],                        never: &[] },
     Direction { of: "rvac-foxglove", knows: &["bridge", "rvac-api"],                        never: &["axum"] },
+    Direction { of: "rvac-matter",   knows: &["bridge", "kept-file", "rvac-api"],           never: &["axum"] },
     Direction { of: "rvac-ros2",     knows: &["bridge", "rvac-api"],                        never: &["axum"] },
     Direction { of: "joined-trials", knows: &["rvac-api"],                                  never: &["tokio"] },
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
