@@ -128,7 +128,7 @@ const DIRECTIONS: [Direction; 52] = [
     Direction { of: "pairing",       knows: &["rvac-api"],                                  never: OUTSIDE },
     Direction { of: "calibration",   knows: &["kept-file", "rvac-protocol", "rvac-units"],  never: &["tokio"] },
     Direction { of: "rvac-cli",      knows: &["calibration", "kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
-    Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "systemd-notice", "update-bundle"], never: &[] },
+    Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "system-zone", "systemd-notice", "update-bundle"], never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
     Direction { of: "panel-logic",   knows: &["mixer", "rvac-api"],                         never: &["tokio", "leptos", "web-sys"] },
