@@ -12,6 +12,7 @@ use crate::checkpoint_file::{self, BootTime, Found};
 use crate::floor_folder::FloorFolder;
 use crate::health_file;
 use crate::learnt_file;
+use crate::lifetime_file::LifetimeFile;
 use crate::mix_folder::MixFolder;
 use crate::run_folder::RunFolder;
 use crate::schedule_file;
@@ -33,6 +34,9 @@ const HEALTH: &str = "health.json";
 /// Name of the file of what robots have learnt in the state folder.
 const LEARNT: &str = "learnt.json";
 
+/// Name of the file of what all runs come to in the state folder.
+const STATISTICS: &str = "statistics.json";
+
 /// Where things are kept.
 #[derive(Debug)]
 pub(crate) struct KeptPaths {
@@ -50,6 +54,8 @@ pub(crate) struct KeptPaths {
     pub(crate) learnt: PathBuf,
     /// The records of runs.
     pub(crate) runs: RunFolder,
+    /// What all runs come to.
+    pub(crate) lifetime: LifetimeFile,
 }
 
 impl KeptPaths {
@@ -62,6 +68,14 @@ impl KeptPaths {
         record.run.map = record.run.floor.and_then(newest);
         match self.runs.keep(&record) {
             Ok(()) => {
+                // The next run counts this one as well.
+                if let Err(error) = self.lifetime.keep() {
+                    tracing::error!(
+                        part = "vthal",
+                        "cannot write the sums of all runs: {error}; run {} is counted with the next one",
+                        record.run.number
+                    );
+                }
                 self.runs.look_for_recordings(&mut record.run);
                 Ok(Box::new(record.run))
             }
@@ -88,11 +102,11 @@ impl KeptPaths {
             .collect()
     }
 
-    /// The job that goes on, and the number of the next run. A run that is not continued is stored as cut short.
-    fn left_over(&self, found: Option<Found>) -> (Option<Checkpoint>, u64) {
+    /// The job that goes on, and the number of the next run, which is above all that were `counted`. A run that is not continued is stored as cut short.
+    fn left_over(&self, found: Option<Found>, counted: u64) -> (Option<Checkpoint>, u64) {
         let run = found.as_ref().and_then(|found| found.checkpoint.run.as_ref());
         let left = run.map_or(0, |run| run.run.number);
-        let next_run = self.runs.newest().max(left).saturating_add(1);
+        let next_run = self.runs.newest().max(left).max(counted).saturating_add(1);
         let Some(Found { checkpoint, is_young }) = found else {
             return (None, next_run);
         };
@@ -126,6 +140,7 @@ impl KeptStore {
     /// The state folder at `state`; nothing is made before something is kept.
     #[must_use]
     pub fn new(state: &Path) -> Self {
+        let runs = RunFolder::new(state.join(HISTORY), state.join(RECORDINGS));
         Self(KeptPaths {
             checkpoint: state.join(CHECKPOINT),
             floors: FloorFolder::new(state.join(MAPS)),
@@ -133,7 +148,8 @@ impl KeptStore {
             schedules: state.join(SCHEDULES),
             health: state.join(HEALTH),
             learnt: state.join(LEARNT),
-            runs: RunFolder::new(state.join(HISTORY), state.join(RECORDINGS)),
+            lifetime: LifetimeFile::new(state.join(STATISTICS), runs.clone()),
+            runs,
         })
     }
 
@@ -156,7 +172,8 @@ impl KeptStore {
         let now = BootTime::now().ok();
         let newest = now.map(|now| checkpoint_file::newest(&kept.checkpoint, &now));
         let (checkpoint, checkpoint_complaint) = newest.unwrap_or_default();
-        let (resume, next_run) = kept.left_over(checkpoint);
+        let (lifetime, lifetime_complaints) = kept.lifetime.load();
+        let (resume, next_run) = kept.left_over(checkpoint, lifetime.newest());
         CoreConfig {
             schedules: found.book,
             schedules_distrusted: found.distrusted,
@@ -167,6 +184,7 @@ impl KeptStore {
                 found.complaints,
                 health_complaints,
                 learnt_complaints,
+                lifetime_complaints,
                 floor_complaints,
                 kept.mixes.put_damaged_aside(),
                 kept.folder_complaints(),

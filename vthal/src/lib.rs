@@ -23,6 +23,7 @@ pub mod imu;
 mod instance;
 mod kept_store;
 mod learnt_file;
+mod lifetime_file;
 mod link;
 mod logging;
 mod map_folder;

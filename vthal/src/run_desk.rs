@@ -9,6 +9,7 @@ use base64::engine::general_purpose::STANDARD;
 use rvac_api::{RUN_PIECE_BYTES, RunTrack, Update};
 use vthal_core::RunTask;
 
+use crate::lifetime_file::LifetimeFile;
 use crate::recording::{self, Whole};
 use crate::run_folder::{RunError, RunFolder};
 
@@ -20,6 +21,7 @@ const READ_AT_ONCE: usize = 4;
 #[derive(Debug)]
 pub(crate) struct RunDesk {
     folder: RunFolder,
+    lifetime: LifetimeFile,
     /// The one that was read last comes first.
     open: VecDeque<OpenFile>,
 }
@@ -35,10 +37,11 @@ struct OpenFile {
 }
 
 impl RunDesk {
-    /// For this folder.
-    pub(crate) fn new(folder: RunFolder) -> Self {
+    /// For the runs that these sums are of.
+    pub(crate) fn new(lifetime: LifetimeFile) -> Self {
         Self {
-            folder,
+            folder: lifetime.runs().clone(),
+            lifetime,
             open: VecDeque::new(),
         }
     }
@@ -50,6 +53,10 @@ impl RunDesk {
     pub(crate) fn answer(&mut self, task: RunTask) -> Result<Update, RunError> {
         match task {
             RunTask::List { before, count } => Ok(self.folder.list(before, usize::from(count))),
+            RunTask::Statistics => {
+                let lifetime = self.lifetime.up_to_date();
+                Ok(Update::Statistics(Box::new(lifetime.statistics().clone())))
+            }
             RunTask::Show(number) => Ok(Update::Run(Box::new(self.folder.show(number)?))),
             RunTask::Track { number, recording } => self.track(number, recording),
             RunTask::File {

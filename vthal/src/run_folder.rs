@@ -86,6 +86,22 @@ struct Head {
     run: Run,
 }
 
+/// What is counted of a record.
+#[derive(Debug, Deserialize)]
+pub(crate) struct CountedRun {
+    /// The run.
+    pub(crate) run: Run,
+    /// Where it stopped.
+    pub(crate) stops: Vec<CountedStop>,
+}
+
+/// What is counted of a stop.
+#[derive(Debug, Deserialize)]
+pub(crate) struct CountedStop {
+    /// Its named reason.
+    pub(crate) reason: String,
+}
+
 impl RunFolder {
     /// The folder at `path`, made with the first record, of runs that are recorded in `recordings`.
     pub(crate) fn new(path: PathBuf, recordings: PathBuf) -> Self {
@@ -105,6 +121,22 @@ impl RunFolder {
     /// Whether there is a record of this number.
     pub(crate) fn has(&self, number: u64) -> bool {
         self.file(number).is_file()
+    }
+
+    /// Numbers of the records above this one, the lowest first.
+    pub(crate) fn newer_than(&self, number: u64) -> Vec<u64> {
+        let newest_first = self.numbers().into_iter();
+        let mut newer: Vec<u64> = newest_first.take_while(|newer| *newer > number).collect();
+        newer.reverse();
+        newer
+    }
+
+    /// What is counted of a run.
+    ///
+    /// # Errors
+    /// See [`RunError`].
+    pub(crate) fn counted(&self, number: u64) -> Result<CountedRun, RunError> {
+        self.load(number)
     }
 
     /// Keeps a record.
@@ -298,6 +330,7 @@ mod tests {
     use vthal_core::RunTask;
 
     use super::{RUNS_MAX, RunError, RunFolder};
+    use crate::lifetime_file::LifetimeFile;
     use crate::run_desk::RunDesk;
 
     struct Scratch(PathBuf);
@@ -331,7 +364,8 @@ mod tests {
     }
 
     fn answer(folder: &RunFolder, task: RunTask) -> Result<Update, RunError> {
-        RunDesk::new(folder.clone()).answer(task)
+        let lifetime = LifetimeFile::new(folder.path.join("statistics.json"), folder.clone());
+        RunDesk::new(lifetime).answer(task)
     }
 
     fn numbers(update: Result<Update, RunError>) -> (Vec<u64>, bool) {

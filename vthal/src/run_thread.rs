@@ -8,8 +8,9 @@ use tokio::sync::mpsc::Sender;
 use vthal_core::{ClientId, RunQuery};
 
 use crate::event::Event;
+use crate::lifetime_file::LifetimeFile;
 use crate::run_desk::RunDesk;
-use crate::run_folder::{RunError, RunFolder};
+use crate::run_folder::RunError;
 
 /// Questions that may wait.
 const WAITING_MAX: usize = 16;
@@ -33,12 +34,12 @@ pub(crate) struct RunHandle(SyncSender<RunQuery>);
 ///
 /// # Errors
 /// When the system gives no thread.
-pub(crate) fn start(folder: RunFolder, events: Sender<Event>) -> io::Result<RunHandle> {
+pub(crate) fn start(lifetime: LifetimeFile, events: Sender<Event>) -> io::Result<RunHandle> {
     let (sender, queue) = sync_channel::<RunQuery>(WAITING_MAX);
     std::thread::Builder::new()
         .name("history".to_owned())
         .spawn(move || {
-            let mut desk = RunDesk::new(folder);
+            let mut desk = RunDesk::new(lifetime);
             for RunQuery { client, id, task } in queue {
                 let outcome = desk.answer(task).map(Box::new);
                 let answer = RunAnswer { client, id, outcome };

@@ -87,7 +87,7 @@ async fn start(config: &Config, speed: f64, unkept: Option<String>) -> Result<()
         to_robot,
         line_holder,
         recorder,
-        runs: run_thread::start(kept.paths().runs.clone(), event_sender.clone())?,
+        runs: run_thread::start(kept.paths().lifetime.clone(), event_sender.clone())?,
         checkpoints: checkpoint_thread::start(kept.into_paths(), event_sender.clone())?,
         socket: config.socket.clone(),
         calibration_file: config.state.join("calibration.toml"),

@@ -211,10 +211,7 @@ fn requests(
         Capability::Consumables => {
             action(body, "reset")?;
             let components = consumable(rest).unwrap_or_default();
-            let reset = |component: &&str| RequestBody::ResetHealth {
-                component: (*component).to_owned(),
-            };
-            return Ok(components.iter().map(reset).collect());
+            return Ok(reads::resets(components));
         }
         Capability::Locate => {
             action(body, "locate")?;

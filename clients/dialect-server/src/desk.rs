@@ -11,7 +11,6 @@ use tokio::sync::{mpsc, oneshot};
 use tokio::time::{MissedTickBehavior, interval, timeout};
 
 use crate::answer::Refusal;
-use crate::history;
 use crate::site::{MAP_EVERY, Site};
 
 const TOPICS: [Topic; 6] = [
@@ -139,7 +138,7 @@ pub(crate) async fn follow(socket: PathBuf, site: Arc<Site>, mut questions: mpsc
                 News::Connected => {
                     wear.reset_immediately();
                     // A daemon that is away is asked when it comes; so are all that follow.
-                    daemon.request(history::newest()).await.ok();
+                    daemon.request(RequestBody::Statistics).await.ok();
                 }
                 News::Lost => {
                     waiting.forget();

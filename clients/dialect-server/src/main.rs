@@ -9,7 +9,6 @@ mod configuration;
 mod connections;
 mod desk;
 mod driving;
-mod history;
 mod reads;
 mod routes;
 mod site;

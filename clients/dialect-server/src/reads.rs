@@ -2,7 +2,7 @@
 
 use dialect::Operation;
 use jiff::Timestamp;
-use rvac_api::{ComponentHealth, HomeView, KeptMap};
+use rvac_api::{ComponentHealth, HomeView, KeptMap, RequestBody};
 use serde_json::{Value, json};
 
 use crate::capabilities::Capability;
@@ -23,7 +23,7 @@ pub(crate) struct Consumable {
 }
 
 /// Both wheels are one part to clean.
-pub(crate) const CONSUMABLES: [Consumable; 2] = [
+pub(crate) const CONSUMABLES: [Consumable; 5] = [
     Consumable {
         kind: "brush",
         sub_kind: "main",
@@ -34,7 +34,41 @@ pub(crate) const CONSUMABLES: [Consumable; 2] = [
         sub_kind: "wheel",
         components: &["wheel-left", "wheel-right"],
     },
+    Consumable {
+        kind: "brush",
+        sub_kind: "side_right",
+        components: &["brush-sides"],
+    },
+    Consumable {
+        kind: "filter",
+        sub_kind: "main",
+        components: &["filter"],
+    },
+    Consumable {
+        kind: "cleaning",
+        sub_kind: "sensor",
+        components: &["sensors"],
+    },
 ];
+
+/// What the daemon is asked when a client resets such a part: what is weighed learns its load anew, and the hours of what has hours begin
+/// anew.
+pub(crate) fn resets(components: &[&str]) -> Vec<RequestBody> {
+    let mut all = Vec::new();
+    for component in components {
+        let component = (*component).to_owned();
+        let is_weighed = matches!(component.as_str(), "brush-main" | "wheel-left" | "wheel-right");
+        let has_hours = !component.starts_with("wheel");
+        if is_weighed {
+            let component = component.clone();
+            all.push(RequestBody::ResetHealth { component });
+        }
+        if has_hours {
+            all.push(RequestBody::RenewPart { component });
+        }
+    }
+    all
+}
 
 /// The whole state, of texts that are JSON already.
 pub(crate) fn state_text(attributes: &str, map: &str) -> String {
@@ -112,20 +146,31 @@ fn segments(home: &HomeView) -> Value {
         .collect()
 }
 
-/// How far a part is from where the daemon calls it hard to turn; nothing while its usual load is not known.
+/// How far a part is from where the daemon calls it hard to turn; where its load is not known, how many minutes of work are left until such
+/// parts are usually seen to; nothing while neither is known.
 fn consumable(part: &Consumable, wear: &[ComponentHealth]) -> Option<Value> {
-    let share = wear
-        .iter()
-        .filter(|worn| part.components.contains(&worn.component.as_str()))
-        .filter_map(|worn| worn.share)
-        .reduce(f64::max)?;
-    let left = ((HARD_SHARE - share) / (HARD_SHARE - 1.0)).clamp(0.0, 1.0);
+    let worn = || {
+        wear.iter()
+            .filter(|worn| part.components.contains(&worn.component.as_str()))
+    };
+    let share = worn().filter_map(|worn| worn.share).reduce(f64::max);
+    let hours = worn().find_map(|worn| worn.hours);
+    let remaining = match (share, hours) {
+        (Some(share), _) => {
+            let left = ((HARD_SHARE - share) / (HARD_SHARE - 1.0)).clamp(0.0, 1.0);
+            json!({"value": whole(left * 100.0), "unit": "percent"})
+        }
+        (None, Some(hours)) => {
+            json!({"value": whole((hours.usual_h - hours.worked_h).max(0.0) * 60.0), "unit": "minutes"})
+        }
+        (None, None) => return None,
+    };
     Some(json!({
         "__class": "ConsumableStateAttribute",
         "metaData": {},
         "type": part.kind,
         "subType": part.sub_kind,
-        "remaining": {"value": whole(left * 100.0), "unit": "percent"},
+        "remaining": remaining,
     }))
 }
 
@@ -159,12 +204,14 @@ fn current_statistics(store: &Store) -> Value {
 }
 
 fn total_statistics(store: &Store) -> Value {
-    let (moving_s, swept_m2, count) = store.totals.sums();
-    let count = u32::try_from(count).unwrap_or(u32::MAX);
+    let Some(sums) = &store.totals else {
+        return json!([]);
+    };
+    let count: u64 = sums.runs.values().sum();
     statistics(&[
-        ("time", moving_s),
-        ("area", swept_m2 * 1e4),
-        ("count", f64::from(count)),
+        ("time", sums.moving_h * 3_600.0),
+        ("area", sums.swept_m2 * 1e4),
+        ("count", count as f64),
     ])
 }
 
@@ -196,9 +243,38 @@ pub(crate) fn operation(body: &Value) -> Option<Operation> {
 
 #[cfg(test)]
 mod tests {
-    use rvac_api::{ComponentHealth, KeptMap};
+    use rvac_api::{ComponentHealth, KeptMap, PartHours, RequestBody};
+    use serde_json::json;
 
-    use super::{CONSUMABLES, consumable, snapshots};
+    use super::{CONSUMABLES, consumable, resets, snapshots};
+
+    #[test]
+    fn a_part_without_a_measured_load_has_minutes_left_and_a_reset_begins_its_hours_anew() {
+        let filter = ComponentHealth {
+            component: "filter".to_owned(),
+            hours: Some(PartHours {
+                worked_h: 149.5,
+                usual_h: 150.0,
+                ..PartHours::default()
+            }),
+            ..ComponentHealth::default()
+        };
+        let part = CONSUMABLES
+            .iter()
+            .find(|part| part.kind == "filter")
+            .expect("is listed");
+        let told = consumable(part, &[filter]).expect("is known");
+        assert_eq!(told["remaining"], json!({"value": 30, "unit": "minutes"}));
+        let component = || "filter".to_owned();
+        assert_eq!(
+            resets(part.components),
+            [RequestBody::RenewPart {
+                component: component()
+            }]
+        );
+        assert_eq!(resets(&["wheel-left", "wheel-right"]).len(), 2);
+        assert_eq!(resets(&["brush-main"]).len(), 2, "its load and its hours");
+    }
 
     #[test]
     fn wear_is_what_is_left_until_it_is_hard_and_the_worse_wheel_counts() {

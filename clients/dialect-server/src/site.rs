@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use bridge::{Change, FanSpeed, Knowledge, Limiter};
 use dialect::Frame;
-use rvac_api::{ComponentHealth, RequestBody, Update};
+use rvac_api::{ComponentHealth, RequestBody, Statistics, Update};
 use tokio::sync::watch;
 use tokio::time::Instant;
 
@@ -15,7 +15,6 @@ use crate::answer::Refusal;
 use crate::configuration::Configuration;
 use crate::desk::{Asked, Desk};
 use crate::driving::Driving;
-use crate::history::Totals;
 use crate::streams::Streams;
 
 /// Least pause between two maps.
@@ -46,7 +45,8 @@ pub(crate) struct Store {
     pub(crate) known: Knowledge,
     pub(crate) speed: FanSpeed,
     pub(crate) wear: Vec<ComponentHealth>,
-    pub(crate) totals: Totals,
+    /// What all runs come to, once it was said.
+    pub(crate) totals: Option<Statistics>,
     /// Of the map that was said last: places in commands are in it.
     frame: Option<Frame>,
     map_is_new: bool,
@@ -96,11 +96,11 @@ impl Site {
                 store.wear.clone_from(components);
                 None
             }
-            Update::Runs { runs, more } => store.totals.take(runs, *more),
-            Update::RunKept(run) => {
-                store.totals.add(run);
+            Update::Statistics(sums) => {
+                store.totals = Some(sums.as_ref().clone());
                 None
             }
+            Update::RunKept(_) => Some(RequestBody::Statistics),
             _ => None,
         };
         match store.known.take(update) {

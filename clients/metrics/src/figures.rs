@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use bridge::Knowledge;
-use rvac_api::{Activity, ComponentHealth, Estimate, RunResult, Trouble, Update, explain};
+use rvac_api::{
+    Activity, ComponentHealth, Estimate, PartHours, RunResult, Statistics, Trouble, Update, explain,
+};
 
 use crate::exposition::Kind::{Counter, Gauge};
 use crate::exposition::Page;
@@ -15,6 +17,8 @@ pub(crate) struct Figures {
     pub(crate) daemon_is_up: bool,
     estimate: Option<Estimate>,
     wear: Vec<ComponentHealth>,
+    /// What all runs come to, once it was said.
+    lifetime: Option<Statistics>,
     counted: Counted,
 }
 
@@ -36,9 +40,10 @@ impl Figures {
         match update {
             Update::Estimate(estimate) => self.estimate = Some(*estimate),
             Update::Health { components, .. } => self.wear.clone_from(components),
+            Update::Statistics(sums) => self.lifetime = Some(sums.as_ref().clone()),
             Update::RunKept(run) => {
                 let counted = &mut self.counted;
-                *counted.runs.entry(result_name(run.result)).or_default() += 1;
+                *counted.runs.entry(run.result.name()).or_default() += 1;
                 counted.swept_m2 += run.swept_m2;
                 counted.path_m += run.path_m;
                 counted.moving_s += run.moving_s;
@@ -92,6 +97,7 @@ impl Figures {
         self.body(&mut page);
         self.place(&mut page);
         self.counters(&mut page);
+        self.lifetime(&mut page);
         page.into_text()
     }
 
@@ -276,6 +282,20 @@ impl Figures {
             "Load of a part over its usual load.",
             ("part", worn),
         );
+        let hours = |of: fn(&PartHours) -> f64| {
+            let parts = self.wear.iter();
+            parts.filter_map(move |part| Some((part.component.as_str(), of(part.hours.as_ref()?))))
+        };
+        page.figures(
+            ("rvac_part_worked_hours", Gauge),
+            "Hours of work of a part since it was replaced or cleaned.",
+            ("part", hours(|hours| hours.worked_h)),
+        );
+        page.figures(
+            ("rvac_part_usual_hours", Gauge),
+            "Hours of work after which such a part is usually replaced or cleaned.",
+            ("part", hours(|hours| hours.usual_h)),
+        );
     }
 
     fn place(&self, page: &mut Page) {
@@ -302,10 +322,41 @@ impl Figures {
         }
     }
 
+    /// Sums that the daemon keeps: they go on where this program was not there to count.
+    fn lifetime(&self, page: &mut Page) {
+        let Some(sums) = &self.lifetime else { return };
+        let runs = sums.runs.iter().map(|(job, count)| (job.as_str(), *count as f64));
+        page.figures(
+            ("rvac_lifetime_runs_total", Counter),
+            "Runs since the robot's first one.",
+            ("job", runs),
+        );
+        let figures = [
+            (
+                "rvac_lifetime_swept_square_meters_total",
+                "Floor that all runs have swept.",
+                sums.swept_m2,
+            ),
+            (
+                "rvac_lifetime_path_meters_total",
+                "Distance of all runs.",
+                sums.path_km * 1e3,
+            ),
+            (
+                "rvac_lifetime_moving_seconds_total",
+                "Time in motion of all runs.",
+                sums.moving_h * 3_600.0,
+            ),
+        ];
+        for (name, help, value) in figures {
+            page.figure((name, Counter), help, Some(value));
+        }
+    }
+
     fn counters(&self, page: &mut Page) {
         let counted = &self.counted;
         let runs = RunResult::ALL.into_iter().map(|result| {
-            let name = result_name(result);
+            let name = result.name();
             (name, f64::from(counted.runs.get(name).copied().unwrap_or(0)))
         });
         page.figures(("rvac_runs_total", Counter), "Runs that ended.", ("result", runs));
@@ -343,17 +394,6 @@ impl Figures {
         for (name, help, value) in sums {
             page.figure((name, Counter), help, Some(value));
         }
-    }
-}
-
-fn result_name(result: RunResult) -> &'static str {
-    match result {
-        RunResult::Finished => "finished",
-        RunResult::Stopped => "stopped",
-        RunResult::GaveUp => "gave-up",
-        RunResult::DaemonEnded => "daemon-ended",
-        RunResult::CutShort => "cut-short",
-        RunResult::OtherRobot => "other-robot",
     }
 }
 

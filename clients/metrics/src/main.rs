@@ -20,7 +20,7 @@ use bridge::service::ConfigurationError;
 use bridge::{Daemon, News, service};
 use clap::Parser;
 use figures::Figures;
-use rvac_api::{RequestBody, Topic};
+use rvac_api::{RequestBody, Topic, Update};
 use tokio::net::TcpListener;
 use tokio::time::{MissedTickBehavior, interval};
 
@@ -100,6 +100,7 @@ async fn follow(socket: PathBuf, figures: Shared) {
                 News::Connected => {
                     lock(&figures).daemon(true);
                     wear.reset_immediately();
+                    daemon.request(RequestBody::Statistics).await.ok();
                 }
                 News::Lost => lock(&figures).daemon(false),
                 News::Update(update) => {
@@ -111,6 +112,9 @@ async fn follow(socket: PathBuf, figures: Shared) {
                     if is_new {
                         // A daemon that is away says it when it is there again.
                         daemon.hello().await.ok();
+                    }
+                    if matches!(*update, Update::RunKept(_)) {
+                        daemon.request(RequestBody::Statistics).await.ok();
                     }
                 }
             },

@@ -66,6 +66,9 @@ pub(crate) fn read(hearing: Hearing, payload: &[u8]) -> Result<Order, NoCommand>
         Hearing::Rooms => rooms(text).map(Order::Clean),
         Hearing::Request => request(text),
         Hearing::Floor => Ok(Order::Floor(text.to_owned())),
+        Hearing::WearRenew => Ok(Order::Ask(RequestBody::RenewPart {
+            component: text.to_owned(),
+        })),
         Hearing::WearReset => Ok(Order::Ask(RequestBody::ResetHealth {
             component: text.to_owned(),
         })),

@@ -115,7 +115,13 @@ impl Core {
             }
             Order::Ask(body) => body,
         };
-        if matches!(body, RequestBody::ResetHealth { .. }) {
+        let changes_wear = matches!(
+            body,
+            RequestBody::ResetHealth { .. }
+                | RequestBody::RenewPart { .. }
+                | RequestBody::UndoRenewPart { .. }
+        );
+        if changes_wear {
             self.wear_at = None;
         }
         out.push(Output::Ask(body));

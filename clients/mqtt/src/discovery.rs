@@ -17,6 +17,38 @@ const WORN_PARTS: [(&str, &str); 3] = [
     ("wheel-right", "Right wheel"),
 ];
 
+/// Parts whose hours of work the daemon counts: keys of the figure and of its button, component, name, and what is done with them.
+const HOURLY_PARTS: [(&str, &str, &str, &str, &str); 4] = [
+    (
+        "hours_brush",
+        "hours_brush_renew",
+        "brush-main",
+        "Main brush",
+        "replaced",
+    ),
+    (
+        "hours_sides",
+        "hours_sides_renew",
+        "brush-sides",
+        "Side brushes",
+        "replaced",
+    ),
+    (
+        "hours_filter",
+        "hours_filter_renew",
+        "filter",
+        "Filter",
+        "replaced",
+    ),
+    (
+        "hours_sensors",
+        "hours_sensors_renew",
+        "sensors",
+        "Sensors",
+        "cleaned",
+    ),
+];
+
 /// What the message is made of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Device<'a> {
@@ -59,6 +91,7 @@ impl Device<'_> {
             self.events(),
             self.choices(),
             self.wear(),
+            self.hours(),
         ];
         for entity in entities.into_iter().flatten() {
             components.insert(entity.key.to_owned(), entity.whole(id));
@@ -278,6 +311,36 @@ impl Device<'_> {
             optional("floor", "select", (names.len() > 1).then_some(floor)),
             entity("clear_error", "button", clear),
         ]
+    }
+
+    /// Hours of work left until such a part is usually seen to; below 0 it is due.
+    fn hours(&self) -> Vec<Entity> {
+        let mut entities = Vec::new();
+        for (key, renew_key, part, name, done) in HOURLY_PARTS {
+            let counted = self
+                .wear
+                .iter()
+                .any(|worn| worn.component == part && worn.hours.is_some());
+            let state = json!({
+                "name": format!("{name} hours left"),
+                "device_class": "duration",
+                "unit_of_measurement": "h",
+                "entity_category": "diagnostic",
+                "state_topic": self.topics.of(Saying::Wear),
+                "value_template": format!(
+                    "{{{{ (value_json['{part}'].usual_h - value_json['{part}'].worked_h) | round(1) }}}}"
+                ),
+            });
+            let renew = json!({
+                "name": format!("{name} {} {done}", if name.ends_with('s') { "were" } else { "was" }),
+                "entity_category": "config",
+                "command_topic": self.topics.of_command(Hearing::WearRenew),
+                "payload_press": part,
+            });
+            entities.push(optional(key, "sensor", counted.then_some(state)));
+            entities.push(optional(renew_key, "button", counted.then_some(renew)));
+        }
+        entities
     }
 
     fn wear(&self) -> Vec<Entity> {

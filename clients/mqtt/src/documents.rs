@@ -94,6 +94,9 @@ pub(crate) fn wear(parts: &[ComponentHealth]) -> Value {
             "minutes": part.minutes,
             "share": part.share,
             "text": part.text,
+            "worked_h": part.hours.map(|hours| tenths(hours.worked_h)),
+            "usual_h": part.hours.map(|hours| hours.usual_h),
+            "due": part.hours.map(|hours| hours.is_due()),
         });
         (part.component.clone(), told)
     };

@@ -44,6 +44,8 @@ pub(crate) enum Hearing {
     Floor,
     /// The part that was cleaned or changed.
     WearReset,
+    /// The part that was replaced, or whose sensors were cleaned.
+    WearRenew,
 }
 
 impl Saying {
@@ -63,13 +65,14 @@ impl Saying {
 }
 
 impl Hearing {
-    pub(crate) const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 7] = [
         Self::Command,
         Self::FanSpeed,
         Self::Rooms,
         Self::Request,
         Self::Floor,
         Self::WearReset,
+        Self::WearRenew,
     ];
 
     pub(crate) const fn name(self) -> &'static str {
@@ -80,6 +83,7 @@ impl Hearing {
             Self::Request => "request",
             Self::Floor => "floor/set",
             Self::WearReset => "wear/reset",
+            Self::WearRenew => "wear/renew",
         }
     }
 }

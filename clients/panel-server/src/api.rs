@@ -1,6 +1,7 @@
 //! The server's own interface: who is asking, who is let in, and who was.
 
 use std::net::IpAddr;
+use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -21,6 +22,7 @@ use crate::gate::Gate;
 use crate::guarded::{Known, NotDone, refused, set_cookie};
 use crate::server::Site;
 use crate::software::SoftwareDesk;
+use crate::system;
 
 /// Bytes of a request's body.
 const BODY_BYTES_MAX: usize = 64 << 10;
@@ -106,6 +108,7 @@ pub(crate) fn routes() -> Router<Arc<Site>> {
     Router::new()
         .route("/api/openapi.json", get(description))
         .route("/api/session", get(session))
+        .route("/api/system", get(system))
         .route("/api/pairing", get(invitation))
         .route("/api/pairing/begin", post(begin))
         .route("/api/pairing/finish", post(finish))
@@ -145,6 +148,12 @@ async fn session(State(site): State<Arc<Site>>, known: Option<Extension<Known>>)
         },
     };
     Ok(json(StatusCode::OK, &session))
+}
+
+/// The computer that this runs on.
+async fn system(State(site): State<Arc<Site>>) -> Response<Body> {
+    let urls = site.gate().map(|gate| gate.addresses()).unwrap_or_default();
+    json(StatusCode::OK, &system::report(Path::new("/"), urls))
 }
 
 async fn invitation(State(site): State<Arc<Site>>) -> Answer {

@@ -31,6 +31,7 @@ mod seats;
 mod server;
 mod settings;
 mod software;
+mod system;
 mod upstream;
 mod write_deadline;
 

@@ -27,7 +27,7 @@ pub(crate) fn AboutView(store: Store) -> impl IntoView {
             <p>
                 <a href=SOURCE target="_blank" rel="noreferrer">{texts.source}</a>
             </p>
-            <p class="hint">{texts.help}</p>
+            <p class="hint">{texts.help} " " {texts.doctor} " " <code>"rvac doctor"</code> "."</p>
         </section>
     }
 }

@@ -21,7 +21,8 @@ pub(crate) fn DeviceView(store: Store) -> impl IntoView {
         store.device.with(|table| {
             table
                 .as_ref()
-                .map(|table| table.proximity.clone())
+                // The robot counts from its right side.
+                .map(|table| table.proximity.iter().rev().copied().collect::<Vec<f32>>())
                 .unwrap_or_default()
         })
     };

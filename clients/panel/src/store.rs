@@ -1,30 +1,25 @@
 //! The state of the page, as signals that the views follow.
 
+mod incoming;
+
 use leptos::prelude::*;
 use mixer::Steered;
-use panel_logic::{
-    Currency, DecisionBook, Driver, LogBook, News, Offers, Presses, RoomRow, carpet_sentence, room_rows,
-    route_length_m, top_speeds,
-};
+use panel_logic::{Currency, DecisionBook, Driver, LogBook, News, Offers, Presses, RoomRow, top_speeds};
 use rvac_api::{
-    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, HomeView, KeptMap, LearntPart,
-    LearntView, PlannedPath, Request, RequestBody, RobotDescription, SimulatedTruth, SoftwareUpdate,
-    Standstill, Status, Topic,
+    ComponentHealth, DeviceTable, Estimate, Evidence, Failure, FloorsView, KeptMap, LearntPart, LearntView,
+    Request, RequestBody, RobotDescription, SimulatedTruth, SoftwareUpdate, Standstill, Status, Topic,
 };
 
-use rvac_api::Update as Message;
-
-use crate::access::{EDITS_MIXES, Entrance, Newcomer};
+use crate::access::{EDITS_MIXES, Entrance};
 use crate::calibration_view::CalibrationDesk;
-use crate::changes::set_if_changed;
 use crate::drive::Seat;
 use crate::floor_files::FloorDesk;
 use crate::history::HistoryDesk;
-use crate::language::words;
 use crate::link::Link;
 use crate::map::{Edits, MapHandle, Orders};
 use crate::mixes::Bench;
 use crate::news::{no_news, now_ms};
+use crate::notify::Notifier;
 use crate::schedules::ScheduleDesk;
 use crate::toasts::Undo;
 
@@ -42,7 +37,7 @@ pub(crate) const SCHEDULE_ID: u32 = 4;
 /// Number of the requests for a run that is over.
 pub(crate) const RUN_ID: u32 = 5;
 
-/// Number of the requests that say that a part was cleaned.
+/// Number of the requests that say that a part was cleaned or replaced.
 const HEALTH_ID: u32 = 6;
 
 /// Number of the requests that have something forgotten.
@@ -110,6 +105,8 @@ pub(crate) struct Store {
     pub(crate) news: StoredValue<News>,
     /// Presses of job buttons that wait for their answer.
     pub(crate) presses: RwSignal<Presses>,
+    /// Notifications of the system.
+    pub(crate) notifier: Notifier,
     /// What became of the last one, where that is not seen otherwise.
     pub(crate) note: RwSignal<Option<&'static str>>,
     /// When the daemon began, seconds since 1970 by the clock of this device.
@@ -166,6 +163,7 @@ impl Store {
             currency: RwSignal::new(Currency::Current),
             news: no_news(),
             presses: RwSignal::new(Presses::default()),
+            notifier: Notifier::new(),
             note: RwSignal::new(None),
             daemon_began_s: StoredValue::new(None),
             undo: RwSignal::new(None),
@@ -205,7 +203,13 @@ impl Store {
     pub(crate) fn ask(self, body: RequestBody) {
         if self.admits_request(&body) {
             self.refusal.set(None);
-            self.send(Some(OTHER_ID), body);
+            let id = match body {
+                RequestBody::ResetHealth { .. }
+                | RequestBody::RenewPart { .. }
+                | RequestBody::UndoRenewPart { .. } => HEALTH_ID,
+                _ => OTHER_ID,
+            };
+            self.send(Some(id), body);
         }
     }
 
@@ -269,12 +273,17 @@ impl Store {
         }
     }
 
-    /// Says that a part was cleaned.
-    pub(crate) fn reset_health(self, component: String) {
-        let body = RequestBody::ResetHealth { component };
+    /// Says that a part was replaced, or cleaned where that is what is done with it; the way back is offered.
+    pub(crate) fn renew_part(self, component: String, said: String) {
+        let body = RequestBody::RenewPart {
+            component: component.clone(),
+        };
         if self.admits_request(&body) {
-            self.refusal.set(None);
-            self.send(Some(HEALTH_ID), body);
+            self.ask(body);
+            self.undo.set(Some(Undo {
+                what: said,
+                body: RequestBody::UndoRenewPart { component },
+            }));
         }
     }
 
@@ -356,141 +365,6 @@ impl Store {
         self.floor_desk.on_close();
         // The state stays as it was for the moment that a glitch takes.
         self.news.update_value(News::on_close);
-    }
-
-    /// A message came.
-    pub(crate) fn on_update(self, update: Message) {
-        match update {
-            Message::Hello {
-                robot, strategies, ..
-            } => {
-                self.map.with_value(|map| map.set_robot(robot.as_ref()));
-                self.robot.set(robot);
-                self.strategies.set(strategies);
-            }
-            Message::Status(status) => self.on_status(status),
-            Message::Device(table) => self.device.set(Some(table)),
-            Message::Log(entry) => self.log.update(|log| log.push(entry)),
-            Message::Failed(failure) => self.on_failed(failure),
-            Message::SimulatedTruth(truth) => {
-                self.map.with_value(|map| map.on_truth(truth.pose));
-                self.truth.set(Some(truth));
-            }
-            Message::SimulatedPlan(plan) => {
-                self.map.with_value(|map| map.set_plan(&plan));
-                self.home.set(Some(plan.name));
-            }
-            Message::Pose(pose) => {
-                self.set_wall_clock(pose.t);
-                self.seat.on_pose(pose);
-                self.map.with_value(|map| map.on_pose(pose));
-            }
-            Message::Map(snapshot) => self.map.with_value(|map| map.on_snapshot(&snapshot)),
-            Message::MapDelta(delta) => self.map.with_value(|map| map.on_delta(&delta)),
-            Message::Home(home) => self.on_home(&home),
-            Message::Estimate(estimate) => {
-                self.map.with_value(|map| map.on_estimate(&estimate));
-                self.estimate.set(Some(estimate));
-            }
-            Message::PlannedPath(path) => self.on_planned_path(&path),
-            Message::Heartbeat { silent_ms } => self.on_heartbeat(silent_ms),
-            Message::Evidence { evidence, .. } => self.evidence.set(Some(evidence)),
-            Message::Standstill(told) => self.standstill.set(Some(*told)),
-            Message::Decision(decision) => self.decisions.update(|book| book.push(decision)),
-            Message::Maps { floor, maps } => {
-                self.maps_floor.set(floor);
-                self.maps.set(maps);
-            }
-            Message::Floors(floors) => {
-                self.edits.on_floor(floors.here);
-                self.floors.set(floors);
-            }
-            Message::Health { components, .. } => self.health.set(components),
-            Message::Learnt { devices, .. } => self.learnt.set(devices),
-            Message::Calibration { values, file, .. } => self.calibration.on_values(values, file),
-            Message::CalibrationPage(page) => self.calibration.on_page(*page),
-            Message::JobEstimate(estimate) => self.orders.on_estimate(&estimate),
-            Message::Mixes { mixes } => self.seat.on_mixes(&mixes),
-            Message::Done { id } => self.on_done(id),
-            Message::Schedules(schedules) => self.schedules.on_schedules(schedules),
-            Message::Runs { runs, more } => self.history.on_runs(runs, more),
-            Message::Run(record) => self.history.on_record(*record),
-            Message::RunKept(run) => self.history.on_kept(*run),
-            Message::RunTrack(track) => self.history.on_track(*track),
-            Message::Inputs { inputs } => self.seat.on_inputs(&inputs),
-            Message::Packet { .. }
-            | Message::Piece { .. }
-            | Message::RunFile { .. }
-            | Message::FloorArchive { .. }
-            | Message::Button { .. } => {}
-            Message::SoftwareUpdate(told) => self.software.set(Some(*told)),
-            Message::NewDevice { name, role, from } => self.entrance.meet(Newcomer { name, role, from }),
-        }
-    }
-
-    fn on_planned_path(self, path: &PlannedPath) {
-        set_if_changed(self.route_m, route_length_m(path));
-        self.map.with_value(|map| map.on_planned_path(path));
-    }
-
-    fn on_home(self, home: &HomeView) {
-        let rows = room_rows(words(), home);
-        set_if_changed(self.rooms, rows);
-        set_if_changed(self.carpet, carpet_sentence(words(), home));
-        self.orders.on_home(home);
-        self.map.with_value(|map| map.on_home(home));
-        self.take_put_off_steps();
-    }
-
-    /// Says what this is, and asks what the robot is.
-    fn introduce(self) {
-        let name = "panel".to_owned();
-        self.send(None, RequestBody::Hello { name });
-    }
-
-    fn on_status(self, status: Status) {
-        self.seat.on_status(&status);
-        let was_away = self.status.with_untracked(|before| {
-            before
-                .as_ref()
-                .is_some_and(|before| before.state == "disconnected")
-        });
-        if was_away && status.state != "disconnected" {
-            // What comes back may have been programmed anew.
-            self.introduce();
-        }
-        if status.state == "disconnected" {
-            self.device.set(None);
-        }
-        if status.reason == NO_DAEMON {
-            self.edits.on_lost();
-        }
-        self.forget_why_not(&status);
-        self.status.set(Some(status));
-    }
-
-    fn on_failed(self, failure: Failure) {
-        if let Some(id) = failure.id {
-            self.end_press(id, false);
-        }
-        self.edits.on_failed(&failure);
-        if self.orders.on_failed(&failure)
-            || self.schedules.on_failed(&failure)
-            || self.history.on_failed(&failure)
-            || self.floor_desk.on_failed(&failure)
-        {
-            return;
-        }
-        if failure.id == Some(MIX_ID) && failure.reason == "changed-meanwhile" {
-            self.bench.on_changed_meanwhile();
-        }
-        if failure.id == Some(LEND_ID) {
-            self.on_lending_refused();
-        }
-        if failure.id == Some(DRIVE_ID) {
-            self.seat.driver.update_value(Driver::on_refused);
-        }
-        self.refusal.set(Some(failure));
     }
 
     fn send(self, id: Option<u32>, body: RequestBody) {

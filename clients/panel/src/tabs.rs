@@ -14,9 +14,11 @@ use crate::home_view::HomeSheet;
 use crate::language::words;
 use crate::learnt_view::LearntSection;
 use crate::log_view::LogView;
+use crate::notify::NotifySection;
 use crate::parts_view::PartsView;
 use crate::schedules::ScheduleSheet;
 use crate::store::Store;
+use crate::system_view::SystemSection;
 use crate::why_view::WhyView;
 
 const TABS: [&str; 7] = ["drive", "home", "schedules", "history", "why", "device", "log"];
@@ -57,7 +59,6 @@ fn keep_tab(open: usize) {
 pub(crate) fn Tabs(store: Store) -> impl IntoView {
     let open = RwSignal::new(kept_tab());
     Effect::new(move |_| keep_tab(open.get()));
-    let manages = Memo::new(move |_| store.entrance.access.with(Access::manages));
     let on_key = move |event: KeyboardEvent| {
         let now = open.get_untracked();
         let next = match event.key().as_str() {
@@ -108,18 +109,27 @@ pub(crate) fn Tabs(store: Store) -> impl IntoView {
                 <Show when=move || open.get() == 4><WhyView store /></Show>
             </div>
             <div role="tabpanel" id="sheet-device" aria-labelledby="tab-device" hidden=move || open.get() != 5>
-                <Show when=move || open.get() == 5>
-                    <DeviceView store />
-                    <PartsView store />
-                    <LearntSection store />
-                    <CalibrationSection store />
-                    <Show when=move || manages.get()><AdministratorView store /></Show>
-                    <AboutView store />
-                </Show>
+                <Show when=move || open.get() == 5><DeviceSheet store /></Show>
             </div>
             <div role="tabpanel" id="sheet-log" aria-labelledby="tab-log" hidden=move || open.get() != 6>
                 <Show when=move || open.get() == 6><LogView store /></Show>
             </div>
         </section>
+    }
+}
+
+/// What the robot and its computer measure, keep and are.
+#[component]
+fn DeviceSheet(store: Store) -> impl IntoView {
+    let manages = Memo::new(move |_| store.entrance.access.with(Access::manages));
+    view! {
+        <DeviceView store />
+        <PartsView store />
+        <LearntSection store />
+        <CalibrationSection store />
+        <Show when=move || manages.get()><AdministratorView store /></Show>
+        <NotifySection store />
+        <SystemSection store />
+        <AboutView store />
     }
 }

@@ -40,3 +40,13 @@ addEventListener('fetch', (event) => {
   if (pathname === '/') event.respondWith(page(request));
   else if (SHELL.includes(pathname)) event.respondWith(file(request));
 });
+
+// A press on a notice leads to the page.
+addEventListener('notificationclick', (event) => {
+  event.notification.close();
+  const lead = async () => {
+    const [open] = await clients.matchAll({ type: 'window', includeUncontrolled: true });
+    await (open ? open.focus() : clients.openWindow('/'));
+  };
+  event.waitUntil(lead());
+});

@@ -139,6 +139,19 @@ impl RunResult {
         Self::CutShort,
         Self::OtherRobot,
     ];
+
+    /// As it stands in messages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Finished => "finished",
+            Self::Stopped => "stopped",
+            Self::GaveUp => "gave-up",
+            Self::DaemonEnded => "daemon-ended",
+            Self::CutShort => "cut-short",
+            Self::OtherRobot => "other-robot",
+        }
+    }
 }
 
 /// A recording of a run.

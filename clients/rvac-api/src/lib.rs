@@ -27,11 +27,14 @@ mod schedule;
 mod short_number;
 mod simulated;
 mod software_update;
+mod statistics;
 mod stop;
+mod system;
 mod thought;
 mod topic;
 mod trouble;
 mod update;
+mod verb;
 
 pub use activity::{Activity, ActivityWords};
 pub use calibration::{CalibrationAnswer, CalibrationAsk, CalibrationPage, CalibrationValue};
@@ -41,7 +44,7 @@ pub use device::{BatteryReading, ChargerReading, DeviceTable, LinkReading};
 pub use floor::{
     ARCHIVE_BYTES_MAX, ARCHIVE_PIECE_BYTES, ARCHIVE_UPLOAD_BYTES, FloorQuestion, FloorView, FloorsView,
 };
-pub use health::ComponentHealth;
+pub use health::{ComponentHealth, PartCare, PartHours};
 pub use history::{
     RUN_PIECE_BYTES, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop,
     RunTrack, TrackPose, TrackReading,
@@ -54,7 +57,7 @@ pub use order::{
     RoomChangeView, RoomNaming, RoomSettings, RoomSplitting, SPOT_RADIUS_M,
 };
 pub use reasons::{Explanation, explain, explanations, remedy};
-pub use request::{Request, RequestBody, VERBS, role_for};
+pub use request::{Request, RequestBody};
 pub use role::{Role, UnknownRole};
 pub use schedule::{
     InQuiet, PlannedRun, QuietHours, ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView,
@@ -63,7 +66,9 @@ pub use schedule::{
 pub use short_number::short_number;
 pub use simulated::{SimulatedPlan, SimulatedTruth};
 pub use software_update::{SoftwareUpdate, UPDATE_BYTES_MAX, UpdateEnd, UpdateStage};
+pub use statistics::Statistics;
 pub use stop::{Evidence, EvidenceSample, Standstill};
+pub use system::{DiskSpace, NetworkAddress, SystemReport};
 pub use thought::{Decision, Estimate, MapDoubt, PlannedPath};
 pub use topic::Topic;
 pub use trouble::{Gravity, Trouble, TroubleWords};
@@ -71,6 +76,7 @@ pub use update::{
     BumpMark, Failure, Gesture, Lacking, LogEntry, LogLevel, MapDelta, MapSnapshot, Pose, Rle,
     RobotDescription, RoomHere, Status, Update, Versions,
 };
+pub use verb::{VERBS, role_for};
 
 /// Version of this interface. Raised when a message changes its meaning; additions need no new version.
 pub const API_VERSION: u32 = 1;

@@ -242,6 +242,7 @@ const TROUBLES: &[(&str, Option<Trouble>)] = &[
     ("pad-silent", None),
     ("busy", None),
     ("unknown-component", None),
+    ("not-renewed", None),
     ("nothing-learnt", None),
     ("being-calibrated", None),
     ("not-calibrating", None),

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     CalibrationPage, CalibrationValue, ClientInput, ComponentHealth, Decision, DeviceTable, Estimate,
     Evidence, FloorsView, HomeView, JobEstimate, KeptMap, LearntView, PlannedPath, Run, RunRecord, RunTrack,
-    Schedules, SimulatedPlan, SimulatedTruth, SoftwareUpdate, Standstill,
+    Schedules, SimulatedPlan, SimulatedTruth, SoftwareUpdate, Standstill, Statistics,
 };
 
 /// The closed set of updates; on the wire `{"e":"pose","x":0.1,...}` and so on.
@@ -71,7 +71,7 @@ pub enum Update {
         /// Number of the request.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         id: Option<u32>,
-        /// All parts whose loads are measured.
+        /// All parts whose loads are measured or whose hours are counted.
         components: Vec<ComponentHealth>,
     },
     /// What robots have learnt of themselves.
@@ -130,6 +130,8 @@ pub enum Update {
     },
     /// A run that is over.
     Run(Box<RunRecord>),
+    /// What all runs come to.
+    Statistics(Box<Statistics>),
     /// A run is over, and what is kept of it is on the disk.
     RunKept(Box<Run>),
     /// The summary of a run's recordings.

@@ -11,12 +11,12 @@ use rvac_api::{
     DoorView, EnergyLearnt, Estimate, Evidence, EvidenceSample, Failure, FloorQuestion, FloorView,
     FloorsView, Gesture, GyroLearnt, HomeView, InQuiet, JobEstimate, JobOrder, JobPart, KeptMap, LearntPart,
     LearntView, LinkReading, LogEntry, LogLevel, MapDelta, MapDoubt, MapSnapshot, NoGoShape, NoGoView,
-    PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours, Request, RequestBody, RobotDescription,
-    RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting, RoomView, Run, RunAsker, RunJob,
-    RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack, ScheduleDecision, ScheduleEntry,
-    ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan, SimulatedTruth, SoftwareUpdate,
-    Standstill, Status, SurenessView, Topic, TrackPose, TrackReading, Update, UpdateEnd, UpdateStage,
-    Versions, WallView, Weekday, is_mix_name,
+    PartCare, PartHours, PlaceShape, PlaceView, PlannedPath, PlannedRun, Pose, QuietHours, Request,
+    RequestBody, RobotDescription, RoomChangeView, RoomHere, RoomNaming, RoomSettings, RoomSplitting,
+    RoomView, Run, RunAsker, RunJob, RunPicture, RunRecord, RunRecording, RunResult, RunStop, RunTrack,
+    ScheduleDecision, ScheduleEntry, ScheduleTime, ScheduleView, ScheduledJob, Schedules, SimulatedPlan,
+    SimulatedTruth, SoftwareUpdate, Standstill, Statistics, Status, SurenessView, Topic, TrackPose,
+    TrackReading, Update, UpdateEnd, UpdateStage, Versions, WallView, Weekday, is_mix_name,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -1398,28 +1398,6 @@ fn standstill() {
         r#"{"e":"evidence","id":4,"felt":[{"at_s":-0.2,"v":0.25,"w":-0.1,"signs":["bumper-left","not-moving"],"echo":0.5,"currents_a":[0.5,0.25,0.0]},{"at_s":0.0,"v":0.0,"w":0.0}]}"#,
     );
     request(RequestBody::Evidence, r#"{"c":"evidence"}"#);
-    check(
-        &Update::Health {
-            id: Some(5),
-            components: vec![ComponentHealth {
-                component: "brush-main".to_owned(),
-                verdict: "hard".to_owned(),
-                minutes: 40,
-                load_a: Some(0.625),
-                usual_a: Some(0.5),
-                share: Some(1.25),
-                text: "Clean it.".to_owned(),
-            }],
-        },
-        r#"{"e":"health","id":5,"components":[{"component":"brush-main","verdict":"hard","minutes":40,"load_a":0.625,"usual_a":0.5,"share":1.25,"text":"Clean it."}]}"#,
-    );
-    request(RequestBody::Health, r#"{"c":"health"}"#);
-    request(
-        RequestBody::ResetHealth {
-            component: "wheel-left".to_owned(),
-        },
-        r#"{"c":"reset-health","component":"wheel-left"}"#,
-    );
     let told = Standstill {
         number: 2,
         t: 61.5,
@@ -1532,4 +1510,69 @@ fn what_robots_have_learnt() {
         let device = "sr8730".to_owned();
         request(RequestBody::ForgetLearnt { device, part }, text);
     }
+}
+
+#[test]
+fn wear_and_hours() {
+    check(
+        &Update::Health {
+            id: Some(5),
+            components: vec![ComponentHealth {
+                component: "brush-main".to_owned(),
+                verdict: "hard".to_owned(),
+                minutes: 40,
+                load_a: Some(0.625),
+                usual_a: Some(0.5),
+                share: Some(1.25),
+                hours: Some(PartHours {
+                    worked_h: 12.5,
+                    usual_h: 300.0,
+                    care: PartCare::Replace,
+                    since_s: Some(1_800_000_000),
+                    before_h: Some(310.0),
+                }),
+                text: "Clean it.".to_owned(),
+            }],
+        },
+        r#"{"e":"health","id":5,"components":[{"component":"brush-main","verdict":"hard","minutes":40,"load_a":0.625,"usual_a":0.5,"share":1.25,"hours":{"worked_h":12.5,"usual_h":300.0,"care":"replace","since_s":1800000000,"before_h":310.0},"text":"Clean it."}]}"#,
+    );
+    request(RequestBody::Health, r#"{"c":"health"}"#);
+    request(
+        RequestBody::RenewPart {
+            component: "filter".to_owned(),
+        },
+        r#"{"c":"renew-part","component":"filter"}"#,
+    );
+    request(
+        RequestBody::UndoRenewPart {
+            component: "filter".to_owned(),
+        },
+        r#"{"c":"undo-renew-part","component":"filter"}"#,
+    );
+    request(
+        RequestBody::ResetHealth {
+            component: "wheel-left".to_owned(),
+        },
+        r#"{"c":"reset-health","component":"wheel-left"}"#,
+    );
+}
+
+#[test]
+fn all_runs_together() {
+    request(RequestBody::Statistics, r#"{"c":"statistics"}"#);
+    let one = |name: &str| [(name.to_owned(), 1)].into();
+    check(
+        &Update::Statistics(Box::new(Statistics {
+            since_s: Some(1_800_000_000),
+            runs: one("clean"),
+            results: one("finished"),
+            stops: one("wheel-drop"),
+            duration_h: 1.5,
+            moving_h: 1.25,
+            swept_m2: 30.5,
+            path_km: 0.75,
+            bumps: 12,
+        })),
+        r#"{"e":"statistics","since_s":1800000000,"runs":{"clean":1},"results":{"finished":1},"stops":{"wheel-drop":1},"duration_h":1.5,"moving_h":1.25,"swept_m2":30.5,"path_km":0.75,"bumps":12}"#,
+    );
 }

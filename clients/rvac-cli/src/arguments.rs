@@ -8,6 +8,7 @@ mod learnt;
 mod orders;
 mod schedules;
 mod setup;
+mod statistics;
 
 use std::path::PathBuf;
 
@@ -26,6 +27,7 @@ pub(crate) use orders::{
 };
 pub(crate) use schedules::{ScheduleJob, ScheduleOptions, ScheduleVerb, day_name};
 pub(crate) use setup::{DoctorOptions, SetupOptions};
+pub(crate) use statistics::StatisticsOptions;
 
 /// LibreRVAC from the command line.
 #[derive(Debug, Parser)]
@@ -64,7 +66,9 @@ pub(crate) enum Subcommand {
     Schedule(ScheduleJob),
     /// Past runs and their results; without a command, list them, newest first.
     History(HistoryJob),
-    /// Wear and dirt of the brush and the wheels, by the currents of their motors.
+    /// What all runs since the first one come to: hours, area, distance, ends and stops.
+    Statistics(StatisticsOptions),
+    /// Wear and dirt of parts, by the currents of their motors or by hours of work.
     Health(HealthJob),
     /// What robots have learnt about themselves; without a command, list it.
     Learnt(LearntJob),

@@ -32,6 +32,7 @@ mod schedules;
 mod setup;
 mod show;
 mod socket;
+mod statistics;
 mod status;
 mod term;
 mod why;
@@ -58,6 +59,7 @@ fn main() -> ExitCode {
         Subcommand::Zone(job) => orders::zones(&job),
         Subcommand::Schedule(job) => schedules::run(&job),
         Subcommand::History(job) => history::run(&job),
+        Subcommand::Statistics(options) => statistics::run(&options),
         Subcommand::Health(job) => health::run(&job),
         Subcommand::Learnt(job) => learnt::run(&job),
         Subcommand::Why(options) => why::run(&options),

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use brain::command::StrategyName;
 use brain::{Cell, Map};
 use rvac_api::{JobOrder, JobPart, RequestBody, RoomSplitting};
+use rvac_sim::run::start_cleaning;
 use rvac_sim::{Host, Household};
 use scenarios::{household, scene, settings};
 use vthal_core::stored_map;
@@ -109,4 +110,25 @@ fn a_split_room_stays_split_while_one_half_is_cleaned_the_home_mapped_on_and_the
     let again = cells_of(&household, part);
     let shared = again.intersection(&half).count() as f64 / half.len() as f64;
     assert!(shared > 0.8, "{shared} of the half is still in it");
+}
+
+#[test]
+fn rooms_are_told_when_the_first_job_is_over_and_not_while_they_come_and_go() {
+    let mut household = household(&scene(HOME, "nominal"), &settings(1, 0));
+    assert!(start_cleaning(&mut household, StrategyName::Systematic));
+    let told = |household: &Household| {
+        let home = household.host().and_then(Host::home_view);
+        home.expect("a home").rooms.len()
+    };
+    let mut found = 0;
+    for _ in 0..6 {
+        household.pass_ms(MINUTE_MS / 2);
+        found = found.max(ids(&household).len());
+        assert_eq!(told(&household), 0);
+    }
+    assert!(found > 0, "there was nothing to keep to itself");
+    household.ask(RequestBody::Stop);
+    household.pass_ms(3_000);
+    assert_eq!(told(&household), ids(&household).len());
+    assert!(told(&household) > 0);
 }

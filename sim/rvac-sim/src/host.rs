@@ -6,7 +6,8 @@ use brain::observation::{BeaconRange, BeaconSignal, BeaconStrength};
 use brain::{BehaviorState, Brain, Pose2};
 use home::{Beacons, Measured, Pose as TruePose};
 use rvac_api::{
-    ComponentHealth, FloorsView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules, Status, Update,
+    ComponentHealth, FloorsView, HomeView, LogEntry, Pose, Request, RequestBody, RunRecord, Schedules,
+    Status, Update,
 };
 use vthal_core::health::StoredHealth;
 use vthal_core::learnt::StoredLearnings;
@@ -168,6 +169,12 @@ impl Host {
     #[must_use]
     pub fn kept_learnt(&self) -> Option<StoredLearnings> {
         self.learnt.clone()
+    }
+
+    /// What is known of the home, as clients receive it.
+    #[must_use]
+    pub fn home_view(&self) -> Option<HomeView> {
+        self.core.home_view()
     }
 
     /// Health of the parts, as clients receive it.

@@ -268,6 +268,7 @@ impl Core {
             brain_session.end_run(now_us, RunEnd::Shutdown, &mut recorder);
         }
         self.keep_learnt(outputs);
+        self.health.end(outputs);
     }
 
     /// Before anything else: the brain notices the same end and must not let the wheels roll out first.

@@ -30,6 +30,7 @@ mod home_view;
 mod input;
 mod lacking;
 pub mod learnt;
+pub mod lifetime;
 mod lights;
 mod newest;
 pub mod observe;

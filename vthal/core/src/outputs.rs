@@ -139,6 +139,8 @@ pub enum RunTask {
         /// At most so many.
         count: u8,
     },
+    /// Tell what all runs come to: [`Update::Statistics`].
+    Statistics,
     /// Tell all that is kept of one: [`Update::Run`].
     Show(u64),
     /// Send the summary of its recordings: [`Update::RunTrack`].

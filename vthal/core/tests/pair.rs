@@ -12,6 +12,7 @@ use rvac_protocol::message::{
 };
 use rvac_protocol::session::{RobotEvent, RobotIdentity, RobotSession};
 use rvac_units::{Angle, AngularSpeed, Length, Speed, Tick};
+use vthal_core::health::{Consumable, Health};
 use vthal_core::{
     ClientId, Core, CoreConfig, EditedMap, FloorHome, FloorOrder, FloorTask, HealthOrder, Input, KeptFloor,
     Lights, MapOrder, Outputs, Record, Recording,
@@ -696,6 +697,60 @@ fn what_is_answered_of_changes_is_what_the_disk_has() {
     assert_eq!(pair.ask(ANNA, reset()), None);
     kept(&mut pair, Ok(()));
     assert_eq!(answers(&pair).last(), Some(&None));
+}
+
+/// Hours are counted while brushes turn, survive the disk, and what was pressed by mistake is taken back.
+#[test]
+fn hours_of_parts_are_counted_renewed_and_taken_back() {
+    let mut pair = Pair::new();
+    let worked_h = |pair: &Pair, name: &str| {
+        let parts = pair.core.component_health();
+        let part = parts.iter().find(|part| part.component == name);
+        part.and_then(|part| part.hours).map(|hours| hours.worked_h)
+    };
+    // Its main brush turns, and it does not suck.
+    pair.state.cleaners = 1;
+    pair.run_ms(30_000);
+    pair.state.cleaners = 0;
+    pair.run_ms(1_000);
+    let sensors_h = worked_h(&pair, "sensors").expect("every robot has sensors");
+    assert!((sensors_h * 3_600.0 - 30.0).abs() < 0.5, "{sensors_h}");
+    assert_eq!(worked_h(&pair, "brush-main"), Some(sensors_h));
+    assert_eq!(worked_h(&pair, "filter"), Some(0.0));
+    assert_eq!(worked_h(&pair, "brush-sides"), None, "it has none");
+
+    let kept = |pair: &mut Pair| {
+        let number = pair.healths.last().expect("was handed over").number;
+        pair.handle(Input::HealthKept {
+            number,
+            result: Ok(()),
+        });
+    };
+    let component = || "sensors".to_owned();
+    let undo = || RequestBody::UndoRenewPart {
+        component: component(),
+    };
+    assert_eq!(pair.ask(ANNA, undo()).as_deref(), Some("not-renewed"));
+    pair.ask(
+        ANNA,
+        RequestBody::RenewPart {
+            component: component(),
+        },
+    );
+    kept(&mut pair);
+    assert_eq!(worked_h(&pair, "sensors"), Some(0.0));
+    let stored = pair.healths.last().expect("was handed over").health.clone();
+    let next = Health::try_from(stored).expect("can be read");
+    let before = next.consumables().work(Consumable::Sensors).before;
+    assert!(before.is_some_and(|before| (before.worked_s / 3_600.0 - sensors_h).abs() < 1e-3));
+    pair.ask(ANNA, undo());
+    kept(&mut pair);
+    let back_h = worked_h(&pair, "sensors").expect("is counted");
+    assert!((back_h - sensors_h).abs() < 2.0 / 3_600.0, "{back_h}");
+    let unknown = RequestBody::RenewPart {
+        component: "mop".to_owned(),
+    };
+    assert_eq!(pair.ask(ANNA, unknown).as_deref(), Some("unknown-component"));
 }
 
 /// A shell script sends both in one write, so no telemetry comes between them.

@@ -96,7 +96,7 @@ const SCENARIOS: &[&str] = &[
 
 // One crate a line, so that it reads as the table it is.
 #[rustfmt::skip]
-const DIRECTIONS: [Direction; 53] = [
+const DIRECTIONS: [Direction; 54] = [
     Direction { of: "rvac-units",    knows: &[],                                            never: STD },
     Direction { of: "rvac-protocol", knows: &["rvac-units"],                                never: STD },
     Direction { of: "rvac-channel",  knows: WIRE,                                           never: &["tokio"] },
@@ -130,7 +130,7 @@ const DIRECTIONS: [Direction; 53] = [
     Direction { of: "calibration-values", knows: &["kept-file", "rvac-protocol"],           never: &["tokio"] },
     Direction { of: "calibration",   knows: &["calibration-values", "rvac-protocol", "rvac-units"], never: &["tokio"] },
     Direction { of: "rvac-cli",      knows: &["calibration", "calibration-values", "kept-file", "mixer", "pairing", "rvac-api", "robot-link", "rvac-flash", "rvac-protocol", "rvac-units", "rvac-update", "system-zone", "update-bundle"], never: &[] },
-    Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "systemd-notice", "update-bundle"], never: &[] },
+    Direction { of: "panel-server",  knows: &["kept-file", "pairing", "rvac-api", "system-zone", "systemd-notice", "update-bundle"], never: &[] },
     Direction { of: "panel-bench",   knows: &["brain", "pairing", "rvac-protocol", "vthal-bench", "vthal-core"], never: &["tokio"] },
     Direction { of: "panel",         knows: &["mixer", "pairing", "panel-logic", "rvac-api"], never: &["tokio"] },
     Direction { of: "panel-logic",   knows: &["mixer", "rvac-api"],                         never: &["tokio", "leptos", "web-sys"] },

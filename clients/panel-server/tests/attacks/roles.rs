@@ -159,6 +159,7 @@ fn arguments_of(verb: &str) -> &'static str {
         "export-floors" => r#","from":0"#,
         "import-floors" => r#","from":0,"size":3,"data":"AAEC""#,
         "save-mix" => r#","profile":"{}""#,
+        "renew-part" | "undo-renew-part" => r#","component":"filter""#,
         "reset-health" => r#","component":"brush-main""#,
         "forget-learnt" => r#","device":"sr8730""#,
         "remove-mix" => r#","name":"x""#,

@@ -9,7 +9,7 @@ const ENGLISH: &str = "
     const words = ['the', 'is', 'robot is', 'nothing', 'settings', 'Save', 'Battery', 'Rooms', 'Cleaned', 'Schedules'];
     return words.filter(word => new RegExp('(^|[^\\\\p{L}])' + word + '([^\\\\p{L}]|$)', 'u').test(text)).join(', ')";
 
-async fn choose(browser: &Browser, language: &str) {
+pub(crate) async fn choose(browser: &Browser, language: &str) {
     browser
         .click(&format!("#language option[value={language}]"))
         .await;

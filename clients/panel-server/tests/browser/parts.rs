@@ -21,7 +21,8 @@ fn wound() -> String {
         text
     };
     format!(
-        r#"{{"version":1,"gauges":{{"brush-main":{},"wheel-left":{},"wheel-right":{}}}}}"#,
+        r#"{{"version":1,"gauges":{{"brush-main":{},"wheel-left":{},"wheel-right":{}}},"works":{{
+            "brush-main":{{"worked_s":46800.0}},"filter":{{"worked_s":590000.0,"is_told":true}},"sensors":{{"worked_s":9000.0}}}}}}"#,
         gauge(0.5, 0.8),
         gauge(0.25, 0.25),
         gauge(0.25, 0.25)
@@ -54,4 +55,39 @@ async fn a_brush_that_runs_hard_is_shown_until_somebody_has_cleaned_it() {
         browser.says("parts", "0 of 10 minutes").await;
         browser.says("parts", "as usual: 100\u{a0}%").await;
     }
+}
+
+/// A filter that has worked for longer than filters do: told calmly, marked as replaced, and taken back.
+#[tokio::test]
+async fn a_part_that_is_due_by_its_hours_is_replaced_and_that_is_taken_back() {
+    let start = || Stack::start_with_state("health.json", &wound());
+    let Some(visit) = Visit::with(start, Screen::Phone).await else {
+        return;
+    };
+    let browser = &visit.browser;
+    browser.click("#tab-device").await;
+    browser.says("parts", "164 of about 150 hours of work").await;
+    browser
+        .says("parts", "It has worked for as long as such filters usually last")
+        .await;
+    browser.says("parts", "13 of about 300 hours of work").await;
+    browser.says("parts", "2.5 of about 30 hours of work").await;
+    let scroll = "document.getElementById('renewed-filter').scrollIntoView({block: 'center'}); return ''";
+    browser.text(scroll).await;
+    browser.shot("phone-hours").await;
+    crate::accessibility::expect_none(browser, "hours of parts").await;
+    assert_eq!(browser.text(crate::accessibility::SMALL_TARGETS).await, "");
+    browser.click("#renewed-filter").await;
+    browser.says("parts", "0 of about 150 hours of work").await;
+    browser.says("undo-toast", "Filter: marked as replaced.").await;
+    browser.shot("phone-hours-renewed").await;
+    browser.click("#undo-removal").await;
+    browser.says("parts", "164 of about 150 hours of work").await;
+    crate::language::choose(browser, "et").await;
+    browser.click("#tab-device").await;
+    browser.says("parts", "töötanud 164 tundi umbes 150-st").await;
+    browser.darken().await;
+    browser.text(scroll).await;
+    browser.shot("phone-hours-estonian-dark").await;
+    assert_eq!(browser.text(crate::accessibility::TOO_WIDE).await, "0");
 }

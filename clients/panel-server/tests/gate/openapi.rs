@@ -83,7 +83,7 @@ async fn real_answers_are_as_described() {
     let (rig, spec) = (Rig::start().await, described());
     let admin = rig.pair(Role::Admin).await;
     let viewer = rig.pair(Role::View).await;
-    for path in ["/api/pairing", "/api/session", "/api/clients"] {
+    for path in ["/api/pairing", "/api/session", "/api/system", "/api/clients"] {
         for cookie in ["", &viewer, &admin] {
             expect_described(&spec, ("get", path), &rig.get(path, cookie).await);
         }

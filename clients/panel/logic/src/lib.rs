@@ -35,6 +35,7 @@ mod log_book;
 mod map_palette;
 mod mixes;
 mod names;
+mod notices;
 mod offers;
 mod orbit;
 mod plan;
@@ -51,8 +52,10 @@ mod schedule_form;
 mod schedule_rows;
 mod sketch;
 mod software;
+mod statistics;
 mod swept_chance;
 mod swept_grid;
+mod system_rows;
 mod thoughts;
 mod tilt;
 mod wall_blocks;
@@ -79,7 +82,7 @@ pub use figures::{area_text, clock_text, distance_text, percent_text, scale_bar}
 pub use floor_upload::{FloorUpload, floor_file_problem};
 pub use frame_meter::FrameMeter;
 pub use grip::{Grip, PadEvent, Pointer, PointerKind};
-pub use health::{PartRow, part_rows};
+pub use health::{HoursRow, PartRow, part_rows};
 pub use history::{
     Plot, Replay, RunDrawing, RunRow, StopRow, plots, room_here_text, run_drawing, run_figures, run_rows,
     stop_rows,
@@ -98,6 +101,7 @@ pub use mixes::{
     MixProblem, OutputPart, SwitchPart, profile_problem_text, robot_has,
 };
 pub use names::name_problem_text;
+pub use notices::{Notice, NoticeWatch, run_notice};
 pub use offers::{Offer, Offers, PauseKind, Wait};
 pub use orbit::{Orbit, Projection};
 pub use plan::{PlanPalette, outlined, plan_bounds, plan_pixels};
@@ -119,7 +123,9 @@ pub use sketch::{Drawn, NoGoRow, Sketch, Tool, no_go_rows, no_go_strokes, spot_b
 pub use software::{
     StepState, UpdateRow, UpdateSight, step_text, update_file_problem, update_obstacle, update_sight,
 };
+pub use statistics::{statistics_headline, statistics_rows};
 pub use swept_grid::{DirtyRows, SweptGrid};
+pub use system_rows::system_rows;
 pub use thoughts::{DecisionBook, estimate_sentences, path_dashes, place_text};
 pub use tilt::Tilt;
 pub use wall_blocks::{BLOCK_NUMBERS, WallBlocks};

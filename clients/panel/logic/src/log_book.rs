@@ -57,6 +57,11 @@ impl LogBook {
         }
     }
 
+    /// All that is kept, the oldest first.
+    pub fn entries(&self) -> impl Iterator<Item = &LogEntry> {
+        self.entries.iter()
+    }
+
     /// Forgets everything, for a daemon that starts counting again.
     pub fn clear(&mut self) {
         self.entries.clear();

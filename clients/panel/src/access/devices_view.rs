@@ -5,8 +5,8 @@ use pairing::Role;
 use pairing::wire::{ClientRow, OpenWindow, OpenedHere, Revoke, SetRole};
 use panel_logic::QrPicture;
 
-use super::http::{self, Failed};
 use super::{Access, Entrance};
+use crate::http::{self, Failed};
 
 use crate::language::words;
 

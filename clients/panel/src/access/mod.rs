@@ -2,7 +2,6 @@
 
 mod allowed;
 mod devices_view;
-mod http;
 mod pair_view;
 mod pairing_steps;
 mod software_view;
@@ -16,9 +15,9 @@ pub(crate) use allowed::{EDITS_HOME, EDITS_MIXES, EDITS_SCHEDULES, Needs, OnlyLo
 pub(crate) use pair_view::PairView;
 
 use devices_view::DevicesView;
-use http::Failed;
 use software_view::SoftwareView;
 
+use crate::http::{self, Failed};
 use crate::language::words;
 use crate::store::Store;
 

@@ -7,7 +7,7 @@ use pairing::{Code, DeviceName, Ends, Guest, NameError};
 use wasm_bindgen::JsValue;
 use wasm_bindgen_futures::JsFuture;
 
-use super::http::{self, Failed};
+use crate::http::{self, Failed};
 
 use crate::language::words;
 

@@ -7,7 +7,7 @@ use panel_logic::{
 use rvac_api::SoftwareUpdate;
 use web_sys::File;
 
-use super::http::{self, Failed};
+use crate::http::{self, Failed};
 
 use crate::file_button::FileButton;
 use crate::language::words;

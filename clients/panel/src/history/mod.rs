@@ -1,16 +1,18 @@
 //! Runs that are over: a list, and one of them with its picture, replay, plots, stops and recording.
 
+mod lifetime_view;
 mod player;
 mod run_view;
 
 use leptos::prelude::*;
 use panel_logic::{RunRow, refusal_text, run_rows};
-use rvac_api::{Failure, RequestBody, Run, RunRecord, RunTrack};
+use rvac_api::{Failure, RequestBody, Run, RunRecord, RunTrack, Statistics};
 use wasm_bindgen::JsValue;
 
 use crate::focus::focus_soon_on;
 use crate::language::words;
 use crate::store::{RUN_ID, Store};
+use lifetime_view::LifetimeView;
 use run_view::RunView;
 
 /// Handles on all of it; cheap to copy.
@@ -21,6 +23,8 @@ pub(crate) struct HistoryDesk {
     more: RwSignal<bool>,
     /// An answer continues the list.
     extends: RwSignal<bool>,
+    /// What all runs come to.
+    lifetime: RwSignal<Option<Statistics>>,
     /// The run that is shown, by its number.
     chosen: RwSignal<Option<u64>>,
     record: RwSignal<Option<RunRecord>>,
@@ -35,6 +39,7 @@ impl HistoryDesk {
             runs: RwSignal::new(Vec::new()),
             more: RwSignal::new(false),
             extends: RwSignal::new(false),
+            lifetime: RwSignal::new(None),
             chosen: RwSignal::new(None),
             record: RwSignal::new(None),
             track: RwSignal::new(None),
@@ -50,6 +55,20 @@ impl HistoryDesk {
             self.runs.set(runs);
         }
         self.extends.set(false);
+    }
+
+    /// What all runs come to, if that was asked for.
+    pub(crate) fn statistics(self) -> Option<Statistics> {
+        self.lifetime.get_untracked()
+    }
+
+    /// The runs of the list.
+    pub(crate) fn known_runs(self) -> Vec<Run> {
+        self.runs.get_untracked()
+    }
+
+    pub(crate) fn on_statistics(self, sums: Statistics) {
+        self.lifetime.set(Some(sums));
     }
 
     /// The run that ended last; a view that asks follows it.
@@ -97,6 +116,13 @@ impl Store {
         });
     }
 
+    /// What all runs come to changes with each that ends; whoever has never looked at it is not told.
+    pub(crate) fn renew_lifetime(self) {
+        if self.history.lifetime.with_untracked(Option::is_some) {
+            self.ask_quietly(RequestBody::Statistics);
+        }
+    }
+
     fn list_older_runs(self) {
         let desk = self.history;
         let before = desk.runs.with_untracked(|runs| runs.last().map(|run| run.number));
@@ -130,12 +156,14 @@ impl Store {
 pub(crate) fn HistorySheet(store: Store) -> impl IntoView {
     let desk = store.history;
     store.list_runs();
+    store.ask_quietly(RequestBody::Statistics);
     let rows = move || desk.runs.with(|runs| run_rows(words(), runs));
     view! {
         <div class="home" id="history-sheet">
             <Show
                 when=move || desk.chosen.get().is_some()
                 fallback=move || view! {
+                    <LifetimeView store />
                     <h3 id="runs-title">{words().history.runs}</h3>
                     <ul id="runs" class="rows runs" aria-labelledby="runs-title">
                         <For each=rows key=|row| row.number let:row>

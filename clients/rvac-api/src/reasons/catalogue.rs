@@ -93,6 +93,7 @@ pub(crate) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("pad-silent", "The gamepad is pushed and says nothing any more, as without power.", "Let go once, then drive on; see to its battery."),
     entry("busy", "Too much was asked at once.", "Try again."),
     entry("unknown-component", "The robot knows no such part.", "The answer to health lists them."),
+    entry("not-renewed", "Nobody has said that this part was replaced or cleaned.", "There is nothing to undo."),
     entry("nothing-learnt", "There is no calibration of a robot of this name.", "The answer to learnt lists them."),
     entry("being-calibrated", "Somebody else calibrates the robot.", "Wait until that is over, or press Stop."),
     entry("not-calibrating", "This device does not calibrate the robot now.", "Begin again."),

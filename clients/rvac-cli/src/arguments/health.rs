@@ -17,6 +17,16 @@ pub(crate) struct HealthJob {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum HealthVerb {
+    /// Report that a part was replaced, or sensors were cleaned: its hours begin again.
+    Renew {
+        /// brush-main, brush-sides, filter or sensors.
+        component: String,
+    },
+    /// Take the last of these reports back.
+    Undo {
+        /// brush-main, brush-sides, filter or sensors.
+        component: String,
+    },
     /// Report that a part was cleaned or replaced: the robot learns its load again.
     Reset {
         /// brush-main, wheel-left or wheel-right.

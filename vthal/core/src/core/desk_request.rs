@@ -103,7 +103,7 @@ pub(crate) enum RobotAnswers {
 }
 
 impl DeskRequest {
-    /// A table: one line a request, and with each edit of the map what the client does, for the log.
+    /// A table: one line a request or a pair of short ones, and with each edit of the map what the client does, for the log.
     ///
     /// # Errors
     /// The request names something that cannot be.
@@ -116,12 +116,9 @@ impl DeskRequest {
             Body::Clean(order) => Self::Job(JobRequest::Clean(order)),
             Body::Estimate(order) => Self::Job(JobRequest::Estimate(order)),
             Body::RunSchedule { number } => Self::Job(JobRequest::OfSchedule(number)),
-            Body::Spot => Self::Job(JobRequest::Spot),
-            Body::Pause => Self::Job(JobRequest::Pause),
-            Body::Resume => Self::Job(JobRequest::Resume),
-            Body::Dock => Self::Job(JobRequest::Dock),
-            Body::Stop => Self::Hand(HandRequest::Stop),
-            Body::Release => Self::Hand(HandRequest::Release),
+            Body::Spot => Self::Job(JobRequest::Spot), Body::Pause => Self::Job(JobRequest::Pause),
+            Body::Resume => Self::Job(JobRequest::Resume), Body::Dock => Self::Job(JobRequest::Dock),
+            Body::Stop => Self::Hand(HandRequest::Stop), Body::Release => Self::Hand(HandRequest::Release),
             Body::ClaimButtons { ms } => Self::Hand(HandRequest::ClaimButtons(ms)),
             Body::Locate => Self::Robot(RobotRequest::Locate),
             Body::Clear { reason } => Self::Robot(RobotRequest::Clear(reason)),
@@ -151,6 +148,8 @@ impl DeskRequest {
             Body::MoveDock { x, y, heading } => edit(MapEdit::Dock(Pose2 { x_m: x, y_m: y, heading_rad: to_heading(heading)? }), "says where the dock stands"),
             Body::Health => Self::Health(HealthRequest::Show),
             Body::ResetHealth { component } => Self::Health(HealthRequest::Reset(component)),
+            Body::RenewPart { component } => Self::Health(HealthRequest::Renew(component)),
+            Body::UndoRenewPart { component } => Self::Health(HealthRequest::UndoRenew(component)),
             Body::Learnt => Self::Learnt(LearntRequest::Show),
             Body::ForgetLearnt { device, part } => Self::Learnt(LearntRequest::Forget(Forgetting { device, part })),
             Body::Maps { floor } => Self::Floors(FloorRequest::Maps { floor }),
@@ -173,6 +172,7 @@ impl DeskRequest {
             Body::SaveMix { profile, was } => Self::Mixes(MixTask::Save { profile, was }),
             Body::RemoveMix { name } => Self::Mixes(MixTask::Remove(name)),
             Body::Runs { before, count } => Self::Runs(RunTask::List { before, count: history::list_length(count)? }),
+            Body::Statistics => Self::Runs(RunTask::Statistics),
             Body::Run { number } => Self::Runs(RunTask::Show(number)),
             Body::RunTrack { number, recording } => Self::Runs(RunTask::Track { number, recording }),
             Body::RunFile { number, recording, from } => Self::Runs(RunTask::File { number, recording, from }),

@@ -1,7 +1,7 @@
 //! What is known at this moment, for whoever holds the core and for its desks.
 
 use brain::BehaviorState;
-use rvac_api::{ComponentHealth, FloorsView, Pose, Schedules, Status};
+use rvac_api::{ComponentHealth, FloorsView, HomeView, Pose, Schedules, Status};
 
 use super::Core;
 use crate::Outputs;
@@ -48,10 +48,17 @@ impl Core {
         self.schedules.view(&self.readiness())
     }
 
-    /// How worn or dirty the parts are whose loads are measured.
+    /// How worn or dirty the parts are whose loads are measured or whose hours are counted.
     #[must_use]
     pub fn component_health(&self) -> Vec<ComponentHealth> {
-        self.health.components()
+        let fitted = self.link.description().map(|known| known.parts.as_slice());
+        self.health.components(fitted)
+    }
+
+    /// What is known of the home, as clients receive it.
+    #[must_use]
+    pub fn home_view(&self) -> Option<HomeView> {
+        self.sources().home()
     }
 
     /// The brain, once a robot has described itself.

@@ -55,7 +55,11 @@ impl Core {
             DeskRequest::Learnt(LearntRequest::Forget(request)) => {
                 self.forget_learnt(now_us, Asking { asker, request }, outputs)
             }
-            DeskRequest::Health(request) => self.health.serve(&Asking { asker, request }, outputs),
+            DeskRequest::Health(request) => {
+                let fitted = self.link.description().map(|known| known.parts.as_slice());
+                let facts = (self.schedules.clock_s(), fitted);
+                self.health.serve(&Asking { asker, request }, facts, outputs)
+            }
             DeskRequest::Evidence => {
                 self.require_robot()?;
                 Ok(Reply::from(Update::Evidence {

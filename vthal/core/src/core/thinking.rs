@@ -66,7 +66,13 @@ impl Core {
             currents_a: self.link.currents_a(),
         };
         self.standstills.feel(&perceived, description.drive.track_m);
-        if brain_session.brain().status().state != BehaviorState::Cleaning {
+        let is_cleaning = brain_session.brain().status().state == BehaviorState::Cleaning;
+        let now = self.now(now_us);
+        if let Some(report) = self.link.report() {
+            let mut teller = self.audience.teller(now, outputs);
+            self.health.count_hours(report.cleaners, &mut teller);
+        }
+        if !is_cleaning {
             return;
         }
         if let Some(report) = self.link.report() {

@@ -49,6 +49,8 @@ pub(crate) struct Feed {
     swept_sigma: SweptSigma,
     home_us: u64,
     home_revision: u32,
+    /// Rooms stand in the home that was told.
+    home_has_rooms: bool,
     estimate_us: u64,
     estimate: Estimate,
     share_us: u64,
@@ -115,7 +117,7 @@ impl Feed {
         }
         if teller.has_followers(Topic::Home) && now_us >= self.home_us + HOME_US {
             self.home_us = now_us;
-            self.feed_home(sources.brain_session, teller);
+            self.feed_home(sources, teller);
         }
         if teller.has_followers(Topic::Estimate) && now_us >= self.estimate_us + ESTIMATE_US {
             self.estimate_us = now_us;
@@ -167,14 +169,16 @@ impl Feed {
         }
     }
 
-    fn feed_home(&mut self, brain_session: Option<&BrainSession>, teller: &mut Teller<'_>) {
-        let Some(brain_session) = brain_session else {
+    fn feed_home(&mut self, sources: &Sources<'_>, teller: &mut Teller<'_>) {
+        let Some(brain_session) = sources.brain_session else {
             return;
         };
-        let revision = brain_session.home_revision();
-        if revision != self.home_revision {
-            self.home_revision = revision;
-            teller.tell(Topic::Home, Update::Home(brain_session.home_view()));
+        let version = (brain_session.home_revision(), sources.knows_rooms());
+        if version != (self.home_revision, self.home_has_rooms)
+            && let Some(home) = sources.home()
+        {
+            (self.home_revision, self.home_has_rooms) = version;
+            teller.tell(Topic::Home, Update::Home(home));
         }
     }
 

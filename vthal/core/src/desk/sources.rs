@@ -1,7 +1,7 @@
 //! What clients can be shown at this moment, put together from what the desks know.
 
 use brain::{BehaviorState, Brain, LinkFault};
-use rvac_api::{API_VERSION, DeviceTable, Pose, RoomHere, Status, Topic, Update};
+use rvac_api::{API_VERSION, DeviceTable, HomeView, Pose, RoomHere, Status, Topic, Update};
 
 use super::floors::FloorDesk;
 use super::link::LinkDesk;
@@ -42,7 +42,7 @@ impl Sources<'_> {
         let mut status = to_api::status(brain_session.brain().status(), brain_session.brain().job());
         let inhibits = brain_session.observer.observation().inhibits;
         status.inhibits = inhibits.names().map(str::to_owned).collect();
-        status.room = room_here(brain_session.brain());
+        status.room = room_here(brain_session.brain()).filter(|_| self.knows_rooms());
         status.driver.clone_from(&self.driver);
         if status.state == BehaviorState::Disconnected.name()
             && let Some(cause) = self.link.strange_cause()
@@ -50,6 +50,40 @@ impl Sources<'_> {
             cause.clone_into(&mut status.reason);
         }
         status
+    }
+
+    /// What is known of the home. Rooms that a first job is still finding come and go: they are told when it is over.
+    pub(crate) fn home(&self) -> Option<HomeView> {
+        let home = self.brain_session?.home_view();
+        if self.knows_rooms() {
+            return Some(home);
+        }
+        let room_cells = if home.room_cells.is_empty() {
+            Vec::new()
+        } else {
+            vec![0, home.width.saturating_mul(home.height)]
+        };
+        Some(HomeView {
+            room_cells,
+            rooms: Vec::new(),
+            doors: Vec::new(),
+            sureness: home
+                .sureness
+                .into_iter()
+                .filter(|sureness| sureness.room.is_none())
+                .collect(),
+            ..home
+        })
+    }
+
+    /// Whether the rooms are those of a whole home: one whose map is kept, or one of which a job has seen all that it would.
+    pub(crate) fn knows_rooms(&self) -> bool {
+        self.brain_session.is_some_and(|brain_session| {
+            let kept = brain_session
+                .floor()
+                .and_then(|floor| self.floors.floors().home(floor));
+            kept.is_some() || brain_session.rests()
+        })
     }
 
     /// Why there is no robot.
@@ -86,9 +120,7 @@ impl Sources<'_> {
             Topic::Pose => Some(Update::Pose(self.pose())),
             Topic::Device => Some(Update::Device(self.device_table(now_us))),
             Topic::Floors => Some(Update::Floors(self.floors.view(self.brain_session))),
-            Topic::Home => self
-                .brain_session
-                .map(|brain_session| Update::Home(brain_session.home_view())),
+            Topic::Home => self.home().map(Update::Home),
             Topic::Estimate => self.brain_session.map(|brain_session| {
                 let brain = brain_session.brain();
                 Update::Estimate(to_api::estimate(brain, brain.swept_share()))

@@ -30,6 +30,9 @@ pub enum LoadVerdict {
 }
 
 impl LoadVerdict {
+    /// What clients receive for a part without a measured load.
+    pub const UNMEASURED: &'static str = "unmeasured";
+
     /// As clients receive it.
     #[must_use]
     pub const fn name(self) -> &'static str {

@@ -1,11 +1,13 @@
-//! How worn or dirty the parts that turn are: by the loads of their motors, not by hours.
+//! How worn or dirty parts are: by the loads of their motors, and by hours where nothing can be measured.
 //!
 //! A person who has cleaned a part says so; the load of the next ten minutes of work is its usual one. From then on the load of the last
 //! ten minutes is compared with it.
 
+mod consumable;
 mod gauge;
 mod stored;
 
+pub use consumable::{AtWork, Before, Consumable, Consumables, PartWork};
 pub use gauge::{Gauge, LoadVerdict};
 pub use stored::{HealthError, StoredHealth};
 
@@ -99,13 +101,14 @@ pub struct Taken {
     pub changes: Vec<VerdictChange>,
 }
 
-/// The loads of all parts.
+/// The loads and the hours of all parts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Health {
     brush_main: Gauge,
     wheel_left: Gauge,
     wheel_right: Gauge,
     sampled_us: Option<u64>,
+    consumables: Consumables,
 }
 
 impl Health {
@@ -147,6 +150,17 @@ impl Health {
             }
         }
         taken
+    }
+
+    /// The hours of work of parts.
+    #[must_use]
+    pub const fn consumables(&self) -> &Consumables {
+        &self.consumables
+    }
+
+    /// The same, to count on.
+    pub const fn consumables_mut(&mut self) -> &mut Consumables {
+        &mut self.consumables
     }
 
     /// What its load says of a part.

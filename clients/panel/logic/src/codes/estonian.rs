@@ -106,6 +106,7 @@ pub(super) const CATALOGUE: &[(&str, Explanation)] = &[
     entry("pad-silent", "Mängupult on kallutatud, aga ei teata enam midagi, nagu oleks aku tühi.", "Lase korraks lahti, siis juhi edasi; kontrolli puldi akut."),
     entry("busy", "Korraga küsiti liiga palju.", "Proovi uuesti."),
     entry("unknown-component", "Sellist osa robotil ei ole.", "Need loetleb vastus päringule health."),
+    entry("not-renewed", "Keegi ei ole öelnud, et see osa vahetati või puhastati.", "Midagi ei ole tagasi võtta."),
     entry("nothing-learnt", "Sellise nimega roboti kohta ei ole midagi alles.", "Need loetleb vastus päringule learnt."),
     entry("being-calibrated", "Robotit kalibreerib keegi teine.", "Oota, kuni ta lõpetab, või vajuta „Peata“."),
     entry("not-calibrating", "See seade praegu robotit ei kalibreeri.", "Alusta uuesti."),

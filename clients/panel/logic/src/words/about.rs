@@ -13,7 +13,8 @@ screen! {
         licence: "The page is under the GNU Affero General Public License 3 or later: you may use, study, share and change it.",
             "Lehe litsents on GNU Affero General Public License 3 või uuem: seda tohib kasutada, uurida, jagada ja muuta.";
         source: "Source code", "Lähtekood";
-        help: "The guide is the book in the folder docs/book of the source. `rvac doctor` at the robot's console checks the whole chain.",
-            "Juhend on lähtekoodi kaustas docs/book. Roboti konsoolis kontrollib kogu ahelat käsk `rvac doctor`.";
+        help: "The guide is the book in the folder docs/book of the source.", "Juhend on lähtekoodi kaustas docs/book.";
+        // With the command behind it.
+        doctor: "The whole chain is checked, at the robot's console, by", "Kogu ahelat kontrollib roboti konsoolis käsk";
     }
 }

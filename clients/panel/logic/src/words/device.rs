@@ -6,7 +6,7 @@ screen! {
     /// Labels and values of the device table.
     DeviceWords {
         none: "The readings appear as soon as the robot is connected.", "Näidud ilmuvad kohe, kui robot on ühendatud.";
-        proximity: "Proximity, from the right side to the left", "Lähedus, paremalt vasakule";
+        proximity: "Proximity, from the left side to the right", "Lähedus, vasakult paremale";
         battery: "Battery", "Aku";
         link: "Link to the robot", "Ühendus robotiga";
         motion: "Wheels and brushes", "Rattad ja harjad";

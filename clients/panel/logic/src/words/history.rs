@@ -8,6 +8,22 @@ screen! {
         runs: "Runs, newest first", "Tööd, uusimad eespool";
         none: "No runs yet: a run appears some seconds after a job ends.",
             "Töid veel ei ole: töö ilmub siia mõni sekund pärast lõppu.";
+        // Runs, hours, area.
+        lifetime[3]: "All together: {0}, {1}, {2}", "Kõik kokku: {0}, {1}, {2}";
+        cleanings[1]: "{0} cleanings", "{0} koristust";
+        one_cleaning: "1 cleaning", "1 koristus";
+        hours[1]: "{0} hours", "{0} tundi";
+        runs_of_all: "Runs", "Tööd";
+        since_day[1]: "Since {0}", "Alates {0}";
+        count_cleanings[1]: "cleanings: {0}", "koristusi: {0}";
+        count_spots[1]: "spots: {0}", "üksikuid kohti: {0}";
+        count_returns[1]: "returns to the dock: {0}", "naasmisi dokki: {0}";
+        ended_by: "Ends", "Lõpud";
+        end_finished[1]: "{0} finished", "{0} lõpetatud";
+        end_stopped[1]: "{0} stopped by somebody", "{0} kellegi peatatud";
+        end_gave_up[1]: "{0} given up", "{0} poolikut";
+        end_other[1]: "{0} cut short", "{0} katkenud";
+        times_stopped[1]: "{0}x", "{0}x";
         older: "Show older ones", "Näita vanemaid";
         numbered[2]: "{0}. {1}", "{0}. {1}";
         no_clock: "Clock not set", "Kell seadmata";

@@ -17,9 +17,11 @@ mod home;
 mod learnt;
 mod map;
 mod mix;
+mod notice;
 mod schedule;
 mod software;
 mod status;
+mod system;
 #[cfg(test)]
 mod tests;
 
@@ -38,9 +40,11 @@ pub use home::HomeWords;
 pub use learnt::LearntWords;
 pub use map::MapWords;
 pub use mix::MixWords;
+pub use notice::NoticeWords;
 pub use schedule::ScheduleWords;
 pub use software::SoftwareWords;
 pub use status::StatusWords;
+pub use system::SystemWords;
 
 /// A language that the page speaks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -159,11 +163,13 @@ pub struct Words {
     pub log: LogWords,
     pub map: MapWords,
     pub mix: MixWords,
+    pub notice: NoticeWords,
     pub offer: OfferWords,
     pub schedule: ScheduleWords,
     pub software: SoftwareWords,
     pub state: StateWords,
     pub status: StatusWords,
+    pub system: SystemWords,
     pub unit: UnitWords,
 }
 
@@ -199,11 +205,13 @@ macro_rules! all_screens {
             log: LogWords::$which,
             map: MapWords::$which,
             mix: MixWords::$which,
+            notice: NoticeWords::$which,
             offer: OfferWords::$which,
             schedule: ScheduleWords::$which,
             software: SoftwareWords::$which,
             state: StateWords::$which,
             status: StatusWords::$which,
+            system: SystemWords::$which,
             unit: UnitWords::$which,
         }
     };

@@ -2,13 +2,13 @@
 
 use super::{
     AboutWords, AccessWords, ActionWords, DeviceWords, DriveWords, EvidenceWords, FrameWords, HealthWords,
-    HistoryWords, HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, OfferWords, ScheduleWords,
-    SoftwareWords, StateWords, StatusWords, Template, UnitWords,
+    HistoryWords, HomeWords, Language, LearntWords, LogWords, MapWords, MixWords, NoticeWords, OfferWords,
+    ScheduleWords, SoftwareWords, StateWords, StatusWords, SystemWords, Template, UnitWords,
 };
 
 type Texts = [(&'static str, usize, [&'static str; 2])];
 
-const SCREENS: [&Texts; 20] = [
+const SCREENS: [&Texts; 22] = [
     AboutWords::ALL,
     AccessWords::ALL,
     ActionWords::ALL,
@@ -23,16 +23,20 @@ const SCREENS: [&Texts; 20] = [
     LogWords::ALL,
     MapWords::ALL,
     MixWords::ALL,
+    NoticeWords::ALL,
     OfferWords::ALL,
     ScheduleWords::ALL,
     SoftwareWords::ALL,
     StateWords::ALL,
     StatusWords::ALL,
+    SystemWords::ALL,
     UnitWords::ALL,
 ];
 
 /// Texts that are the same in both languages: units, forms of lists, and words that Estonian has borrowed.
-const SAME: [&str; 19] = [
+const SAME: [&str; 21] = [
+    "{0} MiB",
+    "{0} GiB",
     "{0} km",
     "{0} m",
     "{0} cm",

@@ -13,7 +13,7 @@ use crate::language::words;
 
 /// Why there is no answer that can be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Failed {
+pub(crate) enum Failed {
     /// The robot does not know this device.
     NotPaired,
     /// The server says no.
@@ -24,7 +24,7 @@ pub(super) enum Failed {
 
 impl Failed {
     /// For people.
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         match self {
             Self::NotPaired => words().access.not_paired.to_owned(),
             Self::Refused(refused) => refusal_text(words(), &refused.reason, &refused.text),
@@ -33,22 +33,22 @@ impl Failed {
     }
 }
 
-pub(super) async fn get<T: DeserializeOwned>(path: &str) -> Result<T, Failed> {
+pub(crate) async fn get<T: DeserializeOwned>(path: &str) -> Result<T, Failed> {
     read(&text_of(path, &init("GET")).await?)
 }
 
-pub(super) async fn post<T: DeserializeOwned>(path: &str, body: &impl Serialize) -> Result<T, Failed> {
+pub(crate) async fn post<T: DeserializeOwned>(path: &str, body: &impl Serialize) -> Result<T, Failed> {
     read(&send(path, body).await?)
 }
 
 /// For what has no answer but done.
-pub(super) async fn send(path: &str, body: &impl Serialize) -> Result<String, Failed> {
+pub(crate) async fn send(path: &str, body: &impl Serialize) -> Result<String, Failed> {
     let text = serde_json::to_string(body).map_err(|_| Failed::Unreachable)?;
     change(path, "application/json", &JsValue::from_str(&text)).await
 }
 
 /// A file, which the browser reads from its disk as it goes out.
-pub(super) async fn send_file(path: &str, file: &File) -> Result<String, Failed> {
+pub(crate) async fn send_file(path: &str, file: &File) -> Result<String, Failed> {
     change(path, "application/octet-stream", file).await
 }
 
