@@ -206,7 +206,10 @@ mod tests {
             assumed: Some(32_549),
             ..CalibrationValue::default()
         };
-        assert_eq!(value_state(words, &known), "not measured, taken as 32.549\u{a0}mV");
+        assert_eq!(
+            value_state(words, &known),
+            "not measured, taken as 32.549\u{a0}mV"
+        );
         known.value = Some(32_600);
         assert_eq!(value_state(words, &known), "32.600\u{a0}mV");
         for (value, unit, english, estonian) in [
