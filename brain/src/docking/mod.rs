@@ -138,7 +138,7 @@ impl Docking {
         match known {
             Ok(dock) if may_travel => {
                 context.decide(DecisionKind::DockTravel, Reason::DockKnown, 0.0);
-                let past = match situation.is_tracked && self.failed_tries.was_blocked() {
+                let past = match situation.map.knows_home() && self.failed_tries.was_blocked() {
                     true => PastFloor::Spare,
                     false => PastFloor::Superseded,
                 };
@@ -205,7 +205,8 @@ impl Docking {
                 self.failed_tries.count_blocked();
                 self.search_s = DOCKING.search_s;
                 // People leave by themselves. A map of a first run that shuts the robot in is not mended by waiting.
-                if situation.is_tracked && situation.is_free() && !self.failed_tries.is_blocked_evenly() {
+                if situation.map.knows_home() && situation.is_free() && !self.failed_tries.is_blocked_evenly()
+                {
                     context.decide(DecisionKind::Wait, Reason::WayBlocked, DOCKING.search_s);
                     self.phase = DockingPhase::Wait;
                 } else {

@@ -5,6 +5,7 @@ mod contours;
 mod dock_access;
 mod first_run;
 mod forbidden;
+mod homecoming;
 mod identities;
 mod laws;
 mod mapping;

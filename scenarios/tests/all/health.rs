@@ -84,8 +84,17 @@ fn a_clean_robot_is_not_told_to_be_cleaned() {
     let mut household = at_work();
     household.pass_ms(3 * LEARNS_MS);
     let host = household.host().expect("lives");
-    for part in host.health() {
+    let (by_hours, by_load): (Vec<_>, Vec<_>) = host
+        .health()
+        .into_iter()
+        .partition(|part| part.verdict == "unmeasured");
+    assert_eq!(by_load.len(), 3, "both wheels and the main brush");
+    for part in by_load {
         assert_eq!(part.verdict, "fine", "{part:?}");
         assert!((part.share.expect("is known") - 1.0).abs() < 0.15, "{part:?}");
+    }
+    for part in by_hours {
+        let hours = part.hours.as_ref().expect("they are counted");
+        assert!(hours.worked_h < hours.usual_h, "{part:?}");
     }
 }

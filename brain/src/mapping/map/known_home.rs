@@ -183,6 +183,11 @@ impl Map {
         self.home.grid.at(cell).has(Flag::Body)
     }
 
+    /// Whether an earlier run has left a map of this home.
+    pub(crate) fn knows_home(&self) -> bool {
+        self.home.known.is_some()
+    }
+
     /// Whether a cell was floor before this run, or the body was in it.
     pub(crate) fn was_floor(&self, cell: Cell) -> bool {
         let known = self.home.known.as_ref();
