@@ -182,6 +182,7 @@ fn identity(binary: BinaryKinds, boot_count: u32) -> RobotIdentity {
                 bumpers: 2,
                 cliffs: 3,
                 wheel_drops: 2,
+                dock_receivers: 3,
                 buttons: 1,
                 beeper: true,
                 brush_main: true,
