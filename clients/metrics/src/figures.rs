@@ -282,19 +282,19 @@ impl Figures {
             "Load of a part over its usual load.",
             ("part", worn),
         );
-        let hours = |of: fn(&PartHours) -> f64| {
+        let seconds = |of: fn(&PartHours) -> f64| {
             let parts = self.wear.iter();
             parts.filter_map(move |part| Some((part.component.as_str(), of(part.hours.as_ref()?))))
         };
         page.figures(
-            ("rvac_part_worked_hours", Gauge),
-            "Hours of work of a part since it was replaced or cleaned.",
-            ("part", hours(|hours| hours.worked_h)),
+            ("rvac_part_worked_seconds", Gauge),
+            "Time of work of a part since it was replaced or cleaned.",
+            ("part", seconds(|hours| 3_600.0 * hours.worked_h)),
         );
         page.figures(
-            ("rvac_part_usual_hours", Gauge),
-            "Hours of work after which such a part is usually replaced or cleaned.",
-            ("part", hours(|hours| hours.usual_h)),
+            ("rvac_part_usual_seconds", Gauge),
+            "Time of work after which such a part is usually replaced or cleaned.",
+            ("part", seconds(|hours| 3_600.0 * hours.usual_h)),
         );
     }
 
