@@ -102,6 +102,8 @@ pub(crate) struct Store {
     pub(crate) log: RwSignal<LogBook>,
     /// Whether what is shown is true now.
     pub(crate) currency: RwSignal<Currency>,
+    /// How often a connection was opened: what was asked before the first, or between two, was not heard.
+    pub(crate) opened: RwSignal<u32>,
     pub(crate) news: StoredValue<News>,
     /// Presses of job buttons that wait for their answer.
     pub(crate) presses: RwSignal<Presses>,
@@ -161,6 +163,7 @@ impl Store {
             history: HistoryDesk::new(),
             log: RwSignal::new(LogBook::default()),
             currency: RwSignal::new(Currency::Current),
+            opened: RwSignal::new(0),
             news: no_news(),
             presses: RwSignal::new(Presses::default()),
             notifier: Notifier::new(),
@@ -353,6 +356,7 @@ impl Store {
         self.send(None, RequestBody::Watch { topics });
         self.send(None, RequestBody::Mixes);
         self.ask_for_last_run();
+        self.opened.update(|count| *count += 1);
     }
 
     /// The connection is lost.

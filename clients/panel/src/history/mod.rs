@@ -155,8 +155,12 @@ impl Store {
 #[component]
 pub(crate) fn HistorySheet(store: Store) -> impl IntoView {
     let desk = store.history;
-    store.list_runs();
-    store.ask_quietly(RequestBody::Statistics);
+    // A page that is loaded anew may show its history before it is connected.
+    Effect::new(move |_| {
+        store.opened.track();
+        store.list_runs();
+        store.ask_quietly(RequestBody::Statistics);
+    });
     let rows = move || desk.runs.with(|runs| run_rows(words(), runs));
     view! {
         <div class="home" id="history-sheet">
