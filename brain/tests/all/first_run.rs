@@ -1,10 +1,8 @@
 //! A home that nobody knows yet: the lap along its walls, then lanes over what lies within.
 
-use crate::plane::beams::{Sight, sensors_at};
+use crate::plane::beams::{RING_DEG, Sight, sensors_at};
 use crate::plane::{BODY, Rectangle, Room, SPEEDS, STEP_S, World, config};
 use brain::{BehaviorState, Brain, BrainConfig, JobCommand, Pose2, StrategyName};
-
-const RING_DEG: [f64; 7] = [-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0];
 
 /// A robot that cleans, and what it decided.
 struct Run {

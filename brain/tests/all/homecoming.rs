@@ -1,7 +1,7 @@
 //! The way to the dock of a known home when somebody stands in the only door.
 
 use crate::orders::{START, flat, known, zone};
-use crate::plane::beams::{Sight, sensors_at};
+use crate::plane::beams::{RING_DEG, Sight, sensors_at};
 use crate::plane::{Rectangle, World, config, run};
 use brain::mapping::DockLocation;
 use brain::{BehaviorState, Brain, BrainConfig, CleaningOrder, HomePart, JobCommand, Pose2};
@@ -17,8 +17,6 @@ const FEET: Rectangle = Rectangle {
     low: (2.95, 1.75),
     high: (3.15, 2.15),
 };
-/// Seven eyes around the front, as the SR8730 has.
-const RING_DEG: [f64; 7] = [-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0];
 /// Four blocked ways, two waits and a search between them take less.
 const GIVEN_UP_S: u32 = 600;
 

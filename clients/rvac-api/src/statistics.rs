@@ -2,6 +2,8 @@
 
 use alloc::collections::BTreeMap;
 use alloc::string::String;
+use alloc::vec::Vec;
+use core::cmp::Reverse;
 use serde::{Deserialize, Serialize};
 
 /// Sums over every run that was ever kept. They outlive the records of the runs, of which only the newest are kept.
@@ -26,4 +28,15 @@ pub struct Statistics {
     pub path_km: f64,
     /// Bumps.
     pub bumps: u64,
+}
+
+impl Statistics {
+    /// Reasons of stops with how often, the most frequent first, equal ones by name.
+    #[must_use]
+    pub fn stops_most_first(&self) -> Vec<(&str, u64)> {
+        let stops = self.stops.iter();
+        let mut stops: Vec<_> = stops.map(|(reason, count)| (reason.as_str(), *count)).collect();
+        stops.sort_by_key(|(_, count)| Reverse(*count));
+        stops
+    }
 }

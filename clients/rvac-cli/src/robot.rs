@@ -10,6 +10,7 @@ use anyhow::{Context as _, bail};
 use calibration::{Hold, Robot, RobotEvent};
 use serial2::SerialPort;
 
+use crate::board::Board;
 use crate::lines;
 use crate::listen::listen;
 
@@ -37,7 +38,7 @@ pub(crate) fn open(port: &Path, baud: u32) -> anyhow::Result<Robot> {
 /// Refuses a line on which the daemon is: two programs would take each other's bytes. The kernel keeps a second program off a terminal that is
 /// in use, but not one of root's.
 pub(crate) fn leave_to_daemon(port: &Path) -> anyhow::Result<()> {
-    match daemon_on(Path::new("/proc"), port) {
+    match daemon_on(&Board::below(Path::new("/")), port) {
         Some(process) => bail!(
             "vthal (process {process}) is on {}: stop it first with sudo systemctl stop vthal, and start it afterwards",
             port.display()
@@ -47,18 +48,17 @@ pub(crate) fn leave_to_daemon(port: &Path) -> anyhow::Result<()> {
 }
 
 /// The daemon's process, if it has this device open and we may see that.
-fn daemon_on(processes: &Path, port: &Path) -> Option<String> {
+fn daemon_on(board: &Board, port: &Path) -> Option<String> {
     let device = fs::canonicalize(port).ok()?;
-    fs::read_dir(processes).ok()?.flatten().find_map(|process| {
-        let path = process.path();
-        let is_daemon = fs::read_to_string(path.join("comm")).is_ok_and(|name| name.trim() == "vthal");
-        let mut files = fs::read_dir(path.join("fd"))
-            .ok()
-            .filter(|_| is_daemon)?
-            .flatten();
-        files
-            .any(|file| fs::read_link(file.path()).is_ok_and(|target| target == device))
-            .then(|| process.file_name().to_string_lossy().into_owned())
+    board.names("proc").into_iter().find(|process| {
+        let files = format!("proc/{process}/fd");
+        let has_device = |file: &String| {
+            board
+                .link(&format!("{files}/{file}"))
+                .is_ok_and(|target| target == device)
+        };
+        board.text(&format!("proc/{process}/comm")).as_deref() == Some("vthal")
+            && board.names(&files).iter().any(has_device)
     })
 }
 
@@ -82,6 +82,7 @@ mod tests {
     use std::path::Path;
 
     use super::daemon_on;
+    use crate::board::Board;
     use crate::folder::Folder;
 
     fn process(processes: &Path, (number, name): (&str, &str), device: &Path) {
@@ -100,11 +101,11 @@ mod tests {
         }
         let serial = folder.join("serial0");
         symlink(&device, &serial).expect("a link");
-        let processes = folder.join("proc");
+        let (processes, board) = (folder.join("proc"), Board::below(&folder));
         process(&processes, ("11", "rvac-sim"), &device);
         process(&processes, ("12", "vthal"), &other);
-        assert_eq!(daemon_on(&processes, &serial), None);
+        assert_eq!(daemon_on(&board, &serial), None);
         process(&processes, ("13", "vthal"), &device);
-        assert_eq!(daemon_on(&processes, &serial).as_deref(), Some("13"));
+        assert_eq!(daemon_on(&board, &serial).as_deref(), Some("13"));
     }
 }

@@ -1,6 +1,5 @@
 //! `rvac statistics`: what all runs come to.
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{Write as _, stdout};
 use std::process::ExitCode;
@@ -58,20 +57,11 @@ fn in_words(sums: &Statistics) -> String {
         sums.path_km,
         sums.bumps,
     );
-    for (reason, count) in most_first(&sums.stops) {
+    for (reason, count) in sums.stops_most_first() {
         // Writing to a string cannot fail.
         writeln!(text, "stopped   {count:>5} x {reason}").ok();
     }
     text
-}
-
-fn most_first(counts: &BTreeMap<String, u64>) -> Vec<(&str, u64)> {
-    let mut rows: Vec<(&str, u64)> = counts
-        .iter()
-        .map(|(reason, count)| (reason.as_str(), *count))
-        .collect();
-    rows.sort_by_key(|(_, count)| core::cmp::Reverse(*count));
-    rows
 }
 
 #[cfg(test)]

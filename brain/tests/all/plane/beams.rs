@@ -5,6 +5,8 @@ use brain::{Point2, Pose2, ProximityLayout, ProximityResponse, SensorLayout};
 use super::{BODY, CLIFF_LEAD_M, Rectangle};
 
 const MOUNT_M: f64 = 0.165;
+/// The seven eyes of the SR8730, degrees.
+pub(crate) const RING_DEG: [f64; 7] = [-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0];
 
 /// Sensors on the rim that look in these directions, from the right counter-clockwise.
 pub(crate) fn sensors_at(headings_deg: &[f64]) -> SensorLayout {

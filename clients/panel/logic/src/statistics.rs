@@ -1,7 +1,5 @@
 //! What all runs come to, for people who read.
 
-use std::cmp::Reverse;
-
 use rvac_api::Statistics;
 
 use crate::codes::explain;
@@ -83,18 +81,16 @@ fn join<const N: usize>(kinds: [(u64, Template<1>); N]) -> String {
         .join(", ")
 }
 
-/// Why it stopped on its way; orders of people are no causes.
+/// Why it stopped or waited on its way, the most frequent first.
 fn causes(words: &Words, sums: &Statistics) -> Vec<(String, String)> {
-    let mut stops: Vec<(&String, &u64)> = sums.stops.iter().collect();
-    stops.sort_by_key(|(_, count)| Reverse(**count));
-    stops
+    sums.stops_most_first()
         .into_iter()
         .take(CAUSES_MAX)
         .map(|(code, count)| {
-            let cause = explain(words, code).map_or(code.as_str(), |known| known.cause);
+            let cause = explain(words, code).map_or(code, |known| known.cause);
             (
                 cause.trim_end_matches('.').to_owned(),
-                words.history.times_stopped.fill([count]),
+                words.history.times_stopped.fill([&count]),
             )
         })
         .collect()
