@@ -41,6 +41,8 @@ struct GyroMonitorParameters {
     /// Changes of sign of a disagreement of more than `noisy_rad_per_s` within a span that no body makes.
     noisy_changes: usize,
     noisy_rad_per_s: f64,
+    /// The same while the wheels rest, when nothing turns the robot to and fro.
+    noisy_at_rest_rad_per_s: f64,
     /// Turn of the wheels over a span with which a gyro must agree before it counts again, radians,
     agreed_turn_rad: f64,
     /// and in each bucket to this rate, rad/s.
@@ -64,6 +66,7 @@ const MONITOR: GyroMonitorParameters = GyroMonitorParameters {
     ratio_noise: 0.25,
     noisy_changes: 6,
     noisy_rad_per_s: 0.3,
+    noisy_at_rest_rad_per_s: 0.1,
     agreed_turn_rad: 0.5,
     agreed_rad_per_s: 0.25,
     out_s: 5.0,
@@ -276,12 +279,11 @@ impl GyroMonitor {
             return None;
         }
         let varied = wheels.width() >= MONITOR.varied_rad_per_s;
-        let at_rest = self.span.iter().all(|bucket| bucket.wheel_rad == 0.0);
         let is_bias = gyro.middle().abs() < MONITOR.bias_rad_per_s;
         if gyro.is_one_value() && gyro.middle().abs() > self.turn_max_rad_per_s {
             return Some(GyroFault::AtItsLimit);
         }
-        if gyro.is_one_value() && !is_bias && (varied || at_rest) {
+        if gyro.is_one_value() && !is_bias && (varied || self.is_at_rest()) {
             return Some(GyroFault::Frozen);
         }
         let is_offset = apart.is_one_value() && apart.middle().abs() >= MONITOR.bias_rad_per_s;
@@ -306,8 +308,17 @@ impl GyroMonitor {
         is_steady && !(MONITOR.ratio_min..=MONITOR.ratio_max).contains(&ratio)
     }
 
+    fn is_at_rest(&self) -> bool {
+        self.span.iter().all(|bucket| bucket.wheel_rad == 0.0)
+    }
+
     fn is_noisy(&self) -> bool {
-        let strong = |bucket: &&Bucket| bucket.apart_rate().abs() >= MONITOR.noisy_rad_per_s;
+        let least_rad_per_s = if self.is_at_rest() {
+            MONITOR.noisy_at_rest_rad_per_s
+        } else {
+            MONITOR.noisy_rad_per_s
+        };
+        let strong = |bucket: &&Bucket| bucket.apart_rate().abs() >= least_rad_per_s;
         let signs: Vec<bool> = self
             .span
             .iter()

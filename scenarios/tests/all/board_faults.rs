@@ -4,11 +4,12 @@ use brain::BehaviorState;
 use brain::command::StrategyName;
 use home::{SensorFault, SensorId};
 use rvac_sim::board_faults::{BoardFigures, campaign};
+use rvac_sim::log_pace::{Occupation, log_figures};
 use rvac_sim::run::{RunSettings, household, start_cleaning};
 use rvac_sim::{Host, Household};
 use scenarios::{relax, scene};
 
-/// Two of each kind.
+/// One of each kind, and each with a second fault.
 const SEEDS: u64 = 18;
 
 #[test]
@@ -19,6 +20,26 @@ fn people_are_told_of_each_fault_soon_and_rightly_and_nothing_is_lost() {
     assert_eq!(told_s_max.len(), 8, "{told_s_max:?}");
     for (fault, told_s) in told_s_max {
         assert!(*told_s <= 10.0, "{fault}: {told_s} s");
+    }
+}
+
+#[test]
+fn no_line_for_people_comes_twice_a_minute_at_rest_in_work_or_in_an_outage() {
+    let figures = log_figures(&scene("furnished-room", "nominal"), 2, 1);
+    assert!(figures.again.is_empty(), "{:#?}", figures.again);
+    assert_eq!(figures.jobs, 1);
+    // The start of the robot is in the first.
+    let lines_max = [
+        (Occupation::Rest, 30),
+        (Occupation::Outage, 4),
+        (Occupation::Work, 20),
+    ];
+    for (occupation, lines_max) in lines_max {
+        let pace = figures.paces.get(&occupation).copied().unwrap_or_default();
+        assert!(
+            pace.hours > 0.1 && pace.lines <= lines_max,
+            "{occupation:?}: {pace:?}"
+        );
     }
 }
 

@@ -365,7 +365,7 @@ impl Host {
         self.log.get_or_insert_default();
     }
 
-    /// What it has logged since the last call.
+    /// What it has logged since [`Self::keep_log`].
     #[must_use]
     pub fn log(&self) -> &[LogEntry] {
         self.log.as_deref().unwrap_or_default()

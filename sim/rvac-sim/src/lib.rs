@@ -3,7 +3,8 @@
 //! A [`Robot`] runs the firmware that is built into this program, or an image in an emulated chip ([`Firmware`]). A
 //! [`Household`] is a robot and a host that run against each other in memory, on a virtual clock. [`run`] measures how
 //! well such a household cleans, [`faults`] injects random faults under the safety monitor, [`line_faults`] those of the
-//! line one by one, [`board_faults`] what fails around the Linux board, and [`serve`] puts the robot alone behind a pseudoterminal for a real daemon.
+//! line one by one, [`board_faults`] what fails around the Linux board, [`log_pace`] counts the lines of a log, and [`serve`] puts the
+//! robot alone behind a pseudoterminal for a real daemon.
 #![forbid(unsafe_code)]
 
 pub mod baseline;
@@ -23,6 +24,7 @@ mod household;
 mod known_map;
 pub mod line_faults;
 mod linux_board;
+pub mod log_pace;
 mod map_alignment;
 mod map_obstacles;
 mod map_quality;

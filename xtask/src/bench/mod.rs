@@ -283,7 +283,7 @@ fn longer(arguments: &BenchArguments) -> &'static [&'static str] {
         Subject::Docking => &["--runs", "1000"],
         Subject::Floors | Subject::Lifted => &["--seeds", "8"],
         Subject::Firmware => &["--flood-seconds", "3600"],
-        Subject::Board => &["--seeds", "1000"],
+        Subject::Board => &["--seeds", "1000", "--log-hours", "168"],
         Subject::Sim => &["--minutes", "240"],
         Subject::Link | Subject::Relay | Subject::Panel => &["--long"],
         Subject::Cordlib | Subject::Relax | Subject::LogicMutants | Subject::Scripts => &[],

@@ -15,6 +15,8 @@ struct TurningRobot {
     gyro_rad: f64,
     /// Share of the wheels' turn that the body makes.
     grip: f64,
+    /// Rate of the wheels by time.
+    wheels: fn(f64) -> f64,
 }
 
 impl TurningRobot {
@@ -30,11 +32,19 @@ impl TurningRobot {
             last,
             gyro_rad: 0.0,
             grip: 1.0,
+            wheels: Self::turns_and_rests,
         }
     }
 
-    /// Rate of the wheels: 1.5 s of turn, 1.5 s ahead, turn the other way, rest.
-    fn wheels(time_s: f64) -> f64 {
+    fn resting() -> Self {
+        Self {
+            wheels: |_| 0.0,
+            ..Self::new()
+        }
+    }
+
+    /// 1.5 s of turn, 1.5 s ahead, turn the other way, rest.
+    fn turns_and_rests(time_s: f64) -> f64 {
         match (time_s / 1.5) as u64 % 4 {
             0 => 1.2,
             2 => -1.2,
@@ -51,7 +61,7 @@ impl TurningRobot {
             let time_us = from_us + step * 20_000 + jitter_us;
             let time_s = time_us as f64 * 1e-6;
             let passed_s = (time_us - self.last.time_us) as f64 * 1e-6;
-            let wheel_rate = Self::wheels(time_s);
+            let wheel_rate = (self.wheels)(time_s);
             self.gyro_rad += passed_s * seen(time_s, self.grip * wheel_rate);
             let now = Totals {
                 time_us,
@@ -118,6 +128,24 @@ fn each_kind_of_fault_has_its_name_within_seconds() {
 #[test]
 fn a_sound_gyro_is_never_left_out() {
     assert_eq!(TurningRobot::new().follow(3600, sound), None);
+}
+
+#[test]
+fn noise_shows_sooner_while_the_wheels_rest() {
+    // The heading swings by a degree and a half to each side, which a turn would hide.
+    let noisy = |time_s: f64, rate: f64| rate + 0.26 * libm::sin(16.0 * time_s).signum();
+    let mut turning = TurningRobot {
+        wheels: |_| 1.2,
+        ..TurningRobot::new()
+    };
+    assert_eq!(turning.follow(10, noisy), None);
+    let change = TurningRobot::resting().follow(10, noisy);
+    let is_named = |(after_s, change): (f64, GyroChange)| {
+        let fault = GyroFault::Disagrees;
+        after_s < 4.0 && matches!(change, GyroChange::Out { fault: named, .. } if named == fault)
+    };
+    assert!(change.is_some_and(is_named), "{change:?}");
+    assert_eq!(TurningRobot::resting().follow(3600, sound), None);
 }
 
 #[test]

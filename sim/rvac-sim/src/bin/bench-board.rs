@@ -1,4 +1,5 @@
-//! `bench-board`: draws faults of clocks, disks, cables and gyros, and judges what people are told of each.
+//! `bench-board`: draws faults of clocks, disks, cables and gyros, and judges what people are told of each; with `--log-hours` it counts
+//! what the log says in so many hours.
 #![forbid(unsafe_code)]
 
 use std::io::{self, Write};
@@ -7,7 +8,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use rvac_sim::board_faults::{BoardFigures, campaign};
+use rvac_sim::log_pace::{LogFigures, log_figures};
 use rvac_sim::{CalibrationChoice, GyroFitted, Scene, SceneSettings};
+use serde::Serialize;
 
 /// Draws faults around the Linux board.
 #[derive(Debug, Parser)]
@@ -18,9 +21,20 @@ struct Arguments {
     /// The home.
     #[arg(long, default_value = "homes/two-room-flat.toml")]
     home: PathBuf,
+    /// Read the log of so many hours as well, with a job and an outage in each day.
+    #[arg(long, default_value_t = 0)]
+    log_hours: u64,
     /// Print one JSON object.
     #[arg(long)]
     json: bool,
+}
+
+/// All that is measured.
+#[derive(Debug, Serialize)]
+struct Figures {
+    #[serde(flatten)]
+    board: BoardFigures,
+    log: Option<LogFigures>,
 }
 
 fn main() -> anyhow::Result<ExitCode> {
@@ -33,14 +47,43 @@ fn main() -> anyhow::Result<ExitCode> {
         record: CalibrationChoice::default(),
         gyro: GyroFitted::default(),
     })?;
-    let figures = campaign(&scene, arguments.seeds);
+    let figures = Figures {
+        board: campaign(&scene, arguments.seeds),
+        log: (arguments.log_hours > 0).then(|| log_figures(&scene, arguments.log_hours, 1)),
+    };
     let mut output = io::stdout().lock();
     if arguments.json {
         writeln!(output, "{}", serde_json::to_string(&figures)?)?;
     } else {
-        print(&figures, &mut output)?;
+        print(&figures.board, &mut output)?;
+        if let Some(log) = &figures.log {
+            print_log(log, &mut output)?;
+        }
     }
-    Ok(ExitCode::from(u8::from(!figures.bad.is_empty())))
+    let repeats = figures.log.is_some_and(|log| !log.again.is_empty());
+    Ok(ExitCode::from(u8::from(!figures.board.bad.is_empty() || repeats)))
+}
+
+fn print_log(log: &LogFigures, output: &mut impl Write) -> io::Result<()> {
+    writeln!(output, "log of {} hours with {} jobs", log.hours, log.jobs)?;
+    for (occupation, pace) in &log.paces {
+        writeln!(
+            output,
+            "  {}: {} lines in {:.1} h, {:.0} a day of it",
+            occupation.name(),
+            pace.lines,
+            pace.hours,
+            pace.lines_a_day
+        )?;
+    }
+    for repetition in &log.again {
+        writeln!(
+            output,
+            "  again within a minute, {} times: {}",
+            repetition.times, repetition.text
+        )?;
+    }
+    Ok(())
 }
 
 fn print(figures: &BoardFigures, output: &mut impl Write) -> io::Result<()> {

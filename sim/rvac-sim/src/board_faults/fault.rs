@@ -49,12 +49,71 @@ const NAMES: [&str; 18] = [
     "encoder",
 ];
 
-impl BoardFault {
-    /// The fault of this number; kinds take turns, and what is not of the kind is drawn.
+/// Faults that come together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoardFaults(Vec<BoardFault>);
+
+impl BoardFaults {
+    /// The faults of this number: the kinds take turns; in every other round the disk, the clock or the cable fails as well.
     #[must_use]
     pub fn drawn(number: u64) -> Self {
+        let first = BoardFault::drawn(number);
+        let mut faults = vec![first];
+        let round = number / KINDS;
+        if round % 2 == 1 {
+            faults.extend(first.companion(number, round));
+        }
+        Self(faults)
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = BoardFault> {
+        self.0.iter().copied()
+    }
+
+    /// Whether one of them leaves no robot on the line.
+    pub(super) fn strange_line(&self) -> Option<BoardFault> {
+        self.iter()
+            .find(|fault| matches!(fault, BoardFault::WrongSpeed | BoardFault::Console))
+    }
+
+    /// Names of other faults in a line of the log.
+    pub(super) fn wrong_causes(&self, line: &str) -> Vec<&'static str> {
+        let is_allowed = |name: &str| {
+            let mut names = self.iter().flat_map(BoardFault::may_name);
+            names.any(|allowed| allowed == name)
+        };
+        NAMES
+            .into_iter()
+            .filter(|name| words(line).any(|word| word == *name) && !is_allowed(name))
+            .collect()
+    }
+}
+
+/// So many kinds take turns.
+const KINDS: u64 = 9;
+
+impl BoardFault {
+    /// What fails beside it; nothing beside a line without a robot, for which no robot is simulated.
+    fn companion(self, number: u64, round: u64) -> Option<Self> {
+        // The last three kinds of a round; a gyro shows only while the cable is in.
+        let cable = Self::drawn(KINDS * number + 4);
+        let disk = Self::drawn(KINDS * number + 7);
+        let clock = Self::drawn(KINDS * number + 8);
+        match self {
+            Self::WrongSpeed | Self::Console => None,
+            Self::DiskRefuses(_) if round % 4 == 1 => Some(cable),
+            Self::DiskRefuses(_) => Some(clock),
+            Self::ClockJump { .. } if round % 4 == 1 => Some(cable),
+            Self::ClockJump { .. } => Some(disk),
+            _ if round % 4 == 1 => Some(disk),
+            _ => Some(clock),
+        }
+    }
+
+    /// The fault of this number; kinds take turns, and what is not of the kind is drawn.
+    fn drawn(number: u64) -> Self {
         let mut random = Pcg::new(number, 0xB0A2D);
-        match number % 9 {
+        match number % KINDS {
             0 => Self::Gyro(SensorFault::StuckAt(0)),
             1 => Self::Gyro(SensorFault::Inverted),
             2 => Self::Gyro(SensorFault::Noisy(20_000.0 + 30_000.0 * random.unit())),
@@ -125,15 +184,9 @@ impl BoardFault {
         }
     }
 
-    /// Names of other faults in a line of the log.
-    pub(super) fn wrong_causes(self, line: &str) -> Vec<&'static str> {
-        let allowed = [self.told_as(), self.may_be_told_as()].concat();
-        let is_named = |name: &&str| words(line).any(|word| word == *name);
-        NAMES
-            .into_iter()
-            .filter(is_named)
-            .filter(|name| !allowed.contains(name))
-            .collect()
+    /// Names that people may read while it stands.
+    fn may_name(self) -> impl Iterator<Item = &'static str> {
+        self.told_as().iter().chain(self.may_be_told_as()).copied()
     }
 
     /// Whether a line of the log tells it.
@@ -151,16 +204,26 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
 
 #[cfg(test)]
 mod tests {
-    use super::BoardFault;
+    use super::{BoardFault, BoardFaults};
 
     #[test]
     fn names_are_whole_words_and_those_of_others_are_wrong() {
         let fault = BoardFault::BoardGyroSilent;
         assert!(fault.is_told_in("leave-out-gyro (gyro-silent)"));
         assert!(!fault.is_told_in("gyro-silently"));
-        assert_eq!(
-            fault.wrong_causes("state-stuck (slip), then gyro-silent"),
-            ["slip"]
-        );
+        let line = "state-stuck (slip), then gyro-silent and link-lost";
+        assert_eq!(BoardFaults(vec![fault]).wrong_causes(line), ["link-lost", "slip"]);
+        let with_cable = BoardFaults(vec![fault, BoardFault::LineCut { ms: 1 }]);
+        assert_eq!(with_cable.wrong_causes(line), ["slip"]);
+    }
+
+    #[test]
+    fn every_other_round_has_two_kinds_and_a_strange_line_stays_alone() {
+        for number in 0..90 {
+            let faults = BoardFaults::drawn(number);
+            let kinds: std::collections::BTreeSet<_> = faults.iter().map(BoardFault::kind).collect();
+            let is_pair = number / 9 % 2 == 1 && faults.strange_line().is_none();
+            assert_eq!(kinds.len(), if is_pair { 2 } else { 1 }, "{faults:?}");
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! What fails on and around a robot's Linux board in real homes, one fault at a time and under control: whether people are told, soon and
+//! What fails on and around a robot's Linux board in real homes, one or two faults at a time and under control: whether people are told, soon and
 //! with the right cause, whether nothing moves that must not, and whether what was acknowledged is kept.
 //!
 //! A fault that shows only while the robot turns, as a gyro's, is told within [`TOLD_MS`] of the first turn.
@@ -6,5 +6,5 @@
 mod fault;
 mod trial;
 
-pub use fault::BoardFault;
+pub use fault::{BoardFault, BoardFaults};
 pub use trial::{BoardFigures, BoardPassage, TOLD_MS, campaign, passage};

@@ -1,4 +1,4 @@
-//! One fault in the middle of a job, and many of them.
+//! One or two faults in the middle of a job, and many of them.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +7,14 @@ use rayon::prelude::*;
 use rvac_api::{InQuiet, RequestBody, ScheduleEntry, ScheduleTime, ScheduledJob, Weekday};
 use serde::Serialize;
 
-use super::fault::BoardFault;
+use super::fault::{BoardFault, BoardFaults};
 use crate::run::{RunSettings, core_config, household, start_cleaning};
 use crate::{Host, Household, Scene, TICK_US};
 use home::SensorId;
 
 /// A fault is told within this time, milliseconds.
 pub const TOLD_MS: u64 = 10_000;
+const TOLD_S: f64 = TOLD_MS as f64 / 1e3;
 /// It works for so long before.
 const BEFORE_MS: u64 = 12_000;
 /// A fault that shows only in a turn is watched for so long until the robot turns.
@@ -23,17 +24,15 @@ const TURN_RAD: f64 = 1.6;
 /// The clock on the wall at the start: 2026-11-23, noon UTC.
 const WALL_S: i64 = 1_795_435_200;
 
-/// How a fault passed.
+/// How a draw passed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct BoardPassage {
-    /// Its kind.
-    pub fault: &'static str,
     /// Number of the draw.
     pub seed: u64,
-    /// Seconds until people were told, since it showed.
-    pub told_s: Option<f64>,
-    /// It had to be told and was not.
-    pub is_untold: bool,
+    /// Seconds until people were told, since it showed, by kind of fault.
+    pub told_s: BTreeMap<&'static str, f64>,
+    /// What had to be told and was not.
+    pub untold: Vec<&'static str>,
     /// Names of other faults that people read.
     pub wrong_causes: Vec<&'static str>,
     /// Changes that were acknowledged and are not kept.
@@ -45,9 +44,9 @@ pub struct BoardPassage {
 /// Figures of a campaign.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct BoardFigures {
-    /// Faults that were drawn.
+    /// Draws of one or two faults.
     pub seeds: u64,
-    /// Those that nobody was told of in time.
+    /// Faults that nobody was told of in time.
     pub untold_faults: u32,
     /// Other causes that were told.
     pub wrong_causes: u32,
@@ -72,35 +71,31 @@ pub fn campaign(scene: &Scene, seeds: u64) -> BoardFigures {
     };
     for passage in passages {
         let wrong = u32::try_from(passage.wrong_causes.len()).unwrap_or(u32::MAX);
-        figures.untold_faults += u32::from(passage.is_untold);
+        let untold = u32::try_from(passage.untold.len()).unwrap_or(u32::MAX);
+        figures.untold_faults += untold;
         figures.wrong_causes += wrong;
         figures.lost_changes += passage.lost_changes;
         figures.violations += passage.violations;
-        if let Some(told_s) = passage.told_s {
-            let longest = figures.told_s_max.entry(passage.fault).or_default();
-            *longest = longest.max(told_s);
+        for (fault, told_s) in &passage.told_s {
+            let longest = figures.told_s_max.entry(fault).or_default();
+            *longest = longest.max(*told_s);
         }
-        let is_bad = passage.is_untold || wrong + passage.lost_changes + passage.violations > 0;
-        if is_bad {
+        if untold + wrong + passage.lost_changes + passage.violations > 0 {
             figures.bad.push(passage);
         }
     }
     figures
 }
 
-/// The fault of this number.
+/// The draw of this number.
 #[must_use]
 pub fn passage(scene: &Scene, seed: u64) -> BoardPassage {
-    let fault = BoardFault::drawn(seed);
-    let passed = match fault {
-        BoardFault::WrongSpeed | BoardFault::Console => strange_line(scene, fault, seed),
-        _ => Trial::new(scene, fault, seed).run(),
+    let faults = BoardFaults::drawn(seed);
+    let passed = match faults.strange_line() {
+        Some(fault) => strange_line(scene, fault, seed),
+        None => Trial::new(scene, faults, seed).run(),
     };
-    BoardPassage {
-        fault: fault.kind(),
-        seed,
-        ..passed
-    }
+    BoardPassage { seed, ..passed }
 }
 
 /// A host on whose line no robot speaks.
@@ -119,29 +114,28 @@ fn strange_line(scene: &Scene, fault: BoardFault, seed: u64) -> BoardPassage {
         host.step(ms * TICK_US, &bytes);
         note(&mut passed, fault, host.log(), ms);
     }
-    passed.is_untold = passed.told_s.is_none();
-    let named = host.status().reason;
-    if !fault.told_as().contains(&named.as_str()) {
-        passed.is_untold = true;
+    let is_named = fault.told_as().contains(&host.status().reason.as_str());
+    if passed.told_s.is_empty() || !is_named {
+        passed.untold.push(fault.kind());
     }
     passed
 }
 
 /// Notes when the fault is told first.
 fn note(passed: &mut BoardPassage, fault: BoardFault, log: &[rvac_api::LogEntry], since_ms: u64) {
-    if passed.told_s.is_none() && log.iter().any(|entry| fault.is_told_in(&entry.text)) {
-        passed.told_s = Some(since_ms as f64 / 1e3);
+    if !passed.told_s.contains_key(fault.kind()) && log.iter().any(|entry| fault.is_told_in(&entry.text)) {
+        passed.told_s.insert(fault.kind(), since_ms as f64 / 1e3);
     }
 }
 
 struct Trial {
     household: Household,
-    fault: BoardFault,
+    faults: BoardFaults,
     acknowledged: usize,
 }
 
 impl Trial {
-    fn new(scene: &Scene, fault: BoardFault, seed: u64) -> Self {
+    fn new(scene: &Scene, faults: BoardFaults, seed: u64) -> Self {
         let settings = RunSettings {
             strategy: StrategyName::Bounce,
             pattern: None,
@@ -149,7 +143,7 @@ impl Trial {
             duration_ms: 0,
         };
         let mut household = household(scene, &settings);
-        if fault == BoardFault::BoardGyroSilent {
+        if faults.iter().any(|fault| fault == BoardFault::BoardGyroSilent) {
             household = household.with_board_gyro(scene.board_gyro(seed));
         }
         if let Some(host) = household.host_mut() {
@@ -157,7 +151,7 @@ impl Trial {
         }
         let mut trial = Self {
             household,
-            fault,
+            faults,
             acknowledged: 0,
         };
         if start_cleaning(&mut trial.household, settings.strategy) {
@@ -193,9 +187,11 @@ impl Trial {
         if let Some(host) = self.household.host_mut() {
             host.keep_log();
         }
-        self.begin();
+        for fault in self.faults.clone().iter() {
+            self.begin(fault);
+        }
         let mut passed = BoardPassage::default();
-        let shows_in_turns = matches!(self.fault, BoardFault::Gyro(_));
+        let shows_in_turns = self.faults.iter().any(|fault| matches!(fault, BoardFault::Gyro(_)));
         let (mut shown_ms, mut turned_rad) = (0, 0.0);
         let mut last_rad = self.heading_rad();
         for ms in 1..=TURN_MAX_MS + TOLD_MS {
@@ -207,27 +203,35 @@ impl Trial {
             shown_ms += u64::from(shows);
             let log = self.household.host().map_or(&[][..], Host::log);
             if ms % 100 == 0 {
-                note(&mut passed, self.fault, log, shown_ms);
+                for fault in self.faults.iter() {
+                    let shows_later = matches!(fault, BoardFault::Gyro(_));
+                    note(&mut passed, fault, log, if shows_later { shown_ms } else { ms });
+                }
             }
             if shown_ms >= TOLD_MS {
                 break;
             }
         }
-        let must_be_told = !self.fault.told_as().is_empty() && shown_ms >= TOLD_MS;
-        passed.is_untold = must_be_told && passed.told_s.is_none();
+        if shown_ms >= TOLD_MS {
+            let must_be_told = self.faults.iter().filter(|fault| !fault.told_as().is_empty());
+            let kinds = must_be_told.map(BoardFault::kind);
+            passed.untold = kinds
+                .filter(|kind| passed.told_s.get(kind).is_none_or(|told_s| *told_s > TOLD_S))
+                .collect();
+        }
         let log = self.household.host().map_or(&[][..], Host::log);
         passed.wrong_causes = log
             .iter()
-            .flat_map(|entry| self.fault.wrong_causes(&entry.text))
+            .flat_map(|entry| self.faults.wrong_causes(&entry.text))
             .collect();
         passed.violations = self.household.robot().monitor().count();
         passed.lost_changes = self.lost_changes();
         passed
     }
 
-    fn begin(&mut self) {
+    fn begin(&mut self, fault: BoardFault) {
         let now_us = self.household.now_us();
-        match self.fault {
+        match fault {
             BoardFault::Gyro(fault) => {
                 let world = self.household.robot_mut().world_mut();
                 world.set_fault(SensorId::Gyro, Some(fault));

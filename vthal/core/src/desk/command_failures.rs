@@ -1,8 +1,8 @@
 //! Commands that the robot refused or did not answer, for the log: one line when it begins, and one with the number of
 //! those that followed when it is over.
 
-/// Failures of a kind that come no farther apart than this belong together.
-const APART_US: u64 = 5_000_000;
+/// Failures of a kind that come no farther apart than this belong together: no line of the log comes twice a minute.
+const APART_US: u64 = 60_000_000;
 /// Kinds that are told apart at a time; of more, each failure is told.
 const KINDS_MAX: usize = 8;
 
@@ -45,10 +45,9 @@ impl CommandFailures {
         let over = self.series.extract_if(.., is_over);
         over.filter(|series| series.untold > 0)
             .map(|series| {
-                format!(
-                    "{} more commands failed in the same way: {}",
-                    series.untold, series.kind
-                )
+                let (untold, kind) = (series.untold, series.kind);
+                let commands = if untold == 1 { "command" } else { "commands" };
+                format!("{untold} more {commands} failed in the same way: {kind}")
             })
             .collect()
     }
