@@ -191,7 +191,10 @@ impl Trial {
             self.begin(fault);
         }
         let mut passed = BoardPassage::default();
-        let shows_in_turns = self.faults.iter().any(|fault| matches!(fault, BoardFault::Gyro(_)));
+        let shows_in_turns = self
+            .faults
+            .iter()
+            .any(|fault| matches!(fault, BoardFault::Gyro(_)));
         let (mut shown_ms, mut turned_rad) = (0, 0.0);
         let mut last_rad = self.heading_rad();
         for ms in 1..=TURN_MAX_MS + TOLD_MS {
