@@ -41,8 +41,11 @@ struct GyroMonitorParameters {
     /// Changes of sign of a disagreement of more than `noisy_rad_per_s` within a span that no body makes.
     noisy_changes: usize,
     noisy_rad_per_s: f64,
-    /// The same while the wheels rest, when nothing turns the robot to and fro.
+    /// The same while the wheels rest, when only a hand turns the robot to and fro.
+    noisy_at_rest_changes: usize,
     noisy_at_rest_rad_per_s: f64,
+    /// Wheels that turn by less in each bucket rest, radians: less than a step of an encoder, more than rounding.
+    rest_rad: f64,
     /// Turn of the wheels over a span with which a gyro must agree before it counts again, radians,
     agreed_turn_rad: f64,
     /// and in each bucket to this rate, rad/s.
@@ -66,7 +69,9 @@ const MONITOR: GyroMonitorParameters = GyroMonitorParameters {
     ratio_noise: 0.25,
     noisy_changes: 6,
     noisy_rad_per_s: 0.3,
+    noisy_at_rest_changes: 4,
     noisy_at_rest_rad_per_s: 0.1,
+    rest_rad: 1e-3,
     agreed_turn_rad: 0.5,
     agreed_rad_per_s: 0.25,
     out_s: 5.0,
@@ -309,14 +314,16 @@ impl GyroMonitor {
     }
 
     fn is_at_rest(&self) -> bool {
-        self.span.iter().all(|bucket| bucket.wheel_rad == 0.0)
+        self.span
+            .iter()
+            .all(|bucket| bucket.wheel_rad.abs() < MONITOR.rest_rad)
     }
 
     fn is_noisy(&self) -> bool {
-        let least_rad_per_s = if self.is_at_rest() {
-            MONITOR.noisy_at_rest_rad_per_s
+        let (least_rad_per_s, least_changes) = if self.is_at_rest() {
+            (MONITOR.noisy_at_rest_rad_per_s, MONITOR.noisy_at_rest_changes)
         } else {
-            MONITOR.noisy_rad_per_s
+            (MONITOR.noisy_rad_per_s, MONITOR.noisy_changes)
         };
         let strong = |bucket: &&Bucket| bucket.apart_rate().abs() >= least_rad_per_s;
         let signs: Vec<bool> = self
@@ -330,7 +337,7 @@ impl GyroMonitor {
             .zip(signs.iter().skip(1))
             .filter(|(a, b)| a != b)
             .count();
-        changes >= MONITOR.noisy_changes
+        changes >= least_changes
     }
 
     /// Whether it has agreed with the wheels over a turn.

@@ -108,7 +108,8 @@ impl Odometry {
 
     fn watch_gyro(&mut self, (last, now): (Totals, Totals), is_lifted: bool) {
         self.gyro_change = None;
-        let wheel_rad = (now.right_m - now.left_m - last.right_m + last.left_m) / self.track_m;
+        // In this order a wheel that rests is exactly zero.
+        let wheel_rad = ((now.right_m - last.right_m) - (now.left_m - last.left_m)) / self.track_m;
         let is_believable = wheel_rad.abs() <= 2.0 * JUMP_FLOOR_M / self.track_m;
         if is_lifted || !is_believable {
             self.monitor.interrupt();
