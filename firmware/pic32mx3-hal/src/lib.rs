@@ -42,7 +42,7 @@
 //! | time | [`core_timer`], [`timer`] | 5, 10 |
 //! | pulse widths, edges | [`pwm`], [`capture`] | 11, 12 |
 //! | ADC | [`adc`] | 13 |
-//! | UART | [`uart`] | 14 |
+//! | UART, SPI, I2C | [`uart`], [`spi`], [`i2c`] | 14, 15 |
 //! | what can go wrong | [`watchdog`], [`reset`], [`exception`], [`stack`], [`memory`] | 17, 4, 1, 2 |
 //! | what stays | [`persistent`], [`flash`] | 16 |
 //! | sleeping, sections without interrupts | [`cpu`] | 5 |
@@ -72,6 +72,7 @@ pub mod exception;
 pub mod external;
 pub mod flash;
 pub mod gpio;
+pub mod i2c;
 pub mod interrupt;
 pub mod memory;
 mod peripherals;
@@ -79,6 +80,7 @@ pub mod persistent;
 pub mod pwm;
 mod register;
 pub mod reset;
+pub mod spi;
 pub mod stack;
 mod start;
 pub mod timer;

@@ -7,7 +7,9 @@ use crate::core_timer::CoreTimer;
 use crate::cpu;
 use crate::flash::DataFlash;
 use crate::gpio::Pins;
+use crate::i2c::I2c;
 use crate::pwm::OutputCompare;
+use crate::spi::Spi;
 use crate::timer::Timer;
 use crate::uart::Uart;
 use crate::watchdog::Watchdog;
@@ -39,6 +41,10 @@ pub struct Peripherals {
     pub adc: Adc,
     pub uart1: Uart<1>,
     pub uart2: Uart<2>,
+    pub spi1: Spi<1>,
+    pub spi2: Spi<2>,
+    pub i2c1: I2c<1>,
+    pub i2c2: I2c<2>,
     pub change_notice: ChangeNotice,
     pub watchdog: Watchdog,
     pub data_flash: DataFlash,
@@ -78,6 +84,10 @@ impl Peripherals {
             adc: Adc::new(),
             uart1: Uart::new(),
             uart2: Uart::new(),
+            spi1: Spi::new(),
+            spi2: Spi::new(),
+            i2c1: I2c::new(),
+            i2c2: I2c::new(),
             change_notice: ChangeNotice::new(),
             watchdog: Watchdog::new(),
             data_flash: DataFlash::new(),

@@ -41,6 +41,52 @@ pub(crate) const fn compare_secondary(number: u8) -> Register {
     compare_control(number).plus(0x20)
 }
 
+/// SPIxCON (peripherals, 1).
+pub(crate) const fn spi_control(number: u8) -> Register {
+    Register::at(0xBF80_5800).plus(0x200 * (number as u32 - 1))
+}
+/// SPIxSTAT (peripherals, 1).
+pub(crate) const fn spi_status(number: u8) -> Register {
+    spi_control(number).plus(0x10)
+}
+/// SPIxBUF (peripherals, 1).
+pub(crate) const fn spi_buffer(number: u8) -> Register {
+    spi_control(number).plus(0x20)
+}
+/// SPIxBRG (peripherals, 1).
+pub(crate) const fn spi_divider(number: u8) -> Register {
+    spi_control(number).plus(0x30)
+}
+
+/// I2CxCON (peripherals, 2).
+pub(crate) const fn i2c_control(number: u8) -> Register {
+    Register::at(0xBF80_5000).plus(0x200 * (number as u32 - 1))
+}
+/// I2CxSTAT (peripherals, 2).
+pub(crate) const fn i2c_status(number: u8) -> Register {
+    i2c_control(number).plus(0x10)
+}
+/// I2CxADD (peripherals, 2).
+pub(crate) const fn i2c_address(number: u8) -> Register {
+    i2c_control(number).plus(0x20)
+}
+/// I2CxMSK (peripherals, 2).
+pub(crate) const fn i2c_mask(number: u8) -> Register {
+    i2c_control(number).plus(0x30)
+}
+/// I2CxBRG (peripherals, 2).
+pub(crate) const fn i2c_divider(number: u8) -> Register {
+    i2c_control(number).plus(0x40)
+}
+/// I2CxTRN (peripherals, 2).
+pub(crate) const fn i2c_transmit(number: u8) -> Register {
+    i2c_control(number).plus(0x50)
+}
+/// I2CxRCV (peripherals, 2).
+pub(crate) const fn i2c_receive(number: u8) -> Register {
+    i2c_control(number).plus(0x60)
+}
+
 /// UxMODE (14).
 pub(crate) const fn uart_mode(number: u8) -> Register {
     Register::at(0xBF80_6000).plus(0x200 * (number as u32 - 1))
@@ -145,8 +191,8 @@ pub(crate) const CNPUE: Register = Register::at(0xBF88_61E0);
 #[cfg(test)]
 mod tests {
     use super::{
-        adc_buffer, capture_buffer, compare_secondary, interrupt_enables, interrupt_priorities, port_latch,
-        port_open_drain, timer_period, uart_baud,
+        adc_buffer, capture_buffer, compare_secondary, i2c_receive, i2c_transmit, interrupt_enables,
+        interrupt_priorities, port_latch, port_open_drain, spi_buffer, spi_divider, timer_period, uart_baud,
     };
 
     /// The computed addresses are those of the printed tables (sections 5, 8, 10 to 14).
@@ -157,6 +203,10 @@ mod tests {
             (timer_period(5), 0xBF80_0E20),
             (capture_buffer(5), 0xBF80_2810),
             (compare_secondary(4), 0xBF80_3620),
+            (spi_divider(1), 0xBF80_5830),
+            (spi_buffer(2), 0xBF80_5A20),
+            (i2c_receive(1), 0xBF80_5060),
+            (i2c_transmit(2), 0xBF80_5250),
             (uart_baud(2), 0xBF80_6240),
             (adc_buffer(15), 0xBF80_9160),
             (interrupt_enables(1), 0xBF88_1070),

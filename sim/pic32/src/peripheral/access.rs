@@ -85,6 +85,8 @@ impl Chip {
                 self.compares[usize::from(number)].read(word)
             }
             Block::Serial(number) => self.serials[usize::from(number)].peek(word),
+            Block::Spi(number) => self.spis[usize::from(number)].peek(word),
+            Block::I2c(number) => self.i2cs[usize::from(number)].peek(word),
             Block::Analog => self.analog.read(word),
             Block::Oscillator => self.clock.read(word),
             Block::Device => self.system.read_device(word),
@@ -126,6 +128,11 @@ impl Chip {
                 self.serials[usize::from(number)].take();
                 self.settle_serial(number);
             }
+            (Block::Spi(number), 2) => {
+                self.spis[usize::from(number)].take();
+                self.settle_spi(number);
+            }
+            (Block::I2c(number), 6) => self.i2cs[usize::from(number)].take(),
             (Block::Reset, 1) if self.system.is_reset_armed() => {
                 self.order(Order::Reset(ResetSource::Software));
             }
@@ -148,6 +155,8 @@ impl Chip {
             Block::Capture(_) => {}
             Block::Compare(number) => self.write_compare((number, word), value, cycle),
             Block::Serial(number) => self.write_serial((number, word), value, cycle),
+            Block::Spi(number) => self.write_spi((number, word), value, cycle),
+            Block::I2c(number) => self.write_i2c((number, word), value, cycle),
             Block::Analog => self.write_analog(word, value, cycle),
             Block::Oscillator => self.write_oscillator(word, value, cycle),
             Block::Device => {

@@ -34,6 +34,8 @@ impl Chip {
                     self.serials[usize::from(number)].receive();
                     self.settle_serial(number);
                 }
+                Slot::Spi(number) => self.serve_spi(number, due),
+                Slot::I2c(number) => self.serve_i2c(number, due),
                 Slot::Flash => {
                     self.nvm.finish();
                     self.interrupts.raise(Irq::FLASH, due);

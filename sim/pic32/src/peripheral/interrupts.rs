@@ -55,6 +55,36 @@ impl Irq {
         Irq(28 + 14 * number)
     }
 
+    /// Overrun of SPI 1 or 2 (0 or 1).
+    pub(crate) const fn spi_fault(number: u8) -> Irq {
+        Irq(23 + 14 * number)
+    }
+
+    /// Room for a word in SPI 1 or 2 (0 or 1).
+    pub(crate) const fn spi_transmit(number: u8) -> Irq {
+        Irq(24 + 14 * number)
+    }
+
+    /// A word from SPI 1 or 2 (0 or 1).
+    pub(crate) const fn spi_receive(number: u8) -> Irq {
+        Irq(25 + 14 * number)
+    }
+
+    /// Bus collision of I2C 1 or 2 (0 or 1).
+    pub(crate) const fn i2c_collision(number: u8) -> Irq {
+        Irq(29 + 14 * number)
+    }
+
+    /// A byte for or from the slave of I2C 1 or 2 (0 or 1).
+    pub(crate) const fn i2c_slave(number: u8) -> Irq {
+        Irq(30 + 14 * number)
+    }
+
+    /// The end of a step of the master of I2C 1 or 2 (0 or 1).
+    pub(crate) const fn i2c_master(number: u8) -> Irq {
+        Irq(31 + 14 * number)
+    }
+
     const fn mask(self) -> u64 {
         1 << self.0
     }

@@ -16,16 +16,20 @@
 //! | input capture | all modes, queue of 4, overflow | interrupts in Sleep |
 //! | analog converter | all triggers, scan, alternation, halves, CLRASAM, all forms, TAD | other references, the negative input |
 //! | UART | queues of 4, parity, 9 bits, break, framing, overrun, loopback, as levels on pins | flow control, infrared, wake-up, hardware auto-baud |
-//! | SPI, I2C, PMP, RTCC, DMA, comparators | registers keep what is written | everything else; switching one on is recorded |
+//! | SPI | master, slave, framed; 8, 16, 32 bits; both buffers, overrun, clock edges, select | unloaded slaves, exact frame pulses |
+//! | I2C | master step by step, slave with 7 and 10 bits, masks, general call, stretching, collisions | slew rates; losing the bus |
+//! | PMP, RTCC, DMA, comparators | registers keep what is written | everything else; switching one on is recorded |
 
 mod access;
 mod analog;
+mod buses;
 mod capture;
 mod clock;
 mod compare;
 mod configuration;
 mod counter;
 mod events;
+mod i2c;
 mod inputs;
 mod interrupts;
 mod matrix;
@@ -39,6 +43,7 @@ mod record;
 mod register;
 mod schedule;
 mod serial;
+mod spi;
 mod storage;
 mod system;
 mod timers;
@@ -60,6 +65,7 @@ use capture::Capture;
 use clock::{Change, Clock};
 use compare::Compare;
 use configuration::Configuration;
+use i2c::I2c;
 use inputs::InputQueue;
 use interrupts::Interrupts;
 use matrix::Matrix;
@@ -70,6 +76,7 @@ use rate::Now;
 use record::{AccessRecord, AccessSite};
 use schedule::{Schedule, Slot};
 use serial::Serial;
+use spi::Spi;
 use std::ops::Range;
 use storage::Storage;
 use system::{SystemRegisters, Watchdog};
@@ -112,6 +119,8 @@ pub(crate) struct Chip {
     captures: [Capture; 5],
     analog: AdcModule,
     serials: [Serial; 2],
+    spis: [Spi; 2],
+    i2cs: [I2c; 2],
     storage: Storage,
     inputs: InputQueue,
 }
@@ -140,6 +149,8 @@ impl Chip {
             captures: std::array::from_fn(|_| Capture::default()),
             analog: AdcModule::new(),
             serials: [Serial::new(), Serial::new()],
+            spis: std::array::from_fn(|_| Spi::default()),
+            i2cs: [I2c::new(), I2c::new()],
             storage: Storage::default(),
             inputs: InputQueue::default(),
         };
@@ -167,6 +178,8 @@ impl Chip {
         for serial in &mut self.serials {
             serial.reset();
         }
+        self.spis.iter_mut().for_each(Spi::reset);
+        self.i2cs.iter_mut().for_each(I2c::reset);
         self.storage = Storage::default();
         self.ports.reset(cycle);
         self.schedule = Schedule::new();
@@ -331,6 +344,7 @@ impl Chip {
         for number in 0..2 {
             self.serials[usize::from(number)].change_clock(now);
             self.settle_serial(number);
+            self.change_bus_clock(number, now);
         }
         self.check_clock();
         self.order(Order::Clock);

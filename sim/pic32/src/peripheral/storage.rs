@@ -3,10 +3,6 @@
 /// A block that is not modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unmodelled {
-    /// SPI 1 or 2, by number.
-    Spi(u8),
-    /// I2C 1 or 2, by number.
-    I2c(u8),
     /// The parallel master port.
     ParallelPort,
     /// The real-time clock.

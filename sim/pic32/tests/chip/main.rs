@@ -6,11 +6,15 @@ mod clock;
 mod compare;
 mod flash;
 mod halts;
+mod i2c;
 mod interrupts;
+#[path = "../joined/mod.rs"]
+mod joined;
 mod pins;
 mod program;
 mod random;
 mod reset;
 mod serial;
+mod spi;
 mod timers;
 mod trace;

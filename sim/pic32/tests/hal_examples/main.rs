@@ -2,6 +2,10 @@
 //!
 //! They are built by `cargo xtask test --only emulator`, which names their folder in `RVAC_EXAMPLES`.
 
+mod buses;
+#[path = "../joined/mod.rs"]
+mod joined;
+
 use pic32::image::Image;
 use pic32::machine::{Grounded, Halt, LineRate, Machine, Outputs, Surroundings, Uart};
 use pic32::peripheral::Sent;
