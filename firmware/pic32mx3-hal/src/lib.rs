@@ -36,7 +36,7 @@
 //! # What is where
 //! | subject | module | section of the chip's reference |
 //! | --- | --- | --- |
-//! | configuration words, clocks | [`mod@configuration`], [`clock`] | 3, 6 |
+//! | configuration words, clocks | [`mod@configuration`], [`clock`], [`oscillator`] | 3, 6 |
 //! | pins | [`gpio`], [`change_notice`], [`external`] | 8, 9, 5 |
 //! | interrupts, their handlers and what those own | [`mod@interrupt`] | 5 |
 //! | time | [`core_timer`], [`timer`] | 5, 10 |
@@ -45,7 +45,7 @@
 //! | UART, SPI, I2C | [`uart`], [`spi`], [`i2c`] | 14, 15 |
 //! | what can go wrong | [`watchdog`], [`reset`], [`exception`], [`stack`], [`memory`] | 17, 4, 1, 2 |
 //! | what stays | [`persistent`], [`flash`] | 16 |
-//! | sleeping, sections without interrupts | [`cpu`] | 5 |
+//! | sleeping, sections without interrupts | [`cpu`], [`power`] | 5 |
 //!
 //! # Safety
 //! All functions are safe to call: registers are reached through owners, or through functions whose worst is a wrong level
@@ -75,8 +75,10 @@ pub mod gpio;
 pub mod i2c;
 pub mod interrupt;
 pub mod memory;
+pub mod oscillator;
 mod peripherals;
 pub mod persistent;
+pub mod power;
 pub mod pwm;
 mod register;
 pub mod reset;

@@ -159,6 +159,8 @@ pub(crate) const fn interrupt_priorities(index: u32) -> Register {
     Register::at(0xBF88_1090).plus(0x10 * index)
 }
 
+/// Flash wait states and prefetch (7).
+pub(crate) const CHECON: Register = Register::at(0xBF88_4000);
 /// RAM size (7).
 pub(crate) const BMXDRMSZ: Register = Register::at(0xBF88_2040);
 /// Program flash size (7).

@@ -41,6 +41,7 @@ impl Chip {
                     self.interrupts.raise(Irq::FLASH, due);
                 }
                 Slot::Clock => self.serve_clock(due),
+                Slot::Wake => self.serve_wake(due),
                 Slot::Watchdog => self.order(Order::Bark),
             }
         }

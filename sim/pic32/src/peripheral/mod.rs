@@ -6,6 +6,7 @@
 //! | part | what is modelled | what is doubtful or left out |
 //! | --- | --- | --- |
 //! | interrupts | priorities, sub-priorities, natural order, level-type sources, one or many vectors, shadow set | the proximity timer only stores |
+//! | Sleep and Idle | clocks that stop, what wakes, start-up of crystal and PLL, the watchdog's interrupt | the core timer goes on in Idle; what takes the clock of the analog converter's own oscillator |
 //! | clock | all oscillators, PLL, PBDIV, switching, the monitor, SYSKEY | 2 ms until the monitor acts, 10 us for a switch: no source has them; start-up takes no time |
 //! | watchdog, resets | WDTPS, feeding, RCON, software reset; out of Idle a non-maskable interrupt | LPRC is 32 kHz exactly |
 //! | flash | keys, word, row, page and all, protection, the core's wait | durations are the longest that are told |
@@ -37,6 +38,7 @@ mod notice;
 mod nvm;
 mod pads;
 mod ports;
+mod power;
 mod pulse;
 mod rate;
 mod record;
@@ -72,6 +74,7 @@ use matrix::Matrix;
 use notice::ChangeNotice;
 use nvm::Nvm;
 use ports::Ports;
+use power::PowerState;
 use rate::Now;
 use record::{AccessRecord, AccessSite};
 use schedule::{Schedule, Slot};
@@ -108,6 +111,7 @@ pub(crate) struct Chip {
     offered: Option<InterruptRequest>,
     interrupts: Interrupts,
     clock: Clock,
+    power: PowerState,
     system: SystemRegisters,
     watchdog: Watchdog,
     nvm: Nvm,
@@ -138,6 +142,7 @@ impl Chip {
             offered: None,
             interrupts: Interrupts::new(),
             clock,
+            power: PowerState::default(),
             system: SystemRegisters::new(),
             watchdog,
             nvm: Nvm::new(),
@@ -165,6 +170,7 @@ impl Chip {
         self.clock.set_configuration(Configuration::of(configuration));
         self.interrupts = Interrupts::new();
         self.offered = None;
+        self.power = PowerState::default();
         self.system.reset(source);
         self.watchdog = Watchdog::new(self.clock.configuration(), cycle);
         self.nvm = Nvm::new();
@@ -278,29 +284,10 @@ impl Chip {
         self.system.causes()
     }
 
-    /// The watchdog ended WAIT instead of resetting: a non-maskable interrupt by general knowledge of the family.
-    pub(crate) fn bark_at_idle(&mut self, cycle: u64) {
-        let state = if self.clock.sleeps() {
-            system::SLEEP_BIT
-        } else {
-            system::IDLE_BIT
-        };
-        self.system.note_cause(system::WATCHDOG_BIT | state);
-        self.restart_watchdog(cycle);
-    }
-
     /// The watchdog begins its period anew.
     pub(crate) fn restart_watchdog(&mut self, cycle: u64) {
         self.watchdog.restart(cycle);
         self.schedule.set(Slot::Watchdog, self.watchdog.barks_at());
-    }
-
-    /// The program executes WAIT.
-    pub(crate) fn note_idle(&mut self) {
-        if self.clock.sleeps() {
-            self.record.misuse(Misuse::NotModelled(Unmodelled::Sleep));
-        }
-        self.system.note_cause(system::IDLE_BIT);
     }
 
     /// A flash operation is over.

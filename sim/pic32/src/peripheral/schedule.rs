@@ -25,11 +25,13 @@ pub(crate) enum Slot {
     Flash,
     /// The clock changes.
     Clock,
+    /// The clock runs again after Sleep.
+    Wake,
     /// The watchdog barks.
     Watchdog,
 }
 
-const SLOTS: [Slot; 23] = [
+const SLOTS: [Slot; 24] = [
     Slot::Input,
     Slot::Timer(0),
     Slot::Timer(1),
@@ -52,6 +54,7 @@ const SLOTS: [Slot; 23] = [
     Slot::I2c(1),
     Slot::Flash,
     Slot::Clock,
+    Slot::Wake,
     Slot::Watchdog,
 ];
 
@@ -68,7 +71,8 @@ impl Slot {
             Slot::I2c(number) => 18 + number as usize,
             Slot::Flash => 20,
             Slot::Clock => 21,
-            Slot::Watchdog => 22,
+            Slot::Wake => 22,
+            Slot::Watchdog => 23,
         }
     }
 }

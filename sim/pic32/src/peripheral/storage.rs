@@ -21,8 +21,6 @@ pub enum Unmodelled {
     AnalogReference,
     /// The proximity timer of the interrupt controller.
     ProximityTimer,
-    /// WAIT in Sleep instead of Idle: the emulator idles.
-    Sleep,
 }
 
 /// Values by their offset in the register window.

@@ -11,6 +11,7 @@ mod interrupts;
 #[path = "../joined/mod.rs"]
 mod joined;
 mod pins;
+mod power;
 mod program;
 mod random;
 mod reset;

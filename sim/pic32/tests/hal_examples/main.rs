@@ -5,6 +5,7 @@
 mod buses;
 #[path = "../joined/mod.rs"]
 mod joined;
+mod power;
 
 use pic32::image::Image;
 use pic32::machine::{Grounded, Halt, LineRate, Machine, Outputs, Surroundings, Uart};
@@ -35,6 +36,8 @@ fn folder() -> Option<PathBuf> {
 
 fn image(name: &str) -> Option<Image> {
     let bytes = std::fs::read(folder()?.join(name)).expect("the example was built with the others");
+    // `cargo xtask firmware hal` counts these lines.
+    println!("runs example {name}");
     Some(Image::from_elf(&bytes).expect("the example fits the chip"))
 }
 
