@@ -41,7 +41,7 @@
 //! | interrupts, their handlers and what those own | [`mod@interrupt`] | 5 |
 //! | time | [`core_timer`], [`timer`] | 5, 10 |
 //! | pulse widths, edges | [`pwm`], [`capture`] | 11, 12 |
-//! | ADC | [`adc`] | 13 |
+//! | ADC, comparators | [`adc`], [`comparator`] | 13, 17 |
 //! | UART, SPI, I2C | [`uart`], [`spi`], [`i2c`] | 14, 15 |
 //! | what can go wrong | [`watchdog`], [`reset`], [`exception`], [`stack`], [`memory`] | 17, 4, 1, 2 |
 //! | what stays | [`persistent`], [`flash`] | 16 |
@@ -65,6 +65,7 @@ pub mod adc;
 pub mod capture;
 pub mod change_notice;
 pub mod clock;
+pub mod comparator;
 pub mod configuration;
 pub mod core_timer;
 pub mod cpu;

@@ -3,6 +3,7 @@
 use crate::adc::Adc;
 use crate::capture::InputCapture;
 use crate::change_notice::ChangeNotice;
+use crate::comparator::{Comparator, VoltageReference};
 use crate::core_timer::CoreTimer;
 use crate::cpu;
 use crate::flash::DataFlash;
@@ -57,6 +58,12 @@ pub struct Peripherals {
     pub capture5: InputCapture<5>,
     /// The ADC.
     pub adc: Adc,
+    /// Comparator 1.
+    pub comparator1: Comparator<1>,
+    /// Comparator 2.
+    pub comparator2: Comparator<2>,
+    /// The comparators' reference.
+    pub voltage_reference: VoltageReference,
     /// UART 1.
     pub uart1: Uart<1>,
     /// UART 2.
@@ -111,6 +118,9 @@ impl Peripherals {
             capture4: InputCapture::new(),
             capture5: InputCapture::new(),
             adc: Adc::new(),
+            comparator1: Comparator::new(),
+            comparator2: Comparator::new(),
+            voltage_reference: VoltageReference::new(),
             uart1: Uart::new(),
             uart2: Uart::new(),
             spi1: Spi::new(),

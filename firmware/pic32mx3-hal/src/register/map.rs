@@ -125,6 +125,13 @@ pub(crate) const fn adc_buffer(index: u8) -> Register {
     Register::at(0xBF80_9070).plus(0x10 * (index as u32 & 15))
 }
 
+/// Reference of the comparators (peripherals, 6).
+pub(crate) const CVRCON: Register = Register::at(0xBF80_9800);
+/// CMxCON (peripherals, 5).
+pub(crate) const fn comparator_control(number: u8) -> Register {
+    Register::at(0xBF80_A000).plus(0x10 * (number as u32 - 1))
+}
+
 /// Oscillator (6).
 pub(crate) const OSCCON: Register = Register::at(0xBF80_F000);
 /// Device identity (2).
@@ -193,8 +200,9 @@ pub(crate) const CNPUE: Register = Register::at(0xBF88_61E0);
 #[cfg(test)]
 mod tests {
     use super::{
-        adc_buffer, capture_buffer, compare_secondary, i2c_receive, i2c_transmit, interrupt_enables,
-        interrupt_priorities, port_latch, port_open_drain, spi_buffer, spi_divider, timer_period, uart_baud,
+        adc_buffer, capture_buffer, comparator_control, compare_secondary, i2c_receive, i2c_transmit,
+        interrupt_enables, interrupt_priorities, port_latch, port_open_drain, spi_buffer, spi_divider,
+        timer_period, uart_baud,
     };
 
     /// The computed addresses are those of the printed tables (sections 5, 8, 10 to 14).
@@ -205,6 +213,7 @@ mod tests {
             (timer_period(5), 0xBF80_0E20),
             (capture_buffer(5), 0xBF80_2810),
             (compare_secondary(4), 0xBF80_3620),
+            (comparator_control(2), 0xBF80_A010),
             (spi_divider(1), 0xBF80_5830),
             (spi_buffer(2), 0xBF80_5A20),
             (i2c_receive(1), 0xBF80_5060),

@@ -88,6 +88,8 @@ impl Chip {
             Block::Spi(number) => self.spis[usize::from(number)].peek(word),
             Block::I2c(number) => self.i2cs[usize::from(number)].peek(word),
             Block::Analog => self.analog.read(word),
+            Block::Comparators => self.comparators.read(word),
+            Block::VoltageReference => Some(self.comparators.read_reference()),
             Block::Oscillator => self.clock.read(word),
             Block::Device => self.system.read_device(word),
             Block::Flash => self.nvm.read(word),
@@ -158,6 +160,8 @@ impl Chip {
             Block::Spi(number) => self.write_spi((number, word), value, cycle),
             Block::I2c(number) => self.write_i2c((number, word), value, cycle),
             Block::Analog => self.write_analog(word, value, cycle),
+            Block::Comparators => self.write_comparators(word, value, cycle),
+            Block::VoltageReference => self.write_reference(value),
             Block::Oscillator => self.write_oscillator(word, value, cycle),
             Block::Device => {
                 let written = self.system.write_device(word, value);
@@ -231,6 +235,19 @@ impl Chip {
         }
         self.schedule.set(Slot::Analog, self.analog.next_event());
         self.schedule_timers();
+    }
+
+    fn write_comparators(&mut self, word: u8, value: u32, cycle: u64) {
+        self.comparators.write(word, value, cycle);
+        self.settle_comparators(cycle);
+    }
+
+    fn write_reference(&mut self, value: u32) {
+        self.comparators.write_reference(value);
+        if self.comparators.has_other_reference() {
+            self.record
+                .misuse(Misuse::NotModelled(Unmodelled::VoltageReference));
+        }
     }
 
     fn write_oscillator(&mut self, word: u8, value: u32, cycle: u64) {

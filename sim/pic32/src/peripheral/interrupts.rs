@@ -55,6 +55,11 @@ impl Irq {
         Irq(28 + 14 * number)
     }
 
+    /// Comparator 1 or 2 (0 or 1).
+    pub(crate) const fn comparator(number: u8) -> Irq {
+        Irq(35 + number)
+    }
+
     /// Overrun of SPI 1 or 2 (0 or 1).
     pub(crate) const fn spi_fault(number: u8) -> Irq {
         Irq(23 + 14 * number)

@@ -19,13 +19,15 @@
 //! | UART | queues of 4, parity, 9 bits, break, framing, overrun, loopback, as levels on pins | flow control, infrared, wake-up, hardware auto-baud |
 //! | SPI | master, slave, framed; 8, 16, 32 bits; both buffers, overrun, clock edges, select | unloaded slaves, exact frame pulses |
 //! | I2C | master step by step, slave with 7 and 10 bits, masks, general call, stretching, collisions | slew rates; losing the bus |
-//! | PMP, RTCC, DMA, comparators | registers keep what is written | everything else; switching one on is recorded |
+//! | comparators, reference | all inputs, polarity, events, pins, Sleep | looked at each 300 ns; no offset; the reference on its pin or from pins |
+//! | PMP, RTCC, DMA | registers keep what is written | everything else; switching one on is recorded |
 
 mod access;
 mod analog;
 mod buses;
 mod capture;
 mod clock;
+mod comparators;
 mod compare;
 mod configuration;
 mod counter;
@@ -65,6 +67,7 @@ use crate::pins::Port;
 use analog::AdcModule;
 use capture::Capture;
 use clock::{Change, Clock};
+use comparators::Comparators;
 use compare::Compare;
 use configuration::Configuration;
 use i2c::I2c;
@@ -122,6 +125,7 @@ pub(crate) struct Chip {
     compares: [Compare; 5],
     captures: [Capture; 5],
     analog: AdcModule,
+    comparators: Comparators,
     serials: [Serial; 2],
     spis: [Spi; 2],
     i2cs: [I2c; 2],
@@ -153,6 +157,7 @@ impl Chip {
             compares: [const { Compare::OFF }; 5],
             captures: std::array::from_fn(|_| Capture::default()),
             analog: AdcModule::new(),
+            comparators: Comparators::new(),
             serials: [Serial::new(), Serial::new()],
             spis: std::array::from_fn(|_| Spi::default()),
             i2cs: [I2c::new(), I2c::new()],
@@ -181,6 +186,7 @@ impl Chip {
         self.compares = std::array::from_fn(|number| self.compares[number].reset());
         self.captures = std::array::from_fn(|_| Capture::default());
         self.analog = AdcModule::new();
+        self.comparators = Comparators::new();
         for serial in &mut self.serials {
             serial.reset();
         }

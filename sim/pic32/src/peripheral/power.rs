@@ -21,7 +21,9 @@ impl Chip {
     /// Whether the core is in WAIT now.
     pub(crate) fn note_wait(&mut self, is_waiting: bool, cycle: u64) {
         match (self.power, is_waiting) {
-            (PowerState::Running, true) if self.clock.sleeps() => self.fall_asleep(cycle),
+            (PowerState::Running, true) if self.clock.sleeps() && self.interrupts.request().is_none() => {
+                self.fall_asleep(cycle);
+            }
             (PowerState::Running, true) => self.system.note_cause(system::IDLE_BIT),
             (PowerState::Woken, false) => self.power = PowerState::Running,
             _ => {}

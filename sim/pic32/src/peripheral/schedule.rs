@@ -21,6 +21,8 @@ pub(crate) enum Slot {
     Spi(u8),
     /// A time of I2C 1 or 2 (0 or 1) is over.
     I2c(u8),
+    /// The comparators look at their inputs.
+    Comparators,
     /// A flash operation ends.
     Flash,
     /// The clock changes.
@@ -31,7 +33,7 @@ pub(crate) enum Slot {
     Watchdog,
 }
 
-const SLOTS: [Slot; 24] = [
+const SLOTS: [Slot; 25] = [
     Slot::Input,
     Slot::Timer(0),
     Slot::Timer(1),
@@ -56,6 +58,7 @@ const SLOTS: [Slot; 24] = [
     Slot::Clock,
     Slot::Wake,
     Slot::Watchdog,
+    Slot::Comparators,
 ];
 
 impl Slot {
@@ -73,6 +76,7 @@ impl Slot {
             Slot::Clock => 21,
             Slot::Wake => 22,
             Slot::Watchdog => 23,
+            Slot::Comparators => 24,
         }
     }
 }

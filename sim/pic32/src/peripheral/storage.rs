@@ -9,9 +9,7 @@ pub enum Unmodelled {
     RealTimeClock,
     /// The DMA controller.
     Dma,
-    /// A comparator.
-    Comparator,
-    /// The comparators' reference voltage.
+    /// A reference voltage of the comparators that comes from pins.
     VoltageReference,
     /// The fault input of output compare.
     CompareFault,

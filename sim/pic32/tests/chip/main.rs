@@ -3,6 +3,7 @@
 
 mod analog;
 mod clock;
+mod comparators;
 mod compare;
 mod flash;
 mod halts;
