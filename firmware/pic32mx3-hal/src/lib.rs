@@ -39,7 +39,7 @@
 //! | configuration words, clocks | [`mod@configuration`], [`clock`], [`oscillator`] | 3, 6 |
 //! | pins | [`gpio`], [`change_notice`], [`external`] | 8, 9, 5 |
 //! | interrupts, their handlers and what those own | [`mod@interrupt`] | 5 |
-//! | time | [`core_timer`], [`timer`] | 5, 10 |
+//! | time | [`core_timer`], [`timer`], [`calendar`] | 5, 10, 17 |
 //! | pulse widths, edges | [`pwm`], [`capture`] | 11, 12 |
 //! | ADC, comparators | [`adc`], [`comparator`] | 13, 17 |
 //! | UART, SPI, I2C | [`uart`], [`spi`], [`i2c`] | 14, 15 |
@@ -62,6 +62,7 @@
 extern crate std;
 
 pub mod adc;
+pub mod calendar;
 pub mod capture;
 pub mod change_notice;
 pub mod clock;

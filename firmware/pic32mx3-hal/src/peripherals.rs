@@ -1,6 +1,7 @@
 //! The parts of the chip, each once.
 
 use crate::adc::Adc;
+use crate::calendar::Calendar;
 use crate::capture::InputCapture;
 use crate::change_notice::ChangeNotice;
 use crate::comparator::{Comparator, VoltageReference};
@@ -58,6 +59,8 @@ pub struct Peripherals {
     pub capture5: InputCapture<5>,
     /// The ADC.
     pub adc: Adc,
+    /// The calendar.
+    pub calendar: Calendar,
     /// Comparator 1.
     pub comparator1: Comparator<1>,
     /// Comparator 2.
@@ -118,6 +121,7 @@ impl Peripherals {
             capture4: InputCapture::new(),
             capture5: InputCapture::new(),
             adc: Adc::new(),
+            calendar: Calendar::new(),
             comparator1: Comparator::new(),
             comparator2: Comparator::new(),
             voltage_reference: VoltageReference::new(),

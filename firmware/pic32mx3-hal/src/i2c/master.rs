@@ -90,6 +90,13 @@ pub struct Master<const NUMBER: u8, D, C> {
     patience_counts: u32,
 }
 
+/// Which way bytes go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Direction {
+    Write,
+    Read,
+}
+
 /// An address as it goes over the bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum BusAddress {
@@ -99,12 +106,12 @@ enum BusAddress {
 
 impl BusAddress {
     /// The first byte, with its direction.
-    const fn first(self, reads: bool) -> u8 {
+    const fn first(self, direction: Direction) -> u8 {
         let upper = match self {
             Self::Seven(address) => address << 1,
             Self::Ten(address) => 0xF0 | ((address >> 7) as u8 & 0b110),
         };
-        upper | reads as u8
+        upper | direction as u8
     }
 
     /// The second one, if there is one.
@@ -222,24 +229,25 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
     }
 
     /// Addresses the device in a direction, after a start.
-    fn address(&mut self, address: BusAddress, reads: bool, restarts: bool) -> Result<(), Error> {
+    fn address(&mut self, address: BusAddress, direction: Direction, restarts: bool) -> Result<(), Error> {
+        let reads = direction == Direction::Read;
         let acknowledged = match address.second() {
             // Reading with ten bits: first both bytes for writing, then the first one anew.
             Some(second) if !(reads && restarts) => {
-                self.send(address.first(false), Step::Address)?
+                self.send(address.first(Direction::Write), Step::Address)?
                     && self.send(second, Step::Address)?
                     && (!reads || {
                         self.step(RESTART, Step::Start)?;
-                        self.send(address.first(true), Step::Address)?
+                        self.send(address.first(Direction::Read), Step::Address)?
                     })
             }
-            _ => self.send(address.first(reads), Step::Address)?,
+            _ => self.send(address.first(direction), Step::Address)?,
         };
         acknowledged.then_some(()).ok_or(Error::NoDevice)
     }
 
     fn operate(&mut self, address: BusAddress, operations: &mut [Operation<'_>]) -> Result<(), Error> {
-        let mut direction = None;
+        let mut present = None;
         let count = operations.len();
         for index in 0..count {
             let reads_next = operations
@@ -248,12 +256,15 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> Master<NUMBER, D
             let Some(operation) = operations.get_mut(index) else {
                 break;
             };
-            let reads = matches!(operation, Operation::Read(_));
-            if direction != Some(reads) {
-                let restarts = direction.is_some();
+            let direction = match operation {
+                Operation::Read(_) => Direction::Read,
+                Operation::Write(_) => Direction::Write,
+            };
+            if present != Some(direction) {
+                let restarts = present.is_some();
                 self.step(if restarts { RESTART } else { START }, Step::Start)?;
-                self.address(address, reads, restarts)?;
-                direction = Some(reads);
+                self.address(address, direction, restarts)?;
+                present = Some(direction);
             }
             match operation {
                 Operation::Write(bytes) => {
@@ -329,7 +340,7 @@ impl<const NUMBER: u8, D: DataPin<NUMBER>, C: ClockPin<NUMBER>> embedded_hal::i2
 
 #[cfg(test)]
 mod tests {
-    use super::{BusAddress, Error, Step};
+    use super::{BusAddress, Direction, Error, Step};
     use crate::gpio::Pins;
     use crate::i2c::{I2c, Speed};
     use crate::register::map::{i2c_control, i2c_divider, i2c_status, i2c_transmit};
@@ -339,12 +350,20 @@ mod tests {
     fn addresses_of_ten_bits_take_two_bytes() {
         let ten = BusAddress::Ten(0x2A5);
         assert_eq!(
-            (ten.first(false), ten.first(true), ten.second()),
+            (
+                ten.first(Direction::Write),
+                ten.first(Direction::Read),
+                ten.second()
+            ),
             (0xF4, 0xF5, Some(0xA5))
         );
         let seven = BusAddress::Seven(0x42);
         assert_eq!(
-            (seven.first(false), seven.first(true), seven.second()),
+            (
+                seven.first(Direction::Write),
+                seven.first(Direction::Read),
+                seven.second()
+            ),
             (0x84, 0x85, None)
         );
     }

@@ -6,6 +6,19 @@ use super::Register;
 /// Watchdog (17).
 pub(crate) const WDTCON: Register = Register::at(0xBF80_0000);
 
+/// Calendar (peripherals, 4): control, alarm, time, date, time and date of the alarm.
+pub(crate) const RTCCON: Register = Register::at(0xBF80_0200);
+/// (peripherals, 4)
+pub(crate) const RTCALRM: Register = Register::at(0xBF80_0210);
+/// (peripherals, 4)
+pub(crate) const RTCTIME: Register = Register::at(0xBF80_0220);
+/// (peripherals, 4)
+pub(crate) const RTCDATE: Register = Register::at(0xBF80_0230);
+/// (peripherals, 4)
+pub(crate) const ALRMTIME: Register = Register::at(0xBF80_0240);
+/// (peripherals, 4)
+pub(crate) const ALRMDATE: Register = Register::at(0xBF80_0250);
+
 /// Timers (10): control, counter, period.
 pub(crate) const fn timer_control(number: u8) -> Register {
     Register::at(0xBF80_0600).plus(0x200 * (number as u32 - 1))

@@ -1,5 +1,6 @@
 //! Reading and writing special function registers: bytes, halves, CLR, SET and INV, and what a write sets in motion.
 
+use super::calendar::CalendarWrite;
 use super::nvm::Started;
 use super::ports::Field;
 use super::register::{Block, Register, Via};
@@ -89,6 +90,7 @@ impl Chip {
             Block::I2c(number) => self.i2cs[usize::from(number)].peek(word),
             Block::Analog => self.analog.read(word),
             Block::Comparators => self.comparators.read(word),
+            Block::Calendar => self.calendar.read(word, cycle),
             Block::VoltageReference => Some(self.comparators.read_reference()),
             Block::Oscillator => self.clock.read(word),
             Block::Device => self.system.read_device(word),
@@ -161,6 +163,7 @@ impl Chip {
             Block::I2c(number) => self.write_i2c((number, word), value, cycle),
             Block::Analog => self.write_analog(word, value, cycle),
             Block::Comparators => self.write_comparators(word, value, cycle),
+            Block::Calendar => self.write_calendar(word, value, cycle),
             Block::VoltageReference => self.write_reference(value),
             Block::Oscillator => self.write_oscillator(word, value, cycle),
             Block::Device => {
@@ -237,6 +240,14 @@ impl Chip {
         self.schedule_timers();
     }
 
+    fn write_calendar(&mut self, word: u8, value: u32, cycle: u64) {
+        let lock = (self.system.is_open(), cycle);
+        if self.calendar.write(word, value, lock) == CalendarWrite::Locked {
+            self.record.misuse(Misuse::Locked);
+        }
+        self.schedule.set(Slot::Calendar, self.calendar.next_event());
+    }
+
     fn write_comparators(&mut self, word: u8, value: u32, cycle: u64) {
         self.comparators.write(word, value, cycle);
         self.settle_comparators(cycle);
@@ -256,6 +267,7 @@ impl Chip {
         }
         self.advance_timers(cycle);
         let change = self.clock.write(word, value);
+        self.settle_calendar(cycle);
         self.clock_changed(change, cycle);
     }
 

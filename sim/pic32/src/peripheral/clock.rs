@@ -25,10 +25,14 @@ const CRYSTAL_START_CYCLES: u64 = 10_240;
 const PLL_LOCK_CYCLES: u64 = 160_000;
 
 const SWITCH: u32 = 1 << 0;
+const SECONDARY_ON: u32 = 1 << 1;
 const FAILED: u32 = 1 << 3;
 const SLEEP: u32 = 1 << 4;
 const PLL_LOCKED: u32 = 1 << 5;
 const LOCKED: u32 = 1 << 7;
+const SECONDARY_READY: u32 = 1 << 22;
+/// The crystal of a watch, which the robot's board lacks.
+const WATCH_HZ: u64 = 32_768;
 /// Fields of OSCCON that keep what is written: SOSCEN, SLPEN, CLKLOCK, NOSC, PLLMULT, PBDIV, FRCDIV, PLLODIV.
 const KEPT: u32 = 0x3F1F_0792;
 
@@ -58,6 +62,8 @@ pub(crate) struct Clock {
     switching: bool,
     /// Sleep has stopped everything but the low-power oscillator.
     asleep: bool,
+    /// The board has a crystal of 32.768 kHz.
+    pub(crate) has_watch_crystal: bool,
     pub(crate) system: Rate,
     pub(crate) peripheral: Rate,
 }
@@ -73,6 +79,7 @@ impl Clock {
             failed: false,
             switching: false,
             asleep: false,
+            has_watch_crystal: false,
             system: Rate::STOPPED,
             peripheral: Rate::STOPPED,
         };
@@ -124,6 +131,7 @@ impl Clock {
             Oscillator::FastPll => self.through_pll(FAST_HZ),
             Oscillator::Primary => crystal,
             Oscillator::PrimaryPll => self.through_pll(crystal),
+            Oscillator::Secondary if self.secondary_runs() => WATCH_HZ,
             Oscillator::Secondary => 0,
             Oscillator::LowPower => LOW_POWER_HZ,
             Oscillator::FastBy16 => FAST_HZ / 16,
@@ -131,6 +139,11 @@ impl Clock {
                 FAST_HZ / [1, 2, 4, 8, 16, 32, 64, 256][(self.control >> 24 & 7) as usize]
             }
         }
+    }
+
+    /// Whether the secondary oscillator swings; Sleep lets it.
+    pub(crate) fn secondary_runs(&self) -> bool {
+        self.has_watch_crystal && self.control & SECONDARY_ON != 0
     }
 
     fn through_pll(&self, hz: u64) -> u64 {
@@ -157,6 +170,7 @@ impl Clock {
                 self.control
                     | flag(self.switching, SWITCH)
                     | flag(self.failed, FAILED)
+                    | flag(self.secondary_runs(), SECONDARY_READY)
                     | flag(self.current.has_pll() && !self.system.is_stopped(), PLL_LOCKED)
                     | self.current.field() << 12,
             ),

@@ -35,6 +35,7 @@ impl Chip {
                     self.serials[usize::from(number)].receive();
                     self.settle_serial(number);
                 }
+                Slot::Calendar => self.serve_calendar(due),
                 Slot::Comparators => self.serve_comparators(due, surroundings),
                 Slot::Spi(number) => self.serve_spi(number, due),
                 Slot::I2c(number) => self.serve_i2c(number, due),
@@ -253,6 +254,25 @@ impl Chip {
             }
         }
         self.schedule.set(Slot::Analog, self.analog.next_event());
+    }
+
+    fn serve_calendar(&mut self, cycle: u64) {
+        if self.calendar.tick(cycle) {
+            self.interrupts.raise(Irq::CALENDAR, cycle);
+        }
+        self.schedule.set(Slot::Calendar, self.calendar.next_event());
+    }
+
+    /// After anything that its oscillator depends on.
+    pub(super) fn settle_calendar(&mut self, cycle: u64) {
+        self.calendar.set_clock(self.clock.secondary_runs(), cycle);
+        self.schedule.set(Slot::Calendar, self.calendar.next_event());
+    }
+
+    /// The board gets a crystal of 32.768 kHz on RC13 and RC14.
+    pub(crate) fn fit_watch_crystal(&mut self, cycle: u64) {
+        self.clock.has_watch_crystal = true;
+        self.settle_calendar(cycle);
     }
 
     fn serve_comparators(&mut self, cycle: u64, surroundings: &mut dyn Surroundings) {

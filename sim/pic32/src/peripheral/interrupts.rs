@@ -13,6 +13,7 @@ impl Irq {
     pub(crate) const CHANGE_NOTICE: Irq = Irq(32);
     pub(crate) const ANALOG: Irq = Irq(33);
     pub(crate) const CLOCK_MONITOR: Irq = Irq(46);
+    pub(crate) const CALENDAR: Irq = Irq(47);
     pub(crate) const FLASH: Irq = Irq(56);
 
     /// Core software interrupt 0 or 1.

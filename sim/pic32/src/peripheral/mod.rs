@@ -20,11 +20,13 @@
 //! | SPI | master, slave, framed; 8, 16, 32 bits; both buffers, overrun, clock edges, select | unloaded slaves, exact frame pulses |
 //! | I2C | master step by step, slave with 7 and 10 bits, masks, general call, stretching, collisions | slew rates; losing the bus |
 //! | comparators, reference | all inputs, polarity, events, pins, Sleep | looked at each 300 ns; no offset; the reference on its pin or from pins |
-//! | PMP, RTCC, DMA | registers keep what is written | everything else; switching one on is recorded |
+//! | calendar | digits, leap years, alarm, calibration, the lock | its output pin |
+//! | PMP, DMA | registers keep what is written | everything else; switching one on is recorded |
 
 mod access;
 mod analog;
 mod buses;
+mod calendar;
 mod capture;
 mod clock;
 mod comparators;
@@ -65,6 +67,7 @@ use crate::cpu::InterruptRequest;
 use crate::memory::FlashTiming;
 use crate::pins::Port;
 use analog::AdcModule;
+use calendar::Calendar;
 use capture::Capture;
 use clock::{Change, Clock};
 use comparators::Comparators;
@@ -126,6 +129,7 @@ pub(crate) struct Chip {
     captures: [Capture; 5],
     analog: AdcModule,
     comparators: Comparators,
+    calendar: Calendar,
     serials: [Serial; 2],
     spis: [Spi; 2],
     i2cs: [I2c; 2],
@@ -158,6 +162,7 @@ impl Chip {
             captures: std::array::from_fn(|_| Capture::default()),
             analog: AdcModule::new(),
             comparators: Comparators::new(),
+            calendar: Calendar::new(),
             serials: [Serial::new(), Serial::new()],
             spis: std::array::from_fn(|_| Spi::default()),
             i2cs: [I2c::new(), I2c::new()],
@@ -187,6 +192,7 @@ impl Chip {
         self.captures = std::array::from_fn(|_| Capture::default());
         self.analog = AdcModule::new();
         self.comparators = Comparators::new();
+        self.calendar.reset();
         for serial in &mut self.serials {
             serial.reset();
         }
@@ -197,6 +203,7 @@ impl Chip {
         self.schedule = Schedule::new();
         self.schedule.set(Slot::Input, self.inputs.next());
         let change = self.clock.reset();
+        self.settle_calendar(cycle);
         self.clock_changed(change, cycle);
         self.begin(cycle);
     }

@@ -15,6 +15,7 @@ pub(crate) enum Block {
     I2c(u8),
     Analog,
     Comparators,
+    Calendar,
     VoltageReference,
     Oscillator,
     Device,
@@ -114,7 +115,7 @@ fn block_of(offset: u32) -> Option<(Block, u32)> {
     };
     match offset {
         0x0_0000..=0x0_000F => Some((Block::Watchdog, 0)),
-        0x0_0200..=0x0_025F => Some((Kept(Unmodelled::RealTimeClock), 0x0200)),
+        0x0_0200..=0x0_025F => Some((Block::Calendar, 0x0200)),
         TIMER_BASE..=0x0_0FFF => numbered(TIMER_BASE, Block::Timer),
         CAPTURE_BASE..=0x0_29FF => numbered(CAPTURE_BASE, Block::Capture),
         COMPARE_BASE..=0x0_39FF => numbered(COMPARE_BASE, Block::Compare),
@@ -171,6 +172,7 @@ mod tests {
     fn addresses_of_the_reference() {
         let table = [
             (0xBF80_0000, Block::Watchdog, 0),
+            (0xBF80_0250, Block::Calendar, 5),
             (0xBF80_0620, Block::Timer(0), 2),
             (0xBF80_0A10, Block::Timer(2), 1),
             (0xBF80_0E00, Block::Timer(4), 0),

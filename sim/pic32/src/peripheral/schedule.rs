@@ -23,6 +23,8 @@ pub(crate) enum Slot {
     I2c(u8),
     /// The comparators look at their inputs.
     Comparators,
+    /// A half second of the calendar is over.
+    Calendar,
     /// A flash operation ends.
     Flash,
     /// The clock changes.
@@ -33,7 +35,7 @@ pub(crate) enum Slot {
     Watchdog,
 }
 
-const SLOTS: [Slot; 25] = [
+const SLOTS: [Slot; 26] = [
     Slot::Input,
     Slot::Timer(0),
     Slot::Timer(1),
@@ -59,6 +61,7 @@ const SLOTS: [Slot; 25] = [
     Slot::Wake,
     Slot::Watchdog,
     Slot::Comparators,
+    Slot::Calendar,
 ];
 
 impl Slot {
@@ -77,6 +80,7 @@ impl Slot {
             Slot::Wake => 22,
             Slot::Watchdog => 23,
             Slot::Comparators => 24,
+            Slot::Calendar => 25,
         }
     }
 }

@@ -5,8 +5,6 @@
 pub enum Unmodelled {
     /// The parallel master port.
     ParallelPort,
-    /// The real-time clock.
-    RealTimeClock,
     /// The DMA controller.
     Dma,
     /// A reference voltage of the comparators that comes from pins.

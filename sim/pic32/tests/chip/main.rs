@@ -2,6 +2,7 @@
 //! core takes part.
 
 mod analog;
+mod calendar;
 mod clock;
 mod comparators;
 mod compare;

@@ -3,6 +3,7 @@
 //! They are built by `cargo xtask test --only emulator`, which names their folder in `RVAC_EXAMPLES`.
 
 mod buses;
+mod calendar;
 mod comparator;
 #[path = "../joined/mod.rs"]
 mod joined;
